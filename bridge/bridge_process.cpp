@@ -17,6 +17,7 @@ namespace {
 
 constexpr int kTurn_ms = 20;
 constexpr double kStatus_s = 1.0, kStep_s = 0.05;
+constexpr double kShortest_s = 3.0;  // of a link, so that a server that refuses us is not flooded
 constexpr double kStanding_s = 30.0;
 
 Now now() { return {clock_utime_us(), clock_monotonic_s()}; }
@@ -225,12 +226,15 @@ void BridgeProcess::run() {
   ServiceNotifier service_manager;
   service_manager.ready("bridge");
   spdlog::info("ready");
+  const double begun_s = clock_monotonic_s();
   double step_due_s = 0.0;
   const auto turn = [&](double now_s) {
     bus_.turn(now_s, kTurn_ms);
     if (now_s < step_due_s) return;
     step_due_s = now_s + kStep_s;
     step_ownership();
+    if (now_s - begun_s < kShortest_s) return;
+    if (const LinkReport link = link_.report(); link.has_ended) throw LinkEnded(link.trouble);
   };
   serve(service_manager, kStatus_s, turn, [this] { return report(); });
 }

@@ -7,6 +7,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 
@@ -22,11 +23,18 @@
 
 namespace ols::bridge {
 
+// The server is not tried again: one that refused the key twice, or is none of NATS.
+class LinkEnded : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 class BridgeProcess {
  public:
   explicit BridgeProcess(const BridgeConfig& config);
 
-  // Until the process is asked to end.
+  // Until the process is asked to end. Throws LinkEnded, some seconds after its start at the
+  // earliest: another one is to begin anew.
   void run();
 
  private:

@@ -103,23 +103,35 @@ void NatsLink::connect(const std::vector<std::string>& servers) {
   require(natsOptions_SetServers(options_, urls.data(), static_cast<int>(urls.size())), "servers");
   const natsStatus status = natsConnection_Connect(&connection_, options_);
   if (connection_ != nullptr) begin_callbacks();
-  if (status == NATS_NOT_YET_CONNECTED) {
-    note("no server answers, or it refuses this user");
+  if (status == NATS_OK) {
+    on_open(connection_, this);
     return;
   }
-  require(status, "servers");
-  on_open(connection_, this);
+  note("no server answers, or it refuses this user");
+  // What answered is no server of NATS: the library does not go on by itself.
+  if (status != NATS_NOT_YET_CONNECTED) has_ended_ = true;
 }
 
 void NatsLink::hear(const std::string& subject) {
+  // What went wrong with the link may have ended it meanwhile, in a thread of the library.
+  const auto holds = [this, &subject](natsStatus status) {
+    if (status != NATS_CONNECTION_CLOSED && status != NATS_INVALID_SUBSCRIPTION) {
+      require(status, "subject " + subject);
+      return true;
+    }
+    has_ended_ = true;
+    return false;
+  };
+  if (connection_ == nullptr) return;
   natsSubscription* subscription = nullptr;
-  require(natsConnection_Subscribe(&subscription, connection_, subject.c_str(), on_message, this),
-          "subject " + subject);
+  if (!holds(natsConnection_Subscribe(&subscription, connection_, subject.c_str(), on_message,
+                                      this))) {
+    return;
+  }
   subscriptions_.push_back(subscription);
-  require(natsSubscription_SetOnCompleteCB(subscription, on_complete, this), "subject " + subject);
+  if (!holds(natsSubscription_SetOnCompleteCB(subscription, on_complete, this))) return;
   begin_callbacks();
-  require(natsSubscription_SetPendingLimits(subscription, kMostPending, kMostPendingBytes),
-          "subject " + subject);
+  holds(natsSubscription_SetPendingLimits(subscription, kMostPending, kMostPendingBytes));
 }
 
 void NatsLink::close() {
@@ -154,6 +166,7 @@ bool NatsLink::send(const Outgoing& outgoing, Bytes bytes) {
 LinkReport NatsLink::report() const {
   LinkReport report;
   report.is_open = is_open_;
+  report.has_ended = has_ended_;
   report.openings = openings_;
   report.losses = losses_;
   report.sent = sent_;
@@ -209,8 +222,14 @@ void NatsLink::on_loss(natsConnection* connection, void* self) {
 }
 
 // The last that the library calls for the connection, after the loss.
-void NatsLink::on_closed(natsConnection*, void* self) {
-  static_cast<NatsLink*>(self)->end_callbacks();
+void NatsLink::on_closed(natsConnection* connection, void* self) {
+  auto* link = static_cast<NatsLink*>(self);
+  const char* why = nullptr;
+  // That there is no server says less than what was said before.
+  const bool says_more = natsConnection_GetLastError(connection, &why) != NATS_NO_SERVER;
+  if (says_more && why != nullptr && *why != '\0') link->note(why);
+  link->has_ended_ = true;
+  link->end_callbacks();
 }
 
 // The last for a subscription.

@@ -1,5 +1,6 @@
-// The connection to a server of NATS: publishes and hears, and comes back by itself. Nothing waits
-// in it: what cannot be sent now is lost and counted, because a queued command is a stale one.
+// The connection to a server of NATS: publishes and hears, and comes back by itself, unless the
+// server refuses it twice or is none. Nothing waits in it: what cannot be sent now is lost and
+// counted, because a queued command is a stale one.
 #pragma once
 
 #include <atomic>
@@ -29,6 +30,7 @@ struct LinkReport {
   std::uint64_t sent = 0, unsent = 0;  // unsent: there was no connection
   std::uint64_t displaced = 0;         // arrived, and came faster than they were handled
   std::string trouble;                 // why there is no connection; empty: there is one
+  bool has_ended = false;              // the library does not try again
 };
 
 class NatsLink {
@@ -47,7 +49,7 @@ class NatsLink {
   // False: there is no connection.
   bool send(const Outgoing& outgoing, Bytes bytes);
   LinkReport report() const;
-  // For streams and stores on the same connection.
+  // For streams and stores on the same connection, while it is open.
   __natsConnection* connection() const { return connection_; }
 
  private:
@@ -68,7 +70,7 @@ class NatsLink {
   __natsOptions* options_ = nullptr;
   __natsConnection* connection_ = nullptr;
   std::vector<__natsSubscription*> subscriptions_;
-  std::atomic<bool> is_open_{false};
+  std::atomic<bool> is_open_{false}, has_ended_{false};
   std::atomic<std::uint64_t> openings_{0}, losses_{0}, sent_{0}, unsent_{0};
   mutable std::mutex mutex_;
   std::condition_variable ended_;

@@ -2,6 +2,7 @@
 
 import os
 import re
+import subprocess
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -54,6 +55,17 @@ def unsigned(network: None) -> Iterator[None]:
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("OLS_TRUST", "off")
         yield
+
+
+@pytest.fixture(scope="session")
+def certificates(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
+    """Of two authorities: a certificate for localhost (console.pem, console.key, site-ca.pem)."""
+    folders = {}
+    for name in ("own", "foreign"):
+        folders[name] = tmp_path_factory.mktemp(name)
+        make = [str(ROOT / "systemd/ols-console-certificate"), str(folders[name]), "localhost"]
+        subprocess.run(make, capture_output=True, check=True)
+    return folders
 
 
 @pytest.fixture(scope="session")

@@ -22,8 +22,9 @@ constexpr const char* kNobody = "-";                  // successor of a record t
 // An owner that died is replaced within the lease. It is the same for all: with leases of their own
 // two fusions could own a target at the same instant.
 constexpr double kLease_s = 2.0;
-// Parts of it: an owner counts on the least, another fusion waits for the most.
-constexpr double kHeld = 0.75, kInside = 0.8, kOutside = 0.875, kRenewed = 0.2;
+// Parts of the lease: an owner counts on the least, another fusion waits for the most; what is left
+// is for the store to write it, on a disk, and for the next fix.
+constexpr double kHeld = 0.65, kInside = 0.7, kOutside = 0.775, kRenewed = 0.2;
 
 double distance_m(const Vector& a, const Vector& b) {
   return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);

@@ -41,6 +41,9 @@ struct MqttLink::Client {
     mosquitto_connect_callback_set(session, [](mosquitto*, void* self, int code) {
       static_cast<Client*>(self)->answer = code;
     });
+    mosquitto_log_callback_set(session, [](mosquitto*, void* self, int level, const char* text) {
+      if (level == MOSQ_LOG_ERR) static_cast<Client*>(self)->error = text;
+    });
   }
   ~Client() { mosquitto_destroy(session); }
   Client(const Client&) = delete;
@@ -48,6 +51,7 @@ struct MqttLink::Client {
 
   mosquitto* session;
   std::optional<int> answer;  // of the broker to our log-in
+  std::string error;          // the library's last: of TLS its results do not say what is wrong
 };
 
 MqttLink::MqttLink(const Address& address, TlsFiles files, MqttLogin login)
@@ -59,8 +63,9 @@ MqttLink::~MqttLink() { close(); }
 
 void MqttLink::check(int result, const std::string& doing) const {
   if (result == MOSQ_ERR_SUCCESS) return;
+  const bool says_more = result == MOSQ_ERR_TLS && client_ && !client_->error.empty();
   throw LinkError(address_.host + ":" + std::to_string(address_.port) + ": " + doing + ": " +
-                  mosquitto_strerror(result));
+                  mosquitto_strerror(result) + (says_more ? " " + client_->error : ""));
 }
 
 void MqttLink::open() {

@@ -216,12 +216,18 @@ class Bridge:
         self.process = None
         self.start()
 
-    def start(self):
+    def spawn(self):
+        """Returns how long its log was before."""
         command = [str(BIN / "ols-bridge"), "--config", str(self.config)]
         with self.log.open("ab") as out:
+            before = out.tell()
             self.process = subprocess.Popen(command, stderr=out, stdout=out)
+        return before
+
+    def start(self):
+        before = self.spawn()
         wait(
-            lambda: "ready" in self.log.read_text() or self.process.poll() is not None,
+            lambda: b"ready" in self.log.read_bytes()[before:] or self.process.poll() is not None,
             "ols-bridge is ready",
         )
         assert self.process.poll() is None, self.log.read_text()

@@ -38,6 +38,30 @@ fy_px = 13333.3
 """
 
 
+class Babbler:
+    """A server that answers every connection with what none says."""
+
+    def __init__(self, rubbish: bytes):
+        self._rubbish = rubbish
+        self._kept: list[socket.socket] = []
+        self._socket = socket.create_server(("127.0.0.1", 0))
+        self.port = self._socket.getsockname()[1]
+        threading.Thread(target=self._serve, daemon=True).start()
+
+    @property
+    def connections(self) -> int:
+        return len(self._kept)
+
+    def _serve(self) -> None:
+        while True:
+            connection = self._socket.accept()[0]
+            self._kept.append(connection)
+            try:
+                connection.sendall(self._rubbish)
+            except OSError:
+                continue
+
+
 class StopSwitch:
     """The server of a GPIO socket with an emergency stop and a re-arm button, as
     edge/gpio/gpio_lines.h has it."""

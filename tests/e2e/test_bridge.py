@@ -12,13 +12,16 @@ from bridge_site import (
     DEADLINE_S,
     Listener,
     Network,
+    Server,
     bearing,
+    bus_url,
     needs_server,
     slew,
     status,
     wait,
 )
 from conftest import BIN
+from helpers import Babbler
 from ols_demo.keys import members_of_environment
 
 pytestmark = needs_server
@@ -147,23 +150,85 @@ def test_the_server_dies_and_the_bridge_comes_back(net):
     assert said["OLS_BEARING_alfa"] not in talk.region.on("OLS_BEARING_alfa"), "not queued"
 
 
-def test_a_wrong_key_is_said(net, tmp_path):
-    text = net.site.config.read_text().replace(net.keys["site"], net.keys["region"])
-    config = tmp_path / "wrong.toml"
-    config.write_text(
-        text.replace(str(net.seeds["site"]), str(net.seeds["region"])).replace(
-            str(net.site.status_file), str(tmp_path / "wrong.json")
+class Other:
+    """A bridge of another configuration, which need not connect."""
+
+    def __init__(self, folder, name, nats):
+        self.status_file = folder / f"{name}.json"
+        config = folder / f"{name}.toml"
+        config.write_text(
+            f'lcm_url = "{bus_url(7670)}"\nstatus_file = "{self.status_file}"\n[nats]\n{nats}\n'
         )
-    )
-    process = subprocess.Popen([str(BIN / "ols-bridge"), "--config", str(config)])
+        self._process = subprocess.Popen([str(BIN / "ols-bridge"), "--config", str(config)])
+
+    def status(self):
+        return json.loads(self.status_file.read_text()) if self.status_file.exists() else None
+
+    def says(self, words):
+        return self.status() and any(words in alarm for alarm in self.status()["alarms"])
+
+    def stop(self):
+        self._process.terminate()
+        assert self._process.wait(DEADLINE_S) == 0
+
+
+def test_a_wrong_key_is_said_until_the_server_knows_it(net, tmp_path):
+    """The library itself gives a server up that has refused a key twice."""
+    key, seed = net.keys["archive"], net.seeds["archive"]
+    nats = f'servers = ["nats://127.0.0.1:4223"]\nnkey = "{key}"\nseed = "{seed}"'
+    bridge = Other(tmp_path, "wrong", nats)
     try:
-        file = tmp_path / "wrong.json"
-        wait(file.exists, "a status")
-        alarms = json.loads(file.read_text())["alarms"]
-        assert any(alarm.startswith("bridge: no server: ") for alarm in alarms)
+        wait(lambda: bridge.says("no server: "), "the refusal is said")
+        log = net.leaf.log
+        wait(lambda: log.read_text().count("authentication error") >= 3, "it is tried anew")
+        text = net.leaf.config.read_text()
+        net.leaf.config.write_text(text.replace("users: [", f"users: [{{nkey: {key}}}\n"))
+        net.leaf.signal(signal.SIGHUP)
+        wait(lambda: bridge.status()["link"]["open"], "the key is known", 10.0)
     finally:
-        process.terminate()
-        assert process.wait(DEADLINE_S) == 0
+        bridge.stop()
+
+
+def test_over_tls_a_wrong_certificate_is_refused_and_said(network, tmp_path, certificates):
+    own = certificates["own"]
+    tls = f'tls {{ cert_file: "{own}/console.pem", key_file: "{own}/console.key" }}\n'
+    server = Server(tmp_path, "nats-leaf.conf", lambda _: f'listen: "0.0.0.0:4225"\n{tls}')
+    nats = 'servers = ["tls://{}:4225"]\nauthority = "{}/site-ca.pem"'
+    bridges = {
+        "right": Other(tmp_path, "right", nats.format("localhost", own)),
+        "foreign": Other(tmp_path, "foreign", nats.format("localhost", certificates["foreign"])),
+        "name": Other(tmp_path, "name", nats.format("127.0.0.2", own)),
+    }
+    try:
+        right = bridges["right"]
+        wait(lambda: right.status() and right.status()["link"]["open"], "TLS with the right one")
+        for name in ("foreign", "name"):
+            wait(lambda n=name: bridges[n].says("no server: "), f"{name} is said")
+            assert not bridges[name].status()["link"]["openings"]
+    finally:
+        for bridge in bridges.values():
+            bridge.stop()
+        server.stop()
+
+
+def test_a_server_that_sends_rubbish_is_said(network, tmp_path):
+    """Before the log-in, in place of it, and long without an end."""
+    for name, rubbish in (
+        ("text", b"HTTP/1.1 400 Bad Request\r\n\r\n" * 100),
+        ("zeroes", bytes(1 << 20)),
+        ("info", b'INFO {"server_id":"x","max_payload":-1,"version":7}\r\nMSG a 1 -5\r\n\r\n' * 9),
+        (
+            "endless",
+            b'INFO {"server_id":"x"}\r\nPONG\r\nMSG ols.v1.a.b.c.bearing 1 99999999999\r\n',
+        ),
+    ):
+        babbler = Babbler(rubbish)
+        bridge = Other(tmp_path, name, f'servers = ["nats://127.0.0.1:{babbler.port}"]')
+        try:
+            wait(lambda b=babbler: b.connections > 1, f"{name}: tried again")
+            wait(lambda b=bridge: b.says("no server: "), f"{name} is said")
+        finally:
+            bridge.stop()
 
 
 def test_a_bad_configuration_is_named(tmp_path):

@@ -1,13 +1,17 @@
 """The streams of site and region over real servers of NATS: complete after the link was cut,
-nothing twice, and never a command."""
+nothing twice, and never a command; and the site's own fusion meanwhile."""
 
 import itertools
 import os
 import re
 import time
 
+import ols_msg
 import pytest
 from bridge_site import Listener, Network, Watcher, bearing, needs_server, slew, status, wait
+from conftest import BIN
+from ols_bench.fusion_load import Stations
+from ols_demo.site import Site
 
 pytestmark = needs_server
 
@@ -89,3 +93,34 @@ def test_what_is_said_twice_is_stored_once(net):
     wait(lambda: len(leaf.stored("s", "OLS_r_s")) >= 2, "both")
     assert [name for _, name, _ in leaf.stored("s", "OLS_r_s")] == ["alfa:7:5", "alfa:7:6"]
     leaf.close()
+
+
+def test_a_sites_own_targets_go_on_without_the_link(net, tmp_path, monkeypatch):
+    monkeypatch.setenv("OLS_TRUST", "off")
+    site = Listener(net.site_url)
+    stations = Stations(3, 1, 1, site.bus)
+    begin_s = time.time()
+
+    def say():
+        now_s = time.time()
+        for channel, data in stations.encoded(now_s - begin_s, round(1e6 * now_s)):
+            site.bus.publish(channel, data)
+        site.handle(50)
+
+    def targets():
+        heard = [ols_msg.target_t.decode(data) for data in site.on("OLS_TARGET")]
+        return [target for target in heard if target.solution == target.SOLUTION_OK]
+
+    with Site(tmp_path) as processes:
+        fusion = [str(BIN / "ols-fusion"), "--lcm-url", net.site_url]
+        processes.start_and_wait("fusion", fusion, "ready")
+        wait(lambda: say() or targets(), "a target")
+        net.link.cut()
+        before, cut_s = len(targets()), time.time()
+        wait(lambda: say() or time.time() > cut_s + CUT_S, "the cut", CUT_S + 30.0)
+        after = targets()[before:]
+        assert len(after) > 5.0 * CUT_S
+        assert {target.target_id for target in after} == {targets()[0].target_id}
+        assert after[-1].utime > 1e6 * (time.time() - 2.0)
+        net.link.mend()
+        assert processes.stop("fusion") == 0

@@ -1,6 +1,7 @@
 """ASTERIX as an independent decoder reads it, field by field within the format's resolution."""
 
 import math
+import re
 import subprocess
 
 import asterix
@@ -99,7 +100,43 @@ def test_a_sensor_and_the_service(records):
     assert value(service["I000"], "Typ") == 1 and value(service["I040"], "NOGO") == 0
 
 
-def test_tshark_agrees(records, tmp_path):
+# As tshark names them: (value, half of the format's resolution).
+SHOWN = {
+    62: {
+        "LAT, Latitude": (LATITUDE_DEG, 2.7e-6),
+        "LON, Longitude": (LONGITUDE_DEG, 2.7e-6),
+        "Calculated Track Geometric Altitude": (HEIGHT_M / FOOT_M, 3.2),
+        "X, APC (X-Component)": (2.0, 0.0),
+        "Y, APC (Y-Component)": (3.0, 0.0),
+        "XY Covariance Component": (1.0, 0.0),
+        "Estimated Accuracy Of Calculated Track Geometric Altitude": (5.0 / FOOT_M, 3.2),
+        "VX, Velocity (X-component)": (0.0, 0.0),
+        "VY, Velocity (Y-component)": (0.0, 0.0),
+        "X, ATV (X-Component)": (0.0, 0.0),
+        "Y, ATV (Y-Component)": (0.0, 0.0),
+        "Calculated Rate of Climb/Descent": (0.0, 0.0),
+    },
+    15: {
+        "Azimuth": (math.degrees(2.0), 0.0028),
+        "Elevation": (math.degrees(0.25), 0.0014),
+        "Standard Deviation of Azimuth": (math.degrees(1e-4) / math.cos(0.25), 4e-4),
+        "Standard Deviation of Elevation": (math.degrees(2e-4), 4e-4),
+    },
+}
+WORDS = {
+    62: (
+        "(10)",
+        "Track Number: 0x0007 (7)",
+        "Geometric altitude more reliable",
+        "Triangulation (3)",
+    ),
+    15: ("(11)", "Measurement Track (2)", "Track/Plot Number: 3", "Confirmed Track (0)"),
+    63: ("(11)", "CON: Operational (0)"),
+    65: ("SDPS Status (1)", "NOGO: Operational (0)"),
+}
+
+
+def test_tshark_agrees_field_by_field(records, tmp_path):
     """The same datagrams, by a second decoder; it complains about nothing."""
     dump = tmp_path / "dump.txt"
     lines = []
@@ -111,9 +148,22 @@ def test_tshark_agrees(records, tmp_path):
     subprocess.run(["text2pcap", "-q", *ports, dump, capture], check=True, capture_output=True)
     command = ["tshark", "-r", capture, "-d", "udp.port==8600,asterix", "-V"]
     done = subprocess.run(command, check=True, capture_output=True, text=True)
-    assert "Malformed" not in done.stdout
-    assert done.stdout.count("ASTERIX packet") >= 4
-    assert "Category 062" in done.stdout
+    for complaint in ("Malformed", "Expert Info", "Unknown"):
+        assert complaint not in done.stdout.replace("Scanning Direction: Unknown", "")
+    packets = re.split(r"^ASTERIX packet, Category (\d+)", done.stdout, flags=re.M)[1:]
+    packets = {int(c): text for c, text in zip(packets[::2], packets[1::2], strict=True)}
+    assert set(packets) == {15, 62, 63, 65}
+    for category, text in packets.items():
+        for words in ("0x19 (25)", *WORDS[category]):
+            assert words in text, category
+        numbers = dict(re.findall(r"^ +([^\[\n]+), \[[^\]]+\]: (\S+)$", text, flags=re.M))
+        for name, (truth, resolution) in SHOWN.get(category, {}).items():
+            assert float(numbers.pop(name)) == pytest.approx(truth, abs=resolution, rel=1e-9), name
+        (time_s,) = numbers.values()
+        of_day = next(
+            records[category][0][i] for i in ("I070", "I145", "I030") if i in records[category][0]
+        )
+        assert float(time_s) == next(iter(of_day.values()))["val"], "the time of both decoders"
 
 
 def test_the_last_message_of_a_track_says_so(tmp_path):

@@ -18,11 +18,12 @@ from export_site import (
     target,
     wait,
 )
+from helpers import Babbler
 from ols_msg import target_t
 
 BROKER = shutil.which("mosquitto") or "/usr/sbin/mosquitto"
 pytestmark = pytest.mark.usefixtures("unsigned")
-PORT = 18830
+PORT, TLS_PORT = 18830, 18831
 NUMBER = {"type": ["number", "null"]}
 TEXT = {"type": "string"}
 # Flat, and nothing in it that is not here.
@@ -188,3 +189,56 @@ def test_a_wrong_password_is_refused_and_said(tmp_path):
             publisher.until(lambda: exporter.output("home").get("sent"), "a log-in", 5.0)
     finally:
         broker.kill()
+
+
+def test_a_wrong_certificate_is_refused_and_said(tmp_path, certificates):
+    """The broker has a certificate for localhost of its own authority."""
+    folder, foreign = certificates["own"], certificates["foreign"]
+    tls = f"listener {TLS_PORT} 0.0.0.0\ncertfile {folder}/console.pem\n"
+    broker = Broker(tmp_path, f"allow_anonymous true\n{tls}keyfile {folder}/console.key\n")
+    publisher = Publisher()
+    outputs = ""
+    for name, host, ca in (
+        ("right", "localhost", folder),
+        ("foreign", "localhost", foreign),
+        ("name", "127.0.0.2", folder),
+    ):
+        to = f"mqtts://{host}:{TLS_PORT}"
+        outputs += output(name, "mqtt", to, ca=str(ca / "site-ca.pem"))
+    try:
+        with Exporter(tmp_path, outputs) as exporter:
+            publisher.until(lambda: exporter.output("right").get("sent"), "the target over TLS")
+            for name in ("foreign", "name"):
+                publisher.until(
+                    lambda n=name: "certificate" in exporter.output(n).get("trouble", ""),
+                    f"{name}: the wrong certificate is said",
+                )
+                assert exporter.output(name)["sent"] == 0
+            assert exporter.output("right")["trouble"] == ""
+    finally:
+        broker.kill()
+
+
+def test_a_broker_that_sends_rubbish_is_named_and_stops_nothing(tmp_path, broker, subscriber):
+    babblers = {
+        "text": Babbler(b"HTTP/1.1 400 Bad Request\r\n\r\n" * 100),
+        "bytes": Babbler(bytes(range(256)) * 256),
+        "zeroes": Babbler(bytes(1 << 20)),
+        # It takes the log-in, and then sends a message whose length has no end.
+        "endless": Babbler(b"\x20\x02\x00\x00" + b"\x30\xff\xff\xff\xff\xff" * 1000),
+    }
+    publisher = Publisher()
+    outputs = mqtt()
+    for name, babbler in babblers.items():
+        outputs += output(name, "mqtt", f"mqtt://127.0.0.1:{babbler.port}")
+    with Exporter(tmp_path, outputs) as exporter:
+        for name in babblers:
+            publisher.until(
+                lambda n=name: (
+                    exporter.output(n).get("failures", 0) > 1 and exporter.output(n)["trouble"]
+                ),
+                f"{name} is named and tried again",
+            )
+        seen = subscriber.json("ols/target/1")["time"]
+        publisher.until(lambda: subscriber.json("ols/target/1")["time"] != seen, "others go on")
+        assert exporter.output("home")["trouble"] == ""

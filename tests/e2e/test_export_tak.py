@@ -2,7 +2,6 @@
 
 import socket
 import ssl
-import subprocess
 import threading
 import time
 import xml.etree.ElementTree as ET
@@ -10,7 +9,6 @@ from datetime import datetime
 
 import pytest
 import takproto
-from conftest import ROOT
 from export_site import (
     CE_M,
     HEIGHT_M,
@@ -133,17 +131,6 @@ def test_a_stream_is_made_again(tmp_path):
         server.end_connections()
         server.heard = b""
         publisher.until(lambda: server.heard, "something again", 5.0)
-
-
-@pytest.fixture(scope="module", name="certificates")
-def fixture_certificates(tmp_path_factory):
-    folders = {}
-    for name in ("own", "foreign"):
-        folder = tmp_path_factory.mktemp(name)
-        make = [str(ROOT / "systemd/ols-console-certificate"), str(folder), "localhost"]
-        subprocess.run(make, capture_output=True, check=True)
-        folders[name] = folder
-    return folders
 
 
 def tls_server(folder):

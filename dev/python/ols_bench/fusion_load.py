@@ -58,10 +58,13 @@ class Stations:
         message.clock_error_s = 1e-3
         return message
 
+    def places(self, time_s: float) -> list[np.ndarray]:
+        return [target_at(target, time_s) for target in range(self.targets)]
+
     def encoded(self, time_s: float, utime: int) -> list[tuple[str, bytes]]:
         """Of an exposure that is to come; `time_s` is the targets' time."""
         bearings = []
-        places = [target_at(target, time_s) for target in range(self.targets)]
+        places = self.places(time_s)
         for i, message in enumerate(self.messages):
             message.utime = utime
             for k in range(self.each):
@@ -71,6 +74,7 @@ class Stations:
                 message.elevation_rad = direction.elevation_rad + noise[0]
                 across = noise[1] / math.cos(direction.elevation_rad)
                 message.azimuth_rad = (direction.azimuth_rad + across) % (2.0 * math.pi)
+                message.sequence += 1
                 bearings.append((f"OLS_BEARING_{message.station}", message.encode()))
         return bearings
 
