@@ -123,7 +123,8 @@ State Adjustment::stepped(const State& state, const Normal& normal, const std::v
 }
 
 Fit Adjustment::fit(State start, const std::vector<bool>& kept) const {
-  constexpr int kIterations = 60;
+  // Robust weights make it slow: each step moves the limit of what they hold back.
+  constexpr int kIterations = 300;
   constexpr double kStill = 1e-5, kMostDamping = 1e12;
   Fit result;
   result.kept = kept;

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "calibration/rectification_block.h"
+#include "calibration/shared_poses.h"
 #include "geometry/angles.h"
 
 namespace ols::calibration {
@@ -74,10 +75,9 @@ SkyDirection sky_of(const Problem& problem, const Observation& one) {
 
 class Builder {
  public:
-  explicit Builder(const Problem& problem) : problem_(problem) {
+  explicit Builder(const Problem& problem) : problem_(problem), poses_(problem.observations) {
     network_.stations = problem.stations;
     network_.names = problem.names;
-    find_shared_poses();
     network_.layout = {problem.stations.size(), poses_.size()};
     for (std::size_t i = 0; i < problem.observations.size(); ++i) {
       const Observation& one = problem.observations[i];
@@ -93,9 +93,9 @@ class Builder {
           station_prior_block(network_.layout, i, problem_.stations[i].covariance));
     }
     network_.blocks.push_back(ut1_prior_block(network_.layout, problem_.ut1_sd_s));
-    for (const auto& [key, index] : poses_) {
-      network_.blocks.push_back(
-          pose_prior_block(network_.layout, index, problem_.stations[key.first].pose_sd_rad));
+    for (std::size_t i = 0; i < poses_.size(); ++i) {
+      const double sd_rad = problem_.stations[poses_.station(i)].pose_sd_rad;
+      network_.blocks.push_back(pose_prior_block(network_.layout, i, sd_rad));
     }
     return std::move(network_);
   }
@@ -123,38 +123,9 @@ class Builder {
     }
   }
 
-  void find_shared_poses() {
-    std::map<std::pair<std::size_t, std::int64_t>, std::vector<const Observation*>> sightings;
-    for (const Observation& one : problem_.observations) {
-      if (!one.pose || one.kind == Kind::kInclinometer) continue;
-      auto& same = sightings[{one.station, *one.pose}];
-      if (!same.empty()) check_same_stop(one, *same.front());
-      same.push_back(&one);
-    }
-    for (const auto& [key, same] : sightings) {
-      if (same.size() > 1) poses_.emplace(key, poses_.size());
-    }
-  }
-
-  // A pose is one stop: the errors of its two angles are the same for all that is seen from it.
-  void check_same_stop(const Observation& one, const Observation& first) const {
-    const auto same = [](const AxisReading& a, const AxisReading& b) {
-      return a.counts == b.counts && a.approach == b.approach;
-    };
-    if (same(one.reading.pan, first.reading.pan) && same(one.reading.tilt, first.reading.tilt)) {
-      return;
-    }
-    refuse(problem_, one, "pose",
-           std::to_string(*one.pose) + " is another stop already, at other counts", &first);
-  }
-
   Sighting sighting_of(std::size_t i) const {
     const Observation& one = problem_.observations[i];
-    Sighting sighting{one.station, one.utime_us, one.reading, one.pixel, one.sd_px, {}};
-    if (!one.pose) return sighting;
-    const auto shared = poses_.find({one.station, *one.pose});
-    if (shared != poses_.end()) sighting.pose = shared->second;
-    return sighting;
+    return {one.station, one.utime_us, one.reading, one.pixel, one.sd_px, poses_.of(i)};
   }
 
   TargetPtr target_of(const Observation& one) const {
@@ -195,10 +166,13 @@ class Builder {
   SkyDirection high_enough(const Observation& one) const {
     SkyDirection direction = sky_of(problem_, one);
     if (degrees(direction.elevation_rad) < kLeastElevation_deg) {
+      const std::string what = is_sun(one) ? "the sun" : "'" + one.reference + "'";
+      const long high_deg = std::lround(degrees(direction.elevation_rad));
+      const std::string why =
+          high_deg < 0 ? "below the horizon: are the signs of the position and the time right?"
+                       : "high: below 10 the refraction is not known well enough";
       refuse(problem_, one, "reference",
-             (is_sun(one) ? "the sun" : "'" + one.reference + "'") + " stands " +
-                 std::to_string(std::lround(degrees(direction.elevation_rad))) +
-                 " degrees high: below 10 the refraction is not known well enough");
+             what + " stands " + std::to_string(std::abs(high_deg)) + " degrees " + why);
     }
     return direction;
   }
@@ -358,8 +332,8 @@ class Builder {
   }
 
   const Problem& problem_;
+  const SharedPoses poses_;
   Network network_;
-  std::map<std::pair<std::size_t, std::int64_t>, std::size_t> poses_;
   std::map<Key, std::vector<std::size_t>> members_;
 };
 

@@ -51,21 +51,52 @@ def test_too_few_stars_without_a_name_are_refused(run):
     assert not run.output.exists()
 
 
-@pytest.mark.parametrize(("kind", "reference"), [("star", "HIP 11767"), ("sun", None)])
-def test_what_stands_too_low_for_its_refraction_is_refused(run, kind, reference):
-    """Polaris from 49 degrees south, the sun at midnight."""
+LOW = "degrees high: below 10 the refraction is not known well enough"
+HIDDEN = "degrees below the horizon: are the signs of the position and the time right?"
+
+
+@pytest.mark.parametrize(
+    ("kind", "reference", "latitude", "said"),
+    [
+        ("star", "HIP 11767", "5", "'HIP 11767' stands 5 " + LOW),
+        ("star", "HIP 11767", "-49", "'HIP 11767' stands 50 " + HIDDEN),
+        ("sun", None, "49", HIDDEN),
+    ],
+    ids=["low", "wrong-hemisphere", "night"],
+)
+def test_what_stands_too_low_for_its_refraction_is_refused(run, kind, reference, latitude, said):
+    """Polaris, and the sun at midnight."""
     text = (run.folder / "alfa.toml").read_text()
-    if kind == "star":
-        text = text.replace("latitude_deg = 49", "latitude_deg = -49")
-        (run.folder / "alfa.toml").write_text(text)
+    text = text.replace("latitude_deg = 49", f"latitude_deg = {latitude}")
+    (run.folder / "alfa.toml").write_text(text)
     line = json.loads(run.lines("observations.jsonl")[1])
     line |= {"kind": kind, "reference": reference, "utime_us": 1_780_009_200_000_000}
     (run.folder / "observations.jsonl").write_text(json.dumps(line) + "\n")
     done = run.adjust()
     assert done.returncode == 2
     assert "observations.jsonl:1: reference: " in done.stderr
-    assert "degrees high: below 10 the refraction is not known well enough" in done.stderr
+    assert said in done.stderr
     assert not run.output.exists()
+
+
+@pytest.mark.parametrize(
+    ("key", "value"), [("pose", 1.5), ("utime_us", 1e16), ("pose", "one"), ("pose", 1e300)]
+)
+def test_a_number_that_is_not_whole_is_refused(run, key, value):
+    line = json.loads(run.lines("observations.jsonl")[1]) | {key: value}
+    (run.folder / "observations.jsonl").write_text(json.dumps(line) + "\n")
+    done = run.adjust()
+    assert done.returncode == 2
+    assert f"observations.jsonl:1: {key}: is not a whole number within 9e15" in done.stderr
+
+
+def test_a_whole_number_may_have_a_point(run):
+    lines = [json.loads(line) for line in run.lines("observations.jsonl")]
+    lines = [line | {"pose": float(n), "utime_us": 1.78e15} for n, line in enumerate(lines)]
+    text = "\n".join(json.dumps(line) for line in lines)
+    (run.folder / "observations.jsonl").write_text(text + "\n")
+    done = run.adjust()
+    assert done.returncode == 0, done.stderr
 
 
 def test_a_refusal_names_the_file_of_its_own_observation(run):
@@ -111,6 +142,23 @@ def test_a_size_of_nothing_is_refused(run, section, key):
     done = run.adjust()
     assert done.returncode == 2
     assert f"{key}: 0" in done.stderr
+
+
+def test_two_of_three_landmarks_that_were_exchanged_are_named(run):
+    """No majority tells which are right; one exchange makes all agree."""
+    names = {"landmark1": "landmark3", "landmark3": "landmark1"}
+    lines = [json.loads(line) for line in run.lines("observations.jsonl")]
+    for line in lines:
+        if "reference" in line:
+            line["reference"] = names.get(line["reference"], line["reference"])
+    left_out = {"landmark2", "landmark4"}
+    kept = [json.dumps(line) for line in lines if line.get("reference") not in left_out]
+    (run.folder / "observations.jsonl").write_text("\n".join(kept) + "\n")
+    done = run.adjust()
+    assert done.returncode == 2
+    assert "contradict each other" in done.stderr
+    assert "all agree if landmarks 'landmark1' and 'landmark3' were exchanged" in done.stderr
+    assert not run.output.exists()
 
 
 def test_a_landmark_of_another_zone_is_refused(run):

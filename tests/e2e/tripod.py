@@ -26,9 +26,9 @@ SIGNS = ("spire", "mast", "gable", "chimney")  # enough for a short test
 CHRONY = "50505300,PPS,1,{now:.9f},0.0,0.0,1e-7,-1.8,0.0,0.016,1e-9,1e-5,16.0,Normal"
 
 
-def references(path, names=SIGNS, exchanged=()):
+def references(path, names=SIGNS, exchanged=(), scenario=SCENARIO):
     """Where a surveyor has measured the signs."""
-    scenario = tomllib.loads(SCENARIO.read_text())
+    scenario = tomllib.loads(scenario.read_text())
     site = scenario["site"]
     origin = geodetic(site["latitude_deg"], site["longitude_deg"], site["height_m"])
     place_of = {
@@ -53,19 +53,19 @@ def references(path, names=SIGNS, exchanged=()):
 class Tripod:
     """Simulator and station, and the command that calibrates it."""
 
-    def __init__(self, folder, site, scenario=SCENARIO, seed=5, timed=False):
+    def __init__(self, folder, site, scenario=SCENARIO, seed=5, timed=False, station="alfa"):
         """`timed`: a time service says that the clock is right."""
-        self.folder = folder
+        self.folder, self.station = folder, station
         self.wiring = Wiring(BIN, scenario, seed, folder)
         self.wiring.prepare()
         site.start_and_wait("ols-sim", self.wiring._sim(), "ready")
-        self.wiring.start_station(site, "alfa", self._time_service() if timed else None)
-        self.config = self.wiring.configs["alfa"]
+        self.wiring.start_station(site, station, self._time_service() if timed else None)
+        self.config = self.wiring.configs[station]
         self.store = folder / "calibrations"
         self.listener = Listener()
-        self.listener.bus.lcm.subscribe("OLS_PROCEDURE_alfa", self._procedure)
+        self.listener.bus.lcm.subscribe(f"OLS_PROCEDURE_{station}", self._procedure)
         self.views = {}  # what the simulator says of each picture, by its stamp
-        self.listener.bus.lcm.subscribe("OLS_SIM_VIEW_alfa", self._view)
+        self.listener.bus.lcm.subscribe(f"OLS_SIM_VIEW_{station}", self._view)
         self.state = None
         self.answered = 0
         self.sequence = int(time.time())
@@ -91,13 +91,13 @@ class Tripod:
         """What the simulator knows of this station."""
         folder = self.folder / "truth"
         subprocess.run(self.wiring._sim("--write-truth", str(folder)), check=True)
-        return json.loads((folder / "alfa.json").read_text())
+        return json.loads((folder / f"{self.station}.json").read_text())
 
     def fault(self, kind, is_on=True):
         """What a person does beside the tripod: puts a target up, a filter on."""
         message = ols_msg.sim_fault_t()
         message.utime = time.time_ns() // 1000
-        message.kind, message.station = kind, "alfa"
+        message.kind, message.station = kind, self.station
         message.duration_s, message.value = math.inf if is_on else 0.0, math.nan
         self.listener.publish("OLS_SIM_FAULT", message.encode())
 
@@ -117,7 +117,7 @@ class Tripod:
         """Camera and unit work, and a picture has come."""
 
         def works():
-            status = self.listener.observer.status.get("alfa")
+            status = self.listener.observer.status.get(self.station)
             if status is None or status.image_width_px == 0 or not np.isfinite(status.pan_rad):
                 return False
             state = dict(zip(status.device_name, status.device_state, strict=True))
@@ -168,11 +168,11 @@ class Tripod:
 
     def send_answer(self):
         self.sequence += 1
-        message = addressed(ols_msg.procedure_answer_t(), "alfa", self.sequence)
+        message = addressed(ols_msg.procedure_answer_t(), self.station, self.sequence)
         for name, value in self.given.items():
             setattr(message, name, value)
         self.answered_s = time.monotonic()
-        self.listener.publish("OLS_PROCEDURE_ANSWER_alfa", message.encode())
+        self.listener.publish(f"OLS_PROCEDURE_ANSWER_{self.station}", message.encode())
 
     def is_asking(self):
         """Whether a question stands that was not answered yet. A datagram can be lost: a person

@@ -4,7 +4,9 @@
 #include <cstdio>
 #include <iterator>
 #include <set>
+#include <stdexcept>
 
+#include "calibration/contradiction_cause.h"
 #include "calibration/exchange.h"
 #include "calibration/procedure/sighting_planner.h"
 #include "geometry/angles.h"
@@ -95,6 +97,16 @@ std::string angles_for_person(const Adjusted& adjusted) {
   return text;
 }
 
+Calibration calibrated(const Problem& problem, const Adjustment& adjustment) {
+  try {
+    return calibrate(adjustment);
+  } catch (const std::invalid_argument& refused) {
+    std::string text = refused.what();
+    for (const std::string& cause : causes_of_contradiction(problem)) text += "; " + cause;
+    throw std::invalid_argument(text);
+  }
+}
+
 // Nothing tells a heading: the instrument alone is the result.
 AdjustedResult instrument_for_person(const Adjusted& adjusted) {
   AdjustedResult result;
@@ -117,7 +129,7 @@ Adjusted adjust_into(const CaseOptions& options, const std::filesystem::path& fo
   adjusted.what = read_case(options);
   const Case& what = adjusted.what;
   const Adjustment adjustment(network_of(what));
-  adjusted.found = calibrate(adjustment);
+  adjusted.found = calibrated(what.problem, adjustment);
   Calibration& found = adjusted.found;
   for (const std::string& line : exchanged_landmarks(what.problem, adjustment, found)) {
     found.remarks.push_back(line);

@@ -64,7 +64,7 @@ void read_stations(const CaseOptions& options, Case& what) {
     Instrument instrument = new_instrument(settings);
     if (options.resolution_arcsec) set_resolution(instrument, *options.resolution_arcsec);
     if (!options.instruments.empty()) {
-      instrument = read_instrument(options.instruments[i], instrument);
+      instrument = carried_instrument(options.instruments[i], instrument);
       check_serials(settings.serials, instrument.serials, options.instruments[i]);
     }
     problem.names.push_back(settings.id);
@@ -107,6 +107,17 @@ void identify(Case& what) {
 }
 
 }  // namespace
+
+Instrument carried_instrument(const std::string& path, const Instrument& fallback) {
+  constexpr double kArcsec = kPi / 648000.0;
+  Instrument instrument = read_instrument(path, fallback);
+  if (instrument.covariance_file.empty()) return instrument;
+  for (const auto& [parameter, sd_arcsec] :
+       {std::pair{kMountZ, 30.0}, {kMountX, 30.0}, {kMountY, 30.0}, {kTrunnion, 4.0}}) {
+    instrument.covariance(parameter, parameter) += std::pow(sd_arcsec * kArcsec, 2);
+  }
+  return instrument;
+}
 
 StationPrior prior_of(const station::StationSettings& settings, const Instrument& instrument,
                       const std::string& path) {

@@ -29,6 +29,11 @@ struct Case {
   std::vector<std::string> files;  // of the observations, by their index
 };
 
+// An instrument that a new setup begins with. What an earlier calibration has found (its covariance
+// is in the file) was carried here since: the camera may have moved on its plate by 30 arc seconds,
+// the axes by 4, beyond what was known. Sizes that somebody states himself stand.
+Instrument carried_instrument(const std::string& path, const Instrument& fallback);
+
 // The station before an adjustment. std::invalid_argument if its position is not surveyed.
 StationPrior prior_of(const station::StationSettings& settings, const Instrument& instrument,
                       const std::string& path);

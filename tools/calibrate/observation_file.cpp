@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
@@ -69,12 +70,15 @@ class Line {
   std::int64_t integer(const char* key) const {
     if (!has(key)) fail(key, "is missing");
     const Json& value = object_[key];
-    constexpr std::int64_t kMost = 9'000'000'000'000'000;
-    if (!value.is_number_integer() || value.get<double>() > static_cast<double>(kMost) ||
-        value.get<double>() < -static_cast<double>(kMost)) {
+    // Below it a double holds each whole number.
+    constexpr double kMost = 9e15;
+    // Some programs write every number with a point: 1780000000000000.0 is whole, too.
+    const double size =
+        value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN();
+    if (!(std::abs(size) <= kMost) || std::trunc(size) != size) {
       fail(key, "is not a whole number within 9e15");
     }
-    return value.get<std::int64_t>();
+    return static_cast<std::int64_t>(size);
   }
   // A name, or a scene point's number.
   std::string text(const char* key) const {

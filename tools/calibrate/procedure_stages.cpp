@@ -197,7 +197,7 @@ StationFiles read_station(const ProcedureOptions& options) {
   station.instrument_file = instrument_of(options, station.store);
   station.instrument = new_instrument(station.settings);
   if (!station.instrument_file.empty()) {
-    station.instrument = read_instrument(station.instrument_file, station.instrument);
+    station.instrument = carried_instrument(station.instrument_file, station.instrument);
     check_serials(station.settings.serials, station.instrument.serials, station.instrument_file);
   }
   return station;

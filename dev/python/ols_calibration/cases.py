@@ -13,10 +13,12 @@ from .model import (
     FOCAL_PX,
     HEIGHT,
     PAIRS,
+    TRANSPORT,
     WIDTH,
     WORK,
     Place,
     azimuth_elevation,
+    drawn,
     from_azimuth_elevation,
     refracted,
 )
@@ -36,6 +38,8 @@ ROOT = Path(__file__).resolve().parents[3]
 BIN = Path(os.environ.get("OLS_BIN", ROOT / "build/release/bin"))
 
 PLACE = (49.2266, 16.5969, 310.0)
+WORKSHOP_FRAMES = 40  # of twelve stars
+LOWEST_STAR = np.radians(10.1)  # below, ERFA's refraction is wrong
 
 
 def one_station(rng, is_new, position_sd=0.02, work=WORK):
@@ -78,15 +82,17 @@ def plan(*arguments):
     return [(pan, tilt, (int(by_pan), int(by_tilt))) for pan, tilt, by_pan, by_tilt in rows]
 
 
-def stars(rng):
+def stars(rng, frames=20):
     site, one = one_station(rng, is_new=True)
     reach = ("--pan", 150, "--lowest", 12.1, "--highest", 30.5)
-    for frame, (pan_deg, tilt_deg, approach) in enumerate(plan("stars", 20, *reach)):
+    for frame, (pan_deg, tilt_deg, approach) in enumerate(plan("stars", frames, *reach)):
         counts = np.round(np.array([pan_deg, tilt_deg]) / 360 * 112000)
         shafts = one.unit.posed(rng, *counts, approach)
         utime_us = UTIME_US + 3_000_000 * frame
         for k in range(12):
             pixel = rng.uniform([20, 20], [1260, 940])
+            if azimuth_elevation(one.unit.look(shafts, pixel))[1] < LOWEST_STAR:
+                continue
             name = f"star{frame}-{k}"
             site.refer_star(name, *icrs_of(one.place, one.unit.look(shafts, pixel), utime_us))
             one.add(
@@ -96,8 +102,18 @@ def stars(rng):
     return site
 
 
-def rtk_landmarks(rng, work=WORK):
+def through_workshop(rng, one):
+    """The unit becomes one that stars have calibrated in a workshop, and that was transported."""
+    one.workshop = stars(rng, WORKSHOP_FRAMES)
+    [before] = one.workshop.stations
+    one.unit.values = before.unit.values | drawn(rng, TRANSPORT, before.unit.values)
+    one.unit.phases = before.unit.phases
+
+
+def rtk_landmarks(rng, work=WORK, workshop=False):
     site, one = one_station(rng, is_new=False, work=work)
+    if workshop:
+        through_workshop(rng, one)
     sight_landmarks(site, one, landmark_points(rng, one, 5), 0.02, 4)
     return site
 
@@ -229,7 +245,7 @@ def other_stations(rng):
     return site
 
 
-def joint_track(rng, work=WORK):
+def joint_track(rng, work=WORK, workshop=False):
     """Two stations 2.2 km apart follow what flies across the line through both of them."""
     places = [Place(*PLACE), Place(PLACE[0], PLACE[1] + 0.03, PLACE[2] + 4)]
     units = [
@@ -238,6 +254,8 @@ def joint_track(rng, work=WORK):
     ]
     site = Site(rng, units)
     for one in units:
+        if workshop:
+            through_workshop(rng, one)
         # Either sees east and west: neither is behind its limits.
         one.unit.heading = rng.choice([0, np.pi]) + rng.uniform(-0.7, 0.7)
         one.level()
@@ -353,6 +371,14 @@ CASES = {
         *(9.0, "systematic"),
     ),
     "joint track, gears 5″ in amplitude": (partial(joint_track, work=PAIRS), 4.0, "difference"),
+    "5 landmarks by RTK, after stars in a workshop": (
+        partial(rtk_landmarks, workshop=True),
+        *(9.0, "systematic"),
+    ),
+    "joint track, after stars in a workshop": (
+        partial(joint_track, workshop=True),
+        *(4.0, "difference"),
+    ),
     "exposure offset, scenery at 5 and 20°/s [ms]": (moving_scene, 0.1, "offset"),
     "stars without names, 10 a frame, 5 false": (nameless_stars, None, "identified"),
     "the paper's level line: roll, new unit": (rectification, 40.0, "roll"),

@@ -57,6 +57,8 @@ PAIRS = {
     **{name: 5.0 / np.sqrt(2) for name in WORK if name.startswith(("pan_", "tilt_"))},
     **{"pan_backlash": 5.0, "tilt_backlash": 5.0},
 }
+# What a way to the field does to a unit that was calibrated: the camera on its plate, the axes.
+TRANSPORT = {"mount_z": 30.0, "mount_x": 30.0, "mount_y": 30.0, "trunnion": 4.0}
 PLAIN = ("focal_px", "aspect", "cx_px", "cy_px", "k1", "k2", "exposure_offset_s")
 ANGLE_SD = 5.0 * ARCSEC  # of each angle of a pose: jitter and microstep waves together
 

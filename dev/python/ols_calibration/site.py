@@ -60,6 +60,7 @@ class Station:
     lines: list = field(default_factory=list)
     poses: int = 0
     angles: dict = field(default_factory=dict)  # that its rectification targets should tell
+    workshop: "Site | None" = None  # whose calibration is what is known of its instrument
 
     def sight_moving(self, kind, point, reference, counts_s):
         """Sights a point [m] while pan moves; the exposure is later than its counts."""
@@ -173,7 +174,8 @@ class Site:
             (folder / f"{one.name}-instrument.toml").write_text(one.instrument())
             arguments += ["--station", folder / f"{one.name}.toml"]
         for one in self.stations:
-            arguments += ["--instrument", folder / f"{one.name}-instrument.toml"]
+            found = "workshop/out/instrument.toml" if one.workshop else "instrument.toml"
+            arguments += ["--instrument", folder / f"{one.name}-{found}"]
         text = "\n".join(json.dumps(line) for line in lines)
         (folder / "observations.jsonl").write_text(text + "\n")
         header = "landmark,latitude_deg,longitude_deg,height_m,sd_m,utime_us,ra_deg,dec_deg"

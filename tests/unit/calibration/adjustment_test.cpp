@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <random>
+
+#include "calibration/snooping.h"
 #include "tests/unit/calibration/scene.h"
 
 namespace ols::calibration {
@@ -29,6 +33,23 @@ TEST(Adjustment, WhatIsKnownExactlyStays) {
                                  std::vector<bool>(4, true));
   EXPECT_EQ(fit.state.stations[0].model.geometry.camera.fx_px, hill().geometry.camera.fx_px);
   EXPECT_EQ(fit.covariance(kFocal, kFocal), 0.0);
+}
+
+// Scenery of which much is matched wrongly: each step moves what the weights hold back, and gains
+// less than the one before.
+TEST(Adjustment, FollowsRobustWeightsThatCreepToTheirEnd) {
+  std::mt19937_64 random(1);
+  std::cauchy_distribution<double> wrong;
+  Problem problem = test::landmarks_around(test::crooked(), test::just_put_up(), 7);
+  for (Observation& one : test::scenery_around(test::crooked(), 24).observations) {
+    const double y = std::clamp(wrong(random), -40.0, 40.0);
+    const double x = std::clamp(wrong(random), -40.0, 40.0);
+    one.pixel += 0.3 * Eigen::Vector2d(x, y);
+    problem.observations.push_back(one);
+  }
+  const Adjustment adjustment(network_of(problem));
+  const Start start = find_start(adjustment, Levels{}.mistaken);
+  EXPECT_TRUE(adjustment.fit(start.state, start.kept).converged);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "calibration/snooping.h"
@@ -118,6 +119,22 @@ TEST(Calibrate, SceneryTellsTheInstrumentAlone) {
   EXPECT_LT(focal_sd_px, 3.0);  // 4 before
   EXPECT_NEAR(model.geometry.camera.fx_px, truth.geometry.camera.fx_px, 0.5 * focal_sd_px);
   EXPECT_NEAR(model.pan.backlash_rad, truth.pan.backlash_rad, 1.0 * kArcsec);
+}
+
+// Branches in the wind: each time elsewhere, by ten deviations and more.
+TEST(Calibrate, SceneryThatMovesIsNamed) {
+  for (const int moving : {3, 15}) {  // of 30
+    Problem problem = test::scenery_around(hill(), 30);
+    for (std::size_t i = 0; i < problem.observations.size(); ++i) {
+      if (i / 4 % 30 >= static_cast<std::size_t>(moving)) continue;
+      problem.observations[i].pixel.y() += i % 2 == 0 ? 2.0 : -2.0;
+    }
+    const Calibration found = calibrate(Adjustment(network_of(problem)));
+    const bool named = std::ranges::any_of(found.remarks, [](const std::string& remark) {
+      return remark.find("do not stay where they are: does it move?") != std::string::npos;
+    });
+    EXPECT_EQ(named, moving == 15) << moving;
+  }
 }
 
 TEST(Calibrate, OnlyALevelTellsNothing) {
