@@ -23,11 +23,12 @@ def main(tree, packages):
     print("== root file system: Debian 12, and the packages' dependencies downloaded", flush=True)
     shutil.rmtree(tree, ignore_errors=True)
     tree.parent.mkdir(parents=True, exist_ok=True)
+    paths = " ".join(map(str, packages))
     run(
         *("mmdebstrap", "--quiet", "--variant=minbase", "--skip=cleanup/apt"),
         "--include=systemd,systemd-sysv,dbus,udev,iproute2,procps",
         "--customize-hook=APT_CONFIG=$MMDEBSTRAP_APT_CONFIG "
-        f"apt-get install -y -qq --download-only {' '.join(map(str, packages))}",
+        f"apt-get install -y -qq --install-recommends --download-only {paths}",
         *("bookworm", tree),
     )
     stamp.write_text(wanted)

@@ -22,7 +22,7 @@ def install(host, packages):
     for package in packages:
         (folder / package.name).write_bytes(package.read_bytes())
         names.append(f"/root/packages/{package.name}")
-    host.run("apt-get", "install", "-y", "-q", "--no-download", "--allow-downgrades", *names)
+    host.run("apt-get", "install", "-y", "-q", *names)
 
 
 def set_up_centre(host):
