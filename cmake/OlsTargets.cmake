@@ -24,8 +24,8 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
   target_compile_options(ols_options INTERFACE -Wno-unknown-warning-option)
 endif()
 if(CMAKE_UNITY_BUILD)
-  # A local name may hide one of a source that happens to be compiled with it. The debug preset and
-  # the packages compile each source by itself: they are the ones that check.
+  # A local name may hide one of a source that happens to be compiled with it. The debug preset
+  # compiles each source by itself: it is the one that checks.
   target_compile_options(ols_options INTERFACE -Wno-shadow)
 endif()
 if(OLS_SANITIZE)

@@ -6,6 +6,7 @@ scripts of this test.
 """
 
 import os
+import shutil
 import subprocess
 
 import pytest
@@ -16,32 +17,67 @@ KEEP = ROOT / "systemd/ols-keep-packages"
 STATION = "ols-station@alfa.service"
 
 SYSTEMCTL = r"""#!/bin/sh
+now_s=$(cut -d. -f1 "$OLS_UPTIME")
 case "$*" in
   list-units*) cat "$HOST/units" ;;
   *ActiveState*) cat "$HOST/active" ;;
+  *ActiveEnterTimestampMonotonic*)
+    # A program that ends too soon again and again has been running for a moment whenever one looks.
+    if [ -e "$HOST/crashes" ] && grep -q restart "$HOST/done"; then echo "$((now_s - 3))000000"
+    else cat "$HOST/started_us"; fi ;;
   *StatusText*)
     # One line a question; the last one stays.
     head -1 "$HOST/state"
     if [ "$(wc -l <"$HOST/state")" -gt 1 ]; then sed -i 1d "$HOST/state"; fi ;;
   *) echo "systemctl $*" >>"$HOST/done"
-     if [ "$1" = restart ] && [ -e "$HOST/active_after" ]; then
-       cp "$HOST/active_after" "$HOST/active"
+     if [ "$1" = restart ]; then
+       echo "${now_s}000000" >"$HOST/started_us"
+       if [ -e "$HOST/active_after" ]; then cp "$HOST/active_after" "$HOST/active"; fi
      fi ;;
 esac
 """
+# A failure a line, by its first words. It takes its time, as the real one does.
 DOCTOR = r"""#!/bin/sh
-if grep -q restart "$HOST/done" 2>/dev/null; then exit "$(cat "$HOST/doctor_after")"; fi
-exit "$(cat "$HOST/doctor")"
+sleep 6
+before="$HOST/failures"
+if grep -q restart "$HOST/done" 2>/dev/null; then before="$HOST/failures_after"; fi
+[ "$(cat "$before")" != crash ] || exit 139
+echo "ok    configuration: /etc/ols/alfa.toml"
+[ -s "$before" ] || exit 0
+sed 's/.*/FAIL  &: something is wrong; do something/' "$before"
+exit 2
 """
-DPKG = '#!/bin/sh\necho "dpkg $*" >>"$HOST/done"\n'
+DPKG = r"""#!/bin/sh
+echo "$(cut -d. -f1 "$OLS_UPTIME") dpkg $*" >>"$HOST/dpkg"
+if [ -e "$HOST/dpkg_busy" ]; then rm "$HOST/dpkg_busy"; exit 2; fi
+echo "dpkg $*" >>"$HOST/done"
+"""
 # Debian's own, for packages that are nothing but a name here.
 DPKG_DEB = '#!/bin/sh\nbasename "$2" | cut -d_ -f2\n'
+DPKG_QUERY = r"""#!/bin/sh
+case "$*" in
+  *Status*) sed 's/^/installed /' "$HOST/installed" ;;
+  *) sed -n 's/^ols-station //p' "$HOST/installed"
+     # The next update comes.
+     if [ -e "$HOST/next" ] && grep -q restart "$HOST/done"; then
+       mv "$HOST/next" "$HOST/installed"
+     fi ;;
+esac
+"""
+REPACK = r"""#!/bin/sh
+[ ! -e "$HOST/no_repack" ] || exit 1
+touch "$1_$(sed -n "s/^$1 //p" "$HOST/installed")_amd64.deb"
+"""
+SLEEP = r"""#!/bin/sh
+echo "$(($(cut -d. -f1 "$OLS_UPTIME") + $1)).25 17.5" >"$OLS_UPTIME"
+"""
 
 
 class Host:
     def __init__(self, folder):
         self.folder = folder
         self.packages = folder / "packages"
+        self.refused = folder / "preferences"
         commands = folder / "bin"
         commands.mkdir()
         scripts = {
@@ -49,7 +85,9 @@ class Host:
             "ols-doctor": DOCTOR,
             "dpkg": DPKG,
             "dpkg-deb": DPKG_DEB,
-            "sleep": "#!/bin/sh\n",
+            "dpkg-query": DPKG_QUERY,
+            "dpkg-repack": REPACK,
+            "sleep": SLEEP,
         }
         for name, text in scripts.items():
             (commands / name).write_text(text)
@@ -59,9 +97,13 @@ class Host:
             "PATH": f"{commands}:{os.environ['PATH']}",
             "HOST": str(folder),
             "OLS_PACKAGES": str(self.packages),
+            "OLS_PREFERENCES": str(self.refused),
+            "OLS_UPTIME": str(folder / "uptime"),
         }
         self.set(units=f"{STATION} loaded active running", active="active", state="idle")
-        self.set(doctor="0", doctor_after="0")
+        self.set(uptime="5000.25 17.5", started_us="1000000000", installed="bash 5.2")
+        (folder / "failures").touch()
+        (folder / "failures_after").touch()
 
     def set(self, **files):
         for name, text in files.items():
@@ -79,18 +121,20 @@ class Host:
         )
 
     def install(self, version):
-        """As apt announces what it is about to install."""
+        """As apt announces what it is about to install, and then does."""
         folder = self.folder / f"archive-{version}"
-        folder.mkdir()
+        folder.mkdir(exist_ok=True)
         names = [f"ols-station_{version}_amd64.deb", f"ols-common_{version}_amd64.deb"]
         for name in (*names, "chrony_4.3_amd64.deb"):
             (folder / name).write_text(version)
         text = "".join(f"{path}\n" for path in sorted(folder.iterdir()))
         done = self.run(KEEP, input=text)
         assert done.returncode == 0, done.stderr
+        self.set(installed=f"ols-common {version}\nols-station {version}")
+        return done
 
     def restart(self):
-        return self.run(RESTART, "--watch", 60, "--worse", 30)
+        return self.run(RESTART)
 
     def done(self):
         path = self.folder / "done"
@@ -116,9 +160,25 @@ def test_the_packages_of_two_versions_are_kept(host):
 
 def test_the_same_version_again_is_not_an_earlier_one(host):
     host.install("1.0")
-    (host.folder / "archive-1.0").rename(host.folder / "archive-before")
     host.install("1.0")
     assert not (host.packages / "previous").exists()
+
+
+def test_what_was_installed_before_anything_was_kept_is_packed_again(host):
+    """The first version brings the script that keeps packages: nobody kept that version."""
+    host.set(installed="ols-common 1.0\nols-station 1.0")
+    host.install("1.1")
+    assert (host.packages / "previous").read_text() == "1.0\n"
+    assert sorted(path.name for path in (host.packages / "1.0").iterdir()) == [
+        "ols-common_1.0_amd64.deb",
+        "ols-station_1.0_amd64.deb",
+    ]
+
+
+def test_what_cannot_be_kept_stops_no_update_and_is_no_half_version(host):
+    host.set(installed="ols-common 1.0\nols-station 1.0", no_repack="")
+    assert "ols-common 1.0 cannot be kept" in host.install("1.1").stderr
+    assert sorted(path.name for path in host.packages.iterdir()) == ["1.1"]
 
 
 def test_a_station_at_work_is_restarted_when_it_is_idle(host):
@@ -150,7 +210,7 @@ def bad(host):
     host.install("1.0")
     host.install("1.1")
     done = host.restart()
-    assert done.returncode == 1
+    assert done.returncode == 1, done.stderr
     return done
 
 
@@ -159,30 +219,109 @@ def went_back(host):
 
 
 def test_a_new_failure_takes_the_update_back(host):
-    host.set(doctor="1", doctor_after="2")
+    host.set(failures_after="camera")
     done = bad(host)
     assert "back to version 1.0" in done.stderr
     assert len(went_back(host)) == 1
     assert host.done()[-1] == f"systemctl restart --no-block {STATION}"
+    # Six minutes at most, however long ols-doctor takes.
+    assert float((host.folder / "uptime").read_text().split()[0]) - 5000.0 < 360.0
+
+
+def test_a_version_that_was_taken_back_is_not_installed_again(host):
+    host.set(failures_after="camera")
+    bad(host)
+    assert host.refused.read_text().endswith(
+        "Package: ols-* python3-ols\nPin: version 1.1\nPin-Priority: -1\n"
+    )
+
+
+def candidate(host, *versions):
+    """Which of the versions of a repository apt would install by what host.refused says."""
+    here = host.folder
+    (here / "lists").mkdir(exist_ok=True)
+    (here / "Packages").write_text(
+        "\n".join(
+            f"Package: ols-station\nVersion: {version}\nArchitecture: all\n"
+            f"Filename: ./{version}.deb\nSize: 1\nSHA256: {0:064}\n"
+            for version in versions
+        )
+    )
+    (here / "sources.list").write_text(f"deb [trusted=yes] file:{here} ./\n")
+    options = [
+        f"Dir::Etc::sourcelist={here}/sources.list",
+        "Dir::Etc::sourceparts=/dev/null",
+        f"Dir::Etc::preferences={host.refused}",
+        "Dir::Etc::preferencesparts=/dev/null",
+        f"Dir::State={here}",
+        f"Dir::Cache={here}",
+        "Dir::State::status=/dev/null",
+        "Debug::NoLocking=true",
+        "APT::Sandbox::User=root",
+    ]
+    words = [word for option in options for word in ("-o", option)]
+    assert host.run("apt-get", "update", *words).returncode == 0
+    policy = host.run("apt-cache", "policy", "ols-station", *words).stdout
+    return policy.split("Candidate: ")[1].split()[0]
+
+
+@pytest.mark.skipif(shutil.which("apt-get") is None, reason="no apt")
+def test_apt_leaves_out_what_was_taken_back_and_takes_what_comes_later(host):
+    host.set(failures_after="camera")
+    bad(host)
+    assert candidate(host, "1.0", "1.1") == "1.0"
+    assert candidate(host, "1.0", "1.1", "1.2") == "1.2"
 
 
 def test_a_program_that_does_not_run_takes_the_update_back(host):
-    host.set(doctor="2", doctor_after="2", active_after="failed")
+    host.set(failures="camera", failures_after="camera", active_after="failed")
+    bad(host)
+    assert len(went_back(host)) == 1
+
+
+def test_a_program_that_ends_again_and_again_takes_the_update_back(host):
+    host.set(crashes="")
+    bad(host)
+    assert len(went_back(host)) == 1
+
+
+def test_a_doctor_that_cannot_run_takes_the_update_back(host):
+    host.set(failures_after="crash")
+    bad(host)
+    assert len(went_back(host)) == 1
+
+
+def test_what_was_broken_before_hides_no_new_failure(host):
+    host.set(failures="gnss", failures_after="gnss\nptu")
     bad(host)
     assert len(went_back(host)) == 1
 
 
 def test_what_was_broken_before_is_not_the_updates_fault(host):
-    host.set(doctor="2", doctor_after="2")
+    host.set(failures="gnss\ncamera", failures_after="gnss")
     host.install("1.0")
     host.install("1.1")
     done = host.restart()
     assert done.returncode == 0, done.stderr
     assert went_back(host) == []
+    assert not host.refused.exists()
+
+
+def test_it_waits_for_whoever_else_is_installing(host):
+    host.set(failures_after="camera", dpkg_busy="")
+    assert "trying again" in bad(host).stderr
+    assert len(went_back(host)) == 1
+
+
+def test_the_next_update_is_put_into_use_while_this_one_is_watched(host):
+    host.install("1.0")
+    host.set(next="ols-common 1.1\nols-station 1.1")
+    assert host.restart().returncode == 0
+    assert host.done().count(f"systemctl restart --no-block {STATION}") == 2
 
 
 def test_without_an_earlier_version_it_says_so(host):
-    host.set(doctor_after="2")
+    host.set(failures_after="camera")
     host.install("1.0")
     done = host.restart()
     assert done.returncode == 1

@@ -1,8 +1,8 @@
 // What ols-setup is told of a host: a file, or what a person has typed.
 //
 //   role = "station"                # or "centre"
-//   interface = "eth0"              # that leads to the other hosts; left out: the bus stays on
-//   this host invitation = "…"                # a station's: what ols-setup says at the centre
+//   interface = "eth0"              # that leads to the other hosts; left out: none
+//   invitation = "…"                # a station's: what ols-setup says at the centre
 //   neighbours = ["10.0.0.1"]       # other hosts of the site, for the time without GNSS
 //   serial = ["/dev/ttyUSB0"]       # where to look for devices; left out: all serial adapters
 //   [station]                       # keys of its configuration file (docs/configuration.md)
