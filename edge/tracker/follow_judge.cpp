@@ -14,6 +14,7 @@ constexpr double kSure = 0.8;
 constexpr double kDoubted = 0.2;
 constexpr double kLetsGo_s = 0.5;
 constexpr double kLeast = 2.0;  // of the prominence: noise
+constexpr double kNamed = 0.7;  // it has hardly left the place where a caller said it is
 
 }  // namespace
 
@@ -26,7 +27,6 @@ double follow_log_odds(const FollowEvidence& evidence, double own) {
   constexpr double kEvenShare = 0.8, kProminenceWeight = 2.5;
   constexpr double kEvenChange = 0.8, kChangeWeight = 1.6;
   constexpr double kLeastChange = -1.0, kMostChange = 2.5;
-  constexpr double kNamed = 0.7;  // it has hardly left the place where a caller said it is
   const double even = std::clamp(kEvenShare * own, kNoise, kPlain);
   const double odds = kProminenceWeight * std::log(std::max(kLeast, evidence.prominence) / even);
   if (!evidence.change) return odds + kNamed;
@@ -52,6 +52,10 @@ double FollowJudge::learn_own(double prominence, double interval_s) {
     log_own_ += (log_prominence - log_own_) * std::min(1.0, interval_s / named_s_);
   }
   return std::exp(log_own_);
+}
+
+double FollowJudge::log_odds_elsewhere(const FollowEvidence& evidence) const {
+  return follow_log_odds(evidence, std::exp(log_own_)) - (evidence.change ? 0.0 : kNamed);
 }
 
 bool FollowJudge::sure() const { return value_ > kSure; }

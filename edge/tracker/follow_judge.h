@@ -26,6 +26,8 @@ class FollowJudge {
   void update(const FollowEvidence& evidence, double interval_s);
   // The object has been let go: the time in doubt begins at zero for the next one.
   void start_search() { doubted_s_ = 0.0; }
+  // The logarithm of the odds that something found elsewhere is the target, by this evidence alone.
+  double log_odds_elsewhere(const FollowEvidence& evidence) const;
   double value() const { return value_; }
   bool sure() const;
   bool believes() const;

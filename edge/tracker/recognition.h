@@ -5,6 +5,7 @@
 #include "edge/tracker/follow_judge.h"
 #include "edge/tracker/foreground_mask.h"
 #include "edge/tracker/sure_memory.h"
+#include "edge/tracker/wide_search.h"
 
 namespace ols::tracker {
 
@@ -32,13 +33,20 @@ class Recognition {
   void remember(const Particle& followed, double time_s);
   // In doubt: returns to what had been learnt while it surely was the target, if that finds it
   // here, where the target was then, or where it would be had it gone on. After long doubt a weaker
-  // response is enough.
-  std::optional<Particle> return_to_sure(const TrackerInput& frame, const Particle& followed);
+  // response is enough; and it is looked for further and further away, where what is found must
+  // itself be judged the target.
+  std::optional<Particle> return_to_sure(const TrackerInput& frame,
+                                         const ReferenceFrames& references,
+                                         const Particle& followed);
 
  private:
+  std::optional<Particle> found_far(const TrackerInput& frame, const ReferenceFrames& references,
+                                    const SureMemory::State& sure, LearntAppearance& remembered);
+
   LearntAppearance appearance_;
   FollowJudge judge_;
   SureMemory sure_;
+  WideSearch wide_search_;
 };
 
 }  // namespace ols::tracker

@@ -7,7 +7,7 @@ namespace ols::tracker {
 void SureMemory::offer(const LearntAppearance& appearance, const Particle& target, double time_s) {
   constexpr double kEvery_s = 0.5;
   if (newer_ && time_s - newer_->time_s < kEvery_s) return;
-  older_ = std::exchange(newer_, State{appearance, target, target, time_s});
+  older_ = std::exchange(newer_, State{appearance, target, target, target.pixel, time_s});
 }
 
 void SureMemory::advance(const MotionModel& motion, const cv::Size& frame) {

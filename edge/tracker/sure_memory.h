@@ -15,6 +15,7 @@ class SureMemory {
     LearntAppearance appearance;
     // In the newest frame: had it gone on, and had it stopped in the scene.
     Particle moving, still;
+    Eigen::Vector2d seen_px;  // where it was in the image: a camera follows its target
     double time_s = 0.0;
   };
 

@@ -62,7 +62,7 @@ TrackerOutput TrackerCore::step(const TrackerInput& frame, StageTimer& timer) {
   }
   output.belief *= recognition_.belief();
   if (recognised) recognition_.remember(last_, scene_motion_.time_s());
-  if (const auto sure = recognition_.return_to_sure(frame, last_)) {
+  if (const auto sure = recognition_.return_to_sure(frame, scene_motion_.references(), last_)) {
     last_ = *sure;
     target_.restart_size(last_.size_px);
     filter_.restart(last_);

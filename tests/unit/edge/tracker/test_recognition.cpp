@@ -27,6 +27,16 @@ class RecognitionTest : public ::testing::Test {
       recognition_.remember(followed, kInterval_s * k);
     }
   }
+  std::optional<Particle> back(const TrackerInput& input, const Particle& followed) {
+    return recognition_.return_to_sure(input, references_, followed);
+  }
+  // Of so many frames of a scene, in doubt.
+  std::optional<Particle> back_within(int frames, const std::optional<cv::Point2d>& target) {
+    for (int k = 0; k < frames; ++k) {
+      if (const auto found = back(frame(62 + k, target), elsewhere_)) return found;
+    }
+    return std::nullopt;
+  }
 
   SyntheticScene scene_{Backdrop::kTextured, 1};
   const cv::Rect2d box_ = SyntheticScene::box_around(kAt);
@@ -46,9 +56,9 @@ TEST_F(RecognitionTest, BelievesInTheTargetAndNotInTheBackground) {
 
 TEST_F(RecognitionTest, ReturnsToTheTargetThatItWasSureOf) {
   follow(there_, kAt);
-  EXPECT_FALSE(recognition_.return_to_sure(frame(31, kAt), there_));  // no doubt
+  EXPECT_FALSE(back(frame(31, kAt), there_));  // no doubt
   follow(elsewhere_, kAt);
-  const auto found = recognition_.return_to_sure(frame(62, kAt), elsewhere_);
+  const auto found = back(frame(62, kAt), elsewhere_);
   ASSERT_TRUE(found);
   EXPECT_LT((found->pixel - there_.pixel).norm(), 1.5);
   EXPECT_EQ(found->velocity_px_s, there_.velocity_px_s);
@@ -63,8 +73,8 @@ TEST_F(RecognitionTest, ReturnsAtOnceToWhatLooksAsItDid) {
   TrackerInput covered = frame(62, kAt);
   const cv::Rect lower(280, 222, 40, 30);
   frame(62, std::nullopt).gray(lower).copyTo(covered.gray(lower));
-  EXPECT_FALSE(recognition_.return_to_sure(covered, elsewhere_));
-  const auto found = recognition_.return_to_sure(frame(62, kAt), elsewhere_);
+  EXPECT_FALSE(back(covered, elsewhere_));
+  const auto found = back(frame(62, kAt), elsewhere_);
   ASSERT_TRUE(found);
   EXPECT_LT((found->pixel - there_.pixel).norm(), 1.5);
 }
@@ -72,7 +82,25 @@ TEST_F(RecognitionTest, ReturnsAtOnceToWhatLooksAsItDid) {
 TEST_F(RecognitionTest, StaysWhereWhatItWasSureOfIsNowhere) {
   follow(there_, kAt);
   follow(elsewhere_, std::nullopt);
-  EXPECT_FALSE(recognition_.return_to_sure(frame(62, std::nullopt), elsewhere_));
+  EXPECT_FALSE(back(frame(62, std::nullopt), elsewhere_));
+}
+
+// Three boxes away from where it was seen, was followed to, or would have gone.
+TEST_F(RecognitionTest, FindsFarAwayWhatItWasSureOf) {
+  const cv::Point2d far(205.0, 150.0);
+  follow(there_, kAt);
+  follow(elsewhere_, std::nullopt);
+  EXPECT_FALSE(back_within(1, far));
+  const auto found = back_within(50, far);
+  ASSERT_TRUE(found);
+  EXPECT_LT((found->pixel - Eigen::Vector2d(far.x, far.y)).norm(), 1.5);
+  EXPECT_EQ(found->velocity_px_s, Eigen::Vector2d::Zero());
+}
+
+TEST_F(RecognitionTest, FindsNothingFarAwayInTheBackground) {
+  follow(there_, kAt);
+  follow(elsewhere_, std::nullopt);
+  EXPECT_FALSE(back_within(50, std::nullopt));
 }
 
 TEST_F(RecognitionTest, ForgetsDoubtAndMemoryWhenToldWhereTheTargetIs) {
@@ -80,7 +108,7 @@ TEST_F(RecognitionTest, ForgetsDoubtAndMemoryWhenToldWhereTheTargetIs) {
   follow(elsewhere_, kAt);
   recognition_.restart();
   EXPECT_EQ(recognition_.belief(), 1.0);
-  EXPECT_FALSE(recognition_.return_to_sure(frame(62, kAt), elsewhere_));
+  EXPECT_FALSE(back(frame(62, kAt), elsewhere_));
 }
 
 }  // namespace
