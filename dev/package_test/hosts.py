@@ -26,8 +26,12 @@ class Host:
         self.address = f"10.7.0.{number}"
         self.root = work / f"host-{name}"
         self.console = (work / f"console-{name}.txt").open("w")
-        shutil.rmtree(self.root, ignore_errors=True)
-        run("cp", "--archive", "--reflink=auto", rootfs, self.root)
+        changes = work / f"changes-{name}"
+        shutil.rmtree(changes, ignore_errors=True)
+        for folder in (self.root, changes / "upper", changes / "work"):
+            folder.mkdir(parents=True, exist_ok=True)
+        layers = f"lowerdir={rootfs},upperdir={changes}/upper,workdir={changes}/work"
+        run("mount", "-t", "overlay", "overlay", "-o", layers, self.root)
         (self.root / "etc/machine-id").write_text("")
         environment = {**os.environ, "SYSTEMD_NSPAWN_UNIFIED_HIERARCHY": "1"}
         self.container = subprocess.Popen(
@@ -102,4 +106,4 @@ class Host:
                 self.container.kill()
                 self.container.wait()
         self.console.close()
-        run("rm", "-rf", "--one-file-system", self.root)
+        run("umount", "--lazy", self.root)

@@ -66,9 +66,9 @@ def set_up(report, packages, centre, stations):
     took_s, _ = timed(lambda: install(centre, packages(CENTRE)))
     setup_s, invitation = timed(lambda: set_up_centre(centre))
     report.row("fresh Debian to a running centre", took_s + setup_s, 180.0)
-    for number, station in enumerate(stations):
+    for station in stations:
         took_s, _ = timed(lambda: install(station, packages(STATION)))  # noqa: B023
-        start_devices(station, f"127.0.0.{11 + number}")
+        start_devices(station)
         setup_s, _ = timed(lambda: set_up_station(station, centre, invitation))  # noqa: B023
         report.row(f"fresh Debian to {station.name} running and enrolled", took_s + setup_s, 180.0)
         said = centre.says("ols-ctl", station.name, "status", "--full")

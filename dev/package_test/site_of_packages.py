@@ -34,12 +34,16 @@ def set_up_centre(host):
     return re.search(r'invitation = "([^"]+)"', said).group(1)
 
 
-def start_devices(host, address):
-    """Camera, PTU, inclinometer and receiver of this tripod, and their configuration."""
+def start_devices(host):
+    """Camera, PTU, inclinometer and receiver of this tripod (and of the others, which nobody uses
+    here), and its configuration."""
     host.write("/root/scenario.toml", SCENARIO.read_text())
     drop_in = "/etc/systemd/system/ols-station@.service.d/simulated-line.conf"
     host.write(drop_in, SIMULATED_LINE)
-    host.run("ip", "address", "replace", f"{address}/8", "dev", "lo")
+    for address in ("127.0.0.11", "127.0.0.12", "127.0.0.13"):
+        host.run("ip", "address", "replace", f"{address}/8", "dev", "lo")
+    # The simulator's own bus, until ols-setup has said where the site's is.
+    host.run("ip", "route", "replace", "224.0.0.0/4", "dev", "lo")
     host.run("chmod", "755", "/root")
     simulator = ("ols-sim", "--scenario", "/root/scenario.toml", "--directory", "/run/ols/sim")
     host.run(*simulator, "--write-configs", "/root")
