@@ -52,11 +52,14 @@ def start_devices(host):
 
 
 def answers_of(host, invitation):
-    """What a person knows of this tripod; its camera and PTU are to be found."""
+    """What a person knows of this tripod. Its PTU is to be found, and which of three cameras it is
+    is to be said."""
     text = (host.root / f"root/{host.name}.toml").read_text()
     text = re.sub(r"^(device|lcm_url|baud) = .*\n", "", text, flags=re.M)
     text = re.sub(r"^\[inclinometer\]\n(.+\n)*", "", text, flags=re.M)
     text = re.sub(r"^\[(.+)\]$", r"[station.\1]", text, flags=re.M)
+    camera = f'[station.camera]\ndevice = "AVT-GT1290C-{host.name}"'
+    text = text.replace("[station.camera]", camera)
     head = (
         f'role = "station"\ninterface = "host0"\ninvitation = "{invitation}"\n'
         f'neighbours = ["10.7.0.1"]\nserial = ["/run/ols/sim/{host.name}.ptu"]\n[station]\n'
