@@ -69,7 +69,7 @@ void propagate(const Transition& motion, FilterGaussian& state) {
   for (Eigen::Index j = 0; j < kTargetStates; ++j) propagate_rows(motion.f, P.col(j));
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j <= i; ++j) {
-      P.block<3, 3>(3 * i, 3 * j).diagonal().array() += motion.q(i, j);
+      P.block<3, 3>(3 * i, 3 * j) += motion.q(i, j) * motion.directions;
     }
   }
 }

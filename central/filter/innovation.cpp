@@ -68,6 +68,7 @@ FilterMatrix2 ModelInnovation::cross(const FilterCovariance& P,
 
 Innovation Innovation::after_prediction() const {
   Innovation then = *this;
+  ++then.state;  // the prediction is a change of it
   for (ModelInnovation& model : then.models) model.by_velocity_s = model.by_acceleration_s2 = 0.0;
   return then;
 }
@@ -94,7 +95,7 @@ ModelInnovation innovation_of(const InteractingModels& models, std::size_t which
       (frame.tangent.transpose() + result.residual * frame.direction.transpose()) / result.depth_m;
   result.residual -= result.J * (p_ecef - about_ecef);
   see_target(model.covariance, result);
-  result.covariance += to.q(0, 0) * result.J * result.J.transpose();
+  result.covariance += to.q(0, 0) * result.J * to.directions * result.J.transpose();
   if (station != nullptr) see_station(model, *station, result);
   return result;
 }

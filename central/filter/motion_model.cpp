@@ -67,6 +67,34 @@ Transition singer_in_steps(double dt, double sd, double time_s) {
   return all;
 }
 
+// A 1-sigma at rest, and its increase with speed.
+double grown(double at_rest, double per_speed, const Eigen::Vector3d& velocity) {
+  return std::sqrt(at_rest * at_rest + per_speed * per_speed * velocity.squaredNorm());
+}
+
+// The manoeuvre's variance in space, over that along the path.
+Eigen::Matrix3d directions_of(const Eigen::Vector3d& velocity, double hard, double limit) {
+  if (hard <= limit) return Eigen::Matrix3d::Identity();
+  const double across = limit * limit / (hard * hard);
+  const Eigen::Vector3d along = velocity.normalized();
+  return across * Eigen::Matrix3d::Identity() + (1.0 - across) * along * along.transpose();
+}
+
+Transition along_the_path(Motion motion, const Vector9& state, double dt_s,
+                          const MotionConfig& config, double hard) {
+  switch (motion) {
+    case Motion::kConstantVelocity:
+      return constant_velocity(
+          dt_s, grown(config.cruise_sd_m_s2, config.cruise_per_speed_s, state.segment<3>(3)));
+    case Motion::kCoordinatedTurn:
+      return coordinated_turn(dt_s, turn_rate(state, config.turn_limit_rad_s),
+                              config.turn_share * hard);
+    case Motion::kAcceleration:
+      return singer_in_steps(dt_s, hard, config.acceleration_time_s);
+  }
+  return {};
+}
+
 }  // namespace
 
 const char* to_string(Motion motion) {
@@ -82,24 +110,16 @@ const char* to_string(Motion motion) {
 }
 
 double manoeuvre_sd(const Eigen::Vector3d& velocity, const MotionConfig& config) {
-  return std::hypot(config.acceleration_sd_m_s2, config.acceleration_per_speed_s * velocity.norm());
+  return grown(config.acceleration_sd_m_s2, config.acceleration_per_speed_s, velocity);
 }
 
 Transition transition(Motion motion, const Vector9& state, double dt_s,
                       const MotionConfig& config) {
   const Eigen::Vector3d velocity = state.segment<3>(3);
   const double hard = manoeuvre_sd(velocity, config);
-  switch (motion) {
-    case Motion::kConstantVelocity:
-      return constant_velocity(
-          dt_s, std::hypot(config.cruise_sd_m_s2, config.cruise_per_speed_s * velocity.norm()));
-    case Motion::kCoordinatedTurn:
-      return coordinated_turn(dt_s, turn_rate(state, config.turn_limit_rad_s),
-                              config.turn_share * hard);
-    case Motion::kAcceleration:
-      return singer_in_steps(dt_s, hard, config.acceleration_time_s);
-  }
-  return {};
+  Transition result = along_the_path(motion, state, dt_s, config, hard);
+  result.directions = directions_of(velocity, hard, config.across_limit_m_s2);
+  return result;
 }
 
 }  // namespace ols::fusion

@@ -1,8 +1,9 @@
 // How a target may move: three models on one state, so that they can be mixed. Pure.
 //
 // The state of each axis is (position, velocity, acceleration). The three axes of space share one
-// 3x3 transition f and one 3x3 noise q: F = f (x) I and Q = q (x) I. The position affects neither
-// velocity nor acceleration, so the first column of f is (1 0 0). (Li and Jilkov, "Survey of
+// 3x3 transition f and one 3x3 noise q: F = f (x) I and Q = q (x) D, where D is I unless the target
+// is very fast (see below). The position affects neither velocity nor acceleration, so the first
+// column of f is (1 0 0). (Li and Jilkov, "Survey of
 // maneuvering target tracking, part I: dynamic models", 2003.)
 //  - constant velocity: white noise of the acceleration, which itself is not propagated;
 //  - coordinated turn: the acceleration turns with the velocity, w = |v x a| / |v|^2, in the plane
@@ -10,7 +11,9 @@
 //  - acceleration: Singer's, exponentially correlated.
 //
 // The assumed manoeuvre grows with the speed: at 10 m/s the velocity changes by a few m/s in a
-// second, at 20 km/s by some km/s (drag). The same numbers thus serve a drone and a meteor.
+// second, at 20 km/s by some km/s (drag). The same numbers thus serve a drone and a meteor. But
+// drag acts along the path, and nothing turns from it by more than some 30 g: what is faster than a
+// kilometre a second flies straighter than it keeps its speed.
 #pragma once
 
 #include <Eigen/Core>
@@ -36,6 +39,7 @@ struct MotionConfig {
   double acceleration_sd_m_s2 = 3.0;
   double acceleration_per_speed_s = 0.3;  // [1/s]
   double acceleration_time_s = 1.5;       // Singer's correlation time
+  double across_limit_m_s2 = 300.0;       // the greatest 1-sigma across the path
   // The constant-velocity model's disturbance over the root of a second, likewise.
   double cruise_sd_m_s2 = 0.2;
   double cruise_per_speed_s = 0.003;  // [1/s]
@@ -48,6 +52,8 @@ struct MotionConfig {
 struct Transition {
   Eigen::Matrix3d f = Eigen::Matrix3d::Identity();
   Eigen::Matrix3d q = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d directions =
+      Eigen::Matrix3d::Identity();  // the noise in space, over that along the path
 };
 
 // 1-sigma of the acceleration that is possible at this velocity [m/s^2].

@@ -3,7 +3,6 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "central/filter/bias_observability.h"
 #include "central/measurement/time_span.h"
@@ -137,7 +136,6 @@ FilterUpdate TrackFilter::update(const BearingMeasurement& measurement, const Bi
   const bool is_newer = measurement.utime_us > utime_us();
   std::optional<Innovation> at_hand;
   if (known != nullptr) at_hand = is_newer ? known->after_prediction() : *known;
-  if (at_hand && is_newer) ++at_hand->state;
   predict(measurement.utime_us, update.shown);
   take(measurement, std::move(at_hand), update);
   refresh();
@@ -152,10 +150,8 @@ void TrackFilter::reset_bias(int station, std::int64_t track_id) {
   stations_[static_cast<std::size_t>(station)].track_id = track_id;
   const BiasPrior& prior = priors_[static_cast<std::size_t>(station)];
   for (FilterGaussian& model : models_.each()) {
-    for (Eigen::Index i = 0; i < 3; ++i) {
-      double& variance = model.covariance(first_of(station) + i, first_of(station) + i);
-      variance = std::max(variance, prior.rotation(i));
-    }
+    const Eigen::Array3d now = model.covariance.square<3>(first_of(station)).diagonal();
+    model.covariance.set_variance(first_of(station), now.max(prior.rotation).matrix());
   }
 }
 

@@ -77,7 +77,7 @@ TEST_F(FilterGaussianTest, PropagatesTheTargetAndItsShareInTheStations) {
     for (int i = 0; i < 9; ++i) {
       for (int j = 0; j < 9; ++j) {
         F(i, j) = i % 3 == j % 3 ? t.f(i / 3, j / 3) : 0.0;
-        Q(i, j) = i % 3 == j % 3 ? t.q(i / 3, j / 3) : 0.0;
+        Q(i, j) = t.q(i / 3, j / 3) * t.directions(i % 3, j % 3);
       }
     }
     const MatrixXd P = covariance();

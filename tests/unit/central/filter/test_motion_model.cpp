@@ -48,6 +48,23 @@ TEST(MotionModel, SingersAccelerationFades) {
   EXPECT_NEAR(t.f(2, 2), std::exp(-1.0), 1e-9);
 }
 
+// A drone may turn as hard as it brakes; a meteor brakes by more than it could turn.
+TEST(MotionModel, AcrossThePathNothingSteersHarderThanTheLimit) {
+  const MotionConfig config;
+  for (const Motion motion : kAll) {
+    const Transition slow = transition(motion, moving({600, 0, 0}), 0.1, config);
+    EXPECT_EQ(slow.directions, Eigen::Matrix3d::Identity()) << to_string(motion);
+  }
+  const Vector3d v = 40e3 * Vector3d(1, 2, -2).normalized();
+  const Transition fast = transition(Motion::kAcceleration, moving(v), 0.1, config);
+  const double ratio = config.across_limit_m_s2 / manoeuvre_sd(v, config);
+  const Vector3d along = v.normalized(), across = along.unitOrthogonal();
+  EXPECT_LT(ratio, 0.03);
+  EXPECT_NEAR(along.dot(fast.directions * along), 1.0, 1e-12);
+  EXPECT_NEAR(across.dot(fast.directions * across), ratio * ratio, 1e-12);
+  EXPECT_NEAR(along.dot(fast.directions * across), 0.0, 1e-12);
+}
+
 TEST(MotionModel, NoiseIsAVarianceThatGrows) {
   for (const Motion motion : kAll) {
     double before = 0.0;
