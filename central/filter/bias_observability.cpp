@@ -5,12 +5,12 @@
 namespace ols::fusion {
 
 bool is_linear(const StationPart& part, const RayFrame& frame, double depth_m,
-               const Eigen::Matrix3d& P_position, const FilterCovariance& P,
+               const Eigen::Matrix3d& P_position, const FilterMatrix& P,
                const Eigen::Matrix2d& white) {
   constexpr double kSmall = 0.1;
   const double depth_variance = frame.direction.dot(P_position * frame.direction);
   const auto greatest = [&](const Eigen::Matrix<double, 2, 3>& H, Eigen::Index first) {
-    return (H * P.square<3>(first) * H.transpose()).diagonal().maxCoeff();
+    return (H * whole_block<3>(P, first) * H.transpose()).diagonal().maxCoeff();
   };
   double bias_variance = greatest(part.by_rotation, part.first);
   if (part.has_place) {
@@ -28,7 +28,7 @@ bool is_linear(const StationPart& part, const RayFrame& frame, double depth_m,
 // Huang, Mourikis and Roumeliotis, 2010). For the states of the station's own pose and position, in
 // units of their sigmas: the drift, and the information that the bearing has along it. The depth is
 // measured from the station's position, which moves the target along with it.
-bool shows_bias(const FilterMatrix2& G, const FilterCovariance& P, const StationPart& part,
+bool shows_bias(const FilterMatrix2& G, const FilterMatrix& P, const StationPart& part,
                 const Eigen::Vector3d& along, double off_share) {
   constexpr double kSmall = 3.0;
   const Eigen::Index place = part.first + kPoseStates, clock = part.first + 3;
@@ -39,7 +39,7 @@ bool shows_bias(const FilterMatrix2& G, const FilterCovariance& P, const Station
     double with_depth = P.block<1, 3>(at, 0).dot(along);
     if (part.has_place) {
       const Eigen::RowVector3d own = at < place ? P.block<3, 1>(place, at).transpose().eval()
-                                                : P.square<3>(place).row(at - place).eval();
+                                                : whole_block<3>(P, place).row(at - place).eval();
       with_depth -= own.dot(part.R_ecef_enu.transpose() * along);
     }
     drift += with_depth * with_depth / P(at, at);

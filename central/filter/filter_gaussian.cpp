@@ -1,6 +1,5 @@
 #include "central/filter/filter_gaussian.h"
 
-#include <algorithm>
 #include <vector>
 
 namespace ols::fusion {
@@ -15,7 +14,7 @@ void propagate_rows(const Eigen::Matrix3d& f, Vector&& state) {
   state.template segment<3>(6) = f(2, 1) * v + f(2, 2) * a;
 }
 
-void propagate_columns(const Eigen::Matrix3d& f, Eigen::Map<FilterCovariance::TargetColumns>& P) {
+void propagate_columns(const Eigen::Matrix3d& f, FilterMatrix& P) {
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     auto p = P.col(axis), v = P.col(3 + axis), a = P.col(6 + axis);
     const FilterVector before = v;
@@ -38,7 +37,7 @@ struct Mixture {
   void column(Eigen::Index j, Eigen::Index n, std::span<const FilterGaussian> parts,
               FilterVector& result) const {
     const auto of = [&](std::size_t i) {
-      return weights[i] * parts[i].covariance.column(j).head(n) +
+      return weights[i] * parts[i].covariance.col(j).segment(j, n) +
              (weights[i] * off[i](j)) * off[i].segment(j, n);
     };
     result = of(0);
@@ -52,21 +51,21 @@ struct Mixture {
 
 }  // namespace
 
-void subtract_square(const FilterMatrix2& G, Eigen::Index columns, FilterCovariance& P) {
+void subtract_square(const FilterMatrix2& G, Eigen::Index columns, FilterMatrix& P) {
   for (Eigen::Index j = 0; j < columns; ++j) {
     const Eigen::Index n = P.rows() - j;
-    P.column(j) -= G(j, 0) * G.col(0).tail(n) + G(j, 1) * G.col(1).tail(n);
+    P.col(j).tail(n) -= G(j, 0) * G.col(0).tail(n) + G(j, 1) * G.col(1).tail(n);
   }
 }
 
 // P' = F P F^T + Q: the columns of all correlated states, then the target's own rows.
 void propagate(const Transition& motion, FilterGaussian& state) {
-  auto P = state.covariance.target();
-  auto own = P.topRows<kTargetStates>();
+  FilterMatrix& P = state.covariance;
+  auto own = P.topLeftCorner<9, 9>();
   own.triangularView<Eigen::StrictlyUpper>() = own.transpose();
   propagate_rows(motion.f, state.mean);
   propagate_columns(motion.f, P);
-  for (Eigen::Index j = 0; j < kTargetStates; ++j) propagate_rows(motion.f, P.col(j));
+  for (Eigen::Index j = 0; j < 9; ++j) propagate_rows(motion.f, P.col(j));
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j <= i; ++j) {
       P.block<3, 3>(3 * i, 3 * j) += motion.q(i, j) * motion.directions;
@@ -78,7 +77,7 @@ void scale(const FilterVector& factors, FilterGaussian& state) {
   state.mean.array() *= factors.array();
   for (Eigen::Index j = 0; j < factors.size(); ++j) {
     const Eigen::Index n = factors.size() - j;
-    state.covariance.column(j).array() *= factors(j) * factors.tail(n).array();
+    state.covariance.col(j).tail(n).array() *= factors(j) * factors.tail(n).array();
   }
 }
 
@@ -88,22 +87,22 @@ void insert_states(Eigen::Index before, Eigen::Index more, FilterGaussian& state
   state.mean = FilterVector::Zero(n + more);
   state.mean.head(before) = was.mean.head(before);
   state.mean.tail(rest) = was.mean.tail(rest);
-  state.covariance = FilterCovariance(n + more);
-  for (Eigen::Index j = 0; j < n; ++j) {
-    const auto from = was.covariance.column(j);
-    auto to = state.covariance.column(j < before ? j : j + more);
-    if (j < before) to.head(before - j) = from.head(before - j);
-    to.tail(std::min(rest, n - j)) = from.tail(std::min(rest, n - j));
-  }
+  state.covariance = FilterMatrix::Zero(n + more, n + more);
+  state.covariance.topLeftCorner(before, before) = was.covariance.topLeftCorner(before, before);
+  state.covariance.bottomLeftCorner(rest, before) = was.covariance.bottomLeftCorner(rest, before);
+  state.covariance.bottomRightCorner(rest, rest) = was.covariance.bottomRightCorner(rest, rest);
 }
 
-WholeGaussian mixture(std::span<const FilterGaussian> parts, std::span<const double> weights,
-                      Eigen::Index states) {
+FilterGaussian mixture(std::span<const FilterGaussian> parts, std::span<const double> weights,
+                       Eigen::Index states) {
   if (parts.size() == 1) {
-    return {parts[0].mean.head(states), parts[0].covariance.square(0, states)};
+    FilterGaussian one{parts[0].mean.head(states),
+                       parts[0].covariance.topLeftCorner(states, states)};
+    one.covariance.triangularView<Eigen::StrictlyUpper>() = one.covariance.transpose();
+    return one;
   }
   const Mixture all(parts, weights, states);
-  WholeGaussian result{all.mean, Eigen::MatrixXd(states, states)};
+  FilterGaussian result{all.mean, FilterMatrix(states, states)};
   FilterVector column;
   for (Eigen::Index j = 0; j < states; ++j) {
     all.column(j, states - j, parts, column);
@@ -124,7 +123,7 @@ void interact(const std::array<MixtureWeights, kMotions>& weights,
       mixtures[to].column(j, n - j, parts, columns[to]);
     }
     for (std::size_t to = 0; to < parts.size(); ++to) {
-      parts[to].covariance.column(j) = columns[to];
+      parts[to].covariance.col(j).tail(n - j) = columns[to];
     }
   }
   for (std::size_t to = 0; to < parts.size(); ++to) parts[to].mean = mixtures[to].mean;

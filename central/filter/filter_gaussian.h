@@ -1,16 +1,15 @@
 // The Gaussian of a filter's state, and the operations on it for every bearing. Pure.
 //
-// First come the target's nine states (motion_model.h), then those of the stations. Each function
-// goes through the covariance's columns once.
+// First come the target's nine states (motion_model.h), then those of the stations. Only the lower
+// triangle of the covariance is stored: half the work, and it cannot become asymmetric. Each
+// function goes through its columns once.
 #pragma once
 
 #include <Eigen/Core>
-#include <algorithm>
 #include <array>
 #include <span>
 #include <utility>
 
-#include "central/filter/filter_covariance.h"
 #include "central/filter/motion_model.h"
 
 namespace ols::fusion {
@@ -23,40 +22,35 @@ inline constexpr int kStationStates = kPoseStates + kPlaceStates;
 inline constexpr int kFilterStates = 9 + kStationStates * kFilterStations;
 
 using FilterVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kFilterStates, 1>;
+// On the heap: for the greatest number of states it takes 70 kB, for a few stations' a tenth, and
+// filters are copied and kept by the thousand.
+using FilterMatrix = Eigen::MatrixXd;
 using FilterMatrix2 = Eigen::Matrix<double, Eigen::Dynamic, 2, 0, kFilterStates, 2>;
 
 struct FilterGaussian {
   FilterVector mean;
-  FilterCovariance covariance;
+  FilterMatrix covariance;  // lower triangle
 };
 
-// For what reads it as a whole.
-struct WholeGaussian {
-  FilterVector mean;
-  Eigen::MatrixXd covariance;
-};
-
-// Adds P H^T for an H (2 x states) that has these columns from `first` on and is zero elsewhere;
-// all of them of the target, or of the stations.
+// A square on the diagonal, with both triangles.
 template <int K>
-void add_product(const FilterCovariance& P, Eigen::Index first,
-                 const Eigen::Matrix<double, 2, K>& H, FilterMatrix2& result) {
+Eigen::Matrix<double, K, K> whole_block(const FilterMatrix& P, Eigen::Index first) {
+  return P.block<K, K>(first, first).template selfadjointView<Eigen::Lower>();
+}
+
+// Adds P H^T for an H (2 x states) that has these columns from `first` on and is zero elsewhere.
+template <int K>
+void add_product(const FilterMatrix& P, Eigen::Index first, const Eigen::Matrix<double, 2, K>& H,
+                 FilterMatrix2& result) {
   const Eigen::Matrix<double, K, 2> Ht = H.transpose();
-  const Eigen::Index after = first + K, below = P.rows() - after;
-  const Eigen::Index of_target = std::min(first, kTargetStates);
-  result.topRows(of_target) += P.target().block(first, 0, K, of_target).transpose().lazyProduct(Ht);
-  for (Eigen::Index j = of_target; j < first; ++j)
-    result.row(j) += P.column(j).template segment<K>(first - j).transpose().lazyProduct(Ht);
-  result.template middleRows<K>(first) += P.square<K>(first) * Ht;
-  for (Eigen::Index j = first; j < after; ++j) {
-    const auto column = P.column(j).tail(below);
-    result.col(0).tail(below) += column * Ht(j - first, 0);
-    result.col(1).tail(below) += column * Ht(j - first, 1);
-  }
+  const Eigen::Index below = P.rows() - first - K;
+  result.topRows(first) += P.block(first, 0, K, first).transpose().lazyProduct(Ht);
+  result.middleRows<K>(first) += whole_block<K>(P, first) * Ht;
+  result.bottomRows(below) += P.block(first + K, first, below, K).lazyProduct(Ht);
 }
 
 // P - G G^T in the first columns; the others stay as they are.
-void subtract_square(const FilterMatrix2& G, Eigen::Index columns, FilterCovariance& P);
+void subtract_square(const FilterMatrix2& G, Eigen::Index columns, FilterMatrix& P);
 
 // Propagates the target by a motion.
 void propagate(const Transition& motion, FilterGaussian& state);
@@ -67,9 +61,9 @@ void scale(const FilterVector& factors, FilterGaussian& state);
 // Inserts zero states before the given one, or at the end.
 void insert_states(Eigen::Index before, Eigen::Index more, FilterGaussian& state);
 
-// Of a mixture with these weights: mean and covariance of the first states.
-WholeGaussian mixture(std::span<const FilterGaussian> parts, std::span<const double> weights,
-                      Eigen::Index states);
+// Of a mixture with these weights: mean and covariance of the first states; both triangles.
+FilterGaussian mixture(std::span<const FilterGaussian> parts, std::span<const double> weights,
+                       Eigen::Index states);
 
 // Each becomes a mixture of all, with its own weights (Blom and Bar-Shalom's interaction).
 using MixtureWeights = std::array<double, kMotions>;

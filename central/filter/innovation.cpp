@@ -10,15 +10,15 @@ namespace ols::fusion {
 namespace {
 
 // The contribution of the target's own states.
-void see_target(const FilterCovariance& P, ModelInnovation& seen) {
-  Eigen::Matrix3d position = P.square<3>(0);
-  if (seen.by_velocity_s != 0.0) {
-    const Matrix9 all = P.square<9>(0);
+void see_target(const FilterMatrix& P, ModelInnovation& seen) {
+  Eigen::Matrix3d position = whole_block<3>(P, 0);
+  if (seen.ahead_s != 0.0) {
+    const Matrix9 all = whole_block<9>(P, 0);
     const Eigen::Matrix<double, 9, 3> then = all.leftCols<3>() +
-                                             seen.by_velocity_s * all.middleCols<3>(3) +
-                                             seen.by_acceleration_s2 * all.rightCols<3>();
-    position = then.topRows<3>() + seen.by_velocity_s * then.middleRows<3>(3) +
-               seen.by_acceleration_s2 * then.bottomRows<3>();
+                                             seen.ahead_s * all.middleCols<3>(3) +
+                                             seen.curved_s2 * all.rightCols<3>();
+    position = then.topRows<3>() + seen.ahead_s * then.middleRows<3>(3) +
+               seen.curved_s2 * then.bottomRows<3>();
   }
   seen.covariance = seen.J * position * seen.J.transpose();
 }
@@ -26,23 +26,23 @@ void see_target(const FilterCovariance& P, ModelInnovation& seen) {
 // That of the station's states.
 void see_station(const FilterGaussian& state, const StationPart& part, ModelInnovation& seen) {
   const Eigen::Index pose = part.first, place = part.first + kPoseStates;
-  const FilterCovariance& P = state.covariance;
+  const FilterMatrix& P = state.covariance;
   const auto with_target = [&]<int K>(const Eigen::Matrix<double, 2, K>& H, Eigen::Index at) {
     Eigen::Matrix<double, K, 3> then = P.block<K, 3>(at, 0);
-    if (seen.by_velocity_s != 0.0) {
-      then += seen.by_velocity_s * P.block<K, 3>(at, 3) +
-              seen.by_acceleration_s2 * P.block<K, 3>(at, 6);
+    if (seen.ahead_s != 0.0) {
+      then += seen.ahead_s * P.block<K, 3>(at, 3) + seen.curved_s2 * P.block<K, 3>(at, 6);
     }
     return Eigen::Matrix2d(H * then * seen.J.transpose());
   };
   seen.by_pose << part.by_rotation, -seen.J * seen.velocity;
   Eigen::Matrix2d mixed = with_target(seen.by_pose, pose);
   seen.residual -= seen.by_pose * state.mean.segment<kPoseStates>(pose);
-  seen.covariance += seen.by_pose * P.square<kPoseStates>(pose) * seen.by_pose.transpose();
+  seen.covariance += seen.by_pose * whole_block<kPoseStates>(P, pose) * seen.by_pose.transpose();
   if (part.has_place) {
     seen.by_place = -seen.J * part.R_ecef_enu;
     seen.residual -= seen.by_place * state.mean.segment<kPlaceStates>(place);
-    seen.covariance += seen.by_place * P.square<kPlaceStates>(place) * seen.by_place.transpose();
+    seen.covariance +=
+        seen.by_place * whole_block<kPlaceStates>(P, place) * seen.by_place.transpose();
     mixed += with_target(seen.by_place, place);
     mixed +=
         seen.by_place * P.block<kPlaceStates, kPoseStates>(place, pose) * seen.by_pose.transpose();
@@ -52,13 +52,13 @@ void see_station(const FilterGaussian& state, const StationPart& part, ModelInno
 
 }  // namespace
 
-FilterMatrix2 ModelInnovation::cross(const FilterCovariance& P,
+FilterMatrix2 ModelInnovation::cross(const FilterMatrix& P,
                                      const std::optional<StationPart>& part) const {
   FilterMatrix2 result = FilterMatrix2::Zero(P.rows(), 2);
   add_product<3>(P, 0, J, result);
-  if (by_velocity_s != 0.0) {
-    add_product<3>(P, 3, by_velocity_s * J, result);
-    add_product<3>(P, 6, by_acceleration_s2 * J, result);
+  if (ahead_s != 0.0) {
+    add_product<3>(P, 3, ahead_s * J, result);
+    add_product<3>(P, 6, curved_s2 * J, result);
   }
   if (!part) return result;
   add_product<kPoseStates>(P, part->first, by_pose, result);
@@ -66,26 +66,19 @@ FilterMatrix2 ModelInnovation::cross(const FilterCovariance& P,
   return result;
 }
 
-Innovation Innovation::after_prediction() const {
-  Innovation then = *this;
-  ++then.state;  // the prediction is a change of it
-  for (ModelInnovation& model : then.models) model.by_velocity_s = model.by_acceleration_s2 = 0.0;
-  return then;
-}
-
 ModelInnovation innovation_of(const InteractingModels& models, std::size_t which,
                               const BearingMeasurement& measurement, const RayFrame& frame,
                               const StationPart* station,
                               const std::optional<KinematicState>& about) {
+  const Motion motion = models.motion(which);
   const FilterGaussian& model = models[which];
-  const auto p = model.mean.head<3>(), v = model.mean.segment<3>(3), a = model.mean.segment<3>(6);
   ModelInnovation result;
-  const Transition to = models.transition_to(which, measurement.utime_us);
-  result.by_velocity_s = to.f(0, 1);
-  result.by_acceleration_s2 = to.f(0, 2);
-  result.velocity = to.f(1, 1) * v + to.f(1, 2) * a;
+  result.ahead_s = seconds(measurement.utime_us - models.utime_us());  // < 0: late
+  if (motion != Motion::kConstantVelocity) result.curved_s2 = std::pow(result.ahead_s, 2) / 2.0;
+  result.velocity = model.mean.segment<3>(3);
   if (about) result.velocity = about->mean.segment<3>(3);
-  const Eigen::Vector3d p_ecef = p + result.by_velocity_s * v + result.by_acceleration_s2 * a;
+  const Eigen::Vector3d p_ecef = model.mean.head<3>() + result.ahead_s * model.mean.segment<3>(3) +
+                                 result.curved_s2 * model.mean.segment<3>(6);
   const Eigen::Vector3d about_ecef = about ? position_at(*about, measurement.utime_us) : p_ecef;
   const Eigen::Vector3d line = about_ecef - measurement.sight.origin_ecef;
   result.depth_m = frame.direction.dot(line);
@@ -95,7 +88,11 @@ ModelInnovation innovation_of(const InteractingModels& models, std::size_t which
       (frame.tangent.transpose() + result.residual * frame.direction.transpose()) / result.depth_m;
   result.residual -= result.J * (p_ecef - about_ecef);
   see_target(model.covariance, result);
-  result.covariance += to.q(0, 0) * result.J * to.directions * result.J.transpose();
+  if (result.ahead_s != 0.0) {
+    const Transition between =
+        transition(motion, model.mean.head<9>(), std::abs(result.ahead_s), models.config());
+    result.covariance += between.q(0, 0) * result.J * between.directions * result.J.transpose();
+  }
   if (station != nullptr) see_station(model, *station, result);
   return result;
 }

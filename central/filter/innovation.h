@@ -22,21 +22,20 @@ struct StationPart {
   Eigen::Matrix3d R_ecef_enu;
 };
 
-// One model's prediction compared with one bearing: H = [J, by_velocity J, by_acceleration J] of
-// the target, and the columns of the station's pose and position.
+// One model's prediction compared with one bearing: H = [J, ahead J, curved J] of the target, and
+// the columns of the station's pose and position.
 struct ModelInnovation {
   double depth_m = 0.0;
   Eigen::Vector2d residual = Eigen::Vector2d::Zero();
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  // of the residual, without noise
   Eigen::Matrix<double, 2, 3> J = Eigen::Matrix<double, 2, 3>::Zero();
-  // How velocity and acceleration move the target until the bearing's instant.
-  double by_velocity_s = 0.0, by_acceleration_s2 = 0.0;
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // then: a clock error counts by it
+  double ahead_s = 0.0, curved_s2 = 0.0;
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // by which a clock error counts
   Eigen::Matrix<double, 2, kPoseStates> by_pose;
   Eigen::Matrix<double, 2, kPlaceStates> by_place;
 
   // P H^T, the covariance of the whole state with the residual.
-  FilterMatrix2 cross(const FilterCovariance& P, const std::optional<StationPart>& part) const;
+  FilterMatrix2 cross(const FilterMatrix& P, const std::optional<StationPart>& part) const;
 };
 
 // The innovation of each model.
@@ -48,10 +47,6 @@ struct Innovation {
   // camera.
   double nis = std::numeric_limits<double>::infinity();
   std::int64_t state = 0;  // the filter's state for which it was computed
-
-  // The same when the filter has been propagated to the bearing's instant: for a newer bearing the
-  // innovation is that of the prediction.
-  Innovation after_prediction() const;
 };
 
 // The motion about which to linearise, if not about the current estimate.

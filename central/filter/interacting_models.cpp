@@ -33,23 +33,14 @@ InteractingModels::InteractingModels(const MotionConfig& config, std::int64_t ut
     model.mean = FilterVector::Zero(9);
     model.mean.head<3>() = start.p_ecef;
     model.mean.segment<3>(3) = start.v_ecef;
+    model.covariance = FilterMatrix::Zero(9, 9);
     Vector9 variance;
     variance.head<3>().setConstant(start.position_sd_m * start.position_sd_m);
     variance.segment<3>(3).setConstant(start.velocity_sd_m_s * start.velocity_sd_m_s);
     const double hard = manoeuvre_sd(Eigen::Vector3d::Zero(), config);
     variance.tail<3>().setConstant(hard * hard);
-    model.covariance.set_variance(0, variance);
+    model.covariance.diagonal() = variance;
   }
-}
-
-Transition InteractingModels::transition_to(std::size_t model, std::int64_t utime_us) const {
-  if (utime_us == utime_us_) return {};
-  const double dt_s = seconds(utime_us - utime_us_);
-  Transition t = transition(motion(model), models_[model].mean.head<9>(), std::abs(dt_s), config_);
-  if (dt_s > 0.0) return t;
-  const double curved_s2 = motion(model) == Motion::kConstantVelocity ? 0.0 : dt_s * dt_s / 2.0;
-  t.f << 1.0, dt_s, curved_s2, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0;
-  return t;
 }
 
 void InteractingModels::predict(std::int64_t utime_us) {
@@ -96,15 +87,14 @@ void InteractingModels::inflate(double time_s, const Eigen::Matrix3d& along,
   const double hard = manoeuvre_sd(v_ecef, config_);
   const double speed = 2.0 * hard * time_s;
   for (FilterGaussian& model : models_) {
-    auto P = model.covariance.target();
-    P.topRows<3>().leftCols<3>() += std::pow(speed * time_s / 2.0, 2) * along;
-    P.block<3, 3>(3, 3) += speed * speed * along;
-    P.block<3, 3>(6, 6) += 4.0 * hard * hard * along;
+    model.covariance.topLeftCorner<3, 3>() += std::pow(speed * time_s / 2.0, 2) * along;
+    model.covariance.block<3, 3>(3, 3) += speed * speed * along;
+    model.covariance.block<3, 3>(6, 6) += 4.0 * hard * hard * along;
   }
 }
 
 KinematicState InteractingModels::kinematics() const {
-  const WholeGaussian target = mixture(models_, probabilities_, 9);
+  const FilterGaussian target = mixture(models_, probabilities_, 9);
   return {utime_us_, target.mean, target.covariance};
 }
 
@@ -113,7 +103,7 @@ KinematicState InteractingModels::at(std::int64_t utime_us) const {
   std::array<FilterGaussian, kMotions> then;
   for (std::size_t m = 0; m < models_.size(); ++m) {
     then[m].mean = models_[m].mean.head<9>();
-    then[m].covariance.target() = models_[m].covariance.target().topRows<kTargetStates>();
+    then[m].covariance = models_[m].covariance.topLeftCorner<9, 9>();
     const Vector9 now = then[m].mean;
     Transition t = transition(motion(m), now, std::abs(dt_s), config_);
     if (dt_s < 0.0) {  // the disturbance since then is in the state, and its bearings have shown it
@@ -122,11 +112,11 @@ KinematicState InteractingModels::at(std::int64_t utime_us) const {
     }
     propagate(t, then[m]);
   }
-  const WholeGaussian state = mixture(std::span(then).first(models_.size()), probabilities_, 9);
+  const FilterGaussian state = mixture(std::span(then).first(models_.size()), probabilities_, 9);
   return {utime_us, state.mean, state.covariance};
 }
 
-WholeGaussian InteractingModels::mixed() const {
+FilterGaussian InteractingModels::mixed() const {
   return mixture(models_, probabilities_, models_[0].mean.size());
 }
 

@@ -42,9 +42,6 @@ class InteractingModels {
   std::vector<FilterGaussian>& each() { return models_; }
   const std::vector<double>& probabilities() const { return probabilities_; }
 
-  // How a model moves until an instant. Backwards it retraces its path, and may be off it by as
-  // much as it would forwards.
-  Transition transition_to(std::size_t model, std::int64_t utime_us) const;
   // Predicts each model separately; utime_us is not before the state's own instant.
   void predict(std::int64_t utime_us);
   // The models' interaction after this time.
@@ -59,7 +56,7 @@ class InteractingModels {
   // state.
   KinematicState kinematics() const;
   KinematicState at(std::int64_t utime_us) const;
-  WholeGaussian mixed() const;
+  FilterGaussian mixed() const;
 
  private:
   MotionConfig config_;

@@ -44,7 +44,8 @@ StationBias station_bias(const InteractingModels& models, Eigen::Index first,
   StationMatrix P = StationMatrix::Zero(n, n);
   for (std::size_t m = 0; m < models.size(); ++m) {
     const StationVector off = models[m].mean.segment(first, n) - mean;
-    const StationMatrix own = models[m].covariance.square(first, n);
+    const StationMatrix own =
+        models[m].covariance.block(first, first, n, n).selfadjointView<Eigen::Lower>();
     P += models.probabilities()[m] * (own + off * off.transpose());
   }
   const Eigen::Matrix<double, 3, 2> tangent = tangent_basis(sight.direction);

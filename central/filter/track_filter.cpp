@@ -79,10 +79,11 @@ void TrackFilter::enter(int station, const BearingMeasurement& measurement,
   const Eigen::Index at = first_of(station), n = states_of(prior);
   for (FilterGaussian& model : models_.each()) {
     model.mean.segment(at, n).setZero();
-    model.covariance.clear(at, n);
-    model.covariance.set_variance(at, prior.rotation.matrix());
+    model.covariance.middleRows(at, n).setZero();
+    model.covariance.middleCols(at, n).setZero();
+    model.covariance.diagonal().segment<3>(at) = prior.rotation;
     if (!prior.position_states) continue;
-    model.covariance.set_variance(at + kPoseStates, prior.place_m2.matrix());
+    model.covariance.diagonal().segment<kPlaceStates>(at + kPoseStates) = prior.place_m2;
   }
 }
 
@@ -132,12 +133,8 @@ FilterUpdate TrackFilter::update(const BearingMeasurement& measurement, const Bi
   FilterUpdate update{.shown = BiasModel::evidence_on(priors)};
   constexpr double kLatestS = 2.0;  // a bearing later than this is not compared any more
   if (seconds(utime_us() - measurement.utime_us) > kLatestS) return update;
-  // That of a newer bearing is still right if the prediction is all that has changed the state.
-  const bool is_newer = measurement.utime_us > utime_us();
-  std::optional<Innovation> at_hand;
-  if (known != nullptr) at_hand = is_newer ? known->after_prediction() : *known;
   predict(measurement.utime_us, update.shown);
-  take(measurement, std::move(at_hand), update);
+  take(measurement, known, update);
   refresh();
   return update;
 }
@@ -150,8 +147,8 @@ void TrackFilter::reset_bias(int station, std::int64_t track_id) {
   stations_[static_cast<std::size_t>(station)].track_id = track_id;
   const BiasPrior& prior = priors_[static_cast<std::size_t>(station)];
   for (FilterGaussian& model : models_.each()) {
-    const Eigen::Array3d now = model.covariance.square<3>(first_of(station)).diagonal();
-    model.covariance.set_variance(first_of(station), now.max(prior.rotation).matrix());
+    auto variance = model.covariance.diagonal().segment<3>(first_of(station)).array();
+    variance = variance.max(prior.rotation);
   }
 }
 
@@ -188,7 +185,7 @@ int TrackFilter::station_of(const BearingMeasurement& measurement, const BiasMod
 }
 
 // At the state's own instant, or for a late bearing.
-void TrackFilter::take(const BearingMeasurement& measurement, std::optional<Innovation> known,
+void TrackFilter::take(const BearingMeasurement& measurement, const Innovation* known,
                        FilterUpdate& update) {
   const int station = station_of(measurement, update.shown);
   if (station < 0) {
@@ -197,8 +194,9 @@ void TrackFilter::take(const BearingMeasurement& measurement, std::optional<Inno
   }
   const Eigen::Matrix2d white =
       measurement.sight.covariance_white * update.shown.noise_scale(measurement.station);
-  if (!known || known->state != state_) known = compare(measurement, station);
-  const Innovation& seen = *known;
+  const bool at_hand = known != nullptr && known->state == state_;
+  const Innovation own = at_hand ? Innovation() : compare(measurement, station);
+  const Innovation& seen = at_hand ? *known : own;
   const auto judged = judge(seen, models_.size(), white, config_.gate_nis);
   update.use = BearingUse::kBehindCamera;
   if (!judged) return;
@@ -323,7 +321,6 @@ void TrackFilter::predict(std::int64_t utime_us, BiasModel& shown) {
   models_.predict(utime_us);
   const double since_s = seconds(utime_us - mixed_us_);
   if (since_s < config_.mixing_s) return;
-  ++state_;
   mixed_us_ = utime_us;
   refresh();
   move_biases(since_s, shown);
@@ -361,7 +358,7 @@ void TrackFilter::add_position_states(int station) {
       stations_[static_cast<std::size_t>(station)].sight.origin_sd_enu_m.array().square();
   for (FilterGaussian& model : models_.each()) {
     insert_states(first, kPlaceStates, model);
-    model.covariance.set_variance(first, prior.place_m2.matrix());
+    model.covariance.diagonal().segment<kPlaceStates>(first) = prior.place_m2;
   }
 }
 
@@ -384,7 +381,7 @@ void TrackFilter::fade_biases(double dt_s, double clock_time_s) {
   const FilterVector added = (1.0 - decay.array().square()) * variance.array();
   for (FilterGaussian& model : models_.each()) {
     scale(decay, model);
-    for (Eigen::Index i = 0; i < n; ++i) model.covariance(i, i) += added(i);
+    model.covariance.diagonal() += added;
   }
 }
 

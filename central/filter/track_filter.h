@@ -119,7 +119,7 @@ class TrackFilter {
   StationBias bias(std::size_t station) const;
   const std::vector<double>& probabilities() const { return models_.probabilities(); }
   // The whole mixed state, for the smoother: kinematics, then the stations' states.
-  WholeGaussian mixed() const { return models_.mixed(); }
+  FilterGaussian mixed() const { return models_.mixed(); }
   const FilterConfig& config() const { return config_; }
 
  private:
@@ -140,8 +140,7 @@ class TrackFilter {
   // `along`: the bearing's direction if biases may be estimated from it.
   void correct(const Innovation& seen, const Eigen::Matrix2d& noise, const Eigen::Vector3d* along);
   void take_without_states(const BearingMeasurement& measurement, FilterUpdate& update);
-  void take(const BearingMeasurement& measurement, std::optional<Innovation> known,
-            FilterUpdate& update);
+  void take(const BearingMeasurement& measurement, const Innovation* known, FilterUpdate& update);
   double weight_of(double nis) const {
     return nis > config_.robust_nis ? config_.robust_nis / nis : 1.0;
   }

@@ -33,7 +33,7 @@ std::size_t block_of(std::size_t epochs) {
 using Order = std::map<std::string, Eigen::Index>;  // station -> first of its states
 
 // The state extended to these stations' states; those that it does not hold get their prior.
-Whole spread(const TrackFilter& filter, const WholeGaussian& mixed, const Order& order,
+Whole spread(const TrackFilter& filter, const FilterGaussian& mixed, const Order& order,
              const Eigen::VectorXd& prior, double clock_sign) {
   const auto& [mean, covariance] = mixed;
   std::vector<Eigen::Index> to(static_cast<std::size_t>(mean.size()));
@@ -121,7 +121,7 @@ void leave_worth_joining(Passed& past, Passed& future) {
 // A filter at the instant, mixed once.
 struct Side {
   const TrackFilter* filter;
-  WholeGaussian mixed;
+  FilterGaussian mixed;
 
   explicit Side(const TrackFilter& at) : filter(&at), mixed(at.mixed()) {}
   SystematicPart systematic() const { return systematic_part(mixed.covariance, filter->priors()); }

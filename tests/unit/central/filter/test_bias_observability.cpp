@@ -13,8 +13,8 @@ bool is_linear_at(double range_sd_m) {
                          .has_place = false,
                          .by_rotation = shift_by_rotation(frame.tangent),
                          .R_ecef_enu = Eigen::Matrix3d::Identity()};
-  FilterCovariance P(13);
-  P.set_variance(9, Eigen::Vector3d::Constant(1e-6));
+  FilterMatrix P = FilterMatrix::Zero(13, 13);
+  P.diagonal().segment<3>(9).setConstant(1e-6);
   return is_linear(part, frame, 300.0, range_sd_m * range_sd_m * Eigen::Matrix3d::Identity(), P,
                    1e-8 * Eigen::Matrix2d::Identity());
 }
@@ -26,8 +26,8 @@ TEST(BiasObservability, NeedsARangeThatIsWellKnown) {
 
 TEST(BiasObservability, NeedsMoreThanLinearisationMakesUp) {
   const Eigen::Vector3d along(0, 1, 0);
-  FilterCovariance P(13);
-  P.set_variance(9, Eigen::Vector3d::Constant(1e-6));
+  FilterMatrix P = FilterMatrix::Zero(13, 13);
+  P.diagonal().segment<3>(9).setConstant(1e-6);
   P(9, 1) = 0.9e-3 * 10.0;  // correlated with a depth of 10 m sd
   const StationPart part{.first = 9, .has_place = false, .by_rotation = {}, .R_ecef_enu = {}};
   FilterMatrix2 G = FilterMatrix2::Zero(13, 2);

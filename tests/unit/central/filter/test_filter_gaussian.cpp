@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <random>
-#include <utility>
 #include <vector>
 
 #include "central/filter/filter_gaussian.h"
@@ -13,7 +12,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kNotKept = 1e30;
+constexpr double kNotKept = 1e30;  // the part above the diagonal must not matter
 constexpr Eigen::Index kStates = 9 + 2 * kPoseStates + kPlaceStates;
 
 class FilterGaussianTest : public testing::Test {
@@ -31,14 +30,13 @@ class FilterGaussianTest : public testing::Test {
   std::normal_distribution<double> normal_;
 };
 
-// Above the diagonal of the target's columns, what is there must not matter.
-FilterCovariance kept(const MatrixXd& whole) {
-  FilterCovariance P = FilterCovariance::of(whole);
-  P.target().topRows<kTargetStates>().triangularView<Eigen::StrictlyUpper>().setConstant(kNotKept);
+FilterMatrix kept(const MatrixXd& whole) {
+  FilterMatrix P = FilterMatrix::Constant(whole.rows(), whole.cols(), kNotKept);
+  P.triangularView<Eigen::Lower>() = whole;
   return P;
 }
 
-MatrixXd whole(const FilterCovariance& P) { return P.square(0, P.rows()); }
+MatrixXd whole(const FilterMatrix& P) { return P.selfadjointView<Eigen::Lower>(); }
 
 TEST_F(FilterGaussianTest, AddsAProductWithAFewColumns) {
   const MatrixXd P = covariance();
@@ -55,7 +53,7 @@ TEST_F(FilterGaussianTest, AddsAProductWithAFewColumns) {
 
 TEST_F(FilterGaussianTest, SubtractsASquareAndOnlyConsidersTheRest) {
   const MatrixXd P = covariance(), G = random(kStates, 2);
-  FilterCovariance all = kept(P), some = kept(P);
+  FilterMatrix all = kept(P), some = kept(P);
   subtract_square(G, kStates, all);
   EXPECT_TRUE(whole(all).isApprox(P - G * G.transpose(), 1e-12));
   subtract_square(G, 9, some);
@@ -66,12 +64,10 @@ TEST_F(FilterGaussianTest, SubtractsASquareAndOnlyConsidersTheRest) {
 }
 
 TEST_F(FilterGaussianTest, PropagatesTheTargetAndItsShareInTheStations) {
-  Vector9 slow, fast;
-  slow << 1e6, 2e6, 3e6, 20.0, -10.0, 5.0, 3.0, 4.0, -1.0;
-  fast << 1e6, 2e6, 3e6, 2e4, -1e4, 5e3, 3.0, 4.0, -1.0;
-  for (const auto& [motion, target] :
-       {std::pair(Motion::kConstantVelocity, slow), std::pair(Motion::kCoordinatedTurn, slow),
-        std::pair(Motion::kAcceleration, slow), std::pair(Motion::kAcceleration, fast)}) {
+  Vector9 target;
+  target << 1e6, 2e6, 3e6, 20.0, -10.0, 5.0, 3.0, 4.0, -1.0;
+  for (const Motion motion :
+       {Motion::kConstantVelocity, Motion::kCoordinatedTurn, Motion::kAcceleration}) {
     const Transition t = transition(motion, target, 0.7, {});
     MatrixXd F = MatrixXd::Identity(kStates, kStates), Q = MatrixXd::Zero(kStates, kStates);
     for (int i = 0; i < 9; ++i) {
@@ -140,10 +136,10 @@ TEST_F(FilterGaussianTest, MixesMeansAndCovariances) {
       }
       EXPECT_TRUE(VectorXd(mixed[to].mean).isApprox(mean, 1e-12));
       EXPECT_TRUE(whole(mixed[to].covariance).isApprox(expected, 1e-12));
-      const WholeGaussian one = mixture(parts, weights[to], kStates);
+      const FilterGaussian one = mixture(parts, weights[to], kStates);
       EXPECT_TRUE(VectorXd(one.mean).isApprox(mean, 1e-12));
       EXPECT_TRUE(MatrixXd(one.covariance).isApprox(expected, 1e-12));
-      const WholeGaussian target = mixture(parts, weights[to], 9);
+      const FilterGaussian target = mixture(parts, weights[to], 9);
       EXPECT_TRUE(VectorXd(target.mean).isApprox(mean.head(9), 1e-12));
       EXPECT_TRUE(MatrixXd(target.covariance).isApprox(expected.topLeftCorner(9, 9), 1e-12));
     }

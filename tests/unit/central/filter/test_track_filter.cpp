@@ -317,8 +317,8 @@ TEST(TrackFilter, KeepsItsCovarianceDefinite) {
   BiasModel errors;
   TrackFilter filter = filter_at(path(0.0));
   for (const BearingMeasurement& s : flight(20.0, 1e-5)) feed(filter, s, errors);
-  const Eigen::MatrixXd P = filter.mixed().covariance;
-  const Eigen::MatrixXd known = P.topLeftCorner(9, 9);
+  const FilterMatrix P = filter.mixed().covariance;
+  const FilterMatrix known = P.topLeftCorner(9, 9);
   EXPECT_TRUE(known.llt().info() == Eigen::Success);
   double sum = 0.0;
   for (const double p : filter.probabilities()) sum += p;

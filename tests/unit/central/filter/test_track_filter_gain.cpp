@@ -118,25 +118,6 @@ TEST_P(OneModel, LearnsByTheWholeStatesGain) {
   }
 }
 
-// The innovation at which a bearing was associated is that of the prediction, unless the models
-// were mixed on the way.
-TEST_P(OneModel, TakesANewerBearingAtItsInnovation) {
-  for (const double ahead_s : {0.005, 0.03, 1.0}) {
-    TrackFilter anew = *filter, at_hand = *filter;
-    const BearingMeasurement newer = next(ahead_s);
-    const Innovation known = filter->innovation(newer, errors);
-    const FilterUpdate first = anew.update(newer, errors);
-    const FilterUpdate second = at_hand.update(newer, errors, &known);
-    EXPECT_EQ(first.use, second.use);
-    EXPECT_NEAR(first.nis, second.nis, 1e-6 * first.nis);
-    const auto expected = anew.mixed(), found = at_hand.mixed();
-    const Eigen::VectorXd sd = expected.covariance.diagonal().cwiseSqrt();
-    EXPECT_LT(((found.mean - expected.mean).array() / sd.array()).abs().maxCoeff(), 1e-6);
-    const Eigen::MatrixXd off = found.covariance - expected.covariance;
-    EXPECT_LT((off.array() / (sd * sd.transpose()).array()).abs().maxCoeff(), 1e-6) << ahead_s;
-  }
-}
-
 INSTANTIATE_TEST_SUITE_P(Motions, OneModel,
                          testing::Values(Motion::kConstantVelocity, Motion::kCoordinatedTurn,
                                          Motion::kAcceleration));

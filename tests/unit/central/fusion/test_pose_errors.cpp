@@ -166,7 +166,7 @@ TEST(PoseErrors, ALongFlightKeepsItsTrack) {
     fusion.add(measurement);
   EXPECT_EQ(fusion.tracks().counts().dropped, 0);
   ASSERT_EQ(fusion.tracks().tracks().size(), 1U);
-  const Eigen::MatrixXd P = fusion.tracks().tracks().front().filter.mixed().covariance;
+  const FilterMatrix P = fusion.tracks().tracks().front().filter.mixed().covariance;
   const Eigen::VectorXd sd = P.diagonal().cwiseMax(1e-30).cwiseSqrt();
   const Eigen::MatrixXd correlation = P.cwiseQuotient(sd * sd.transpose());
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(correlation, Eigen::EigenvaluesOnly);
