@@ -115,10 +115,10 @@ TEST(Console, ACommandIsAnsweredWithTheStationsOwnWord) {
   static_cast<void>(console.turn({1.2, 9}));
   const Json answer = answer_in(received(console, viewer, {1.2, 9}));
   EXPECT_EQ(answer.at("number"), 4);
-  EXPECT_EQ(answer.at("why"), "refused: keep_out");
+  EXPECT_EQ(answer.at("why"), "refused: homing would sweep across a keep-out region");
   const Json event = console.state({1.2, 9}).at("events").back();
   EXPECT_EQ(event.at("who"), "ana");
-  EXPECT_EQ(event.at("outcome"), "refused: keep_out");
+  EXPECT_EQ(event.at("outcome"), "refused: homing would sweep across a keep-out region");
 }
 
 TEST(Console, AViewerMayLookAndStopOnly) {
