@@ -173,7 +173,7 @@ def test_the_operators_hand(station):
     assert "lone" in shown.stdout and "idle" in shown.stdout and "absent" in shown.stdout
     refused_move = ctl("lone", "manual", "10", "5")
     assert refused_move.returncode == 1
-    assert "no_unit" in refused_move.stdout
+    assert "there is no pan-tilt unit" in refused_move.stdout
     slip = ctl("lone", "manual", "500", "5")
     assert slip.returncode == 2 and "PAN 500 is outside -360 .. 360 deg" in slip.stderr
     assert ctl("all", "stop").stdout == "lone: done\n"
