@@ -174,5 +174,5 @@ def test_a_store_that_does_not_answer_leaves_the_owner(sky):
     sky.fly(3000.0)
     heard = list(sky.heard())
     assert {who for _, who, *_ in heard} == {WEST[0]}, "no hand-over"
-    assert any("not known" in alarm for alarm in sky.west.status()["alarms"])
+    assert any("does not answer" in alarm for alarm in sky.west.status()["alarms"])
     watcher.close()
