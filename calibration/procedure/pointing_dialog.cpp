@@ -13,6 +13,17 @@ constexpr double kPointed_px = 0.5;  // of a person's mark that nothing snaps to
 constexpr double kSnap_px = 8.0;     // around a finger
 constexpr double kFloor_px = 0.05;   // of a sighting
 
+// The middle of a mark that is larger than the window is even: look wider before saying so.
+Snap found_near(const cv::Mat& gray, const Vector2d& near_px, double radius_px) {
+  constexpr double kWidest = 4.0;  // times the window
+  Snap snap = snap_to_structure(gray, near_px, radius_px);
+  for (double wider = 2.0; wider <= kWidest && snap.refusal == Snap::Refusal::kNoStructure;
+       wider *= 2.0) {
+    snap = snap_to_structure(gray, near_px, wider * radius_px);
+  }
+  return snap;
+}
+
 }  // namespace
 
 void PointingDialog::begin(const std::string& what, const Taken& picture) {
@@ -33,7 +44,7 @@ void PointingDialog::show(const std::string& trouble) {
 }
 
 void PointingDialog::place(const Vector2d& near_px, double radius_px, bool as_is) {
-  const Snap snap = snap_to_structure(picture_.gray, near_px, radius_px);
+  const Snap snap = found_near(picture_.gray, near_px, radius_px);
   if (!snap && !as_is) {
     return show(std::string("No crosshair: ") + to_string(snap.refusal));
   }

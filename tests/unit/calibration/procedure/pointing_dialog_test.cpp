@@ -37,6 +37,17 @@ TEST_F(PointingDialogTest, ACrosshairSnapsToWhatIsPointedAtAndIsConfirmed) {
   EXPECT_EQ(dialog.answered({"confirm", {}, {}}), Event::kConfirmed);
 }
 
+TEST_F(PointingDialogTest, AMarkLargerThanTheWindowIsFoundFromItsEvenMiddle) {
+  Taken large = picture();
+  cv::circle(large.gray, {100, 120}, 16, cv::Scalar(20), cv::FILLED, cv::LINE_AA);
+  cv::circle(large.gray, {100, 120}, 13, cv::Scalar(250), cv::FILLED, cv::LINE_AA);
+  dialog.begin("spire", large);
+  dialog.answered({"point", Eigen::Vector2d(101.0, 121.0), {}});
+  ASSERT_TRUE(dialog.has_crosshair()) << dialog.question()->question.text;
+  EXPECT_NEAR(dialog.pixel().x(), 100.0, 0.1);
+  EXPECT_NEAR(dialog.pixel().y(), 120.0, 0.1);
+}
+
 TEST_F(PointingDialogTest, WhereNothingStandsOutItSaysSoAndTakesTheExactPixel) {
   dialog.answered({"point", Eigen::Vector2d(60.0, 60.0), {}});
   EXPECT_FALSE(dialog.has_crosshair());
