@@ -40,7 +40,10 @@ TEST_F(PointingDialogTest, ACrosshairSnapsToWhatIsPointedAtAndIsConfirmed) {
 TEST_F(PointingDialogTest, AMarkLargerThanTheWindowIsFoundFromItsEvenMiddle) {
   Taken large = picture();
   cv::circle(large.gray, {100, 120}, 16, cv::Scalar(20), cv::FILLED, cv::LINE_AA);
-  cv::circle(large.gray, {100, 120}, 13, cv::Scalar(250), cv::FILLED, cv::LINE_AA);
+  cv::circle(large.gray, {100, 120}, 13, cv::Scalar(220), cv::FILLED, cv::LINE_AA);
+  cv::Mat noise(large.gray.size(), CV_8U);
+  cv::RNG(1).fill(noise, cv::RNG::NORMAL, 10.0, 2.0);  // without any, a trace of an edge stands out
+  large.gray += noise;
   dialog.begin("spire", large);
   dialog.answered({"point", Eigen::Vector2d(101.0, 121.0), {}});
   ASSERT_TRUE(dialog.has_crosshair()) << dialog.question()->question.text;
