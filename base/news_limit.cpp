@@ -1,9 +1,9 @@
-#include "edge/journal.h"
+#include "base/news_limit.h"
 
-namespace ols::station {
+namespace ols {
 
-std::vector<JournalLine> Journal::pass(const std::vector<News>& news, double now_s) {
-  std::vector<JournalLine> lines;
+std::vector<JournalEvent> NewsLimit::pass(const std::vector<News>& news, double now_s) {
+  std::vector<JournalEvent> lines;
   for (auto entry = told_.begin(); entry != told_.end();) {
     Told& told = entry->second;
     const bool is_over = now_s - told.since_s >= kWindow_s;
@@ -12,11 +12,10 @@ std::vector<JournalLine> Journal::pass(const std::vector<News>& news, double now
       continue;
     }
     if (is_over) {
-      std::string text = told.held->text;
+      lines.push_back(told.held->event);
       if (told.left_out > 1) {
-        text.append(" (").append(std::to_string(told.left_out - 1)).append(" more like it)");
+        lines.back().text += " (" + std::to_string(told.left_out - 1) + " more like it)";
       }
-      lines.push_back({text, told.held->bad});
       told = {.since_s = now_s, .lines = 1, .held = std::nullopt, .left_out = 0};
     }
     ++entry;
@@ -27,7 +26,7 @@ std::vector<JournalLine> Journal::pass(const std::vector<News>& news, double now
     if (is_new) told.since_s = now_s;
     if (told.lines < kBurst) {
       ++told.lines;
-      lines.push_back({item.text, item.bad});
+      lines.push_back(item.event);
     } else {
       told.held = item;
       ++told.left_out;
@@ -36,4 +35,4 @@ std::vector<JournalLine> Journal::pass(const std::vector<News>& news, double now
   return lines;
 }
 
-}  // namespace ols::station
+}  // namespace ols

@@ -1,4 +1,4 @@
-// What a station writes into its journal: when each condition begins and ends, without flooding.
+// What a program writes into its journal: when each condition begins and ends, without flooding.
 // Pure.
 #pragma once
 
@@ -8,25 +8,21 @@
 #include <string>
 #include <vector>
 
-namespace ols::station {
+#include "base/journal_event.h"
+
+namespace ols {
 
 struct News {
   std::string key;  // entries of the same key are counted together
-  std::string text;
-  bool bad = false;
+  JournalEvent event;
 };
 
-struct JournalLine {
-  std::string text;
-  bool bad = false;
-};
-
-class Journal {
+class NewsLimit {
  public:
   // The entries to write now: the first kBurst of a key within kWindow_s. Of the others the last is
   // written after the window, with the number left out, so that the end of a condition is always
   // written. Must also be called when there is nothing new. `now_s`: monotonic.
-  std::vector<JournalLine> pass(const std::vector<News>& news, double now_s);
+  std::vector<JournalEvent> pass(const std::vector<News>& news, double now_s);
 
   static constexpr int kBurst = 4;
   static constexpr double kWindow_s = 60.0;
@@ -41,4 +37,4 @@ class Journal {
   std::map<std::string, Told> told_;
 };
 
-}  // namespace ols::station
+}  // namespace ols

@@ -1,0 +1,29 @@
+// Writes a program's alarms into the journal as they begin and end, without flooding.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "base/alarm_changes.h"
+#include "base/journal.h"
+#include "base/news_limit.h"
+
+namespace ols {
+
+class AlarmJournal {
+ public:
+  using Write = std::function<void(const JournalEvent&)>;
+
+  explicit AlarmJournal(Write write = write_to_journal);
+
+  // Call regularly with the alarms that hold now. `now_s`: monotonic.
+  void look(const std::vector<std::string>& alarms, double now_s);
+
+ private:
+  const Write write_;
+  AlarmChanges alarms_;
+  NewsLimit limit_;
+};
+
+}  // namespace ols
