@@ -110,6 +110,7 @@ Reply reply_of(const ols_msg::station_status_t& status) {
     reply.counters.emplace(status.counter_name[i], status.counter_value[i]);
   }
   reply.last_error = status.last_error;
+  reply.boot_id = status.boot_id;
   reply.stopped = status.state == M::STATE_STOPPED || status.state == M::STATE_EMERGENCY;
   return reply;
 }

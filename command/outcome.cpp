@@ -50,6 +50,7 @@ double counter(const Reply& reply, const std::string& name) {
 }
 
 std::optional<Outcome> outcome(const Reply& before, const Reply& now, Kind kind) {
+  if (now.boot_id != before.boot_id) return std::nullopt;
   const std::string accepted = std::string(counted_as(kind)) + "_accepted";
   if (counter(now, accepted) > counter(before, accepted)) return Outcome{true, ""};
   if (auto refusal = new_refusal(before, now, "refused_")) return Outcome{false, *refusal};
@@ -57,11 +58,14 @@ std::optional<Outcome> outcome(const Reply& before, const Reply& now, Kind kind)
 }
 
 Outcome without_answer(const Reply& before, const Reply& now) {
-  return {false, new_refusal(before, now, "messages_refused_").value_or("no answer")};
+  const bool has_told = now.boot_id == before.boot_id;
+  const auto refusal = has_told ? new_refusal(before, now, "messages_refused_") : std::nullopt;
+  return {false, refusal.value_or("no answer")};
 }
 
-bool confirms_stop(const Reply& now, double stops_before) {
-  return counter(now, "stop_accepted") > stops_before && now.stopped;
+bool confirms_stop(const Reply& before, const Reply& now) {
+  return now.boot_id == before.boot_id && now.stopped &&
+         counter(now, "stop_accepted") > counter(before, "stop_accepted");
 }
 
 }  // namespace ols::command

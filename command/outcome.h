@@ -1,6 +1,7 @@
 // What came of an order, read from the counters that its station reports. Pure.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
@@ -13,7 +14,8 @@ namespace ols::command {
 struct Reply {
   std::map<std::string, double> counters = {};  // only up within one boot
   std::string last_error = {};
-  bool stopped = false;  // stopped, or in an emergency
+  bool stopped = false;      // stopped, or in an emergency
+  std::int64_t boot_id = 0;  // of the station
 };
 
 double counter(const Reply& reply, const std::string& name);  // 0 if it is missing
@@ -23,14 +25,15 @@ struct Outcome {
   std::string why;  // when refused: the station's reason
 };
 
-// Nothing while the station has not counted the order. `before`: its status before it was sent.
+// Nothing while the station has not counted the order. `before`: its status before it was sent; of
+// another boot than `now` nothing can be told: one of the two may be a recording.
 std::optional<Outcome> outcome(const Reply& before, const Reply& now, Kind kind);
 
 // After the lease: the most probable reason. These counters also count others' messages, so that
 // they are looked at only when nothing else is known.
 Outcome without_answer(const Reply& before, const Reply& now);
 
-// `stops_before`: the count of accepted stops in the first status heard since the stop was sent.
-bool confirms_stop(const Reply& now, double stops_before);
+// `before`: the first status heard since the stop was sent, or the last before that; likewise.
+bool confirms_stop(const Reply& before, const Reply& now);
 
 }  // namespace ols::command

@@ -1,5 +1,6 @@
 #include "base/trust/bus_trust.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <stdexcept>
@@ -55,6 +56,11 @@ SiteFiles site_files(const TrustConfig& config, const Environment& environment,
 // systemd names all folders of StateDirectory=, with colons between them.
 std::string first_of(const std::string& folders) { return folders.substr(0, folders.find(':')); }
 
+std::string marks_path(const Environment& environment, const Self& self) {
+  if (!self.keeps_marks || environment.state.empty()) return "";
+  return environment.state + "/heard-" + self.name;
+}
+
 }  // namespace
 
 Environment process_environment() {
@@ -93,15 +99,14 @@ BusTrust::BusTrust(Mode mode, const TrustConfig& config, const Environment& envi
       self_(self),
       key_(key_of(key_path(config, environment, self.name))),
       tolerance_us_(static_cast<std::int64_t>(config.clock_tolerance_s * 1e6)),
-      site_(key_.file.root, site_files(config, environment, self.name), self.settings) {
+      site_(key_.file.root, site_files(config, environment, self.name), self.settings),
+      marks_file_(marks_path(environment, self)) {
   if (self.is_station && key_.file.name != self.name) {
     throw ConfigError("trust.key: is that of " + key_.file.name + ", not of " + self.name);
   }
   files_.list = list_path(config, environment);
   files_.must_be_there = !config.list.empty();
   files_.kept_list = kept_path(environment, "trust", self.name);
-  if (environment.state.empty()) return;
-  if (self.keeps_marks) files_.marks = environment.state + "/heard-" + self.name;
 }
 
 void BusTrust::begin() {
@@ -124,8 +129,7 @@ void BusTrust::begin() {
     // Of another site, or damaged: written again with the next list.
   }
   files_.number = list_.number;
-  verifier_->marks().read(text_if_any(files_.marks));
-  files_.revision = verifier_->marks().revision();
+  marks_file_.read(verifier_->marks());
   watcher_.thread = std::thread([this] { watch(); });
 }
 
@@ -143,6 +147,12 @@ bool BusTrust::offer(const std::string& text, const std::string& name) {
 }
 
 bool BusTrust::adopt(const TrustList& list, const std::string& text) {
+  if (!replace(list, text)) return false;
+  if (self_.list_taken && list.number > 0) self_.list_taken(list);
+  return true;
+}
+
+bool BusTrust::replace(const TrustList& list, const std::string& text) {
   const std::lock_guard lock(mutex_);
   if (verifier_ && list.number <= list_.number) return false;
   list_ = list;
@@ -156,6 +166,7 @@ bool BusTrust::adopt(const TrustList& list, const std::string& text) {
   config.boot_id = self_.boot_id;
   config.clock_tolerance_us = tolerance_us_;
   config.takes_stale_statuses = self_.commands;
+  config.is_stop = is_stop;
   verifier_.emplace(config, key_.file.site_key, list_);
   return true;
 }
@@ -186,19 +197,23 @@ Verifier::Verdict BusTrust::judge_and_learn(std::string_view channel, Bytes mess
   return verdict;
 }
 
-// Of a new member, which knows nobody yet: whoever has the site's secret may tell it the list,
-// because that is believed by the root's signature alone.
-bool BusTrust::is_first_list(std::string_view channel, Bytes message) const {
-  if (channel != kTrustChannel || list_number() != 0) return false;
+// Whoever has the site's secret may tell the list, because that is believed by the root's signature
+// alone. A new member knows nobody yet; one that was off knows nobody whose key was exchanged.
+bool BusTrust::is_of_site(std::string_view channel, Bytes message) const {
   const auto split = split_trailer(message);
   return split && has_site_tag(key_.file.site_key, channel, *split);
 }
 
 Judgement BusTrust::judge(std::string_view channel, Bytes message, std::int64_t utime_us,
                           double now_s) {
-  if (is_first_list(channel, message)) hear_list(without_trailer(message));
-  const auto verdict = judge_and_learn(channel, message, {utime_us, now_s});
-  if (!verdict.distrust && channel == kTrustChannel) hear_list(without_trailer(message));
+  const Arrival arrival{utime_us, now_s};
+  auto verdict = judge_and_learn(channel, message, arrival);
+  const bool of_member = !verdict.distrust;
+  if (channel == kTrustChannel && (of_member || is_of_site(channel, message))) {
+    const bool is_new = hear_list(without_trailer(message), of_member, now_s);
+    // Its sender may be a member by it.
+    if (is_new && !of_member) verdict = judge_and_learn(channel, message, arrival);
+  }
   if (!verdict.distrust && channel == kSiteChannel) {
     if (const auto text = settings_from(without_trailer(message))) site_.hear(*text);
   }
@@ -211,27 +226,32 @@ Judgement BusTrust::judge(std::string_view channel, Bytes message, std::int64_t 
   return judgement;
 }
 
-// What no root has signed needs no answer: it has cost its sender a signature of its own.
-void BusTrust::hear_list(Bytes payload) {
+// A member's is said when no root has signed it; a stranger's is counted as its message is.
+bool BusTrust::hear_list(Bytes payload, bool from_member, double now_s) {
   const auto text = list_from(payload);
-  if (!text) return;
+  if (!text) return false;
   {
     const std::lock_guard lock(mutex_);
-    if (*text == text_) return;
+    if (*text == text_) return false;
+    if (!from_member) {
+      if (!telling_.strangers.has(now_s)) return false;
+      telling_.strangers.spend();
+    }
   }
   try {
-    offer(*text, "OLS_TRUST");
+    return offer(*text, "OLS_TRUST");
   } catch (const ConfigError& problem) {
     const std::lock_guard lock(mutex_);
-    file_trouble_ = problem.what();
+    if (from_member) trouble_.file = problem.what();
+    return false;
   }
 }
 
 std::optional<std::string> BusTrust::list_to_tell(double now_s) {
   if (!self_.tells_list) return std::nullopt;
   const std::lock_guard lock(mutex_);
-  if (now_s < tell_s_ || text_.empty() || text_.size() > kLargestList) return std::nullopt;
-  tell_s_ = now_s + kTell_s;
+  if (now_s < telling_.due_s || text_.empty() || text_.size() > kLargestList) return std::nullopt;
+  telling_.due_s = now_s + kTell_s;
   return text_;
 }
 
@@ -244,32 +264,63 @@ std::string BusTrust::list_text() const {
   return text_;
 }
 
+std::vector<std::string> BusTrust::stations() const {
+  const std::lock_guard lock(mutex_);
+  return list_.stations();
+}
+
 std::int64_t BusTrust::list_number() const {
   const std::lock_guard lock(mutex_);
   return list_.number;
 }
 
+std::optional<std::vector<std::uint8_t>> BusTrust::list_telling(std::int64_t utime_us) {
+  std::string text;
+  {
+    const std::lock_guard lock(mutex_);
+    const Member* own = own_entry();
+    if (own == nullptr || own->revoked) return std::nullopt;
+    text = text_;
+  }
+  const auto message = to_message(text, self_.boot_id, utime_us, utime_us);
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
+  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+  return sign(std::string(kTrustChannel), bytes);
+}
+
 std::string BusTrust::trouble() const {
-  const std::string own = membership_trouble();
-  return own.empty() ? site_.trouble() : own;
+  for (const std::string& one : {membership_trouble(), marks_file_.trouble(), site_.trouble()}) {
+    if (!one.empty()) return one;
+  }
+  return "";
+}
+
+// Null: not in the list. Under the lock.
+const Member* BusTrust::own_entry() const {
+  const auto own = std::ranges::find(list_.members, key_.signing.public_key(), &Member::key);
+  return own == list_.members.end() ? nullptr : &*own;
 }
 
 std::string BusTrust::membership_trouble() const {
   const std::lock_guard lock(mutex_);
-  if (!file_trouble_.empty()) return "trust: the list cannot be used: " + file_trouble_;
+  if (!trouble_.file.empty()) return "trust: the list cannot be used: " + trouble_.file;
   if (list_.number == 0) {
     return "trust: no trust list yet: the centre sends it once " + key_.file.name +
            " is enrolled there";
   }
-  for (const Member& member : list_.members) {
-    if (member.key != key_.signing.public_key()) continue;
-    if (member.revoked) return "trust: the key of " + member.name + " is revoked";
-    const std::string strange = list_.strange_members();
-    return strange.empty() ? ""
-                           : "trust: members of roles that this version does not know: " + strange;
+  const Member* own = own_entry();
+  if (own == nullptr) {
+    return "trust: the own key, " + key_.file.name + ", is not in trust list " +
+           std::to_string(list_.number);
   }
-  return "trust: the own key, " + key_.file.name + ", is not in trust list " +
-         std::to_string(list_.number);
+  if (own->revoked) return "trust: the key of " + own->name + " is revoked";
+  const std::string strange = list_.strange_members();
+  if (!strange.empty()) {
+    return "trust: members of roles that this version does not know: " + strange;
+  }
+  return trouble_.keeping.empty()
+             ? ""
+             : "trust: the list cannot be kept for the next start: " + trouble_.keeping;
 }
 
 void BusTrust::watch() {
@@ -281,6 +332,7 @@ void BusTrust::watch() {
     }
     if (!ends) look_at_file();
     site_.look();
+    marks_file_.look();
     if (ends || look % kKeepEvery == 0) keep();
     if (ends) return;
   }
@@ -299,11 +351,11 @@ void BusTrust::look_at_file() {
     trouble = problem.what();
   }
   const std::lock_guard lock(mutex_);
-  file_trouble_ = trouble;
+  trouble_.file = trouble;
 }
 
 void BusTrust::keep() {
-  std::string text, marks;
+  std::string text, marks, trouble;
   std::int64_t number = 0;
   std::uint64_t revision = 0;
   {
@@ -311,17 +363,17 @@ void BusTrust::keep() {
     number = list_.number;
     revision = verifier_->marks().revision();
     if (number != files_.number) text = text_;
-    if (revision != files_.revision && !files_.marks.empty()) marks = verifier_->marks().text();
+    if (marks_file_.is_behind(verifier_->marks())) marks = verifier_->marks().text();
   }
   try {
     if (!text.empty() && !files_.kept_list.empty()) replace_file(files_.kept_list, text);
     files_.number = number;
-    if (!marks.empty()) replace_file(files_.marks, marks);
-    files_.revision = revision;
   } catch (const std::exception& problem) {
-    const std::lock_guard lock(mutex_);
-    file_trouble_ = problem.what();
+    trouble = problem.what();
   }
+  if (!marks.empty()) marks_file_.write(marks, revision);
+  const std::lock_guard lock(mutex_);
+  trouble_.keeping = trouble;
 }
 
 }  // namespace ols::trust

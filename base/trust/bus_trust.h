@@ -5,6 +5,7 @@
 
 #include <condition_variable>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -15,6 +16,7 @@
 
 #include "base/trust/audience_book.h"
 #include "base/trust/key_file.h"
+#include "base/trust/marks_file.h"
 #include "base/trust/site_keeper.h"
 #include "base/trust/trust_config.h"
 #include "base/trust/verifier.h"
@@ -30,6 +32,8 @@ struct Self {
   bool tells_list = false;   // passes the trust list on
   bool keeps_marks = false;  // what it has heard outlasts a restart
   SettingsCheck settings{};  // of the site, as this program reads them; none: it passes them on
+  // Told each list that is taken, from any thread.
+  std::function<void(const TrustList&)> list_taken{};
 };
 
 // What becomes of a received message.
@@ -71,6 +75,11 @@ class BusTrust {
   // The list in force, and its number: for who keeps it beside the logs.
   std::string list_text() const;
   std::int64_t list_number() const;
+  // Enrolled, by the list in force.
+  std::vector<std::string> stations() const;
+  // The list as this member tells it: a signed message for kTrustChannel. Nothing without a list,
+  // or if this is no member of it: nobody would believe it.
+  std::optional<std::vector<std::uint8_t>> list_telling(std::int64_t utime_us);
   std::int64_t site_settings_number() const { return site_.number(); }
 
   std::int64_t boot_id() const { return self_.boot_id; }
@@ -84,11 +93,14 @@ class BusTrust {
   // Whether it is newer and is now in force. Throws ConfigError.
   bool offer(const std::string& text, const std::string& name);
   bool adopt(const TrustList& list, const std::string& text);
-  bool is_first_list(std::string_view channel, Bytes message) const;
-  void hear_list(Bytes payload);
+  bool replace(const TrustList& list, const std::string& text);
+  bool is_of_site(std::string_view channel, Bytes message) const;
+  // Whether it is newer and is now in force.
+  bool hear_list(Bytes payload, bool from_member, double now_s);
   void watch();
   void look_at_file();
   void keep();
+  const Member* own_entry() const;
   std::string membership_trouble() const;
   Verifier::Verdict judge_and_learn(std::string_view channel, Bytes message,
                                     const Arrival& arrival);
@@ -102,9 +114,7 @@ class BusTrust {
     std::string list;            // as configured
     bool must_be_there = false;  // the configuration names it
     std::string kept_list;       // the newest heard; empty: not kept
-    std::string marks;           // empty: not kept
     std::string read;            // the text that was last read from `list`
-    std::uint64_t revision = 0;  // of the marks that were last written
     std::int64_t number = 0;     // of the list that was last kept
   };
 
@@ -113,13 +123,22 @@ class BusTrust {
   const Key key_;
   const std::int64_t tolerance_us_;
   SiteKeeper site_;
+  MarksFile marks_file_;
   Files files_;               // of the thread, once it runs
   mutable std::mutex mutex_;  // of what follows
   TrustList list_;
-  std::string text_, file_trouble_;
+  std::string text_;
+  struct Trouble {
+    std::string file, keeping;
+  };
+  Trouble trouble_;
   std::optional<Verifier> verifier_;
   AudienceBook book_;
-  double tell_s_ = 0.0;
+  struct Telling {
+    double due_s = 0.0;
+    RateLimit strangers{5.0};  // by who is no member: to verify it must not keep from the members
+  };
+  Telling telling_;  // of the list
   struct Watcher {
     bool ends = false;
     std::condition_variable end;

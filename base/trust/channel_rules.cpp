@@ -13,14 +13,18 @@ constexpr double kFrameParts_Hz = 2000.0;  // a whole frame is sent as fast as t
 constexpr double kSite_Hz = 20'000.0;      // slews to a thousand stations
 constexpr double kTargets_Hz = 2000.0;
 constexpr double kHand_Hz = 200.0;  // of a person's orders, to all stations together
+// To one station. The fusion is configured for 100 slews/s at most; a joystick sends ten orders a
+// second, to the unit and to the lens; a person clicks.
+constexpr double kSlew_Hz = 120.0, kJoystick_Hz = 50.0, kClick_Hz = 20.0;
 constexpr double kCues_Hz = 2000.0;
 constexpr double kSimulator_Hz = 20'000.0;
 
 constexpr ChannelRule of_station(std::string_view name, double rate_hz, bool fresh = true) {
   return {name, true, Role::kStation, HeadForm::kStationFirst, false, fresh, rate_hz};
 }
-constexpr ChannelRule command(std::string_view name, Role sender, double rate_hz) {
-  return {name, true, sender, HeadForm::kBootFirst, true, true, rate_hz};
+constexpr ChannelRule command(std::string_view name, Role sender, double rate_hz,
+                              double station_rate_hz) {
+  return {name, true, sender, HeadForm::kBootFirst, true, true, rate_hz, station_rate_hz};
 }
 constexpr ChannelRule of_fusion(std::string_view name, double rate_hz) {
   return {name, false, Role::kFusion, HeadForm::kBootFirst, false, true, rate_hz};
@@ -33,16 +37,17 @@ constexpr auto numbered(auto rules) {
 
 constexpr auto kRules = numbered(std::array{
     of_station(kBearingChannel, kTracker_Hz),
+    of_station(kSightingChannel, kStatus_Hz),
     // A station whose clock is wrong must still be seen, and be stopped.
     of_station(kStatusChannel, kStatus_Hz, false),
     of_station(kPreviewChannel, kPictures_Hz),
     of_station(kFrameChannel, kFrameParts_Hz),
-    command(kSlewChannel, Role::kFusion, kSite_Hz),
-    command(kPtuChannel, Role::kOperator, kHand_Hz),
-    command(kLensChannel, Role::kOperator, kHand_Hz),
-    command(kDesignateChannel, Role::kOperator, kHand_Hz),
-    command(kRecordChannel, Role::kOperator, kHand_Hz),
-    command(kFrameRequestChannel, Role::kOperator, kHand_Hz),
+    command(kSlewChannel, Role::kFusion, kSite_Hz, kSlew_Hz),
+    command(kPtuChannel, Role::kOperator, kHand_Hz, kJoystick_Hz),
+    command(kLensChannel, Role::kOperator, kHand_Hz, kJoystick_Hz),
+    command(kDesignateChannel, Role::kOperator, kHand_Hz, kClick_Hz),
+    command(kRecordChannel, Role::kOperator, kHand_Hz, kClick_Hz),
+    command(kFrameRequestChannel, Role::kOperator, kHand_Hz, kClick_Hz),
     // Between a procedure and its person: the station takes no part.
     ChannelRule{kProcedureChannel, true, Role::kOperator, HeadForm::kStationFirst, false, true,
                 kPictures_Hz},

@@ -31,7 +31,9 @@ struct ChannelRule {
   HeadForm head = HeadForm::kStationFirst;
   bool is_command = false;  // names the boot of the station that it is meant for
   bool must_be_fresh = true;
-  double rate_hz = 0.0;   // from one key; a second's worth at once
+  double rate_hz = 0.0;  // from one key; a second's worth at once
+  // From one key to one station, where that is less: at the station it is the only limit. 0: none.
+  double station_rate_hz = 0.0;
   std::size_t index = 0;  // among rules()
 };
 

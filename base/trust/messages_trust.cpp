@@ -3,6 +3,7 @@
 #include <exception>
 
 #include "base/message_stamp.h"
+#include "ols_msg/ptu_command_t.hpp"
 
 namespace ols::trust {
 namespace {
@@ -18,14 +19,19 @@ Message telling(const std::string& text, std::int64_t boot_id, std::int64_t sequ
 
 // As decode_exactly() of base/lcm_bus.h, which stands above this.
 template <class Message>
-std::optional<std::string> text_from(Bytes payload) {
-  Message message;
+bool decode(Bytes payload, Message& message) {
   const int size = static_cast<int>(payload.size());
   try {
-    if (message.decode(payload.data(), 0, size) != size) return std::nullopt;
+    return message.decode(payload.data(), 0, size) == size;
   } catch (const std::exception&) {
-    return std::nullopt;
+    return false;
   }
+}
+
+template <class Message>
+std::optional<std::string> text_from(Bytes payload) {
+  Message message;
+  if (!decode(payload, message)) return std::nullopt;
   if (message.schema_version != Message::SCHEMA_VERSION) return std::nullopt;
   return message.text;
 }
@@ -48,6 +54,11 @@ std::optional<std::string> list_from(Bytes payload) {
 
 std::optional<std::string> settings_from(Bytes payload) {
   return text_from<ols_msg::site_settings_t>(payload);
+}
+
+bool is_stop(Bytes payload) {
+  ols_msg::ptu_command_t command;
+  return decode(payload, command) && command.command == ols_msg::ptu_command_t::COMMAND_STOP;
 }
 
 }  // namespace ols::trust

@@ -1,4 +1,5 @@
-// The texts that the site's root has signed, as messages of the bus.
+// The texts that the site's root has signed, as messages of the bus. And what verification must
+// know of an order.
 #pragma once
 
 #include <cstdint>
@@ -18,5 +19,7 @@ ols_msg::site_settings_t to_settings_message(const std::string& settings, std::i
 // The text, unchecked; nothing if it is no such message.
 std::optional<std::string> list_from(Bytes payload);
 std::optional<std::string> settings_from(Bytes payload);
+// Whether a station would read it as an order to stop: of any schema, as there.
+bool is_stop(Bytes payload);
 
 }  // namespace ols::trust

@@ -23,15 +23,34 @@ KeyId id_from(const std::string& hex) {
 
 bool ReplayMarks::is_replayed(const KeyId& key, const std::string& channel,
                               const MessageHead& head) const {
+  const Stream* stream = find(key, channel);
+  if (stream == nullptr) return false;
+  const Mark* mark = find(*stream, head.boot_id);
+  if (mark == nullptr) return head.utime_us <= stream->forgotten_utime_us;
+  return has(*mark, head.sequence);
+}
+
+bool ReplayMarks::is_heard(const KeyId& key, const std::string& channel,
+                           const MessageHead& head) const {
+  const Stream* stream = find(key, channel);
+  const Mark* mark = stream == nullptr ? nullptr : find(*stream, head.boot_id);
+  return mark != nullptr && has(*mark, head.sequence);
+}
+
+const ReplayMarks::Stream* ReplayMarks::find(const KeyId& key, const std::string& channel) const {
   const auto stream = streams_.find({key, channel});
-  if (stream == streams_.end()) return false;
-  const auto mark = std::ranges::find(stream->second.boots, head.boot_id, &Mark::boot_id);
-  if (mark == stream->second.boots.end()) {
-    return head.utime_us <= stream->second.forgotten_utime_us;
-  }
-  if (head.sequence > mark->newest) return false;
-  const std::uint64_t age = behind(mark->newest, head.sequence);
-  return age >= kWindow || (mark->heard >> age & 1U) != 0;
+  return stream == streams_.end() ? nullptr : &stream->second;
+}
+
+const ReplayMarks::Mark* ReplayMarks::find(const Stream& stream, std::int64_t boot_id) {
+  const auto mark = std::ranges::find(stream.boots, boot_id, &Mark::boot_id);
+  return mark == stream.boots.end() ? nullptr : &*mark;
+}
+
+bool ReplayMarks::has(const Mark& mark, std::int64_t sequence) {
+  if (sequence > mark.newest) return false;
+  const std::uint64_t age = behind(mark.newest, sequence);
+  return age >= kWindow || (mark.heard >> age & 1U) != 0;
 }
 
 void ReplayMarks::note(const KeyId& key, const std::string& channel, const MessageHead& head) {

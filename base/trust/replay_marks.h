@@ -3,7 +3,7 @@
 // A sender's sequence grows within its boot; datagrams may overtake each other by less than
 // kWindow. Each boot has a mark of its own, so that a recording of an earlier boot is refused
 // whatever the clocks say. Only the last kBoots boots are remembered; the messages of any other
-// must be stamped later than all that the forgotten ones have sent.
+// must be stamped later than all that the forgotten ones have sent, unless the caller lets it pass.
 #pragma once
 
 #include <cstddef>
@@ -23,7 +23,10 @@ class ReplayMarks {
   static constexpr std::uint64_t kWindow = 64;
   static constexpr std::size_t kBoots = 32;
 
+  // Whether it was heard, or might have been: of a boot that is forgotten.
   bool is_replayed(const KeyId& key, const std::string& channel, const MessageHead& head) const;
+  // Whether it was heard from a boot that is remembered.
+  bool is_heard(const KeyId& key, const std::string& channel, const MessageHead& head) const;
   // Only for a verified message that is no replay: so enrolled keys bound the number of streams.
   void note(const KeyId& key, const std::string& channel, const MessageHead& head);
 
@@ -48,6 +51,9 @@ class ReplayMarks {
   };
   using Name = std::pair<KeyId, std::string>;
 
+  const Stream* find(const KeyId& key, const std::string& channel) const;
+  static const Mark* find(const Stream& stream, std::int64_t boot_id);
+  static bool has(const Mark& mark, std::int64_t sequence);
   static void advance(Mark& mark, const MessageHead& head);
   static void keep_few(Stream& stream);
 

@@ -73,6 +73,28 @@ const Member* TrustList::find(std::string_view name) const {
   return nullptr;
 }
 
+std::string TrustList::in_one_line() const {
+  std::string revoked;
+  std::size_t valid = 0;
+  for (const Member& member : members) {
+    if (!member.revoked) {
+      ++valid;
+    } else {
+      revoked += (revoked.empty() ? ", revoked: " : ", ") + member.name;
+    }
+  }
+  return "trust list " + std::to_string(number) + ": " + std::to_string(valid) + " members" +
+         revoked;
+}
+
+std::vector<std::string> TrustList::stations() const {
+  std::vector<std::string> names;
+  for (const Member& member : members) {
+    if (member.role == Role::kStation && !member.revoked) names.push_back(member.name);
+  }
+  return names;
+}
+
 std::string TrustList::strange_members() const {
   std::string text;
   for (const Member& member : members) {

@@ -45,8 +45,12 @@ struct TrustList {
 
   // The member that is not revoked; null if there is none.
   const Member* find(std::string_view name) const;
+  // Of those that are not revoked, the stations' names.
+  std::vector<std::string> stations() const;
   // "name (role), …" of those whose role this program does not know.
   std::string strange_members() const;
+  // "trust list 3: 4 members, revoked: bravo".
+  std::string in_one_line() const;
 };
 
 // The text of the file.

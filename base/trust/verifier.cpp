@@ -1,6 +1,5 @@
 #include "base/trust/verifier.h"
 
-#include <algorithm>
 #include <cstdlib>
 #include <utility>
 
@@ -8,6 +7,8 @@
 
 namespace ols::trust {
 namespace {
+
+constexpr double kStops_Hz = 500.0;  // each who stops a station repeats it 50 times a second
 
 std::vector<RateLimit> fresh_rates() {
   std::vector<RateLimit> rates;
@@ -68,7 +69,11 @@ void Verifier::adopt(const TrustList& list) {
   for (const Member& member : list.members) {
     const KeyId id = key_id(member.key);
     const auto before = members_.find(id);
-    members[id] = {member, before == members_.end() ? fresh_rates() : before->second.rates};
+    if (before != members_.end()) {
+      members[id] = {member, before->second.rates, before->second.station_rates};
+    } else {
+      members[id] = {member, fresh_rates()};
+    }
     if (member.role == Role::kStation && !member.revoked) stations_[member.name] = true;
   }
   members_ = std::move(members);
@@ -118,21 +123,62 @@ std::optional<Distrust> Verifier::judge_address(Judged& judged) const {
   return std::nullopt;
 }
 
+bool Verifier::is_fresh(const Judged& judged) const {
+  return judged.head.utime_us > 0 &&
+         std::abs(judged.head.utime_us - judged.arrival.utime_us) <= config_.clock_tolerance_us;
+}
+
 // What names this boot is fresh by that; its lease is the station's to judge.
 std::optional<Distrust> Verifier::judge_time(const Judged& judged) const {
   const ChannelRule& rule = *judged.channel.rule;
-  const bool is_status = rule.name == kStatusChannel;
-  const bool must_be_fresh = is_status ? !config_.takes_stale_statuses : rule.must_be_fresh;
-  const bool fresh =
-      judged.head.utime_us > 0 &&
-      std::abs(judged.head.utime_us - judged.arrival.utime_us) <= config_.clock_tolerance_us;
-  if (must_be_fresh && !judged.addressed && !fresh) return Distrust::kStale;
-  if (rule.head != HeadForm::kUtimeOnly &&
-      marks_.is_replayed(judged.message.trailer.key, std::string(judged.channel_name),
-                         judged.head)) {
-    return Distrust::kReplayed;
-  }
+  const bool may_be_stale =
+      judged.addressed || (rule.name == kStatusChannel
+                               ? config_.takes_stale_statuses &&
+                                     statuses_.may_be_own(judged.head.station, judged.head.boot_id,
+                                                          judged.arrival.monotonic_s)
+                               : !rule.must_be_fresh);
+  if (!may_be_stale && !is_fresh(judged)) return Distrust::kStale;
+  if (rule.head != HeadForm::kUtimeOnly && is_replayed(judged)) return Distrust::kReplayed;
   return std::nullopt;
+}
+
+bool Verifier::stops(const Judged& judged) const {
+  return judged.channel.rule->name == kPtuChannel && config_.is_stop &&
+         config_.is_stop(judged.message.payload);
+}
+
+// Each run of ols-ctl is a boot, so that boots are soon forgotten; a stop of now must not be
+// refused for what a forgotten one may have said later. Nor the status of a station without its
+// clock.
+bool Verifier::is_replayed(const Judged& judged) const {
+  const KeyId& key = judged.message.trailer.key;
+  const std::string channel(judged.channel_name);
+  if (!marks_.is_replayed(key, channel, judged.head)) return false;
+  const bool is_status = judged.channel.rule->name == kStatusChannel;
+  const bool may_be_earlier = is_fresh(judged) ? stops(judged) : is_status;
+  return !may_be_earlier || marks_.is_heard(key, channel, judged.head);
+}
+
+// The stamp of a station without its clock says nothing of time: one that is ahead must not, once
+// its boot is forgotten, make all others late.
+void Verifier::note(const Judged& judged) {
+  MessageHead head = judged.head;
+  if (judged.channel.rule->name == kStatusChannel && !is_fresh(judged)) head.utime_us = 0;
+  marks_.note(judged.message.trailer.key, std::string(judged.channel_name), head);
+}
+
+// That its sender must keep: of the kind, and towards the station. Stops have a limit of their own,
+// so that no flood of other orders uses it up.
+std::vector<RateLimit*> Verifier::rates_of(const Judged& judged) const {
+  const ChannelRule& rule = *judged.channel.rule;
+  RateLimit& of_kind = judged.sender->rates[rule.index];
+  if (rule.station_rate_hz <= 0.0) return {&of_kind};
+  const bool stop = stops(judged);
+  const std::tuple name(rule.index, stop, std::string(judged.channel.station));
+  RateLimit& towards =
+      judged.sender->station_rates.try_emplace(name, stop ? kStops_Hz : rule.station_rate_hz)
+          .first->second;
+  return stop ? std::vector{&towards} : std::vector{&of_kind, &towards};
 }
 
 Verifier::Verdict Verifier::judge(std::string_view channel, Bytes message, const Arrival& arrival) {
@@ -144,16 +190,19 @@ Verifier::Verdict Verifier::judge(std::string_view channel, Bytes message, const
   if (!distrust) distrust = judge_time(judged);
   const std::string sender = judged.sender == nullptr ? "" : judged.sender->member.name;
   if (distrust) return {distrust, sender};
-  RateLimit& rate = judged.sender->rates[judged.channel.rule->index];
-  if (!rate.has(arrival.monotonic_s)) return {Distrust::kRate, sender};
+  const auto rates = rates_of(judged);
+  for (RateLimit* rate : rates) {
+    if (!rate->has(arrival.monotonic_s)) return {Distrust::kRate, sender};
+  }
   const Bytes text = Bytes(judged.text).first(judged.text.size() - sizeof(Signature));
   if (!is_signed_by(judged.sender->member.key, text, split->trailer.signature)) {
     return {Distrust::kSignature, sender};
   }
-  rate.spend();
-  if (judged.channel.rule->head != HeadForm::kUtimeOnly) {
-    marks_.note(split->trailer.key, std::string(channel), judged.head);
+  for (RateLimit* rate : rates) rate->spend();
+  if (judged.channel.rule->name == kStatusChannel) {
+    statuses_.hear(judged.head.station, judged.head.boot_id, is_fresh(judged), arrival.monotonic_s);
   }
+  if (judged.channel.rule->head != HeadForm::kUtimeOnly) note(judged);
   return {std::nullopt, sender, judged.addressed, judged.channel.rule, judged.head};
 }
 

@@ -6,12 +6,15 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
+#include "base/trust/audience_book.h"
 #include "base/trust/rate_limit.h"
 #include "base/trust/replay_marks.h"
 #include "base/trust/trailer.h"
@@ -47,7 +50,10 @@ class Verifier {
     std::int64_t boot_id = 0;  // of this process
     std::int64_t clock_tolerance_us = 30'000'000;
     // For who shows and commands stations: one whose clock is wrong can still be seen, and stopped.
+    // Beside its fresh ones they are recordings.
     bool takes_stale_statuses = false;
+    // Whether an order to a unit is a stop; empty: none is known.
+    std::function<bool(Bytes)> is_stop{};
   };
   struct Verdict {
     std::optional<Distrust> distrust{};
@@ -72,12 +78,19 @@ class Verifier {
   struct Known {
     Member member;
     std::vector<RateLimit> rates;  // of each rule
+    // Towards an enrolled station: of each rule that has such a limit, and of stops.
+    std::map<std::tuple<std::size_t, bool, std::string>, RateLimit> station_rates{};
   };
   struct Judged;
 
   std::optional<Distrust> judge_origin(Judged& judged);
   std::optional<Distrust> judge_address(Judged& judged) const;
   std::optional<Distrust> judge_time(const Judged& judged) const;
+  bool is_fresh(const Judged& judged) const;
+  bool is_replayed(const Judged& judged) const;
+  void note(const Judged& judged);
+  bool stops(const Judged& judged) const;
+  std::vector<RateLimit*> rates_of(const Judged& judged) const;
   bool has_tag(const Judged& judged) const;
 
   Config config_;
@@ -85,6 +98,7 @@ class Verifier {
   std::map<KeyId, Known> members_;
   std::map<std::string, bool, std::less<>> stations_;  // enrolled
   ReplayMarks marks_;
+  AudienceBook statuses_;
 };
 
 }  // namespace ols::trust

@@ -14,42 +14,70 @@ namespace {
 constexpr std::size_t kMostChannels = 10'000;
 constexpr const char* kOtherChannels = "(others)";
 
-}  // namespace
+// Of recordings: their time is not the present.
+const trust::Verifier::Config kRecorded{
+    .clock_tolerance_us = 30'000'000, .takes_stale_statuses = true, .is_stop = trust::is_stop};
 
-std::optional<std::int64_t> told_number(std::string_view channel, trust::Bytes message) {
+// Which known list it is, whoever tells it.
+std::optional<std::int64_t> number_in(const Lists& lists, std::string_view channel,
+                                      trust::Bytes message) {
   if (channel != trust::kTrustChannel) return std::nullopt;
   const auto text = trust::list_from(trust::without_trailer(message));
   if (!text) return std::nullopt;
   try {
-    return trust::read_list(*text, "OLS_TRUST").number;
-  } catch (const std::exception&) {
-    return std::nullopt;
+    const std::int64_t number = trust::read_list(*text, "OLS_TRUST").number;
+    if (lists.contains(number)) return number;
+  } catch (const std::exception&) {  // no list
   }
+  return std::nullopt;
 }
 
-LogCheck::LogCheck(std::map<std::int64_t, trust::TrustList> lists)
-    : lists_(std::move(lists)),
-      in_force_(lists_.rbegin()->first),
-      verifier_({.clock_tolerance_us = 30'000'000, .takes_stale_statuses = true}, std::nullopt,
-                lists_.rbegin()->second) {}
+}  // namespace
 
-void LogCheck::follow_list(std::string_view channel, trust::Bytes message) {
-  const auto number = told_number(channel, message);
-  if (!number || *number == in_force_ || !lists_.contains(*number)) return;
-  in_force_ = *number;
-  verifier_.adopt(lists_.at(in_force_));
+std::optional<std::int64_t> told_number(const Lists& lists, std::string_view channel,
+                                        trust::Bytes message) {
+  const auto number = number_in(lists, channel, message);
+  if (!number) return std::nullopt;
+  const trust::TrustList& list = lists.at(*number);
+  const auto verdict = trust::Verifier(kRecorded, std::nullopt, list).judge(channel, message, {});
+  if (verdict.distrust || list.find(verdict.sender)->role == trust::Role::kStation) {
+    return std::nullopt;
+  }
+  return number;
+}
+
+LogCheck::LogCheck(Lists lists, std::int64_t first)
+    : lists_(std::move(lists)),
+      in_force_{first},
+      verifier_(kRecorded, std::nullopt, lists_.at(first)) {}
+
+// As the programs of the site did when they heard it: from a member, or from one that the newer
+// list itself makes known. Never an older one, by which a revoked key would come back.
+bool LogCheck::follow_list(std::string_view channel, trust::Bytes message, bool believed) {
+  const auto number =
+      believed ? number_in(lists_, channel, message) : told_number(lists_, channel, message);
+  if (!number || *number <= in_force_.back()) return false;
+  in_force_.push_back(*number);
+  verifier_.adopt(lists_.at(*number));
+  return true;
+}
+
+std::optional<trust::Distrust> LogCheck::judge(std::string_view channel, trust::Bytes message,
+                                               std::int64_t utime_us) {
+  const double then_s = static_cast<double>(utime_us) * 1e-6;
+  return verifier_.judge(channel, message, {utime_us, then_s}).distrust;
 }
 
 void LogCheck::add(std::string_view channel, trust::Bytes message, std::int64_t utime_us) {
   if (channel == kSelfTestChannel) return;
-  follow_list(channel, message);
   std::string name(channel);
   if (channels_.size() >= kMostChannels && !channels_.contains(name)) name = kOtherChannels;
-  const auto verdict =
-      verifier_.judge(channel, message, {utime_us, static_cast<double>(utime_us) * 1e-6});
+  auto distrust = judge(channel, message, utime_us);
+  const bool follows = follow_list(channel, message, !distrust);
+  if (follows && distrust) distrust = judge(channel, message, utime_us);
   Count& count = channels_[name];
-  if (verdict.distrust) {
-    ++count.bad[to_string(*verdict.distrust)];
+  if (distrust) {
+    ++count.bad[to_string(*distrust)];
   } else {
     ++count.good;
   }

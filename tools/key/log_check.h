@@ -12,12 +12,18 @@
 
 namespace ols::key {
 
+using Lists = std::map<std::int64_t, trust::TrustList>;  // of one site, by number
+
+// The number of the list that such a message tells: one of `lists`, told by a member of that very
+// list. Stations tell none: theirs are the keys that may be stolen. Nothing for any other message.
+std::optional<std::int64_t> told_number(const Lists& lists, std::string_view channel,
+                                        trust::Bytes message);
+
 class LogCheck {
  public:
-  // `lists`: of this site, at least one. The recording begins under the first that it tells
-  // itself, or else the newest. Without the site's secret the tags are not checked: the
-  // signatures prove more.
-  explicit LogCheck(std::map<std::int64_t, trust::TrustList> lists);
+  // `lists` must have `first`, under which the recording begins: the first that it tells. Without
+  // the site's secret the tags are not checked: the signatures prove more.
+  LogCheck(Lists lists, std::int64_t first);
 
   // One message as recorded.
   void add(std::string_view channel, trust::Bytes message, std::int64_t utime_us);
@@ -29,19 +35,20 @@ class LogCheck {
   // By channel.
   const std::map<std::string, Count>& channels() const { return channels_; }
   std::uint64_t bad() const;
+  // The numbers of the lists that were in force, in their order.
+  const std::vector<std::int64_t>& in_force() const { return in_force_; }
   // A table for a person.
   std::string text() const;
 
  private:
-  void follow_list(std::string_view channel, trust::Bytes message);
+  std::optional<trust::Distrust> judge(std::string_view channel, trust::Bytes message,
+                                       std::int64_t utime_us);
+  bool follow_list(std::string_view channel, trust::Bytes message, bool believed);
 
-  std::map<std::int64_t, trust::TrustList> lists_;
-  std::int64_t in_force_ = 0;
+  Lists lists_;
+  std::vector<std::int64_t> in_force_;
   trust::Verifier verifier_;
   std::map<std::string, Count> channels_;
 };
-
-// The number of the trust list that such a message tells; nothing for any other.
-std::optional<std::int64_t> told_number(std::string_view channel, trust::Bytes message);
 
 }  // namespace ols::key

@@ -35,8 +35,20 @@ struct Words {
 
 ols::key::SiteFiles files_of(const Words& words) { return {words.root, words.list}; }
 
+// The change itself is made, even if the stick cannot be written.
+void keep_copy(const Words& words) {
+  try {
+    const std::string copy = ols::key::copy_list(files_of(words));
+    if (!copy.empty()) std::printf("%s: its copy\n", copy.c_str());
+  } catch (const std::exception& problem) {
+    std::fprintf(stderr, "ols-key: there is no new copy of the list beside the root: %s\n",
+                 problem.what());
+  }
+}
+
 void say_list(const Words& words, const trust::TrustList& list) {
   std::printf("%s: list %lld\n", words.list.c_str(), static_cast<long long>(list.number));
+  keep_copy(words);
   if (fs::file_size(words.list) <= trust::kLargestList) return;
   std::fprintf(stderr, "ols-key: the list is too large for the bus: copy it to %s\n",
                "/etc/ols/trust.toml of every host");
@@ -126,8 +138,8 @@ void list(const Words& words) {
   std::fputs(ols::key::describe(list).c_str(), stdout);
 }
 
-std::map<std::int64_t, trust::TrustList> lists_in(const fs::path& folder, const Words& words) {
-  std::map<std::int64_t, trust::TrustList> lists;
+ols::key::Lists lists_in(const fs::path& folder, const Words& words) {
+  ols::key::Lists lists;
   for (const auto& entry : fs::directory_iterator(folder)) {
     const std::string name = entry.path().filename().string();
     if (!name.starts_with("trust") || entry.path().extension() != ".toml") continue;
@@ -152,21 +164,51 @@ struct FreeEvent {
   void operator()(lcm_eventlog_event_t* event) const { lcm_eventlog_free_event(event); }
 };
 
+// Until `look` has seen enough.
+template <class Look>
+void read_log(const std::string& path, Look look) {
+  errno = 0;
+  const std::unique_ptr<lcm_eventlog_t, CloseLog> log(lcm_eventlog_create(path.c_str(), "r"));
+  if (!log) throw std::system_error(errno, std::generic_category(), path);
+  bool goes_on = true;
+  while (goes_on) {
+    const std::unique_ptr<lcm_eventlog_event_t, FreeEvent> event(
+        lcm_eventlog_read_next_event(log.get()));
+    if (!event) return;
+    goes_on = look(std::string_view(event->channel, static_cast<std::size_t>(event->channellen)),
+                   trust::Bytes(static_cast<const std::uint8_t*>(event->data),
+                                static_cast<std::size_t>(event->datalen)),
+                   event->timestamp);
+  }
+}
+
+// The list under which the log begins: ols-logger writes it at the head of each.
+std::int64_t first_list(const std::string& path, const ols::key::Lists& lists) {
+  std::optional<std::int64_t> first;
+  read_log(path, [&](std::string_view channel, trust::Bytes message, std::int64_t /*utime_us*/) {
+    first = ols::key::told_number(lists, channel, message);
+    return !first;
+  });
+  if (first) return *first;
+  const std::int64_t newest = lists.rbegin()->first;
+  std::printf("the log tells no trust list: verified with the newest, %lld\n",
+              static_cast<long long>(newest));
+  return newest;
+}
+
 int verify(const Words& words) {
   const fs::path folder =
       words.lists.empty() ? fs::absolute(words.log).parent_path() : fs::path(words.lists);
-  ols::key::LogCheck check(lists_in(folder, words));
-  errno = 0;
-  const std::unique_ptr<lcm_eventlog_t, CloseLog> log(lcm_eventlog_create(words.log.c_str(), "r"));
-  if (!log) throw std::system_error(errno, std::generic_category(), words.log);
-  while (const std::unique_ptr<lcm_eventlog_event_t, FreeEvent> event{
-      lcm_eventlog_read_next_event(log.get())}) {
-    check.add(
-        {event->channel, static_cast<std::size_t>(event->channellen)},
-        {static_cast<const std::uint8_t*>(event->data), static_cast<std::size_t>(event->datalen)},
-        event->timestamp);
-  }
+  const ols::key::Lists lists = lists_in(folder, words);
+  ols::key::LogCheck check(lists, first_list(words.log, lists));
+  read_log(words.log, [&](std::string_view channel, trust::Bytes message, std::int64_t utime_us) {
+    check.add(channel, message, utime_us);
+    return true;
+  });
   std::fputs(check.text().c_str(), stdout);
+  std::string numbers;
+  for (const std::int64_t number : check.in_force()) numbers += " " + std::to_string(number);
+  std::printf("trust lists in force, in their order:%s\n", numbers.c_str());
   if (words.root_public.empty()) {
     std::printf("verified against the root that the lists name; --root-public KEY proves which\n");
   }

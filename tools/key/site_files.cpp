@@ -7,6 +7,7 @@
 
 #include "base/atomic_file.h"
 #include "base/small_file.h"
+#include "base/toml_config.h"
 #include "tools/key/site_book.h"
 
 namespace ols::key {
@@ -20,6 +21,21 @@ trust::TrustList write_list(const SiteFiles& files, const trust::TrustList& list
   file.stream() << sign_list(list, trust::SigningKey(root.seed));
   file.commit();
   return list;
+}
+
+void copy_text(const std::string& from, const std::string& to) {
+  AtomicFile file(to);
+  file.stream() << read_small_file(from, kLargestFile);
+  file.commit();
+}
+
+// Empty: none is needed.
+std::string copy_path(const SiteFiles& files) {
+  namespace fs = std::filesystem;
+  const fs::path root = fs::absolute(files.root);
+  const auto folder = fs::weakly_canonical(root.parent_path());
+  if (folder == fs::weakly_canonical(fs::absolute(files.list).parent_path())) return "";
+  return (root.parent_path() / root.stem()).string() + ".trust.toml";
 }
 
 }  // namespace
@@ -39,6 +55,21 @@ trust::TrustList read_site(const SiteFiles& files, const trust::RootKey& root) {
                           trust::SigningKey(root.seed).public_key());
 }
 
+namespace {
+
+// To be changed: a change of an older list than the copy's would undo what was revoked since.
+trust::TrustList read_newest(const SiteFiles& files, const trust::RootKey& root) {
+  const trust::TrustList list = read_site(files, root);
+  const std::string copy = copy_path(files);
+  if (copy.empty() || !std::filesystem::exists(copy)) return list;
+  const std::int64_t newest = read_site({files.root, copy}, root).number;
+  if (newest <= list.number) return list;
+  throw ConfigError(copy + ": is newer, list " + std::to_string(newest) + ", than " + files.list +
+                    ", list " + std::to_string(list.number) + ": copy it there first");
+}
+
+}  // namespace
+
 Invitation invitation_of(const trust::RootKey& root) {
   return {root.site_key, trust::SigningKey(root.seed).public_key()};
 }
@@ -53,13 +84,13 @@ trust::PublicKey make_member_key(const std::string& path, const std::string& nam
 
 trust::TrustList enrol_in(const SiteFiles& files, const trust::Member& member) {
   const trust::RootKey root = trust::read_root_key(files.root);
-  return write_list(files, enrol(read_site(files, root), member), root);
+  return write_list(files, enrol(read_newest(files, root), member), root);
 }
 
 trust::TrustList enrol_with_key(const SiteFiles& files, trust::Member member,
                                 const std::string& key_path) {
   const trust::RootKey root = trust::read_root_key(files.root);
-  const trust::TrustList before = read_site(files, root);
+  const trust::TrustList before = read_newest(files, root);
   // Before anything is written: a name or role that is refused must leave no key behind.
   member.key = trust::SigningKey(trust::draw_secret()).public_key();
   static_cast<void>(enrol(before, member));
@@ -69,7 +100,24 @@ trust::TrustList enrol_with_key(const SiteFiles& files, trust::Member member,
 
 trust::TrustList revoke_in(const SiteFiles& files, const std::string& name) {
   const trust::RootKey root = trust::read_root_key(files.root);
-  return write_list(files, revoke(read_site(files, root), name), root);
+  return write_list(files, revoke(read_newest(files, root), name), root);
+}
+
+std::string copy_list(const SiteFiles& files) {
+  const std::string copy = copy_path(files);
+  if (copy.empty()) return copy;
+  static_cast<void>(read_newest(files, trust::read_root_key(files.root)));
+  copy_text(files.list, copy);
+  return copy;
+}
+
+bool restore_list(const SiteFiles& files) {
+  const std::string copy = copy_path(files);
+  if (copy.empty() || std::filesystem::exists(files.list) || !std::filesystem::exists(copy)) {
+    return false;
+  }
+  copy_text(copy, files.list);
+  return true;
 }
 
 std::int64_t sign_settings_in(const SiteFiles& files, const std::string& wanted,

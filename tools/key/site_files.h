@@ -33,6 +33,12 @@ trust::TrustList enrol_with_key(const SiteFiles& files, trust::Member member,
                                 const std::string& key_path);
 trust::TrustList revoke_in(const SiteFiles& files, const std::string& name);
 
+// A copy of the list beside the root (root.key: root.trust.toml), from which a centre whose disk is
+// lost begins again. Returns its path; empty if the list itself is in that folder.
+std::string copy_list(const SiteFiles& files);
+// Whether the list was lost and is restored from the copy.
+bool restore_list(const SiteFiles& files);
+
 // The site's settings as `wanted`, a person's file, has them, signed, at `path`. Under the next
 // number after those that are there, or after `above`. Returns the number.
 std::int64_t sign_settings_in(const SiteFiles& files, const std::string& wanted,

@@ -37,11 +37,27 @@ TEST(Outcome, WithoutAnswerALostMessageIsTheReasonIfOneWasCounted) {
 }
 
 TEST(Outcome, AStopIsConfirmedByACountAndAStandingUnit) {
+  const Reply before{.counters = {{"stop_accepted", 4}}};
   const Reply counted{.counters = {{"stop_accepted", 5}}};
-  EXPECT_FALSE(confirms_stop(counted, 4));
+  EXPECT_FALSE(confirms_stop(before, counted));
   const Reply standing{.counters = {{"stop_accepted", 5}}, .stopped = true};
-  EXPECT_TRUE(confirms_stop(standing, 4));
-  EXPECT_FALSE(confirms_stop(standing, 5));
+  EXPECT_TRUE(confirms_stop(before, standing));
+  EXPECT_FALSE(confirms_stop(standing, standing));
+}
+
+// As from a recording of yesterday, when it had counted more.
+TEST(Outcome, AStatusOfAnotherBootAnswersNothing) {
+  const Reply before{.counters = {{"stop_accepted", 4}}, .boot_id = 2};
+  const Reply recorded{.counters = {{"stop_accepted", 9},
+                                    {"home_accepted", 3},
+                                    {"refused_stale", 7},
+                                    {"messages_refused_schema", 2}},
+                       .stopped = true,
+                       .boot_id = 1};
+  EXPECT_FALSE(confirms_stop(before, recorded));
+  EXPECT_FALSE(outcome(before, recorded, Kind::kHome));
+  EXPECT_FALSE(outcome(before, recorded, Kind::kPoint)) << "nor is it refused";
+  EXPECT_EQ(without_answer(before, recorded).why, "no answer");
 }
 
 }  // namespace

@@ -66,6 +66,39 @@ TEST_F(SiteFilesTest, AMemberIsEnrolledByItsOwnKeyOrGetsOne) {
   EXPECT_EQ(read_site(files_, root).find("alfa"), nullptr);
 }
 
+TEST_F(SiteFilesTest, AListThatIsKeptElsewhereHasACopyBesideTheRoot) {
+  make_site(files_, "airfield");
+  EXPECT_EQ(copy_list(files_), "") << "it is there itself";
+  EXPECT_FALSE(restore_list(files_));
+  fs::create_directories(folder_ + "/centre");
+  const SiteFiles apart{folder_ + "/root.key", folder_ + "/centre/trust.toml"};
+  EXPECT_FALSE(restore_list(apart)) << "there is no copy yet";
+  fs::rename(files_.list, apart.list);
+  EXPECT_EQ(copy_list(apart), folder_ + "/root.trust.toml");
+  EXPECT_FALSE(restore_list(apart)) << "nothing is lost";
+  fs::remove(apart.list);
+  EXPECT_TRUE(restore_list(apart));
+  EXPECT_EQ(read_site(apart, trust::read_root_key(apart.root)).number, 1);
+}
+
+TEST_F(SiteFilesTest, AListThatIsOlderThanItsCopyIsNeitherChangedNorCopied) {
+  fs::create_directories(folder_ + "/centre");
+  const SiteFiles apart{folder_ + "/root.key", folder_ + "/centre/trust.toml"};
+  make_site(apart, "airfield");
+  const std::string old = read_small_file(apart.list, 100'000);
+  enrol_with_key(apart, {"alfa", Role::kStation}, folder_ + "/alfa.key");
+  revoke_in(apart, "alfa");
+  const std::string copy = copy_list(apart);
+  std::ofstream(apart.list) << old;
+  EXPECT_THROW(enrol_with_key(apart, {"bravo", Role::kStation}, folder_ + "/bravo.key"),
+               ConfigError);
+  EXPECT_FALSE(fs::exists(folder_ + "/bravo.key"));
+  EXPECT_THROW(revoke_in(apart, "alfa"), ConfigError);
+  EXPECT_THROW(static_cast<void>(copy_list(apart)), ConfigError);
+  const auto root = trust::read_root_key(apart.root);
+  EXPECT_EQ(read_site({apart.root, copy}, root).number, 3) << "the copy is as it was";
+}
+
 TEST_F(SiteFilesTest, WhatIsRefusedLeavesNothingBehind) {
   make_site(files_, "airfield");
   EXPECT_THROW(make_site(files_, "airfield"), std::system_error);

@@ -21,8 +21,20 @@ TEST(AudienceBook, ARecordingDoesNotHideALiveStation) {
   book.hear("alfa", 7, true, 100.0);
   book.hear("alfa", 3, false, 104.9);
   EXPECT_EQ(book.boot_of("alfa"), 7);
-  book.hear("alfa", 3, false, 105.1);
-  EXPECT_EQ(book.boot_of("alfa"), 3) << "its clock may have become wrong";
+  book.hear("alfa", 3, false, 119.9);
+  EXPECT_EQ(book.boot_of("alfa"), 7);
+  book.hear("alfa", 3, false, 120.1);
+  EXPECT_EQ(book.boot_of("alfa"), 3) << "its host may have lost its clock when it booted";
+}
+
+TEST(AudienceBook, BesideFreshStatusesTheOthersAreNotAStationsOwn) {
+  AudienceBook book;
+  EXPECT_TRUE(book.may_be_own("alfa", 7, 100.0));
+  book.hear("alfa", 7, true, 100.0);
+  EXPECT_FALSE(book.may_be_own("alfa", 7, 104.9));
+  EXPECT_TRUE(book.may_be_own("alfa", 7, 105.1)) << "its clock may have become wrong";
+  EXPECT_FALSE(book.may_be_own("alfa", 3, 105.1)) << "of another boot";
+  EXPECT_TRUE(book.may_be_own("bravo", 3, 100.0));
 }
 
 TEST(AudienceBook, AStationThatNeverHadARightClockIsKnown) {

@@ -66,6 +66,14 @@ class BusTrustTest : public testing::Test {
     EXPECT_TRUE(hear(hearer, "OLS_TRUST", teller.sign("OLS_TRUST", bytes)).passes);
   }
 
+  // By who has the site's secret.
+  static std::vector<std::uint8_t> told_by_stranger(const TrustList& list, const SigningKey& root) {
+    const auto message = to_message(sign_list(list, root), 12, 1, kNow_us);
+    std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
+    message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+    return with_trailer(kSite.stranger, kSite.secret, "OLS_TRUST", bytes, 0);
+  }
+
   const std::string folder_ = temp_dir() + "bus_trust_test_" +
                               testing::UnitTest::GetInstance()->current_test_info()->name();
 };
@@ -103,6 +111,18 @@ TEST_F(BusTrustTest, WhatNobodyAsksForIsNotVerifiedUnlessItTeachesSomething) {
   EXPECT_FALSE(station->wants("OLS_BEARING_bravo"));
   EXPECT_TRUE(centre->wants("OLS_STATUS_bravo"));
   EXPECT_FALSE(centre->wants("OLS_BEARING_bravo"));
+}
+
+TEST_F(BusTrustTest, TellsEachListThatItTakes) {
+  std::vector<std::int64_t> taken;
+  const auto station = open(
+      {.name = "alfa", .boot_id = 11, .is_station = true, .list_taken = [&](const TrustList& list) {
+         taken.push_back(list.number);
+       }});
+  const auto centre = fusion();
+  tell(*station, *centre, sign_list(kSite.list(2), kSite.root), 1);
+  tell(*station, *centre, sign_list(kSite.list(2), kSite.root), 2);
+  EXPECT_EQ(taken, (std::vector<std::int64_t>{1, 2}));
 }
 
 TEST_F(BusTrustTest, ObserveCountsAndLetsPass) {
@@ -187,6 +207,60 @@ TEST_F(BusTrustTest, NobodyButTheSiteTellsANewMemberItsFirstList) {
   const auto elsewhere = with_trailer(kSite.fusion, kSite.secret, "OLS_STATUS_a", bytes, 0);
   EXPECT_FALSE(hear(*station, "OLS_TRUST", elsewhere).passes) << "of another channel";
   EXPECT_EQ(station->list_number(), 0);
+}
+
+// The centre was rebuilt while alfa was off.
+TEST_F(BusTrustTest, AListIsTakenFromAFusionWhoseKeyOnlyTheListMakesKnown) {
+  TrustList second = kSite.list(2);
+  second.members[2].revoked = true;
+  second.members.push_back({"fusion", Role::kFusion, kSite.stranger.public_key()});
+  const auto station = alfa();
+  const auto status =
+      with_trailer(kSite.stranger, kSite.secret, "OLS_FUSION_STATUS", payload(kNow_us, 12, 1), 0);
+  EXPECT_EQ(hear(*station, "OLS_FUSION_STATUS", status).distrust, Distrust::kStranger);
+  EXPECT_TRUE(hear(*station, "OLS_TRUST", told_by_stranger(second, kSite.root)).passes);
+  EXPECT_EQ(station->list_number(), 2);
+  EXPECT_TRUE(hear(*station, "OLS_FUSION_STATUS", status).passes);
+}
+
+// A thief of one tripod has the site's secret, and old lists.
+TEST_F(BusTrustTest, ListsThatAStrangerTellsNeitherReplaceNewerOnesNorKeepFromTheMembers) {
+  write_list(kSite.list(5));
+  const auto station = alfa(), centre = fusion();
+  EXPECT_FALSE(hear(*station, "OLS_TRUST", told_by_stranger(kSite.list(4), kSite.root)).passes);
+  EXPECT_EQ(station->list_number(), 5);
+  for (int i = 0; i < 20; ++i) {
+    EXPECT_FALSE(
+        hear(*station, "OLS_TRUST", told_by_stranger(kSite.list(9), kSite.stranger)).passes);
+  }
+  EXPECT_EQ(station->trouble(), "") << "no stranger raises an alarm about the list";
+  EXPECT_FALSE(hear(*station, "OLS_TRUST", told_by_stranger(kSite.list(6), kSite.root)).passes);
+  EXPECT_EQ(station->list_number(), 5) << "too many of strangers within a second";
+  tell(*station, *centre, sign_list(kSite.list(7), kSite.root), 1);
+  EXPECT_EQ(station->list_number(), 7) << "a member is heard meanwhile";
+}
+
+TEST_F(BusTrustTest, TheListOfAMemberIsTheHeadOfALog) {
+  const auto station = alfa(), centre = fusion();
+  const auto telling = centre->list_telling(kNow_us);
+  ASSERT_TRUE(telling);
+  EXPECT_TRUE(hear(*station, "OLS_TRUST", *telling).passes);
+  EXPECT_EQ(list_from(without_trailer(*telling)), sign_list(kSite.list(), kSite.root));
+  write_key("charlie", 6);
+  EXPECT_FALSE(open({.name = "charlie"})->list_telling(kNow_us)) << "no member";
+}
+
+TEST_F(BusTrustTest, MarksThatCannotBeReadOrWrittenAreSaidUntilTheyCan) {
+  std::filesystem::create_directories(folder_ + "/state/heard-fusion");
+  const auto centre = fusion(), station = alfa();
+  EXPECT_THAT(centre->trouble(), HasSubstr("heard before this start is lost"));
+  EXPECT_EQ(station->trouble(), "") << "it keeps none";
+  const auto bearing = station->sign("OLS_BEARING_alfa", payload(kNow_us, 11, 1, "alfa"));
+  EXPECT_TRUE(hear(*centre, "OLS_BEARING_alfa", bearing).passes);
+  // Not by what a look at the list finds.
+  EXPECT_TRUE(eventually([&] {
+    return centre->trouble().find("cannot be kept for the next start") != std::string::npos;
+  }));
 }
 
 TEST_F(BusTrustTest, SettingsThatTheCentreTellsAreTakenByAStation) {

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <set>
+#include <string>
 
 namespace ols::trust {
 namespace {
@@ -13,7 +15,7 @@ bool may(Role role, std::string_view name, std::string_view channel) {
 }
 
 TEST(ChannelRules, AStationSendsOnItsOwnChannelsOnly) {
-  for (const char* kind : {"BEARING", "STATUS", "PREVIEW", "FRAME"}) {
+  for (const char* kind : {"BEARING", "SIGHTING", "STATUS", "PREVIEW", "FRAME"}) {
     const std::string channel = "OLS_" + std::string(kind) + "_";
     EXPECT_TRUE(may(Role::kStation, "alfa", channel + "alfa")) << kind;
     EXPECT_FALSE(may(Role::kStation, "bravo", channel + "alfa")) << kind;
@@ -68,6 +70,20 @@ TEST(ChannelRules, AnybodyPassesTheTrustListOnAndNobodyOwnsOtherChannels) {
   }
   EXPECT_TRUE(may(Role::kSimulator, "x", "OLS_SIM_TRUTH"));
   EXPECT_FALSE(rule_of("OLS_BEARING_")) << "of nobody";
+}
+
+// What a station hears of one sender: not what a site of a thousand stations may.
+TEST(ChannelRules, EveryCommandHasALimitTowardsOneStation) {
+  const std::map<std::string, double> most_hz{
+      {"OLS_SLEW_alfa", 120.0},     {"OLS_PTU_alfa", 50.0},    {"OLS_LENS_alfa", 50.0},
+      {"OLS_DESIGNATE_alfa", 20.0}, {"OLS_RECORD_alfa", 20.0}, {"OLS_FRAME_REQUEST_alfa", 20.0}};
+  for (const auto& [channel, hz] : most_hz) {
+    EXPECT_EQ(rule_of(channel)->rule->station_rate_hz, hz) << channel;
+  }
+  for (const ChannelRule& rule : rules()) {
+    EXPECT_EQ(rule.is_command, rule.station_rate_hz > 0.0) << rule.name;
+    EXPECT_LE(rule.station_rate_hz, rule.rate_hz) << rule.name;
+  }
 }
 
 TEST(ChannelRules, EveryRoleIsReadByItsWordAndEveryRuleHasANumberAndARate) {

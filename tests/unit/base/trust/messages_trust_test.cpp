@@ -4,6 +4,8 @@
 
 #include <vector>
 
+#include "ols_msg/ptu_command_t.hpp"
+
 namespace ols::trust {
 namespace {
 
@@ -31,6 +33,16 @@ TEST(MessagesTrust, AnythingElseIsNone) {
   auto other = to_message("", 2, 3, 4);
   other.schema_version = 2;
   EXPECT_FALSE(list_from(encoded(other)));
+}
+
+TEST(MessagesTrust, AStopIsToldFromOtherOrdersWhateverElseItSays) {
+  ols_msg::ptu_command_t order{};
+  order.command = ols_msg::ptu_command_t::COMMAND_STOP;
+  order.schema_version = 99;
+  EXPECT_TRUE(is_stop(encoded(order)));
+  EXPECT_FALSE(is_stop(Bytes(encoded(order)).first(20)));
+  order.command = ols_msg::ptu_command_t::COMMAND_RATE;
+  EXPECT_FALSE(is_stop(encoded(order)));
 }
 
 }  // namespace

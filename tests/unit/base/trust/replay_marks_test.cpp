@@ -58,6 +58,9 @@ TEST_F(Marks, AForgottenBootDoesNotComeBackByItsOldMessages) {
   EXPECT_FALSE(hear(1, 5, 1000));
   EXPECT_FALSE(hear(1, 6, 1001)) << "never heard, but stamped before what was forgotten";
   EXPECT_TRUE(hear(1, 7, 100'000)) << "alive after all";
+  EXPECT_TRUE(marks_.is_replayed(key_, kChannel, {1000, "", 2, 5}));
+  EXPECT_FALSE(marks_.is_heard(key_, kChannel, {1000, "", 2, 5})) << "as far as is remembered";
+  EXPECT_TRUE(marks_.is_heard(key_, kChannel, {1000, "", 40, 5}));
 }
 
 TEST_F(Marks, ExtremeSequencesAreOrderedToo) {

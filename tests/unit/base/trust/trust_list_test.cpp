@@ -106,6 +106,23 @@ TEST(TrustList, AMemberOfANewerRoleIsKeptButMaySendNothing) {
   EXPECT_EQ(kSite.list().strange_members(), "");
 }
 
+TEST(TrustList, NamesTheStationsThatAreNotRevoked) {
+  TrustList list = Site().list();
+  EXPECT_EQ(list.stations(), (std::vector<std::string>{"alfa", "bravo"}));
+  list.members[0].revoked = true;
+  EXPECT_EQ(list.stations(), (std::vector<std::string>{"bravo"}));
+}
+
+TEST(TrustList, SaysInOneLineWhoIsRevoked) {
+  TrustList list = kSite.list(7);
+  const std::string all = std::to_string(list.members.size());
+  EXPECT_EQ(list.in_one_line(), "trust list 7: " + all + " members");
+  list.members[0].revoked = list.members[1].revoked = true;
+  EXPECT_EQ(list.in_one_line(), "trust list 7: " + std::to_string(list.members.size() - 2) +
+                                    " members, revoked: " + list.members[0].name + ", " +
+                                    list.members[1].name);
+}
+
 TEST(TrustList, AKeyThatWasExchangedStandsTwiceUnderItsName) {
   const std::string text =
       signed_body(head() + member("a", kSite.alfa) + "revoked = true\n" + member("a", kSite.bravo));
