@@ -1,10 +1,10 @@
 #include "base/bus_client.h"
 
-#include <spdlog/spdlog.h>
-
 #include <chrono>
 #include <thread>
 #include <utility>
+
+#include "base/journal.h"
 
 namespace ols {
 
@@ -17,7 +17,7 @@ BusClient::BusClient(std::string url, std::shared_ptr<trust::BusTrust> trust, Su
 
 void BusClient::say(const std::string& why) {
   trouble_ = why;
-  spdlog::warn("no bus, retrying every second: {}", why);
+  write_to_journal(bus_lost_event(why));
   if (tell_) tell_(why);
 }
 
@@ -31,7 +31,7 @@ void BusClient::connect(double now_s, double wait_s) {
   if (subscribe_) subscribe_(*bus_);
   if (tell_ && !trouble_.empty()) tell_("");
   trouble_.clear();
-  spdlog::info("connected to {}", url_);
+  write_to_journal(bus_connected_event(url_));
 }
 
 void BusClient::end(const std::string& why) {

@@ -47,6 +47,7 @@ struct BusTraffic {
   std::uint64_t malformed = 0;   // refused: foreign, or with a damaged channel name
   std::uint64_t overflowed = 0;  // displaced by newer ones before they were handled
   std::uint64_t unsendable = 0;  // own messages that fit into no datagram
+  std::uint64_t dropped = 0;     // by the kernel, because this process did not fetch them in time
   // Not believed, by reason (trust::Distrust); refused where signatures are required.
   std::array<std::uint64_t, static_cast<std::size_t>(trust::Distrust::kCount)> distrusted{};
   std::string distrusted_last{};  // the last such message, for a person

@@ -4,8 +4,9 @@ namespace ols {
 namespace {
 
 BusTraffic operator+(const BusTraffic& a, const BusTraffic& b) {
-  BusTraffic sum{a.received + b.received, a.fragments + b.fragments, a.malformed + b.malformed,
-                 a.overflowed + b.overflowed, a.unsendable + b.unsendable};
+  BusTraffic sum{a.received + b.received,     a.fragments + b.fragments,
+                 a.malformed + b.malformed,   a.overflowed + b.overflowed,
+                 a.unsendable + b.unsendable, a.dropped + b.dropped};
   for (std::size_t i = 0; i < sum.distrusted.size(); ++i) {
     sum.distrusted[i] = a.distrusted[i] + b.distrusted[i];
   }
@@ -52,6 +53,7 @@ void BusMonitor::count(std::map<std::string, double>& counters) const {
   counters["bus_datagrams_malformed"] = static_cast<double>(all.malformed);
   counters["bus_messages_overflowed"] = static_cast<double>(all.overflowed);
   counters["bus_messages_unsendable"] = static_cast<double>(all.unsendable);
+  counters["bus_datagrams_dropped"] = static_cast<double>(all.dropped);
   for (std::size_t i = 0; i < all.distrusted.size(); ++i) {
     const std::string reason = trust::to_string(static_cast<trust::Distrust>(i));
     if (all.distrusted[i] > 0) {

@@ -18,8 +18,8 @@ class BusMonitor {
   void connection_ended();
 
   // Counters that only go up over all connections: bus_fragments_refused, bus_datagrams_malformed,
-  // bus_messages_overflowed, bus_messages_unsendable; where signatures are verified,
-  // bus_distrusted_<reason> of those that have occurred.
+  // bus_messages_overflowed, bus_messages_unsendable, bus_datagrams_dropped; where signatures are
+  // verified, bus_distrusted_<reason> of those that have occurred.
   void count(std::map<std::string, double>& counters) const;
   // The alarm text while traffic was refused or displaced within the last kAlarm_s; else empty.
   std::string alarm(double now_s) const;

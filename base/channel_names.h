@@ -8,6 +8,7 @@ namespace ols {
 
 // Each followed by a station's name.
 inline constexpr std::string_view kBearingChannel = "OLS_BEARING_";
+inline constexpr std::string_view kSightingChannel = "OLS_SIGHTING_";
 inline constexpr std::string_view kStatusChannel = "OLS_STATUS_";
 inline constexpr std::string_view kPreviewChannel = "OLS_PREVIEW_";
 inline constexpr std::string_view kSlewChannel = "OLS_SLEW_";

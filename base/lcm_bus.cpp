@@ -149,6 +149,7 @@ void LcmBus::tell_what_is_signed() {
 BusTraffic LcmBus::traffic() const {
   BusTraffic traffic = inbox_.traffic();
   traffic.unsendable = unsendable_;
+  if (socket_) traffic.dropped = socket_->dropped();
   if (trust_ != nullptr) traffic.trust_trouble = trust_->trouble();
   return traffic;
 }

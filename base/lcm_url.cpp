@@ -1,6 +1,7 @@
 #include "base/lcm_url.h"
 
 #include <arpa/inet.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <charconv>
@@ -77,6 +78,11 @@ BusAddress parse_lcm_url(const std::string& url) {
     rest.remove_prefix(std::min(end + 1, rest.size()));
   }
   return address;
+}
+
+std::string default_lcm_url(const std::string& bus_env) {
+  const bool is_of_site = ::access(bus_env.c_str(), F_OK) == 0;
+  return std::string("udpm://239.255.76.67:7667?ttl=") + (is_of_site ? "1" : "0");
 }
 
 }  // namespace ols

@@ -19,4 +19,8 @@ struct BusAddress {
 // wrong.
 BusAddress parse_lcm_url(const std::string& url);
 
+// Of programs that have no configuration: where `bus_env` is (OLS_BUS_INTERFACE: ols-bus.service),
+// this is a host of a site, whose bus reaches the other hosts too; else the bus stays on this host.
+std::string default_lcm_url(const std::string& bus_env = "/etc/ols/bus.env");
+
 }  // namespace ols

@@ -51,4 +51,22 @@ std::variant<LogRecord, LogGarbage, LogNeedsMore> parse_log_record(
                    bytes.subspan(kHeaderBytes + channel_bytes, payload_bytes), all};
 }
 
+std::vector<std::uint8_t> log_record_bytes(std::uint64_t number, std::int64_t utime_us,
+                                           std::string_view channel,
+                                           std::span<const std::uint8_t> payload) {
+  std::vector<std::uint8_t> bytes(kSync.begin(), kSync.end());
+  const auto append = [&bytes](std::uint64_t value, std::size_t size) {
+    for (std::size_t i = size; i > 0; --i) {
+      bytes.push_back(static_cast<std::uint8_t>(value >> (8U * (i - 1))));
+    }
+  };
+  append(number, 8);
+  append(static_cast<std::uint64_t>(utime_us), 8);
+  append(channel.size(), 4);
+  append(payload.size(), 4);
+  bytes.insert(bytes.end(), channel.begin(), channel.end());
+  bytes.insert(bytes.end(), payload.begin(), payload.end());
+  return bytes;
+}
+
 }  // namespace ols

@@ -10,6 +10,7 @@
 #include <span>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 namespace ols {
 
@@ -32,5 +33,10 @@ inline constexpr std::size_t kMostRecordBytes = 4'000'000;  // of a channel's na
 
 std::variant<LogRecord, LogGarbage, LogNeedsMore> parse_log_record(
     std::span<const std::uint8_t> bytes);
+
+// The other way: `number` counts the events of a log from 0.
+std::vector<std::uint8_t> log_record_bytes(std::uint64_t number, std::int64_t utime_us,
+                                           std::string_view channel,
+                                           std::span<const std::uint8_t> payload);
 
 }  // namespace ols

@@ -3,7 +3,9 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
+#include <cstring>
 
 namespace ols {
 namespace {
@@ -52,6 +54,7 @@ void MulticastSocket::listen() {
     // The kernel limits it to net.core.rmem_max.
     const int bytes = address_.receive_buffer_bytes;
     set_option(fresh, SOL_SOCKET, SO_RCVBUF, bytes, "SO_RCVBUF");
+    set_option(fresh, SOL_SOCKET, SO_RXQ_OVFL, 1, "SO_RXQ_OVFL");
     checked(::bind(fresh, as_address(*address_.group), sizeof(sockaddr_in)), "bind");
     ip_mreq membership{};
     membership.imr_multiaddr = address_.group->sin_addr;
@@ -66,9 +69,27 @@ void MulticastSocket::listen() {
 
 std::optional<std::span<const std::uint8_t>> MulticastSocket::receive(
     std::span<std::uint8_t> buffer) {
-  const ssize_t bytes = ::recv(receiving_, buffer.data(), buffer.size(), 0);
+  iovec room{buffer.data(), buffer.size()};
+  alignas(cmsghdr) std::array<std::uint8_t, CMSG_SPACE(sizeof(std::uint32_t))> control{};
+  msghdr message{};
+  message.msg_iov = &room;
+  message.msg_iovlen = 1;
+  message.msg_control = control.data();
+  message.msg_controllen = control.size();
+  const ssize_t bytes = ::recvmsg(receiving_, &message, 0);
   if (bytes < 0) return std::nullopt;
+  count_dropped(message);
   return buffer.first(static_cast<std::size_t>(bytes));
+}
+
+// The kernel tells its count with each datagram, once it has dropped one.
+void MulticastSocket::count_dropped(msghdr& message) {
+  const cmsghdr* told = CMSG_FIRSTHDR(&message);
+  if (told == nullptr || told->cmsg_level != SOL_SOCKET || told->cmsg_type != SO_RXQ_OVFL) return;
+  std::uint32_t count = 0;
+  std::memcpy(&count, CMSG_DATA(told), sizeof count);
+  dropped_ += static_cast<std::uint32_t>(count - kernels_count_);
+  kernels_count_ = count;
 }
 
 std::error_code MulticastSocket::send(std::span<const std::uint8_t> datagram) {

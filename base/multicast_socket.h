@@ -2,7 +2,9 @@
 #pragma once
 
 #include <netinet/in.h>
+#include <sys/socket.h>
 
+#include <atomic>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -27,13 +29,21 @@ class MulticastSocket {
   // The next datagram, in `buffer`; nothing when none waits.
   std::optional<std::span<const std::uint8_t>> receive(std::span<std::uint8_t> buffer);
 
+  // Datagrams that the kernel dropped because nobody fetched those before them; known when the next
+  // one behind them is received. From any thread.
+  std::uint64_t dropped() const { return dropped_; }
+
   // Why it could not be sent; no error when it was.
   std::error_code send(std::span<const std::uint8_t> datagram);
 
  private:
+  void count_dropped(msghdr& message);
+
   BusAddress address_;
   int sending_ = -1;
   int receiving_ = -1;
+  std::uint32_t kernels_count_ = 0;  // of what it dropped; it starts again at 2^32
+  std::atomic<std::uint64_t> dropped_ = 0;
 };
 
 }  // namespace ols

@@ -9,6 +9,7 @@
 
 #include "base/clocks.h"
 #include "base/command_line.h"
+#include "base/journal.h"
 #include "base/shutdown.h"
 #include "base/toml_config.h"
 
@@ -58,7 +59,7 @@ void serve(ServiceNotifier& service_manager, double status_s,
     service_manager.status(status());
   }
   service_manager.stopping();
-  spdlog::info("stops");
+  write_to_journal({.text = "stops", .id = event::kStops});
 }
 
 }  // namespace ols

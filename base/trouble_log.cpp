@@ -1,8 +1,8 @@
 #include "base/trouble_log.h"
 
-#include <spdlog/spdlog.h>
-
 #include <utility>
+
+#include "base/journal.h"
 
 namespace ols {
 
@@ -12,9 +12,14 @@ void TroubleLog::look(const std::string& name, const std::string& trouble) {
   std::string& last = last_[name];
   if (trouble == last) return;
   if (trouble.empty()) {
-    spdlog::info("{} {}: works again", kind_, name);
+    write_to_journal(
+        {.text = kind_ + " " + name + ": works again", .id = event::kLineWorks, .device = name});
   } else {
-    spdlog::warn("{} {}: {}", kind_, name, trouble);
+    write_to_journal({.text = kind_ + " " + name + ": " + trouble,
+                      .bad = true,
+                      .id = event::kLineFails,
+                      .device = name,
+                      .reason = trouble});
   }
   last = trouble;
 }

@@ -5,6 +5,9 @@
 #include <optional>
 #include <utility>
 
+#include "base/area.h"
+#include "base/cue_values.h"
+
 namespace ols::cues {
 namespace {
 
@@ -32,57 +35,9 @@ std::string plain_name(const std::string& name) {
   return result;
 }
 
-bool is_finite(const std::optional<double>& value) { return !value || std::isfinite(*value); }
-
-bool is_finite(const Report& report) {
-  const auto& velocity = report.velocity_enu_m_s;
-  return std::isfinite(report.latitude_deg) && std::isfinite(report.longitude_deg) &&
-         std::isfinite(report.height_m) && is_finite(report.horizontal_sd_m) &&
-         is_finite(report.vertical_sd_m) && is_finite(report.velocity_sd_m_s) &&
-         (!velocity || std::ranges::all_of(*velocity, [](double v) { return std::isfinite(v); }));
-}
-
-bool is_possible(const Report& report) {
-  constexpr double kLowest_m = -1000.0, kHighest_m = 100e3, kFastest_m_s = 3000.0, kMost_m = 1e6;
-  const auto is_sd = [](const std::optional<double>& sd, double most) {
-    return !sd || (*sd > 0.0 && *sd <= most);
-  };
-  const auto& velocity = report.velocity_enu_m_s;
-  const bool is_slow = !velocity || std::ranges::all_of(*velocity, [](double v) {
-    return std::abs(v) <= kFastest_m_s / 2.0;
-  });
-  return std::abs(report.latitude_deg) <= 90.0 && std::abs(report.longitude_deg) <= 180.0 &&
-         report.height_m >= kLowest_m && report.height_m <= kHighest_m &&
-         is_sd(report.horizontal_sd_m, kMost_m) && is_sd(report.vertical_sd_m, kMost_m) &&
-         is_sd(report.velocity_sd_m_s, kFastest_m_s) && is_slow;
-}
-
-bool is_inside(const Report& report, const std::array<double, 4>& area_deg) {
-  const auto& [south, west, north, east] = area_deg;
-  const double longitude = report.longitude_deg;
-  const bool in_longitude = west <= east ? longitude >= west && longitude <= east
-                                         : longitude >= west || longitude <= east;
-  return report.latitude_deg >= south && report.latitude_deg <= north && in_longitude;
-}
-
 // In floating point: the difference from an absurd stamp must not overflow.
 double since_s(std::int64_t now_us, std::int64_t utime_us) {
   return 1e-6 * (static_cast<double>(now_us) - static_cast<double>(utime_us));
-}
-
-std::optional<Refusal> refusal_of(const Report& report, const InputRules& rules,
-                                  std::int64_t now_us) {
-  constexpr double kPole_deg = 89.9;
-  if (report.name.size() > kLongestName) return Refusal::kMalformed;
-  if (!is_finite(report)) return Refusal::kNotFinite;
-  if (!is_possible(report)) return Refusal::kOutOfRange;
-  if (std::abs(report.latitude_deg) > kPole_deg) return Refusal::kPole;
-  const double age_s = since_s(now_us, report.utime_us);
-  const bool is_over = report.stale_us != 0 && since_s(now_us, report.stale_us) > 0.0;
-  if (age_s > rules.max_age_s || is_over) return Refusal::kStale;
-  if (age_s < -kFuture_s) return Refusal::kFuture;
-  if (!is_inside(report, rules.area_deg)) return Refusal::kOutOfArea;
-  return std::nullopt;
 }
 
 LiveCue cue_of(const Report& report, const InputRules& rules) {
@@ -101,6 +56,36 @@ LiveCue cue_of(const Report& report, const InputRules& rules) {
   cue.velocity_sd_m_s =
       has_velocity ? report.velocity_sd_m_s.value_or(rules.velocity_sd_m_s) : rules.speed_sd_m_s;
   return cue;
+}
+
+std::optional<Refusal> fault_of(const LiveCue& cue) {
+  switch (ols::fault_of({cue.latitude_deg, cue.longitude_deg, cue.height_m, cue.horizontal_sd_m,
+                         cue.vertical_sd_m, cue.velocity_enu_m_s, cue.velocity_sd_m_s})) {
+    case CueFault::kNotFinite:
+      return Refusal::kNotFinite;
+    case CueFault::kOutOfRange:
+      return Refusal::kOutOfRange;
+    case CueFault::kPole:
+      return Refusal::kPole;
+    case CueFault::kNone:
+      break;
+  }
+  return std::nullopt;
+}
+
+// `cue`: what is made of the report.
+std::optional<Refusal> refusal_of(const Report& report, const LiveCue& cue, const InputRules& rules,
+                                  std::int64_t now_us) {
+  if (report.name.size() > kLongestName) return Refusal::kMalformed;
+  if (const auto fault = fault_of(cue)) return fault;
+  const double age_s = since_s(now_us, report.utime_us);
+  const bool is_over = report.stale_us != 0 && since_s(now_us, report.stale_us) > 0.0;
+  if (age_s > rules.max_age_s || is_over) return Refusal::kStale;
+  if (age_s < -kFuture_s) return Refusal::kFuture;
+  if (!is_inside(rules.area_deg, report.latitude_deg, report.longitude_deg)) {
+    return Refusal::kOutOfArea;
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -135,11 +120,11 @@ void CueDesk::take(std::size_t input, const Readings& readings, std::int64_t now
 
 void CueDesk::judge(std::size_t input, const Report& report, std::int64_t now_us) {
   const InputRules& rules = inputs_[input];
-  if (const auto why = refusal_of(report, rules, now_us)) {
+  LiveCue cue = cue_of(report, rules);
+  if (const auto why = refusal_of(report, cue, rules, now_us)) {
     return refuse(input, {*why, report.name});
   }
   forget(now_us);
-  LiveCue cue = cue_of(report, rules);
   const auto known = kept_.find(cue.id);
   if (known != kept_.end() && cue.utime_us < known->second.cue.utime_us) {
     return refuse(input, {Refusal::kStale, report.name});

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/area.h"
 #include "cue/reading.h"
 
 namespace ols::cues {
@@ -14,7 +15,7 @@ namespace ols::cues {
 // What is put in where a source does not say, and what of it is wanted.
 struct InputRules {
   std::string name;
-  std::array<double, 4> area_deg{-90.0, -180.0, 90.0, 180.0};  // south, west, north, east
+  Area area_deg{-90.0, -180.0, 90.0, 180.0};
   double max_age_s = 10.0;
   double horizontal_sd_m = 50.0, vertical_sd_m = 100.0;
   double pressure_height_sd_m = 300.0;  // of a height by pressure above the ellipsoid

@@ -9,6 +9,7 @@
 
 #include "base/clocks.h"
 #include "base/command_line.h"
+#include "base/journal.h"
 #include "base/service_frame.h"
 #include "base/service_notifier.h"
 #include "base/status_file.h"
@@ -117,7 +118,8 @@ int run(const cues::CueConfig& config) {
   Inputs inputs(config, desk);
   ols::ServiceNotifier service_manager;
   service_manager.ready("cues");
-  spdlog::info("ready: {} inputs", config.inputs.size());
+  ols::write_to_journal({.text = "ready: " + std::to_string(config.inputs.size()) + " inputs",
+                         .id = ols::event::kReady});
   ols::TroubleLog troubles("input");
   ols::StatusFile status_file(config.status_file);
   double send_due_s = 0.0;

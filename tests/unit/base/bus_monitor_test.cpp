@@ -29,15 +29,16 @@ TEST(BusMonitor, AlarmsOfUnreadMessagesDisplaced) {
 
 TEST(BusMonitor, CountsOverAllConnections) {
   BusMonitor watch;
-  watch.look({.fragments = 2, .overflowed = 7, .unsendable = 1}, 1.0);
+  watch.look({.fragments = 2, .overflowed = 7, .unsendable = 1, .dropped = 6}, 1.0);
   watch.connection_ended();
-  watch.look({.fragments = 3, .malformed = 4}, 2.0);
+  watch.look({.fragments = 3, .malformed = 4, .dropped = 5}, 2.0);
   std::map<std::string, double> counters;
   watch.count(counters);
   EXPECT_EQ(counters.at("bus_fragments_refused"), 5.0);
   EXPECT_EQ(counters.at("bus_datagrams_malformed"), 4.0);
   EXPECT_EQ(counters.at("bus_messages_overflowed"), 7.0);
   EXPECT_EQ(counters.at("bus_messages_unsendable"), 1.0);
+  EXPECT_EQ(counters.at("bus_datagrams_dropped"), 11.0);
 }
 
 TEST(BusMonitor, WhatIsNotBelievedIsCountedByReasonAndToldOnce) {

@@ -3,7 +3,10 @@
 #include <arpa/inet.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <stdexcept>
+
+#include "tests/unit/temp_dir.h"
 
 namespace ols {
 namespace {
@@ -27,6 +30,13 @@ TEST(LcmUrl, HasOptions) {
 }
 
 TEST(LcmUrl, ABusWithinTheProcessHasNoGroup) { EXPECT_FALSE(parse_lcm_url("memq://").group); }
+
+TEST(LcmUrl, TheDefaultLeavesAHostOfASiteOnly) {
+  const std::string bus_env = temp_dir() + "bus.env";
+  EXPECT_EQ(parse_lcm_url(default_lcm_url(bus_env)).ttl, 0);
+  std::ofstream(bus_env) << "OLS_BUS_INTERFACE=eth0\n";
+  EXPECT_EQ(parse_lcm_url(default_lcm_url(bus_env)).ttl, 1);
+}
 
 TEST(LcmUrl, RefusesWhatIsNone) {
   for (const char* url :

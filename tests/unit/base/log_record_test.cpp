@@ -46,5 +46,17 @@ TEST(LogRecord, ImpossibleLengthsAndNamesAreGarbage) {
   EXPECT_TRUE(std::holds_alternative<LogGarbage>(parse(huge)));
 }
 
+TEST(LogRecord, WhatIsWrittenIsRead) {
+  const std::vector<std::uint8_t> payload{1, 2, 3};
+  const auto bytes = log_record_bytes(9, kStart_us, "OLS_SIGHTING_alfa", payload);
+  const std::string as_logged(bytes.begin(), bytes.end());
+  const auto parsed = parse(as_logged);
+  const auto& record = std::get<LogRecord>(parsed);
+  EXPECT_EQ(record.utime_us, kStart_us);
+  EXPECT_EQ(record.channel, "OLS_SIGHTING_alfa");
+  EXPECT_EQ(std::vector<std::uint8_t>(record.payload.begin(), record.payload.end()), payload);
+  EXPECT_EQ(record.bytes, bytes.size());
+}
+
 }  // namespace
 }  // namespace ols
