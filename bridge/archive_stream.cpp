@@ -38,8 +38,20 @@ std::string words(natsStatus status) {
          (detail == nullptr || *detail == '\0' ? "" : std::string(": ") + detail);
 }
 
+bool is_ours(const jsStreamInfo& info, const BridgeConfig& config) {
+  std::vector<std::string> subjects, sources;
+  for (int i = 0; i < info.Config->SubjectsLen; ++i) {
+    subjects.emplace_back(info.Config->Subjects[i]);
+  }
+  for (int i = 0; i < info.Config->SourcesLen; ++i) {
+    sources.emplace_back(info.Config->Sources[i]->Name);
+  }
+  return is_same_stream(config, subjects, sources);
+}
+
 // Makes the stream, or has it kept as planned.
-natsStatus make(jsCtx* js, const StreamPlan& plan, Held<jsStreamInfo>& info) {
+natsStatus make(jsCtx* js, const StreamPlan& plan, const BridgeConfig& config,
+                Held<jsStreamInfo>& info) {
   std::vector<const char*> subjects;
   for (const std::string& subject : plan.subjects) subjects.push_back(subject.c_str());
   std::vector<std::string> prefixes;
@@ -66,11 +78,20 @@ natsStatus make(jsCtx* js, const StreamPlan& plan, Held<jsStreamInfo>& info) {
   stream.Sources = pointers.empty() ? nullptr : pointers.data();
   stream.SourcesLen = static_cast<int>(pointers.size());
   stream.MaxAge = plan.keep_ns;
+  stream.MaxBytes = plan.most_bytes;
   stream.Storage = js_FileStorage;
   jsStreamInfo* made = nullptr;
   natsStatus status = js_AddStream(&made, js, &stream, nullptr, nullptr);
-  // It is there, kept otherwise.
-  if (status != NATS_OK) status = js_UpdateStream(&made, js, &stream, nullptr, nullptr);
+  if (status == NATS_OK) {
+    info.reset(made);
+    return status;
+  }
+  // It is there, kept otherwise; or it is another one, which is left alone.
+  jsStreamInfo* there = nullptr;
+  if (js_GetStreamInfo(&there, js, plan.name.c_str(), nullptr, nullptr) != NATS_OK) return status;
+  const Held<jsStreamInfo> known(there);
+  if (!is_ours(*there, config)) return NATS_ILLEGAL_STATE;
+  status = js_UpdateStream(&made, js, &stream, nullptr, nullptr);
   info.reset(made);
   return status;
 }
@@ -90,11 +111,7 @@ std::int64_t newest_utime_us(jsCtx* js, const std::string& stream, const std::st
 }  // namespace
 
 ArchiveStream::ArchiveStream(NatsLink& link, StreamPlan plan, const BridgeConfig& config)
-    : link_(link),
-      plan_(std::move(plan)),
-      domain_(config.archive.domain),
-      region_(config.region),
-      thread_([this] { work(); }) {}
+    : link_(link), plan_(std::move(plan)), config_(config), thread_([this] { work(); }) {}
 
 ArchiveStream::~ArchiveStream() {
   {
@@ -127,7 +144,7 @@ ArchiveReport ArchiveStream::look() {
     seen.trouble = "no connection";
     return seen;
   }
-  const Held<jsCtx> js = open(link_, domain_);
+  const Held<jsCtx> js = open(link_, config_.archive.domain);
   Held<jsStreamInfo> info;
   jsStreamInfo* got = nullptr;
   natsStatus status = NATS_OK;
@@ -135,11 +152,12 @@ ArchiveReport ArchiveStream::look() {
     status = js_GetStreamInfo(&got, js.get(), plan_.name.c_str(), nullptr, nullptr);
     info.reset(got);
   } else {
-    status = make(js.get(), plan_, info);
+    status = make(js.get(), plan_, config_, info);
   }
   is_made_ = status == NATS_OK;
   if (!is_made_) {
-    seen.trouble = words(status);
+    seen.trouble =
+        status == NATS_ILLEGAL_STATE ? plan_.name + " keeps what is not of here" : words(status);
     return seen;
   }
   seen.is_kept = true;
@@ -147,7 +165,7 @@ ArchiveReport ArchiveStream::look() {
   seen.messages = info->State.Msgs;
   seen.bytes = info->State.Bytes;
   for (const StreamSource& source : plan_.sources) {
-    const std::string subject = "ols.v1." + region_ + "." + source.domain + ".*.status";
+    const std::string subject = "ols.v1." + config_.region + "." + source.domain + ".*.status";
     seen.sources.push_back({source.domain, newest_utime_us(js.get(), plan_.name, subject)});
   }
   return seen;

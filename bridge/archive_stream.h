@@ -42,7 +42,7 @@ class ArchiveStream {
 
   NatsLink& link_;
   const StreamPlan plan_;
-  const std::string domain_, region_;
+  const BridgeConfig config_;
   bool is_made_ = false;  // of the thread
   mutable std::mutex mutex_;
   std::condition_variable end_;

@@ -4,13 +4,13 @@
 #include <utility>
 #include <vector>
 
+#include "bridge/memory_budget.h"
 #include "bridge/raw_message.h"
 
 namespace ols::bridge {
 namespace {
 
-// A second's worth of a thousand stations.
-constexpr QueueLimits kQueue{20'000, 64'000'000};
+constexpr QueueLimits kQueue{20'000, kBusQueueBytes};
 
 BusClient::Subscribe hears(const std::string& channels, const BridgeBus::Handler& handler) {
   if (channels.empty()) return {};

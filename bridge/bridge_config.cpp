@@ -13,8 +13,17 @@ void check_name(const std::string& name) {
   if (!is_name(name)) throw std::invalid_argument("must be 1 to 40 letters, digits, - or _");
 }
 
+// _ separates them in the name of a stream: a and b_c must not be a_b and c.
+void check_place(const std::string& name) {
+  if (!is_name(name) || name.find('_') != std::string::npos) {
+    throw std::invalid_argument("must be 1 to 40 letters, digits or -");
+  }
+}
+
+bool is_tls(const std::string& url) { return url.starts_with("tls://"); }
+
 void check_server(const std::string& url) {
-  if (!url.starts_with("nats://") && !url.starts_with("tls://")) {
+  if (!url.starts_with("nats://") && !is_tls(url)) {
     throw std::invalid_argument("\"" + url + "\" is neither nats://HOST:PORT nor tls://HOST:PORT");
   }
 }
@@ -30,11 +39,23 @@ void check_all(ConfigTable& table, const char* key, const std::vector<std::strin
   }
 }
 
+// A server of nats:// would be spoken to in plain text whatever else is stated.
+void check_tls(const ConfigTable& table, const NatsConfig& n) {
+  const auto tls = std::ranges::count_if(n.servers, is_tls);
+  if (tls != 0 && tls != std::ssize(n.servers)) {
+    throw table.error("servers", "either all are tls:// or none");
+  }
+  if (tls != 0) return;
+  if (!n.authority.empty()) throw table.error("authority", "only with servers of tls://");
+  if (!n.certificate.empty()) throw table.error("certificate", "only with servers of tls://");
+}
+
 config::Section nats_section(NatsConfig& n) {
   return {
       "nats",
       "The server of NATS on this host, a leaf of the network of sites: docs/bridge.md.",
-      {config::texts("servers", n.servers, "nats://HOST:PORT or tls://HOST:PORT, any of them."),
+      {config::texts("servers", n.servers,
+                     "nats://HOST:PORT, or tls://HOST:PORT, any of them; all of one kind."),
        config::text("credentials", n.credentials,
                     "File of the user's credentials; empty: nkey and seed, if any."),
        config::text("nkey", n.nkey, "The user's public key; empty: none."),
@@ -48,6 +69,7 @@ config::Section nats_section(NatsConfig& n) {
       [&n](ConfigTable& table) {
         if (n.servers.empty()) throw table.error("servers", "must name one");
         check_all(table, "servers", n.servers, check_server);
+        check_tls(table, n);
         if (n.certificate.empty() != n.key.empty()) {
           throw table.error("key", "a certificate and its key belong together");
         }
@@ -63,12 +85,14 @@ config::Section archive_section(ArchiveConfig& a) {
           {config::flag("keep", a.is_on, "Whether the server keeps such a stream."),
            config::number("hours", a.keep_h, {0.1, 24.0 * 366}, "h",
                           "How long the stream keeps a message."),
+           config::number("most_gb", a.most_bytes, {0.1, 1e5}, config::kGigabytes,
+                          "How large the stream may become; then the oldest messages go."),
            config::text("domain", a.domain,
                         "JetStream domain of the server; empty: that of the connected server."),
            config::texts("sources", a.sources,
                          "For a region: JetStream domains of the sites whose streams it copies.")},
           {},
-          [&a](ConfigTable& table) { check_all(table, "sources", a.sources, check_name); }};
+          [&a](ConfigTable& table) { check_all(table, "sources", a.sources, check_place); }};
 }
 
 config::Section ownership_section(OwnershipConfig& o) {
@@ -118,6 +142,8 @@ void check(const BridgeConfig& c, ConfigTable& root) {
 
 }  // namespace
 
+bool is_over_tls(const NatsConfig& config) { return std::ranges::all_of(config.servers, is_tls); }
+
 config::Section bridge_section(BridgeConfig& c) {
   return {
       "",
@@ -125,8 +151,8 @@ config::Section bridge_section(BridgeConfig& c) {
       {config::bus_url(c.lcm_url), config::status_file(c.status_file),
        config::word("role", c.role, {{"site", Role::kSite}, {"region", Role::kRegion}},
                     "site: stations are on this bus; region: a fusion of several sites' stations."),
-       config::text("region", c.region, "Its name in the subjects of NATS.", check_name),
-       config::text("site", c.site, "Its name in the subjects of NATS.", check_name),
+       config::text("region", c.region, "Its name in the subjects of NATS.", check_place),
+       config::text("site", c.site, "Its name in the subjects of NATS.", check_place),
        config::texts("stations", c.stations,
                      "Stations of this site whose messages pass; empty: all that are heard."),
        config::texts("takes", c.takes,

@@ -25,6 +25,7 @@ struct NatsConfig {
 struct ArchiveConfig {
   bool is_on = false;
   double keep_h = 24.0;
+  double most_bytes = 16e9;
   std::string domain;                // of the server that keeps it; empty: the one connected to
   std::vector<std::string> sources;  // sites whose streams a region copies
 };
@@ -51,6 +52,8 @@ struct BridgeConfig {
   OwnershipConfig ownership;
 };
 
+// Whether its servers are spoken to over TLS alone.
+bool is_over_tls(const NatsConfig& config);
 config::Section bridge_section(BridgeConfig& config);  // the whole file
 PassageConfig passage_of(const BridgeConfig& config);
 // Throws ConfigError.

@@ -1,12 +1,11 @@
 #include "bridge/bridge_process.h"
 
-#include <spdlog/spdlog.h>
-
 #include <exception>
 #include <utility>
 
 #include "base/boot_id.h"
 #include "base/clocks.h"
+#include "base/journal.h"
 #include "base/service_frame.h"
 #include "base/service_notifier.h"
 #include "base/trust/trailer.h"
@@ -49,6 +48,17 @@ std::unique_ptr<ArchiveStream> make_archive(NatsLink& link, const BridgeConfig& 
   return plan ? std::make_unique<ArchiveStream>(link, *plan, config) : nullptr;
 }
 
+// What counts, of connections before and of the one now.
+LinkReport sum(const LinkReport& before, LinkReport now) {
+  now.openings += before.openings;
+  now.losses += before.losses;
+  now.sent += before.sent;
+  now.unsent += before.unsent;
+  now.displaced += before.displaced;
+  now.refusals += before.refusals;
+  return now;
+}
+
 }  // namespace
 
 BridgeProcess::BridgeProcess(const BridgeConfig& config)
@@ -58,12 +68,36 @@ BridgeProcess::BridgeProcess(const BridgeConfig& config)
       ownership_(make_ownership(config)),
       bus_(config.lcm_url, passage_.channels(),
            [this](const std::string& channel, Bytes bytes) { send_out(channel, bytes); }),
-      link_(config.nats, name_of(config), subjects_of(passage_, config),
-            [this](std::string_view subject, const Headers& headers, Bytes bytes) {
-              take_in(subject, headers, bytes);
-            }),
-      archive_(make_archive(link_, config)) {
-  if (ownership_) store_ = std::make_unique<OwnerStore>(link_, config.ownership.domain, ears());
+      remote_(std::make_unique<Remote>(*this, config_)) {}
+
+BridgeProcess::Remote::Remote(BridgeProcess& bridge, const BridgeConfig& config)
+    : link(config.nats, name_of(config), subjects_of(bridge.passage_, config),
+           [&bridge](std::string_view subject, const Headers& headers, Bytes bytes) {
+             bridge.take_in(subject, headers, bytes);
+           }),
+      archive(make_archive(link, config)),
+      begun_s(clock_monotonic_s()) {
+  if (!bridge.ownership_) return;
+  store = std::make_unique<OwnerStore>(link, config.ownership.domain, bridge.ears());
+}
+
+// A connection that has ended is made anew. All else stays: who is where, whom stations obey, what
+// this fusion owns, and every count.
+void BridgeProcess::renew_link(double now_s) {
+  const LinkReport link = remote_->link.report();
+  if (!link.has_ended || now_s - remote_->begun_s < kShortest_s) return;
+  write_to_journal({.text = "the server is tried anew: " + link.trouble,
+                    .bad = true,
+                    .id = event::kLineFails,
+                    .device = "server",
+                    .reason = link.trouble});
+  before_ = sum(before_, link);
+  remote_.reset();
+  if (ownership_) {
+    const std::lock_guard lock(mutex_);
+    ownership_->feel_store(false, now());
+  }
+  remote_ = std::make_unique<Remote>(*this, config_);
 }
 
 OwnerStore::Ears BridgeProcess::ears() {
@@ -73,13 +107,17 @@ OwnerStore::Ears BridgeProcess::ears() {
     const std::lock_guard lock(mutex_);
     ownership_->learn(target, record, revision, now());
   };
-  ears.wish = [this](const std::string& target, const std::string& by) {
+  ears.gone = [this](const std::string& target) {
     const std::lock_guard lock(mutex_);
-    ownership_->learn_wish(target, by, now());
+    ownership_->learn_gone(target, now());
   };
-  ears.answer = [this](const std::string& target, StoreAnswer answer, std::uint64_t revision) {
+  ears.wish = [this](const std::string& target, const std::string& by, std::uint64_t revision) {
     const std::lock_guard lock(mutex_);
-    ownership_->answer(target, answer, revision, now());
+    ownership_->learn_wish(target, by, revision, now());
+  };
+  ears.answer = [this](const StoreRequest& request, StoreAnswer answer, std::uint64_t revision) {
+    const std::lock_guard lock(mutex_);
+    ownership_->answer(request, answer, revision, now());
   };
   ears.feel = [this](bool answers) {
     const std::lock_guard lock(mutex_);
@@ -106,14 +144,12 @@ Owned BridgeProcess::owned() {
   };
 }
 
-// What another owner publishes: by it is known where its target is.
+// What another owner publishes: by it is known where its target is, and since when it owns it.
 void BridgeProcess::hear_owner(const Headers& headers, Bytes bytes) {
-  const auto name = headers.find(kTargetHeader);
-  const auto track = track_from(trust::without_trailer(bytes));
-  if (!ownership_ || name == headers.end() || !track) return;
+  const auto sighting = sighting_from(headers, trust::without_trailer(bytes));
+  if (!ownership_ || !sighting) return;
   const std::lock_guard lock(mutex_);
-  ownership_->hear(Sighting{name->second, track->position_m, track->velocity_m_s, track->sd_m},
-                   now());
+  ownership_->hear(*sighting, now());
 }
 
 void BridgeProcess::step_ownership() {
@@ -123,7 +159,7 @@ void BridgeProcess::step_ownership() {
     const std::lock_guard lock(mutex_);
     requests = ownership_->step(now());
   }
-  if (!requests.empty()) store_->ask(std::move(requests));
+  if (!requests.empty()) remote_->store->ask(std::move(requests));
 }
 
 void BridgeProcess::send_out(const std::string& channel, Bytes bytes) {
@@ -132,7 +168,7 @@ void BridgeProcess::send_out(const std::string& channel, Bytes bytes) {
     const std::lock_guard lock(mutex_);
     outgoing = passage_.out(channel, bytes, now(), owned());
   }
-  if (outgoing) link_.send(*outgoing, bytes);
+  if (outgoing) remote_->link.send(*outgoing, bytes);
 }
 
 void BridgeProcess::take_in(std::string_view subject, const Headers& headers, Bytes bytes) {
@@ -149,16 +185,16 @@ void BridgeProcess::take_in(std::string_view subject, const Headers& headers, By
 }
 
 void BridgeProcess::describe_link(BridgeStatus& status) const {
-  const LinkReport link = link_.report();
-  status.link = {link.is_open, link.trouble, link.openings, link.losses,
-                 link.sent,    link.unsent,  link.displaced};
+  const LinkReport link = sum(before_, remote_->link.report());
+  status.link = {link.is_open, link.trouble,   link.openings, link.losses, link.sent,
+                 link.unsent,  link.displaced, link.refusals, link.refusal};
 }
 
 void BridgeProcess::describe_archive(BridgeStatus& status, std::map<std::string, double> heard,
                                      double now_s) {
-  status.archive.is_wanted = archive_ != nullptr;
-  if (!archive_) return;
-  const ArchiveReport seen = archive_->report();
+  status.archive.is_wanted = remote_->archive != nullptr;
+  if (!remote_->archive) return;
+  const ArchiveReport seen = remote_->archive->report();
   status.archive.is_kept = seen.is_kept;
   status.archive.trouble = seen.trouble;
   status.archive.messages = seen.messages;
@@ -201,22 +237,14 @@ BridgeStatus BridgeProcess::status() {
                           own.taken, own.handed_over,  own.lost,  own.epoch};
     }
   }
+  if (remote_->store) status.ownership.delay_s = remote_->store->delay_s();
   describe_archive(status, std::move(heard), at.monotonic_s);
   return status;
 }
 
 std::string BridgeProcess::report() {
   const BridgeStatus seen = status();
-  std::string text;
-  for (const std::string& alarm : alarms(seen)) text.append(text.empty() ? "" : "; ").append(alarm);
-  if (text != last_alarms_) {
-    if (text.empty()) {
-      spdlog::info("all is well again");
-    } else {
-      spdlog::warn("{}", text);
-    }
-    last_alarms_ = text;
-  }
+  alarms_.look(alarms(seen), clock_monotonic_s());
   status_file_.write(to_json(seen));
   return in_one_line(seen);
 }
@@ -225,16 +253,14 @@ void BridgeProcess::run() {
   bus_.connect(clock_monotonic_s(), BusConnector::kLongest_s);
   ServiceNotifier service_manager;
   service_manager.ready("bridge");
-  spdlog::info("ready");
-  const double begun_s = clock_monotonic_s();
+  write_to_journal({.text = "ready", .id = event::kReady});
   double step_due_s = 0.0;
   const auto turn = [&](double now_s) {
     bus_.turn(now_s, kTurn_ms);
     if (now_s < step_due_s) return;
     step_due_s = now_s + kStep_s;
     step_ownership();
-    if (now_s - begun_s < kShortest_s) return;
-    if (const LinkReport link = link_.report(); link.has_ended) throw LinkEnded(link.trouble);
+    renew_link(now_s);
   };
   serve(service_manager, kStatus_s, turn, [this] { return report(); });
 }

@@ -7,10 +7,10 @@
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 
+#include "base/alarm_journal.h"
 #include "base/status_file.h"
 #include "bridge/archive_stream.h"
 #include "bridge/bridge_bus.h"
@@ -23,21 +23,23 @@
 
 namespace ols::bridge {
 
-// The server is not tried again: one that refused the key twice, or is none of NATS.
-class LinkEnded : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
 class BridgeProcess {
  public:
   explicit BridgeProcess(const BridgeConfig& config);
 
-  // Until the process is asked to end. Throws LinkEnded, some seconds after its start at the
-  // earliest: another one is to begin anew.
+  // Until the process is asked to end.
   void run();
 
  private:
+  // What has to do with one connection to a server, each part ended before what it needs.
+  struct Remote {
+    Remote(BridgeProcess& bridge, const BridgeConfig& config);
+    NatsLink link;
+    std::unique_ptr<ArchiveStream> archive;
+    std::unique_ptr<OwnerStore> store;
+    double begun_s;
+  };
+  void renew_link(double now_s);
   OwnerStore::Ears ears();
   Owned owned();
   void hear_owner(const Headers& headers, Bytes bytes);
@@ -57,11 +59,10 @@ class BridgeProcess {
   std::optional<Ownership> ownership_;  // under the lock; nothing: nobody else owns targets
   BridgeBus bus_;
   std::atomic<std::uint64_t> unsent_to_bus_{0};
-  std::string last_alarms_;
+  AlarmJournal alarms_;
   std::map<std::string, double> live_since_s_;  // of sites
-  NatsLink link_;  // last of those that its threads use, so that they end first
-  std::unique_ptr<ArchiveStream> archive_;
-  std::unique_ptr<OwnerStore> store_;
+  LinkReport before_;                           // of connections that have ended: their counts
+  std::unique_ptr<Remote> remote_;  // last of those that its threads use, so that they end first
 };
 
 }  // namespace ols::bridge

@@ -2,7 +2,8 @@
 //
 // Epochs are revisions of one store, so they grow over all targets and owners: of two commands the
 // one with the greater epoch comes from who became an owner later. An owner that does not know yet
-// that it has been replaced is thereby ignored.
+// that it has been replaced is thereby ignored. Nobody signs them, so what cannot be is refused,
+// and what is silent for a minute is forgotten.
 #pragma once
 
 #include <cstdint>
@@ -11,32 +12,52 @@
 
 namespace ols::bridge {
 
+// What a command says of its sender; epoch 0: one without ownership.
+struct Claim {
+  std::string target;  // the region-wide id
+  std::string owner{};
+  std::uint64_t epoch = 0;
+};
+
 class EpochBook {
  public:
-  // Another target's command of a lower epoch passes when nothing of the greatest has come for this
+  // Another owner's command of a lower epoch passes when nothing of the greatest has come for this
   // long: then its owner leads this station no more.
   static constexpr double kSilence_s = 2.0;
+  static constexpr double kForgotten_s = 60.0;
+  // The store counts renewals of all targets; no revision is further from the last than by so many,
+  // and by so many a second.
+  static constexpr std::uint64_t kMostEver = 1'000'000'000'000'000, kMostJump = 1'000'000;
+  static constexpr double kMost_Hz = 10'000.0;
 
-  // `epoch` 0: of a sender without ownership; passes while no owner leads the station.
-  // `target`: the region-wide id. `now_s`: monotonic.
-  bool passes(const std::string& station, const std::string& target, std::uint64_t epoch,
-              double now_s);
+  // Without ownership a command passes while no owner leads the station. `now_s`: monotonic.
+  bool passes(const std::string& station, const Claim& claim, double now_s);
   // Of all that have passed; 0: none with an owner.
   std::uint64_t greatest() const { return greatest_; }
 
  private:
+  static constexpr double kSweep_s = 1.0;  // a flood of names must not cost a search each
+
   struct Led {
+    std::uint64_t epoch = 0;
+    std::string owner;
+    double heard_s = -1e9;
+  };
+  struct Heard {
     std::uint64_t epoch = 0;
     double heard_s = 0.0;
   };
   struct Station {
-    Led by;                                        // who leads it now
-    std::map<std::string, std::uint64_t> targets;  // the greatest of each, which never goes back
+    Led by;                                // who leads it now
+    std::map<std::string, Heard> targets;  // the greatest epoch of each
   };
-  static void forget_some(Station& station);
+  bool is_possible(std::uint64_t epoch, double now_s) const;
+  Station* station_of(const std::string& station, double now_s);
+  static bool is_greatest_of_its_target(Station& station, const Claim& claim, double now_s);
 
   std::map<std::string, Station> stations_;
   std::uint64_t greatest_ = 0;
+  double greatest_s_ = 0.0, swept_s_ = -1e9;
 };
 
 }  // namespace ols::bridge

@@ -1,6 +1,5 @@
 // ols-bridge: parses the command line, loads the configuration, and runs.
 #include <fcntl.h>
-#include <spdlog/spdlog.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -10,7 +9,6 @@
 
 #include "base/command_line.h"
 #include "base/service_frame.h"
-#include "base/shutdown.h"
 #include "base/trust/crypto.h"
 #include "bridge/bridge_config.h"
 #include "bridge/bridge_process.h"
@@ -46,13 +44,7 @@ int act(const Arguments& arguments) {
   }
   const bridge::BridgeConfig config = configuration_of(arguments, bridge::load_bridge_config);
   if (arguments.check_config) return 0;
-  while (!ols::shutdown_requested()) {
-    try {
-      bridge::BridgeProcess(config).run();
-    } catch (const bridge::LinkEnded& ended) {
-      spdlog::warn("the server is tried anew: {}", ended.what());
-    }
-  }
+  bridge::BridgeProcess(config).run();
   return 0;
 }
 

@@ -14,5 +14,7 @@ namespace ols::bridge {
 std::optional<std::int64_t> target_id_of(Kind kind, Bytes payload);
 // A target that is where the message says; nothing if it says no place, or that it is over.
 std::optional<Track> track_from(Bytes payload);
+// What another owner says of its target with such a message.
+std::optional<Sighting> sighting_from(const Headers& headers, Bytes payload);
 
 }  // namespace ols::bridge

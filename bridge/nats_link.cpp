@@ -6,16 +6,18 @@
 #include <cstdlib>
 #include <utility>
 
+#include "base/clocks.h"
 #include "base/toml_config.h"
+#include "bridge/memory_budget.h"
 
 namespace ols::bridge {
 namespace {
 
-constexpr std::int64_t kRetry_ms = 500, kPing_ms = 2000, kWrite_ms = 1000;
+constexpr std::int64_t kRetry_ms = 500, kPing_ms = 2000, kWrite_ms = 300;
 constexpr int kPingsOut = 2;
-// What comes faster than it is handled is displaced, not kept: a second's worth of a thousand
-// stations.
-constexpr int kMostPending = 20'000, kMostPendingBytes = 32'000'000;
+constexpr double kRefusal_s = 60.0;        // a publication that was refused is of interest so long
+constexpr std::size_t kLongestText = 200;  // a server may say anything
+constexpr int kMostPending = 20'000;
 constexpr std::array kKnownHeaders{kTargetHeader, kEpochHeader, kUnconfirmedHeader, kOwnerHeader};
 
 void require(natsStatus status, const std::string& what) {
@@ -53,7 +55,7 @@ NatsLink::NatsLink(const NatsConfig& config, const std::string& name,
   try {
     configure(config, name);
     connect(config.servers);
-    for (const std::string& subject : subjects) hear(subject);
+    for (const std::string& subject : subjects) hear(subject, kNetworkQueueBytes / subjects.size());
   } catch (...) {
     close();
     throw;
@@ -79,6 +81,12 @@ void NatsLink::configure(const NatsConfig& config, const std::string& name) {
   require(natsOptions_SetDisconnectedCB(options_, on_loss, this), "servers");
   require(natsOptions_SetRetryOnFailedConnect(options_, true, on_open, this), "servers");
   require(natsOptions_SetClosedCB(options_, on_closed, this), "servers");
+  // Its own type stands in no header of ours.
+  const natsErrHandler refused = [](natsConnection* connection, natsSubscription* subscription,
+                                    natsStatus status, void* self) {
+    on_refusal(connection, subscription, static_cast<int>(status), self);
+  };
+  require(natsOptions_SetErrorHandler(options_, refused, this), "servers");
   if (!config.credentials.empty()) {
     require(natsOptions_SetUserCredentialsFromFiles(options_, config.credentials.c_str(), nullptr),
             "credentials");
@@ -87,6 +95,8 @@ void NatsLink::configure(const NatsConfig& config, const std::string& name) {
     require(natsOptions_SetNKeyFromSeed(options_, config.nkey.c_str(), seed_of(config).c_str()),
             "nkey");
   }
+  // The address alone would leave it to the server whether anything is encrypted.
+  if (is_over_tls(config)) require(natsOptions_SetSecure(options_, true), "servers");
   if (!config.authority.empty()) {
     require(natsOptions_LoadCATrustedCertificates(options_, config.authority.c_str()), "authority");
   }
@@ -107,12 +117,17 @@ void NatsLink::connect(const std::vector<std::string>& servers) {
     on_open(connection_, this);
     return;
   }
-  note("no server answers, or it refuses this user");
-  // What answered is no server of NATS: the library does not go on by itself.
-  if (status != NATS_NOT_YET_CONNECTED) has_ended_ = true;
+  if (status == NATS_NOT_YET_CONNECTED) {
+    note("no server answers, or it refuses this user");
+    return;
+  }
+  // What answered is no server of NATS, or one without TLS: the library does not go on by itself.
+  note(natsStatus_GetText(status));
+  has_ended_ = true;
 }
 
-void NatsLink::hear(const std::string& subject) {
+// What comes faster than it is handled is displaced, not kept.
+void NatsLink::hear(const std::string& subject, std::size_t most_bytes) {
   // What went wrong with the link may have ended it meanwhile, in a thread of the library.
   const auto holds = [this, &subject](natsStatus status) {
     if (status != NATS_CONNECTION_CLOSED && status != NATS_INVALID_SUBSCRIPTION) {
@@ -131,7 +146,8 @@ void NatsLink::hear(const std::string& subject) {
   subscriptions_.push_back(subscription);
   if (!holds(natsSubscription_SetOnCompleteCB(subscription, on_complete, this))) return;
   begin_callbacks();
-  holds(natsSubscription_SetPendingLimits(subscription, kMostPending, kMostPendingBytes));
+  holds(
+      natsSubscription_SetPendingLimits(subscription, kMostPending, static_cast<int>(most_bytes)));
 }
 
 void NatsLink::close() {
@@ -159,7 +175,7 @@ bool NatsLink::send(const Outgoing& outgoing, Bytes bytes) {
     is_sent = natsConnection_PublishMsg(connection_, message) == NATS_OK;
     natsMsg_Destroy(message);
   }
-  ++(is_sent ? sent_ : unsent_);
+  ++(is_sent ? tally_.sent : tally_.unsent);
   return is_sent;
 }
 
@@ -167,10 +183,11 @@ LinkReport NatsLink::report() const {
   LinkReport report;
   report.is_open = is_open_;
   report.has_ended = has_ended_;
-  report.openings = openings_;
-  report.losses = losses_;
-  report.sent = sent_;
-  report.unsent = unsent_;
+  report.openings = tally_.openings;
+  report.losses = tally_.losses;
+  report.sent = tally_.sent;
+  report.unsent = tally_.unsent;
+  report.refusals = tally_.refusals;
   for (natsSubscription* subscription : subscriptions_) {
     std::int64_t dropped = 0;
     if (natsSubscription_GetDropped(subscription, &dropped) == NATS_OK) {
@@ -178,7 +195,11 @@ LinkReport NatsLink::report() const {
     }
   }
   const std::lock_guard lock(mutex_);
-  if (!report.is_open) report.trouble = trouble_;
+  if (!report.is_open) report.trouble = said_.trouble;
+  report.refusal = said_.unheard;
+  if (clock_monotonic_s() - said_.refused_s < kRefusal_s) {
+    report.refusal.append(said_.unheard.empty() ? "" : "; ").append(said_.refusal);
+  }
   return report;
 }
 
@@ -196,7 +217,7 @@ void NatsLink::end_callbacks() {
 
 void NatsLink::note(const char* trouble) {
   const std::lock_guard lock(mutex_);
-  trouble_ = trouble;
+  said_.trouble = std::string(trouble).substr(0, kLongestText);
 }
 
 void NatsLink::on_message(natsConnection*, natsSubscription*, natsMsg* message, void* self) {
@@ -209,8 +230,11 @@ void NatsLink::on_message(natsConnection*, natsSubscription*, natsMsg* message, 
 
 void NatsLink::on_open(natsConnection*, void* self) {
   auto* link = static_cast<NatsLink*>(self);
-  ++link->openings_;
+  ++link->tally_.openings;
   link->is_open_ = true;
+  const std::lock_guard lock(link->mutex_);
+  link->said_.unheard.clear();
+  link->said_.refused_s = -1e9;
 }
 
 void NatsLink::on_loss(natsConnection* connection, void* self) {
@@ -218,7 +242,25 @@ void NatsLink::on_loss(natsConnection* connection, void* self) {
   const char* why = nullptr;
   natsConnection_GetLastError(connection, &why);
   link->note(why == nullptr || *why == '\0' ? "the server does not answer" : why);
-  if (link->is_open_.exchange(false)) ++link->losses_;
+  if (link->is_open_.exchange(false)) ++link->tally_.losses;
+}
+
+// Of an open connection: a publication or a subscription that the user has no right to.
+void NatsLink::on_refusal(natsConnection* connection, natsSubscription*, int status, void* self) {
+  if (status == NATS_SLOW_CONSUMER) return;  // counted as displaced
+  auto* link = static_cast<NatsLink*>(self);
+  const char* why = nullptr;
+  natsConnection_GetLastError(connection, &why);
+  if (why == nullptr || *why == '\0') why = natsStatus_GetText(static_cast<natsStatus>(status));
+  ++link->tally_.refusals;
+  const std::lock_guard lock(link->mutex_);
+  const std::string text = std::string(why).substr(0, kLongestText);
+  if (text.find("Subscription") != std::string::npos) {
+    link->said_.unheard = text;
+    return;
+  }
+  link->said_.refusal = text;
+  link->said_.refused_s = clock_monotonic_s();
 }
 
 // The last that the library calls for the connection, after the loss.

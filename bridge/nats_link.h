@@ -1,6 +1,8 @@
-// The connection to a server of NATS: publishes and hears, and comes back by itself, unless the
-// server refuses it twice or is none. Nothing waits in it: what cannot be sent now is lost and
-// counted, because a queued command is a stale one.
+// The connection to a server of NATS: publishes and hears, and comes back by itself, unless it has
+// ended: the server refuses it twice, or is none. No message waits for a connection: what cannot be
+// sent now is lost and counted, because a queued command is a stale one. On an open one the library
+// collects up to 32 kB and writes them in a thread of its own; while that waits, so does send(). A
+// server that does not read holds it up for kWrite_ms, then the library connects anew.
 #pragma once
 
 #include <atomic>
@@ -29,6 +31,8 @@ struct LinkReport {
   std::uint64_t openings = 0, losses = 0;
   std::uint64_t sent = 0, unsent = 0;  // unsent: there was no connection
   std::uint64_t displaced = 0;         // arrived, and came faster than they were handled
+  std::uint64_t refusals = 0;          // what the server refused of an open connection
+  std::string refusal;                 // the last of them, while it is of interest
   std::string trouble;                 // why there is no connection; empty: there is one
   bool has_ended = false;              // the library does not try again
 };
@@ -53,15 +57,25 @@ class NatsLink {
   __natsConnection* connection() const { return connection_; }
 
  private:
+  struct Tally {
+    std::atomic<std::uint64_t> openings{0}, losses{0}, sent{0}, unsent{0}, refusals{0};
+  };
+  struct Said {
+    std::string trouble = "connecting";
+    std::string unheard;  // a subscription that was refused: that is said once
+    std::string refusal;  // of a publication
+    double refused_s = -1e9;
+  };
   void configure(const NatsConfig& config, const std::string& name);
   void connect(const std::vector<std::string>& servers);
-  void hear(const std::string& subject);
+  void hear(const std::string& subject, std::size_t most_bytes);
   void close();
   void note(const char* trouble);
   static void on_message(__natsConnection*, __natsSubscription*, __natsMsg* message, void* self);
   static void on_open(__natsConnection*, void* self);
   static void on_loss(__natsConnection* connection, void* self);
   static void on_closed(__natsConnection*, void* self);
+  static void on_refusal(__natsConnection* connection, __natsSubscription*, int status, void* self);
   static void on_complete(void* self);
   void begin_callbacks();
   void end_callbacks();
@@ -71,11 +85,11 @@ class NatsLink {
   __natsConnection* connection_ = nullptr;
   std::vector<__natsSubscription*> subscriptions_;
   std::atomic<bool> is_open_{false}, has_ended_{false};
-  std::atomic<std::uint64_t> openings_{0}, losses_{0}, sent_{0}, unsent_{0};
+  Tally tally_;
   mutable std::mutex mutex_;
   std::condition_variable ended_;
-  std::size_t callers_ = 0;             // threads of the library that may call; under the lock
-  std::string trouble_ = "connecting";  // under the lock
+  std::size_t callers_ = 0;  // threads of the library that may call; under the lock
+  Said said_;                // under the lock
 };
 
 }  // namespace ols::bridge

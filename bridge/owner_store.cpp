@@ -6,6 +6,8 @@
 #include <chrono>
 #include <utility>
 
+#include "base/clocks.h"
+
 namespace ols::bridge {
 namespace {
 
@@ -13,6 +15,9 @@ constexpr const char* kBucket = "OLS_OWNERS";
 constexpr std::int64_t kPatience_ms = 500, kWatch_ms = 200;
 constexpr std::int64_t kKept_ns = 600'000'000'000;  // a record that nobody renews
 constexpr std::size_t kMostRequests = 2000;
+// A watcher dies without a word when its server starts anew behind another one. While targets are
+// owned, something changes five times a lease.
+constexpr double kDeaf_s = 3.0;
 constexpr auto kProbe = std::chrono::milliseconds(300);
 constexpr std::string_view kTarget = "target.", kWish = "wish.";
 
@@ -45,6 +50,9 @@ OwnerStore::~OwnerStore() {
   asked_.notify_all();
   worker_.join();
   if (watcher_.joinable()) watcher_.join();
+  for (const Waiting& one : requests_) {
+    if (!one.request.is_wish) ears_.answer(one.request, StoreAnswer::kNone, 0);
+  }
   close();
 }
 
@@ -86,7 +94,7 @@ void OwnerStore::ask(std::vector<StoreRequest> requests) {
     const std::lock_guard lock(mutex_);
     for (StoreRequest& request : requests) {
       if (requests_.size() < kMostRequests) {
-        requests_.push_back(std::move(request));
+        requests_.push_back({std::move(request), clock_monotonic_s()});
       } else if (!request.is_wish) {
         too_many.push_back(std::move(request));
       }
@@ -94,8 +102,14 @@ void OwnerStore::ask(std::vector<StoreRequest> requests) {
   }
   asked_.notify_all();
   for (const StoreRequest& request : too_many) {
-    ears_.answer(request.target, StoreAnswer::kNone, 0);
+    ears_.answer(request, StoreAnswer::kNone, 0);
   }
+}
+
+double OwnerStore::delay_s() const {
+  const std::lock_guard lock(mutex_);
+  if (requests_.empty()) return last_delay_s_;
+  return std::max(last_delay_s_, clock_monotonic_s() - requests_.front().asked_s);
 }
 
 void OwnerStore::work() {
@@ -109,10 +123,12 @@ void OwnerStore::work() {
     std::unique_lock lock(mutex_);
     asked_.wait_until(lock, probe_due, [this] { return ends_ || !requests_.empty(); });
     if (requests_.empty()) continue;
-    const StoreRequest request = std::move(requests_.front());
+    const Waiting one = std::move(requests_.front());
     requests_.pop_front();
     lock.unlock();
-    carry_out(request);
+    carry_out(one.request);
+    lock.lock();
+    last_delay_s_ = clock_monotonic_s() - one.asked_s;
   }
 }
 
@@ -132,11 +148,35 @@ void OwnerStore::carry_out(const StoreRequest& request) {
   } else if (is_open) {
     status = kvStore_UpdateString(&revision, store_, key.c_str(), text.c_str(), request.revision);
   }
-  ears_.answer(request.target, answer_of(status), revision);
+  StoreAnswer answer = answer_of(status);
+  if (answer == StoreAnswer::kRefused) answer = look_again(request);
+  ears_.answer(request, answer, revision);
+}
+
+// Another one has written there, or the answer to what we wrote was lost: what is there now is told
+// before the refusal. Not by the watcher: it may have heard nothing of it.
+StoreAnswer OwnerStore::look_again(const StoreRequest& request) {
+  const std::string key = std::string(kTarget) + request.target;
+  kvEntry* entry = nullptr;
+  const natsStatus status = kvStore_Get(&entry, store_, key.c_str());
+  StoreAnswer answer = StoreAnswer::kRefused;
+  if (status == NATS_NOT_FOUND) {
+    ears_.gone(request.target);
+  } else if (status == NATS_OK && kvEntry_Revision(entry) == request.revision) {
+    answer = StoreAnswer::kNone;  // it is as it was, so the refusal had another reason
+  } else if (status == NATS_OK) {
+    const char* value = kvEntry_ValueString(entry);
+    // What cannot be read is nobody's, and may be replaced.
+    const auto record = parse_record(value == nullptr ? "" : value);
+    ears_.learn(request.target, record.value_or(OwnerRecord{}), kvEntry_Revision(entry));
+  }
+  kvEntry_Destroy(entry);
+  return answer;
 }
 
 void OwnerStore::watch() {
   kvWatcher* watcher = nullptr;
+  double heard_s = clock_monotonic_s();
   while (!ends_) {
     if (watcher == nullptr && kvStore_WatchAll(&watcher, store_, nullptr) != NATS_OK) {
       watcher = nullptr;
@@ -150,7 +190,10 @@ void OwnerStore::watch() {
       tell(kvEntry_Key(entry), value == nullptr ? "" : value, kvEntry_Revision(entry));
     }
     kvEntry_Destroy(entry);
-    if (status == NATS_OK || status == NATS_TIMEOUT) continue;
+    const double now_s = clock_monotonic_s();
+    if (status == NATS_OK) heard_s = now_s;
+    if (status == NATS_OK || (status == NATS_TIMEOUT && now_s - heard_s < kDeaf_s)) continue;
+    heard_s = now_s;
     kvWatcher_Destroy(std::exchange(watcher, nullptr));
   }
   kvWatcher_Destroy(watcher);
@@ -159,7 +202,7 @@ void OwnerStore::watch() {
 void OwnerStore::tell(const std::string& key, const std::string& value,
                       std::uint64_t revision) const {
   if (key.starts_with(kWish)) {
-    ears_.wish(key.substr(kWish.size()), value);
+    ears_.wish(key.substr(kWish.size()), value, revision);
     return;
   }
   if (!key.starts_with(kTarget)) return;

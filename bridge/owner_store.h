@@ -24,8 +24,9 @@ class OwnerStore {
   // Called in the two threads.
   struct Ears {
     std::function<void(const std::string& target, const OwnerRecord&, std::uint64_t)> learn;
-    std::function<void(const std::string& target, const std::string& by)> wish;
-    std::function<void(const std::string& target, StoreAnswer, std::uint64_t)> answer;
+    std::function<void(const std::string& target)> gone;
+    std::function<void(const std::string& target, const std::string& by, std::uint64_t)> wish;
+    std::function<void(const StoreRequest&, StoreAnswer, std::uint64_t)> answer;
     std::function<void(bool answers)> feel;
   };
 
@@ -36,14 +37,21 @@ class OwnerStore {
 
   // Asked one after the other; too many at once are answered with kNone.
   void ask(std::vector<StoreRequest> requests);
+  // From asking to the answer: of the last, or of the one that waits longest.
+  double delay_s() const;
 
  private:
+  struct Waiting {
+    StoreRequest request;
+    double asked_s = 0.0;
+  };
   void work();
   void watch();
   bool open();
   void close();
   bool probe();
   void carry_out(const StoreRequest& request);
+  StoreAnswer look_again(const StoreRequest& request);
   void tell(const std::string& key, const std::string& value, std::uint64_t revision) const;
 
   NatsLink& link_;
@@ -51,9 +59,10 @@ class OwnerStore {
   const Ears ears_;
   __jsCtx* js_ = nullptr;  // both of the working thread, until the watching one has begun
   __kvStore* store_ = nullptr;
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::condition_variable asked_;
-  std::deque<StoreRequest> requests_;  // under the lock
+  std::deque<Waiting> requests_;  // under the lock
+  double last_delay_s_ = 0.0;     // under the lock
   std::atomic<bool> ends_{false};
   std::thread worker_, watcher_;
 };

@@ -1,6 +1,7 @@
 #include "bridge/passage.h"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 
@@ -10,10 +11,10 @@
 namespace ols::bridge {
 namespace {
 
-constexpr double kSettled_s = 60.0;  // a silent station's name is free again
+constexpr std::string_view kSlew = "slew";  // the only command that concerns a target
 constexpr double kFuture_s = 1.0;
 constexpr double kMostOfOne_Hz = 400.0;
-constexpr std::size_t kMostNames = 20'000;
+constexpr std::size_t kLongestWord = 100;
 constexpr std::size_t kLargestStatus = 32'000, kLargest = 8'000;
 
 std::string regex_of(const std::vector<std::string>& names) {
@@ -31,20 +32,17 @@ std::string id_of(const Content& content, const trust::MessageHead& head) {
   return content.kind == Kind::kStatus ? id + ":status" : id;
 }
 
-std::uint64_t number(const std::string& text) {
-  std::uint64_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc() && end == text.data() + text.size() ? value : 0;
-}
-
-std::string text_of(const Headers& headers, const char* name) {
-  const auto at = headers.find(name);
-  return at == headers.end() ? "" : at->second;
+// Of a bridge: the name of a fusion, its start, a number.
+bool is_word(const std::string& text) {
+  return text.size() <= kLongestWord && std::ranges::all_of(text, [](unsigned char c) {
+           return std::isalnum(c) != 0 || c == '-' || c == '_' || c == '=';
+         });
 }
 
 void put(const Grant& grant, Headers& headers) {
   if (grant.id.empty()) return;
   headers[kTargetHeader] = grant.id;
+  headers[kOwnerHeader] = grant.owner;
   headers[kEpochHeader] = std::to_string(grant.epoch);
   if (!grant.is_confirmed) headers[kUnconfirmedHeader] = "1";
 }
@@ -61,6 +59,21 @@ void count(Counts& counts, const std::optional<Refusal>& refusal, std::string_vi
 }
 
 }  // namespace
+
+// Anybody may have written them.
+std::optional<Claim> claim_of(const Headers& headers) {
+  const auto text_of = [&headers](const char* name) {
+    const auto at = headers.find(name);
+    return at == headers.end() ? "" : at->second;
+  };
+  Claim claim{text_of(kTargetHeader), text_of(kOwnerHeader)};
+  if (!is_word(claim.target) || !is_word(claim.owner)) return std::nullopt;
+  const auto epoch = headers.find(kEpochHeader);
+  if (epoch == headers.end()) return claim;
+  const char* const end = epoch->second.data() + epoch->second.size();
+  const auto [last, error] = std::from_chars(epoch->second.data(), end, claim.epoch);
+  return error == std::errc() && last == end ? std::optional(claim) : std::nullopt;
+}
 
 const char* to_string(Refusal reason) {
   switch (reason) {
@@ -115,8 +128,10 @@ Passage::Judged Passage::judge_out(std::string_view channel, Bytes bytes, const 
   Subject subject{content->kind, config_.region, config_.site, content->station, content->command};
   if (const Judged refusal = address(*content, now, subject)) return refusal;
   trust::MessageHead head;
-  if (const Judged refusal = judge_message(*content, channel, bytes, now, head)) return refusal;
-  const bool is_owned = content->kind == Kind::kTarget || content->kind == Kind::kCommand;
+  if (const Judged refusal = judge_form(*content, channel, bytes, head)) return refusal;
+  if (!settles(subject, now)) return Refusal::kName;
+  if (const Judged refusal = judge_time(*content, channel, head, now)) return refusal;
+  const bool is_owned = content->kind == Kind::kTarget || content->command == kSlew;
   if (is_owned && owned) {
     const auto grant = owned(content->kind, trust::without_trailer(bytes));
     if (!grant) return Refusal::kNotOwned;
@@ -134,47 +149,58 @@ Passage::Judged Passage::address(const Content& content, const Now& now, Subject
     subject = {Kind::kTarget, config_.region};
     return config_.targets ? Judged() : Refusal::kShape;
   }
-  const auto place = places_.find(content.station);
   if (content.kind == Kind::kCommand) {
+    const PlaceBook::Place* const place = places_.find(content.station);
     const bool crosses = std::ranges::count(config_.commands, content.command) > 0;
     if (config_.role != Role::kRegion || !crosses) return Refusal::kShape;
-    if (place == places_.end()) return Refusal::kNobody;
-    subject.region = place->second.region;
-    subject.site = place->second.site;
+    if (place == nullptr) return Refusal::kNobody;
+    subject.region = place->region;
+    subject.site = place->site;
     return std::nullopt;
   }
   if (config_.role != Role::kSite) return Refusal::kShape;
   if (!is_ours(content.station)) return Refusal::kName;
-  return settle(content.station, config_.region, config_.site, now.monotonic_s) ? Judged()
-                                                                                : Refusal::kOwn;
+  return places_.is_elsewhere(content.station, config_.region, config_.site, now.monotonic_s)
+             ? Refusal::kOwn
+             : Judged();
 }
 
-Passage::Judged Passage::judge_message(const Content& content, std::string_view channel,
-                                       Bytes bytes, const Now& now, trust::MessageHead& head) {
+// Before anything is remembered of it.
+Passage::Judged Passage::judge_form(const Content& content, std::string_view channel, Bytes bytes,
+                                    trust::MessageHead& head) {
   if (bytes.size() > (content.kind == Kind::kStatus ? kLargestStatus : kLargest)) {
     return Refusal::kSize;
   }
   const trust::ChannelRule& rule = *trust::rule_of(channel)->rule;
-  auto rate = rates_.find(channel);
-  if (rate == rates_.end()) {
-    if (rates_.size() >= kMostNames) return Refusal::kRate;
-    const double most_hz =
-        content.station.empty() ? rule.rate_hz : std::min(rule.rate_hz, kMostOfOne_Hz);
-    rate = rates_.emplace(std::string(channel), trust::RateLimit(most_hz)).first;
-  }
-  if (!rate->second.has(now.monotonic_s)) return Refusal::kRate;
-  rate->second.spend();
   const auto read = trust::read_head(trust::without_trailer(bytes), rule.head);
   if (!read) return Refusal::kMalformed;
   head = *read;
   if (rule.head == trust::HeadForm::kStationFirst && head.station != content.station) {
     return Refusal::kName;
   }
+  return std::nullopt;
+}
+
+// A station's name is its place's, or becomes it.
+bool Passage::settles(const Subject& subject, const Now& now) {
+  if (subject.kind == Kind::kCommand || subject.kind == Kind::kTarget) return true;
+  return places_.settle(subject.station, subject.region, subject.site, now.monotonic_s);
+}
+
+Passage::Judged Passage::judge_time(const Content& content, std::string_view channel,
+                                    const trust::MessageHead& head, const Now& now) {
+  const double most_hz = trust::rule_of(channel)->rule->rate_hz;
+  const bool is_command = content.kind == Kind::kCommand;
+  RateBook& rates = is_command ? command_rates_ : rates_;
+  if (!rates.passes(channel, content.station.empty() ? most_hz : std::min(most_hz, kMostOfOne_Hz),
+                    now.monotonic_s)) {
+    return Refusal::kRate;
+  }
   // In floating point: a hostile stamp must not overflow.
   const double age_s =
       1e-6 * (static_cast<double>(now.utime_us) - static_cast<double>(head.utime_us));
   const bool is_fresh = age_s <= config_.command_age_s && age_s >= -kFuture_s;
-  return content.kind == Kind::kCommand && !is_fresh ? Refusal::kStale : Judged();
+  return is_command && !is_fresh ? Refusal::kStale : Judged();
 }
 
 Passage::Judged Passage::judge_in(std::string_view text, const Headers& headers, Bytes bytes,
@@ -185,7 +211,9 @@ Passage::Judged Passage::judge_in(std::string_view text, const Headers& headers,
   channel = channel_of(*subject);
   if (const Judged refusal = take(*subject, now)) return refusal;
   trust::MessageHead head;
-  if (const Judged refusal = judge_message(content, channel, bytes, now, head)) return refusal;
+  if (const Judged refusal = judge_form(content, channel, bytes, head)) return refusal;
+  if (!settles(*subject, now)) return Refusal::kName;
+  if (const Judged refusal = judge_time(content, channel, head, now)) return refusal;
   if (subject->kind == Kind::kCommand) return obey(*subject, headers, now);
   const char* const kind = subject->kind == Kind::kBearing ? "" : " (status)";
   gaps_.hear(subject->station + kind, head.boot_id, head.sequence, now.monotonic_s);
@@ -204,49 +232,21 @@ Passage::Judged Passage::take(const Subject& subject, const Now& now) {
   const bool is_wanted = std::ranges::any_of(
       config_.takes, [&subject](const Selection& one) { return one.has(subject); });
   if (!is_wanted) return Refusal::kShape;
-  return settle(subject.station, subject.region, subject.site, now.monotonic_s) ? Judged()
-                                                                                : Refusal::kName;
+  return places_.is_elsewhere(subject.station, subject.region, subject.site, now.monotonic_s)
+             ? Refusal::kName
+             : Judged();
 }
 
 Passage::Judged Passage::obey(const Subject& subject, const Headers& headers, const Now& now) {
-  const std::uint64_t epoch = number(text_of(headers, kEpochHeader));
-  const std::string target = text_of(headers, kTargetHeader);
   // Only those who lead a station compete; a stop by an operator concerns no owner.
-  if (subject.command != "slew") return std::nullopt;
-  return epochs_.passes(subject.station, target, epoch, now.monotonic_s) ? Judged()
-                                                                         : Refusal::kEpoch;
-}
-
-// A name belongs to the place from which it is heard, until it falls silent: two stations of one
-// name would be one to a fusion, and what came in would go out again.
-bool Passage::settle(const std::string& station, const std::string& region, const std::string& site,
-                     double now_s) {
-  auto at = places_.find(station);
-  if (at == places_.end()) {
-    if (places_.size() >= kMostNames) return false;
-    places_[station] = {region, site, now_s};
-    return true;
-  }
-  Place& place = at->second;
-  const bool is_same = place.region == region && place.site == site;
-  if (!is_same && now_s - place.heard_s < kSettled_s) return false;
-  place = {region, site, now_s};
-  return true;
+  if (subject.command != kSlew) return std::nullopt;
+  const auto claim = claim_of(headers);
+  if (!claim) return Refusal::kMalformed;
+  return epochs_.passes(subject.station, *claim, now.monotonic_s) ? Judged() : Refusal::kEpoch;
 }
 
 bool Passage::is_ours(const std::string& station) const {
   return config_.stations.empty() || std::ranges::count(config_.stations, station) > 0;
-}
-
-std::map<std::string, double> Passage::sites_ago_s(double now_s) const {
-  std::map<std::string, double> ago;
-  for (const auto& [station, place] : places_) {
-    const double here = now_s - place.heard_s;
-    if (here > kSettled_s) continue;
-    const auto [at, is_new] = ago.try_emplace(place.site, here);
-    if (!is_new) at->second = std::min(at->second, here);
-  }
-  return ago;
 }
 
 std::string Passage::channels() const {

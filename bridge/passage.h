@@ -16,8 +16,9 @@
 #include <vector>
 
 #include "base/trust/message_head.h"
-#include "base/trust/rate_limit.h"
 #include "bridge/epoch_book.h"
+#include "bridge/place_book.h"
+#include "bridge/rate_book.h"
 #include "bridge/sequence_watch.h"
 #include "bridge/subject.h"
 
@@ -84,9 +85,13 @@ struct Grant {
   std::string id;            // region-wide; empty: it is nobody's (a search, no target)
   std::uint64_t epoch = 0;   // 0: without ownership
   bool is_confirmed = true;  // false: the store of owners does not answer
+  std::string owner{};       // a fusion and its start
 };
 // Nothing: another one owns the target of this message.
 using Owned = std::function<std::optional<Grant>(Kind, Bytes)>;
+
+// Of the headers of a message; nothing if no bridge would write such ones.
+std::optional<Claim> claim_of(const Headers& headers);
 
 class Passage {
  public:
@@ -110,13 +115,14 @@ class Passage {
   const SequenceWatch& gaps() const { return gaps_; }
   std::size_t stations() const { return places_.size(); }
   // Of each site: how long ago a station of it was heard.
-  std::map<std::string, double> sites_ago_s(double now_s) const;
+  std::map<std::string, double> sites_ago_s(double now_s) const {
+    return places_.sites_ago_s(now_s);
+  }
 
  private:
-  struct Place {
-    std::string region, site;
-    double heard_s = 0.0;
-  };
+  // Of bearings and statuses of as many stations as there is room for; of commands, which name
+  // stations that need not be there.
+  static constexpr std::size_t kMostChannels = 2 * PlaceBook::kMost + 1, kMostCommands = 10'000;
   using Judged = std::optional<Refusal>;
 
   // They fill what is known so far.
@@ -125,17 +131,18 @@ class Passage {
   Judged judge_in(std::string_view text, const Headers& headers, Bytes bytes, const Now& now,
                   std::string& channel);
   Judged address(const Content& content, const Now& now, Subject& subject);
-  Judged judge_message(const Content& content, std::string_view channel, Bytes bytes,
-                       const Now& now, trust::MessageHead& head);
+  static Judged judge_form(const Content& content, std::string_view channel, Bytes bytes,
+                           trust::MessageHead& head);
+  Judged judge_time(const Content& content, std::string_view channel,
+                    const trust::MessageHead& head, const Now& now);
   Judged take(const Subject& subject, const Now& now);
   Judged obey(const Subject& subject, const Headers& headers, const Now& now);
-  bool settle(const std::string& station, const std::string& region, const std::string& site,
-              double now_s);
+  bool settles(const Subject& subject, const Now& now);
   bool is_ours(const std::string& station) const;
 
   const PassageConfig config_;
-  std::map<std::string, Place, std::less<>> places_;  // where each station is
-  std::map<std::string, trust::RateLimit, std::less<>> rates_;
+  PlaceBook places_;
+  RateBook rates_{kMostChannels}, command_rates_{kMostCommands};
   EpochBook epochs_;
   SequenceWatch gaps_;
   Counts out_, in_;

@@ -5,7 +5,10 @@ namespace {
 
 constexpr std::uint64_t kWindow = 64;
 constexpr std::uint64_t kAll = ~std::uint64_t{0};  // what was before the first is not missed
-constexpr std::uint64_t kLongestGap = 100'000;     // beyond it is no gap, but nonsense
+// What is silent for a minute is forgotten when there are more.
+constexpr std::size_t kMost = 40'000;
+constexpr double kSilent_s = 60.0, kSweep_s = 1.0;
+constexpr std::uint64_t kLongestGap = 100'000;  // beyond it is no gap, but nonsense
 
 // Unsigned: a sender's sequences may be anything.
 std::uint64_t distance(std::int64_t from, std::int64_t to) {
@@ -16,10 +19,12 @@ std::uint64_t distance(std::int64_t from, std::int64_t to) {
 
 void SequenceWatch::hear(const std::string& stream, std::int64_t boot_id, std::int64_t sequence,
                          double now_s) {
+  if (marks_.size() >= kMost && now_s - swept_s_ >= kSweep_s) forget_silent(now_s);
   Mark& mark = marks_[stream];
+  mark.heard_s = now_s;
   // A station that starts anew begins anew.
   if (mark.heard == 0 || mark.boot_id != boot_id) {
-    mark = {boot_id, sequence, kAll};
+    mark = {boot_id, sequence, kAll, now_s};
     return;
   }
   if (sequence > mark.newest) {
@@ -36,11 +41,17 @@ void SequenceWatch::hear(const std::string& stream, std::int64_t boot_id, std::i
   if (missing_ > 0) --missing_;
 }
 
+void SequenceWatch::forget_silent(double now_s) {
+  swept_s_ = now_s;
+  std::erase_if(marks_,
+                [now_s](const auto& one) { return now_s - one.second.heard_s >= kSilent_s; });
+}
+
 void SequenceWatch::advance(const std::string& stream, Mark& mark, std::int64_t sequence,
                             double now_s) {
   const std::uint64_t step = distance(mark.newest, sequence);
   if (step > kLongestGap) {
-    mark = {mark.boot_id, sequence, kAll};
+    mark = {mark.boot_id, sequence, kAll, now_s};
     return;
   }
   mark.heard = (step < kWindow ? mark.heard << step : 0) | 1;

@@ -25,13 +25,15 @@ class SequenceWatch {
     std::int64_t boot_id = 0;
     std::int64_t newest = 0;
     std::uint64_t heard = 0;  // bit n: sequence newest - n
+    double heard_s = 0.0;
   };
   void advance(const std::string& stream, Mark& mark, std::int64_t sequence, double now_s);
+  void forget_silent(double now_s);
 
   std::map<std::string, Mark> marks_;
   std::uint64_t missing_ = 0, repeated_ = 0;
   std::string last_;
-  double gap_s_ = -1e9;
+  double gap_s_ = -1e9, swept_s_ = -1e9;
 };
 
 }  // namespace ols::bridge

@@ -9,6 +9,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+// With more between two renewals, leases run out: docs/bridge.md.
+constexpr double kLongestDelay_s = 0.9;
+
 std::uint64_t refused(const Counts& counts) {
   const auto none = static_cast<std::size_t>(Refusal::kOwn);
   const auto others = static_cast<std::size_t>(Refusal::kNotOwned);
@@ -37,6 +40,9 @@ std::string direction(const char* name, const Counts& counts) {
 std::vector<std::string> alarms(const BridgeStatus& status) {
   std::vector<std::string> all = status.bus_alarms;
   if (!status.link.is_open) all.push_back("bridge: no server: " + status.link.trouble);
+  if (!status.link.refusal.empty()) {
+    all.push_back("bridge: the server refuses: " + status.link.refusal);
+  }
   if (!status.gap.empty()) all.push_back("bridge: messages are missing: " + status.gap);
   if (status.archive.is_wanted && !status.archive.is_kept) {
     all.push_back("bridge: the archive does not work: " + status.archive.trouble);
@@ -46,6 +52,9 @@ std::vector<std::string> alarms(const BridgeStatus& status) {
   }
   if (status.ownership.is_wanted && !status.ownership.is_confirmed) {
     all.push_back("bridge: the store of owners does not answer, no target changes its owner");
+  }
+  if (status.ownership.is_wanted && status.ownership.delay_s > kLongestDelay_s) {
+    all.push_back("bridge: the store of owners is too slow for so many targets");
   }
   return all;
 }
@@ -77,7 +86,8 @@ std::string to_json(const BridgeStatus& status) {
                     {"losses", link.losses},
                     {"sent", link.sent},
                     {"unsent", link.unsent},
-                    {"displaced", link.displaced}}},
+                    {"displaced", link.displaced},
+                    {"refusals", link.refusals}}},
                   {"archive",
                    {{"kept", status.archive.is_kept},
                     {"trouble", status.archive.trouble},
@@ -92,6 +102,7 @@ std::string to_json(const BridgeStatus& status) {
                     {"handed_over", own.handed_over},
                     {"lost", own.lost},
                     {"epoch", own.epoch},
+                    {"delay_s", own.delay_s},
                     {"obeyed_epoch", status.obeyed_epoch}}}};
   return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }

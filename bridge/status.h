@@ -14,6 +14,8 @@ struct LinkStatus {
   bool is_open = false;
   std::string trouble;
   std::uint64_t openings = 0, losses = 0, sent = 0, unsent = 0, displaced = 0;
+  std::uint64_t refusals = 0;
+  std::string refusal;  // of the server, the last one
 };
 
 struct ArchiveStatus {
@@ -28,6 +30,7 @@ struct OwnershipStatus {
   std::size_t owned = 0, others = 0;
   std::uint64_t taken = 0, handed_over = 0, lost = 0;
   std::uint64_t epoch = 0;  // the greatest of those that are owned
+  double delay_s = 0.0;     // until the store answers
 };
 
 struct BridgeStatus {

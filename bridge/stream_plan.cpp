@@ -1,5 +1,7 @@
 #include "bridge/stream_plan.h"
 
+#include <algorithm>
+
 namespace ols::bridge {
 namespace {
 
@@ -31,6 +33,7 @@ std::optional<StreamPlan> plan_stream(const BridgeConfig& config) {
   StreamPlan plan;
   plan.name = stream_of(config.region, is_site ? config.site : "");
   plan.keep_ns = static_cast<std::int64_t>(config.archive.keep_h * kNanosecondsPerHour);
+  plan.most_bytes = static_cast<std::int64_t>(config.archive.most_bytes);
   for (const std::string& site : config.archive.sources) {
     plan.sources.push_back({stream_of(config.region, site), site});
   }
@@ -42,6 +45,20 @@ std::optional<StreamPlan> plan_stream(const BridgeConfig& config) {
   }
   if (config.targets) plan.subjects.push_back(region + ".target");
   return plan;
+}
+
+bool is_same_stream(const BridgeConfig& config, const std::vector<std::string>& subjects,
+                    const std::vector<std::string>& sources) {
+  const bool is_site = config.role == Role::kSite;
+  const std::string region = "ols.v1." + config.region + ".";
+  const std::string here = is_site ? region + config.site + "." : region;
+  const std::string streams = stream_of(config.region, "") + "_";
+  return std::ranges::all_of(subjects,
+                             [&](const std::string& one) {
+                               return one.starts_with(here) || one == region + "target";
+                             }) &&
+         std::ranges::all_of(
+             sources, [&](const std::string& one) { return !is_site && one.starts_with(streams); });
 }
 
 bool covers(const std::string& pattern, const std::string& subject) {

@@ -19,11 +19,16 @@ struct StreamPlan {
   std::string name;
   std::vector<std::string> subjects;  // that this server itself hears; none where it copies
   std::vector<StreamSource> sources;
-  std::int64_t keep_ns = 0;
+  std::int64_t keep_ns = 0, most_bytes = 0;
 };
 
 // Nothing where no stream is configured.
 std::optional<StreamPlan> plan_stream(const BridgeConfig& config);
+
+// Whether a stream of that name, which was found with these, is the planned one, perhaps of an
+// earlier configuration: then all it keeps is of this region, or site.
+bool is_same_stream(const BridgeConfig& config, const std::vector<std::string>& subjects,
+                    const std::vector<std::string>& sources);
 
 // Whether a subject with wildcards covers this one, as NATS has it.
 bool covers(const std::string& pattern, const std::string& subject);

@@ -60,8 +60,13 @@ void Ownership::hear(const Track& track, const Now& now) {
 void Ownership::hear(const Sighting& sighting, const Now& now) {
   const auto at = entries_.find(sighting.target);
   if (at == entries_.end()) return;
-  at->second.place = sighting;
-  at->second.seen_s = now.monotonic_s;
+  Entry& entry = at->second;
+  entry.place = sighting;
+  entry.seen_s = now.monotonic_s;
+  // Whom the store has just confirmed nobody has replaced, whatever a header says. That it has been
+  // replaced is for the store to say: its next answer ends the doubt, or the ownership.
+  const bool is_confirmed = now.monotonic_s < entry.held_until_s;
+  if (entry.is_mine && !is_confirmed && sighting.epoch > entry.epoch) entry.is_doubted = true;
 }
 
 void Ownership::learn(const std::string& target, const OwnerRecord& record, std::uint64_t revision,
@@ -74,10 +79,8 @@ void Ownership::learn(const std::string& target, const OwnerRecord& record, std:
     entry.place = {target, record.position_m, record.velocity_m_s, record.sd_m};
     entry.seen_s = seen_s;
   }
-  entry.record = record;
   entry.place.target = target;
-  entry.revision = revision;
-  entry.changed_s = now.monotonic_s;
+  keep(entry, record, revision, now);
   const bool is_own = record.owner == rules_.name;
   // Its answer was lost, or is still on its way.
   if (is_own && entry.request.record.beat == record.beat) settle(entry, revision);
@@ -87,9 +90,30 @@ void Ownership::learn(const std::string& target, const OwnerRecord& record, std:
   }
 }
 
-void Ownership::learn_wish(const std::string& target, const std::string& by, const Now& now) {
+void Ownership::learn_gone(const std::string& target, const Now& now) {
+  const auto at = entries_.find(target);
+  if (at == entries_.end()) return;
+  keep(at->second, OwnerRecord{}, 0, now);
+  if (std::exchange(at->second.is_mine, false)) ++counts_.lost;
+}
+
+void Ownership::keep(Entry& entry, const OwnerRecord& record, std::uint64_t revision,
+                     const Now& now) {
+  if (now.monotonic_s - entry.marked_s >= kWishHolds_s) {
+    entry.old_revision = std::exchange(entry.next_old_revision, entry.revision);
+    entry.marked_s = now.monotonic_s;
+  }
+  entry.record = record;
+  entry.revision = revision;
+  entry.changed_s = now.monotonic_s;
+  entry.is_doubted = false;
+}
+
+void Ownership::learn_wish(const std::string& target, const std::string& by, std::uint64_t revision,
+                           const Now& now) {
   const auto at = entries_.find(target);
   if (at == entries_.end() || by == rules_.name) return;
+  if (revision <= at->second.old_revision) return;
   at->second.wished_by = by;
   at->second.wished_s = now.monotonic_s;
 }
@@ -99,28 +123,35 @@ void Ownership::settle(Entry& entry, std::uint64_t revision) {
   if (!entry.is_mine) {
     entry.is_mine = true;
     entry.epoch = revision;
+    // To an owner before.
+    entry.wished_by.clear();
+    entry.old_revision = entry.next_old_revision = revision;
     ++counts_.taken;
   }
   entry.held_until_s = entry.request.asked_s + kHeld * kLease_s;
 }
 
-void Ownership::answer(const std::string& target, StoreAnswer answer, std::uint64_t revision,
+void Ownership::answer(const StoreRequest& request, StoreAnswer answer, std::uint64_t revision,
                        const Now& now) {
-  const auto at = entries_.find(target);
+  const auto at = entries_.find(request.target);
   if (at == entries_.end()) return;
   Entry& entry = at->second;
+  if (entry.request.what == Asked::kNothing || entry.request.record.beat != request.record.beat) {
+    // To one that was given up meanwhile: what it wrote is a record as any other.
+    if (answer == StoreAnswer::kDone) learn(request.target, request.record, revision, now);
+    return;
+  }
   const Asked what = std::exchange(entry.request.what, Asked::kNothing);
   if (answer != StoreAnswer::kDone) {
-    // Another one may have written there, so nothing is certain; what there is, learn() says.
-    if (answer == StoreAnswer::kRefused) entry.held_until_s = now.monotonic_s;
+    // That another one has written there ends an ownership at once. What it wrote may be known by
+    // now, and may be an earlier record of our own whose answer was lost.
+    if (answer == StoreAnswer::kRefused && entry.revision == request.revision) {
+      entry.is_doubted = true;
+    }
     entry.due_s = std::max(entry.due_s, now.monotonic_s + 0.1);
     return;
   }
-  if (revision > entry.revision) {
-    entry.record = entry.request.record;
-    entry.revision = revision;
-    entry.changed_s = now.monotonic_s;
-  }
+  if (revision > entry.revision) keep(entry, entry.request.record, revision, now);
   if (what == Asked::kRelease) {
     if (std::exchange(entry.is_mine, false)) ++counts_.handed_over;
   } else if (what != Asked::kNothing && entry.record.owner == rules_.name) {
@@ -174,11 +205,12 @@ void Ownership::let_go(const Now& now, Requests& requests) {
       continue;
     }
     const auto entry = entries_.find(seen.target);
+    // Also one that it is about to take is then to be given up.
+    if (entry != entries_.end() && entry->second.request.what != Asked::kNothing) {
+      ++at;
+      continue;
+    }
     if (entry != entries_.end() && entry->second.is_mine) {
-      if (entry->second.request.what != Asked::kNothing) {
-        ++at;
-        continue;
-      }
       OwnerRecord record = record_of(seen, now);
       record.owner.clear();
       ask(entry->second, Asked::kRelease, record, now.monotonic_s, requests);
@@ -339,8 +371,10 @@ std::optional<Grant> Ownership::grant(std::int64_t track_id, const Now& now) con
   const auto at = entries_.find(seen->second.target);
   if (at == entries_.end()) return std::nullopt;
   const Entry& entry = at->second;
-  if (!entry.is_mine || entry.request.what == Asked::kRelease) return std::nullopt;
-  return Grant{at->first, entry.epoch, now.monotonic_s < entry.held_until_s};
+  if (!entry.is_mine || entry.is_doubted || entry.request.what == Asked::kRelease) {
+    return std::nullopt;
+  }
+  return Grant{at->first, entry.epoch, now.monotonic_s < entry.held_until_s, rules_.name};
 }
 
 Ownership::Counts Ownership::counts(const Now& now) const {
@@ -349,7 +383,8 @@ Ownership::Counts Ownership::counts(const Now& now) const {
   for (const auto& [target, entry] : entries_) {
     ++(entry.is_mine ? counts.owned : counts.others);
     if (entry.is_mine) counts.epoch = std::max(counts.epoch, entry.epoch);
-    if (entry.is_mine && now.monotonic_s >= entry.held_until_s) counts.is_confirmed = false;
+    const bool is_held = entry.is_doubted || now.monotonic_s < entry.held_until_s;
+    if (entry.is_mine && !is_held) counts.is_confirmed = false;
   }
   return counts;
 }

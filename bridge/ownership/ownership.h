@@ -5,8 +5,10 @@
 // An owner renews its record by compare-and-set; so does who takes it, and one of both fails. An
 // owner counts its lease from before its renewal was sent, and a little short; another fusion
 // counts it from after it was heard. So two never own one target at one instant, whatever their
-// clocks say. While the store does not answer, an owner goes on, and says with each message that it
-// is not confirmed; nobody can take the target from it then.
+// clocks say. While the store does not answer it, an owner goes on, and says with each message that
+// it is not confirmed. Does it not answer anybody, then nobody can take the target. But if this
+// owner alone is cut from it, another fusion takes the target, and both publish until the old owner
+// hears the new one, which has the greater epoch: then it stops.
 #pragma once
 
 #include <cstdint>
@@ -40,6 +42,7 @@ struct Sighting {
   std::string target;  // region-wide id
   Vector position_m{}, velocity_m_s{};
   double sd_m = 0.0;
+  std::uint64_t epoch = 0;
 };
 
 // To the store: this record, if the revision there is still this one (0: if there is none). Or,
@@ -62,10 +65,14 @@ class Ownership {
   // The store has this of a target now.
   void learn(const std::string& target, const OwnerRecord& record, std::uint64_t revision,
              const Now& now);
-  // `by` wishes to own it.
-  void learn_wish(const std::string& target, const std::string& by, const Now& now);
-  // To the request that step() gave for this target; wishes are not answered.
-  void answer(const std::string& target, StoreAnswer answer, std::uint64_t revision,
+  // The store has nothing of it any more.
+  void learn_gone(const std::string& target, const Now& now);
+  // `by` wishes to own it. A store may say again what was wished long ago: its revision tells.
+  void learn_wish(const std::string& target, const std::string& by, std::uint64_t revision,
+                  const Now& now);
+  // To a request of step(); wishes are not answered. Where it was refused, what the store has
+  // instead is learnt before, or is not known yet.
+  void answer(const StoreRequest& request, StoreAnswer answer, std::uint64_t revision,
               const Now& now);
 
   // Whether the store answers. One that comes back has heard of no renewal meanwhile: nobody is
@@ -97,6 +104,9 @@ class Ownership {
   struct Entry {
     OwnerRecord record;
     std::uint64_t revision = 0;
+    // Wishes up to the first revision are old; the second one takes its place from time to time.
+    std::uint64_t old_revision = 0, next_old_revision = 0;
+    double marked_s = -1e9;
     double changed_s = 0.0;  // its record, as heard here
     Sighting place;
     double seen_s = -1e9;  // there
@@ -106,6 +116,7 @@ class Ownership {
     double wish_due_s = 0.0;
     Request request;
     bool is_mine = false;
+    bool is_doubted = false;      // another one has taken it, by all that is known
     std::uint64_t epoch = 0;      // of an owner
     double held_until_s = -1e9;   // of an owner: its lease
     double doubled_since_s = -1;  // of an owner: another's record of the same target; < 0: none
@@ -128,6 +139,7 @@ class Ownership {
   void let_go(const Now& now, Requests& requests);
   void ask(Entry& entry, Asked what, OwnerRecord record, double now_s, Requests& requests);
   void settle(Entry& entry, std::uint64_t revision);
+  static void keep(Entry& entry, const OwnerRecord& record, std::uint64_t revision, const Now& now);
   OwnerRecord record_of(const Seen& seen, const Now& now);
   double delay_s() const;
 

@@ -22,7 +22,7 @@ from conftest import BIN, ROOT
 DEADLINE_S = 30.0
 SERVER = Path(os.environ.get("OLS_NATS_SERVER", ROOT / "build/nats/nats-server"))
 EXAMPLES = ROOT / "systemd/examples"
-NAMES = {"moravia": "r", "airfield": "s", "alfa": "alfa", "bravo": "bravo"}
+NAMES = {"moravia": "r", "bohemia": "q", "airfield": "s", "alfa": "alfa", "bravo": "bravo"}
 
 needs_server = pytest.mark.skipif(
     not SERVER.exists(), reason="nats-server is not built: tools/build-nats-server"
@@ -79,7 +79,10 @@ class Server:
         assert self.process.poll() is None, self.log.read_text()
 
     def signal(self, how):
+        """A stop is waited for: until then one of its threads may go on."""
         self.process.send_signal(how)
+        if how == signal.SIGSTOP:
+            os.waitid(os.P_PID, self.process.pid, os.WSTOPPED)
 
     def stop(self):
         if self.process is not None:
@@ -87,6 +90,16 @@ class Server:
             self.process.terminate()
             self.process.wait(DEADLINE_S)
         self.process = None
+
+
+def active(text, after, last="nothing"):
+    """An example's text without the # of the lines after one that begins so, to one that is so."""
+    lines, is_in = [], False
+    for line in text.split("\n"):
+        words = line.strip().removeprefix("# ")
+        lines.append(line.replace("# ", "", 1) if is_in and line.strip().startswith("#") else line)
+        is_in = (is_in and words != last) or words.startswith(after)
+    return "\n".join(lines)
 
 
 class Proxy:
@@ -186,6 +199,8 @@ class Watcher:
         """All messages of a stream, by their Nats-Msg-Id."""
         state = self.request(f"$JS.{domain}.API.STREAM.INFO.{stream}", {})["state"]
         found = []
+        if not state["messages"]:  # the first of none is 0, which none has
+            return found
         for number in range(state["first_seq"], state["last_seq"] + 1):
             got = self.request(f"$JS.{domain}.API.STREAM.MSG.GET.{stream}", {"seq": number})
             headers = base64.b64decode(got["message"].get("hdrs", "")).decode()
@@ -245,12 +260,34 @@ class Bridge:
         return self.process.wait(DEADLINE_S)
 
 
+class Other:
+    """A bridge of another configuration, which need not connect."""
+
+    def __init__(self, folder, name, nats):
+        self.status_file = folder / f"{name}.json"
+        config = folder / f"{name}.toml"
+        config.write_text(
+            f'lcm_url = "{bus_url(7670)}"\nstatus_file = "{self.status_file}"\n[nats]\n{nats}\n'
+        )
+        self._process = subprocess.Popen([str(BIN / "ols-bridge"), "--config", str(config)])
+
+    def status(self):
+        return json.loads(self.status_file.read_text()) if self.status_file.exists() else None
+
+    def says(self, words):
+        return self.status() and any(words in alarm for alarm in self.status()["alarms"])
+
+    def stop(self):
+        self._process.terminate()
+        assert self._process.wait(DEADLINE_S) == 0
+
+
 class Network:
     """A hub, a leaf, and a bridge at each: one site, one region."""
 
     def __init__(self, folder: Path, region_tail="", site_tail="", site_head=""):
-        self.folder = folder
-        users = ("site", "leaf", "region", "archive")
+        self.folder, self.with_targets = folder, "targets" in site_head
+        users = ("site", "leaf", "region", "archive", "neighbour")
         self.seeds = {name: folder / f"{name}.seed" for name in users}
         self.keys = {name: key(self.seeds[name]) for name in users}
         seed = self.seeds["leaf"].read_text().strip()
@@ -275,8 +312,11 @@ class Network:
         self.site.until(lambda s: s["link"]["open"], "the site's server")
 
     def _hub(self, text):
-        text = re.sub(r"  tls \{.*?\n  \}\n", "", text, flags=re.S)
+        text = re.sub(r"^  tls \{.*?\n  \}\n", "", text, flags=re.S | re.M)
         text = text.replace("users: [", "users: [\n{user: watch, password: watch}\n")
+        text = text.replace("# " * self.with_targets + '"ols.v1.r.target"', '"ols.v1.r.target"')
+        text = active(text, "The hub of a second region")
+        text = text.replace("UAHUBOFANOTHERREGION", self.keys["neighbour"])
         text = text.replace("UBRIDGEOFTHEREGION", self.keys["region"])
         text = text.replace("UARCHIVEOFTHEREGION", self.keys["archive"])
         return text.replace("UALEAFOFTHESITE", self.keys["leaf"])
@@ -284,6 +324,7 @@ class Network:
     def _leaf(self, text):
         text = re.sub(r"    tls \{.*?\}\n", "", text)
         text = text.replace("users: [", "users: [\n{user: watch, password: watch}\n")
+        text = text.replace("# " * self.with_targets + '"ols.v1.r.target"', '"ols.v1.r.target"')
         text = text.replace("tls://hub.example:7422", "nats-leaf://127.0.0.1:7522")
         text = text.replace("127.0.0.1:4222", "127.0.0.1:4223")
         return text.replace("UABRIDGEOFTHESITE", self.keys["site"])
@@ -336,4 +377,12 @@ def slew(station="alfa", sequence=1, age_s=0.0, target_id=0):
     message.schema_version = message.SCHEMA_VERSION
     message.station, message.boot_id, message.sequence = station, 9, sequence
     message.lease_s, message.target_id = 1.0, target_id
+    return message.encode()
+
+
+def target(sequence):
+    message = ols_msg.target_t()
+    message.utime = time.time_ns() // 1000
+    message.schema_version = message.SCHEMA_VERSION
+    message.boot_id, message.sequence, message.target_id = 3, sequence, 1
     return message.encode()

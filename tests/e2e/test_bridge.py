@@ -2,7 +2,6 @@
 the shipped examples: bytes unchanged, no command late, no loop, a link that is cut and returns."""
 
 import itertools
-import json
 import signal
 import subprocess
 import time
@@ -12,12 +11,14 @@ from bridge_site import (
     DEADLINE_S,
     Listener,
     Network,
+    Other,
     Server,
+    Watcher,
     bearing,
-    bus_url,
     needs_server,
     slew,
     status,
+    target,
     wait,
 )
 from conftest import BIN
@@ -92,6 +93,30 @@ def test_what_a_station_may_not_say_the_servers_refuse(net):
         talk.station("charlie")
     talk.until_through("bravo")
     assert talk.region.on("OLS_BEARING_charlie") == []
+    net.site.until(
+        lambda s: [
+            alarm
+            for alarm in s["alarms"]
+            if alarm.startswith("bridge: the server refuses: ") and "ols.v1.r.s.charlie" in alarm
+        ],
+        "it is said",
+    )
+    assert net.site.status()["link"]["refusals"] >= 1
+
+
+def test_a_site_with_a_fusion_sends_its_targets(network, tmp_path):
+    net = Network(tmp_path, site_head="targets = true\n")
+    watcher = Watcher(4222, "ols.v1.r.target")
+    try:
+        site = Listener(net.site_url)
+        numbers = itertools.count(1)
+        wait(
+            lambda: site.bus.publish("OLS_TARGET", target(next(numbers))) or watcher.heard,
+            "its targets at the hub",
+        )
+    finally:
+        watcher.close()
+        net.close()
 
 
 def test_nothing_comes_back_to_where_it_was_said(net):
@@ -148,28 +173,6 @@ def test_the_server_dies_and_the_bridge_comes_back(net):
     state = net.site.status()
     assert state["link"]["losses"] >= 1 and state["link"]["unsent"] >= 1
     assert said["OLS_BEARING_alfa"] not in talk.region.on("OLS_BEARING_alfa"), "not queued"
-
-
-class Other:
-    """A bridge of another configuration, which need not connect."""
-
-    def __init__(self, folder, name, nats):
-        self.status_file = folder / f"{name}.json"
-        config = folder / f"{name}.toml"
-        config.write_text(
-            f'lcm_url = "{bus_url(7670)}"\nstatus_file = "{self.status_file}"\n[nats]\n{nats}\n'
-        )
-        self._process = subprocess.Popen([str(BIN / "ols-bridge"), "--config", str(config)])
-
-    def status(self):
-        return json.loads(self.status_file.read_text()) if self.status_file.exists() else None
-
-    def says(self, words):
-        return self.status() and any(words in alarm for alarm in self.status()["alarms"])
-
-    def stop(self):
-        self._process.terminate()
-        assert self._process.wait(DEADLINE_S) == 0
 
 
 def test_a_wrong_key_is_said_until_the_server_knows_it(net, tmp_path):

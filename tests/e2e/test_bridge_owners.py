@@ -47,21 +47,29 @@ def target(target_id, east_m, sequence):
     return message.encode()
 
 
+def watcher_of_targets():
+    return Watcher(4222, "ols.v1.*.target", "ols.v1.r.s.*.cmd.slew")
+
+
 class Sky:
     """A target that flies, both fusions, and what receivers hear."""
 
     def __init__(self, folder):
         self.net = Network(folder, region_tail=OWNERS.format("west", WEST[1]))
-        self.west, self.east = self.net.region, None
-        self.east = Bridge(
-            *(folder, "east", bus_url(7669), self.net.seeds["region"], self.net.keys["region"]),
+        self.west, self.east = self.net.region, self.other_fusion()
+        self.buses = [Listener(self.net.region_url), Listener(bus_url(7669))]
+        self.watcher = watcher_of_targets()
+        self.numbers, self.east_m = itertools.count(1), -3000.0
+
+    def other_fusion(self):
+        """Of the same region."""
+        return Bridge(
+            *(self.net.folder, "east", bus_url(7669)),
+            *(self.net.seeds["region"], self.net.keys["region"]),
             port=4222,
             head='role = "region"\nregion = "r"\ntargets = true\n',
             tail=OWNERS.format("east", EAST[1]),
         )
-        self.buses = [Listener(self.net.region_url), Listener(bus_url(7669))]
-        self.watcher = Watcher(4222, "ols.v1.*.target", "ols.v1.r.s.*.cmd.slew")
-        self.numbers, self.east_m = itertools.count(1), -3000.0
 
     def say(self):
         number = next(self.numbers)
@@ -176,3 +184,35 @@ def test_a_store_that_does_not_answer_leaves_the_owner(sky):
     assert {who for _, who, *_ in heard} == {WEST[0]}, "no hand-over"
     assert any("does not answer" in alarm for alarm in sky.west.status()["alarms"])
     watcher.close()
+
+
+def test_a_target_changes_its_owner_after_the_hub_has_started_anew(sky):
+    """What watched the store there before hears of nothing any more, and nobody says so."""
+    sky.until(lambda heard: len(heard) > 10, "an owner")
+    name = list(sky.heard())[-1][2]
+    sky.net.hub.stop()
+    sky.until(lambda _: not sky.west.status()["link"]["open"], "the loss is seen")
+    sky.net.hub.start()
+    sky.watcher.close()
+    sky.watcher = wait(watcher_of_targets, "the hub takes a client")
+    sky.until(lambda heard: heard and heard[-1][4], "an owner that is confirmed", 60.0)
+    sky.fly(3000.0)
+    sky.until(lambda heard: heard[-1][1] == EAST[0], "the other one has it", 60.0)
+    sky.fly(-3000.0)
+    sky.until(lambda heard: heard[-1][1] == WEST[0], "and back", 60.0)
+    heard = list(sky.heard())
+    never_two(heard)
+    assert {target for _, _, target, *_ in heard} == {name}
+
+
+def test_a_server_that_forgets_who_watches_the_store_leaves_nobody_deaf(sky):
+    sky.until(lambda heard: len(heard) > 10, "an owner")
+    names = sky.watcher.request("$JS.API.CONSUMER.NAMES.KV_OLS_OWNERS", {})["consumers"]
+    assert len(names) == 2, "both fusions"
+    for name in names:
+        sky.watcher.request(f"$JS.API.CONSUMER.DELETE.KV_OLS_OWNERS.{name}", {})
+    sky.fly(3000.0)
+    sky.until(lambda heard: heard[-1][1] == EAST[0], "the other one has it")
+    heard = list(sky.heard())
+    never_two(heard)
+    assert len({target for _, _, target, *_ in heard}) == 1

@@ -41,13 +41,26 @@ TEST(BridgeConfig, ARegionTakesItsOwnSites) {
 
 TEST(BridgeConfig, WhatCannotBeIsNamed) {
   EXPECT_THAT(error_of("region = \"a.b\"\n"), HasSubstr("bridge.toml:1: region"));
+  // A stream's name has both, between _.
+  EXPECT_THAT(error_of("region = \"a_b\"\n"), HasSubstr("bridge.toml:1: region"));
+  EXPECT_THAT(error_of("site = \"b_c\"\n"), HasSubstr("bridge.toml:1: site"));
+  EXPECT_THAT(error_of("[archive]\nsources = [\"b_c\"]\n"), HasSubstr("archive.sources"));
+  EXPECT_EQ(error_of("stations = [\"a_b\"]\n"), "");
   EXPECT_THAT(error_of("stations = [\"*\"]\n"), HasSubstr("stations"));
   EXPECT_THAT(error_of("takes = [\"alfa\"]\n"), HasSubstr("REGION.SITE.STATION"));
   EXPECT_THAT(error_of("stations = [\"a\"]\ntakes = [\"r.s.a\"]\n"), HasSubstr("goes out"));
   EXPECT_THAT(error_of("commands = [\"reboot\"]\n"), HasSubstr("is not a command that crosses"));
   EXPECT_THAT(error_of("[nats]\nservers = [\"http://a\"]\n"), HasSubstr("neither nats://"));
   EXPECT_THAT(error_of("[nats]\nservers = []\n"), HasSubstr("must name one"));
-  EXPECT_THAT(error_of("[nats]\ncertificate = \"a\"\n"), HasSubstr("belong together"));
+  const std::string tls = "[nats]\nservers = [\"tls://a:1\"]\n";
+  EXPECT_THAT(error_of(tls + "certificate = \"a\"\n"), HasSubstr("belong together"));
+  EXPECT_EQ(error_of(tls + "certificate = \"a\"\nkey = \"b\"\nauthority = \"c\"\n"), "");
+  EXPECT_THAT(error_of("[nats]\nservers = [\"tls://a:1\", \"nats://a:1\"]\n"),
+              HasSubstr("bridge.toml:2: nats.servers: either all are tls://"));
+  EXPECT_THAT(error_of("[nats]\nauthority = \"a\"\n"),
+              HasSubstr("bridge.toml:2: nats.authority: only with"));
+  EXPECT_THAT(error_of("[nats]\ncertificate = \"a\"\nkey = \"b\"\n"),
+              HasSubstr("nats.certificate: only with"));
   EXPECT_THAT(error_of("[nats]\ncredentials = \"a\"\nnkey = \"U\"\n"), HasSubstr("either"));
   EXPECT_THAT(error_of("[archive]\nsources = [\"a.b\"]\n"), HasSubstr("archive.sources"));
   EXPECT_THAT(error_of("[ownership]\ncell_deg = [50.0, 1.0, 49.0, 2.0]\n"), HasSubstr("south"));

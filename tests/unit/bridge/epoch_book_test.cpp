@@ -2,51 +2,96 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 namespace ols::bridge {
 namespace {
 
-TEST(EpochBook, OfOneTargetOnlyTheGreatestIsObeyedEver) {
+TEST(EpochBook, OfOneTargetOnlyTheGreatestIsObeyed) {
   EpochBook book;
-  EXPECT_TRUE(book.passes("alfa", "t", 5, 0.0));
-  EXPECT_TRUE(book.passes("alfa", "t", 6, 0.1));
-  EXPECT_FALSE(book.passes("alfa", "t", 5, 0.2));
-  EXPECT_FALSE(book.passes("alfa", "t", 5, 1000.0));
-  EXPECT_TRUE(book.passes("alfa", "t", 6, 1001.0));
+  EXPECT_TRUE(book.passes("alfa", {"t", "a", 5}, 0.0));
+  EXPECT_TRUE(book.passes("alfa", {"t", "b", 6}, 0.1));
+  EXPECT_FALSE(book.passes("alfa", {"t", "a", 5}, 0.2));
+  EXPECT_FALSE(book.passes("alfa", {"t", "b", 5}, 0.3));
+  EXPECT_FALSE(book.passes("alfa", {"t", "a", 5}, 60.0));
+  EXPECT_TRUE(book.passes("alfa", {"t", "b", 6}, 60.0));
+}
+
+TEST(EpochBook, WhatIsSilentForAMinuteIsForgotten) {
+  EpochBook book;
+  EXPECT_TRUE(book.passes("alfa", {"t", "a", 1'000'000}, 0.0));
+  // The store was made anew.
+  EXPECT_FALSE(book.passes("alfa", {"t", "b", 7}, 59.0));
+  EXPECT_TRUE(book.passes("alfa", {"t", "b", 7}, 60.1));
 }
 
 TEST(EpochBook, AnotherTargetsLowerEpochWaitsUntilTheGreatestIsSilent) {
   EpochBook book;
-  EXPECT_TRUE(book.passes("alfa", "new", 9, 0.0));
-  EXPECT_FALSE(book.passes("alfa", "old", 4, EpochBook::kSilence_s));
-  EXPECT_TRUE(book.passes("bravo", "old", 4, 0.1)) << "each station has its own";
-  EXPECT_TRUE(book.passes("alfa", "old", 4, EpochBook::kSilence_s + 0.1));
-  EXPECT_TRUE(book.passes("alfa", "new", 9, EpochBook::kSilence_s + 0.2));
+  EXPECT_TRUE(book.passes("alfa", {"new", "a", 9}, 0.0));
+  EXPECT_FALSE(book.passes("alfa", {"old", "b", 4}, EpochBook::kSilence_s));
+  EXPECT_FALSE(book.passes("alfa", {"old", "", 4}, EpochBook::kSilence_s)) << "it does not say";
+  EXPECT_TRUE(book.passes("bravo", {"old", "b", 4}, 0.1)) << "each station has its own";
+  EXPECT_TRUE(book.passes("alfa", {"old", "b", 4}, EpochBook::kSilence_s + 0.1));
+  EXPECT_TRUE(book.passes("alfa", {"new", "a", 9}, EpochBook::kSilence_s + 0.2));
+}
+
+TEST(EpochBook, AnOwnerLeadsToAnOlderTargetOfItsOwnAtOnce) {
+  EpochBook book;
+  EXPECT_TRUE(book.passes("alfa", {"old", "a", 4}, 0.0));
+  EXPECT_TRUE(book.passes("alfa", {"new", "a", 9}, 0.1));
+  EXPECT_TRUE(book.passes("alfa", {"old", "a", 4}, 0.2));
+  EXPECT_TRUE(book.passes("alfa", {"old", "b", 12}, 0.3));
+  EXPECT_FALSE(book.passes("alfa", {"old", "a", 4}, 0.4)) << "it is another's now";
+  EXPECT_FALSE(book.passes("alfa", {"new", "a", 9}, 0.5)) << "and that one leads the station";
 }
 
 TEST(EpochBook, TheGreatestIsThatOfWhatPassed) {
   EpochBook book;
   EXPECT_EQ(book.greatest(), 0U);
-  EXPECT_TRUE(book.passes("alfa", "new", 9, 0.0));
-  EXPECT_TRUE(book.passes("bravo", "old", 4, 0.1));
-  EXPECT_FALSE(book.passes("alfa", "new", 8, 0.2));
+  EXPECT_TRUE(book.passes("alfa", {"new", "a", 9}, 0.0));
+  EXPECT_TRUE(book.passes("bravo", {"old", "b", 4}, 0.1));
+  EXPECT_FALSE(book.passes("alfa", {"new", "a", 8}, 0.2));
   EXPECT_EQ(book.greatest(), 9U);
 }
 
 TEST(EpochBook, WhoOwnsNothingWaitsForOwners) {
   EpochBook book;
-  EXPECT_TRUE(book.passes("alfa", "", 0, 0.0));
-  EXPECT_TRUE(book.passes("alfa", "t", 1, 0.1));
-  EXPECT_FALSE(book.passes("alfa", "", 0, 0.2));
-  EXPECT_TRUE(book.passes("alfa", "", 0, 0.2 + EpochBook::kSilence_s));
+  EXPECT_TRUE(book.passes("alfa", {""}, 0.0));
+  EXPECT_TRUE(book.passes("alfa", {"t", "a", 1}, 0.1));
+  EXPECT_FALSE(book.passes("alfa", {""}, 0.2));
+  EXPECT_TRUE(book.passes("alfa", {""}, 0.2 + EpochBook::kSilence_s));
+}
+
+TEST(EpochBook, AnEpochThatNoStoreCanHaveRulesNobody) {
+  EpochBook book;
+  constexpr std::uint64_t kLast = std::numeric_limits<std::uint64_t>::max();
+  EXPECT_FALSE(book.passes("alfa", {"t", "x", kLast}, 0.0));
+  EXPECT_TRUE(book.passes("alfa", {"t", "a", 500}, 0.1));
+  EXPECT_FALSE(book.passes("alfa", {"t", "x", 500 + 2 * EpochBook::kMostJump}, 0.2));
+  EXPECT_TRUE(book.passes("alfa", {"t", "a", 500}, 0.3));
+  EXPECT_TRUE(book.passes("alfa", {"t", "a", 900'000}, 0.4)) << "of many targets";
+  EXPECT_TRUE(book.passes("alfa", {"t", "a", 30'000'000}, 3600.0)) << "heard of an hour later";
 }
 
 TEST(EpochBook, ManyTargetsAreForgottenFromTheOldest) {
   EpochBook book;
   for (std::uint64_t epoch = 1; epoch <= 1002; ++epoch) {
     const std::string target = std::string("t").append(std::to_string(epoch));
-    EXPECT_TRUE(book.passes("alfa", target, epoch, 0.0));
+    EXPECT_TRUE(book.passes("alfa", {target, "a", epoch}, 0.0));
   }
-  EXPECT_FALSE(book.passes("alfa", "t1002", 1001, 10.0)) << "the newest are kept";
+  EXPECT_FALSE(book.passes("alfa", {"t1002", "a", 1001}, 10.0)) << "the newest are kept";
+}
+
+TEST(EpochBook, ManyStationsAreForgottenWhenTheyAreSilent) {
+  EpochBook book;
+  int passed = 0;
+  for (int i = 0; i < 5000; ++i) {
+    const std::string station = std::string("n").append(std::to_string(i));
+    passed += book.passes(station, {"t", "a", 5}, 0.0) ? 1 : 0;
+  }
+  EXPECT_EQ(passed, 2000);
+  EXPECT_FALSE(book.passes("alfa", {"t", "a", 5}, 2.0));
+  EXPECT_TRUE(book.passes("alfa", {"t", "a", 5}, 61.0));
 }
 
 }  // namespace

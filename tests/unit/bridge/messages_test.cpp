@@ -54,6 +54,20 @@ TEST(BridgeMessages, WhatHasNoPlaceIsNoTrack) {
   EXPECT_FALSE(track_from(std::vector<std::uint8_t>(20)));
 }
 
+TEST(BridgeMessages, AnOwnerSaysWhereItsTargetIsAndUnderWhichEpoch) {
+  const Headers headers{
+      {kTargetHeader, "west=7-1"}, {kOwnerHeader, "west=7"}, {kEpochHeader, "41"}};
+  const auto sighting = sighting_from(headers, encoded(placed()));
+  ASSERT_TRUE(sighting);
+  EXPECT_EQ(sighting->target, "west=7-1");
+  EXPECT_EQ(sighting->epoch, 41U);
+  EXPECT_EQ(sighting->position_m[0], 4e6);
+  EXPECT_EQ(sighting->sd_m, 3.0);
+  EXPECT_FALSE(sighting_from({}, encoded(placed()))) << "of a fusion without ownership";
+  EXPECT_FALSE(sighting_from({{kTargetHeader, "w"}, {kEpochHeader, "x"}}, encoded(placed())));
+  EXPECT_FALSE(sighting_from(headers, std::vector<std::uint8_t>(20)));
+}
+
 TEST(BridgeMessages, AMessageNamesItsTarget) {
   EXPECT_EQ(target_id_of(Kind::kTarget, target(8)), 8);
   EXPECT_EQ(target_id_of(Kind::kCommand, slew("alfa", 0.0, 9)), 9);

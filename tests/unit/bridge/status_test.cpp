@@ -30,17 +30,20 @@ TEST(BridgeStatus, EachConditionIsAnAlarm) {
   BridgeStatus status = well();
   status.link.is_open = false;
   status.link.trouble = std::string("gone");
+  status.link.refusal = std::string("Permissions Violation");
   status.gap = std::string("alfa");
   status.archive.is_kept = false;
   status.archive.trouble = std::string("full");
   status.archive.standing = {"airfield"};
   status.ownership.is_confirmed = false;
+  status.ownership.delay_s = 1.0;
   EXPECT_THAT(
       alarms(status),
-      ElementsAre("bridge: no server: gone", "bridge: messages are missing: alfa",
-                  "bridge: the archive does not work: full",
+      ElementsAre("bridge: no server: gone", "bridge: the server refuses: Permissions Violation",
+                  "bridge: messages are missing: alfa", "bridge: the archive does not work: full",
                   "bridge: the archive of airfield stands still",
-                  "bridge: the store of owners does not answer, no target changes its owner"));
+                  "bridge: the store of owners does not answer, no target changes its owner",
+                  "bridge: the store of owners is too slow for so many targets"));
   EXPECT_THAT(in_one_line(status), HasSubstr("not connected"));
 }
 

@@ -64,6 +64,22 @@ TEST(StreamPlan, ARegionCopiesItsSitesAndHearsThemOnlyOnce) {
   EXPECT_TRUE(keeps(*plan_stream(config(Role::kRegion)), "ols.v1.r.s.alfa.bearing"));
 }
 
+TEST(StreamPlan, AStreamOfAnotherPlaceIsNotTheSame) {
+  const BridgeConfig site = config(Role::kSite), region = config(Role::kRegion, {"s"});
+  EXPECT_TRUE(is_same_stream(site, {"ols.v1.r.s.*.bearing", "ols.v1.r.target"}, {}));
+  EXPECT_FALSE(is_same_stream(site, {"ols.v1.r.s.*.bearing", "ols.v1.r.t.*.bearing"}, {}));
+  EXPECT_FALSE(is_same_stream(site, {"ols.v1.rs.*.*.bearing"}, {}));
+  EXPECT_FALSE(is_same_stream(site, {"orders"}, {}));
+  EXPECT_TRUE(is_same_stream(region, {"ols.v1.r.target"}, {"OLS_r_s", "OLS_r_t"}));
+  EXPECT_FALSE(is_same_stream(region, {"ols.v1.r.target"}, {"OLS_other_s"}));
+}
+
+TEST(StreamPlan, ItTakesNoMoreRoomThanItMay) {
+  BridgeConfig site = config(Role::kSite);
+  site.archive.most_bytes = 5e9;
+  EXPECT_EQ(plan_stream(site)->most_bytes, 5'000'000'000);
+}
+
 TEST(StreamPlan, WildcardsCoverAsNatsHasIt) {
   EXPECT_TRUE(covers("a.*.c", "a.b.c"));
   EXPECT_TRUE(covers("a.>", "a.b.c"));

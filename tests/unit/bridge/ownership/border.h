@@ -1,5 +1,5 @@
 // Two regions with a standby each, a target that crosses their border, and a store of owners that
-// answers late, or not at all; for the tests of ownership.
+// answers late, or not at all, or not one of them; for the tests of ownership.
 #pragma once
 
 #include <cmath>
@@ -26,7 +26,6 @@ class Store {
     std::uint64_t revision = 0;
   };
   StoreAnswer write(const StoreRequest& request, std::uint64_t& revision) {
-    if (is_down) return StoreAnswer::kNone;
     const auto at = records.find(request.target);
     const std::uint64_t is = at == records.end() ? 0 : at->second.revision;
     if (is != request.revision) return StoreAnswer::kRefused;
@@ -61,6 +60,8 @@ struct Node {
   std::unique_ptr<Ownership> ownership;
   std::int64_t track_id = 0;
   bool is_alive = true;
+  bool is_deaf = false;  // it hears of no change in the store
+  bool is_cut = false;   // it does not reach the store at all
   int starts = 0;
   std::uint64_t heard_revision = 0;
   double offset_s = 0.0;  // of its clocks
@@ -71,12 +72,10 @@ struct Later {
   double due_s = 0.0;
   Node* node = nullptr;
   int start = 0;
-  std::string target;
+  StoreRequest request;
   bool is_answer = false;
   StoreAnswer answer = StoreAnswer::kNone;
-  OwnerRecord record;
   std::uint64_t revision = 0;
-  std::string wish;
 };
 
 class Border {
@@ -99,14 +98,24 @@ class Border {
   void turn(double east_m, double speed_m_s);
   // Who publishes the target now without a mark.
   std::vector<Node*> owners(std::vector<Grant>* grants = nullptr);
+  // And with one.
+  std::vector<Node*> publishers(std::vector<Grant>* grants = nullptr);
+  // A node that did not reach the store does, and its client reads what there is.
+  static void mend(Node& node) {
+    node.is_cut = false;
+    node.heard_revision = 0;
+  }
 
   double now_s = 1.0;
   std::deque<Node> nodes;
   Store store;
 
  private:
+  bool reaches_store(const Node& node) const { return !store.is_down && !node.is_cut; }
+  void publish(double east_m, double speed_m_s);
   void see(Node& node, double east_m, double speed_m_s);
   void send(Node& node, const StoreRequest& request);
+  void look_again(Node& node, const StoreRequest& request);
   void deliver();
   double delay_s() { return 0.001 + 0.01 * uniform(); }
 
@@ -128,30 +137,29 @@ inline void Border::see(Node& node, double east_m, double speed_m_s) {
 }
 
 inline void Border::send(Node& node, const StoreRequest& request) {
-  if (request.is_wish) {
-    if (store.is_down) return;
-    for (Node& other : nodes) {
-      later_.push_back({now_s + delay_s(),
-                        &other,
-                        other.starts,
-                        request.target,
-                        false,
-                        StoreAnswer::kNone,
-                        {},
-                        0,
-                        request.record.owner});
-    }
-    return;
-  }
   std::uint64_t revision = 0;
-  const StoreAnswer answer = store.write(request, revision);
-  const double late_s = answer == StoreAnswer::kNone ? 1.0 : delay_s();
-  later_.push_back({now_s + late_s, &node, node.starts, request.target, true, answer,
-                    request.record, revision, ""});
-  if (answer != StoreAnswer::kDone) return;
+  if (request.is_wish) {
+    if (!reaches_store(node)) return;
+    revision = ++store.last;
+  } else {
+    const StoreAnswer answer =
+        reaches_store(node) ? store.write(request, revision) : StoreAnswer::kNone;
+    const double late_s = answer == StoreAnswer::kNone ? 1.0 : delay_s();
+    later_.push_back({now_s + late_s, &node, node.starts, request, true, answer, revision});
+    if (answer != StoreAnswer::kDone) return;
+  }
   for (Node& other : nodes) {
-    later_.push_back({now_s + delay_s(), &other, other.starts, request.target, false, answer,
-                      request.record, revision, ""});
+    later_.push_back(
+        {now_s + delay_s(), &other, other.starts, request, false, StoreAnswer::kDone, revision});
+  }
+}
+
+// As the store's client does with a refusal.
+inline void Border::look_again(Node& node, const StoreRequest& request) {
+  if (const auto kept = store.records.find(request.target); kept != store.records.end()) {
+    node.ownership->learn(request.target, kept->second.record, kept->second.revision, at(node));
+  } else {
+    node.ownership->learn_gone(request.target, at(node));
   }
 }
 
@@ -166,12 +174,16 @@ inline void Border::deliver() {
     if (!one.node->is_alive || one.node->starts != one.start) continue;
     Ownership& ownership = *one.node->ownership;
     const Now now = at(*one.node);
+    const StoreRequest& request = one.request;
     if (one.is_answer) {
-      ownership.answer(one.target, one.answer, one.revision, now);
-    } else if (!one.wish.empty()) {
-      ownership.learn_wish(one.target, one.wish, now);
+      if (one.answer == StoreAnswer::kRefused) look_again(*one.node, request);
+      ownership.answer(request, one.answer, one.revision, now);
+    } else if (one.node->is_deaf || one.node->is_cut) {
+      continue;
+    } else if (request.is_wish) {
+      ownership.learn_wish(request.target, request.record.owner, one.revision, now);
     } else {
-      ownership.learn(one.target, one.record, one.revision, now);
+      ownership.learn(request.target, request.record, one.revision, now);
     }
   }
 }
@@ -183,38 +195,52 @@ inline void Border::turn(double east_m, double speed_m_s) {
   for (Node& node : nodes) {
     if (!node.is_alive) continue;
     // A new process reads what there is.
-    if (node.heard_revision == 0 && !store.is_down) {
+    if (node.heard_revision == 0 && reaches_store(node)) {
       node.heard_revision = 1;
       for (const auto& [target, kept] : store.records) {
         node.ownership->learn(target, kept.record, kept.revision, at(node));
       }
     }
-    if (turns_ % 20 == 0) node.ownership->feel_store(!store.is_down, at(node));
+    if (turns_ % 20 == 0) node.ownership->feel_store(reaches_store(node), at(node));
     if (turns_ % 6 == 0) see(node, east_m, speed_m_s);
     if (turns_ % 5 != 0) continue;
     for (const StoreRequest& request : node.ownership->step(at(node))) send(node, request);
   }
-  // What an owner publishes, all the others hear.
-  if (turns_ % 6 != 0) return;
+  if (turns_ % 6 == 0) publish(east_m, speed_m_s);
+}
+
+// What an owner publishes, all the others hear.
+inline void Border::publish(double east_m, double speed_m_s) {
   std::vector<Grant> grants;
-  const auto who = owners(&grants);
+  const auto who = publishers(&grants);
   for (std::size_t i = 0; i < who.size(); ++i) {
+    const Sighting said{grants[i].id, {east_m, 0, 0}, {speed_m_s, 0, 0}, 2.0, grants[i].epoch};
     for (Node& other : nodes) {
-      if (&other == who[i] || !other.is_alive) continue;
-      other.ownership->hear(Sighting{grants[i].id, {east_m, 0, 0}, {speed_m_s, 0, 0}, 2.0},
-                            at(other));
+      if (&other != who[i] && other.is_alive) other.ownership->hear(said, at(other));
     }
   }
 }
 
-inline std::vector<Node*> Border::owners(std::vector<Grant>* grants) {
+inline std::vector<Node*> Border::publishers(std::vector<Grant>* grants) {
   std::vector<Node*> who;
   for (Node& node : nodes) {
     if (!node.is_alive) continue;
     const auto grant = node.ownership->grant(node.track_id, at(node));
-    if (!grant || !grant->is_confirmed) continue;
+    if (!grant) continue;
     who.push_back(&node);
     if (grants != nullptr) grants->push_back(*grant);
+  }
+  return who;
+}
+
+inline std::vector<Node*> Border::owners(std::vector<Grant>* grants) {
+  std::vector<Grant> all;
+  std::vector<Node*> who;
+  const auto publishing = publishers(&all);
+  for (std::size_t i = 0; i < publishing.size(); ++i) {
+    if (!all[i].is_confirmed) continue;
+    who.push_back(publishing[i]);
+    if (grants != nullptr) grants->push_back(all[i]);
   }
   return who;
 }

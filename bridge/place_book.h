@@ -1,0 +1,47 @@
+// Where each station is. A name belongs to the place from which it is heard, until it falls silent:
+// two stations of one name would be one to a fusion, and what came in would go out again. Pure.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <utility>
+
+namespace ols::bridge {
+
+class PlaceBook {
+ public:
+  static constexpr double kSettled_s = 60.0;  // a silent station's name is free again
+  // Of one site, so that invented names leave room for the other sites' stations.
+  static constexpr std::size_t kMostOfSite = 2'000, kMost = 20'000;
+
+  struct Place {
+    std::string region, site;
+    double heard_s = 0.0;
+  };
+
+  // Where it was heard last; null: nowhere.
+  const Place* find(const std::string& station) const;
+  // Whether the name belongs to another place now.
+  bool is_elsewhere(const std::string& station, const std::string& region, const std::string& site,
+                    double now_s) const;
+  // It is heard there. False: the name is another place's, or there is no room.
+  bool settle(const std::string& station, const std::string& region, const std::string& site,
+              double now_s);
+  std::size_t size() const { return places_.size(); }
+  // Of each site: how long ago a station of it was heard.
+  std::map<std::string, double> sites_ago_s(double now_s) const;
+
+ private:
+  static constexpr double kSweep_s = 1.0;  // a flood of names must not cost a search each
+
+  using Site = std::pair<std::string, std::string>;  // region, site
+  bool has_room(const Site& site, double now_s);
+  void forget_silent(double now_s);
+
+  std::map<std::string, Place> places_;
+  std::map<Site, std::size_t> counts_;
+  double swept_s_ = -1e9;
+};
+
+}  // namespace ols::bridge

@@ -1,0 +1,37 @@
+// How often each channel may pass. Channels come and go: who is silent for a minute is forgotten
+// when there is no more room. Pure.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <map>
+#include <string>
+#include <string_view>
+
+#include "base/trust/rate_limit.h"
+
+namespace ols::bridge {
+
+class RateBook {
+ public:
+  static constexpr double kSilent_s = 60.0;
+
+  explicit RateBook(std::size_t most) : most_(most) {}
+
+  // Whether one more may pass now; it is counted.
+  bool passes(std::string_view channel, double rate_hz, double now_s);
+
+ private:
+  static constexpr double kSweep_s = 1.0;  // a flood of names must not cost a search each
+
+  struct One {
+    trust::RateLimit limit;
+    double heard_s = 0.0;
+  };
+
+  std::size_t most_;
+  std::map<std::string, One, std::less<>> channels_;
+  double swept_s_ = -1e9;
+};
+
+}  // namespace ols::bridge
