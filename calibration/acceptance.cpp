@@ -56,6 +56,7 @@ class Judge {
     closing();
     residuals("sweep", Kind::kScene, limits_.sweep_px);
     residuals("stars", Kind::kStar, limits_.stars_px);
+    against_known("focal length", kFocal, " px", 1.0);  // a lens that was refocused
     return std::move(result_);
   }
 
@@ -114,17 +115,25 @@ class Judge {
                              ? checked.sentence + ": unchecked"
                              : label + ": a mistake that would be found: unchecked";
     }
+    const bool is_checked = checked.judgement == Judgement::kGood;
     add(std::move(checked));
-    without_itself(g, label);
+    without_itself(g, label, is_checked);
   }
 
-  // Where the others see it: a group's own residual is drawn towards it.
-  void without_itself(std::size_t g, const std::string& label) {
+  // Where the others see it: a group's own residual is drawn towards it. What they hardly check
+  // they predict no better, however right it is: there the sigmas alone judge.
+  void without_itself(std::size_t g, const std::string& label, bool is_checked) {
     const auto off = bias_without(adjustment_, found_.fit, g);
     if (!off) return;
     const std::string& name = adjustment_.groups()[g].name;
-    add(at_most("without_itself " + name, arcsec(off->rad.cwiseAbs().maxCoeff()),
-                limits_.without_itself_arcsec, "″", label + ", predicted without itself"));
+    Finding angle =
+        at_most("without_itself " + name, arcsec(off->rad.cwiseAbs().maxCoeff()),
+                limits_.without_itself_arcsec, "″", label + ", predicted without itself");
+    if (!is_checked && angle.judgement == Judgement::kBad) {
+      angle.judgement = Judgement::kUnchecked;
+      angle.sentence += ": unchecked";
+    }
+    add(std::move(angle));
     add(at_most("without_itself_sigma " + name, off->sigmas, limits_.without_itself_sigma, " sigma",
                 label + ", predicted without itself"));
   }
@@ -150,14 +159,26 @@ class Judge {
   void residuals(const std::string& name, Kind kind, double limit_px) {
     double squares = 0.0;
     int count = 0;
-    for (std::size_t i = 0; i < found_.residuals.size(); ++i) {
-      const Observation& one = problem_.observations[i];
-      if (one.kind != kind || one.station != station_ || !found_.residuals[i]) continue;
+    for (const std::size_t i : own_kept(kind)) {
+      if (!found_.residuals[i]) continue;
       squares += found_.residuals[i]->squaredNorm();
       count += 2;
     }
     if (count == 0) return;
     add(at_most(name, std::sqrt(squares / count), limit_px, " px", name + ", residuals"));
+  }
+
+  // Of the station's groups of a kind that were not rejected.
+  std::vector<std::size_t> own_kept(Kind kind) const {
+    std::vector<std::size_t> all;
+    for (std::size_t g = 0; g < adjustment_.groups().size(); ++g) {
+      const Group& group = adjustment_.groups()[g];
+      if (group.kind != kind || !found_.fit.kept[g]) continue;
+      std::ranges::copy_if(group.observations, std::back_inserter(all), [this](std::size_t i) {
+        return problem_.observations[i].station == station_;
+      });
+    }
+    return all;
   }
 
   // `scale`: from the natural unit to the shown one.
@@ -185,8 +206,9 @@ class Judge {
     constexpr double kAround_deg = 30.0, kAbove_deg = 5.0;
     std::set<int> sectors;
     double left = 1e9, right = -1e9, low = 1e9, high = -1e9;
-    for (const Group& group : adjustment_.groups()) {
-      if (!group.is_absolute()) continue;
+    for (std::size_t g = 0; g < adjustment_.groups().size(); ++g) {
+      const Group& group = adjustment_.groups()[g];
+      if (!group.is_absolute() || !found_.fit.kept[g]) continue;
       for (const std::size_t i : group.observations) {
         const Observation& one = problem_.observations[i];
         if (one.station != station_) continue;
@@ -236,6 +258,18 @@ class Judge {
 };
 
 }  // namespace
+
+const char* to_string(Finding::Judgement judgement) {
+  switch (judgement) {
+    case Judgement::kGood:
+      return "good";
+    case Judgement::kUnchecked:
+      return "unchecked";
+    case Judgement::kBad:
+      break;
+  }
+  return "bad";
+}
 
 bool Acceptance::acceptable() const {
   return std::ranges::none_of(findings,

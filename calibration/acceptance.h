@@ -14,7 +14,8 @@ namespace ols::calibration {
 struct AcceptanceLimits {
   double rms_arcsec = 15.0, worst_arcsec = 25.0;  // systematic, of an axis, over the volume
   double detectable_arcsec = 30.0;                // of each reference
-  double without_itself_sigma = 3.0, without_itself_arcsec = 20.0;
+  double without_itself_sigma = 3.0;
+  double without_itself_arcsec = 20.0;  // of a reference whose mistake would be found
   double closing_arcsec = 12.0;
   double sweep_px = 0.35, stars_px = 0.3;  // RMS of a coordinate's residual
   int sectors = 3;                         // of azimuth, of 60 deg each, with a reference
@@ -29,6 +30,9 @@ struct Finding {
   double limit = 0.0;
   std::string sentence;  // for a person
 };
+
+// "good", "unchecked", "bad"
+const char* to_string(Finding::Judgement judgement);
 
 struct Acceptance {
   std::vector<Finding> findings;

@@ -46,6 +46,11 @@ class Block {
   virtual std::optional<double> heading(const State&, std::size_t) const { return std::nullopt; }
   // The block with what one station has sighted of its target; none, if that is nothing.
   virtual BlockPtr of_station(std::size_t) const { return nullptr; }
+  // Of a target's block: how many sightings it has; the block with some of them, by their number;
+  // and, over the same columns, its equations without each of them.
+  virtual std::size_t sighting_count() const { return 0; }
+  virtual BlockPtr with_only(const std::vector<std::size_t>&) const { return nullptr; }
+  virtual std::vector<BlockEquations> without_each(const State&, std::size_t) const { return {}; }
 };
 
 struct PixelBlockConfig {

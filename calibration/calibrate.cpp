@@ -102,37 +102,45 @@ bool tells_instrument_alone(const Adjustment& adjustment) {
          std::ranges::any_of(groups, tells_instrument);
 }
 
-void check_heading(const Adjustment& adjustment, const Fit& fit) {
-  constexpr double kKnown_rad = 0.17;  // ten degrees
-  const Layout& layout = adjustment.network().layout;
-  for (std::size_t s = 0; s < layout.stations; ++s) {
-    const int heading = layout.station(s) + kHeading;
-    if (std::sqrt(fit.covariance(heading, heading)) < kKnown_rad) continue;
-    throw std::invalid_argument("station '" + adjustment.network().names[s] +
-                                "': the observations leave its heading unknown");
+// Those that are kept, or those that are rejected.
+std::vector<std::size_t> tested_groups(const Adjustment& adjustment, const Fit& fit, bool kept) {
+  std::vector<std::size_t> which;
+  for (std::size_t g = 0; g < fit.kept.size(); ++g) {
+    if (adjustment.groups()[g].is_tested() && fit.kept[g] == kept) which.push_back(g);
   }
+  return which;
 }
 
 void check_majority(const Adjustment& adjustment, const Fit& fit) {
   const auto& groups = adjustment.groups();
-  std::vector<std::size_t> rejected, kept;
-  for (std::size_t g = 0; g < groups.size(); ++g) {
-    if (groups[g].is_tested()) (fit.kept[g] ? kept : rejected).push_back(g);
-  }
+  const std::vector<std::size_t> rejected = tested_groups(adjustment, fit, false);
+  const std::vector<std::size_t> kept = tested_groups(adjustment, fit, true);
   if (rejected.empty() || kept.size() > rejected.size()) return;
   throw Contradiction(
       "the observations contradict each other: at least as many of them disagree as agree: " +
       listed(groups, kept) + "; against " + listed(groups, rejected));
 }
 
+void check_heading(const Adjustment& adjustment, const Fit& fit) {
+  constexpr double kKnown_rad = 0.17;  // ten degrees
+  const Layout& layout = adjustment.network().layout;
+  const std::vector<std::size_t> rejected = tested_groups(adjustment, fit, false);
+  for (std::size_t s = 0; s < layout.stations; ++s) {
+    const int heading = layout.station(s) + kHeading;
+    if (std::sqrt(fit.covariance(heading, heading)) < kKnown_rad) continue;
+    throw std::invalid_argument("station '" + adjustment.network().names[s] +
+                                "': the observations leave its heading unknown" +
+                                (rejected.empty() ? ""
+                                                  : ", without what was rejected as mistaken: " +
+                                                        listed(adjustment.groups(), rejected)));
+  }
+}
+
 // Another group whose rejection explains the observations as well.
 void check_ambiguity(const Adjustment& adjustment, const Fit& fit, const Levels& levels) {
   const double kNoDoubt = 2.0 * std::log(1000.0);
   const auto& groups = adjustment.groups();
-  std::vector<std::size_t> rejected;
-  for (std::size_t g = 0; g < groups.size(); ++g) {
-    if (groups[g].is_tested() && !fit.kept[g]) rejected.push_back(g);
-  }
+  const std::vector<std::size_t> rejected = tested_groups(adjustment, fit, false);
   if (rejected.size() != 1 || groups.size() > 40) return;
   for (std::size_t g = 0; g < groups.size(); ++g) {
     if (!groups[g].is_tested() || g == rejected[0]) continue;
@@ -164,7 +172,8 @@ double redundancy_of(const Fit& fit, const BlockEquations& one, int degrees_of_f
 // Without the scenery: robust weights have no chi-square, and its points are thousands.
 ModelTest global_test(const Adjustment& adjustment, const Fit& fit, double level) {
   const Network& network = adjustment.network();
-  std::vector<bool> counts(network.blocks.size(), true);
+  std::vector<bool> counts(network.blocks.size(), false);
+  for (std::size_t b = network.priors_from; b < counts.size(); ++b) counts[b] = true;
   for (std::size_t g = 0; g < network.groups.size(); ++g) {
     for (const std::size_t b : network.groups[g].blocks) {
       counts[b] = network.groups[g].is_tested() && fit.kept[g];
@@ -281,6 +290,7 @@ Calibration calibrate(const Adjustment& adjustment, const Levels& levels) {
   Calibration result;
   result.fit = Snooping(adjustment, levels).run();
   if (!is_settled(result.fit)) throw std::invalid_argument("the adjustment does not converge");
+  check_majority(adjustment, result.fit);
   result.headings_known = !tells_instrument_alone(adjustment);
   if (result.headings_known) {
     check_heading(adjustment, result.fit);
@@ -288,7 +298,6 @@ Calibration calibrate(const Adjustment& adjustment, const Levels& levels) {
     result.remarks.emplace_back(
         "the observations do not determine a heading: the result is an instrument without a setup");
   }
-  check_majority(adjustment, result.fit);
   check_ambiguity(adjustment, result.fit, levels);
   result.tests = tests_of(adjustment, result.fit, levels);
   result.global = global_test(adjustment, result.fit, levels.misfit);

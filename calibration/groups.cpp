@@ -9,6 +9,7 @@
 
 #include "calibration/rectification_block.h"
 #include "calibration/shared_poses.h"
+#include "calibration/trajectory.h"
 #include "geometry/angles.h"
 
 namespace ols::calibration {
@@ -43,6 +44,13 @@ const Trajectory& trajectory_of(const Problem& problem, const Observation& one) 
   if (one.utime_us < trajectory.points.front().utime_us - slack_us ||
       one.utime_us > trajectory.points.back().utime_us + slack_us) {
     refuse(problem, one, "utime_us", "is outside of the trajectory of '" + one.reference + "'");
+  }
+  const double gap_s = motion_at(trajectory, static_cast<double>(one.utime_us)).gap_s;
+  if (gap_s > kLongestGap_s) {
+    refuse(problem, one, "utime_us",
+           "the positions of '" + one.reference + "' around it are " +
+               std::to_string(std::lround(gap_s)) + " s apart: more than " +
+               std::to_string(std::lround(kLongestGap_s)) + " s, it may have been anywhere");
   }
   return trajectory;
 }

@@ -29,6 +29,10 @@ struct Group {
   std::vector<std::size_t> observations;  // in the order of the blocks' sightings
   int degrees_of_freedom = 0;
   bool is_tested() const { return kind != Kind::kScene; }
+  // Whether one sighting of many can be mistaken, and the others are still good.
+  bool is_followed() const {
+    return kind == Kind::kDrone || kind == Kind::kAircraft || kind == Kind::kTrack;
+  }
   // Whether it tells where a station looks: somebody has said where its target is.
   bool is_absolute() const {
     return is_tested() && kind != Kind::kTrack && kind != Kind::kInclinometer &&

@@ -52,6 +52,7 @@ struct Observation {
   std::optional<std::int64_t> pose;  // sightings of one pose share the errors of its two angles
   std::int64_t utime_us = 0;         // UTC
   UnitReading reading;
+  bool sides_stated = true;  // whether the approach of both angles was; else it is taken as 1
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
   double sd_px = 0.0;     // of each coordinate
   std::string reference;  // a name; of a scene point its number

@@ -63,7 +63,14 @@ class PixelBlock : public Block {
     if (own.empty()) return nullptr;
     return std::make_shared<PixelBlock>(target_, std::move(own), config_);
   }
+  std::size_t sighting_count() const override { return sightings_.size(); }
+  BlockPtr with_only(const std::vector<std::size_t>& which) const override {
+    std::vector<Sighting> some;
+    for (const std::size_t i : which) some.push_back(sightings_[i]);
+    return std::make_shared<PixelBlock>(target_, std::move(some), config_);
+  }
   BlockEquations equations(const State& state, std::size_t block, double damping) const override;
+  std::vector<BlockEquations> without_each(const State& state, std::size_t block) const override;
 
  private:
   // One sighting's residual and its rows of the Jacobian, over (columns, shift, nuisance).
@@ -71,6 +78,16 @@ class PixelBlock : public Block {
     Vector2d v;
     Matrix2d W;
     MatrixXd J;
+    double weight = 1.0;  // below 1: a robust one
+    double squares = 0.0;
+  };
+  // Normal equations over (columns, shift, nuisance).
+  struct Sums {
+    MatrixXd N;
+    VectorXd b;
+    double squares = 0.0;
+    // A sighting's, with its robust weight, `sign` 1; -1 takes it out again.
+    void add(const Row& row, double sign);
   };
   void add(int first, int count) {
     if (position(first) >= 0) return;
@@ -81,6 +98,9 @@ class PixelBlock : public Block {
     return found == columns_.end() ? -1 : found - columns_.begin();
   }
   bool row(const State& state, const VectorXd& nuisance, const Sighting& one, Row& row) const;
+  // Of all sightings; nothing where one of them is not valid.
+  std::optional<std::vector<Row>> rows(const State& state, const VectorXd& nuisance) const;
+  Sums prior_sums(const VectorXd& nuisance) const;
   void fill(const Sighting& one, const PixelPrediction& image, const TargetView& view,
             MatrixXd& J) const;
   // What a sighting's own pose and its target's own place add to the pixel's covariance.
@@ -136,42 +156,75 @@ bool PixelBlock::row(const State& state, const VectorXd& nuisance, const Sightin
   return true;
 }
 
-BlockEquations PixelBlock::equations(const State& state, std::size_t block, double damping) const {
-  const VectorXd& nuisance = state.nuisances[block];
-  const Index columns = static_cast<Index>(columns_.size()), size = columns + 2 + nuisance.size();
-  MatrixXd N = MatrixXd::Zero(size, size);
-  VectorXd b = VectorXd::Zero(size);
-  BlockEquations failed;
-  failed.columns = columns_;
-  failed.valid = false;
-  double squares = 0.0;
-  std::vector<Vector2d> residuals;
-  std::vector<double> weights;
-  for (const Sighting& one : sightings_) {
-    Row here;
-    if (!row(state, nuisance, one, here)) return failed;
-    const double length = std::sqrt(here.v.dot(here.W * here.v));
+std::optional<std::vector<PixelBlock::Row>> PixelBlock::rows(const State& state,
+                                                             const VectorXd& nuisance) const {
+  std::vector<Row> all(sightings_.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    Row& one = all[i];
+    if (!row(state, nuisance, sightings_[i], one)) return std::nullopt;
+    const double length = std::sqrt(one.v.dot(one.W * one.v));
     const bool far = config_.robust && length > kRobust;
-    const double w = far ? kRobust / length : 1.0;
-    const MatrixXd WJ = w * here.W * here.J;
-    N.noalias() += here.J.transpose() * WJ;
-    b.noalias() += WJ.transpose() * here.v;
-    squares += far ? kRobust * (2.0 * length - kRobust) : length * length;
-    residuals.push_back(-here.v);
-    weights.push_back(w);
+    one.weight = far ? kRobust / length : 1.0;
+    one.squares = far ? kRobust * (2.0 * length - kRobust) : length * length;
   }
+  return all;
+}
+
+void PixelBlock::Sums::add(const Row& row, double sign) {
+  const MatrixXd WJ = sign * row.weight * row.W * row.J;
+  N.noalias() += row.J.transpose() * WJ;
+  b.noalias() += WJ.transpose() * row.v;
+  squares += sign * row.squares;
+}
+
+PixelBlock::Sums PixelBlock::prior_sums(const VectorXd& nuisance) const {
+  const Index first = static_cast<Index>(columns_.size()) + 2, size = first + nuisance.size();
+  Sums sums{MatrixXd::Zero(size, size), VectorXd::Zero(size)};
   for (Index i = 0; i < nuisance.size(); ++i) {
     if (std::isinf(prior_sd_[i])) continue;
     // A place that is known exactly still needs a number.
     const double weight = 1.0 / std::pow(std::max(prior_sd_[i], 1e-6), 2);
-    N(columns + 2 + i, columns + 2 + i) += weight;
-    b[columns + 2 + i] += weight * nuisance[i];
-    squares += weight * nuisance[i] * nuisance[i];
+    sums.N(first + i, first + i) += weight;
+    sums.b[first + i] += weight * nuisance[i];
+    sums.squares += weight * nuisance[i] * nuisance[i];
   }
-  BlockEquations result = eliminated(N, b, squares, columns, 2, damping);
+  return sums;
+}
+
+BlockEquations PixelBlock::equations(const State& state, std::size_t block, double damping) const {
+  const VectorXd& nuisance = state.nuisances[block];
+  const auto all = rows(state, nuisance);
+  BlockEquations result;
+  result.valid = all.has_value();
+  if (all) {
+    Sums sums = prior_sums(nuisance);
+    for (const Row& one : *all) sums.add(one, 1.0);
+    const auto columns = static_cast<Index>(columns_.size());
+    result = eliminated(sums.N, sums.b, sums.squares, columns, 2, damping);
+    for (const Row& one : *all) {
+      result.residuals.emplace_back(-one.v);
+      result.weights.push_back(one.weight);
+    }
+  }
   result.columns = columns_;
-  result.residuals = std::move(residuals);
-  result.weights = std::move(weights);
+  return result;
+}
+
+std::vector<BlockEquations> PixelBlock::without_each(const State& state, std::size_t block) const {
+  const VectorXd& nuisance = state.nuisances[block];
+  const auto all = rows(state, nuisance);
+  if (!all) return {};
+  Sums sums = prior_sums(nuisance);
+  for (const Row& one : *all) sums.add(one, 1.0);
+  std::vector<BlockEquations> result;
+  result.reserve(all->size());
+  for (const Row& one : *all) {
+    Sums left = sums;
+    left.add(one, -1.0);
+    result.push_back(
+        eliminated(left.N, left.b, left.squares, static_cast<Index>(columns_.size()), 2, 0.0));
+    result.back().columns = columns_;
+  }
   return result;
 }
 

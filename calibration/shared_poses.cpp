@@ -41,6 +41,13 @@ SharedPoses::SharedPoses(const std::vector<Observation>& observations)
   }
   for (const auto& [stop, same] : stops) {
     if (same.size() == 1) continue;
+    if (stations_.size() == kMostSharedPoses) {
+      throw ObservationRefused(
+          same[0], "pose",
+          "is one too many: at most " + std::to_string(kMostSharedPoses) +
+              " stops with several sightings each can be adjusted together (its memory grows with "
+              "their square); leave some of them out");
+    }
     for (const std::size_t i : same) poses_[i] = stations_.size();
     stations_.push_back(std::get<0>(stop));
   }

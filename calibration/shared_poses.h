@@ -9,10 +9,14 @@
 
 namespace ols::calibration {
 
+// The matrices of an adjustment have two rows for each: of so many, 230 MB in all.
+inline constexpr std::size_t kMostSharedPoses = 1000;
+
 class SharedPoses {
  public:
   // Sightings with the same number of pose, and those without one that were taken at the same time
-  // at the same counts: of one picture. ObservationRefused: a number that stands at two places.
+  // at the same counts: of one picture. ObservationRefused: a number that stands at two places, and
+  // more of them than can be adjusted.
   explicit SharedPoses(const std::vector<Observation>& observations);
 
   std::size_t size() const { return stations_.size(); }

@@ -19,7 +19,6 @@ using Eigen::Vector3d;
 constexpr double kUnixEpoch_jd = 2440587.5;
 constexpr double kDay_us = 86400e6;
 constexpr double kEarthRate_rad_s = 7.292115e-5;
-constexpr double kWavelength_um = 0.55;
 
 struct Sky {
   eraASTROM astrom{};
@@ -41,33 +40,13 @@ Sky sky_at(std::int64_t utime_us, const Geodetic& place, const EarthRotation& ea
   return sky;
 }
 
-// Refraction by A tan z + B tan^3 z of the apparent zenith distance.
-struct Refraction {
-  double A = 0.0, B = 0.0;
-};
-Refraction refraction_of(const Air& air) {
-  Refraction of;
-  eraRefco(air.pressure_hPa, air.temperature_degC, air.humidity, kWavelength_um, &of.A, &of.B);
-  return of;
-}
-
-double refraction_rad(double true_zenith_rad, const Refraction& of) {
-  double lift = 0.0;
-  constexpr double kSafe_rad = 1.5;  // the tangent is not used near the horizon
-  for (int i = 0; i < 10; ++i) {
-    const double t = std::tan(std::min(true_zenith_rad - lift, kSafe_rad));
-    lift = of.A * t + of.B * t * t * t;
-  }
-  return lift;
-}
-
 SkyDirection appears(double ri, double di, Sky& sky, const Geodetic& place,
-                     const Refraction& refraction) {
+                     const AstronomicalRefraction& refraction) {
   double azimuth = 0.0, zenith = 0.0, hour_angle = 0.0, declination = 0.0, right_ascension = 0.0;
   eraAtioq(ri, di, &sky.astrom, &azimuth, &zenith, &hour_angle, &declination, &right_ascension);
   const Eigen::Matrix3d R = R_ecef_enu(place);
   const AzimuthElevation airless{azimuth, kPi / 2.0 - zenith};
-  const double lift = refraction_rad(zenith, refraction);
+  const double lift = refraction.lift_rad(zenith);
   SkyDirection result;
   result.elevation_rad = airless.elevation_rad + lift;
   const AzimuthElevation seen{azimuth, result.elevation_rad};
@@ -79,7 +58,7 @@ SkyDirection appears(double ri, double di, Sky& sky, const Geodetic& place,
 }
 
 SkyDirection star_in(Sky& sky, const Star& star, const Geodetic& place,
-                     const Refraction& refraction) {
+                     const AstronomicalRefraction& refraction) {
   double ri = 0.0, di = 0.0;
   // ERFA takes the motion of the right ascension itself.
   const double pm_ra = star.pm_ra_rad_yr / std::cos(star.dec_rad);
@@ -109,7 +88,7 @@ SkyDirection body_direction(Sky& sky, const Geodetic& place, const Air& air,
   double towards[3] = {from.x(), from.y(), from.z()}, ra = 0.0, dec = 0.0, ri = 0.0, di = 0.0;
   eraC2s(towards, &ra, &dec);
   eraAtciqz(ra, dec, &sky.astrom, &ri, &di);
-  return appears(ri, di, sky, place, refraction_of(air));
+  return appears(ri, di, sky, place, AstronomicalRefraction(air));
 }
 
 // The zenith among the stars, without aberration.
@@ -126,20 +105,10 @@ Vector3d zenith_icrs(Sky& sky, const Geodetic& place) {
 
 }  // namespace
 
-Air standard_air(double height_m) {
-  // International standard atmosphere, troposphere.
-  const double lapse_K_m = 6.5e-3, sea_level_K = 288.15;
-  const double temperature_K = sea_level_K - lapse_K_m * height_m;
-  Air air;
-  air.pressure_hPa = 1013.25 * std::pow(temperature_K / sea_level_K, 5.2559);
-  air.temperature_degC = temperature_K - 273.15;
-  return air;
-}
-
 SkyDirection star_direction(const Star& star, std::int64_t utime_us, const Geodetic& place,
                             const Air& air, const EarthRotation& earth) {
   Sky sky = sky_at(utime_us, place, earth);
-  return star_in(sky, star, place, refraction_of(air));
+  return star_in(sky, star, place, AstronomicalRefraction(air));
 }
 
 std::vector<std::pair<std::size_t, SkyDirection>> stars_between(
@@ -147,7 +116,7 @@ std::vector<std::pair<std::size_t, SkyDirection>> stars_between(
     const Geodetic& place, const Air& air, const EarthRotation& earth) {
   constexpr double kAberrationAndMotion_rad = 0.002;
   Sky sky = sky_at(utime_us, place, earth);
-  const Refraction refraction = refraction_of(air);
+  const AstronomicalRefraction refraction(air);
   const Vector3d up = zenith_icrs(sky, place);
   const double least = std::sin(radians(least_deg) - kAberrationAndMotion_rad);
   const double most = std::sin(std::min(radians(most_deg) + kAberrationAndMotion_rad, kPi / 2.0));

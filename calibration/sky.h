@@ -7,18 +7,11 @@
 #include <vector>
 
 #include "calibration/observation.h"
+#include "calibration/refraction.h"
 #include "calibration/target.h"
 #include "geometry/wgs84.h"
 
 namespace ols::calibration {
-
-struct Air {
-  double pressure_hPa = 1013.25;  // at the station, not reduced to sea level
-  double temperature_degC = 10.0;
-  double humidity = 0.5;  // 0..1
-};
-// The standard atmosphere's at this height.
-Air standard_air(double height_m);
 
 // UT1 - UTC. Polar motion (below 0.6 arc seconds) is left out.
 struct EarthRotation {

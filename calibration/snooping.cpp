@@ -177,6 +177,15 @@ double test_statistic(const Adjustment& adjustment, const Fit& fit, std::size_t 
   return std::isnan(change) ? std::numeric_limits<double>::infinity() : change;
 }
 
+double replacement_statistic(const Fit& fit, const BlockEquations& now,
+                             const BlockEquations& then) {
+  BlockEquations difference;
+  difference.information = now.information - then.information;
+  difference.gradient = now.gradient - then.gradient;
+  difference.squares = now.squares - then.squares;
+  return change_of_misfit(part_of(fit.covariance, now.columns), difference, -1.0);
+}
+
 Vector2d detectable_rad(const Adjustment& adjustment, const Fit& fit, std::size_t group,
                         double noncentrality) {
   const BlockEquations equations = adjustment.equations(fit, group);

@@ -12,6 +12,10 @@ namespace ols::calibration {
 // added: chi-square with the group's degrees of freedom.
 double test_statistic(const Adjustment& adjustment, const Fit& fit, std::size_t group);
 
+// The same of a part of a block: by how much the misfit falls when its equations `now` become those
+// of `then`, over the same columns; negative where it grows.
+double replacement_statistic(const Fit& fit, const BlockEquations& now, const BlockEquations& then);
+
 // The direction's bias across and up that the group's test finds with this noncentrality.
 Eigen::Vector2d detectable_rad(const Adjustment& adjustment, const Fit& fit, std::size_t group,
                                double noncentrality);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -35,6 +36,8 @@ struct TargetView {
   double white_sd_m = 0.0;     // of the position, new with every sighting
   bool moves_with_us = false;  // its place is given in the station's own frame
 };
+
+inline constexpr double kNoPrior = std::numeric_limits<double>::infinity();
 
 class Target {
  public:

@@ -7,13 +7,13 @@
 
 #include "calibration/pictures/landmark_snap.h"
 #include "calibration/procedure/learned_heading.h"
+#include "calibration/trajectory.h"
 #include "geometry/angles.h"
 
 namespace ols::calibration {
 namespace {
 
-// Without a position for so long it may be anywhere.
-constexpr std::int64_t kStale_us = 3'000'000;
+constexpr auto kStale_us = static_cast<std::int64_t>(1e6 * kLongestGap_s);
 constexpr double kSnap_px = 8.0;   // around where the last sighting puts it
 constexpr double kFloor_px = 0.1;  // a drone is no point
 
@@ -34,11 +34,9 @@ std::optional<Eigen::Vector3d> position_at(const Trajectory& trajectory, std::in
     if (utime_us > points.back().utime_us + beyond_us) return std::nullopt;
     return points.back().ecef;
   }
-  const auto after = std::ranges::upper_bound(points, utime_us, {}, &Trajectory::Point::utime_us);
-  const auto before = std::prev(after);
-  const double share = static_cast<double>(utime_us - before->utime_us) /
-                       static_cast<double>(after->utime_us - before->utime_us);
-  return Eigen::Vector3d(before->ecef + share * (after->ecef - before->ecef));
+  const Motion motion = motion_at(trajectory, static_cast<double>(utime_us));
+  if (motion.gap_s > kLongestGap_s) return std::nullopt;
+  return motion.ecef;
 }
 
 DroneStage::DroneStage(const StationModel& model, DroneOptions options, Positions positions,

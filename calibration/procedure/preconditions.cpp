@@ -62,6 +62,8 @@ std::vector<Precondition> preconditions(const StationFacts& facts, const Wanted&
   add(!facts.emergency, true, "no emergency stop",
       "emergency stop: release it and re-arm the station");
   add(!facts.stopped, true, "the station may move", "the station is stopped: release it");
+  add(!facts.held_by_hand, true, "nobody operates it by hand",
+      "the station is under manual operation: release it (ols-ctl NAME release)");
   add(facts.status_gap_s < wanted.status_gap_s, true, "a stop will be heard of in time",
       printed("the station's status comes every %.1f s: a stop would be heard of too late, "
               "%.1f s are needed: set status_interval_s to 0.5",

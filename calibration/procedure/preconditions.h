@@ -12,10 +12,10 @@ inline constexpr const char* kAnotherDevice = "calibration: another ";
 
 // Of a station's status.
 struct StationFacts {
-  std::string state;  // "idle", "manual", ...
   bool camera_works = false, unit_works = false;
   bool limits_known = false;  // the unit is homed and has said its travel
   bool stopped = false, emergency = false;
+  bool held_by_hand = false;  // under manual operation, whoever has taken it
   bool follows_target = false;
   double status_gap_s = 0.0;  // between two statuses
   bool has_position = false, has_tilt = false;

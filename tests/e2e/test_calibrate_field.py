@@ -183,6 +183,7 @@ def test_a_sign_that_was_not_used_is_where_the_calibrated_station_expects_it(
     restart(tripod, site, tripod.config)
     point(tripod, *angles)
     seen, expected, px = seen_and_expected(tripod, place)
+    tripod.release()
     before = np.degrees(np.linalg.norm(seen - expected) / px) * 3600.0
     print(f"{UNSEEN} beside its expected place: {before:.0f} arcsec before, {after:.1f} after")
     assert after < MOST_ARCSEC
@@ -231,7 +232,7 @@ def test_a_loss_of_power_leaves_the_old_one_and_is_named(tripod, accepted):
 
     def at_work():
         return any(
-            (path / "frames.jsonl").exists() for path in tripod.store.glob("*-field.running")
+            (path / "journal.jsonl").exists() for path in tripod.store.glob("*-field.running")
         )
 
     tripod.listener.wait(at_work, "the first picture", 30.0)
@@ -242,6 +243,9 @@ def test_a_loss_of_power_leaves_the_old_one_and_is_named(tripod, accepted):
     script.write_text("abort\n")
     done = tripod.run("field", "--resume", "--script", script)
     assert "a procedure was interrupted; its observations are kept in" in done.stdout
+    assert "under manual operation: release it" in done.stderr, "whose it is, nobody can tell"
+    tripod.release()
+    done = tripod.run("field", "--resume", "--script", script)
     assert "This is where it was interrupted; it goes on." in done.stdout
     assert "sweep, picture 12 of 12" in done.stdout, "as it was begun"
 
@@ -275,7 +279,7 @@ def test_a_sweep_that_was_interrupted_goes_on(tripod, accepted):
 
     def at_work():
         return any(
-            (path / "frames.jsonl").exists() for path in tripod.store.glob("*-sweep.running")
+            (path / "journal.jsonl").exists() for path in tripod.store.glob("*-sweep.running")
         )
 
     tripod.listener.wait(lambda: at_work() or process.poll() is not None, "a picture", 60.0)

@@ -85,6 +85,7 @@ def test_positions_of_new_units_before_and_after_field(network, tmp_path):
 
             status = tripod.operate(process, decide, deadline_s=900.0)
             assert status == 0, tripod.log.read_text()
+            assert "accept" in told[0].choice, told[0].text
         print(f"{name}: {told[0].elapsed_s:.0f} s, {len(signs)} signs\n{told[0].text}")
         (calibrations / name).symlink_to((tripod.store / "current").resolve())
 
@@ -93,3 +94,4 @@ def test_positions_of_new_units_before_and_after_field(network, tmp_path):
     print(f"before {before['rmse_m']:.3f} m, normalised error squared {before['nees']:.2f}")
     print(f"after {after['rmse_m']:.4f} m, normalised error squared {after['nees']:.2f}")
     assert after["rmse_m"] < before["rmse_m"] / 5.0
+    assert 0.5 < after["nees"] < 2.0

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from calibrate_run import SEED, Run
 from ols_calibration import cases
-from ols_calibration.__main__ import errors_of, predict_text, volume
+from ols_calibration.__main__ import accepted_stars, errors_of, predict_text, volume
 from ols_calibration.model import ARCSEC, azimuth_elevation
 from ols_calibration.site import UTIME_US
 
@@ -169,10 +169,23 @@ def test_stars_get_their_names_without_a_heading(tmp_path):
     run = Run(tmp_path, cases.nameless_stars)
     done = run.adjust()
     assert done.returncode == 0, done.stderr
-    names = {group["name"] for group in run.report()["groups"] if group["kind"] == "star"}
-    assert len(names) >= 12
-    # A false detection may stand on a faint star by chance.
-    assert len(names - run.one.numbers) <= 1
+    stars = accepted_stars(run.report(), run.one.true_names)
+    assert stars["right"] >= 12
+    assert stars["exchanged"] == 0 and stars["false"] == 0
+
+
+def test_exchanged_stars_and_false_ones_are_counted(tmp_path):
+    """Of the names that the program gives, two are exchanged and one goes to a false detection."""
+    run = Run(tmp_path, cases.nameless_stars)
+    assert run.adjust().returncode == 0
+    report, names = run.report(), run.one.true_names
+    before = accepted_stars(report, names)
+    rows = [row for row in report["residuals"] if row["kind"] == "star" and not row["rejected"]]
+    one, other, third = rows[0], rows[1], rows[2]
+    one["reference"], other["reference"] = other["reference"], one["reference"]
+    third["line"] = names.index(None) + 1
+    counted = accepted_stars(report, names)
+    assert counted == {"right": before["right"] - 3, "exchanged": 2, "false": 1}
 
 
 def test_two_stations_are_one_network(tmp_path):

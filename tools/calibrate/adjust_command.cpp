@@ -127,10 +127,12 @@ AdjustedResult instrument_for_person(const Adjusted& adjusted) {
 Adjusted adjust_into(const CaseOptions& options, const std::filesystem::path& folder) {
   Adjusted adjusted;
   adjusted.what = read_case(options);
+  find_mistaken(adjusted.what);
   const Case& what = adjusted.what;
   const Adjustment adjustment(network_of(what));
   adjusted.found = calibrated(what.problem, adjustment);
   Calibration& found = adjusted.found;
+  for (const std::string& line : mistaken_in_words(what)) found.remarks.push_back(line);
   for (const std::string& line : exchanged_landmarks(what.problem, adjustment, found)) {
     found.remarks.push_back(line);
   }
@@ -142,9 +144,8 @@ Adjusted adjust_into(const CaseOptions& options, const std::filesystem::path& fo
     }
   }
   adjusted.angles = rectified_angles(what.problem, adjustment, found, 0);
-  adjusted.acceptance = found.headings_known ? judge_calibration(what.problem, adjustment, found, 0)
-                                             : judge_instrument(what.problem, adjustment, found, 0);
   adjusted.results = station_results(what, adjustment, found);
+  adjusted.acceptance = adjusted.results.front().acceptance;
   write_folder(folder, output_files(what, adjustment, found));
   adjusted.notes = found.remarks;
   adjusted.notes.insert(adjusted.notes.end(), what.warnings.begin(), what.warnings.end());

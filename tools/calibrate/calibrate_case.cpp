@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/calibration_csv.h"
+#include "calibration/mistaken_sightings.h"
 #include "calibration/name_stars.h"
 #include "geometry/angles.h"
 #include "geometry/utm.h"
@@ -53,26 +54,6 @@ Star star_of(const StarCells& cells) {
           cells.pm_dec_mas_yr * kMas_rad, 1e-3 * cells.parallax_mas};
 }
 
-void read_stations(const CaseOptions& options, Case& what) {
-  for (std::size_t i = 0; i < options.stations.size(); ++i) {
-    const auto settings = station::load_station_settings(options.stations[i]);
-    Problem& problem = what.problem;
-    if (std::ranges::find(problem.names, settings.id) != problem.names.end()) {
-      throw std::invalid_argument("--station: '" + settings.id + "' is given twice");
-    }
-    check_plain(settings.serials, options.stations[i]);
-    Instrument instrument = new_instrument(settings);
-    if (options.resolution_arcsec) set_resolution(instrument, *options.resolution_arcsec);
-    if (!options.instruments.empty()) {
-      instrument = carried_instrument(options.instruments[i], instrument);
-      check_serials(settings.serials, instrument.serials, options.instruments[i]);
-    }
-    problem.names.push_back(settings.id);
-    problem.stations.push_back(prior_of(settings, instrument, options.stations[i]));
-    what.instruments.push_back(instrument);
-  }
-}
-
 void read_sky(const CaseOptions& options, Case& what) {
   Problem& problem = what.problem;
   if (options.pressure_hPa || options.temperature_degC) {
@@ -104,6 +85,31 @@ void identify(Case& what) {
     what.problem.observations.erase(what.problem.observations.begin() + at);
     what.files.erase(what.files.begin() + at);
   }
+}
+
+// File and line of an observation.
+std::string place_of(const Case& what, std::size_t observation) {
+  return what.files[observation] + ":" +
+         std::to_string(what.problem.observations[observation].line);
+}
+
+void warn_of_serials(const station::InstrumentSerials& configured,
+                     const station::InstrumentSerials& calibrated, const std::string& path,
+                     Case& what) {
+  const std::string parts = uncompared_serials(configured, calibrated);
+  if (parts.empty()) return;
+  what.warnings.push_back(path + ": " + parts +
+                          ": stated by the instrument or by the station alone: whether it is this "
+                          "instrument was not checked");
+}
+
+void warn_of_sides(Case& what) {
+  const auto unstated =
+      std::ranges::count(what.problem.observations, false, &Observation::sides_stated);
+  if (unstated == 0) return;
+  what.warnings.push_back(std::to_string(unstated) +
+                          " sightings state no approach_pan or approach_tilt: taken as 1, and off "
+                          "by the backlash where the unit came from the other side");
 }
 
 }  // namespace
@@ -149,6 +155,10 @@ References references_in(const std::string& path) {
     } else if (!row.utime_us) {
       references[row.name] = FixedPoint{place_of(row, path), row.sd_m};
     } else {
+      if (row.sd_m <= 0.0) {
+        throw CsvError(path + ":" + std::to_string(row.line) +
+                       ": sd_m: a position in time is not known exactly");
+      }
       auto& entry = references.try_emplace(row.name, Trajectory{}).first->second;
       auto& trajectory = std::get<Trajectory>(entry);
       trajectory.points.push_back({*row.utime_us, place_of(row, path)});
@@ -164,19 +174,42 @@ References references_in(const std::string& path) {
   return references;
 }
 
-Case read_case(const CaseOptions& options) {
+Case read_stations(const CaseOptions& options) {
   if (!options.instruments.empty() && options.instruments.size() != options.stations.size()) {
     throw std::invalid_argument("--instrument: is needed for every --station, or for none");
   }
   Case what;
   what.options = options;
-  read_stations(options, what);
+  for (std::size_t i = 0; i < options.stations.size(); ++i) {
+    const auto settings = station::load_station_settings(options.stations[i]);
+    Problem& problem = what.problem;
+    if (std::ranges::find(problem.names, settings.id) != problem.names.end()) {
+      throw std::invalid_argument("--station: '" + settings.id + "' is given twice");
+    }
+    check_plain(settings.serials, options.stations[i]);
+    Instrument instrument = new_instrument(settings);
+    if (options.resolution_arcsec) set_resolution(instrument, *options.resolution_arcsec);
+    if (!options.instruments.empty()) {
+      instrument = carried_instrument(options.instruments[i], instrument);
+      check_serials(settings.serials, instrument.serials, options.instruments[i]);
+      warn_of_serials(settings.serials, instrument.serials, options.instruments[i], what);
+    }
+    problem.names.push_back(settings.id);
+    problem.stations.push_back(prior_of(settings, instrument, options.stations[i]));
+    what.instruments.push_back(instrument);
+  }
+  return what;
+}
+
+Case read_case(const CaseOptions& options) {
+  Case what = read_stations(options);
   for (const std::string& path : options.observations) {
     for (const Observation& one : read_observations(path, what.problem.names)) {
       what.problem.observations.push_back(one);
       what.files.push_back(path);
     }
   }
+  warn_of_sides(what);
   what.problem.references = references_in(options.references);
   read_sky(options, what);
   identify(what);
@@ -185,14 +218,31 @@ Case read_case(const CaseOptions& options) {
 
 Network network_of(const Case& what) {
   try {
-    return network_of(what.problem);
+    return without(network_of(what.problem), what.mistaken);
   } catch (const ObservationRefused& refused) {
-    const auto place = [&what](std::size_t i) {
-      return what.files[i] + ":" + std::to_string(what.problem.observations[i].line);
-    };
-    throw std::runtime_error(place(refused.index()) + ": " + refused.what() +
-                             (refused.other() ? " (" + place(*refused.other()) + ")" : ""));
+    throw std::runtime_error(
+        place_of(what, refused.index()) + ": " + refused.what() +
+        (refused.other() ? " (" + place_of(what, *refused.other()) + ")" : ""));
   }
+}
+
+void find_mistaken(Case& what) { what.mistaken = mistaken_sightings(network_of(what)); }
+
+std::vector<std::string> mistaken_in_words(const Case& what) {
+  constexpr std::size_t kMost = 20;
+  std::vector<std::string> sentences;
+  for (const std::size_t i : what.mistaken) {
+    const Observation& one = what.problem.observations[i];
+    if (sentences.size() == kMost) {
+      sentences.push_back("and " + std::to_string(what.mistaken.size() - kMost) +
+                          " more sightings: the report lists all");
+      break;
+    }
+    sentences.push_back(std::string(name(one.kind)) + " '" + one.reference + "' at utime_us " +
+                        std::to_string(one.utime_us) + " (" + place_of(what, i) +
+                        "): this sighting is rejected as mistaken");
+  }
+  return sentences;
 }
 
 }  // namespace ols::calibration

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,7 @@ struct Case {
   Problem problem;
   std::vector<std::string> warnings;
   std::vector<std::string> files;  // of the observations, by their index
+  std::set<std::size_t> mistaken;  // observations that are left out, by their index
 };
 
 // An instrument that a new setup begins with. What an earlier calibration has found (its covariance
@@ -40,10 +42,18 @@ StationPrior prior_of(const station::StationSettings& settings, const Instrument
 // Landmarks, stars and trajectories of a file; an empty path has none. CsvError.
 References references_in(const std::string& path);
 
+// The stations as they are before, nothing observed yet.
+Case read_stations(const CaseOptions& options);
 // ConfigError, CsvError or std::runtime_error naming file, line and key; std::invalid_argument.
 Case read_case(const CaseOptions& options);
 
-// The network of the case; an observation that is refused is named with its file and line.
+// The network of the case, without what is mistaken; an observation that is refused is named with
+// its file and line.
 Network network_of(const Case& what);
+
+// Finds single sightings of drones, aircraft and tracks that contradict all others.
+void find_mistaken(Case& what);
+// One sentence for each of the first few, with file and line.
+std::vector<std::string> mistaken_in_words(const Case& what);
 
 }  // namespace ols::calibration

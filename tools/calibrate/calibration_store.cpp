@@ -84,7 +84,27 @@ std::vector<fs::path> CalibrationStore::lock() {
   }
   std::ranges::sort(dead);
   for (fs::path& one : dead) one = interrupt(one);
+  complete();
   return dead;
+}
+
+// What a loss of power cut short: the history's last line says what a person decided.
+void CalibrationStore::complete() const {
+  const auto lines = history();
+  if (lines.empty()) return;
+  const HistoryLine& last = lines.back();
+  if (!has(last.id)) return;  // somebody has removed it since
+  const bool brings_setup = last.event == "accepted" || last.event == "reverted";
+  const auto now = current();
+  if (brings_setup && (now == last.id || now.value_or("") == last.previous)) switch_to(last.id);
+  if (last.event == "instrument") link(kInstrument, last.id);
+}
+
+void CalibrationStore::switch_to(const std::string& id) const {
+  if (current() != id) link(kCurrent, id);
+  std::error_code none;
+  fs::remove(folder_ / kInstrument, none);  // its own is the newest now
+  sync(folder_);
 }
 
 fs::path CalibrationStore::begin(const std::string& procedure, std::int64_t utime_us) {
@@ -149,20 +169,16 @@ void CalibrationStore::use(const std::string& id, HistoryLine line) {
   }
   line.id = id;
   line.previous = current().value_or("");
-  link(kCurrent, id);
-  std::error_code none;
-  fs::remove(folder_ / kInstrument, none);  // its own is the newest now
-  sync(folder_);
   note(line);
+  switch_to(id);
 }
 
 void CalibrationStore::use_instrument(const std::string& id, HistoryLine line) {
   if (!has(id)) throw std::runtime_error(folder_.string() + ": has no instrument '" + id + "'");
   line.id = id;
   line.previous = current().value_or("");
-  link(kInstrument, id);
-  sync(folder_);
   note(line);
+  link(kInstrument, id);
 }
 
 void CalibrationStore::link(const char* name, const std::string& id) const {
@@ -171,6 +187,7 @@ void CalibrationStore::link(const char* name, const std::string& id) const {
   fs::remove(next, none);
   fs::create_directory_symlink(id, next);
   fs::rename(next, folder_ / name);
+  sync(folder_);
 }
 
 std::optional<fs::path> CalibrationStore::instrument_file() const {

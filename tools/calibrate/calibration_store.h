@@ -37,7 +37,8 @@ class CalibrationStore {
 
   const std::filesystem::path& folder() const { return folder_; }
   // One procedure at a time. std::runtime_error if another one is at work. Folders of procedures
-  // that have died are set aside; returns their new names.
+  // that have died are set aside; returns their new names. A decision that a loss of power has cut
+  // short is carried out.
   std::vector<std::filesystem::path> lock();
 
   // A new folder of a procedure at work.
@@ -67,6 +68,8 @@ class CalibrationStore {
 
  private:
   void link(const char* name, const std::string& id) const;
+  void complete() const;
+  void switch_to(const std::string& id) const;
 
   std::filesystem::path folder_;
   int lock_ = -1;

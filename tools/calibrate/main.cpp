@@ -1,6 +1,7 @@
 // ols-calibrate: a station's calibration from whatever it has observed.
 #include <filesystem>
 #include <iostream>
+#include <new>
 
 #include "base/atomic_file.h"
 #include "base/command_line.h"
@@ -10,6 +11,7 @@
 #include "tools/calibrate/camera.h"
 #include "tools/calibrate/output_folder.h"
 #include "tools/calibrate/procedure_commands.h"
+#include "tools/calibrate/tracks.h"
 #include "tools/calibrate/zoom_command.h"
 
 namespace {
@@ -78,6 +80,24 @@ void add_camera_options(CLI::App& app, calibration::CameraOptions& o) {
       ->required();
 }
 
+void add_tracks_options(CLI::App& app, calibration::TracksOptions& o) {
+  app.add_option("--station", o.stations.stations,
+                 "its configuration, as ols-station reads it; all whose sightings are wanted")
+      ->required();
+  app.add_option("--instrument", o.stations.instruments,
+                 "TOML: what is known of the instrument; else it is a new unit; one a station");
+  app.add_option("--recording", o.log.recordings,
+                 "log of the bus, as ols-logger writes it; several")
+      ->required();
+  app.add_option("--aircraft", o.aircraft,
+                 "CSV of `ols-calibrate aircraft`: what flew as one of them becomes its sightings")
+      ->check(CLI::ExistingFile);
+  app.add_option("--least-belief", o.log.least_belief, "of the tracker, 0 to 1")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 1.0));
+  app.add_option("--output", o.output, "JSON lines for --observations; it must be new")->required();
+}
+
 // Nothing that stands there is overwritten: another calibration, an input.
 fs::path output_folder(const calibration::CaseOptions& o) {
   if (o.output.empty()) return calibration::checked_folder(o.output);
@@ -112,6 +132,10 @@ int main(int argc, char** argv) {
   const CLI::App* heard =
       app.add_subcommand("aircraft", "What a receiver has heard, as references.");
   add_aircraft_options(*app.get_subcommand("aircraft"), aircraft);
+  calibration::TracksOptions tracks;
+  const CLI::App* followed = app.add_subcommand(
+      "tracks", "What stations have followed, out of recordings, as observations.");
+  add_tracks_options(*app.get_subcommand("tracks"), tracks);
   calibration::CameraOptions camera;
   const CLI::App* boards =
       app.add_subcommand("camera", "A camera that focuses near, from pictures of a board.");
@@ -125,12 +149,18 @@ int main(int argc, char** argv) {
     std::vector<std::string> remarks;
     if (heard->parsed()) {
       remarks = calibration::write_aircraft(aircraft);
+    } else if (followed->parsed()) {
+      remarks = calibration::write_tracks(tracks);
     } else if (boards->parsed()) {
       remarks = calibration::write_camera(camera);
     } else {
       adjust(options);
     }
     for (const std::string& line : remarks) std::cerr << "ols-calibrate: " << line << '\n';
+  } catch (const std::bad_alloc&) {
+    std::cerr << "ols-calibrate: the memory does not suffice for so many observations: leave some "
+                 "of them out\n";
+    return ols::kExitBadInput;
   } catch (const std::exception& error) {
     std::cerr << "ols-calibrate: " << error.what() << '\n';
     return ols::kExitBadInput;

@@ -12,10 +12,12 @@ class ManualHold {
  public:
   // The procedure has pointed the unit, which takes the station into manual operation.
   void point() { pointed_ = true; }
+  // Manual operation is the procedure's doing: it alone is given back by it.
+  bool has_pointed() const { return pointed_; }
   // What the station says that it is doing: station_status_t's STATE_*.
   void hear(std::int8_t state) {
     const bool manual = state == ols_msg::station_status_t::STATE_MANUAL;
-    lost_ = !manual && held_;
+    lost_ = lost_ || (!manual && held_);  // for good: manual again, it is somebody else's
     held_ = held_ || (manual && pointed_);
   }
   // Somebody else has taken it back: it must not be pointed any more.

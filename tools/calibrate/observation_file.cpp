@@ -9,6 +9,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "base/plain_text.h"
 #include "geometry/angles.h"
 
 namespace ols::calibration {
@@ -49,7 +50,7 @@ class Line {
   }
 
   [[noreturn]] void fail(const std::string& key, const std::string& what) const {
-    throw std::runtime_error(place_ + key + ": " + what);
+    throw std::runtime_error(place_ + plain_text(key) + ": " + plain_text(what));
   }
   bool has(const char* key) const { return object_.contains(key) && !object_[key].is_null(); }
   double number(const char* key, double least, double greatest) const {
@@ -84,6 +85,7 @@ class Line {
   std::string text(const char* key) const {
     if (!has(key)) return "";
     const Json& value = object_[key];
+    if (value.is_number_unsigned()) return std::to_string(value.get<std::uint64_t>());
     if (value.is_number_integer()) return std::to_string(value.get<std::int64_t>());
     if (!value.is_string()) fail(key, "is not a text");
     return value.get<std::string>();
@@ -111,6 +113,7 @@ AxisReading axis_of(const Line& line, const std::string& axis) {
 void read_pixel(const Line& line, Observation& one) {
   one.reading.pan = axis_of(line, "pan");
   one.reading.tilt = axis_of(line, "tilt");
+  one.sides_stated = line.has("approach_pan") && line.has("approach_tilt");
   one.pixel = {line.number("x_px", -1e5, 1e5), line.number("y_px", -1e5, 1e5)};
   one.sd_px = line.number("sd_px", 1e-4, 1e3);
   one.reference = line.text("reference");

@@ -119,8 +119,12 @@ int revert(CalibrationStore& store, const std::string& to) {
   store.lock();
   const auto target = to.empty() ? store.previous() : std::optional(to);
   if (!target) throw std::invalid_argument("there is no calibration before the one in use");
+  const auto instrument = store.instrument_file();
   store.use(*target, {clock_utime_us(), "reverted", "", "", ""});
   std::printf("in use: %s\n", (store.folder() / *target).c_str());
+  if (instrument && store.instrument_file() != instrument) {
+    std::printf("the instrument that was accepted since is no longer used\n");
+  }
   return 0;
 }
 

@@ -8,6 +8,7 @@
 
 #include "base/clocks.h"
 #include "base/shutdown.h"
+#include "geometry/angles.h"
 
 namespace ols::calibration {
 namespace {
@@ -66,6 +67,17 @@ void ProcedureRunner::check_station() const {
   if (clock_monotonic_s() > station_.heard_s() + kSilent_s) {
     throw std::runtime_error("the station is silent: the network or the station is down");
   }
+}
+
+// A camera that came back with another window or binning counts its pixels otherwise.
+void ProcedureRunner::check_size(const cv::Mat& picture) {
+  if (size_.empty()) size_ = picture.size();
+  if (picture.size() == size_) return;
+  const auto words = [](const cv::Size& s) {
+    return std::to_string(s.width) + " x " + std::to_string(s.height);
+  };
+  throw std::runtime_error("the camera sends pictures of " + words(picture.size()) +
+                           " px now, before of " + words(size_) + ": set it right, then --resume");
 }
 
 Outcome ProcedureRunner::run(FieldProcedure& procedure, const Adjust& adjust) {
@@ -143,7 +155,10 @@ std::optional<FrameFile> ProcedureRunner::picture_at(FieldProcedure& procedure,
   std::optional<double> asked_s;
   while (!aborted_) {
     turn();
-    if (auto frame = station_.take_frame()) return frame;
+    if (auto frame = station_.take_frame()) {
+      check_size(frame->taken.gray);
+      return frame;
+    }
     const double now_s = clock_monotonic_s();
     if (now_s > station_.awaited().progress_s() + kPatience_s) break;
     // All messages of the meantime are handled first: a stop that has arrived must count.
@@ -219,6 +234,7 @@ void ProcedureRunner::show(const Question& question) {
 void ProcedureRunner::keep_live(FieldProcedure& procedure, LiveQuestion& live) {
   const double now_s = clock_monotonic_s();
   if (const auto frame = station_.take_frame()) {
+    check_size(frame->taken.gray);
     procedure.seen(frame->taken);
     live.due_s = now_s + kLive_s;
     const auto order = procedure.next();
@@ -234,6 +250,26 @@ void ProcedureRunner::keep_live(FieldProcedure& procedure, LiveQuestion& live) {
   live.due_s = now_s + kAskAgain_s;
 }
 
+// A question may wait for so long that the sun comes into the picture. Again and again, until the
+// unit says that it stands elsewhere: a command may be lost.
+void ProcedureRunner::turn_away() {
+  const auto stands = station_.angles();
+  const double now_s = clock_monotonic_s();
+  if (!keep_away_ || !stands || now_s < turn_due_s_ || !station_.may_point()) return;
+  turn_due_s_ = now_s + kPublish_s;
+  const std::string why = keep_away_(*stands);
+  if (why.empty()) return;
+  for (const double deg : {15.0, -15.0, 30.0, -30.0, 60.0, -60.0}) {
+    const PanTilt aside{stands->pan_rad + radians(deg), stands->tilt_rad};
+    if (std::abs(aside.pan_rad) > kPi || !keep_away_(aside).empty()) continue;
+    person_.tell("! the unit turns aside: " + why);
+    here_ = aside;
+    sides_known_ = false;
+    station_.set_out(aside);
+    return station_.point();
+  }
+}
+
 void ProcedureRunner::ask(FieldProcedure& procedure, const Order& order) {
   state_.state = M::STATE_ASKING;
   state_.question = ++questions_;
@@ -243,6 +279,7 @@ void ProcedureRunner::ask(FieldProcedure& procedure, const Order& order) {
   if (order.question.is_live && here_) station_.set_out(*here_);
   while (!aborted_) {
     turn();
+    turn_away();
     if (order.question.is_live && here_) keep_live(procedure, live);
     auto answer = station_.take_answer(questions_);
     if (!answer) answer = person_.answer();

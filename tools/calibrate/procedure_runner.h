@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <opencv2/core.hpp>
 #include <string>
 
 #include "calibration/procedure/field_procedure.h"
@@ -53,7 +54,9 @@ class ProcedureRunner {
   void ask(FieldProcedure& procedure, const Order& order);
   void show(const Question& question);
   void keep_live(FieldProcedure& procedure, LiveQuestion& live);
+  void turn_away();
   void check_station() const;
+  void check_size(const cv::Mat& picture);
 
   std::string name_;
   StationLink& station_;
@@ -61,8 +64,10 @@ class ProcedureRunner {
   ProcedureSession* session_;
   ols_msg::procedure_t state_{};
   double began_s_ = 0.0, published_s_ = 0.0;
+  double turn_due_s_ = 0.0;            // when it is next looked whether the unit must turn away
   std::int64_t ordered_utime_us_ = 0;  // when the stage gave the order
   std::int64_t questions_ = 0;
+  cv::Size size_;                // [px] of the first picture
   std::optional<PanTilt> here_;  // of the last picture
   bool sides_known_ = false;     // from which the unit came there
   KeepAway keep_away_;

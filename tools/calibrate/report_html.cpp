@@ -231,6 +231,17 @@ void write_summary(std::ostream& out, const StationResult& result, const Calibra
       << ".</p>\n";
 }
 
+void write_acceptance(std::ostream& out, const Acceptance& acceptance) {
+  out << "<h2>" << (acceptance.acceptable() ? "Within the limits" : "Not within the limits")
+      << "</h2>\n<table><tr><th>finding</th><th></th></tr>\n";
+  for (const Finding& one : acceptance.findings) {
+    const bool bad = one.judgement == Finding::Judgement::kBad;
+    out << (bad ? "<tr class=\"bad\"><td>" : "<tr><td>") << escaped(one.sentence) << "</td><td>"
+        << to_string(one.judgement) << "</td></tr>\n";
+  }
+  out << "</table>\n";
+}
+
 }  // namespace
 
 std::string report_html(const Case& what, const Adjustment& adjustment, const Calibration& found,
@@ -253,6 +264,7 @@ std::string report_html(const Case& what, const Adjustment& adjustment, const Ca
     }
     out << std::setprecision(1);
     if (found.headings_known) write_volume(out, result);
+    write_acceptance(out, result.acceptance);
     const auto station = static_cast<std::size_t>(&result - results.data());
     write_rectification(out, what, adjustment, found, station);
   }

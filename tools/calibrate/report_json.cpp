@@ -51,6 +51,24 @@ AzimuthRow mean_azimuth(const StationModel& model) {
   return J;
 }
 
+Json acceptance_of(const Acceptance& acceptance) {
+  Json findings = Json::array();
+  for (const Finding& one : acceptance.findings) {
+    findings.push_back({{"name", one.name},
+                        {"judgement", to_string(one.judgement)},
+                        {"value", finite(one.value)},
+                        {"limit", one.limit},
+                        {"sentence", one.sentence}});
+  }
+  return {{"acceptable", acceptance.acceptable()},
+          {"findings", findings},
+          {"working_volume",
+           {{"pan_deg", acceptance.volume.pan_deg},
+            {"lowest_deg", acceptance.volume.lowest_deg},
+            {"highest_deg", acceptance.volume.highest_deg},
+            {"is_cut", acceptance.volume_is_cut}}}};
+}
+
 // Without a heading a direction is not known at all.
 Json stations_of(const std::vector<StationResult>& results, bool headings_known) {
   const auto known = [headings_known](double rad) {
@@ -66,6 +84,7 @@ Json stations_of(const std::vector<StationResult>& results, bool headings_known)
                    {"systematic_worst_arcsec", known(volume.worst_rad)},
                    {"mean_azimuth_sd_arcsec",
                     known(std::sqrt((azimuth * result.covariance * azimuth.transpose())(0, 0)))},
+                   {"acceptance", acceptance_of(result.acceptance)},
                    {"parameters", parameters_of(result)}});
   }
   return all;
@@ -92,8 +111,19 @@ Json groups_of(const Adjustment& adjustment, const Calibration& found) {
   return all;
 }
 
-Json residuals_of(const Case& what, const Calibration& found) {
+// By observation.
+std::vector<bool> rejected_observations(const Adjustment& adjustment, const Calibration& found) {
+  std::vector<bool> rejected(found.residuals.size(), false);
+  for (std::size_t g = 0; g < found.tests.size(); ++g) {
+    if (!found.tests[g].rejected) continue;
+    for (const std::size_t i : adjustment.groups()[g].observations) rejected[i] = true;
+  }
+  return rejected;
+}
+
+Json residuals_of(const Case& what, const Adjustment& adjustment, const Calibration& found) {
   Json all = Json::array();
+  const std::vector<bool> rejected = rejected_observations(adjustment, found);
   for (std::size_t i = 0; i < found.residuals.size(); ++i) {
     if (!found.residuals[i]) continue;
     const Observation& one = what.problem.observations[i];
@@ -102,8 +132,23 @@ Json residuals_of(const Case& what, const Calibration& found) {
     all.push_back({{"line", one.line},
                    {"kind", name(one.kind)},
                    {"reference", one.reference},
+                   {"rejected", bool{rejected[i]}},
                    {level ? "x_deg" : "x_px", unit * found.residuals[i]->x()},
                    {level ? "y_deg" : "y_px", unit * found.residuals[i]->y()}});
+  }
+  return all;
+}
+
+Json mistaken_of(const Case& what) {
+  Json all = Json::array();
+  for (const std::size_t i : what.mistaken) {
+    const Observation& one = what.problem.observations[i];
+    all.push_back({{"file", what.files[i]},
+                   {"line", one.line},
+                   {"kind", name(one.kind)},
+                   {"reference", one.reference},
+                   {"station", what.problem.names[one.station]},
+                   {"utime_us", one.utime_us}});
   }
   return all;
 }
@@ -153,7 +198,8 @@ std::string report_json(const Case& what, const Adjustment& adjustment, const Ca
                     {"rectification", rectification_of(what, adjustment, found)},
                     {"heading_differences", differences_of(adjustment, found)},
                     {"groups", groups_of(adjustment, found)},
-                    {"residuals", residuals_of(what, found)}};
+                    {"rejected_sightings", mistaken_of(what)},
+                    {"residuals", residuals_of(what, adjustment, found)}};
   return report.dump(1) + "\n";
 }
 

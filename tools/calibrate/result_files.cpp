@@ -79,6 +79,8 @@ std::vector<StationResult> station_results(const Case& what, const Adjustment& a
     result.state = found.fit.state.stations[i];
     result.prior_covariance = network.stations[i].covariance;
     result.covariance = found.covariance(network, i);
+    result.acceptance = found.headings_known ? judge_calibration(what.problem, adjustment, found, i)
+                                             : judge_instrument(what.problem, adjustment, found, i);
     Instrument instrument = what.instruments[i];
     instrument.values = instrument_of(result.state.model);
     instrument.covariance =

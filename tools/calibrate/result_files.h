@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "calibration/acceptance.h"
 #include "calibration/calibrate.h"
 #include "tools/calibrate/calibrate_case.h"
 #include "tools/calibrate/output_folder.h"
@@ -17,6 +18,7 @@ struct StationResult {
   std::int64_t calibration_id = 0;  // by the content of the files
   StationState state;
   StationMatrix prior_covariance, covariance;
+  Acceptance acceptance;
   std::string instrument, setup, covariance_csv;  // the files
 };
 std::vector<StationResult> station_results(const Case& what, const Adjustment& adjustment,

@@ -85,7 +85,7 @@ void StationLink::check_not_stopped() const {
     throw StationStopped("somebody has given the station another task: it follows a target");
   }
   if (hold_.is_lost()) {
-    throw StationStopped("somebody has released the station, or it has restarted");
+    throw StationStopped("somebody has stopped or released the station, or it has restarted");
   }
 }
 
@@ -105,6 +105,13 @@ double StationLink::status_age_s() const {
 
 bool StationLink::may_point() const {
   return status_ && ols::calibration::may_point(*status_, status_age_s());
+}
+
+std::optional<PanTilt> StationLink::angles() const {
+  if (!status_ || !std::isfinite(status_->pan_rad) || !std::isfinite(status_->tilt_rad)) {
+    return std::nullopt;
+  }
+  return PanTilt{status_->pan_rad, status_->tilt_rad};
 }
 
 double StationLink::status_gap_s() {
@@ -132,8 +139,9 @@ void StationLink::point() {
 }
 
 bool StationLink::release() {
+  if (!hold_.has_pointed()) return false;
   status(kReliedOn_s);
-  const bool may = status_ && may_release(*status_, status_age_s());
+  const bool may = status_ && !hold_.is_lost() && may_release(*status_, status_age_s());
   hold_ = {};
   if (may) command(ols_msg::ptu_command_t::COMMAND_RELEASE, {});
   return may;
@@ -195,11 +203,11 @@ void StationLink::hear_answer(const BusMessage& message) {
 StationFacts facts_of(const ols_msg::station_status_t& status) {
   using M = ols_msg::station_status_t;
   StationFacts facts;
-  facts.state = command::state_name(status.state);
   facts.camera_works = std::string(command::device_state(status, "camera")) == "ok";
   facts.unit_works = std::string(command::device_state(status, "ptu")) == "ok";
   facts.limits_known = std::isfinite(status.pan_limits_rad[0]) && std::isfinite(status.pan_rad);
   facts.stopped = status.state == M::STATE_STOPPED;
+  facts.held_by_hand = status.state == M::STATE_MANUAL;
   facts.emergency = status.state == M::STATE_EMERGENCY;
   facts.follows_target = status.state == M::STATE_TRACKING || status.state == M::STATE_COASTING;
   facts.has_position = status.position_source != M::POSE_NONE;

@@ -36,9 +36,9 @@ enum class Arrival { kStands, kPasses };
 
 class StationLink {
  public:
-  // Throws BusError. `bus` outlives it.
   // What the process is on the bus: an operator. Null in mode off; throws ConfigError.
   static std::shared_ptr<trust::BusTrust> open_trust(const trust::TrustConfig& config);
+  // Throws BusError. `bus` outlives it.
   StationLink(LcmBus& bus, std::string station);
 
   // Handles messages for at most this long.
@@ -51,12 +51,14 @@ class StationLink {
 
   // Whether a status says that pointing ends no stop (motion_leave.h).
   bool may_point() const;
+  // Where the unit stands, by its newest status; nothing while it does not know.
+  std::optional<PanTilt> angles() const;
   // From now on the unit is wanted there, with a picture.
   void set_out(const PanTilt& angles);
   // Turns the unit to where it is wanted, and stays. Only where it may.
   void point();
-  // Gives the unit back, if a fresh status says that it is under manual operation: a release would
-  // end a person's stop. False: it was not sent.
+  // Gives the unit back that it has pointed, if a fresh status says that it is under manual
+  // operation: a release would end a person's stop, or another operator's hold. False: not sent.
   bool release();
   // [s] Between two statuses that follow each other, the least of some; infinite where none came.
   double status_gap_s();

@@ -43,8 +43,9 @@ int run_check(const ProcedureOptions& options, const StationFiles& station,
              StationLink::open_trust(options.trust));
   StationLink link(bus, station.settings.id);
   check_station(link, station, options, person);
-  auto stage = std::make_unique<ViewStage>(std::move(views), station.settings.station.geometry,
-                                           station.instrument.angle_sd_rad);
+  const StationModel model = with_instrument(station.settings.station.geometry, station.instrument);
+  auto stage =
+      std::make_unique<ViewStage>(std::move(views), model, station.instrument.angle_sd_rad);
   const ViewStage* looked = stage.get();
   std::vector<std::unique_ptr<Stage>> stages;
   stages.push_back(std::move(stage));

@@ -87,7 +87,7 @@ void ViewStage::taken(const Taken& picture) {
   const StoredView& view = views_[at_];
   const cv::Mat stored = cv::imread(view.file, cv::IMREAD_GRAYSCALE);
   const auto offset = station::offset_of({stored, view.angles}, {picture.gray, picture.angles},
-                                         geometry_, angle_sd_rad_);
+                                         model_.geometry, angle_sd_rad_);
   char text[160];
   if (offset) {
     std::snprintf(text, sizeof text,
@@ -116,7 +116,7 @@ void ViewStage::step() {
 void ViewStage::end_round() {
   can_tell_ = offsets_.size() >= kFewest;
   const bool look_again =
-      can_tell_ && watch_.add(station::find_drift(offsets_, station::kMotorStep_rad));
+      can_tell_ && watch_.add(station::find_drift(offsets_, station::motor_steps(model_)));
   if (!look_again || again_) return;
   remark("something differs: all views are taken once more before anything is reported");
   again_ = true;

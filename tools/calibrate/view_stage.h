@@ -26,8 +26,8 @@ std::vector<StoredView> views_of(const std::filesystem::path& calibration);
 class ViewStage : public Stage {
  public:
   // `angle_sd_rad`: of each angle at a stop.
-  ViewStage(std::vector<StoredView> views, const StationGeometry& geometry, double angle_sd_rad)
-      : views_(std::move(views)), geometry_(geometry), angle_sd_rad_(angle_sd_rad) {}
+  ViewStage(std::vector<StoredView> views, const StationModel& model, double angle_sd_rad)
+      : views_(std::move(views)), model_(model), angle_sd_rad_(angle_sd_rad) {}
 
   std::optional<Order> next() override;
   void taken(const Taken& picture) override;
@@ -46,7 +46,7 @@ class ViewStage : public Stage {
   void end_round();
 
   std::vector<StoredView> views_;
-  StationGeometry geometry_;
+  StationModel model_;
   double angle_sd_rad_;
   std::size_t at_ = 0;
   bool again_ = false;  // a second round, which confirms the first or does not

@@ -6,7 +6,6 @@ from copy import copy
 from functools import cache, partial
 from pathlib import Path
 
-import erfa
 import numpy as np
 
 from .model import (
@@ -24,15 +23,13 @@ from .model import (
 )
 from .rectification import put_up
 from .site import (
-    PRESSURE_HPA,
-    TEMPERATURE_DEGC,
-    UT1_UTC_S,
     UTIME_US,
     Site,
     anywhere,
     icrs_of,
     station,
 )
+from .star_table import spots, stars_around, table_stars
 
 ROOT = Path(__file__).resolve().parents[3]
 BIN = Path(os.environ.get("OLS_BIN", ROOT / "build/release/bin"))
@@ -291,34 +288,11 @@ def moving_scene(rng):
     return site
 
 
-def table_stars():
-    """Numbers, right ascensions and declinations [rad] of the product's table of stars."""
-    rows = (ROOT / "calibration/star_table.inc").read_text().splitlines()
-    stars = [row[1:].split(",")[:3] for row in rows if row.startswith("{")]
-    table = np.array(stars, dtype=float)
-    return table[:, 0].astype(int), *np.radians(table[:, 1:].T / 1e5)
-
-
-def stars_around(table, place, axis, utime_us):
-    """Numbers and apparent directions, east-north-up, of stars within some degrees of one."""
-    numbers, ra, dec = table
-    ra_there, dec_there = icrs_of(place, axis, utime_us)
-    there = from_azimuth_elevation(ra_there, dec_there)
-    near = from_azimuth_elevation(ra, dec).T @ there > np.cos(np.radians(4))
-    azimuth, zenith, *_ = erfa.atco13(
-        *(ra[near], dec[near], 0, 0, 0, 0, 2440587.5, utime_us / 86400e6, UT1_UTC_S),
-        *(place.longitude, place.latitude, place.height, 0, 0),
-        *(PRESSURE_HPA, TEMPERATURE_DEGC, 0.5, 0.55),
-    )
-    up = zenith < np.radians(79.5)
-    return numbers[near][up], from_azimuth_elevation(azimuth[up], np.pi / 2 - zenith[up]).T
-
-
 def nameless_stars(rng, stars=10, false=5, frames=3, is_new=True):
     """Frames of stars without names, with false detections among them."""
     site, one = one_station(rng, is_new)
     one.lines.clear()  # no inclinometer either: level to half a degree
-    one.numbers = set()
+    one.true_names = []
     table = table_stars()
     start_us = UTIME_US + int(rng.integers(0, 31_000_000)) * 1_000_000
     for frame in range(frames):
@@ -328,22 +302,23 @@ def nameless_stars(rng, stars=10, false=5, frames=3, is_new=True):
         shafts = one.unit.posed(rng, *counts, approach)
         axis = one.unit.look(shafts, (640, 480))
         numbers, directions = stars_around(table, one.place, axis, utime_us)
-        found = rng.permutation(
-            [
-                (number, *pixel)
-                for number, direction in zip(numbers, directions, strict=True)
-                if (pixel := one.unit.image(shafts, direction, at_infinity=True)) is not None
-                and (pixel >= 0).all()
-                and (pixel < (1280, 960)).all()
-            ]
-        )[:stars]
-        one.numbers |= {f"HIP {int(row[0])}" for row in found}
-        pixels = [*(row[1:] for row in found), *rng.uniform([0, 0], [1279, 959], (false, 2))]
-        for pixel in rng.permutation(pixels):
-            one.add(
-                *("star", counts, approach, pixel),
+        images = [
+            (number, *pixel)
+            for number, direction in zip(numbers, directions, strict=True)
+            if (pixel := one.unit.image(shafts, direction, at_infinity=True)) is not None
+            and (pixel >= 0).all()
+            and (pixel < (1280, 960)).all()
+        ]
+        found = spots(rng.permutation(images)[:stars], images)
+        names = [*(names for names, _ in found), *[None] * false]
+        pixels = [*(pixel for _, pixel in found), *rng.uniform([0, 0], [1279, 959], (false, 2))]
+        order = rng.permutation(len(pixels))
+        for k in order:
+            if one.add(
+                *("star", counts, approach, pixels[k]),
                 **{"sd_px": 0.3, "pose": frame, "reference": None, "utime_us": utime_us},
-            )
+            ):
+                one.true_names.append(names[k])
     site.refer("unused", one.place.to_ecef(np.array([0, 100.0, 0])), 1.0)
     return site
 

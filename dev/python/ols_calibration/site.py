@@ -60,6 +60,9 @@ class Station:
     lines: list = field(default_factory=list)
     poses: int = 0
     angles: dict = field(default_factory=dict)  # that its rectification targets should tell
+    # Of stars that are written without a name, by line, the names that are right; None: of a false
+    # detection.
+    true_names: list = field(default_factory=list)
     workshop: "Site | None" = None  # whose calibration is what is known of its instrument
 
     def sight_moving(self, kind, point, reference, counts_s):

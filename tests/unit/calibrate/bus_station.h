@@ -35,6 +35,7 @@ class BusStation {
     status.boot_id = 1;
     status.sequence = ++sequence_;
     status.state = state;
+    status.pan_rad = pan_rad;
     bus.publish(station_channel(kStatusChannel, "alfa"), status);
   }
 
@@ -45,6 +46,7 @@ class BusStation {
   LcmBus bus{"memq://"};
   std::vector<std::int8_t> commands;
   std::function<void()> on_command;
+  double pan_rad = 0.0;  // that it says
 
  private:
   std::int64_t sequence_ = 0;

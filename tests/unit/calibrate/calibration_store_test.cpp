@@ -90,6 +90,52 @@ TEST_F(CalibrationStoreTest, OneIsUsedAnotherOneAndBack) {
   EXPECT_EQ(store.history().size(), 3U);
 }
 
+// The line is written, the links are not yet.
+TEST_F(CalibrationStoreTest, ADecisionThatWasCutShortIsCarriedOut) {
+  for (const char* id : {"11", "22", "33"}) make(id);
+  store.use("11", line("accepted"));
+  store.use_instrument("33", line("instrument"));
+  store.note({kNow_us, "accepted", "22", "field", "11"});
+  EXPECT_EQ(store.previous(), std::nullopt) << "of the one that is still in use";
+  CalibrationStore later(store.folder());
+  later.lock();
+  EXPECT_EQ(later.current(), "22");
+  EXPECT_EQ(later.previous(), "11");
+  EXPECT_EQ(later.instrument_file(), store.folder() / "current" / "instrument.toml");
+}
+
+TEST_F(CalibrationStoreTest, AnInstrumentWhoseLinkIsMissingIsUsed) {
+  for (const char* id : {"11", "33"}) make(id);
+  store.use("11", line("accepted"));
+  store.note({kNow_us, "instrument", "33", "sweep", "11"});
+  store.lock();
+  EXPECT_EQ(store.current(), "11");
+  EXPECT_EQ(fs::canonical(*store.instrument_file()),
+            fs::canonical(store.folder() / "33" / "instrument.toml"));
+}
+
+TEST_F(CalibrationStoreTest, ADecisionForWhatIsGoneIsNotCarriedOut) {
+  for (const char* id : {"11", "22"}) make(id);
+  store.use("11", line("accepted"));
+  store.note({kNow_us, "accepted", "22", "field", "11"});
+  fs::remove_all(store.folder() / "22");
+  store.lock();
+  EXPECT_EQ(store.current(), "11");
+  EXPECT_TRUE(fs::exists(store.folder() / "current" / "instrument.toml"));
+}
+
+// Somebody has set the link by hand since.
+TEST_F(CalibrationStoreTest, WhatIsDoneIsNotDoneAgain) {
+  for (const char* id : {"11", "22", "33"}) {
+    make(id);
+    store.use(id, line("accepted"));
+  }
+  fs::remove(store.folder() / "current");
+  fs::create_directory_symlink("11", store.folder() / "current");
+  store.lock();
+  EXPECT_EQ(store.current(), "11");
+}
+
 TEST_F(CalibrationStoreTest, GoingBackTwiceLeadsTwoBack) {
   for (const char* id : {"11", "22", "33"}) {
     make(id);

@@ -21,6 +21,16 @@ TEST(ManualHold, AReleaseBySomebodyElseEndsIt) {
   }
 }
 
+// Several messages can be handled at once: the last one alone does not tell.
+TEST(ManualHold, TakenAgainByAnOperatorItStaysLost) {
+  for (const auto between : {Status::STATE_IDLE, Status::STATE_STOPPED}) {
+    ManualHold hold;
+    hold.point();
+    for (const auto state : {Status::STATE_MANUAL, between, Status::STATE_MANUAL}) hold.hear(state);
+    EXPECT_TRUE(hold.is_lost()) << int{between};
+  }
+}
+
 TEST(ManualHold, AnOperatorsOwnManualOperationBeforehandIsNone) {
   ManualHold hold;
   hold.hear(Status::STATE_MANUAL);

@@ -41,6 +41,22 @@ TEST(ObservationFile, AKeyThatAppearsTwiceIsNamed) {
             "site.jsonl:2: x_deg: appears twice");
 }
 
+TEST(ObservationFile, WhatItQuotesCannotDriveATerminal) {
+  const std::string why = refusal(R"({"kind": "\u001b[2Jstar"})");
+  EXPECT_NE(why.find("is not known"), std::string::npos) << why;
+  EXPECT_EQ(why.find('\x1b'), std::string::npos);
+}
+
+TEST(ObservationFile, ALargeNumberOfAScenePointStaysItself) {
+  std::istringstream file(
+      R"({"kind": "scene", "reference": 18446744073709551615, "pan_counts": 0, "tilt_counts": 0,)"
+      R"( "x_px": 100, "y_px": 50, "sd_px": 0.1, "approach_pan": 1})");
+  const auto observations = read_observations(file, "site.jsonl", {"alfa"});
+  ASSERT_EQ(observations.size(), 1U);
+  EXPECT_EQ(observations[0].reference, "18446744073709551615");
+  EXPECT_FALSE(observations[0].sides_stated) << "of the tilt";
+}
+
 TEST(ObservationFile, AReadErrorIsNotTheEndOfTheFile) {
   FailingDisk disk(kLevel + kLevel);
   std::istream file(&disk);

@@ -210,6 +210,7 @@ TEST_F(ProcedureAtWork, AnInterruptedOneGoesOnWhereItWas) {
   const auto kept = store_.interrupt(session_->folder());
   // A loss of power has cut a line, too.
   std::ofstream(kept / "journal.jsonl", std::ios::app) << "{\"step\": \"pl";
+  EXPECT_FALSE(link_.release()) << "a stop; the next one is a process of its own";
   station_.state = Status::STATE_MANUAL;
   station_.on_request = nullptr;
   station_.ways.clear();

@@ -22,20 +22,36 @@ class StationLinkTest : public testing::Test {
 };
 
 TEST_F(StationLinkTest, AStopIsNotReleased) {
+  link.point();
   station.say(Status::STATE_MANUAL);
   handle();
   station.say(Status::STATE_STOPPED);
   EXPECT_FALSE(link.release());
   EXPECT_FALSE(link.may_point());
   handle();
-  EXPECT_TRUE(station.commands.empty());
+  EXPECT_EQ(station.commands, std::vector<std::int8_t>{Command::COMMAND_POINT});
 }
 
-TEST_F(StationLinkTest, ManualOperationIsReleased) {
+TEST_F(StationLinkTest, ItsOwnManualOperationIsReleased) {
+  link.point();
   station.say(Status::STATE_MANUAL);
   EXPECT_TRUE(link.release());
   handle();
-  EXPECT_EQ(station.commands, std::vector<std::int8_t>{Command::COMMAND_RELEASE});
+  const std::vector<std::int8_t> both{Command::COMMAND_POINT, Command::COMMAND_RELEASE};
+  EXPECT_EQ(station.commands, both);
+}
+
+TEST_F(StationLinkTest, AnOperatorsManualOperationIsNotReleased) {
+  station.say(Status::STATE_MANUAL);
+  EXPECT_FALSE(link.release());
+  link.point();
+  station.say(Status::STATE_MANUAL);
+  station.say(Status::STATE_IDLE);
+  station.say(Status::STATE_MANUAL);  // taken by somebody else, meanwhile
+  handle();
+  EXPECT_FALSE(link.release());
+  handle();
+  EXPECT_EQ(station.commands, std::vector<std::int8_t>{Command::COMMAND_POINT});
 }
 
 TEST_F(StationLinkTest, WithoutAStatusNothingMoves) { EXPECT_FALSE(link.may_point()); }

@@ -46,7 +46,7 @@ class ViewStageTest : public testing::Test {
     }
     return pictures;
   }
-  ViewStage stage() { return {views_of(folder_.path()), StationGeometry{}, kSd_rad}; }
+  ViewStage stage() { return {views_of(folder_.path()), StationModel{}, kSd_rad}; }
 
   logger::TemporaryFolder folder_;
   std::vector<double> pans_deg_;

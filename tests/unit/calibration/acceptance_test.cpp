@@ -36,6 +36,15 @@ Problem good() {
   return problem;
 }
 
+// Twice more, a landmark above all others, so many metres below where it is said to be.
+void add_high(Problem& problem, double pan_deg, double tilt_deg, double off_m) {
+  const Observation high = test::landmark(pan_deg, tilt_deg, "high");
+  FixedPoint place = test::place_seen(hill(), high, 1000.0);
+  place.ecef += R_ecef_enu(place.ecef) * Eigen::Vector3d(0.0, 0.0, off_m);
+  problem.references["high"] = place;
+  for (int k = 0; k < 2; ++k) problem.observations.push_back(high);
+}
+
 TEST(Acceptance, NamesWhatIsGood) {
   const Acceptance acceptance = judged(good());
   for (const Finding& one : acceptance.findings) {
@@ -60,6 +69,32 @@ TEST(Acceptance, FindsATripodThatMovedMeanwhile) {
   EXPECT_NEAR(closing.value, 46.4, 3.0);
 }
 
+// A mistaken sighting that was rejected says nothing of the others, and nothing of its sector.
+TEST(Acceptance, WhatIsRejectedCountsNowhere) {
+  Problem problem = good();
+  add_high(problem, 170.0, 20.0, 20.0);
+  const Acceptance acceptance = judged(problem);
+  EXPECT_EQ(finding(acceptance, "rejected high").judgement, Judgement::kBad);
+  EXPECT_TRUE(acceptance.volume_is_cut);
+  EXPECT_LT(finding(acceptance, "elevations").value, 10.0);
+}
+
+// The same landmarks at both sides of the picture, by a lens that is longer than its instrument
+// says.
+TEST(Acceptance, ALensThatWasRefocusedIsNoGoodCalibration) {
+  StationModel truth = hill();
+  truth.geometry.camera.fx_px *= 1.002;
+  Problem problem = landmarks_around(truth, just_put_up(), 9);
+  problem.stations[0].covariance.topLeftCorner<kInstrumentParameters, kInstrumentParameters>() *=
+      0.01;
+  const Problem scenery = test::scenery_around(truth, 24);
+  problem.observations.insert(problem.observations.end(), scenery.observations.begin(),
+                              scenery.observations.end());
+  const Acceptance acceptance = judged(problem);
+  EXPECT_EQ(finding(acceptance, "focal length").judgement, Judgement::kBad);
+  EXPECT_FALSE(acceptance.acceptable());
+}
+
 // A landmark that is rejected, and one alone that nobody checks.
 TEST(Acceptance, NamesWhatIsBadOrUnchecked) {
   Problem problem = good();
@@ -75,6 +110,19 @@ TEST(Acceptance, NamesWhatIsBadOrUnchecked) {
   EXPECT_EQ(finding(single, "detectable landmark0").judgement, Judgement::kUnchecked);
   EXPECT_EQ(finding(single, "sectors").judgement, Judgement::kUnchecked);
   EXPECT_LT(single.volume.pan_deg, 175.0);
+}
+
+// High above all others of a new unit, whose gears and axes nobody knows: they predict it as badly
+// as they check it, and what they miss it by is no fault of what was found.
+TEST(Acceptance, WhatTheOthersCannotPredictIsNotBad) {
+  Problem problem = landmarks_around(hill(), just_put_up(), 9);
+  add_high(problem, 20.0, 25.0, 0.3);
+  const Acceptance acceptance = judged(problem);
+  EXPECT_EQ(finding(acceptance, "detectable high").judgement, Judgement::kUnchecked);
+  const Finding& angle = finding(acceptance, "without_itself high");
+  EXPECT_GT(angle.value, angle.limit);
+  EXPECT_EQ(angle.judgement, Judgement::kUnchecked);
+  EXPECT_EQ(finding(acceptance, "without_itself_sigma high").judgement, Judgement::kGood);
 }
 
 // Numbers that the computation could not give are no reason to say "good".

@@ -57,5 +57,35 @@ TEST(Network, AStationAloneHasItsOwnSightings) {
   EXPECT_EQ(own.layout.size(), network.layout.size());
 }
 
+// Between its first and its last position a drone may have been anywhere.
+TEST(Network, APositionThatNoOtherIsNearIsNotInterpolated) {
+  constexpr std::int64_t kNoon_us = 1'780'000'000'000'000;
+  Problem problem = landmarks_around(hill(), hill(), 3);
+  const Eigen::Vector3d place = std::get<FixedPoint>(problem.references.at("landmark1")).ecef;
+  Trajectory flight;
+  flight.sd_m = 0.02;
+  for (const std::int64_t s : {0, 2, 40, 42}) {
+    flight.points.push_back({kNoon_us + 1'000'000 * s, place});
+  }
+  problem.references["drone"] = flight;
+  Observation one = problem.observations[2];
+  one.kind = Kind::kDrone;
+  one.reference = "drone";
+  one.utime_us = kNoon_us + 1'000'000;
+  problem.observations.push_back(one);
+  EXPECT_EQ(network_of(problem).groups.size(), 4U);
+  problem.observations.back().utime_us += 4'000'000;
+  try {
+    network_of(problem);
+    FAIL();
+  } catch (const ObservationRefused& refused) {
+    EXPECT_EQ(refused.index(), 6U);
+    EXPECT_STREQ(
+        refused.what(),
+        "utime_us: the positions of 'drone' around it are 38 s apart: more than 3 s, it may "
+        "have been anywhere");
+  }
+}
+
 }  // namespace
 }  // namespace ols::calibration

@@ -53,5 +53,24 @@ TEST(SharedPoses, ANumberThatStandsAtTwoPlacesIsRefused) {
   }
 }
 
+// Their matrices would need gigabytes.
+TEST(SharedPoses, TooManyAreRefusedByTheFirstOneThatIsTooMany) {
+  std::vector<Observation> observations;
+  for (std::size_t i = 0; i <= kMostSharedPoses; ++i) {
+    for (int k = 0; k < 2; ++k) {
+      observations.push_back(star(100.0, 1));
+      observations.back().pose = static_cast<std::int64_t>(i);
+    }
+  }
+  try {
+    const SharedPoses poses(observations);
+    FAIL();
+  } catch (const ObservationRefused& refused) {
+    EXPECT_EQ(refused.index(), 2 * kMostSharedPoses);
+  }
+  observations.resize(2 * kMostSharedPoses);
+  EXPECT_EQ(SharedPoses(observations).size(), kMostSharedPoses);
+}
+
 }  // namespace
 }  // namespace ols::calibration

@@ -192,6 +192,8 @@ TEST(PositionAt, IsBetweenTheKnownOnesAndALittleAfter) {
   EXPECT_NEAR(position_at(flight, 150, 10)->x(), 5.0, 1e-12);
   EXPECT_NEAR(position_at(flight, 210, 10)->x(), 10.0, 1e-12);
   EXPECT_FALSE(position_at(flight, 211, 10));
+  flight.points.push_back({3'500'200, {10.0, 0.0, 0.0}});
+  EXPECT_FALSE(position_at(flight, 1000, 10));  // nothing for more than three seconds
 }
 
 }  // namespace

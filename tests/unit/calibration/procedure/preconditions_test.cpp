@@ -26,6 +26,7 @@ TEST(Preconditions, EachHindranceIsNamed) {
   const std::vector<std::pair<std::function<void(StationFacts&)>, std::string>> cases{
       {[](StationFacts& f) { f.emergency = true; }, "emergency stop"},
       {[](StationFacts& f) { f.stopped = true; }, "stopped"},
+      {[](StationFacts& f) { f.held_by_hand = true; }, "manual operation: release it"},
       {[](StationFacts& f) { f.status_gap_s = 2.0; }, "status comes every 2.0 s"},
       {[](StationFacts& f) { f.follows_target = true; }, "follows a target"},
       {[](StationFacts& f) { f.unit_works = false; }, "pan-tilt unit does not work"},

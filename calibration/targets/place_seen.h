@@ -1,0 +1,13 @@
+// A point in ECEF as a station sees it: in GROUND, lifted by terrestrial refraction.
+#pragma once
+
+#include "calibration/target.h"
+
+namespace ols::calibration {
+
+// The point in ECEF, seen by the station, without its nuisance.
+TargetView place_seen(const State& state, const Sighting& sighting, const Eigen::Vector3d& ecef);
+
+Eigen::Matrix3d R_enu_ecef(const State& state, const Sighting& sighting);
+
+}  // namespace ols::calibration
