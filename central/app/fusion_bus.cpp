@@ -1,13 +1,12 @@
 #include "central/app/fusion_bus.h"
 
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
 #include <chrono>
 #include <thread>
 #include <utility>
 
 #include "base/clocks.h"
+#include "base/journal.h"
 
 namespace ols::fusion {
 namespace {
@@ -37,10 +36,10 @@ void FusionBus::connect(double wait_s) {
   }
   if (bus_) {
     subscribe_(*bus_);
-    if (!trouble_.empty()) spdlog::info("connected to {}", urls_.bus);
+    if (!trouble_.empty()) write_to_journal(bus_connected_event(urls_.bus));
     trouble_.clear();
   } else if (!why.empty() && why != trouble_) {
-    spdlog::warn("no bus, retrying every second: {}", why);
+    write_to_journal(bus_lost_event(why));
     trouble_ = why;
   }
 }
@@ -51,18 +50,14 @@ void FusionBus::handle() {
     return;
   }
   bus_->handle(kWaitMs);
-  const double now_s = clock_monotonic_s();
-  monitor_.look(bus_->traffic(), now_s);
-  const std::vector<std::string> alarms = monitor_.alarms(now_s);
-  if (alarms.size() > alarms_.size()) spdlog::warn("{}", alarms.back());
-  alarms_ = alarms;
+  monitor_.look(bus_->traffic(), clock_monotonic_s());
 }
 
 void FusionBus::end_if_broken() {
   if (bus_ && (send_failed_ || bus_->is_deaf())) {
     trouble_ = send_failed_ ? "sending fails: the network is down"
                             : "no messages arrive any more, not even this program's own";
-    spdlog::warn("no bus, retrying every second: {}", trouble_);
+    write_to_journal(bus_lost_event(trouble_));
     bus_.reset();
     slew_bus_.reset();
     monitor_.connection_ended();

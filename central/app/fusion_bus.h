@@ -61,8 +61,7 @@ class FusionBus {
   std::unique_ptr<LcmBus> bus_;       // null: no network
   std::unique_ptr<LcmBus> slew_bus_;  // null: slews go on the same bus
   BusMonitor monitor_;
-  std::vector<std::string> alarms_;  // the last ones
-  std::string trouble_;              // of the network
+  std::string trouble_;  // of the network
   bool send_failed_ = false;
   std::int64_t not_sent_ = 0;
   std::map<std::string, std::int64_t, std::less<>> sequences_;

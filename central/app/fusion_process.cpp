@@ -1,13 +1,12 @@
 #include "central/app/fusion_process.h"
 
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
 
 #include "base/clocks.h"
+#include "base/journal.h"
 
 namespace ols::fusion {
 namespace {
@@ -20,6 +19,9 @@ std::shared_ptr<trust::BusTrust> open_trust(const FusionSettings& settings,
   self.name = "fusion";
   self.boot_id = options.boot_id;
   self.tells_list = self.keeps_marks = true;
+  self.list_taken = [](const trust::TrustList& list) {
+    write_to_journal({.text = list.in_one_line() + "; taken", .id = event::kTrustList});
+  };
   return trust::BusTrust::open(settings.trust, trust::process_environment(), self);
 }
 
@@ -110,7 +112,6 @@ void FusionProcess::on_fusion_status(const BusMessage& message) {
   if (others_.hear(std::get<std::int64_t>(boot_id), now_s)) ++counters_["other_fusions"];
   if (!others_.take_event()) return;
   errors_.last = others_.alarm(now_s);
-  spdlog::warn("{}", errors_.last);
 }
 
 // A recording's is that of its messages.
@@ -148,7 +149,9 @@ void FusionProcess::on_cue_order(const BusMessage& message) {
   constexpr std::size_t kSenders = 1000;  // forged ones bring any number
   if (cue_orders_.size() >= kSenders) cue_orders_.clear();
   cue_orders_[order.boot_id] = order.sequence;
-  spdlog::info("cue {}: an operator {} it", order.cue, order.allow ? "allows" : "forbids");
+  write_to_journal(
+      {.text = "cue " + order.cue + ": an operator " + (order.allow ? "allows" : "forbids") + " it",
+       .id = event::kCueOrder});
   fusion_.allow_cue(order.cue, order.allow);
 }
 
@@ -166,10 +169,7 @@ bool FusionProcess::is_present(std::int64_t utime_us, const char* counter) {
   const double now_s = clock_monotonic_s();
   if (present_.passes(utime_us, clock_utime_us(), now_s, waited_s_)) return true;
   ++counters_[counter];
-  if (present_.take_event()) {
-    errors_.last = present_.alarm(now_s);
-    spdlog::warn("{}", errors_.last);
-  }
+  if (present_.take_event()) errors_.last = present_.alarm(now_s);
   return false;
 }
 
@@ -207,6 +207,7 @@ void FusionProcess::publish_status_when_due() {
   fusion_.end_silent_cues(present_us());
   FusionHealth health = watched_health();
   health.last_error = errors_.newest(health.last_error);
+  alarms_.look(health.alarms, now_s);
   // Without bearings "now" stands still, and what is old is not believed where messages are signed.
   if (is_silent) health.now_us = present_us();
   bus_.send(kFusionStatusChannel,

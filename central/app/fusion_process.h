@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "base/alarm_journal.h"
 #include "central/app/fusion_bus.h"
 #include "central/app/fusion_conflict_monitor.h"
 #include "central/app/fusion_settings.h"
@@ -69,6 +70,7 @@ class FusionProcess {
   TimelinessGate present_;
   FusionConflictMonitor others_;
   Errors errors_;
+  AlarmJournal alarms_;
   Latency latency_;
   std::map<std::int64_t, std::int64_t>
       cue_orders_;                      // the last one's sequence, by its sender's boot

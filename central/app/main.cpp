@@ -1,11 +1,10 @@
 // ols-fusion: parses the command line, loads the configuration, wires the parts and loops.
-#include <spdlog/spdlog.h>
-
 #include <stdexcept>
 #include <string>
 
 #include "base/boot_id.h"
 #include "base/command_line.h"
+#include "base/journal.h"
 #include "base/lcm_url.h"
 #include "base/service_frame.h"
 #include "base/service_notifier.h"
@@ -41,7 +40,9 @@ int run(const Arguments& arguments) {
       .boot_id = ols::draw_boot_id()};
   if (!arguments.slew_url.empty()) options.slew_url = arguments.slew_url;
   ols::fusion::FusionProcess process(settings, options);
-  spdlog::info("ready: bus {}, slews to {}", settings.lcm_url, options.slew_url);
+  ols::write_to_journal(
+      {.text = "ready: bus " + settings.lcm_url + ", slews to " + options.slew_url,
+       .id = ols::event::kReady});
   ols::ServiceNotifier service_manager;
   service_manager.ready("bus " + settings.lcm_url);
   serve(

@@ -1,4 +1,4 @@
-// The cues that are live: what was allowed of them, and which target is where one is. Pure.
+// The fusion's cues: how long each lives, what was allowed of it, which target is where it is.
 #pragma once
 
 #include <cstdint>

@@ -1,27 +1,22 @@
 #include "central/cues/cue_check.h"
 
 #include <algorithm>
-#include <cmath>
 
+#include "base/cue_values.h"
 #include "geometry/angles.h"
 
 namespace ols::fusion {
 namespace {
 
-bool is_finite(const Cue& cue) {
-  return std::isfinite(cue.place.latitude_rad) && std::isfinite(cue.place.longitude_rad) &&
-         std::isfinite(cue.place.height_m) && std::isfinite(cue.horizontal_sd_m) &&
-         std::isfinite(cue.vertical_sd_m) && cue.velocity_enu_m_s.allFinite() &&
-         std::isfinite(cue.velocity_sd_m_s);
-}
-
-bool is_possible(const Cue& cue) {
-  constexpr double kLowest_m = -1000.0, kHighest_m = 100e3, kFastest_m_s = 3000.0;
-  return !cue.id.empty() && std::abs(cue.place.latitude_rad) <= kPi / 2.0 &&
-         std::abs(cue.place.longitude_rad) <= kPi && cue.place.height_m >= kLowest_m &&
-         cue.place.height_m <= kHighest_m && cue.horizontal_sd_m > 0.0 && cue.vertical_sd_m > 0.0 &&
-         cue.velocity_sd_m_s > 0.0 && cue.velocity_sd_m_s <= kFastest_m_s &&
-         cue.velocity_enu_m_s.norm() <= kFastest_m_s;
+CueFault fault_of(const Cue& cue) {
+  const Eigen::Vector3d& velocity = cue.velocity_enu_m_s;
+  return ols::fault_of({degrees(cue.place.latitude_rad),
+                        degrees(cue.place.longitude_rad),
+                        cue.place.height_m,
+                        cue.horizontal_sd_m,
+                        cue.vertical_sd_m,
+                        {velocity.x(), velocity.y(), velocity.z()},
+                        cue.velocity_sd_m_s});
 }
 
 }  // namespace
@@ -52,14 +47,15 @@ const char* to_string(CueRefusal refusal) {
 }
 
 CueRefusal check(const Cue& cue, std::int64_t present_us, const CueConfig& config) {
-  constexpr double kPole_rad = radians(89.9), kFuture_s = 1.0, kLongestWay_s = 1.0;
-  if (!is_finite(cue)) return CueRefusal::kNotFinite;
+  constexpr double kFuture_s = 1.0, kLongestWay_s = 1.0;
+  const CueFault fault = fault_of(cue);
+  if (fault == CueFault::kNotFinite) return CueRefusal::kNotFinite;
   if (std::min(cue.utime_us, cue.state_us) < 0 ||
       std::max(cue.utime_us, cue.state_us) > kGreatestUtime) {
     return CueRefusal::kOutOfRange;
   }
-  if (!is_possible(cue)) return CueRefusal::kOutOfRange;
-  if (std::abs(cue.place.latitude_rad) > kPole_rad) return CueRefusal::kPole;
+  if (fault == CueFault::kOutOfRange || cue.id.empty()) return CueRefusal::kOutOfRange;
+  if (fault == CueFault::kPole) return CueRefusal::kPole;
   const auto age_s = [&](std::int64_t utime_us) {
     return 1e-6 * (static_cast<double>(present_us) - static_cast<double>(utime_us));
   };

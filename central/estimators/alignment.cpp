@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <vector>
 
-#include "geometry/wgs84.h"
+#include "central/measurement/place_axes.h"
 
 namespace ols::fusion {
 namespace {
@@ -45,10 +45,11 @@ const BearingMeasurement& nearest(std::span<const BearingMeasurement> window,
 
 std::vector<Sample> samples_of(std::span<const BearingMeasurement> window, std::int64_t epoch_us,
                                const BearingMeasurement& reference, const RayFrame& frame,
-                               double noise_scale) {
+                               double noise_scale, PlaceAxes& axes) {
   std::vector<Sample> samples;
   for (const BearingMeasurement& measurement : window) {
-    const RayFrame own = ray_frame(measurement.sight);
+    const RayFrame own =
+        ray_frame(measurement.sight, axes.R_ecef_enu(measurement.sight.origin_ecef));
     const double ahead = frame.direction.dot(own.direction);
     if (ahead <= 0.1) continue;  // not on this tangent plane
     const Eigen::Matrix2d turn = frame.tangent.transpose() * own.tangent;
@@ -127,15 +128,16 @@ Fit fit(const std::vector<Sample>& samples, double range_m, const AlignmentConfi
 }
 
 // From the reference's tangent plane to the ray's own.
-Ray ray_of(const BearingMeasurement& reference, const RayFrame& frame, const Fit& fitted) {
+Ray ray_of(const BearingMeasurement& reference, const RayFrame& frame, const Fit& fitted,
+           PlaceAxes& axes) {
   Ray ray{.station = reference.station, .sight = reference.sight};
   ray.sight.origin_ecef += fitted.origin;
   const double stretch_squared = 1.0 + fitted.direction.squaredNorm();
   const Eigen::Vector3d direction =
       (frame.direction + frame.tangent * fitted.direction) / std::sqrt(stretch_squared);
-  ray.sight.direction =
-      azimuth_elevation_from_enu(R_ecef_enu(ray.sight.origin_ecef).transpose() * direction);
-  const RayFrame own = ray_frame(ray.sight);
+  const Eigen::Matrix3d& R = axes.R_ecef_enu(ray.sight.origin_ecef);
+  ray.sight.direction = azimuth_elevation_from_enu(R.transpose() * direction);
+  const RayFrame own = ray_frame(ray.sight, R);
   const Eigen::Matrix2d turn = own.tangent.transpose() * frame.tangent / std::sqrt(stretch_squared);
   ray.sight.covariance_white = turn * fitted.direction_covariance * turn.transpose();
   ray.rate_rad_s = turn * fitted.rate;
@@ -162,10 +164,11 @@ std::optional<Ray> align(std::span<const BearingMeasurement> measurements, std::
   if (std::abs(seconds_between(reference.utime_us, epoch_us)) > config.max_age_s) {
     return std::nullopt;
   }
-  const RayFrame frame = ray_frame(reference.sight);
-  const auto samples = samples_of(window, epoch_us, reference, frame, noise_scale);
-  Ray ray =
-      ray_of(reference, frame, fit(samples, range_m.value_or(config.range_unknown_m), config));
+  PlaceAxes axes;
+  const RayFrame frame = ray_frame(reference.sight, axes.R_ecef_enu(reference.sight.origin_ecef));
+  const auto samples = samples_of(window, epoch_us, reference, frame, noise_scale, axes);
+  Ray ray = ray_of(reference, frame, fit(samples, range_m.value_or(config.range_unknown_m), config),
+                   axes);
   ray.bearing_variance_rad2 = noise_scale * reference.sight.covariance_white.trace() / 2.0;
   ray.clock_sd_s = reference.clock_sd_s;
   ray.age_s = seconds_between(epoch_us, measurements.back().utime_us);

@@ -7,6 +7,7 @@
 
 #include "central/estimators/paper_pairing.h"
 #include "central/estimators/position_covariance.h"
+#include "geometry/wgs84.h"
 
 namespace ols::fusion {
 namespace {
@@ -34,22 +35,38 @@ PaperPoint intersect_in_plane(const PaperView& first, const PaperView& second,
   return {Solution::kOk, first.centre_ecef + s * u};
 }
 
-std::vector<PaperView> views_of(const std::vector<Ray>& rays) {
+// The axes at each ray's origin: they cost more than all else that a ray needs.
+std::vector<Eigen::Matrix3d> axes_of(const std::vector<Ray>& rays) {
+  std::vector<Eigen::Matrix3d> axes;
+  for (const Ray& ray : rays) axes.push_back(R_ecef_enu(ray.sight.origin_ecef));
+  return axes;
+}
+
+std::vector<PaperView> views_of(const std::vector<Ray>& rays,
+                                const std::vector<Eigen::Matrix3d>& axes) {
   std::vector<PaperView> views;
-  for (const Ray& ray : rays) {
-    views.push_back({ray.sight.origin_ecef, direction_ecef(ray.sight), ray.belief});
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const LineOfSight& sight = rays[i].sight;
+    const Eigen::Vector3d direction = axes[i] * enu_from_azimuth_elevation(sight.direction);
+    views.push_back({sight.origin_ecef, direction, rays[i].belief});
   }
   return views;
 }
 
+double crossing_angle_of(const std::vector<PaperView>& views) {
+  std::vector<Eigen::Vector3d> directions;
+  for (const PaperView& view : views) directions.push_back(view.direction_ecef);
+  return crossing_angle(directions);
+}
+
 // Sets both covariances, to first order.
-void propagate(const std::vector<Ray>& rays, const std::vector<PaperView>& views,
-               const PaperPairing& pairing, const PaperConfig& config, Estimate& estimate) {
+void propagate(const std::vector<Ray>& rays, const std::vector<Eigen::Matrix3d>& axes,
+               const std::vector<Eigen::Matrix3d>& derivatives, Estimate& estimate) {
   estimate.covariance_ecef.setZero();
   estimate.covariance_white_ecef.setZero();
-  const auto derivatives = derivatives_by_direction(views, pairing, config);
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    const Eigen::Matrix<double, 3, 2> J = derivatives[i] * ray_frame(rays[i].sight).tangent;
+    const Eigen::Matrix<double, 3, 2> J =
+        derivatives[i] * ray_frame(rays[i].sight, axes[i]).tangent;
     const double range_m = (estimate.position_ecef - rays[i].sight.origin_ecef).norm();
     const Eigen::Matrix3d white = J * rays[i].sight.covariance_white * J.transpose();
     estimate.covariance_white_ecef += white;
@@ -87,13 +104,14 @@ PaperPoint paper_n_view(const std::vector<PaperView>& views, const PaperConfig& 
 Estimate paper_estimate(const std::vector<Ray>& rays, const PaperConfig& config) {
   Estimate estimate;
   estimate.rays.assign(rays.size(), RayUse{.used = true, .weight = 1.0});
-  const std::vector<PaperView> views = views_of(rays);
+  const std::vector<Eigen::Matrix3d> axes = axes_of(rays);
+  const std::vector<PaperView> views = views_of(rays, axes);
   const PaperPairing pairing = pair_views(views, config);
   estimate.solution = pairing.solution;
   if (pairing.solution != Solution::kOk) return estimate;
   estimate.position_ecef = pairing.position_ecef;
-  estimate.crossing_angle_rad = crossing_angle(rays, estimate.rays);
-  propagate(rays, views, pairing, config, estimate);
+  estimate.crossing_angle_rad = crossing_angle_of(views);
+  propagate(rays, axes, derivatives_by_direction(views, pairing, config), estimate);
   return checked(std::move(estimate));
 }
 

@@ -32,6 +32,12 @@ struct FilterGaussian {
   FilterMatrix covariance;  // lower triangle
 };
 
+// Of the target alone.
+struct TargetGaussian {
+  Vector9 mean;
+  Matrix9 covariance;  // lower triangle
+};
+
 // A square on the diagonal, with both triangles.
 template <int K>
 Eigen::Matrix<double, K, K> whole_block(const FilterMatrix& P, Eigen::Index first) {
@@ -54,6 +60,7 @@ void subtract_square(const FilterMatrix2& G, Eigen::Index columns, FilterMatrix&
 
 // Propagates the target by a motion.
 void propagate(const Transition& motion, FilterGaussian& state);
+void propagate(const Transition& motion, TargetGaussian& state);
 
 // Each state times its own factor.
 void scale(const FilterVector& factors, FilterGaussian& state);
@@ -61,9 +68,13 @@ void scale(const FilterVector& factors, FilterGaussian& state);
 // Inserts zero states before the given one, or at the end.
 void insert_states(Eigen::Index before, Eigen::Index more, FilterGaussian& state);
 
-// Of a mixture with these weights: mean and covariance of the first states; both triangles.
-FilterGaussian mixture(std::span<const FilterGaussian> parts, std::span<const double> weights,
-                       Eigen::Index states);
+// Mean and covariance of a mixture of up to kMotions with these weights; both triangles.
+FilterGaussian mixture(std::span<const FilterGaussian> parts, std::span<const double> weights);
+// Those of the target alone.
+TargetGaussian target_mixture(std::span<const FilterGaussian> parts,
+                              std::span<const double> weights);
+TargetGaussian target_mixture(std::span<const TargetGaussian> parts,
+                              std::span<const double> weights);
 
 // Each becomes a mixture of all, with its own weights (Blom and Bar-Shalom's interaction).
 using MixtureWeights = std::array<double, kMotions>;

@@ -94,16 +94,15 @@ void InteractingModels::inflate(double time_s, const Eigen::Matrix3d& along,
 }
 
 KinematicState InteractingModels::kinematics() const {
-  const FilterGaussian target = mixture(models_, probabilities_, 9);
-  return {utime_us_, target.mean, target.covariance};
+  const auto [mean, covariance] = target_mixture(models_, probabilities_);
+  return {utime_us_, mean, covariance};
 }
 
 KinematicState InteractingModels::at(std::int64_t utime_us) const {
   const double dt_s = seconds(utime_us - utime_us_);
-  std::array<FilterGaussian, kMotions> then;
+  std::array<TargetGaussian, kMotions> then;
   for (std::size_t m = 0; m < models_.size(); ++m) {
-    then[m].mean = models_[m].mean.head<9>();
-    then[m].covariance = models_[m].covariance.topLeftCorner<9, 9>();
+    then[m] = {models_[m].mean.head<9>(), models_[m].covariance.topLeftCorner<9, 9>()};
     const Vector9 now = then[m].mean;
     Transition t = transition(motion(m), now, std::abs(dt_s), config_);
     if (dt_s < 0.0) {  // the disturbance since then is in the state, and its bearings have shown it
@@ -112,12 +111,11 @@ KinematicState InteractingModels::at(std::int64_t utime_us) const {
     }
     propagate(t, then[m]);
   }
-  const FilterGaussian state = mixture(std::span(then).first(models_.size()), probabilities_, 9);
-  return {utime_us, state.mean, state.covariance};
+  const std::span<const TargetGaussian> all = then;
+  const auto [mean, covariance] = target_mixture(all.first(models_.size()), probabilities_);
+  return {utime_us, mean, covariance};
 }
 
-FilterGaussian InteractingModels::mixed() const {
-  return mixture(models_, probabilities_, models_[0].mean.size());
-}
+FilterGaussian InteractingModels::mixed() const { return mixture(models_, probabilities_); }
 
 }  // namespace ols::fusion

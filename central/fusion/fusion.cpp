@@ -5,7 +5,7 @@
 #include <iterator>
 #include <stdexcept>
 
-#include "central/fusion/association.h"
+#include "central/fusion/track_intake.h"
 #include "central/measurement/time_span.h"
 
 namespace ols::fusion {

@@ -57,6 +57,10 @@ double crossing_angle(const std::vector<Ray>& rays, const std::vector<RayUse>& u
   for (std::size_t i = 0; i < rays.size(); ++i) {
     if (use[i].used) directions.push_back(direction_ecef(rays[i].sight));
   }
+  return crossing_angle(directions);
+}
+
+double crossing_angle(const std::vector<Eigen::Vector3d>& directions) {
   double greatest = 0.0;
   for (std::size_t i = 0; i < directions.size(); ++i) {
     for (std::size_t j = i + 1; j < directions.size(); ++j) {

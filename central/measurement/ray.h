@@ -88,7 +88,9 @@ struct Estimate {
   std::vector<RayUse> rays{};                                  // in the order of the input rays
 };
 
-// Largest angle between two of the used rays, folded to 0..pi/2; 0 for fewer than two.
+// Largest angle between two of these directions, folded to 0..pi/2; 0 for fewer than two.
+double crossing_angle(const std::vector<Eigen::Vector3d>& directions);
+// The same of the used rays.
 double crossing_angle(const std::vector<Ray>& rays, const std::vector<RayUse>& use);
 
 }  // namespace ols::fusion

@@ -6,7 +6,7 @@
 #include <tuple>
 #include <vector>
 
-#include "central/fusion/association.h"
+#include "central/fusion/track_intake.h"
 #include "central/tracking/live_tracks.h"
 
 namespace ols::fusion {

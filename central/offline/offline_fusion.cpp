@@ -9,7 +9,7 @@
 #include <tuple>
 #include <utility>
 
-#include "central/fusion/association.h"
+#include "central/fusion/track_intake.h"
 #include "central/offline/smoother.h"
 #include "central/tracking/recorded_track.h"
 #include "geometry/angles.h"

@@ -1,4 +1,4 @@
-// When two states are taken for the same object. Pure.
+// When the states of an old and a new track are taken for the same object. Pure.
 #pragma once
 
 #include "central/filter/interacting_models.h"

@@ -16,8 +16,9 @@ std::vector<LiveTracks::Candidate> LiveTracks::candidates(const BearingMeasureme
   std::vector<Candidate> found;
   if (tracks_.empty()) return found;
   const Eigen::Vector3d direction = direction_ecef(measurement.sight);
+  const double off_rad = may_be_off_rad(measurement.sight);
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
-    if (!glances_[i].may_see(measurement, direction)) continue;
+    if (!glances_[i].may_see(measurement, direction, off_rad)) continue;
     const Track& track = tracks_[i];
     if (is_established(track) != confirmed || track.state == TrackState::kDropped) continue;
     if (track.has_taken(measurement)) continue;

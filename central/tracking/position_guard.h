@@ -1,4 +1,4 @@
-// Whether a filter's state is good enough for a position. Pure.
+// Whether a position may be told: range, crossing, rejections, an inconsistent pair. Pure.
 #pragma once
 
 #include <cstdint>

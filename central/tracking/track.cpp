@@ -22,9 +22,11 @@ bool Track::has_taken(const BearingMeasurement& measurement) const {
   const auto own = bearings.find(measurement.station);
   if (own == bearings.end()) return false;
   const auto& taken = own->second;
+  // Most bearings are newer than all; to search each station's would fetch many from memory.
+  if (taken.empty() || taken.back().utime_us < measurement.utime_us) return false;
   const auto at =
       std::ranges::lower_bound(taken, measurement.utime_us, {}, &BearingMeasurement::utime_us);
-  return at != taken.end() && at->utime_us == measurement.utime_us;
+  return at->utime_us == measurement.utime_us;
 }
 
 bool is_established(const Track& track) {

@@ -13,9 +13,13 @@ struct TrackGlance {
   Eigen::Vector3d p_ecef, v_ecef;
   double position_sd_m = 0.0, velocity_sd_m_s = 0.0;
 
-  // Whether the track may be in this direction (the bearing's, ECEF); generous.
-  bool may_see(const BearingMeasurement& measurement, const Eigen::Vector3d& direction_ecef) const;
+  // Whether the track may be in this direction (the bearing's, ECEF), which is off by so much;
+  // generous.
+  bool may_see(const BearingMeasurement& measurement, const Eigen::Vector3d& direction_ecef,
+               double off_rad) const;
 };
+// By how much a direction may be off, by all that is stated of it: once for all tracks.
+double may_be_off_rad(const LineOfSight& sight);
 TrackGlance summarise_track(const Track& track);
 
 }  // namespace ols::fusion

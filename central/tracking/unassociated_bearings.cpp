@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/wgs84.h"
-
 namespace ols::fusion {
 
 bool BearingSummary::is_near(const Eigen::Vector3d& p_ecef, double more_rad) const {
@@ -25,15 +23,6 @@ BearingSummary summarise(const BearingMeasurement& measurement, const Eigen::Mat
           .spread_rad = kLeastRad + kGenerous * std::sqrt(variance),
           .clock_sd_s = measurement.clock_sd_s,
           .track_id = measurement.track_id};
-}
-
-// A station seldom moves, and computing its axes costs as much as the rest.
-BearingSummary UnassociatedBearings::Station::look(const BearingMeasurement& measurement) {
-  if (origin_ecef_ != measurement.sight.origin_ecef) {
-    origin_ecef_ = measurement.sight.origin_ecef;
-    R_ecef_enu_ = ols::R_ecef_enu(origin_ecef_);
-  }
-  return summarise(measurement, R_ecef_enu_);
 }
 
 void UnassociatedBearings::store(const BearingMeasurement& measurement) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "central/measurement/bearing_measurement.h"
+#include "central/measurement/place_axes.h"
 
 namespace ols::fusion {
 
@@ -35,11 +36,12 @@ class UnassociatedBearings {
     std::deque<BearingMeasurement> bearings;
     std::vector<BearingSummary> looks;
 
-    BearingSummary look(const BearingMeasurement& measurement);
+    BearingSummary look(const BearingMeasurement& measurement) {
+      return summarise(measurement, axes_.R_ecef_enu(measurement.sight.origin_ecef));
+    }
 
    private:
-    Eigen::Vector3d origin_ecef_ = Eigen::Vector3d::Zero();     // of the last summary,
-    Eigen::Matrix3d R_ecef_enu_ = Eigen::Matrix3d::Identity();  // and the axes there
+    PlaceAxes axes_;
   };
 
   // A bearing is kept until one of its station is newer by this, or until there are this many.

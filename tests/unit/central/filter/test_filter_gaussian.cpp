@@ -136,10 +136,11 @@ TEST_F(FilterGaussianTest, MixesMeansAndCovariances) {
       }
       EXPECT_TRUE(VectorXd(mixed[to].mean).isApprox(mean, 1e-12));
       EXPECT_TRUE(whole(mixed[to].covariance).isApprox(expected, 1e-12));
-      const FilterGaussian one = mixture(parts, weights[to], kStates);
+      const FilterGaussian one = mixture(parts, weights[to]);
       EXPECT_TRUE(VectorXd(one.mean).isApprox(mean, 1e-12));
       EXPECT_TRUE(MatrixXd(one.covariance).isApprox(expected, 1e-12));
-      const FilterGaussian target = mixture(parts, weights[to], 9);
+      const TargetGaussian target =
+          target_mixture(std::span<const FilterGaussian>(parts), weights[to]);
       EXPECT_TRUE(VectorXd(target.mean).isApprox(mean.head(9), 1e-12));
       EXPECT_TRUE(MatrixXd(target.covariance).isApprox(expected.topLeftCorner(9, 9), 1e-12));
     }

@@ -17,7 +17,8 @@ bool may_see(const Vector3d& looks_at, double after_s = 0.0) {
                                  .velocity_sd_m_s = 0.1}));
   const BearingMeasurement measurement =
       measurement_of(ray_to("a", {0, 0, 0}, looks_at), kStart + std::llround(after_s * 1e6));
-  return summarise_track(track).may_see(measurement, direction_ecef(measurement.sight));
+  const LineOfSight& sight = measurement.sight;
+  return summarise_track(track).may_see(measurement, direction_ecef(sight), may_be_off_rad(sight));
 }
 
 TEST(TrackGlance, RulesOutWhatLooksElsewhere) {

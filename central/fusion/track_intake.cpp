@@ -1,4 +1,4 @@
-#include "central/fusion/association.h"
+#include "central/fusion/track_intake.h"
 
 #include <optional>
 

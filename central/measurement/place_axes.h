@@ -1,0 +1,27 @@
+// The axes of east, north and up at a station's place, kept for its next bearing: a station seldom
+// moves, and they cost as much as ten of its directions. Pure.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "central/measurement/ray.h"
+#include "geometry/wgs84.h"
+
+namespace ols::fusion {
+
+class PlaceAxes {
+ public:
+  const Eigen::Matrix3d& R_ecef_enu(const Eigen::Vector3d& p_ecef) {
+    if (p_ecef != place_ecef_) {
+      place_ecef_ = p_ecef;
+      R_ecef_enu_ = ols::R_ecef_enu(p_ecef);
+    }
+    return R_ecef_enu_;
+  }
+
+ private:
+  Eigen::Vector3d place_ecef_ = nan_vector();  // equal to none
+  Eigen::Matrix3d R_ecef_enu_ = nan_matrix();
+};
+
+}  // namespace ols::fusion
