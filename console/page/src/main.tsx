@@ -55,7 +55,7 @@ function LogIn({ onSession }: { onSession: (session: Session) => void }) {
   );
 }
 
-type Notice = { text: string; isBad: boolean };
+type Notice = { text: string; isBad: boolean; ofStop?: boolean };
 
 function Bar({ link, session, theme, onTheme, language, onLanguage, onStop, onLogOut, onUsers }: any) {
   const stations = [...link.site.stations.values()];
@@ -136,26 +136,31 @@ function Console({ session, onLoggedOut, theme, onTheme, language, onLanguage }:
   const mayCommand = session.role !== "viewer" && !link.replay;
 
   const say = (text: string, isBad = false) => setNotice({ text, isBad });
+  const sayOfStop = (text: string, isBad: boolean) => setNotice({ text, isBad, ofStop: true });
+  // What was given before a stop is answered after it: that does not cover what is said of the stop.
+  const sayLate = (text: string, isBad: boolean) => setNotice((now) => (now?.ofStop ? now : { text, isBad }));
   useEffect(() => {
     if (!notice) return;
     const timer = setTimeout(() => setNotice(null), NOTICE_MS);
     return () => clearTimeout(timer);
   }, [notice]);
 
-  const send = (message: object, words: string) => {
-    const number = link.send(message);
+  const wait = (number: number, words: string) => {
     if (!number) return say(`${words}: ${t("not_sent")}`, true);
     asked.current.set(number, words);
     say(`${words}: ${t("sent")} …`);
   };
+  const order = (message: object, words: string) => wait(link.order(message), words);
+  const command = (station: string, what: string, more: object) => order({ do: "command", command: what, station, ...more }, `${station} ${named("o", what)}`);
   const stopAll = async () => {
     if (link.replay) return say(t("replay_no_stop"), true);
+    asked.current.clear();
     const answer = await link.stopAll();
-    if (!answer) return say(t("stop_failed"), true);
-    if (answer === "log_in") return say(t("stop_log_in"), true);
+    if (!answer) return sayOfStop(t("stop_failed"), true);
+    if (answer === "log_in") return sayOfStop(t("stop_log_in"), true);
     const { stopping, problem } = answer;
-    if (problem) return say(`${problem}: ${t("stop_by_hand")}`, true);
-    say(stopping.length ? t("stopping") + stopping.join(", ") : t("stop_none"), stopping.length === 0);
+    if (problem) return sayOfStop(`${problem}: ${t("stop_by_hand")}`, true);
+    sayOfStop(stopping.length ? t("stopping") + stopping.join(", ") : t("stop_none"), stopping.length === 0);
   };
   useEffect(() => {
     let waiting = false;
@@ -168,11 +173,12 @@ function Console({ session, onLoggedOut, theme, onTheme, language, onLanguage }:
       });
     };
     link.onAnswer = (answer: Answer) => {
-      const words = asked.current.get(answer.number) ?? answer.station;
+      const words = asked.current.get(answer.number);
       asked.current.delete(answer.number);
-      say(`${words}: ${answer.accepted ? t("done") : answer.why}`, !answer.accepted);
+      const tell = words ? say : sayLate;
+      tell(`${words ?? answer.station}: ${answer.accepted ? t("done") : answer.why}`, !answer.accepted);
     };
-    link.onUnconfirmed = (stations) => say(`${t("stop_unconfirmed")} ${stations.join(", ")}: ${t("stop_by_hand")}`, true);
+    link.onUnconfirmed = (stations) => sayOfStop(`${t("stop_unconfirmed")} ${stations.join(", ")}: ${t("stop_by_hand")}`, true);
     link.onLoggedOut = onLoggedOut;
     link.start();
     return () => link.end();
@@ -198,7 +204,7 @@ function Console({ session, onLoggedOut, theme, onTheme, language, onLanguage }:
           <Procedures
             link={link}
             mayCommand={mayCommand}
-            onAnswer={(answer) => send({ do: "answer", ...answer }, `${answer.station} ${named("c", answer.choice)}`)}
+            onAnswer={(answer) => order({ do: "answer", ...answer }, `${answer.station} ${named("c", answer.choice)}`)}
           />
           <VideoView
             link={link}
@@ -206,16 +212,16 @@ function Console({ session, onLoggedOut, theme, onTheme, language, onLanguage }:
             selected={station}
             mayCommand={mayCommand}
             onSelect={setStation}
-            onPoint={(id, command, frame_utime_us, point_px) => send({ do: "command", command, station: id, frame_utime_us, point_px }, `${id} ${named("o", command)}`)}
-            onDesignate={(id, frame_utime_us, box_px) => send({ do: "command", command: "designate", station: id, frame_utime_us, box_px }, `${id} ${named("o", "designate")}`)}
+            onPoint={(id, what, frame_utime_us, point_px) => command(id, what, { frame_utime_us, point_px })}
+            onDesignate={(id, frame_utime_us, box_px) => command(id, "designate", { frame_utime_us, box_px })}
           />
           <Stations
             link={link}
             selected={station}
             mayCommand={mayCommand}
             onSelect={setStation}
-            onCommand={(id, command, more) => send({ do: "command", command, station: id, ...more }, `${id} ${named("o", command)}`)}
-            onControl={(id, take) => send({ do: take ? "take" : "give_up", station: id }, `${id} ${t(take ? "take" : "give_up")}`)}
+            onCommand={(id, what, more) => command(id, what, more ?? {})}
+            onControl={(id, take) => order({ do: take ? "take" : "give_up", station: id }, `${id} ${t(take ? "take" : "give_up")}`)}
           />
         </div>
         <Targets
@@ -223,7 +229,7 @@ function Console({ session, onLoggedOut, theme, onTheme, language, onLanguage }:
           selected={target}
           mayCommand={mayCommand}
           onSelect={(what) => setTarget(what === target ? "" : what)}
-          onCue={(cue, allow) => send({ do: "cue", cue, allow }, `${cue} ${t(allow ? "cue_allow" : "cue_forbid")}`)}
+          onCue={(cue, allow) => order({ do: "cue", cue, allow }, `${cue} ${t(allow ? "cue_allow" : "cue_forbid")}`)}
         />
         <History link={link} />
       </main>
