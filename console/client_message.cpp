@@ -57,11 +57,19 @@ std::string name_of(const Json& value, const std::string& what) {
 
 std::string text(const Json& message, const char* key) { return name_of(field(message, key), key); }
 
-void refuse_unknown(const Json& message, std::initializer_list<std::string_view> known) {
+using Keys = std::initializer_list<std::string_view>;
+constexpr Keys kNoKeys{};
+
+void refuse_unknown(const Json& message, Keys known, Keys more = kNoKeys) {
   for (const auto& [key, value] : message.items()) {
-    if (std::ranges::find(known, key) == known.end())
+    if (std::ranges::find(known, key) == known.end() && std::ranges::find(more, key) == more.end())
       throw Wrong("unknown key " + Json(key).dump());
   }
+}
+
+// Of a command, besides what each has.
+void refuse_others(const Json& message, Keys own) {
+  refuse_unknown(message, {"do", "number", "station", "command", "heard_us"}, own);
 }
 
 std::int64_t utime(const Json& message, const char* key) {
@@ -70,8 +78,14 @@ std::int64_t utime(const Json& message, const char* key) {
   return static_cast<std::int64_t>(number_of(value, key, 0.0, 9e15));
 }
 
+// When the browser last heard something, if it says so.
+std::optional<std::int64_t> heard(const Json& message) {
+  if (!message.contains("heard_us")) return std::nullopt;
+  return utime(message, "heard_us");
+}
+
 void read_box(const Json& message, command::Order& order) {
-  refuse_unknown(message, {"do", "number", "station", "command", "frame_utime_us", "box_px"});
+  refuse_others(message, {"frame_utime_us", "box_px"});
   const Json& box = field(message, "box_px");
   if (!box.is_array() || box.size() != 4) throw Wrong("box_px must be [x, y, width, height]");
   order.x_px = number_of(box[0], "box_px", -kMostPixels, kMostPixels);
@@ -83,7 +97,7 @@ void read_box(const Json& message, command::Order& order) {
 }
 
 void read_point(const Json& message, command::Order& order) {
-  refuse_unknown(message, {"do", "number", "station", "command", "frame_utime_us", "point_px"});
+  refuse_others(message, {"frame_utime_us", "point_px"});
   const Json& point = field(message, "point_px");
   if (!point.is_array() || point.size() != 2) throw Wrong("point_px must be [x, y]");
   order.x_px = number_of(point[0], "point_px", -kMostPixels, kMostPixels);
@@ -92,19 +106,17 @@ void read_point(const Json& message, command::Order& order) {
 }
 
 void read_angles(const Json& message, command::Order& order) {
-  refuse_unknown(message, {"do", "number", "station", "command", "pan_deg", "tilt_deg"});
+  refuse_others(message, {"pan_deg", "tilt_deg"});
   const double pan = degrees(kPointPanLimit_rad), tilt = degrees(kPointTiltLimit_rad);
   order.pan_rad = radians(number(message, "pan_deg", -pan, pan));
   order.tilt_rad = radians(number(message, "tilt_deg", -tilt, tilt));
 }
 
 void read_rate(const Json& message, CommandRequest& request) {
-  refuse_unknown(message,
-                 {"do", "number", "station", "command", "pan_deg_s", "tilt_deg_s", "heard_us"});
+  refuse_others(message, {"pan_deg_s", "tilt_deg_s"});
   const double most = degrees(kRateLimit_rad_s);
   request.order.pan_rate_rad_s = radians(number(message, "pan_deg_s", -most, most));
   request.order.tilt_rate_rad_s = radians(number(message, "tilt_deg_s", -most, most));
-  request.heard_utime_us = utime(message, "heard_us");
 }
 
 double axis(const Json& message, const char* key, bool is_rate) {
@@ -113,8 +125,7 @@ double axis(const Json& message, const char* key, bool is_rate) {
 }
 
 void read_lens(const Json& message, CommandRequest& request) {
-  refuse_unknown(message, {"do", "number", "station", "command", "is_rate", "zoom", "focus", "iris",
-                           "heard_us"});
+  refuse_others(message, {"is_rate", "zoom", "focus", "iris"});
   const Json& is_rate = field(message, "is_rate");
   if (!is_rate.is_boolean()) throw Wrong("is_rate must be true or false");
   command::Order& order = request.order;
@@ -122,18 +133,17 @@ void read_lens(const Json& message, CommandRequest& request) {
   order.zoom = axis(message, "zoom", order.lens_rates);
   order.focus = axis(message, "focus", order.lens_rates);
   order.iris = axis(message, "iris", order.lens_rates);
-  if (order.lens_rates) request.heard_utime_us = utime(message, "heard_us");
 }
 
 void read_record(const Json& message, command::Order& order) {
-  refuse_unknown(message, {"do", "number", "station", "command", "before_s", "after_s", "label"});
+  refuse_others(message, {"before_s", "after_s", "label"});
   order.before_s = number(message, "before_s", 0.0, kMostRecord_s);
   order.after_s = number(message, "after_s", 0.0, kMostRecord_s);
   order.label = text(message, "label");
 }
 
 CommandRequest read_command(const Json& message, std::int64_t number) {
-  CommandRequest request{number, {}, 0};
+  CommandRequest request{number, {}, {}};
   request.order.station = text(message, "station");
   const auto kind = command::kind_named(text(message, "command"));
   if (!kind) throw Wrong("unknown command");
@@ -159,8 +169,10 @@ CommandRequest read_command(const Json& message, std::int64_t number) {
       read_record(message, request.order);
       break;
     default:
-      refuse_unknown(message, {"do", "number", "station", "command"});
+      refuse_others(message, {});
   }
+  request.heard_utime_us =
+      command::is_joystick(request.order) ? utime(message, "heard_us") : heard(message);
   return request;
 }
 
@@ -217,21 +229,22 @@ std::optional<std::array<double, 2>> pair(const Json& message, const char* key, 
 
 AnswerRequest read_answer(const Json& message, std::int64_t of_browser) {
   constexpr double kMostTurn_deg = 360.0;
-  refuse_unknown(message,
-                 {"do", "number", "station", "question", "choice", "pixel_px", "turn_deg"});
-  AnswerRequest request{of_browser, {}};
+  refuse_unknown(message, {"do", "number", "station", "question", "choice", "pixel_px", "turn_deg",
+                           "heard_us"});
+  AnswerRequest request{of_browser, {}, {}};
   ProcedureAnswer& answer = request.answer;
   answer.station = text(message, "station");
   answer.question = utime(message, "question");
   answer.choice = text(message, "choice");
   answer.pixel_px = pair(message, "pixel_px", kMostPixels);
   answer.turn_deg = pair(message, "turn_deg", kMostTurn_deg).value_or(answer.turn_deg);
+  request.heard_utime_us = heard(message);
   return request;
 }
 
 // Cues have the names that others give them: any text without control characters.
 CueRequest read_cue(const Json& message, std::int64_t number) {
-  refuse_unknown(message, {"do", "number", "cue", "allow"});
+  refuse_unknown(message, {"do", "number", "cue", "allow", "heard_us"});
   const Json& cue = field(message, "cue");
   constexpr std::size_t kMostCueBytes = 100;
   if (!cue.is_string() || cue.get_ref<const std::string&>().size() > kMostCueBytes) {
@@ -239,7 +252,7 @@ CueRequest read_cue(const Json& message, std::int64_t number) {
   }
   const Json& allow = field(message, "allow");
   if (!allow.is_boolean()) throw Wrong("allow must be true or false");
-  return {number, {cue.get<std::string>(), allow.get<bool>()}};
+  return {number, {cue.get<std::string>(), allow.get<bool>()}, heard(message)};
 }
 
 ClientMessage read(const Json& message, std::int64_t number) {
@@ -255,8 +268,8 @@ ClientMessage read(const Json& message, std::int64_t number) {
     return StopAllRequest{number};
   }
   if (what == "take" || what == "give_up") {
-    refuse_unknown(message, {"do", "number", "station"});
-    return ControlRequest{number, text(message, "station"), what == "take"};
+    refuse_unknown(message, {"do", "number", "station", "heard_us"});
+    return ControlRequest{number, text(message, "station"), what == "take", heard(message)};
   }
   throw Wrong("do must be command, stop_all, take, give_up, watch, taken, answer, cue or replay");
 }

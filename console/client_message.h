@@ -20,8 +20,9 @@ namespace ols::console {
 struct CommandRequest {
   std::int64_t number = 0;
   command::Order order;
-  // Of rates: the console's time that the browser heard last [us UTC]. Its own clock may be wrong.
-  std::int64_t heard_utime_us = 0;
+  // The console's time that the browser heard last [us UTC]: its own clock may be wrong. Rates have
+  // it, others if it is given.
+  std::optional<std::int64_t> heard_utime_us;
 };
 struct StopAllRequest {
   std::int64_t number = 0;
@@ -29,7 +30,8 @@ struct StopAllRequest {
 struct ControlRequest {
   std::int64_t number = 0;
   std::string station;
-  bool take = true;  // from whoever has it; false: give it up
+  bool take = true;                            // from whoever has it; false: give it up
+  std::optional<std::int64_t> heard_utime_us;  // as with a command
 };
 // Pictures of these stations are wanted from now on; of no others.
 struct WatchRequest {
@@ -52,11 +54,13 @@ struct ReplayRequest {
 struct AnswerRequest {
   std::int64_t number = 0;
   ProcedureAnswer answer;
+  std::optional<std::int64_t> heard_utime_us;  // as with a command
 };
 // Whether stations may be led to a cue.
 struct CueRequest {
   std::int64_t number = 0;
   CueOrder order;
+  std::optional<std::int64_t> heard_utime_us;  // as with a command
 };
 struct Refused {
   std::int64_t number = 0;

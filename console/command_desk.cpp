@@ -87,9 +87,7 @@ std::optional<command::Outcome> CommandDesk::judge(const Pending& pending, doubl
   }
   const command::Reply& now = known->second;
   if (is_stop) {
-    if (confirms_stop(now, command::counter(pending.before, "stop_accepted"))) {
-      return command::Outcome{true, ""};
-    }
+    if (confirms_stop(pending.before, now)) return command::Outcome{true, ""};
     return is_over ? std::optional(command::Outcome{false, "sent repeatedly, no answer"})
                    : std::nullopt;
   }

@@ -8,12 +8,19 @@ constexpr double kHeartbeat_s = 1.0;
 constexpr std::size_t kMostAnswers = 64;
 // A link that was cut delivers late what was sent while it was: the hand has let go since.
 constexpr std::int64_t kLateRate_us = 1'500'000;
+constexpr std::int64_t kLateCommand_us = 3'000'000;
 constexpr const char* kAll = "all";
+constexpr const char* kTooLate = "refused: it came too late";
 constexpr const char* kReplay = "this is a replay: commands are not sent";
 constexpr std::size_t kMostReplayRequests = 64;  // of one turn
 
 std::string dumped(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+bool is_late(const std::optional<std::int64_t>& heard_utime_us, const Now& now,
+             std::int64_t limit_us) {
+  return heard_utime_us && now.utime_us - *heard_utime_us > limit_us;
 }
 
 std::string words(const command::Order& order) {
@@ -120,16 +127,20 @@ void Console::act(std::uint64_t id, const AnswerRequest& request, const Now& now
   const std::string& station = request.answer.station;
   if (is_replay()) return answer(id, request.number, station, kReplay);
   std::string refusal = bus_trouble_;
-  // Answers turn the unit: they need control as commands do, but for the one that ends it all.
+  // Answers turn the unit: they need control as commands do, and may be as late, but for the one
+  // that ends it all.
+  const bool ends = request.answer.choice == "abort";
   if (viewer.role == Role::kViewer) {
     refusal = "refused: a viewer may only look and stop";
-  } else if (refusal.empty() && request.answer.choice != "abort" && procedures_.has(station)) {
+  } else if (refusal.empty() && !ends && is_late(request.heard_utime_us, now, kLateCommand_us)) {
+    refusal = kTooLate;
+  } else if (refusal.empty() && !ends && procedures_.has(station)) {
     refusal = control_.use(station, id, viewer.name, now.monotonic_s).value_or("");
   }
   if (refusal.empty()) refusal = procedures_.answer(request.answer);
   if (refusal.empty()) {
     site_.note({now.utime_us, "command", station, viewer.name, "answers " + request.answer.choice,
-                "done"});
+                "sent"});
   }
   answer(id, request.number, station, refusal);
 }
@@ -137,8 +148,10 @@ void Console::act(std::uint64_t id, const AnswerRequest& request, const Now& now
 void Console::act(std::uint64_t id, const CueRequest& request, const Now& now) {
   const Viewer& viewer = viewers_.at(id);
   const auto& [cue, allow] = request.order;
-  const std::string refusal =
-      is_replay() ? kReplay : cues_.give(request.order, viewer.role, bus_trouble_);
+  const bool is_too_late = allow && is_late(request.heard_utime_us, now, kLateCommand_us);
+  const std::string refusal = is_replay()   ? kReplay
+                              : is_too_late ? kTooLate
+                                            : cues_.give(request.order, viewer.role, bus_trouble_);
   const std::string what = (allow ? "allows cue " : "forbids cue ") + cue;
   if (refusal.empty()) site_.note({now.utime_us, "command", "", viewer.name, what, "sent"});
   answer(id, request.number, "", refusal);
@@ -169,6 +182,9 @@ void Console::act(std::uint64_t id, const ControlRequest& request, const Now& no
   if (!site_.knows(request.station)) {
     return answer(id, request.number, request.station, "refused: no such station is heard");
   }
+  if (request.take && is_late(request.heard_utime_us, now, kLateCommand_us)) {
+    return answer(id, request.number, request.station, kTooLate);
+  }
   if (request.take) {
     control_.take(request.station, id, viewer.name, now.monotonic_s);
     note("command", viewer.name, "takes control of " + request.station, now);
@@ -195,9 +211,9 @@ void Console::act(std::uint64_t id, const CommandRequest& request, const Now& no
   if (!site_.knows(order.station)) {
     return answer(id, request.number, order.station, "refused: no such station is heard");
   }
-  const bool is_hold = command::is_joystick(order);
-  if (is_hold && now.utime_us - request.heard_utime_us > kLateRate_us) {
-    return answer(id, request.number, order.station, "refused: it came too late");
+  const std::int64_t late_us = command::is_joystick(order) ? kLateRate_us : kLateCommand_us;
+  if (is_late(request.heard_utime_us, now, late_us)) {
+    return answer(id, request.number, order.station, kTooLate);
   }
   auto refusal = control_.use(order.station, id, viewer.name, now.monotonic_s);
   // A hold is one event, however often it is renewed.

@@ -16,7 +16,7 @@ std::shared_ptr<trust::BusTrust> open_trust(const trust::TrustConfig& config,
   trust::Self self;
   self.name = "console";
   self.boot_id = boot_id;
-  self.commands = self.tells_list = true;
+  self.commands = self.tells_list = self.keeps_marks = true;
   return trust::BusTrust::open(config, trust::process_environment(), self);
 }
 

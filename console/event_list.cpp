@@ -1,24 +1,26 @@
 #include "console/event_list.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace ols::console {
 
-EventList::Kept* EventList::repeated(const Event& event) {
-  if (event.kind == "command") return nullptr;
-  for (Kept& kept : events_) {
+std::deque<EventList::Kept>::iterator EventList::repeated(const Event& event) {
+  if (event.kind == "command") return events_.end();
+  return std::ranges::find_if(events_, [&event](const Kept& kept) {
     const bool is_same = kept.event.kind == event.kind && kept.event.station == event.station &&
                          kept.event.text == event.text;
-    if (is_same && event.utime_us - kept.event.utime_us < kRepeat_us) return &kept;
-  }
-  return nullptr;
+    return is_same && event.utime_us - kept.event.utime_us < kRepeat_us;
+  });
 }
 
 std::uint64_t EventList::add(Event event, Revision& revision) {
-  if (Kept* known = repeated(event)) {
+  if (const auto known = repeated(event); known != events_.end()) {
     ++known->times;
     known->changed = ++revision;
-    return known->number;
+    known->event.utime_us = event.utime_us;
+    std::rotate(known, known + 1, events_.end());
+    return events_.back().number;
   }
   events_.push_back({++numbers_, ++revision, std::move(event), 1});
   if (events_.size() > kMost) events_.pop_front();

@@ -22,8 +22,9 @@ struct Event {
 
 class EventList {
  public:
-  // Its number, by which its outcome can be added. An error that repeats itself within kRepeat_us
-  // is counted, not listed again: it must not push out what else happened.
+  // Its number, by which its outcome can be added. What repeats itself within kRepeat_us, but for
+  // commands, is counted and moves to the end, not listed again: it must not push out what else
+  // happened.
   std::uint64_t add(Event event, Revision& revision);
   void conclude(std::uint64_t number, const std::string& outcome, Revision& revision);
 
@@ -38,7 +39,7 @@ class EventList {
     Event event;
     int times = 1;
   };
-  Kept* repeated(const Event& event);
+  std::deque<Kept>::iterator repeated(const Event& event);
   std::deque<Kept> events_;
   std::uint64_t numbers_ = 0;
 };

@@ -12,6 +12,7 @@
 
 #include "base/clocks.h"
 #include "base/command_line.h"
+#include "base/journal.h"
 #include "base/service_frame.h"
 #include "base/service_notifier.h"
 #include "console/add_user.h"
@@ -162,7 +163,7 @@ int run(const Arguments& arguments, ols::console::ConsoleConfig config) {
     spdlog::info("{} names no user: everybody on this host is an operator, without log-in",
                  config.users);
   }
-  spdlog::info("ready: {}", address);
+  ols::write_to_journal({.text = "ready: " + address, .id = ols::event::kReady});
   const auto turn = [&](double) {
     server.serve_for(kTurn_s);
     site->turn({ols::clock_monotonic_s(), ols::clock_utime_us()});

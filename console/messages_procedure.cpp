@@ -59,6 +59,7 @@ std::optional<ProcedureHeard> procedure_from(const BusMessage& message) {
   }
   ProcedureHeard heard;
   heard.station = p.station;
+  heard.is_at_work = p.state == M::STATE_RUNNING || p.state == M::STATE_ASKING;
   heard.question = p.state == M::STATE_ASKING ? p.question : 0;
   for (const std::string& choice : p.choice) {
     if (heard.choices.size() < kMostChoices) heard.choices.push_back(plain_text(choice));

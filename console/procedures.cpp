@@ -33,6 +33,7 @@ std::string Procedures::answer(const ProcedureAnswer& answer) {
   const auto kept = kept_.find(answer.station);
   if (kept == kept_.end()) return "refused: no procedure is running at this station";
   const ProcedureHeard& heard = kept->second.heard;
+  if (!heard.is_at_work) return "refused: the procedure has ended";
   if (answer.choice != kAbort) {
     if (heard.question == 0 || answer.question != heard.question) {
       return "refused: this question is no longer open";

@@ -22,6 +22,7 @@ struct ProcedureHeard {
   std::int64_t question = 0;         // 0: none stands
   std::vector<std::string> choices;  // of the question
   std::string jpeg;                  // empty: without a picture
+  bool is_at_work = true;            // false: it has ended
 };
 
 struct ProcedureAnswer {
@@ -42,7 +43,7 @@ class Procedures {
 
   bool has(const std::string& station) const { return kept_.contains(station); }
   // Why this answer cannot be given; empty: it is on its way. One that ends the procedure ("abort")
-  // is taken whatever stands.
+  // is taken whatever question stands.
   std::string answer(const ProcedureAnswer& answer);
   // Answers to be sent now.
   std::vector<ProcedureAnswer> take() { return std::exchange(answers_, {}); }

@@ -1,6 +1,6 @@
 // The console's connection to one station's video socket (docs/video.md): asks for the newest
-// picture, again and again, and connects again after a failure. Of one thread, with the
-// io_context's.
+// picture, its size and quality, again and again; connects again after a failure. Of one thread,
+// with the io_context's.
 #pragma once
 
 #include <boost/asio/ip/tcp.hpp>

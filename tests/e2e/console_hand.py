@@ -5,9 +5,10 @@ from ols_demo.observer import Observer
 from ols_demo.operator import Operator
 
 MARGIN = 0.3  # of the object's size around it
+LEAST_MARGIN_PX = 4.0  # nobody draws closer
 AT_REST_RAD_S = 0.005
 MOTION_US = 150_000  # over which its motion in the picture is seen
-LOOK_REACH_PX = 20.0  # a little less than the station's
+AWAY_PX = 60.0  # more than a hand shakes
 
 
 class Views(Observer):
@@ -40,6 +41,15 @@ class Pointer(Operator):
 
     def _designate(self, station):
         pass
+
+    def _aim_once(self, station):
+        if self._observer.state(station) != "tracking":
+            self._attend(station)
+
+    def begin_again(self, station):
+        """With a station that has tracked, or that it has pointed once."""
+        self.tracking.discard(station)
+        self._pointed.pop(station, None)
 
 
 class Hand:
@@ -97,35 +107,20 @@ class Hand:
         if shown is None:
             return False
         (left, upper, width, height), seen_us = shown
-        left, upper = left - MARGIN * width, upper - MARGIN * height
+        beside, above = (max(LEAST_MARGIN_PX, MARGIN * size) for size in (width, height))
+        left, upper = left - beside, upper - above
         self._go(station, left, upper)
         self._page.mouse.down()
+        # At once, as a person does: a press that rests is a joystick.
+        self._go(station, left + AWAY_PX, upper + AWAY_PX)
         held = self._pressed(station, seen_us)
         is_around = held is not None and (
-            0 <= held[0] - left <= 2 * MARGIN * width
-            and 0 <= held[1] - upper <= 2 * MARGIN * height
+            0 <= held[0] - left <= 2 * beside and 0 <= held[1] - upper <= 2 * above
         )
         if is_around:
             x, y, width, height = held
-            self._go(station, x + (1 + MARGIN) * width, y + (1 + MARGIN) * height)
+            self._go(station, x + width + beside, y + height + above)
+        else:  # there and back: no box, and no click, which would turn the unit
+            self._go(station, left, upper)
         self._page.mouse.up()
         return is_around
-
-    def look(self, station):
-        """Shift and a click; whether the object was there in the picture that was clicked, None
-        while nothing can be clicked."""
-        shown = self._shown(station)
-        if shown is None:
-            return None
-        (x, y, width, height), seen_us = shown
-        x, y = x + width / 2, y + height / 2
-        self._go(station, x, y)
-        self._page.keyboard.down("Shift")
-        self._page.mouse.down()
-        held = self._pressed(station, seen_us)
-        self._page.mouse.up()
-        self._page.keyboard.up("Shift")
-        return (
-            held is not None
-            and max(abs(held[0] + held[2] / 2 - x), abs(held[1] + held[3] / 2 - y)) < LOOK_REACH_PX
-        )

@@ -5,7 +5,7 @@ import contextlib
 import re
 
 from conftest import ROOT
-from console_site import DEADLINE_S, PASSWORD, add_user, address_of, console_command
+from console_site import DEADLINE_S, PASSWORD, add_user, address_of, console_command, wait_for
 from ols_demo.site import Site
 from playwright.sync_api import expect
 
@@ -51,6 +51,15 @@ def picture(page, station):
     canvas = region(page, "Video").get_by_role("img", name=station, exact=True)
     expect(canvas.locator("xpath=..")).to_contain_text(re.compile(r"\d m?s"))
     return canvas
+
+
+def leave_unanswered(page, path):
+    """Requests for the path are never answered. Chromium says so a little before it is true of what
+    the page asks next, so a request of this function's own has to be caught first."""
+    page.route(f"**{path}", lambda _route: None)
+    page.route(lambda url: url.endswith("/?caught"), lambda route: route.fulfill(body="caught"))
+    ask = "fetch('/?caught').then((answer) => answer.text())"
+    wait_for(lambda: page.evaluate(ask) == "caught", "requests to be caught")
 
 
 def axe_finds(page):

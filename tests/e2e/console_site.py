@@ -87,6 +87,7 @@ class PaperSite(threading.Thread):
         self.states = dict.fromkeys(PLACES, STATUS.STATE_IDLE)
         self.refusing: dict[str, str] = {}  # station -> reason of its refusals
         self.alarms: dict[str, list[str]] = {}
+        self.readings: dict[str, dict[str, float]] = {}
         self.devices: dict[str, dict[str, str]] = {}  # station -> more of them, with their texts
         self.silent: set[str] = set()
         self.deaf: set[str] = set()  # they hear no commands
@@ -179,6 +180,9 @@ class PaperSite(threading.Thread):
         m.device_state, m.device_age_s = [m.DEVICE_OK] * len(devices), [0.1] * len(devices)
         m.alarm = self.alarms.get(station, [])
         m.alarms = len(m.alarm)
+        readings = self.readings.get(station, {})
+        m.readings, m.reading_name = len(readings), list(readings)
+        m.reading_value = list(readings.values())
         outlines = self.borders.get(station, [])
         m.borders, m.border_kind = len(outlines), [m.BORDER_KEEP_OUT] * len(outlines)
         m.border_azimuth_rad = [azimuth for outline in outlines for azimuth, _ in outline]

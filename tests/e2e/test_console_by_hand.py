@@ -2,6 +2,7 @@
 a zoom, the motorised lens of an overview station, and looking."""
 
 import math
+import time
 
 import pytest
 from console_page import axe_finds, picture, region
@@ -58,6 +59,51 @@ def test_a_press_that_is_held_is_a_joystick(page, paper):
     assert pushed.pan_rate_rad_s < 0 < pushed.tilt_rate_rad_s, "to the right and upwards"
 
 
+MOVES = """([x, y]) => new Promise((resolve) => {
+  const canvas = document.querySelector('[aria-label=alfa][role=img]');
+  let count = 0;
+  const timer = setInterval(() => {
+    const at = { bubbles: true, pointerId: 1, clientX: x + (count % 20), clientY: y };
+    canvas.dispatchEvent(new PointerEvent('pointermove', at));
+    if (++count < 360) return;
+    clearInterval(timer);
+    resolve();
+  }, 8);
+})"""  # of a screen that is looked at 120 times a second, for three seconds
+
+
+def test_a_hand_that_never_rests_is_told_ten_times_a_second(page, paper):
+    canvas = picture(page, "alfa")
+    paper.ptu_commands.clear()
+    page.mouse.move(*place(canvas, 0.5, 0.5))
+    page.mouse.down()
+    page.wait_for_timeout(HOLD_MS)
+    begin = time.monotonic()
+    page.evaluate(MOVES, place(canvas, 0.65, 0.5))
+    expect(page.get_by_text("No connection to the console")).to_be_hidden()
+    most = 10 * (time.monotonic() - begin) + 3
+    rates = [m for m in paper.ptu_commands if m.command == m.COMMAND_RATE]
+    assert 10 < len(rates) <= most
+    page.mouse.up()
+    wait_for(lambda: paper.ptu_commands[-1].pan_rate_rad_s == 0, "the halt")
+
+
+def test_a_box_of_the_keyboard_is_on_the_picture_of_its_end(page, paper):
+    canvas = picture(page, "alfa")
+    paper.designations.clear()
+    canvas.focus()
+    page.keyboard.press("Enter")
+    begun_us = int(canvas.get_attribute("data-utime-us"))
+    wait_for(
+        lambda: int(canvas.get_attribute("data-utime-us")) > begun_us + 1_500_000, "later pictures"
+    )
+    page.keyboard.press("ArrowRight")
+    page.keyboard.press("Enter")
+    (sent,) = wait_for(lambda: paper.designations, "the designation")
+    assert sent.station == "alfa" and sent.frame_utime > begun_us + 1_500_000
+    assert sent.x_px == pytest.approx(0.48 * FULL_PX[0], abs=1)
+
+
 def test_a_hold_over_a_network_that_is_cut_moves_nothing_late(page, paper):
     canvas = picture(page, "alfa")
     canvas.focus()
@@ -83,11 +129,16 @@ def test_a_wheel_magnifies_the_picture_and_a_box_on_it_is_where_it_was_drawn(pag
     page.mouse.move(*place(canvas, 0.5, 0.5))
     page.mouse.wheel(0, -400 * math.log(2))
     expect(caption(canvas)).to_contain_text("2.0×")
-    page.mouse.move(*place(canvas, 0.4, 0.4))
-    page.mouse.down()
-    page.mouse.move(*place(canvas, 0.6, 0.6), steps=4)
-    page.mouse.up()
-    (sent,) = wait_for(lambda: paper.designations, "the designation")
+
+    def drawn():
+        page.mouse.move(*place(canvas, 0.4, 0.4))
+        page.mouse.down()
+        page.mouse.move(*place(canvas, 0.6, 0.6), steps=4)
+        page.mouse.up()
+        page.wait_for_timeout(500)
+        return paper.designations
+
+    sent = wait_for(drawn, "the designation")[-1]
     assert sent.x_px == pytest.approx(0.45 * FULL_PX[0], abs=8)
     assert sent.y_px == pytest.approx(0.45 * FULL_PX[1], abs=8)
     assert sent.width_px == pytest.approx(0.10 * FULL_PX[0], abs=8)

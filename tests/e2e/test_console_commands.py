@@ -3,7 +3,7 @@
 import re
 
 import pytest
-from console_page import picture, region
+from console_page import leave_unanswered, picture, region
 from console_site import DEADLINE_S, FULL_PX, Api, wait_for
 from playwright.sync_api import expect
 
@@ -169,7 +169,7 @@ def test_a_stop_does_not_hang_on_its_request(page, paper):
     picture(page, "alfa")
     page.evaluate(NOTE_NOTICES)
     paper.commands.clear()
-    page.route("**/api/stop", lambda _route: None)
+    leave_unanswered(page, "/api/stop")
     page.keyboard.press("Escape")
     every = {(name, "stop") for name in ("alfa", "bravo", "charlie")}
     wait_for(lambda: every <= set(paper.commands), "a stop for each")

@@ -1,6 +1,7 @@
 """A guided calibration in the console's page: a real browser, and a procedure that exists only as
 messages."""
 
+import itertools
 import threading
 import time
 
@@ -18,11 +19,10 @@ from console_site import (
     wait_for,
 )
 from ols_demo.bus import LIVE_URL
+from ols_demo.keys import members_of_environment
 from ols_demo.site import Site
 from playwright.sync_api import expect
 
-# The procedure has no station behind it, whose status would let the console address its answers.
-pytestmark = pytest.mark.usefixtures("unsigned")
 M = ols_msg.procedure_t
 expect.set_options(timeout=DEADLINE_S * 1000)
 
@@ -32,7 +32,10 @@ class PaperProcedure(threading.Thread):
 
     def __init__(self):
         super().__init__(daemon=True)
-        self.lcm = lcm.LCM(LIVE_URL)
+        self.lcm, self._signing = lcm.LCM(LIVE_URL), members_of_environment()
+        self._sequences = itertools.count(
+            1_000_000
+        )  # the paper station of the same name counts, too
         self.answers: list[ols_msg.procedure_answer_t] = []
         self.lcm.subscribe("OLS_PROCEDURE_ANSWER_alfa", self._answered)
         self.crosshair = None
@@ -49,6 +52,7 @@ class PaperProcedure(threading.Thread):
         m = M()
         m.utime = time.time_ns() // 1000
         m.schema_version, m.station, m.boot_id = m.SCHEMA_VERSION, "alfa", 5
+        m.sequence = next(self._sequences)
         m.procedure, m.state, m.step, m.progress = "field", self.state, "spire: where is it?", 0.4
         m.question, m.text = self.question, "Point at spire.\nOr turn the unit."
         m.choice, m.choices = list(self.choices), len(self.choices)
@@ -56,7 +60,7 @@ class PaperProcedure(threading.Thread):
         m.crosshair_px = list(self.crosshair or (0.0, 0.0))
         m.full_width_px, m.full_height_px = FULL_PX
         m.scale, m.jpeg_bytes, m.jpeg = 0.25, len(self._jpeg), self._jpeg
-        self.lcm.publish("OLS_PROCEDURE_alfa", m.encode())
+        self.lcm.publish("OLS_PROCEDURE_alfa", self._signing.sign("OLS_PROCEDURE_alfa", m.encode()))
 
     def run(self):
         due = 0.0
@@ -89,7 +93,6 @@ def fixture_panel(procedure, tmp_path):
         address = address_of(site, "open")
         page = chromium.new_page(viewport={"width": 1280, "height": 900}, locale="en-GB")
         page.set_default_timeout(DEADLINE_S * 1000)
-        page.on("dialog", lambda dialog: dialog.accept())
         page.goto(address)
         yield page.get_by_role("region", name="Calibration", exact=True)
 
@@ -133,6 +136,7 @@ def test_a_person_points_confirms_turns_and_aborts(procedure, panel):
     assert (turned.choice, list(turned.turn_deg)) == ("turn", [-3.5, 0.5])
 
     panel.get_by_role("button", name="Abort").click()
+    panel.get_by_role("group", name="Abort?").get_by_role("button", name="Abort").click()
     wait_for(lambda: any(a.choice == "abort" for a in procedure.answers), "the abort")
     procedure.state, procedure.question, procedure.choices = M.STATE_ABORTED, 0, []
     expect(panel.get_by_role("button", name="Confirm", exact=True)).to_have_count(0)

@@ -36,7 +36,7 @@ export function AlarmSpoken({ link }: { link: Link }) {
   if (link.isUp) opened_us.current ||= link.time_us;
   const newest = link.site.events.find((event) => event.kind === "alarm");
   return (
-    <p class="unseen" role="alert">
+    <p key={newest && `${newest.number} ${newest.times}`} class="unseen" role="alert">
       {newest && opened_us.current && newest.utime_us > opened_us.current ? `${t("alarm")}: ${newest.station} ${newest.text}` : ""}
     </p>
   );

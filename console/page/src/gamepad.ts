@@ -12,29 +12,30 @@ function beyondDead(value: number): number {
   return Math.sign(value) * Math.min(1, beyond);
 }
 
-// None while the page is not the one that is used.
 function standardPad(): Gamepad | null {
-  const pad = navigator.getGamepads().find((one) => one?.connected && one.mapping === "standard");
-  return document.hasFocus() ? (pad ?? null) : null;
+  return navigator.getGamepads().find((one) => one?.connected && one.mapping === "standard") ?? null;
 }
 
 // Until the returned function is called. The pad is asked again and again: it has no events of its own.
+// A push counts from where the pad was seen at rest: one that comes back deflected moves nothing.
 export function steerByGamepad(hand: Hand): () => void {
-  let turns = false;
-  let zooms = false;
+  let wasAtRest = false;
+  let drives = false;
   const look = () => {
     const pad = standardPad();
     const [right, down] = pad ? [beyondDead(pad.axes[0]), beyondDead(pad.axes[1])] : [0, 0];
     const zoom = pad ? pad.buttons[LONGER].value - pad.buttons[WIDER].value : 0;
-    const [turned, zoomed] = [turns, zooms];
-    [turns, zooms] = [right !== 0 || down !== 0, zoom !== 0];
-    if ((turned && !turns) || (zoomed && !zooms)) hand.release();
-    if (turns) hand.push(right, -down);
-    if (zooms) hand.zoom(zoom);
+    const rests = right === 0 && down === 0 && zoom === 0;
+    if (rests && drives) hand.release();
+    if (!rests && wasAtRest) hand.press();
+    [drives, wasAtRest] = [!rests, rests && pad !== null];
+    if (rests) return;
+    hand.push(right, -down);
+    hand.zoom(zoom);
   };
   const timer = window.setInterval(look, LOOK_MS);
   return () => {
     clearInterval(timer);
-    if (turns || zooms) hand.release();
+    if (drives) hand.release();
   };
 }

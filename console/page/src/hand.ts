@@ -10,6 +10,7 @@ const AGAIN_MS = 100; // two may get lost within the 0.3 s for which a station o
 const PICTURES_A_SECOND = 0.8; // at full deflection: slower the longer the lens
 const FASTEST_DEG_S = 60;
 const LARGEST_ZOOM = 16;
+const REFUSING = ["stopped", "emergency"]; // states in which a station obeys no rates; its lens does
 export const HOLD_MS = 500; // pressed for so long before it moves: a joystick, not a box or a click
 export const STILL_PX = 6;
 
@@ -19,10 +20,13 @@ const felt = (deflection: number) => {
   return Math.sign(d) * d * d;
 };
 
+// A press drives as long as it lasts, but not beyond a cut of the link or a stop: whatever is still held
+// then needs a new press.
 export class Hand {
   private timer = 0;
   private push_: [number, number] = [0, 0]; // to the right, upwards; -1..1
   private zoom_ = 0;
+  private era = -1; // of the link, in which it was pressed; -1: nothing is
   private wanted: number | null = null; // of the zoom, until the lens has been told
   private tellTimer = 0;
 
@@ -31,29 +35,30 @@ export class Hand {
     private station: () => Station,
   ) {}
 
-  get holds(): boolean {
-    return this.timer !== 0;
+  // A new press. What is pushed without one moves nothing.
+  press() {
+    this.era = this.link.isLive ? this.link.era : -1;
   }
 
   push(right: number, up: number) {
+    const moved = this.pushes;
     this.push_ = [felt(right), felt(up)];
-    this.begin();
+    this.drive(!moved);
+    if (moved && !this.pushes && this.timer) this.tellRates();
   }
 
   // Towards longer (1) or wider (-1).
   zoom(rate: number) {
+    const zoomed = this.zoom_ !== 0;
     this.zoom_ = rate;
-    this.begin();
+    this.drive(!zoomed);
+    if (zoomed && !rate && this.timer) this.tellZoom();
   }
 
   // Whatever held it: nothing is wanted any more, and the station is told at once.
   release() {
-    if (!this.timer) return;
-    clearInterval(this.timer);
-    this.timer = 0;
-    const [moved, zoomed] = [this.push_[0] !== 0 || this.push_[1] !== 0, this.zoom_ !== 0];
-    this.push_ = [0, 0];
-    this.zoom_ = 0;
+    const [moved, zoomed] = [this.timer && this.pushes, this.timer && this.zoom_];
+    this.end();
     if (moved) this.tellRates();
     if (zoomed) this.tellZoom();
   }
@@ -71,14 +76,41 @@ export class Hand {
     return true;
   }
 
-  private begin() {
+  private get pushes(): boolean {
+    return this.push_[0] !== 0 || this.push_[1] !== 0;
+  }
+
+  // Told at once when it begins and when it ends, and every AGAIN_MS between: a hand moves oftener than
+  // the console listens.
+  private drive(begins: boolean) {
+    if (!this.mayGoOn()) return this.release();
+    if (begins) this.tell();
+    this.timer ||= window.setInterval(() => this.again(), AGAIN_MS);
+  }
+
+  private end() {
+    this.era = -1;
+    clearInterval(this.timer);
+    this.timer = 0;
+    this.push_ = [0, 0];
+    this.zoom_ = 0;
+  }
+
+  private mayGoOn(): boolean {
+    return document.hasFocus() && this.link.isLive && this.era === this.link.era;
+  }
+
+  // What the station or the console has refused by now is not asked for again.
+  private again() {
+    const { state, control } = this.station();
+    const isOthers = control != null && control.viewer !== this.link.viewer;
+    if (isOthers || (this.pushes && REFUSING.includes(state))) return this.end();
+    if (!this.mayGoOn()) return this.release();
     this.tell();
-    this.timer ||= window.setInterval(() => this.tell(), AGAIN_MS);
   }
 
   private tell() {
-    if (!document.hasFocus()) return this.release();
-    if (this.push_[0] || this.push_[1]) this.tellRates();
+    if (this.pushes) this.tellRates();
     if (this.zoom_) this.tellZoom();
   }
 
@@ -95,8 +127,7 @@ export class Hand {
   }
 
   private say(command: string, more: Record<string, unknown>) {
-    const heard = command === "rate" || more.is_rate ? { heard_us: this.link.time_us } : {};
-    this.link.sendQuietly({ do: "command", command, station: this.station().id, ...more, ...heard });
+    this.link.rate({ command, station: this.station().id, ...more });
   }
 }
 

@@ -1,4 +1,4 @@
-// The connection to the server: state in, commands out, pictures. Reconnects by itself.
+// The connection to the server: state in, commands out, pictures and their pace. Reconnects by itself.
 
 import { H264Stream, type Unit } from "./h264";
 import type { Camera } from "./projection";
@@ -20,6 +20,7 @@ export type Codec = "jpeg" | "h264";
 // Where pictures come from; the views know nothing else of it.
 export interface PictureSource {
   watch(stations: string[], codec: Codec): void;
+  focus: string; // the station of the large picture: the others come less often
   onPicture: (picture: Picture) => void;
 }
 
@@ -33,13 +34,17 @@ type StreamHeader = Omit<Picture, "image"> & { units: Unit[] };
 
 const RETRY_MS = 1000;
 const TAKEN_MS = 20; // what is taken meanwhile is said in one message
+const SMALL_MS = 200; // between small pictures: nobody aims on them, and each costs as much as a large one
 const STOP_PATIENCE_MS = 2000;
 const SILENT_MS = 3500; // the server says something each second
+const STALLED_MS = 1500; // kLateRate_us of console/console.cpp: what is sent now would come too late
 
 export class Link implements PictureSource {
   site: Site = emptySite();
   viewer = 0;
   isUp = false;
+  focus = "";
+  era = 0; // ends with each cut and each stop, and with it what a hand holds
   replay: ReplayState | null = null; // what is shown was recorded
   onChange: () => void = () => {};
   onPicture: (picture: Picture) => void = () => {};
@@ -80,6 +85,11 @@ export class Link implements PictureSource {
     return this.time_us + (performance.now() - this.timeHeard_ms) * 1000 * pace;
   }
 
+  // Something was heard a moment ago: what is sent now arrives.
+  get isLive(): boolean {
+    return this.isUp && performance.now() - this.heard_ms < STALLED_MS;
+  }
+
   private connect() {
     const scheme = location.protocol === "https:" ? "wss:" : "ws:";
     const socket = new WebSocket(`${scheme}//${location.host}/api/live`);
@@ -94,6 +104,7 @@ export class Link implements PictureSource {
     if (socket !== this.socket) return;
     this.socket = null;
     this.isUp = false;
+    this.era++;
     this.onChange();
     setTimeout(async () => {
       if (this.isOver) return;
@@ -113,6 +124,7 @@ export class Link implements PictureSource {
   }
 
   private hear(data: string | ArrayBuffer) {
+    if (performance.now() - this.heard_ms > STALLED_MS) this.era++;
     this.heard_ms = performance.now();
     if (data instanceof ArrayBuffer) {
       void this.showPicture(data);
@@ -145,6 +157,7 @@ export class Link implements PictureSource {
 
   // Four bytes with the length of the header, the header, a JPEG or units of a stream.
   private async showPicture(data: ArrayBuffer) {
+    const came_ms = performance.now();
     const length = new DataView(data).getUint32(0);
     const header = JSON.parse(new TextDecoder().decode(new Uint8Array(data, 4, length)));
     const bytes = new Uint8Array(data, 4 + length);
@@ -156,7 +169,9 @@ export class Link implements PictureSource {
       if (image && (this.isOver || !this.site.stations.has(station))) image.close();
       else if (image) this.onPicture({ ...header, image });
     }
-    this.took({ picture: station });
+    const rest_ms = station === this.focus ? 0 : came_ms + SMALL_MS - performance.now();
+    if (rest_ms > 0) setTimeout(() => this.took({ picture: station }), rest_ms);
+    else this.took({ picture: station });
   }
 
   // The server sends the next state, and the next picture of a station, when this one has been dealt with:
@@ -216,15 +231,21 @@ export class Link implements PictureSource {
     return this.say({ ...message, number }) ? number : 0;
   }
 
-  // Nobody waits for its answer; a refusal is told all the same.
-  sendQuietly(message: object) {
-    this.say(message);
+  // The same, with what was heard last: the server refuses what a cut link delivers late.
+  order(message: object): number {
+    return this.send({ ...message, heard_us: this.time_us });
+  }
+
+  // One of many: nobody waits for its answer; a refusal is told all the same.
+  rate(what: object): void {
+    this.say({ do: "command", ...what, heard_us: this.time_us });
   }
 
   // Both by the WebSocket and by a request of its own: whichever is through first stops. The request
   // works when the WebSocket is busy or not there, and its answer is waited for no longer than a person
   // would.
   async stopAll(): Promise<StopAnswer> {
+    this.era++;
     const number = this.send({ do: "stop_all" });
     if (number) this.stops.add(number);
     try {

@@ -39,6 +39,12 @@ export function MapView({ link, version, theme, selected, onPick }: Props) {
     if (name === "measuring") setMeasured("");
     map.current?.setOption(name, value);
   };
+  // What was measured belongs to the view in which it was.
+  const showSolid = () => {
+    setSolid(!isSolid);
+    setMeasured("");
+    map.current?.endMeasuring();
+  };
   const button = (name: keyof typeof options, text: string) => (
     <button type="button" aria-pressed={options[name]} onClick={() => toggle(name)}>
       {text}
@@ -47,13 +53,15 @@ export function MapView({ link, version, theme, selected, onPick }: Props) {
   return (
     <section class="map" aria-label={t("map")}>
       <div class="map-canvas" ref={element} tabIndex={0} role="application" aria-label={t("map")} />
-      {isSolid && <View3d link={link} version={version} theme={theme} selected={selected} follow={options.follow} />}
+      {isSolid && <View3d link={link} version={version} theme={theme} selected={selected} options={options} onPick={onPick} onMeasured={setMeasured} />}
       <div class="map-tools" role="toolbar" aria-label={t("layers")}>
-        <button type="button" onClick={() => map.current?.fit()}>
-          {t("fit")}
-        </button>
+        {!isSolid && (
+          <button type="button" onClick={() => map.current?.fit()}>
+            {t("fit")}
+          </button>
+        )}
         {button("follow", t("follow"))}
-        <button type="button" aria-pressed={isSolid} onClick={() => setSolid(!isSolid)}>
+        <button type="button" aria-pressed={isSolid} onClick={showSolid}>
           {t("view_3d")}
         </button>
         {button("measuring", t("measure"))}
@@ -65,7 +73,12 @@ export function MapView({ link, version, theme, selected, onPick }: Props) {
             {button("trails", t("trails"))}
             {button("views", t("views"))}
             {button("limits", t("limits"))}
-            {made && <OwnMaps map={made} />}
+            {isSolid && <p class="layers-note">{t("flat_only")}</p>}
+            {made && (
+              <fieldset disabled={isSolid}>
+                <OwnMaps map={made} />
+              </fieldset>
+            )}
           </div>
         </details>
       </div>
@@ -75,7 +88,7 @@ export function MapView({ link, version, theme, selected, onPick }: Props) {
         </div>
       )}
       {options.measuring && (
-        <output class="map-measure">{measured || t("measure_hint")}</output>
+        <output class="map-measure">{measured || t(isSolid ? "measure_hint_3d" : "measure_hint")}</output>
       )}
     </section>
   );

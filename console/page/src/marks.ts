@@ -1,8 +1,9 @@
 // What else is in a station's picture: the targets and the other stations, where the camera of this very
 // picture sees them.
 
+import { bearing, fixed } from "./format";
 import type { Picture } from "./link";
-import { azimuthOf, ecef, moved, pixelOf, towards } from "./projection";
+import { axisOf, ecef, moved, pixelOf, towards } from "./projection";
 import type { Border, Site, Target } from "./site";
 
 export type Mark = { kind: "target" | "station"; name: string; at: [number, number] };
@@ -75,6 +76,15 @@ export function bordersOf(site: Site, picture: Picture): PictureLine[] {
   return lines;
 }
 
+// Where the optical axis meets this picture, and where it pointed; the middle while that is unknown.
+export function axisMark(site: Site, picture: Picture): { at: [number, number]; text: string } {
+  const { camera, full_px } = picture;
+  const station = site.stations.get(picture.station);
+  if (!camera || station?.latitude_deg == null) return { at: [full_px[0] / 2, full_px[1] / 2], text: "" };
+  const { azimuth_deg, elevation_deg } = axisOf(camera, station.latitude_deg, station.longitude_deg!);
+  return { at: [camera.matrix_px[2], camera.matrix_px[3]], text: `${bearing(azimuth_deg, 2)}  ${fixed(elevation_deg, 2, "°")}` };
+}
+
 const HORIZON_PARTS = 24;
 
 // Elevation 0 as this camera sees it, across the picture; null while the camera's attitude is unknown.
@@ -85,7 +95,7 @@ export function horizonOf(site: Site, picture: Picture): PictureLine | null {
   const [width, height] = picture.full_px;
   // As far to each side as the picture's corners are from its middle, however the camera is rolled.
   const half_deg = (Math.atan(Math.hypot(width, height) / 2 / camera.matrix_px[0]) * 180) / Math.PI;
-  const middle_deg = azimuthOf(camera, station.latitude_deg, station.longitude_deg!);
+  const middle_deg = axisOf(camera, station.latitude_deg, station.longitude_deg!).azimuth_deg;
   const points: [number, number][] = [];
   for (let i = 0; i <= HORIZON_PARTS; i++) {
     const azimuth_deg = middle_deg + half_deg * ((2 * i) / HORIZON_PARTS - 1);

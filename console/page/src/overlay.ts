@@ -2,7 +2,7 @@
 
 import type { Region } from "./hand";
 import type { Picture } from "./link";
-import { bordersOf, horizonOf, marksOf, type Mark, type PictureLine } from "./marks";
+import { axisMark, bordersOf, horizonOf, marksOf, type Mark, type PictureLine } from "./marks";
 import type { Site } from "./site";
 
 export type Box = [number, number, number, number]; // x, y, width, height in the full frame [px]
@@ -29,8 +29,8 @@ function drawCorners(g: CanvasRenderingContext2D, [x, y, w, h]: Box, unit: numbe
   g.stroke();
 }
 
-function drawCross(g: CanvasRenderingContext2D, width: number, height: number, unit: number) {
-  const [x, y, inner, outer] = [width / 2, height / 2, 6 * unit, 15 * unit];
+function drawCross(g: CanvasRenderingContext2D, [x, y]: [number, number], unit: number) {
+  const [inner, outer] = [6 * unit, 15 * unit];
   g.beginPath();
   for (const [dx, dy] of [[1, 0], [-1, 0], [0, 1], [0, -1]]) {
     g.moveTo(x + dx * inner, y + dy * inner);
@@ -109,7 +109,7 @@ export function drawPicture(canvas: HTMLCanvasElement, site: Site, picture: Pict
   g.setTransform(scale, 0, 0, scale, -left * scale, -top * scale);
   g.drawImage(picture.image, 0, 0, width, height);
   const unit = devicePixelRatio / scale;
-  drawCross(g, width, height, unit);
+  drawCross(g, axisMark(site, picture).at, unit);
   for (const line of linesOf(site, picture)) drawLine(g, line, unit);
   for (const mark of marksOf(site, picture)) drawMark(g, mark, unit);
   if (picture.box_px) {

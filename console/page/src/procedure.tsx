@@ -5,6 +5,7 @@ import { useState } from "preact/hooks";
 import type { Link } from "./link";
 import type { Procedure, Station } from "./site";
 import { fixed } from "./format";
+import { Sure } from "./sure";
 import { named, t } from "./words";
 
 const SILENT_US = 6_000_000; // it says something each second
@@ -95,8 +96,7 @@ function Question({ station, procedure, onAnswer }: { station: string; procedure
 
 function One({ station, procedure, mayCommand, onAnswer }: { station: Station; procedure: Procedure; mayCommand: boolean; onAnswer: Say }) {
   const isAsking = procedure.state === "asking" && mayCommand;
-  const abort = () =>
-    confirm(`${station.id}: ${t("abort_sure")}`) && onAnswer({ station: station.id, question: procedure.question, choice: "abort" });
+  const abort = () => onAnswer({ station: station.id, question: procedure.question, choice: "abort" });
   const point = (pixel_px: [number, number]) => onAnswer({ station: station.id, question: procedure.question, choice: "point", pixel_px });
   return (
     <article class="open procedure">
@@ -108,9 +108,7 @@ function One({ station, procedure, mayCommand, onAnswer }: { station: Station; p
       {procedure.picture > 0 && <ProcedurePicture station={station.id} procedure={procedure} onPoint={isAsking && procedure.choices.includes("point") ? point : null} />}
       {isAsking && <Question station={station.id} procedure={procedure} onAnswer={onAnswer} />}
       {mayCommand && isAtWork(procedure) && (
-        <button type="button" class="danger" onClick={abort}>
-          {named("c", "abort")}
-        </button>
+        <Sure word={named("c", "abort")} question={`${station.id}: ${t("abort_sure")}`} isDangerous onSure={abort} />
       )}
     </article>
   );

@@ -38,13 +38,16 @@ export function towards(camera: Camera, latitude_deg: number, longitude_deg: num
   return moved(camera.ecef_m, latitude_deg, longitude_deg, [across * Math.sin(a), across * Math.cos(a), far_m * Math.sin(e)]);
 }
 
-// Of the optical axis, clockwise from north, at this latitude and longitude.
-export function azimuthOf(camera: Camera, latitude_deg: number, longitude_deg: number): number {
+// The direction of the optical axis at this latitude and longitude: azimuth clockwise from north, elevation.
+export function axisOf(camera: Camera, latitude_deg: number, longitude_deg: number): { azimuth_deg: number; elevation_deg: number } {
   const [lat, lon] = [(latitude_deg * Math.PI) / 180, (longitude_deg * Math.PI) / 180];
   const [x, y, z] = camera.from_ecef.slice(6, 9);
+  const out = x * Math.cos(lon) + y * Math.sin(lon);
   const east = -x * Math.sin(lon) + y * Math.cos(lon);
-  const north = -Math.sin(lat) * (x * Math.cos(lon) + y * Math.sin(lon)) + z * Math.cos(lat);
-  return (Math.atan2(east, north) * 180) / Math.PI;
+  const north = -Math.sin(lat) * out + z * Math.cos(lat);
+  const up = Math.cos(lat) * out + z * Math.sin(lat);
+  const degrees = (angle: number) => (angle * 180) / Math.PI;
+  return { azimuth_deg: (degrees(Math.atan2(east, north)) + 360) % 360, elevation_deg: degrees(Math.atan2(up, Math.hypot(east, north))) };
 }
 
 // The pixel in the full frame; null behind the camera or far outside of its lens.

@@ -172,8 +172,10 @@ function extendTrails(site: Site, changed: Partial<Target>[] | undefined, before
 function addEvents(site: Site, events: SiteEvent[] | undefined) {
   for (const event of events ?? []) {
     const known = site.events.findIndex((one) => one.number === event.number);
-    if (known >= 0) site.events[known] = event;
-    else site.events.unshift(event);
+    const isAgain = known >= 0 && site.events[known].utime_us !== event.utime_us;
+    if (isAgain) site.events.splice(known, 1);
+    if (known < 0 || isAgain) site.events.unshift(event);
+    else site.events[known] = event;
   }
   site.events.length = Math.min(site.events.length, MOST_EVENTS);
 }

@@ -196,7 +196,7 @@ export class SiteMap {
     for (const s of site.stations.values()) features.push(...stationShapes(s, this.colours, this.selected === `station:${s.id}`, this.options.views, border_m));
     features.push(...lineShapes(this.link, this.colours));
     features.push(...cueShapes(this.link, this.colours));
-    for (const target of site.targets.values()) features.push(...targetShapes(target, this.colours, this.selected === `target:${target.id}`, this.options.trails));
+    [...site.targets.values()].forEach((target, i) => features.push(...targetShapes(target, this.colours, this.selected === `target:${target.id}`, this.options.trails, i % 2 === 1)));
     this.moving.clear(true);
     this.moving.addFeatures(features);
     this.newest_us = Math.max(0, ...[...site.targets.values()].map((target) => target.utime_us));

@@ -9,6 +9,7 @@ import { bearing, clockError, DASH, fixed, utc } from "./format";
 import { LensForm } from "./lensform";
 import type { Link } from "./link";
 import type { Station } from "./site";
+import { Sure } from "./sure";
 import { named, t, Word } from "./words";
 
 export type Command = (station: string, command: string, more?: object) => void;
@@ -32,7 +33,6 @@ function Commands({ link, station, mayCommand, onCommand, onControl }: StationPr
   const id = station.id;
   const holder = station.control;
   const isMine = holder?.viewer === link.viewer;
-  const ask = (question: Word, command: string) => confirm(`${id}: ${t(question)}`) && onCommand(id, command);
   const number = (text: string) => (isFinite(Number(text)) && text.trim() !== "" ? Number(text) : null);
   return (
     <div class="commands">
@@ -50,9 +50,9 @@ function Commands({ link, station, mayCommand, onCommand, onControl }: StationPr
         {mayCommand && (
           <Fragment>
             <button onClick={() => onCommand(id, "release")}>{t("release")}</button>
-            <button onClick={() => ask("home_sure", "home")}>{t("home")}</button>
+            <Sure key={`home ${id}`} word={t("home")} question={`${id}: ${t("home_sure")}`} onSure={() => onCommand(id, "home")} />
             <button onClick={() => onCommand(id, "rearm")}>{t("rearm")}</button>
-            <button onClick={() => ask("reference_sure", "reference_ok")}>{t("reference_ok")}</button>
+            <Sure key={`reference ${id}`} word={t("reference_ok")} question={`${id}: ${t("reference_sure")}`} onSure={() => onCommand(id, "reference_ok")} />
           </Fragment>
         )}
       </div>

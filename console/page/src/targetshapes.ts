@@ -32,7 +32,8 @@ function ellipseRing(target: Target, at: Coordinate, scale: number): Coordinate[
 const targetColour = (target: Target, c: Colours) =>
   target.stale || target.state === "coasted" ? c.coasted : target.state === "born" ? c.born : c.target;
 
-export function targetShapes(target: Target, c: Colours, selected: boolean, trails: boolean): Feature[] {
+// `below`: where its words are, so that those of two that are near each other can both be read.
+export function targetShapes(target: Target, c: Colours, selected: boolean, trails: boolean, below: boolean): Feature[] {
   if (target.latitude_deg == null) return [];
   const at = fromLonLat([target.longitude_deg, target.latitude_deg]);
   const scale = stretch(target.latitude_deg);
@@ -55,7 +56,7 @@ export function targetShapes(target: Target, c: Colours, selected: boolean, trai
       new Point(at),
       [
         new Style({ image: new Circle({ radius: selected ? 12 : 8, stroke: new Stroke({ color: selected ? c.accent : colour, width: 2 }) }) }),
-        new Style({ image: new Circle({ radius: 3.5, fill: new Fill({ color: colour }) }), text: label(text, c.text, c.halo, 16, -12) }),
+        new Style({ image: new Circle({ radius: 3.5, fill: new Fill({ color: colour }) }), text: label(text, c.text, c.halo, 16, below ? 14 : -12) }),
       ],
       `target:${target.id}`,
     ),

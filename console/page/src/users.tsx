@@ -2,6 +2,7 @@
 
 import { h } from "preact";
 import { useEffect, useRef, useState } from "preact/hooks";
+import { Sure } from "./sure";
 import { t, Word } from "./words";
 
 type User = { name: string; role: string; sessions: number };
@@ -38,7 +39,6 @@ export function Users({ self, onClose }: { self: string; onClose: () => void }) 
     const given = Object.fromEntries(new FormData(form));
     if (await change("/api/users", "POST", given)) form.reset();
   };
-  const remove = (name: string) => confirm(`${name}: ${t("remove_sure")}`) && change(`/api/users/${name}`, "DELETE");
   return (
     <dialog ref={dialog} class="users" aria-label={t("users")} onClose={onClose}>
       <div class="users-head">
@@ -67,9 +67,12 @@ export function Users({ self, onClose }: { self: string; onClose: () => void }) 
                   {t("end_sessions")}
                 </button>
                 {user.name !== self && (
-                  <button type="button" onClick={() => remove(user.name)} aria-label={`${t("remove")}: ${user.name}`}>
-                    {t("remove")}
-                  </button>
+                  <Sure
+                    word={t("remove")}
+                    label={`${t("remove")}: ${user.name}`}
+                    question={`${user.name}: ${t("remove_sure")}`}
+                    onSure={() => change(`/api/users/${user.name}`, "DELETE")}
+                  />
                 )}
               </td>
             </tr>

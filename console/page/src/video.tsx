@@ -8,6 +8,7 @@ import { Hand, HOLD_MS, magnified, Pinch, STILL_PX, type Region } from "./hand";
 import { decodesH264 } from "./h264";
 import type { Codec, Link, Picture } from "./link";
 import { drawPicture, type Box } from "./overlay";
+import { axisMark } from "./marks";
 import type { Station } from "./site";
 import { fixed } from "./format";
 import { remember, remembered } from "./memory";
@@ -86,6 +87,7 @@ function Eye({ link, station, picture, large, isThin, mayCommand, onSelect, onDe
     pinch.current.down(event);
     if (pinch.current.isTwo) return let_go();
     if (!mayCommand) return;
+    hand.current!.press();
     const from = place(event);
     hold({ picture, from, size: size() });
     setBox([...from, 0, 0]);
@@ -127,8 +129,9 @@ function Eye({ link, station, picture, large, isThin, mayCommand, onSelect, onDe
     const [x, y] = place(event);
     setBox([Math.min(x0, x), Math.min(y0, y), Math.abs(x - x0), Math.abs(y - y0)]);
   };
+  // A box of the keyboard lies on the live picture: who moves it there takes longer than a picture lasts.
   const send = (wanted: Box | null) => {
-    const on = held.current?.picture;
+    const on = held.current?.picture ?? picture;
     hold(null);
     setBox(null);
     if (!on || !wanted || wanted[2] < LEAST_DRAG_PX || wanted[3] < LEAST_DRAG_PX) return;
@@ -148,11 +151,16 @@ function Eye({ link, station, picture, large, isThin, mayCommand, onSelect, onDe
     onPoint(station.id, looks || event.shiftKey ? "look" : "centre", on.utime_us, point);
     setLooks(false);
   };
-  const zoomByKey = (key: string): boolean => {
-    const towards = { "+": 1, "=": 1, "-": -1 }[key];
+  const pressed_by = (event: KeyboardEvent, drive: () => void) => {
+    if (event.repeat) return; // it is held, not pressed
+    hand.current!.press();
+    drive();
+  };
+  const zoomByKey = (event: KeyboardEvent): boolean => {
+    const towards = { "+": 1, "=": 1, "-": -1 }[event.key];
     if (!towards) return false;
     const [width, height] = picture!.full_px;
-    if (mayCommand && station.lens?.zoom != null) hand.current!.zoom(towards);
+    if (mayCommand && station.lens?.zoom != null) pressed_by(event, () => hand.current!.zoom(towards));
     else setRegion(magnified(region, [width, height], [width / 2, height / 2], towards > 0 ? 1.3 : 1 / 1.3));
     return true;
   };
@@ -160,7 +168,7 @@ function Eye({ link, station, picture, large, isThin, mayCommand, onSelect, onDe
     const arrows: Record<string, [number, number]> = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
     const slow = event.shiftKey ? 0.4 : 0.8;
     if (arrows[event.key]) {
-      if (!event.repeat) hand.current!.push(arrows[event.key][0] * slow, arrows[event.key][1] * slow);
+      pressed_by(event, () => hand.current!.push(arrows[event.key][0] * slow, arrows[event.key][1] * slow));
     } else if (event.key === "l" || event.key === "L") {
       onPoint(station.id, "look", picture!.utime_us, [picture!.full_px[0] / 2, picture!.full_px[1] / 2]);
     } else {
@@ -170,17 +178,16 @@ function Eye({ link, station, picture, large, isThin, mayCommand, onSelect, onDe
   };
   const key = (event: KeyboardEvent) => {
     if (!picture) return;
-    if (!held.current && zoomByKey(event.key)) return event.preventDefault();
+    if (!box && zoomByKey(event)) return event.preventDefault();
     if (!mayCommand) return;
     if (event.key === "Enter") {
       event.preventDefault();
-      if (held.current) return send(box);
+      if (box) return send(box);
       const [width, height] = picture.full_px;
-      hold({ picture, from: [0, 0], size: size() });
       return setBox([width * 0.47, height * 0.47, width * 0.06, height * 0.06]);
     }
-    if (!held.current && steerByKey(event)) return event.preventDefault();
-    if (!held.current || !box) return;
+    if (!box && steerByKey(event)) return event.preventDefault();
+    if (!box) return;
     if (event.key === "Backspace" || event.key === "Delete") return send(null);
     const steps: Record<string, [number, number]> = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
     const step = steps[event.key];
@@ -195,6 +202,7 @@ function Eye({ link, station, picture, large, isThin, mayCommand, onSelect, onDe
   useEffect(() => (large && mayCommand ? steerByGamepad(hand.current!) : undefined), [large, mayCommand]);
   const age_s = shown ? (link.now_us() - shown.utime_us) / 1e6 : NaN;
   const state = station.stale ? "silent" : station.state;
+  const exposure_us = station.readings?.camera_exposure_us;
   return (
     <figure class={`eye ${large ? "large" : ""} ${held.current ? "held" : ""}`}>
       <canvas
@@ -227,6 +235,8 @@ function Eye({ link, station, picture, large, isThin, mayCommand, onSelect, onDe
         {isThin && shown && <span class="codec">{shown.codec === "h264" ? "H.264" : "JPEG"}</span>}
         {region && shown && <span class="magnified">{`${fixed(shown.full_px[0] / region[2], 1)}×`}</span>}
         {station.lens?.zoom != null && <span class="zoom">{`${Math.round(station.lens.zoom * 100)} %`}</span>}
+        {large && shown && <span class="axis">{axisMark(link.site, shown).text}</span>}
+        {large && exposure_us != null && <span class="exposure">{`${t("exposure")} ${fixed(exposure_us / 1000, 1, " ms")}`}</span>}
         <span class={age_s > OLD_S ? "age old" : "age"}>{shown ? delay(age_s) : t("no_picture")}</span>
       </figcaption>
     </figure>
@@ -278,6 +288,7 @@ export function VideoView({ link, selected, mayCommand, onSelect, onDesignate, o
     }
   }, [ids.join()]);
   const large = ids.includes(selected) ? selected : ids[0];
+  link.focus = large ?? "";
   return (
     <section class="video" aria-label={t("video")}>
       {stations.length === 0 && <p class="nothing">{t("no_station")}</p>}

@@ -46,6 +46,16 @@ TEST(ClientMessage, ARateSaysWhatTheBrowserHeardLast) {
   EXPECT_EQ(refusal(rate + R"(,"heard_us":1.5})"), "heard_us must be a whole number");
 }
 
+TEST(ClientMessage, AnyCommandMaySayWhatTheBrowserHeardLast) {
+  const std::string release = R"({"do":"command","station":"alfa","command":"release")";
+  EXPECT_EQ(std::get<CommandRequest>(parse_client_message(release + "}")).heard_utime_us,
+            std::nullopt);
+  const auto message = parse_client_message(release + R"(,"heard_us":17})");
+  EXPECT_EQ(std::get<CommandRequest>(message).heard_utime_us, 17);
+  EXPECT_EQ(refusal(release + R"(,"heard_us":"now"})"), "heard_us must be a whole number");
+  EXPECT_EQ(refusal(release + R"(,"box_px":[1,2,3,4]})"), "unknown key \"box_px\"");
+}
+
 TEST(ClientMessage, ALensIsMovedByPositionOrByRate) {
   const std::string head = R"({"do":"command","station":"o","command":"lens","is_rate":)";
   const auto position = parse_client_message(head + R"(false,"zoom":0.5})");

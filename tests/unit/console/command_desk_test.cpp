@@ -91,6 +91,17 @@ TEST(CommandDesk, AStopIsRepeatedUntilTheUnitStands) {
   EXPECT_TRUE(desk.due(0.3).empty());
 }
 
+TEST(CommandDesk, ARecordingOfAnotherBootConfirmsNoStop) {
+  CommandDesk desk;
+  desk.hear("alfa", Reply{.counters = {{"stop_accepted", 3}}, .boot_id = 2});
+  EXPECT_FALSE(desk.begin(order(Kind::kStop), {}, 0.0));
+  static_cast<void>(desk.due(0.0));
+  desk.hear("alfa", Reply{.counters = {{"stop_accepted", 9}}, .stopped = true, .boot_id = 1});
+  EXPECT_TRUE(desk.finished(0.1).empty());
+  desk.hear("alfa", Reply{.counters = {{"stop_accepted", 4}}, .stopped = true, .boot_id = 2});
+  EXPECT_TRUE(desk.finished(0.2).at(0).outcome.accepted);
+}
+
 TEST(CommandDesk, AStopOfAStationThatNobodyKnowsIsRefused) {
   CommandDesk desk;
   EXPECT_EQ(desk.begin(order(Kind::kStop, "invented"), {}, 0.0),

@@ -227,6 +227,25 @@ TEST(Console, ARateThatWasHeldUpIsRefusedAndAHoldIsOneEvent) {
   EXPECT_EQ(rates, 1);
 }
 
+// So does any other command that it delivers late, but for a stop, which comes never too late.
+TEST(Console, ACommandThatWasHeldUpIsRefusedAndAStopIsNot) {
+  Console console(60.0);
+  console.hear(station("alfa"), {0.0, 0});
+  const auto viewer = console.open("ana", Role::kOperator);
+  const auto orders = [&](const std::string& command, const Now& now) {
+    console.take(viewer,
+                 R"({"do":"command","number":5,"station":"alfa","heard_us":10000000,"command":")" +
+                     command + "\"}",
+                 now);
+    return console.turn(now).size();
+  };
+  EXPECT_EQ(orders("home", {3.1, 13'100'000}), 0U);
+  EXPECT_EQ(answer_in(received(console, viewer, {3.1, 13'100'000})).at("why"),
+            "refused: it came too late");
+  EXPECT_EQ(orders("stop", {3.2, 13'200'000}), 1U);
+  EXPECT_EQ(orders("release", {2.9, 12'900'000}), 1U);
+}
+
 TEST(Console, MalformedMessagesAreRefusedInWordsAndCounted) {
   Console console(60.0);
   const auto viewer = console.open("ana", Role::kOperator);
@@ -299,6 +318,41 @@ TEST(Console, AnOperatorAnswersAProcedureAndAViewerDoesNot) {
   ASSERT_EQ(answers.size(), 1U);
   EXPECT_EQ(answers[0].choice, "confirm");
   EXPECT_EQ(console.state({1.0, 5}).at("events")[0].at("text"), "answers confirm");
+}
+
+TEST(Console, AnAnswerThatComesTooLateIsRefusedUnlessItEndsTheProcedure) {
+  Console console(60.0);
+  console.hear(station("alfa"), {0.0, 0});
+  console.hear(asking("alfa"));
+  const auto operating = console.open("ana", Role::kOperator);
+  const auto answered = [&](const std::string& choice, std::int64_t heard_us) {
+    console.take(operating,
+                 R"({"do":"answer","number":8,"station":"alfa","question":3,"choice":")" + choice +
+                     R"(","heard_us":)" + std::to_string(heard_us) + "}",
+                 {1.0, 10'000'000});
+    return answer_in(received(console, operating, {1.0, 10'000'000}));
+  };
+  EXPECT_EQ(answered("confirm", 6'900'000).at("why"), "refused: it came too late");
+  EXPECT_TRUE(console.take_answers().empty());
+  EXPECT_TRUE(answered("abort", 6'900'000).at("accepted"));
+  EXPECT_EQ(console.take_answers().size(), 1U);
+  EXPECT_TRUE(answered("confirm", 7'100'000).at("accepted"));
+  EXPECT_EQ(console.take_answers().size(), 1U);
+}
+
+TEST(Console, ACueIsAllowedAndControlIsTakenInTimeOrNotAtAll) {
+  Console console(60.0);
+  console.hear(station("alfa"), {0.0, 0});
+  const auto operating = console.open("ana", Role::kOperator);
+  const auto says = [&](const std::string& what, std::int64_t heard_us) {
+    const auto heard = R"(,"number":8,"heard_us":)" + std::to_string(heard_us) + "}";
+    console.take(operating, R"({"do":)" + what + heard, {1.0, 10'000'000});
+    return answer_in(received(console, operating, {1.0, 10'000'000})).at("accepted") == true;
+  };
+  for (const char* what : {R"("cue","cue":"a","allow":true)", R"("take","station":"alfa")"}) {
+    EXPECT_TRUE(!says(what, 6'900'000) && says(what, 7'100'000)) << what;
+  }
+  EXPECT_TRUE(says(R"("cue","cue":"a","allow":false)", 6'900'000));
 }
 
 TEST(Console, AnOperatorsWordOnACueGoesOutAndAViewersDoesNot) {

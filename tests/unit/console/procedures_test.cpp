@@ -50,6 +50,15 @@ TEST(Procedures, AStationThatIsForgottenHasNone) {
   EXPECT_NE(procedures.answer({"alfa", 1, "confirm", {}, {}}), "");
 }
 
+TEST(Procedures, OneThatHasEndedTakesNoAnswer) {
+  Procedures procedures;
+  auto ended = asking(0);
+  ended.is_at_work = false;
+  procedures.hear(ended);
+  EXPECT_EQ(procedures.answer({"alfa", 0, "abort", {}, {}}), "refused: the procedure has ended");
+  EXPECT_TRUE(procedures.take().empty());
+}
+
 TEST(Procedures, AFloodOfAnswersIsBounded) {
   Procedures procedures;
   procedures.hear(asking(1));

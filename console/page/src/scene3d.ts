@@ -1,0 +1,266 @@
+// What there is to see in three dimensions, in the east-north-up frame of the site's middle, and how it
+// is projected and drawn: a few hundred lines, which need no graphics processor.
+
+import { distance, fixed } from "./format";
+import { fineOutline } from "./marks";
+import { ecef } from "./projection";
+import type { Line, Station, Target } from "./site";
+
+export type Layers = { grid: boolean; rings: boolean; trails: boolean; views: boolean; limits: boolean };
+
+export type Vector = [number, number, number];
+export type Eye = { azimuth: number; elevation: number; away_m: number; at: Vector }; // looks at `at`, from that direction
+type Stroke = { points: Vector[]; colour: string; width: number; dash?: number[] };
+type Name = { id: string; at: Vector; text: string; colour: string; isPlain?: boolean };
+
+export const RAY_M = 3000;
+const SCALE_95 = 2.7955; // of a sigma ellipsoid: the root of the 95 % point of chi-square with three degrees of freedom
+export const LARGER = [1, 10, 100];
+const FOCAL = 1.2; // of the width of the canvas
+const NEAR_PX = 14; // a click so near to a thing is on it
+const RINGS = 4;
+
+// Places in the frame of the site's middle.
+class Frame {
+  private readonly origin: number[];
+  private readonly rows: number[][]; // east, north, up in ECEF
+
+  constructor(latitude_deg: number, longitude_deg: number, height_m: number) {
+    const [lat, lon] = [(latitude_deg * Math.PI) / 180, (longitude_deg * Math.PI) / 180];
+    this.origin = ecef(latitude_deg, longitude_deg, height_m);
+    this.rows = [
+      [-Math.sin(lon), Math.cos(lon), 0],
+      [-Math.sin(lat) * Math.cos(lon), -Math.sin(lat) * Math.sin(lon), Math.cos(lat)],
+      [Math.cos(lat) * Math.cos(lon), Math.cos(lat) * Math.sin(lon), Math.sin(lat)],
+    ];
+  }
+
+  place(latitude_deg: number, longitude_deg: number, height_m: number): Vector {
+    const d = ecef(latitude_deg, longitude_deg, height_m).map((v, i) => v - this.origin[i]);
+    return this.rows.map((row) => row[0] * d[0] + row[1] * d[1] + row[2] * d[2]) as Vector;
+  }
+}
+
+export function frameOf(stations: Station[]): Frame | null {
+  const placed = stations.filter((s) => s.latitude_deg != null && s.longitude_deg != null && s.height_m != null);
+  if (!placed.length) return null;
+  const mean = (of: (s: Station) => number) => placed.reduce((sum, s) => sum + of(s), 0) / placed.length;
+  return new Frame(mean((s) => s.latitude_deg!), mean((s) => s.longitude_deg!), mean((s) => s.height_m!));
+}
+
+// Three sections of the 95 % ellipsoid: the images of three unit circles under the covariance's Cholesky factor.
+export function ellipsoid(covariance: (number | null)[] | undefined, larger: number): Vector[][] {
+  if (!covariance || covariance.some((v) => v == null)) return [];
+  const [ee, en, eu, nn, nu, uu] = covariance as number[];
+  const a = Math.sqrt(ee);
+  const [b, d] = [en / a, eu / a];
+  const c = Math.sqrt(nn - b * b);
+  const e = (nu - b * d) / c;
+  const f = Math.sqrt(uu - d * d - e * e);
+  if (![a, b, c, d, e, f].every(isFinite)) return [];
+  const k = SCALE_95 * larger;
+  const at = (x: number, y: number, z: number): Vector => [k * a * x, k * (b * x + c * y), k * (d * x + e * y + f * z)];
+  const ring = (of: (cos: number, sin: number) => Vector) => Array.from({ length: 41 }, (_, i) => of(Math.cos((i * Math.PI) / 20), Math.sin((i * Math.PI) / 20)));
+  return [ring((x, y) => at(x, y, 0)), ring((x, y) => at(x, 0, y)), ring((x, y) => at(0, x, y))];
+}
+
+const plus = (a: Vector, b: Vector): Vector => [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
+const along = (azimuth_deg: number, elevation_deg: number, m: number): Vector => {
+  const [a, e] = [(azimuth_deg * Math.PI) / 180, (elevation_deg * Math.PI) / 180];
+  return [m * Math.cos(e) * Math.sin(a), m * Math.cos(e) * Math.cos(a), m * Math.sin(e)];
+};
+
+export function roundStep(size_m: number): number {
+  const power = 10 ** Math.floor(Math.log10(Math.max(size_m, 1)));
+  return [1, 2, 5, 10].map((part) => part * power).find((step) => step >= size_m)!;
+}
+
+export function groundStrokes(eye: Eye, colour: string): Stroke[] {
+  const step = roundStep(eye.away_m / 12);
+  const [e0, n0] = [Math.round(eye.at[0] / step) * step, Math.round(eye.at[1] / step) * step];
+  const strokes: Stroke[] = [];
+  for (let i = -10; i <= 10; i++) {
+    strokes.push({ points: [[e0 + i * step, n0 - 10 * step, 0], [e0 + i * step, n0 + 10 * step, 0]], colour, width: 1 });
+    strokes.push({ points: [[e0 - 10 * step, n0 + i * step, 0], [e0 + 10 * step, n0 + i * step, 0]], colour, width: 1 });
+  }
+  return strokes;
+}
+
+export class Scene {
+  strokes: Stroke[] = [];
+  names: Name[] = [];
+
+  constructor(
+    private frame: Frame,
+    private colour: (name: string) => string,
+    private larger: number,
+  ) {}
+
+  addStation(s: Station, reach_m: number, layers: Layers, isSelected: boolean) {
+    if (s.latitude_deg == null || s.longitude_deg == null || s.height_m == null) return;
+    const at = this.frame.place(s.latitude_deg, s.longitude_deg, s.height_m);
+    const colour = this.colour(s.stale ? "--map-station-quiet" : isSelected ? "--map-accent" : "--map-station");
+    this.names.push({ id: `station:${s.id}`, at, text: s.id, colour });
+    if (layers.limits) this.addBorders(s, at, 0.15 * reach_m);
+    if (s.stale) return;
+    if (layers.views) this.addView(s, at, 0.3 * reach_m);
+    if (s.state !== "tracking" || !s.bearing) return;
+    const far = plus(at, along(s.bearing.azimuth_deg, s.bearing.elevation_deg, reach_m));
+    this.strokes.push({ points: [at, far], colour: this.colour("--map-ray"), width: isSelected ? 2 : 1.2 });
+  }
+
+  // The four edges of what the camera sees, and the picture's frame at their ends.
+  private addView(s: Station, at: Vector, reach_m: number) {
+    const [wide, high] = s.field_of_view_deg ?? [];
+    if (s.azimuth_deg == null || s.elevation_deg == null || !wide || !high) return;
+    const forward = along(s.azimuth_deg, s.elevation_deg, 1);
+    const right = along(s.azimuth_deg + 90, 0, 1);
+    const up = along(s.azimuth_deg, s.elevation_deg + 90, 1);
+    const [x, y] = [Math.tan((wide * Math.PI) / 360), Math.tan((high * Math.PI) / 360)];
+    const corner = (i: number, j: number) => at.map((v, k) => v + reach_m * (forward[k] + i * x * right[k] + j * y * up[k])) as Vector;
+    const frame = [corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1)];
+    const colour = this.colour("--map-ring");
+    this.strokes.push({ points: [...frame, frame[0]], colour, width: 1 });
+    for (const one of frame) this.strokes.push({ points: [at, one], colour, width: 1 });
+  }
+
+  // Where the axis may not point, and where the travel ends: on a sphere about the station.
+  private addBorders(s: Station, at: Vector, radius_m: number) {
+    for (const border of s.borders ?? []) {
+      const round = fineOutline(border).map(([azimuth, elevation]) => plus(at, along(azimuth, elevation, radius_m)));
+      const stroke = border.keep_out ? { colour: this.colour("--map-alarm"), width: 1.5, dash: [7, 4] } : { colour: this.colour("--map-rule-text"), width: 1, dash: [2, 5] };
+      this.strokes.push({ points: [...round, round[0]], ...stroke });
+    }
+  }
+
+  // Of a station whose object has no position yet.
+  addLine(line: Line, s: Station | undefined, reach_m: number) {
+    if (line.stale || s?.latitude_deg == null || s.longitude_deg == null || s.height_m == null) return;
+    const at = this.frame.place(s.latitude_deg, s.longitude_deg, s.height_m);
+    this.strokes.push({ points: [at, plus(at, along(line.azimuth_deg, line.elevation_deg, reach_m))], colour: this.colour("--map-born"), width: 1.5, dash: [8, 6] });
+  }
+
+  addTarget(target: Target, isSelected: boolean, trails: boolean): Vector | null {
+    if (target.latitude_deg == null) return null;
+    const at = this.frame.place(target.latitude_deg, target.longitude_deg, target.height_m);
+    const colour = this.colour(target.stale ? "--map-coasted" : "--map-target");
+    const trail = (target.trail ?? []).map(([longitude, latitude, height]) => this.frame.place(latitude, longitude, height));
+    if (trails) this.strokes.push({ points: [...trail, at], colour: this.colour("--map-trail"), width: isSelected ? 2.5 : 1.5 });
+    this.strokes.push({ points: [at, [at[0], at[1], 0]], colour, width: 1, dash: [3, 4] });
+    for (const ring of ellipsoid(target.covariance_enu_m2, this.larger)) {
+      this.strokes.push({ points: ring.map((point) => plus(at, point)), colour, width: isSelected ? 2 : 1.2 });
+    }
+    this.names.push({ id: `target:${target.id}`, at, text: `${target.id}  ${fixed(target.height_m, 0, " m")}`, colour: isSelected ? this.colour("--map-accent") : colour });
+    return at;
+  }
+
+  addRings(step_m: number) {
+    for (let i = 1; i <= RINGS; i++) {
+      const round = Array.from({ length: 73 }, (_, k) => along(5 * k, 0, i * step_m));
+      this.strokes.push({ points: round, colour: this.colour("--map-ring"), width: 1 });
+      const north = i === RINGS ? "N   " : "";
+      this.names.push({ id: "", at: round[0], text: north + distance(i * step_m), colour: this.colour("--map-rule-text"), isPlain: true });
+    }
+  }
+
+  // What is measured: a line, and its ends.
+  addMeasured(ends: Vector[]) {
+    const colour = this.colour("--map-accent");
+    if (ends.length === 2) this.strokes.push({ points: ends, colour, width: 2, dash: [6, 4] });
+    for (const at of ends) this.names.push({ id: "", at, text: "", colour });
+  }
+
+  placeOf(id: string): Vector | undefined {
+    return id ? this.names.find((one) => one.id === id)?.at : undefined;
+  }
+
+  // The thing at a pixel: the nearest; "" for none.
+  thingAt(pixel: [number, number], eye: Eye, size: [number, number]): string {
+    const project = projector(eye, ...size);
+    const away = (name: Name) => {
+      const at = name.id && project(name.at);
+      return at ? Math.hypot(at[0] - pixel[0], at[1] - pixel[1]) : Infinity;
+    };
+    const nearest = [...this.names].sort((a, b) => away(a) - away(b))[0];
+    return nearest && away(nearest) < NEAR_PX ? nearest.id : "";
+  }
+}
+
+type Pixel = [number, number] | null;
+
+const focalPx = (width: number, height: number) => FOCAL * Math.min(width, height * 1.3);
+
+function projector(eye: Eye, width: number, height: number): (place: Vector) => Pixel {
+  const [sa, ca, se, ce] = [Math.sin(eye.azimuth), Math.cos(eye.azimuth), Math.sin(eye.elevation), Math.cos(eye.elevation)];
+  return ([e, n, u]) => {
+    const [x, y, z] = [e - eye.at[0], n - eye.at[1], u - eye.at[2]];
+    const right = x * ca - y * sa;
+    const into = x * sa + y * ca; // horizontally, away from the eye
+    const depth = eye.away_m + into * ce - z * se;
+    if (depth < 1) return null;
+    const k = focalPx(width, height) / depth;
+    return [width / 2 + k * right, height / 2 - k * (into * se + z * ce)];
+  };
+}
+
+export function draw(canvas: HTMLCanvasElement, scene: Scene, ground: Stroke[], eye: Eye, colour: (name: string) => string) {
+  const [width, height] = [canvas.clientWidth, canvas.clientHeight];
+  canvas.width = Math.round(width * devicePixelRatio);
+  canvas.height = Math.round(height * devicePixelRatio);
+  const g = canvas.getContext("2d")!;
+  g.scale(devicePixelRatio, devicePixelRatio);
+  g.fillStyle = colour("--map-sea");
+  g.fillRect(0, 0, width, height);
+  const project = projector(eye, width, height);
+  for (const stroke of [...ground, ...scene.strokes]) {
+    g.beginPath();
+    let before: Pixel = null;
+    for (const point of stroke.points) {
+      const at = project(point);
+      if (at && before) g.lineTo(...at);
+      else if (at) g.moveTo(...at);
+      before = at;
+    }
+    g.strokeStyle = stroke.colour;
+    g.lineWidth = stroke.width;
+    g.setLineDash(stroke.dash ?? []);
+    g.stroke();
+  }
+  for (const name of scene.names) {
+    g.font = `${name.isPlain ? 400 : 600} 12px Inter, system-ui, 'DejaVu Sans', sans-serif`;
+    const at = project(name.at);
+    if (!at) continue;
+    if (!name.isPlain) {
+      g.fillStyle = name.colour;
+      g.beginPath();
+      g.arc(...at, 4.5, 0, 2 * Math.PI);
+      g.fill();
+    }
+    g.lineWidth = 3;
+    g.setLineDash([]);
+    g.strokeStyle = colour("--map-halo");
+    g.strokeText(name.text, at[0] + 8, at[1] - 6);
+    g.fillStyle = name.isPlain ? name.colour : colour("--map-text");
+    g.fillText(name.text, at[0] + 8, at[1] - 6);
+  }
+}
+
+// Where the line of sight through a pixel meets the ground, at the height of the site's middle; null: nowhere.
+export function groundAt([x, y]: [number, number], eye: Eye, [width, height]: [number, number]): Vector | null {
+  const [sa, ca, se, ce] = [Math.sin(eye.azimuth), Math.cos(eye.azimuth), Math.sin(eye.elevation), Math.cos(eye.elevation)];
+  const k = focalPx(width, height);
+  const [a, b, z] = [(x - width / 2) / k, (height / 2 - y) / k, -eye.at[2]];
+  const below = se - b * ce; // of the horizon
+  if (below < 1e-3) return null;
+  const into = (b * eye.away_m - b * z * se - z * ce) / below;
+  const right = a * (eye.away_m + into * ce - z * se);
+  return [eye.at[0] + right * ca + into * sa, eye.at[1] - right * sa + into * ca, 0];
+}
+
+// So that all of the site is in sight.
+export function around(places: Vector[]): { at: Vector; away_m: number } {
+  const middle = (i: number) => (Math.min(...places.map((p) => p[i])) + Math.max(...places.map((p) => p[i]))) / 2;
+  const at: Vector = [middle(0), middle(1), middle(2)];
+  const size = Math.max(100, ...places.map((p) => Math.hypot(p[0] - at[0], p[1] - at[1], p[2] - at[2])));
+  return { at, away_m: 3.2 * size };
+}

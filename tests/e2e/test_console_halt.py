@@ -1,0 +1,134 @@
+"""The link between the browser and the console is cut while the operator holds the joystick: a real
+station's unit is at rest within lease + v/a, by the simulator's truth of its shaft."""
+
+import time
+
+import numpy as np
+import pytest
+from conftest import BIN, ROOT
+from console_cable import Cable
+from console_page import picture
+from console_site import browser
+from ols_demo.bus import LIVE_URL, Bus
+from ols_demo.keys import members_of_environment
+from ols_demo.observer import Observer
+from ols_demo.site import Site, bring_up_loopback
+from ols_demo.wiring import Wiring
+from playwright.sync_api import expect
+
+STATION = "alfa"
+SCENARIO = ROOT / "sim/scenarios/fig7.toml"
+LEASE_S = 0.3
+ACCELERATION_RAD_S2 = 1.0  # acceleration_deg_s2 of docs/configuration.md
+STANDING_RAD_S = 0.002  # a twentieth of the rate that is held
+BY_S = 0.02  # over which a rate of the shaft is taken
+RUNS = 3
+PATIENCE_S = 30.0
+
+
+class Shaft(Observer):
+    """Remembers where the shaft was: time [s UTC], pan [rad]."""
+
+    def __init__(self):
+        super().__init__()
+        self.samples = []
+
+    def receive(self, channel, message):
+        super().receive(channel, message)
+        if channel == f"OLS_SIM_PTU_{STATION}":
+            for k, pan_rad in enumerate(message.pan_rad):
+                self.samples.append((message.utime * 1e-6 + k * message.interval_s, pan_rad))
+
+    def rates(self, since_s):
+        """When, and how fast it turned until then [rad/s]."""
+        time_s, pan_rad = np.array([s for s in self.samples if s[0] >= since_s]).T
+        step = max(1, round(BY_S / np.median(np.diff(time_s))))
+        turned = (pan_rad[step:] - pan_rad[:-step]) / (time_s[step:] - time_s[:-step])
+        return time_s[step:], np.abs(turned)
+
+
+@pytest.fixture
+def site(network, tmp_path):
+    wiring = Wiring(BIN, SCENARIO, 1, tmp_path)
+    bring_up_loopback(wiring.prepare())
+    with Site(tmp_path / "logs") as started:
+        sim = [wiring.program("ols-sim"), "--scenario", str(SCENARIO)]
+        sim += ["--seed", "1", "--lcm-url", LIVE_URL, "--directory", str(tmp_path / "lines")]
+        started.start_and_wait("ols-sim", sim, "ready")
+        wiring.start_station(started, STATION)
+        yield wiring.start_console(started)
+        started.check()
+
+
+def listen(bus, condition, what):
+    end = time.monotonic() + PATIENCE_S
+    while not condition():
+        assert time.monotonic() < end, f"not within {PATIENCE_S:.0f} s: {what()}"
+        bus.handle(0.02)
+
+
+def turn(page, shaft, bus, key):
+    """Holds the key until the unit turns evenly. A hold that has ended, as the page ends it when it
+    has heard nothing for a while, needs a new press."""
+    page.keyboard.down(key)
+    pressed_s = time.time()
+
+    def seen():
+        newest_s = shaft.samples[-1][0] if shaft.samples else 0.0
+        _, rates = shaft.rates(newest_s - 0.5) if shaft.samples else (0, np.array([np.nan]))
+        state = shaft.status[STATION].state if STATION in shaft.status else "silent"
+        return (
+            f"the unit turns evenly; {rates.min():.4f} to {rates.max():.4f} rad/s, "
+            f"known {time.time() - newest_s:.1f} s ago, pressed {time.time() - pressed_s:.1f} s "
+            f"ago, state {state}"
+        )
+
+    def turns():
+        nonlocal pressed_s
+        until_s = shaft.samples[-1][0] if shaft.samples else 0.0
+        if until_s < pressed_s + 1.0:
+            return False
+        times, rates = shaft.rates(until_s - 0.5)
+        if rates.max() < STANDING_RAD_S:
+            print("the hold has ended: another press")
+            page.keyboard.up(key)
+            page.keyboard.down(key)
+            pressed_s = time.time()
+        return np.ptp(rates) < 0.2 * rates.min()
+
+    listen(bus, turns, seen)
+
+
+def halt(page, cable, shaft, bus, key):
+    """Cuts the link in the middle of a hold: the rate then [rad/s], and until when it moved [s]."""
+    turn(page, shaft, bus, key)
+    cut_s = cable.cut()
+    listen(bus, lambda: shaft.samples[-1][0] > cut_s + 2.5, lambda: "two more seconds of truth")
+    times, rates = shaft.rates(cut_s - 0.1)
+    moving = times[rates > STANDING_RAD_S]
+    rate = float(np.median(rates[times < cut_s]))
+    # And it stays there, whatever is still held, and by the station's own word.
+    cable.mend()
+    expect(page.get_by_text("No connection to the console")).to_be_hidden()
+    status, angle = shaft.status[STATION], shaft.samples[-1][1]
+    listen(
+        bus, lambda: shaft.status[STATION].utime > status.utime + 1_500_000, lambda: "its status"
+    )
+    assert shaft.samples[-1][1] == pytest.approx(angle, abs=1e-4)
+    assert shaft.status[STATION].pan_rad == pytest.approx(status.pan_rad, abs=1e-3)
+    page.keyboard.up(key)
+    return rate, float(moving[-1] - cut_s)
+
+
+def test_a_cut_link_during_a_hold_leaves_the_unit_at_rest_in_time(site):
+    shaft = Shaft()
+    bus = Bus(LIVE_URL, shaft.receive, members_of_environment())
+    with Cable(site) as cable, browser() as chromium:
+        page = chromium.new_page(viewport={"width": 1280, "height": 800})
+        page.goto(cable.address)
+        for run in range(RUNS):
+            picture(page, STATION).focus()
+            rate, rest_s = halt(page, cable, shaft, bus, ["ArrowRight", "ArrowLeft"][run % 2])
+            print(f"at {rate:.3f} rad/s: moves for {rest_s:.3f} s after the cut")
+            assert rate > 10 * STANDING_RAD_S
+            assert rest_s <= LEASE_S + rate / ACCELERATION_RAD_S2 + BY_S
