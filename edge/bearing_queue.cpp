@@ -46,6 +46,9 @@ std::optional<MadeBearing> BearingQueue::make(const PixelMeasurement& measured,
                   measured.stamp_sd_s,     measured.stamp_source};
   bearing.pose_revision = pointing.pose_revision();
   bearing.sight.origin_sd_enu_m = pointing.pose().position_sd_enu_m;
+  bearing.pixel = measured.output.pixel;
+  bearing.covariance_px2 = measured.output.covariance_px2;
+  bearing.designation_sd_px = measured.designation_sd_px;
   return MadeBearing{bearing, angles->reported};
 }
 

@@ -1,3 +1,4 @@
+// What a station's configuration amounts to, in words (--check-config).
 #include <cstdio>
 
 #include "edge/config.h"

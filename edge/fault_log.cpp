@@ -1,21 +1,13 @@
 #include "edge/fault_log.h"
 
-#include <cctype>
-
 namespace ols::station {
-namespace {
 
-std::string without_digits(std::string text) {
-  std::erase_if(text, [](unsigned char c) { return std::isdigit(c) != 0; });
-  return text;
-}
-
-}  // namespace
-
-void FaultLog::set(const std::string& source, const std::string& what, std::int64_t utime_us) {
-  news_.push_back({source, source + ": " + what, true});
-  text_ = what;
+void FaultLog::set(const std::string& source, JournalEvent event, std::int64_t utime_us) {
+  text_ = event.reason;
   utime_us_ = utime_us;
+  event.text = source + ": " + event.reason;
+  event.bad = true;
+  news_.push_back({source, std::move(event)});
 }
 
 void FaultLog::note(const std::string& source, const std::string& what, std::uint64_t number,
@@ -24,7 +16,9 @@ void FaultLog::note(const std::string& source, const std::string& what, std::uin
   if (what.empty()) return;
   Noted& last = noted_[source];
   if (last.what == what && last.number == number) return;
-  if (last.what != what || utime_us - last.utime_us > kQuiet_us) set(source, what, utime_us);
+  if (last.what != what || utime_us - last.utime_us > kQuiet_us) {
+    set(source, {.id = event::kDeviceError, .device = source, .reason = what}, utime_us);
+  }
   last = {what, number, utime_us};
 }
 
@@ -33,34 +27,30 @@ void FaultLog::note_event(const std::string& source, const std::string& what, st
   if (what.empty()) return;
   Noted& last = noted_[source];
   if (last.what == what && last.number == number) return;
-  set(source, what, utime_us);
+  set(source, {.id = event::kCommandRefused, .reason = what}, utime_us);
   last = {what, number, utime_us};
 }
 
 void FaultLog::note_alarms(const std::vector<std::string>& alarms, std::int64_t utime_us) {
-  std::map<std::string, std::string> now;
-  for (const std::string& alarm : alarms) {
-    const std::string key = without_digits(alarm);
-    if (!alarms_.contains(key)) {
-      news_.push_back({key, "alarm: " + alarm, true});
-      text_ = alarm;
-      utime_us_ = utime_us;
-    }
-    now[key] = alarm;
+  for (const AlarmChanges::Change& change : alarms_.look(alarms)) {
+    news_.push_back({change.key, station_alarm_event(change.alarm, change.begins)});
+    if (!change.begins) continue;
+    text_ = change.alarm;
+    utime_us_ = utime_us;
   }
-  for (const auto& [key, alarm] : alarms_) {
-    if (!now.contains(key)) news_.push_back({key, "over: " + alarm, false});
-  }
-  alarms_ = std::move(now);
 }
 
-void FaultLog::note_state(const std::string& source, const std::string& state,
-                          const std::string& details, bool bad) {
+void FaultLog::note_state(const std::string& source, const State& state) {
   std::string& last = states_[source];
-  if (last == state) return;
-  last = state;
-  const std::string text = source + " " + state;
-  news_.push_back({text, details.empty() ? text : text + ": " + details, bad});
+  if (last == state.name) return;
+  last = state.name;
+  const std::string text = source + " " + state.name;
+  JournalEvent event{.text = state.details.empty() ? text : text + ": " + state.details,
+                     .bad = state.bad,
+                     .id = state.id,
+                     .device = source,
+                     .reason = state.details.empty() ? state.name : state.details};
+  news_.push_back({text, std::move(event)});
 }
 
 }  // namespace ols::station

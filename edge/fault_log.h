@@ -8,7 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "edge/journal.h"
+#include "base/alarm_changes.h"
+#include "base/news_limit.h"
 
 namespace ols::station {
 
@@ -27,8 +28,12 @@ class FaultLog {
   void note_alarms(const std::vector<std::string>& alarms, std::int64_t utime_us);
 
   // The state of a source that always has one. A changed state is news; changed `details` are not.
-  void note_state(const std::string& source, const std::string& state, const std::string& details,
-                  bool bad);
+  struct State {
+    std::string name, details;
+    bool bad = false;
+    event::Id id{};  // of its beginning
+  };
+  void note_state(const std::string& source, const State& state);
 
   // What began or ended since the last call, in order.
   std::vector<News> take_event() { return std::exchange(news_, {}); }
@@ -42,10 +47,10 @@ class FaultLog {
     std::uint64_t number = 0;
     std::int64_t utime_us = 0;  // when it was last reported
   };
-  void set(const std::string& source, const std::string& what, std::int64_t utime_us);
+  void set(const std::string& source, JournalEvent event, std::int64_t utime_us);
 
   std::map<std::string, Noted> noted_;
-  std::map<std::string, std::string> alarms_;  // by their text without digits
+  AlarmChanges alarms_;
   std::map<std::string, std::string> states_;  // by source
   std::vector<News> news_;
   std::string text_;

@@ -1,4 +1,5 @@
-// Requested frames on their way: from the request to the parts that fit into datagrams.
+// What of the unit's counts goes out: requested frames on their way, from the request to the parts
+// that fit into datagrams; and sightings.
 #pragma once
 
 #include <cstdint>
@@ -6,10 +7,12 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "edge/clock/clock_pair.h"
 #include "edge/frame_post.h"
 #include "edge/frame_service.h"
+#include "edge/sighting_desk.h"
 
 namespace ols::station {
 
@@ -30,10 +33,15 @@ class FrameDesk {
   // Passes on what is complete; never waits.
   void look(const clock::ClockPair& now);
   std::optional<FramePart> next();
+  // In time order; what is to be told now.
+  std::vector<Sighting> sightings(const Bearing& bearing, std::int64_t utime_us) {
+    return sightings_.take(bearing, utime_us, service_);
+  }
 
  private:
   FrameService service_;
   FramePost post_;
+  SightingDesk sightings_;
   std::deque<FramePart> parts_;  // of one frame
 };
 

@@ -23,4 +23,16 @@ const camera::Frame* FrameHistory::find(const std::optional<double>& mid_exposur
   return distance_s(*nearest) < kSameFrame_s ? &*nearest : nullptr;
 }
 
+std::vector<const camera::Frame*> FrameHistory::since(double mid_exposure_s) const {
+  const auto first = std::ranges::upper_bound(
+      frames_, mid_exposure_s, {}, [](const auto& frame) { return frame.mid_exposure_s; });
+  const auto count = static_cast<std::size_t>(frames_.end() - first);
+  const std::size_t stride = std::max<std::size_t>(1, (count + kMostSince - 1) / kMostSince);
+  std::vector<const camera::Frame*> chosen;
+  for (std::size_t i = 0; i < count; ++i) {
+    if ((count - 1 - i) % stride == 0) chosen.push_back(&first[static_cast<std::ptrdiff_t>(i)]);
+  }
+  return chosen;
+}
+
 }  // namespace ols::station

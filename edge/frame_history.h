@@ -1,10 +1,12 @@
-// The frames of the last second: an operator designates in an image that is not the newest, and
+// The frames of the last seconds: an operator designates in an image that is not the newest, and
 // acquisition compares images. Bounded by its span: of 1280 x 960 at 30 Hz a second is 37 MB in
 // grey, as much again with a Bayer mosaic beside it. Pure.
 #pragma once
 
+#include <cstddef>
 #include <deque>
 #include <optional>
+#include <vector>
 
 #include "edge/camera/frame.h"
 
@@ -18,6 +20,10 @@ class FrameHistory {
   bool add(const camera::Frame& frame);
   // Without a time: the newest. Null: no frame of that instant.
   const camera::Frame* find(const std::optional<double>& mid_exposure_s) const;
+  // Those after this instant, oldest first: all, or every second, third, ... so that there are at
+  // most kMostSince, the newest among them: the control loop waits while they are looked at.
+  std::vector<const camera::Frame*> since(double mid_exposure_s) const;
+  static constexpr std::size_t kMostSince = 33;
   // Oldest first.
   const std::deque<camera::Frame>& frames() const { return frames_; }
 

@@ -2,6 +2,8 @@
 
 #include <opencv2/imgcodecs.hpp>
 
+#include "edge/device/behind_control_loop.h"
+
 namespace ols::station {
 namespace {
 
@@ -39,6 +41,7 @@ std::optional<EncodedFrame> FramePost::take() {
 }
 
 void FramePost::work(const std::stop_token& stop) {
+  device::go_behind_control_loop();
   std::unique_lock lock(mutex_);
   while (arrived_.wait(lock, stop, [this] { return !waiting_.empty(); })) {
     // It counts as waiting until it is done.

@@ -56,9 +56,10 @@ class FrameService {
 
   // The answers that are complete: the unit has reported angles on both sides of the exposure.
   std::vector<RequestedFrame> take(double now_s);
+  // Nothing where it has not, or where nobody knows what a count is.
+  std::optional<ExposedCounts> counts_at(double time_s) const;
 
  private:
-  std::optional<ExposedCounts> counts_at(double time_s) const;
   bool stood(double from_s, double to_s) const;
   bool meets(const FrameRequest& wanted, const camera::Frame& frame,
              const ExposedCounts& counts) const;

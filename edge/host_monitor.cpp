@@ -106,9 +106,24 @@ HostMonitor::~HostMonitor() {
   shared_->ended.notify_all();
 }
 
-void HostMonitor::note_turn(double seconds) {
-  slowest_s_ = std::max(slowest_s_, seconds);
+void HostMonitor::note_turn(double seconds, double waited_s) {
+  const double worked_s = seconds - waited_s;
+  slowest_s_ = std::max(slowest_s_, worked_s);
   if (seconds > kSlowTurn_s) ++slow_turns_;
+  if (turns_s_.size() < kKept) {
+    turns_s_.push_back(worked_s);
+  } else {
+    turns_s_[turns_ % kKept] = worked_s;
+  }
+  ++turns_;
+}
+
+double HostMonitor::turn_p99_s() const {
+  if (turns_s_.empty()) return 0.0;
+  std::vector<double> sorted = turns_s_;
+  const auto at = static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(sorted.size() - 1));
+  std::ranges::nth_element(sorted, sorted.begin() + at);
+  return sorted[static_cast<std::size_t>(at)];
 }
 
 HostReport HostMonitor::look(double now_s) {
@@ -126,6 +141,7 @@ HostReport HostMonitor::look(double now_s) {
                             in_words(" does not answer for %.0f s", age_s));
   }
   report.readings["slowest_turn_s"] = slowest_s_;
+  report.readings["turn_p99_s"] = turn_p99_s();
   slowest_s_ = 0.0;
   return report;
 }

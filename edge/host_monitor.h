@@ -2,6 +2,7 @@
 // loop. It reads in its own thread, because a network disk that hangs must not block the loop.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -46,17 +47,23 @@ class HostMonitor {
   HostMonitor(const HostMonitor&) = delete;
   HostMonitor& operator=(const HostMonitor&) = delete;
 
-  void note_turn(double seconds);
+  // How long it took, without `waited_s` in it, in which it waited for a frame.
+  void note_turn(double seconds, double waited_s = 0.0);
   // The newest reading; never waits. `now_s`: CLOCK_MONOTONIC.
   HostReport look(double now_s);
   std::uint64_t slow_turns() const { return slow_turns_; }
 
  private:
-  struct Shared;  // with the thread
+  struct Shared;                              // with the thread
+  static constexpr std::size_t kKept = 1000;  // turns, of some ten seconds
+
+  double turn_p99_s() const;
 
   HostConfig config_;
   std::shared_ptr<Shared> shared_;
-  double slowest_s_ = 0.0;  // since the last report
+  double slowest_s_ = 0.0;       // since the last report
+  std::vector<double> turns_s_;  // the last of them, the oldest at turns_ % kKept
+  std::uint64_t turns_ = 0;
   std::uint64_t slow_turns_ = 0;
 };
 

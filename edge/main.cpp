@@ -12,6 +12,7 @@
 #include "base/boot_id.h"
 #include "base/command_line.h"
 #include "base/csv_files.h"
+#include "base/journal.h"
 #include "base/shutdown.h"
 #include "base/toml_config.h"
 #include "base/trust/bus_trust.h"
@@ -38,8 +39,11 @@ void say_site(const StationSettings& settings) {
   if (settings.site.number == 0) return;
   std::string own;
   for (const std::string& key : settings.site.own) own += (own.empty() ? "" : ", ") + key;
-  spdlog::info("site settings {} in use{}{}", settings.site.number,
-               own.empty() ? "" : "; this station's file says otherwise for ", own);
+  ols::write_to_journal(
+      {.text = fmt::format("site settings {} in use{}{}", settings.site.number,
+                           own.empty() ? "" : "; this station's file says otherwise for ", own),
+       .id = ols::event::kSiteSettings,
+       .station = settings.id});
 }
 
 int run(const std::string& config, const StationSettings& own) {
@@ -48,11 +52,15 @@ int run(const std::string& config, const StationSettings& own) {
       load(config, ols::trust::settings_at_start(own.trust, trust_environment(own), own.id,
                                                  ols::station::site_check(config)));
   ols::station::StationProcess process(settings, ols::draw_boot_id());
-  spdlog::info("station {} ready: camera {}, PTU {}, bus {}", settings.id, settings.camera.device,
-               settings.ptu.device, settings.lcm_url);
+  ols::write_to_journal(
+      {.text = fmt::format("station {} ready: camera {}, PTU {}, bus {}", settings.id,
+                           settings.camera.device, settings.ptu.device, settings.lcm_url),
+       .id = ols::event::kReady,
+       .station = settings.id});
   say_site(settings);
   process.run(ols::shutdown_requested);
-  spdlog::info("station {} stops", own.id);
+  ols::write_to_journal(
+      {.text = "station " + own.id + " stops", .id = ols::event::kStops, .station = own.id});
   return 0;
 }
 

@@ -7,6 +7,7 @@
 #include "base/message_stamp.h"
 #include "edge/messages_borders.h"
 #include "edge/messages_lens.h"
+#include "edge/messages_sighting.h"
 #include "geometry/angles.h"
 
 namespace ols::station {
@@ -234,6 +235,16 @@ ols_msg::bearing_t to_message(const Bearing& bearing, const Sender& sender,
   message.stamp_source = bearing.stamp_source == camera::StampSource::kCamera
                              ? ols_msg::bearing_t::STAMP_CAMERA
                              : ols_msg::bearing_t::STAMP_ARRIVAL;
+  message.clock_error_s = sender.clock.error_s;
+  return message;
+}
+
+ols_msg::sighting_t to_message(const Sighting& sighting, const Sender& sender,
+                               std::int64_t sequence) {
+  ols_msg::sighting_t message;
+  stamp(message, sender, sighting.utime_us, sequence);
+  fill_sighting(sighting, message);
+  message.clock_state = clock_code(sender.clock.state);
   message.clock_error_s = sender.clock.error_s;
   return message;
 }

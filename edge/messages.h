@@ -18,6 +18,7 @@
 #include "ols_msg/preview_t.hpp"
 #include "ols_msg/ptu_command_t.hpp"
 #include "ols_msg/record_t.hpp"
+#include "ols_msg/sighting_t.hpp"
 #include "ols_msg/slew_t.hpp"
 #include "ols_msg/station_status_t.hpp"
 
@@ -36,6 +37,9 @@ struct Sender {
 
 ols_msg::bearing_t to_message(const Bearing& bearing, const Sender& sender,
                               const StationSettings& settings, std::int64_t sequence);
+
+ols_msg::sighting_t to_message(const Sighting& sighting, const Sender& sender,
+                               std::int64_t sequence);
 
 ols_msg::station_status_t to_message(const StationReport& report, const Sender& sender,
                                      const StationSettings& settings, double now_s,

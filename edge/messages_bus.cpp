@@ -4,6 +4,7 @@
 
 #include "base/channel_names.h"
 #include "base/clocks.h"
+#include "base/journal.h"
 
 namespace ols::station {
 namespace {
@@ -17,6 +18,10 @@ std::shared_ptr<trust::BusTrust> open_trust(const StationSettings& settings, std
   self.boot_id = boot_id;
   self.is_station = true;
   self.settings = site_check(settings.site.file);
+  self.list_taken = [station = settings.id](const trust::TrustList& list) {
+    write_to_journal(
+        {.text = list.in_one_line() + "; taken", .id = event::kTrustList, .station = station});
+  };
   return trust::BusTrust::open(settings.trust, environment, self);
 }
 
@@ -243,6 +248,11 @@ std::map<std::string, double> StationBus::counters() const {
 void StationBus::send(const Bearing& bearing) {
   publish(station_channel(kBearingChannel, settings_.id),
           to_message(bearing, sender_, settings_, ++sequences_["bearing"]));
+}
+
+void StationBus::send(const Sighting& sighting) {
+  publish(station_channel(kSightingChannel, settings_.id),
+          to_message(sighting, sender_, ++sequences_["sighting"]));
 }
 
 void StationBus::send(StationReport report) {

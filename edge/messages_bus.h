@@ -65,6 +65,7 @@ class StationBus {
   std::map<std::string, double> counters() const;
 
   void send(const Bearing& bearing);
+  void send(const Sighting& sighting);
   void send(StationReport report);
   void send(const FramePart& part);
   void send_preview(const camera::Frame& frame, const std::optional<cv::Rect2d>& box);

@@ -1,3 +1,4 @@
+// Which keys of a station the settings of the whole site may set.
 #include <algorithm>
 
 #include "base/config_section.h"

@@ -13,6 +13,8 @@ void SlewSearch::restart(bool found) {
 
 namespace {
 
+constexpr double kCompared_s = 1.0;  // pictures older than that show another scene
+
 // Of a line through a pixel, where it passes nearest to the middle of the picture.
 Eigen::Vector2d nearest_to_middle(const Eigen::Vector2d& pixel, const Eigen::Vector2d& line,
                                   const CameraIntrinsics& camera) {
@@ -117,6 +119,7 @@ std::optional<cv::Rect2d> SlewSearch::acquire(const std::deque<camera::Frame>& f
     view.drift_px = kUnknownRate_rad_s * pointing.geometry().camera.fx_px * since_s;
   }
   for (auto earlier = frames.rbegin() + 1; earlier != frames.rend(); ++earlier) {
+    if (frame.mid_exposure_s - earlier->mid_exposure_s > kCompared_s) break;
     const auto then = expected(*earlier, pointing, slew);
     if (!then) continue;
     const Eigen::Matrix3d homography =

@@ -162,9 +162,9 @@ Refusal Station::designate(const DesignateCommand& command, double now_s) {
   motion_.clear();
   bearings_.clear();
   enter(StationState::kTracking);
-  // The operator saw an old frame: process the frames since then.
-  for (const camera::Frame& frame : frames_.frames()) {
-    if (frame.mid_exposure_s > start->mid_exposure_s && follows_target()) track(frame);
+  // The operator saw an old frame: the target is followed through those since then.
+  for (const camera::Frame* frame : frames_.since(start->mid_exposure_s)) {
+    if (follows_target()) track(*frame);
   }
   return count(Refusal::kNone, "designate");
 }

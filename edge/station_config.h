@@ -27,7 +27,7 @@ struct StationConfig {
   double coast_s = 0.7;            // by the motion model, after the last believed frame
   int reacquire_frames = 3;        // consecutive believed frames that end a search
   double angle_wait_s = 0.03;      // maximum wait of a frame for the next PTU sample
-  double frame_memory_s = 1.0;     // frames are kept this long for a designation
+  double frame_memory_s = 3.0;     // frames are kept this long for a designation: a person's drag
   double search_interval_s = 0.5;  // between two hints of the slew's pixel to a searching tracker
   double search_sd_px = 25.0;      // minimum, around that pixel; at most max_search_sd_px()
   bool acquire_by_slew = true;     // a slewed station without a target acquires one,

@@ -1,18 +1,38 @@
 #include "edge/station_journal.h"
 
-#include <spdlog/spdlog.h>
+#include <utility>
 
 namespace ols::station {
+namespace {
+
+FaultLog::State state_of(StationState state) {
+  const bool emergency = state == StationState::kEmergency;
+  return {to_string(state), "", emergency || state == StationState::kLost,
+          emergency ? event::kEmergencyStop : event::kStationState};
+}
+
+FaultLog::State state_of(const device::DeviceReport& device) {
+  using device::DeviceState;
+  const bool ails = device.state == DeviceState::kAbsent || device.state == DeviceState::kFault;
+  FaultLog::State state{to_string(device.state), ails ? device.text : "", ails};
+  if (ails) state.id = event::kDeviceLost;
+  if (device.state == DeviceState::kOk) state.id = event::kDeviceWorks;
+  return state;
+}
+
+}  // namespace
+
+StationJournal::StationJournal(std::string station, Write write)
+    : station_(std::move(station)), write_(std::move(write)) {}
 
 void StationJournal::note(const clock::ClockPair& now, const Bus& bus, StationReport& report) {
   note_devices(report, now.utime_us);
   troubles_.note_alarms(all_alarms(report), now.utime_us);
   note_bus(bus, now.utime_us);
-  const StationState state = report.snapshot.state;
-  const bool bad = state == StationState::kLost || state == StationState::kEmergency;
-  troubles_.note_state("station", to_string(state), "", bad);
-  for (const JournalLine& line : journal_.pass(troubles_.take_event(), now.monotonic_s)) {
-    spdlog::log(line.bad ? spdlog::level::warn : spdlog::level::info, "{}", line.text);
+  troubles_.note_state("station", state_of(report.snapshot.state));
+  for (JournalEvent& event : limit_.pass(troubles_.take_event(), now.monotonic_s)) {
+    event.station = station_;
+    write_(event);
   }
   report.last_error = troubles_.text();
   report.last_error_utime_us = troubles_.utime_us();
@@ -21,9 +41,7 @@ void StationJournal::note(const clock::ClockPair& now, const Bus& bus, StationRe
 void StationJournal::note_devices(const StationReport& report, std::int64_t utime_us) {
   for (const device::DeviceReport& device : report.devices) {
     troubles_.note(device.name, device.last_error, device.errors, utime_us);
-    const bool ails =
-        device.state == device::DeviceState::kAbsent || device.state == device::DeviceState::kFault;
-    troubles_.note_state(device.name, to_string(device.state), ails ? device.text : "", ails);
+    troubles_.note_state(device.name, state_of(device));
   }
 }
 
@@ -31,9 +49,9 @@ void StationJournal::note_bus(const Bus& bus, std::int64_t utime_us) {
   troubles_.note_event("command", bus.last_refusal, bus.refusals, utime_us);
   troubles_.note("bus", bus.trouble, 0, utime_us);
   if (bus.trouble.empty()) {
-    troubles_.note_state("bus", "connected", bus.url, false);
+    troubles_.note_state("bus", {"connected", bus.url, false, event::kBusConnected});
   } else {
-    troubles_.note_state("bus", "none", "retrying every second", true);
+    troubles_.note_state("bus", {"none", "retrying every second", true, event::kBusLost});
   }
 }
 

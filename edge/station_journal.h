@@ -1,18 +1,23 @@
-// Writes into the journal what began or ended at a station, and reports its newest fault.
+// Tells the journal what began or ended at a station, and reports its newest fault. Pure.
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 
+#include "base/news_limit.h"
 #include "edge/clock/clock_pair.h"
 #include "edge/fault_log.h"
-#include "edge/journal.h"
 #include "edge/station_report.h"
 
 namespace ols::station {
 
 class StationJournal {
  public:
+  using Write = std::function<void(const JournalEvent&)>;
+
+  StationJournal(std::string station, Write write);
+
   struct Bus {
     std::string url;
     std::string trouble;  // empty: connected
@@ -27,7 +32,9 @@ class StationJournal {
   void note_bus(const Bus& bus, std::int64_t utime_us);
 
   FaultLog troubles_;
-  Journal journal_;
+  NewsLimit limit_;
+  const std::string station_;
+  const Write write_;
 };
 
 }  // namespace ols::station

@@ -1,12 +1,11 @@
 #include "edge/station_process.h"
 
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
 #include <memory>
 #include <vector>
 
 #include "base/clocks.h"
+#include "base/journal.h"
 #include "edge/clock/clock_pair.h"
 #include "edge/rearm_signal.h"
 #include "edge/tracker/tracker.h"
@@ -52,6 +51,7 @@ StationProcess::StationProcess(const StationSettings& configured, std::int64_t b
           [this](const FrameRequest& wanted) { return frames_.service().request(wanted); }),
       host_(settings().host),
       persisted_(settings().state_folder, settings().id, settings().gpio.has_stop()),
+      journal_(settings().id, write_to_journal),
       devices_(settings(), boot_id),
       frames_(settings().ptu.history) {
   const double now_s = clock_monotonic_s();
@@ -80,17 +80,22 @@ void StationProcess::turn() {
                       devices_.ptu().reference());
   if (const auto pose = pose_->look(devices_, start.monotonic_s)) station_.set_pose(*pose);
   take_zoom();
-  take_frame();
+  const double waited_s = take_frame();
   take_angles();
   // Again, because the tracker takes time: publications carry the present time.
   const clock::ClockPair now = look_at_clocks();
   const StationOutput output = station_.step(now.monotonic_s);
-  for (const Bearing& bearing : output.bearings) bus_.send(bearing);
+  for (const Bearing& bearing : output.bearings) {
+    bus_.send(bearing);
+    if (settings().station.zoom) continue;  // a sighting tells no focal length
+    const std::int64_t utime_us = clock_.utime_us(bearing.mid_exposure_s);
+    for (const Sighting& sighting : frames_.sightings(bearing, utime_us)) bus_.send(sighting);
+  }
   devices_.ptu().set_goal(goal(output, now.monotonic_s));
   trigger_camera(now.monotonic_s);
   send_requested_frames(now);
   send_reports(now);
-  host_.note_turn(now.monotonic_s - start.monotonic_s);
+  host_.note_turn(clock_monotonic_s() - start.monotonic_s, waited_s);
   service_.alive(now.monotonic_s);
 }
 
@@ -125,11 +130,18 @@ void StationProcess::heed_rearming(double now_s) {
   const bool button = devices_.stop().take_rearm();
   const bool signal = take_rearm_signal();
   if (!button && !signal) return;
-  const char* by = button ? "its button" : "a signal";
+  const std::string by = button ? "its button" : "a signal";
   if (!devices_.stop().known() || station_.rearm(now_s) != Refusal::kNone) {
-    spdlog::warn("re-arming by {} refused: the stop is pressed, or its level is not known yet", by);
+    const char* why = "the stop is pressed, or its level is not known yet";
+    write_to_journal({.text = "re-arming by " + by + " refused: " + why,
+                      .bad = true,
+                      .id = event::kCommandRefused,
+                      .station = settings().id,
+                      .reason = why});
   } else {
-    spdlog::info("re-arming by {}: {}", by, to_string(station_.state()));
+    write_to_journal({.text = "re-arming by " + by + ": " + to_string(station_.state()),
+                      .id = event::kRearmed,
+                      .station = settings().id});
   }
 }
 
@@ -149,9 +161,11 @@ void StationProcess::receive_commands() {
   }
 }
 
-void StationProcess::take_frame() {
+double StationProcess::take_frame() {
+  const double asked_s = clock_monotonic_s();
   auto frame = devices_.camera().next(kFrameWait_s);
-  if (!frame) return;
+  const double waited_s = clock_monotonic_s() - asked_s;
+  if (!frame) return waited_s;
   if (auto& recorder = devices_.recorder()) {
     recorder->add(*frame, clock_.utime_us(frame->mid_exposure_s));
   }
@@ -162,6 +176,7 @@ void StationProcess::take_frame() {
   devices_.camera().set_region(station_.target_box());
   show_frame(*frame);
   newest_ = std::move(frame);
+  return waited_s;
 }
 
 void StationProcess::show_frame(const camera::Frame& frame) {

@@ -38,7 +38,7 @@ class StationProcess {
   void heed_emergency_stop(double now_s);
   void heed_rearming(double now_s);
   void receive_commands();
-  void take_frame();
+  double take_frame();  // how long it waited for one [s]
   void show_frame(const camera::Frame& frame);
   void take_zoom();
   void take_angles();

@@ -40,6 +40,10 @@ struct Bearing {
   camera::StampSource stamp_source = camera::StampSource::kCamera;
   // Incremented when the pose has changed by more than its sigmas; 0: as configured.
   std::int64_t pose_revision = 0;
+  // What it was made of.
+  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d covariance_px2 = Eigen::Matrix2d::Zero();  // white
+  double designation_sd_px = 0.0;                            // stays
 };
 
 struct DesignateCommand {

@@ -167,6 +167,19 @@ void check_serials(const station::InstrumentSerials& configured,
   check("ptu", configured.ptu, calibrated.ptu);
 }
 
+std::string uncompared_serials(const station::InstrumentSerials& configured,
+                               const station::InstrumentSerials& calibrated) {
+  std::string parts;
+  const auto check = [&parts](const char* part, const std::string& here, const std::string& there) {
+    if (here.empty() == there.empty()) return;
+    parts += (parts.empty() ? "serials." : ", serials.") + std::string(part);
+  };
+  check("camera", configured.camera, calibrated.camera);
+  check("lens", configured.lens, calibrated.lens);
+  check("ptu", configured.ptu, calibrated.ptu);
+  return parts;
+}
+
 StationModel with_instrument(const StationGeometry& geometry, const Instrument& instrument) {
   StationModel model;
   model.geometry = geometry;

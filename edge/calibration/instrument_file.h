@@ -40,6 +40,9 @@ void check_plain(const station::InstrumentSerials& serials, const std::string& p
 // Throws std::invalid_argument, naming the part, for serial numbers that differ.
 void check_serials(const station::InstrumentSerials& configured,
                    const station::InstrumentSerials& calibrated, const std::string& path);
+// Which parts state a serial number on one side only, and so were not compared; empty: none.
+std::string uncompared_serials(const station::InstrumentSerials& configured,
+                               const station::InstrumentSerials& calibrated);
 
 // The station's model with the instrument in it.
 StationModel with_instrument(const StationGeometry& geometry, const Instrument& instrument);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "geometry/angles.h"
 #include "geometry/chi_square.h"
 
 namespace ols::station {
@@ -112,8 +113,10 @@ void cover_steps(double step_rad, DriftFinding& finding) {
   }
 }
 
-bool find_steps(const std::vector<ViewOffset>& views, double step_rad, DriftFinding& finding) {
+bool find_steps(const std::vector<ViewOffset>& views, const MotorSteps& steps,
+                DriftFinding& finding) {
   for (const bool pan : {true, false}) {
+    const double step_rad = pan ? steps.pan_rad : steps.tilt_rad;
     finding.steps = lost_steps(views, pan, step_rad);
     finding.pan = pan;
     if (finding.steps == 0) continue;
@@ -136,7 +139,12 @@ std::optional<std::size_t> odd_view(const std::vector<ViewOffset>& views) {
 
 }  // namespace
 
-DriftFinding find_drift(const std::vector<ViewOffset>& views, double step_rad) {
+MotorSteps motor_steps(const StationModel& model) {
+  constexpr double kOfMotor_rad = radians(0.9);  // of a D46's
+  return {kOfMotor_rad / model.pan.worm_teeth, kOfMotor_rad / model.tilt.worm_teeth};
+}
+
+DriftFinding find_drift(const std::vector<ViewOffset>& views, const MotorSteps& steps) {
   constexpr std::size_t kFewest = 3;
   DriftFinding finding;
   if (views.size() < kFewest) {
@@ -146,7 +154,7 @@ DriftFinding find_drift(const std::vector<ViewOffset>& views, double step_rad) {
   const Turn turn = fit_turn(views);
   set_turn(turn, finding);
   if (unmoved(views)) return finding;
-  if (find_steps(views, step_rad, finding)) {
+  if (find_steps(views, steps, finding)) {
     finding.cause = DriftCause::kLostSteps;
   } else if (turn.fits) {
     finding.cause = DriftCause::kTripod;

@@ -1,11 +1,12 @@
-// Compares views of the same scenery with those stored at the calibration: how far the tripod has
-// turned since, or whether something else has moved. Pure.
+// Compares views of the same scenery with those stored at the calibration: whether the tripod has
+// turned since, an axis has lost steps, or something else has moved. Pure.
 #pragma once
 
 #include <cstddef>
 #include <vector>
 
 #include "geometry/kinematic_chain.h"
+#include "geometry/station_model.h"
 
 namespace ols::station {
 
@@ -36,11 +37,13 @@ struct DriftFinding {
   int steps = 0;
 };
 
-// What an axis of a D46 loses at once: a full step of its motor, at the shaft.
-inline constexpr double kMotorStep_rad = 0.9 / 70.0 * 3.14159265358979323846 / 180.0;
+// What an axis loses at once: a full step of its motor, at the shaft.
+struct MotorSteps {
+  double pan_rad = 0.0, tilt_rad = 0.0;
+};
+MotorSteps motor_steps(const StationModel& model);
 
-// `step_rad`: what an axis loses at once, a full step of its motor. Three views or four, in
-// different directions: fewer give kUnclear.
-DriftFinding find_drift(const std::vector<ViewOffset>& views, double step_rad);
+// Three views or four, in different directions: fewer give kUnclear.
+DriftFinding find_drift(const std::vector<ViewOffset>& views, const MotorSteps& steps);
 
 }  // namespace ols::station

@@ -186,7 +186,7 @@ void ReferenceViews::finish() {
   }
   record_.note_judged();
   ++tally_.checks;
-  if (watch_.add(find_drift(offsets, kMotorStep_rad))) tour_.request();
+  if (watch_.add(find_drift(offsets, motor_steps(calibration_.model)))) tour_.request();
   file_.write(watch_.to_text());
 }
 

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -14,9 +15,10 @@ namespace ols::station {
 class ViewTour {
  public:
   struct Config {
-    double interval_s = 600.0;  // of idleness, from one check to the next
-    double settle_s = 1.0;      // it stands so long before mid-exposure
-    double leg_s = 40.0;        // a view that takes longer is out of reach: the round is given up
+    // Of idleness, from one check to the next; infinite: only on request.
+    double interval_s = std::numeric_limits<double>::infinity();
+    double settle_s = 1.0;  // it stands so long before mid-exposure
+    double leg_s = 40.0;    // a view that takes longer is out of reach: the round is given up
     // Whether the unit must not look there now (reported angles): the sun stands there. Such a view
     // is left out of the round; when it may be looked at again, a round is made. Empty: it may look
     // everywhere.

@@ -1,3 +1,4 @@
+// The keys of [gpio].
 #include <algorithm>
 #include <vector>
 

@@ -1,3 +1,4 @@
+// The keys of a motorised lens and of its zoom positions.
 #include <exception>
 
 #include "base/config_section.h"

@@ -8,6 +8,8 @@
 namespace ols::lens {
 namespace {
 
+constexpr int kMostRefusals = 3;  // to stand: one may be of the moment
+
 // The version last: who answers it is a lens.
 constexpr std::size_t kSetupSteps = 4;
 
@@ -37,7 +39,12 @@ std::optional<Axis> polled(int poll) {
 
 void LensDriver::order(const LensOrder& order) {
   for (const Axis axis : kAxes) {
-    if (const auto& given = order.axes[axis]) orders_[axis] = Pending{*given};
+    const auto& given = order.axes[axis];
+    if (!given) continue;
+    // A rate that is renewed goes on at its pace.
+    const double step_s = orders_[axis] ? orders_[axis]->step_s : 0.0;
+    orders_[axis] = Pending{*given};
+    orders_[axis]->step_s = step_s;
   }
 }
 
@@ -83,6 +90,10 @@ void LensDriver::give_up(double) {
   link_lost_ = true;
 }
 
+bool LensDriver::is_stand(const std::optional<Pending>& pending) {
+  return pending && !pending->order.position && pending->order.rate == 0.0;
+}
+
 std::optional<LensDriver::Request> LensDriver::next(double time_s) {
   if (setup_ < kSetupSteps) {
     const bool last = setup_ + 1 == kSetupSteps;
@@ -103,11 +114,13 @@ std::optional<LensDriver::Request> LensDriver::next_order(Axis axis, double time
     return Request{Question::kOrder, axis, visca::go_to(axis, *order.position)};
   }
   if (order.rate == 0.0 || time_s >= order.until_s) {
+    const int refusals = pending->refusals;
     pending.reset();
     const std::string end = visca::stand(axis);
     if (end.empty()) return std::nullopt;
     // Until the lens has said that it stands, this is sent again.
     pending = Pending{AxisOrder{std::nullopt, 0.0, time_s}};
+    pending->refusals = refusals;
     return Request{Question::kOrder, axis, end};
   }
   const bool steps = axis == Axis::kIris;
@@ -151,13 +164,18 @@ void LensDriver::take(const visca::Reply& reply, double time_s) {
     state_.last_error = reply.text;
     // A lens without an iris refuses to close it; it is a lens all the same.
     if (setup_ + 1 < kSetupSteps) ++setup_;
+    // One that cannot be moved refuses to stand, too; the zoom must be asked for nevertheless.
+    auto& refused = orders_[request.axis];
+    if (request.question == Question::kOrder && is_stand(refused) &&
+        ++refused->refusals >= kMostRefusals) {
+      refused.reset();
+    }
     return;
   }
   if (asks) return take_value(request, reply.data, time_s);
   if (request.question == Question::kSetup) ++setup_;
   auto& pending = orders_[request.axis];
-  const bool stands = pending && !pending->order.position && pending->order.rate == 0.0;
-  if (request.question == Question::kOrder && stands) pending.reset();
+  if (request.question == Question::kOrder && is_stand(pending)) pending.reset();
 }
 
 void LensDriver::take_value(const Request& request, const std::string& data, double time_s) {

@@ -51,8 +51,10 @@ class LensDriver {
     AxisOrder order;
     bool sent = false;
     double step_s = 0.0;  // the next step of the iris
+    int refusals = 0;     // to stand
   };
 
+  static bool is_stand(const std::optional<Pending>& pending);
   std::optional<Request> next(double time_s);
   std::optional<Request> next_order(Axis axis, double time_s);
   std::optional<Request> next_question(double time_s);

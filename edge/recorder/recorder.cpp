@@ -1,14 +1,9 @@
 #include "edge/recorder/recorder.h"
 
-#include <sys/resource.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
 #include <chrono>
 #include <cmath>
 #include <condition_variable>
-#include <cstring>
 #include <exception>
 #include <limits>
 #include <memory>
@@ -20,6 +15,7 @@
 #include <utility>
 
 #include "base/clocks.h"
+#include "edge/device/behind_control_loop.h"
 #include "edge/recorder/event_folder.h"
 #include "edge/recorder/event_queue.h"
 #include "edge/recorder/event_store.h"
@@ -31,7 +27,6 @@ namespace {
 constexpr double kSurvey_s = 2.0;  // interval of the disk checks
 constexpr double kRetry_s = 2.0;   // until finishing an event is retried
 constexpr double kAtEnd_s = 5.0;   // to write the remaining frames when the station stops
-constexpr int kNice = 10;          // below the control loop
 
 // The disk as last checked by the writing thread.
 struct DiskState {
@@ -129,14 +124,10 @@ struct Recorder::Impl {
     }
   }
 
-  // If a system call filter forbids it, only the priority is lost, and the report says so.
   void go_behind() {
-    const auto thread_id = static_cast<id_t>(::gettid());
-    if (::getpriority(PRIO_PROCESS, thread_id) >= kNice) return;
-    if (::setpriority(PRIO_PROCESS, thread_id, kNice) == 0) return;
-    const int failed = errno;
+    std::string failed = device::go_behind_control_loop();
     const std::lock_guard lock(mutex);
-    beside = std::string("runs at the control loop's priority (") + std::strerror(failed) + ")";
+    beside = std::move(failed);
   }
 
   // The disk's condition, for the report and for later commands.

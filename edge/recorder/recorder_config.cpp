@@ -1,3 +1,4 @@
+// The keys of [recorder].
 #include "base/config_section.h"
 #include "edge/recorder/recorder.h"
 

@@ -34,7 +34,11 @@ class Dpg2Parser {
   // Takes bytes that arrived at `now_s`; returns the pairs that they complete.
   std::vector<AxisAngles> receive(std::string_view bytes, double now_s);
 
-  // The next line that is not a reading is the answer to V.
+  // What is written to the sensor: to send readings, and to say its version.
+  static constexpr const char* kStart = "S";
+  static constexpr const char* kAskVersion = "V";
+
+  // The next line that is not a reading is the answer to kAskVersion.
   void expect_version() { version_awaited_ = true; }
   const std::string& version() const { return version_; }
 

@@ -70,11 +70,11 @@ struct Inclinometer::Impl {
       const std::lock_guard lock(mutex);
       parser.expect_version();
     }
-    port.write("V");
+    port.write(Dpg2Parser::kAskVersion);
   }
 
   void start_streaming(ptu::SerialPort& port) {
-    port.write("S");
+    port.write(Dpg2Parser::kStart);
     const std::lock_guard lock(mutex);
     ++starts_sent;
   }

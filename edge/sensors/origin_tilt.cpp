@@ -1,3 +1,4 @@
+// From the inclinometer's two angles to the tilt of ORIGIN.
 #include <algorithm>
 #include <cmath>
 #include <utility>

@@ -1,3 +1,4 @@
+// The keys of [inclinometer] and [gnss].
 #include "edge/config_units.h"
 #include "edge/sensors/gnss.h"
 #include "edge/sensors/inclinometer.h"

@@ -1,4 +1,4 @@
-// The position of a station, as a part of the pose estimator. Pure.
+// The position of a station: which GNSS fixes are used, and their average. Pure.
 #pragma once
 
 #include <optional>

@@ -1,3 +1,4 @@
+// The median of a few numbers.
 #pragma once
 
 #include <algorithm>

@@ -17,7 +17,7 @@ config::Section tracker_section(TrackerConfig& c) {
        config::number("leap_most_px_s", c.leap_most_px_s, {0.0, 100000.0}, "px/s",
                       "Maximum speed in the image of a target that is searched for by motion."),
        config::number("learning_time_s", c.learning_time_s, {0.01, 1e6}, "s",
-                      "Time constant of learning the target's appearance."),
+                      "Time constant of learning the template."),
        config::number("search_sd_most_px", c.search_sd_most_px, {1.0, 10000.0}, "px",
                       "Maximum 1-sigma of the region searched after a loss.")}};
 }

@@ -1,4 +1,4 @@
-// The messages of a station's video socket.
+// The messages of a station's video socket; cuts, scales and compresses a picture as asked for.
 #pragma once
 
 #include <cstdint>

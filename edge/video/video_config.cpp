@@ -1,3 +1,4 @@
+// The keys of [video].
 #include "base/config_section.h"
 #include "base/ip_endpoint.h"
 #include "base/ip_networks.h"

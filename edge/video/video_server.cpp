@@ -13,6 +13,7 @@
 #include "base/ip_endpoint.h"
 #include "base/ip_networks.h"
 #include "base/tcp_keepalive.h"
+#include "edge/device/behind_control_loop.h"
 #include "edge/device/device_thread.h"
 #include "edge/video/messages_video.h"
 #include "edge/video/video_session.h"
@@ -45,6 +46,7 @@ struct VideoServer::Impl {
   // --- of the serving thread
 
   void run(const std::stop_token& stop) {
+    device::go_behind_control_loop();
     asio::io_context io;
     asio::ip::tcp::acceptor acceptor = listen(io);
     thread.opened();

@@ -5,6 +5,7 @@ has what ends before that.
 """
 
 import math
+import signal
 import subprocess
 import time
 
@@ -189,6 +190,17 @@ def test_ctl_says_when_nobody_answers(station):
     nobody = ctl("nobody", "release")
     assert nobody.returncode == 1
     assert "no status of nobody" in nobody.stderr
+
+
+def test_what_the_kernel_drops_is_counted(station):
+    """More than its buffer holds, while the process stands still."""
+    before = station.counter("lone", "bus_datagrams_dropped")
+    process = station.site.processes["station"]
+    process.send_signal(signal.SIGSTOP)
+    for _ in range(600):
+        station.publish("FLOOD", bytes(50_000))
+    process.send_signal(signal.SIGCONT)
+    station.wait_for_counter("lone", "bus_datagrams_dropped", before + 1)
 
 
 def test_the_journal_tells_of_devices_and_refusals(station):

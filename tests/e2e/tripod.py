@@ -144,6 +144,17 @@ class Tripod:
             check=False,
         )
 
+    def release(self):
+        """What a procedure that was killed has left under manual operation."""
+        done = subprocess.run(
+            [str(BIN / "ols-ctl"), self.station, "release"],
+            capture_output=True,
+            text=True,
+            timeout=DEADLINE_S,
+            check=False,
+        )
+        assert done.returncode == 0, done.stdout + done.stderr
+
     def begin(self, name, *options):
         self.state, self.answered = None, 0
         self.log = self.folder / f"{name}.out"

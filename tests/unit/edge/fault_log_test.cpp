@@ -57,7 +57,7 @@ TEST(FaultLog, AnAlarmIsATroubleWhenItBegins) {
 std::vector<std::string> news(FaultLog& log) {
   std::vector<std::string> found;
   for (const News& item : log.take_event())
-    found.push_back(std::string(item.bad ? "! " : "") + item.text);
+    found.push_back(std::string(item.event.bad ? "! " : "") + item.event.text);
   return found;
 }
 using Texts = std::vector<std::string>;
@@ -84,10 +84,10 @@ TEST(FaultLog, AlarmsAreNewsWhenTheyComeAndWhenTheyGo) {
 
 TEST(FaultLog, AnotherStateIsNews) {
   FaultLog log;
-  log.note_state("camera", "absent", "no such camera", true);
-  log.note_state("camera", "absent", "not found", true);
-  log.note_state("camera", "ok", "", false);
-  log.note_state("station", "tracking", "", false);
+  log.note_state("camera", {"absent", "no such camera", true});
+  log.note_state("camera", {"absent", "not found", true});
+  log.note_state("camera", {"ok", ""});
+  log.note_state("station", {"tracking", ""});
   EXPECT_EQ(news(log), (Texts{"! camera absent: no such camera", "camera ok", "station tracking"}));
   EXPECT_EQ(log.text(), "") << "a state alone is no trouble";
 }

@@ -85,5 +85,13 @@ TEST(HostMonitor, CountsSlowTurnsAndShowsTheSlowest) {
   EXPECT_EQ(watch.look(0.0).readings.at("slowest_turn_s"), 0.0) << "since the last look";
 }
 
+TEST(HostMonitor, ShowsWhatOneTurnInAHundredTakesWithoutItsWait) {
+  HostMonitor watch({}, [] { return HostReading{}; });
+  for (int i = 0; i < 1000; ++i) watch.note_turn(0.3, 0.0);
+  for (int i = 1; i <= 1000; ++i) watch.note_turn(1e-3 * (1001 - i) + 0.01, 0.01);
+  EXPECT_NEAR(watch.look(0.0).readings.at("turn_p99_s"), 0.99, 0.0015) << "of the last thousand";
+  EXPECT_EQ(watch.slow_turns(), 510U) << "with the wait";
+}
+
 }  // namespace
 }  // namespace ols::station

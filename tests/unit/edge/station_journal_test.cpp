@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+#include <utility>
+#include <vector>
+
 namespace ols::station {
 namespace {
 
@@ -29,7 +33,8 @@ class StationJournalTest : public testing::Test {
     last_utime_us_ = report.last_error_utime_us;
     return report.last_error;
   }
-  StationJournal journal_;
+  std::vector<JournalEvent> written_;
+  StationJournal journal_{"alfa", [this](const JournalEvent& event) { written_.push_back(event); }};
   StationJournal::Bus bus_{"udpm://", "", "", 0};
   StationReport report_;
   std::int64_t last_utime_us_ = 0;
@@ -58,6 +63,36 @@ TEST_F(StationJournalTest, AnErrorIsOfTheTimeWhenItHappened) {
   report_.devices[0].errors = 3;
   noted(70'000'000);
   EXPECT_EQ(last_utime_us_, 70'000'000) << "the same after a quiet minute";
+}
+
+TEST_F(StationJournalTest, WhatHappensHasItsKindAndItsStation) {
+  report_.devices = {failed("ptu", "", 0)};
+  report_.devices[0].state = device::DeviceState::kAbsent;
+  report_.devices[0].text = "no answer";
+  report_.alarms = {"gnss: silent for 5 s"};
+  report_.snapshot.state = StationState::kEmergency;
+  bus_.last_refusal = "SLEW refused: stale";
+  bus_.refusals = 1;
+  noted(1'000'000);
+  report_.devices[0].state = device::DeviceState::kOk;
+  report_.alarms.clear();
+  report_.snapshot.state = StationState::kStopped;
+  bus_.trouble = "no route";
+  noted(2'000'000);
+  std::vector<std::pair<event::Id, std::string>> kinds;
+  for (const JournalEvent& event : written_) {
+    EXPECT_EQ(event.station, "alfa") << event.text;
+    kinds.emplace_back(event.id, event.device);
+  }
+  const std::vector<std::pair<event::Id, std::string>> expected{
+      {event::kDeviceLost, "ptu"},        {event::kStationAlarmBegins, "gnss"},
+      {event::kCommandRefused, ""},       {event::kBusConnected, "bus"},
+      {event::kEmergencyStop, "station"}, {event::kDeviceWorks, "ptu"},
+      {event::kStationAlarmEnds, "gnss"}, {event::kDeviceError, "bus"},
+      {event::kBusLost, "bus"},           {event::kStationState, "station"}};
+  EXPECT_EQ(kinds, expected);
+  EXPECT_EQ(written_[0].reason, "no answer");
+  EXPECT_EQ(written_[1].reason, "silent for 5 s");
 }
 
 }  // namespace

@@ -30,5 +30,20 @@ TEST(FrameHistory, FindsOnlyTheFrameThatIsMeant) {
   EXPECT_EQ(history.find(9.5), nullptr);
 }
 
+TEST(FrameHistory, GivesEvenlyWhatCameSince) {
+  FrameHistory history(10.0);
+  for (int i = 0; i < 100; ++i) history.add(frame_at(10.0 + 0.03 * i));
+  EXPECT_EQ(history.since(12.5).size(), 16U) << "all of half a second";
+  const auto all = history.since(9.0);
+  ASSERT_LE(all.size(), FrameHistory::kMostSince);
+  ASSERT_GE(all.size(), FrameHistory::kMostSince / 2);
+  EXPECT_EQ(all.back(), history.find({})) << "the newest among them";
+  const double apart_s = all[1]->mid_exposure_s - all[0]->mid_exposure_s;
+  for (std::size_t i = 1; i < all.size(); ++i) {
+    EXPECT_NEAR(all[i]->mid_exposure_s - all[i - 1]->mid_exposure_s, apart_s, 1e-9);
+  }
+  EXPECT_TRUE(history.since(13.0).empty());
+}
+
 }  // namespace
 }  // namespace ols::station

@@ -28,5 +28,13 @@ TEST(InstrumentFile, AnUnknownKeyIsNamed) {
       ConfigError);
 }
 
+TEST(InstrumentFile, ASerialNumberOfOneSideAloneIsNotCompared) {
+  const station::InstrumentSerials stated{.camera = "C7", .lens = "", .ptu = "P9"};
+  EXPECT_EQ(uncompared_serials(stated, stated), "");
+  EXPECT_EQ(uncompared_serials({.camera = "C7", .lens = "L1", .ptu = ""}, stated),
+            "serials.lens, serials.ptu");
+  EXPECT_NO_THROW(check_serials({}, stated, "instrument.toml"));
+}
+
 }  // namespace
 }  // namespace ols::calibration

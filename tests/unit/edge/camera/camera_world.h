@@ -1,3 +1,4 @@
+// A camera's clock as a network shows it, for tests of the time base.
 #pragma once
 
 #include <cmath>

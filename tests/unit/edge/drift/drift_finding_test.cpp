@@ -10,6 +10,7 @@ namespace {
 using test::kArcsec;
 using test::kSd;
 using test::kStep;
+using test::kSteps;
 using test::views;
 
 constexpr unsigned kSeed = 20260310;
@@ -17,7 +18,7 @@ constexpr unsigned kSeed = 20260310;
 TEST(DriftFinding, ATurnedTripodIsFoundWithItsHeadingAndTilt) {
   std::mt19937 random(kSeed);
   const auto finding =
-      find_drift(views(kArcsec * Eigen::Vector3d(30.0, 40.0, -70.0), random, 0.0), kStep);
+      find_drift(views(kArcsec * Eigen::Vector3d(30.0, 40.0, -70.0), random, 0.0), kSteps);
   EXPECT_EQ(finding.cause, DriftCause::kTripod);
   EXPECT_NEAR(finding.heading_rad / kArcsec, 70.0, 0.1) << "clockwise";
   EXPECT_NEAR(finding.tilt_rad / kArcsec, 50.0, 0.1);
@@ -29,7 +30,7 @@ TEST(DriftFinding, ItsDeviationsAreThoseOfManyChecks) {
   double squares = 0.0;
   constexpr int kChecks = 2000;
   for (int i = 0; i < kChecks; ++i) {
-    const auto finding = find_drift(views({0, 0, -60.0 * kArcsec}, random), kStep);
+    const auto finding = find_drift(views({0, 0, -60.0 * kArcsec}, random), kSteps);
     squares += std::pow((finding.heading_rad - 60.0 * kArcsec) / finding.heading_sd_rad, 2);
   }
   EXPECT_NEAR(squares / kChecks, 1.0, 0.1);
@@ -41,7 +42,7 @@ TEST(DriftFinding, OneViewThatMovedIsTheScene) {
     auto seen = views({0, 0, 0}, random);
     seen[moved].left_rad += 90.0 * kArcsec;
     seen[moved].up_rad -= 60.0 * kArcsec;
-    const auto finding = find_drift(seen, kStep);
+    const auto finding = find_drift(seen, kSteps);
     EXPECT_EQ(finding.cause, DriftCause::kScene);
     EXPECT_EQ(finding.view, moved);
     EXPECT_LT(std::abs(finding.heading_rad), 4.0 * finding.heading_sd_rad);
@@ -53,7 +54,7 @@ TEST(DriftFinding, WholeStepsOfAnAxisAreLostSteps) {
   auto pan = views({0, 0, 0}, random), tilt = pan;
   for (ViewOffset& view : pan) view.left_rad += 4 * kStep * std::cos(view.shafts.tilt_rad);
   for (ViewOffset& view : tilt) view.up_rad -= 2 * kStep;
-  const auto lost_pan = find_drift(pan, kStep), lost_tilt = find_drift(tilt, kStep);
+  const auto lost_pan = find_drift(pan, kSteps), lost_tilt = find_drift(tilt, kSteps);
   EXPECT_EQ(lost_pan.cause, DriftCause::kLostSteps);
   EXPECT_TRUE(lost_pan.pan);
   EXPECT_EQ(lost_pan.steps, 4);
@@ -62,9 +63,25 @@ TEST(DriftFinding, WholeStepsOfAnAxisAreLostSteps) {
   EXPECT_EQ(lost_tilt.steps, -2);
 }
 
+// Each axis has its own gear.
+TEST(DriftFinding, AnotherGearLosesOtherSteps) {
+  StationModel model;
+  model.pan.worm_teeth = 100;
+  const MotorSteps steps = motor_steps(model);
+  EXPECT_NEAR(steps.pan_rad / kArcsec, 32.4, 1e-6);
+  EXPECT_NEAR(steps.tilt_rad / kArcsec, 46.2857, 1e-3);
+  std::mt19937 random(kSeed + 6);
+  auto seen = views({0, 0, 0}, random);
+  for (ViewOffset& view : seen) view.left_rad += 2 * steps.pan_rad * std::cos(view.shafts.tilt_rad);
+  const auto lost = find_drift(seen, steps);
+  EXPECT_EQ(lost.cause, DriftCause::kLostSteps);
+  EXPECT_EQ(lost.steps, 2);
+  EXPECT_EQ(find_drift(seen, kSteps).cause, DriftCause::kTripod);
+}
+
 TEST(DriftFinding, AHeadingThatIsNoStepIsTheTripod) {
   std::mt19937 random(kSeed + 4);
-  const auto finding = find_drift(views({0, 0, 1.5 * kStep}, random), kStep);
+  const auto finding = find_drift(views({0, 0, 1.5 * kStep}, random), kSteps);
   EXPECT_EQ(finding.cause, DriftCause::kTripod);
 }
 
@@ -73,9 +90,9 @@ TEST(DriftFinding, WhatAgreesOnNothingIsUnclear) {
   auto seen = views({0, 0, 0}, random);
   seen[0].up_rad += 150.0 * kArcsec;
   seen[1].left_rad -= 200.0 * kArcsec;
-  EXPECT_EQ(find_drift(seen, kStep).cause, DriftCause::kUnclear);
+  EXPECT_EQ(find_drift(seen, kSteps).cause, DriftCause::kUnclear);
   seen.resize(2);
-  EXPECT_EQ(find_drift(seen, kStep).cause, DriftCause::kUnclear) << "two views";
+  EXPECT_EQ(find_drift(seen, kSteps).cause, DriftCause::kUnclear) << "two views";
 }
 
 }  // namespace

@@ -12,6 +12,7 @@ namespace ols::station::test {
 
 inline constexpr double kArcsec = kPi / 648000.0;
 inline constexpr double kStep = 46.2857 * kArcsec;  // 0.9 deg / 70
+inline constexpr MotorSteps kSteps{kStep, kStep};
 inline constexpr double kSd = 6.0 * kArcsec;
 
 // Four views 90 degrees apart, some degrees up, seen with noise by a station turned by the rotation

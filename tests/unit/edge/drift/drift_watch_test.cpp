@@ -11,6 +11,7 @@ namespace {
 
 using test::kArcsec;
 using test::kStep;
+using test::kSteps;
 using test::views;
 
 constexpr unsigned kSeed = 20260311;
@@ -26,7 +27,7 @@ DriftFinding tripod(double heading_arcsec) {
 
 // As the station does: a look that is asked for is taken at once.
 bool check(DriftWatch& watch, const Eigen::Vector3d& turned, std::mt19937& random) {
-  const auto look = [&] { return watch.add(find_drift(views(turned, random), kStep)); };
+  const auto look = [&] { return watch.add(find_drift(views(turned, random), kSteps)); };
   if (look()) look();
   return watch.level() != DriftLevel::kNone;
 }
@@ -140,7 +141,7 @@ DriftFinding lost_steps(bool pan, int steps, std::mt19937& random) {
     if (pan) view.left_rad += steps * kStep * std::cos(view.shafts.tilt_rad);
     if (!pan) view.up_rad += steps * kStep;
   }
-  return find_drift(seen, kStep);
+  return find_drift(seen, kSteps);
 }
 
 TEST(DriftWatch, LostStepsAreDoubtedInWholeOnTheirAxis) {

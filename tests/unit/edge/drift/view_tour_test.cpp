@@ -7,6 +7,12 @@
 namespace ols::station {
 namespace {
 
+ViewTour::Config every_ten_minutes() {
+  ViewTour::Config config;
+  config.interval_s = 600.0;
+  return config;
+}
+
 const double kCount = radians(11.5714 / 3600.0);
 
 ptu::PtuLimits travel() { return {-radians(159), radians(159), -radians(46), radians(31)}; }
@@ -34,7 +40,7 @@ class ViewTourTest : public testing::Test {
     }
   }
 
-  ViewTour tour{{}};
+  ViewTour tour{every_ten_minutes()};
   double now_s = 100.0;
   bool free = true, rising = false;
   PanTilt at, last;
@@ -106,7 +112,7 @@ TEST_F(ViewTourTest, AUnitThatDoesNotArriveEndsTheRound) {
 // The sun stands there, for some rounds.
 TEST_F(ViewTourTest, WhereTheSunStandsItDoesNotLook) {
   PanTilt sun;
-  ViewTour::Config config;
+  ViewTour::Config config = every_ten_minutes();
   config.forbidden = [&sun](const PanTilt& view) {
     return std::abs(view.pan_rad - sun.pan_rad) < radians(8.0);
   };
@@ -129,7 +135,7 @@ TEST_F(ViewTourTest, WhereTheSunStandsItDoesNotLook) {
 // Long before the next round is due, and once.
 TEST_F(ViewTourTest, WhatWasLeftOutIsSeenWhenTheSunHasGoneOn) {
   bool shines = true;
-  ViewTour::Config config;
+  ViewTour::Config config = every_ten_minutes();
   config.forbidden = [&](const PanTilt& view) {
     return shines && view.pan_rad == tour.views()[2].pan_rad;
   };

@@ -19,7 +19,9 @@ class LensLoop : public testing::Test {
     while (now_s_ < end_s) {
       now_s_ += 1e-3;
       const std::string request = driver_.step(now_s_);
-      if (!cut_) unit_.receive(request, now_s_);
+      const bool refuses = !refused_.empty() && request == refused_;
+      if (refuses) driver_.receive("\x90\x61\x41\xff", now_s_);
+      if (!cut_ && !refuses) unit_.receive(request, now_s_);
       const std::string heard = unit_.transmit(now_s_);
       if (!cut_) driver_.receive(heard, now_s_);
       for (const ZoomSample& sample : driver_.take_samples()) samples_.push_back(sample);
@@ -40,6 +42,7 @@ class LensLoop : public testing::Test {
   LensDriver driver_{0.05};
   double now_s_ = 10.0;
   bool cut_ = false;
+  std::string refused_;  // a request that the lens cannot execute
   std::vector<ZoomSample> samples_;
 };
 
@@ -111,6 +114,30 @@ TEST_F(LensLoop, TheIrisStepsAtItsRate) {
   run(1.0);
   EXPECT_LT(unit_.iris(), 0x11 - 3);
   EXPECT_GT(unit_.iris(), 0x11 - 12);
+}
+
+TEST_F(LensLoop, ARateOfTheIrisThatIsRenewedKeepsItsPace) {
+  run(0.5);
+  for (int i = 0; i < 20; ++i) {
+    rate(Axis::kIris, -0.2);  // a step in 0.75 s
+    run(0.1);
+  }
+  run(1.0);
+  EXPECT_LE(unit_.iris(), 0x11 - 2);
+  EXPECT_GE(unit_.iris(), 0x11 - 4);
+}
+
+TEST_F(LensLoop, ALensThatRefusesToStandIsStillAskedForItsZoom) {
+  run(0.5);
+  refused_ = visca::stand(Axis::kFocus);
+  rate(Axis::kFocus, 0.5);
+  run(1.0);
+  samples_.clear();
+  const auto refusals = driver_.counters().refusals;
+  EXPECT_GT(refusals, 0U);
+  run(1.0);
+  EXPECT_GT(samples_.size(), 5U);
+  EXPECT_EQ(driver_.counters().refusals, refusals) << "it is not told for ever";
 }
 
 // The end of a rate that was lost on the line is sent again.
