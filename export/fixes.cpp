@@ -1,5 +1,6 @@
 #include "export/fixes.h"
 
+#include <cmath>
 #include <cstdint>
 
 #include "base/csv_rows.h"
@@ -23,7 +24,8 @@ Target target_of(const csv::Row<8>& row, const SiteContext& site) {
   if (std::from_chars(name.data(), end, target.id).ptr != end) target.id = 0;
   target.uid = site.site + ".target." + name;
   target.place.latitude_deg = row.number<double>(2, -90.0, 90.0);
-  target.place.longitude_deg = row.number<double>(3, -180.0, 360.0);
+  // As the fusion says it, and as areas have it.
+  target.place.longitude_deg = std::remainder(row.number<double>(3, -180.0, 360.0), 360.0);
   target.place.height_m = row.number<double>(4, -1e5, 1e6);
   target.place.geoid_m = site.geoid_m(target.place.latitude_deg, target.place.longitude_deg);
   target.covariance_m2.fill(kUnknown);

@@ -12,12 +12,7 @@ constexpr double kEarly = 0.9;
 }  // namespace
 
 bool Gate::is_inside(const Place& place) const {
-  const auto& [south, west, north, east] = config_.area_deg;
-  const double longitude = place.longitude_deg;
-  // An area over the date line has its west east of its east.
-  const bool fits = west <= east ? longitude >= west && longitude <= east
-                                 : longitude >= west || longitude <= east;
-  return fits && place.latitude_deg >= south && place.latitude_deg <= north;
+  return ols::is_inside(config_.area_deg, place.latitude_deg, place.longitude_deg);
 }
 
 bool Gate::is_due(const std::string& uid, std::int64_t utime_us, TrackState state) {

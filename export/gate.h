@@ -1,21 +1,21 @@
 // What of the records goes to one output: kinds, area, and how often. Pure.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <unordered_map>
 
+#include "base/area.h"
 #include "export/records.h"
 
 namespace ols::exports {
 
 struct GateConfig {
   bool targets = true, stations = true, lines = false;
-  bool tentative = false;                              // targets that are not confirmed yet, too
-  double rate_hz = 2.0;                                // of each object, at most
-  std::array<double, 4> area_deg{-90, -180, 90, 180};  // south, west, north, east
+  bool tentative = false;  // targets that are not confirmed yet, too
+  double rate_hz = 2.0;    // of each object, at most
+  Area area_deg{-90, -180, 90, 180};
 };
 
 // Records between two that may pass are left out, not delayed: what goes out is new. A change of a

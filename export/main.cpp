@@ -11,6 +11,7 @@
 
 #include "base/clocks.h"
 #include "base/command_line.h"
+#include "base/journal.h"
 #include "base/service_frame.h"
 #include "base/service_notifier.h"
 #include "base/status_file.h"
@@ -76,7 +77,8 @@ int run(const exports::ExportConfig& config) {
   bus.connect(ols::clock_monotonic_s(), ols::BusConnector::kLongest_s);
   ols::ServiceNotifier service_manager;
   service_manager.ready("exports");
-  spdlog::info("ready: {} outputs", exporter.outputs().size());
+  ols::write_to_journal({.text = "ready: " + std::to_string(exporter.outputs().size()) + " outputs",
+                         .id = ols::event::kReady});
   ols::TroubleLog troubles("output");
   ols::StatusFile status_file(config.status_file);
   const auto turn = [&](double now_s) {

@@ -3,14 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "export/target_book.h"
 #include "geometry/angles.h"
 #include "geometry/wgs84.h"
 
 namespace ols::exports {
 namespace {
 
-// A target ends when it is silent for ten seconds; a station tells of itself at 0.01 Hz at least.
-constexpr std::int64_t kLive_us = 12'000'000, kStationGone_us = 300'000'000;
+// A target has ended by then; a station tells of itself at 0.01 Hz at least.
+constexpr auto kLive_us = static_cast<std::int64_t>(1e6 * (TargetBook::kSilent_s + 2.0));
+constexpr std::int64_t kStationGone_us = 300'000'000;
 constexpr std::int64_t kEver_us = std::numeric_limits<std::int64_t>::max();
 
 template <class Record>

@@ -1,9 +1,12 @@
 #include "export/outlet/mqtt_link.h"
 
 #include <mosquitto.h>
+#include <openssl/ssl.h>
 #include <poll.h>
+#include <sys/socket.h>
 
 #include <array>
+#include <cerrno>
 #include <optional>
 #include <utility>
 
@@ -24,6 +27,27 @@ std::string first_line(const std::string& path) {
   } catch (const std::exception& failure) {
     throw LinkError(failure.what());
   }
+}
+
+// All that a broker has to say to a client without subscriptions, each with its length: that the
+// log-in is taken, and that it is alive.
+constexpr unsigned char kLoginAnswer = 0x20, kAlive = 0xd0;
+using Head = std::array<unsigned char, 4>;
+
+// How many bytes of it are there, without taking them; < 0: the library is to go on, or to say what
+// is wrong.
+int peek(mosquitto* session, Head& head) {
+  auto* const tls = static_cast<SSL*>(mosquitto_ssl_get(session));
+  if (tls != nullptr) {
+    if (SSL_is_init_finished(tls) == 0) return -1;
+    const int there = SSL_peek(tls, head.data(), static_cast<int>(head.size()));
+    if (there > 0) return there;
+    return SSL_get_error(tls, there) == SSL_ERROR_WANT_READ ? 0 : -1;
+  }
+  const auto there =
+      ::recv(mosquitto_socket(session), head.data(), head.size(), MSG_PEEK | MSG_DONTWAIT);
+  if (there > 0) return static_cast<int>(there);
+  return there < 0 && (errno == EAGAIN || errno == EINTR) ? 0 : -1;
 }
 
 const char* or_null(const std::string& text) { return text.empty() ? nullptr : text.c_str(); }
@@ -94,7 +118,12 @@ void MqttLink::open() {
 void MqttLink::log_in() {
   const double end_s = clock_monotonic_s() + kPatience_s;
   while (!client_->answer && clock_monotonic_s() < end_s) {
-    const int result = mosquitto_loop(client_->session, 100, 1);
+    const short wanted = mosquitto_want_write(client_->session) ? POLLIN | POLLOUT : POLLIN;
+    pollfd ready{mosquitto_socket(client_->session), wanted, 0};
+    ::poll(&ready, 1, 100);
+    if ((ready.revents & POLLOUT) != 0) check(mosquitto_loop_write(client_->session, 1), "log-in");
+    if ((ready.revents & ~POLLOUT) == 0) continue;
+    const int result = take();
     if (!client_->answer) check(result, "log-in");
   }
   if (!client_->answer) check(MOSQ_ERR_CONN_PENDING, "does not answer");
@@ -102,6 +131,31 @@ void MqttLink::log_in() {
     throw LinkError(address_.host + ": " + mosquitto_connack_string(*client_->answer));
   }
   send({"", "online", login_.status_topic, true});
+}
+
+// The library would keep a message of up to 256 MB in memory, whether anybody subscribed or not.
+int MqttLink::take() {
+  constexpr int kMostAtOnce = 100;
+  for (int i = 0; i < kMostAtOnce; ++i) {
+    Head head{};
+    const int there = peek(client_->session, head);
+    if (there == 0) break;
+    if (there > 0) {
+      const int length = head[0] == kLoginAnswer ? 2 : 0;
+      const bool is_asked_for = head[0] == kLoginAnswer || head[0] == kAlive;
+      if (!is_asked_for || (there > 1 && head[1] != length)) {
+        throw LinkError(address_.host + ":" + std::to_string(address_.port) +
+                        ": sends unasked messages");
+      }
+      if (there < 2 + length) {
+        ::poll(nullptr, 0, 10);  // the rest is on its way
+        break;
+      }
+    }
+    const int result = mosquitto_loop_read(client_->session, 1);
+    if (there < 0 || result != MOSQ_ERR_SUCCESS) return result;
+  }
+  return MOSQ_ERR_SUCCESS;
 }
 
 void MqttLink::send(const Packet& packet) {
@@ -112,11 +166,14 @@ void MqttLink::send(const Packet& packet) {
   write_all();
 }
 
-// The library would keep in memory what the broker does not read.
+// The library would keep in memory what the broker does not read. One that reads a little now and
+// then has no more time.
 void MqttLink::write_all() {
+  const double end_s = clock_monotonic_s() + kPatience_s;
   while (mosquitto_want_write(client_->session)) {
     pollfd ready{mosquitto_socket(client_->session), POLLOUT, 0};
-    if (::poll(&ready, 1, static_cast<int>(1e3 * kPatience_s)) == 0) {
+    const double left_s = end_s - clock_monotonic_s();
+    if (left_s <= 0.0 || ::poll(&ready, 1, static_cast<int>(1e3 * left_s)) == 0) {
       throw LinkError(address_.host + ": does not read");
     }
     check(mosquitto_loop_write(client_->session, 1), "write");
@@ -127,7 +184,7 @@ void MqttLink::wait(int wake_fd, double seconds) {
   std::array<pollfd, 2> ready{
       {{mosquitto_socket(client_->session), POLLIN, 0}, {wake_fd, POLLIN, 0}}};
   ::poll(ready.data(), ready.size(), static_cast<int>(1e3 * seconds));
-  if (ready[0].revents != 0) check(mosquitto_loop_read(client_->session, 1), "read");
+  if (ready[0].revents != 0) check(take(), "read");
   check(mosquitto_loop_misc(client_->session), "keep alive");
 }
 

@@ -30,6 +30,7 @@ class MqttLink : public Link {
  private:
   struct Client;
   void log_in();
+  int take();  // what the broker says; the library's result
   void check(int result, const std::string& doing) const;
   void write_all();
 

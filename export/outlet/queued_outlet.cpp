@@ -22,11 +22,13 @@ QueuedOutlet::~QueuedOutlet() {
 
 void QueuedOutlet::put(Packets packets) {
   if (packets.empty()) return;
+  bool may_wait = false;
   {
     const std::lock_guard lock(mutex_);
+    may_wait = queue_.size() == 0;
     for (Packet& packet : packets) queue_.put(std::move(packet));
   }
-  wakeup_.set();
+  if (may_wait) wakeup_.set();
 }
 
 OutletReport QueuedOutlet::report() const {
@@ -57,10 +59,15 @@ void QueuedOutlet::note_failure(const std::string& why) {
   ++report_.failures;
 }
 
+// What is put after the queue was found empty sets the wakeup again.
 std::optional<Packet> QueuedOutlet::next() {
+  const auto taken = [this] {
+    const std::lock_guard lock(mutex_);
+    return queue_.take();
+  };
+  if (auto packet = taken()) return packet;
   wakeup_.clear();
-  const std::lock_guard lock(mutex_);
-  return queue_.take();
+  return taken();
 }
 
 // New packets do not end it: they wake the thread, which then waits for the rest.

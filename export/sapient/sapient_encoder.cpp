@@ -29,7 +29,8 @@ Packets SapientEncoder::turn(std::int64_t utime_us) {
   if (early_s > kTurn_s / 2.0 && early_s <= settings_.status_s) return {};
   due_us_ = utime_us + std::llround(1e6 * settings_.status_s);
   std::erase_if(stations_, [&](const auto& entry) {
-    return std::abs(1e-6 * static_cast<double>(utime_us - entry.second.utime_us)) > kSilent_s;
+    return std::abs(1e-6 * static_cast<double>(utime_us - entry.second.utime_us)) >
+           kStationSilent_s;
   });
   std::vector<Station> stations;
   for (const auto& [name, station] : stations_) stations.push_back(station);

@@ -21,7 +21,7 @@ class SapientEncoder : public Encoder {
   Packets turn(std::int64_t utime_us) override;
   void begin_again() override;
 
-  static constexpr double kSilent_s = 10.0;  // then a station is not told of any more
+  static constexpr double kStationSilent_s = 10.0;  // then a station is not told of any more
 
  private:
   SapientSettings settings_;

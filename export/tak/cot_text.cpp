@@ -73,7 +73,7 @@ std::string cot_xml(const CotEvent& event) {
   text.append(xml(event.uid)).append("\" how=\"").append(event.how).append("\" time=\"");
   text.append(iso_time(event.utime_us)).append("\" start=\"").append(iso_time(event.utime_us));
   text.append("\" stale=\"").append(iso_time(event.stale_us)).append("\">");
-  return text.append(point_of(event)).append(detail_of(event)).append("</event>\n");
+  return text.append(point_of(event)).append(detail_of(event)).append("</event>");
 }
 
 std::string cot_protobuf(const CotEvent& event, TakFraming framing) {

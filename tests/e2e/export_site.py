@@ -1,5 +1,6 @@
 """What the tests of ols-export have in common: a site on the bus, and the process."""
 
+import itertools
 import json
 import signal
 import socket
@@ -12,6 +13,7 @@ import lcm
 import ols_msg
 from conftest import BIN
 from ols_demo.bus import LIVE_URL
+from ols_demo.keys import members_of_environment
 
 DEADLINE_S = 30.0
 HEIGHT_M = 100.0  # of the target above the ellipsoid
@@ -82,12 +84,22 @@ class Publisher:
     """A fusion and a station, as far as an exporter can tell."""
 
     def __init__(self):
-        self.bus = lcm.LCM(LIVE_URL)
+        self._bus, self._signing = lcm.LCM(LIVE_URL), members_of_environment()
+        self._sequences = itertools.count(1)
+
+    def send(self, channel, message):
+        """A message, or bytes that are none; signed by who may send there, if signatures are on."""
+        if not isinstance(message, bytes):
+            message.sequence = next(self._sequences)
+            message = message.encode()
+        self._bus.publish(
+            channel, self._signing.sign(channel, message) if self._signing else message
+        )
 
     def publish(self, *targets):
         for message in targets or (target(),):
-            self.bus.publish("OLS_TARGET", message.encode())
-        self.bus.publish("OLS_STATUS_alfa", status().encode())
+            self.send("OLS_TARGET", message)
+        self.send("OLS_STATUS_alfa", status())
 
     def until(self, condition, what, deadline_s=DEADLINE_S):
         """Goes on publishing."""

@@ -5,7 +5,6 @@ import re
 import subprocess
 
 import asterix
-import lcm
 import ols_msg
 import pytest
 from export_site import (
@@ -20,9 +19,8 @@ from export_site import (
     udp_receiver,
     wait,
 )
-from ols_demo.bus import LIVE_URL
 
-pytestmark = pytest.mark.usefixtures("unsigned")
+pytestmark = pytest.mark.usefixtures("network")
 HEAD = '[asterix]\nsac = 25\nsic = 10\nstations = ["alfa"]\n'
 FOOT_M = 0.3048
 
@@ -43,7 +41,7 @@ def bearing():
 
 
 @pytest.fixture(scope="module", name="records")
-def fixture_records(unsigned, tmp_path_factory):
+def fixture_records(network, tmp_path_factory):
     """One decoded record of each category."""
     receiver, port = udp_receiver()
     publisher, found = Publisher(), {}
@@ -52,7 +50,7 @@ def fixture_records(unsigned, tmp_path_factory):
     with Exporter(folder, to + HEAD):
 
         def heard():
-            publisher.bus.publish("OLS_BEARING_alfa", bearing().encode())
+            publisher.send("OLS_BEARING_alfa", bearing())
             for data in received(receiver):
                 for record in asterix.parse(data):
                     found.setdefault(record["category"], (record, data))
@@ -180,5 +178,5 @@ def test_the_last_message_of_a_track_says_so(tmp_path):
 
         publisher.until(lambda: heard(lambda _: True), "a track")
         end = target(track_state=ols_msg.target_t.TRACK_DROPPED)
-        lcm.LCM(LIVE_URL).publish("OLS_TARGET", end.encode())
+        publisher.send("OLS_TARGET", end)
         wait(lambda: heard(lambda t: "TSE" in t["I080"] and value(t["I080"], "TSE")), "its end")

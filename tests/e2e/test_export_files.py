@@ -23,7 +23,7 @@ from export_site import (
     wait,
 )
 
-pytestmark = pytest.mark.usefixtures("unsigned")
+pytestmark = pytest.mark.usefixtures("network")
 SEA_M = HEIGHT_M - GEOID_M
 FIXES = (
     "utime_us,target,latitude_deg,longitude_deg,height_m,east_sd_m,north_sd_m,up_sd_m\n"

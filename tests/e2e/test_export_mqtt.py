@@ -22,7 +22,7 @@ from helpers import Babbler
 from ols_msg import target_t
 
 BROKER = shutil.which("mosquitto") or "/usr/sbin/mosquitto"
-pytestmark = pytest.mark.usefixtures("unsigned")
+pytestmark = pytest.mark.usefixtures("network")
 PORT, TLS_PORT = 18830, 18831
 NUMBER = {"type": ["number", "null"]}
 TEXT = {"type": "string"}
@@ -147,7 +147,7 @@ def test_a_target_and_its_entities(tmp_path, subscriber):
             assert config["state_topic"] in subscriber.topics, "an entity without a state"
         assert subscriber.topics["ols/status"] == "online"
         dropped = target(track_state=target_t.TRACK_DROPPED)
-        publisher.bus.publish("OLS_TARGET", dropped.encode())
+        publisher.send("OLS_TARGET", dropped)
         wait(lambda: subscriber.json("ols/target/1") == {"state": "none"}, "a free slot")
     wait(lambda: subscriber.topics["ols/status"] == "offline", "the last will")
 
@@ -219,6 +219,19 @@ def test_a_wrong_certificate_is_refused_and_said(tmp_path, certificates):
         broker.kill()
 
 
+def beside(babblers):
+    """Outputs to a good broker and to each of these."""
+    return mqtt() + "".join(
+        output(name, "mqtt", f"mqtt://127.0.0.1:{one.port}") for name, one in babblers.items()
+    )
+
+
+def others_go_on(publisher, subscriber):
+    publisher.until(lambda: subscriber.json("ols/target/1") is not None, "the target")
+    seen = subscriber.json("ols/target/1")["time"]
+    publisher.until(lambda: subscriber.json("ols/target/1")["time"] != seen, "others go on")
+
+
 def test_a_broker_that_sends_rubbish_is_named_and_stops_nothing(tmp_path, broker, subscriber):
     babblers = {
         "text": Babbler(b"HTTP/1.1 400 Bad Request\r\n\r\n" * 100),
@@ -228,10 +241,7 @@ def test_a_broker_that_sends_rubbish_is_named_and_stops_nothing(tmp_path, broker
         "endless": Babbler(b"\x20\x02\x00\x00" + b"\x30\xff\xff\xff\xff\xff" * 1000),
     }
     publisher = Publisher()
-    outputs = mqtt()
-    for name, babbler in babblers.items():
-        outputs += output(name, "mqtt", f"mqtt://127.0.0.1:{babbler.port}")
-    with Exporter(tmp_path, outputs) as exporter:
+    with Exporter(tmp_path, beside(babblers)) as exporter:
         for name in babblers:
             publisher.until(
                 lambda n=name: (
@@ -239,6 +249,24 @@ def test_a_broker_that_sends_rubbish_is_named_and_stops_nothing(tmp_path, broker
                 ),
                 f"{name} is named and tried again",
             )
-        seen = subscriber.json("ols/target/1")["time"]
-        publisher.until(lambda: subscriber.json("ols/target/1")["time"] != seen, "others go on")
+        others_go_on(publisher, subscriber)
+        assert exporter.output("home")["trouble"] == ""
+
+
+def test_a_broker_that_sends_what_nobody_asked_for_is_left(tmp_path, broker, subscriber):
+    """A message as long as MQTT has them: the library would keep all of it in memory."""
+    longest = b"\x30\xff\xff\xff\x7f\x00\x01a"
+    babblers = {
+        "after": Babbler(b"\x20\x02\x00\x00" + longest + bytes(1 << 20)),
+        "before": Babbler(longest + bytes(1 << 20)),
+        "answer": Babbler(b"\x20\xff\xff\xff\x7f" + bytes(1 << 20)),
+    }
+    publisher = Publisher()
+    with Exporter(tmp_path, beside(babblers)) as exporter:
+        for name in babblers:
+            publisher.until(
+                lambda n=name: "unasked" in exporter.output(n).get("trouble", ""),
+                f"{name} is named",
+            )
+        others_go_on(publisher, subscriber)
         assert exporter.output("home")["trouble"] == ""

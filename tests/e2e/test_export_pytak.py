@@ -20,7 +20,7 @@ from export_site import (
     output,
 )
 
-pytestmark = pytest.mark.usefixtures("unsigned")
+pytestmark = pytest.mark.usefixtures("network")
 UID = "brno.target.000000000000004d.7"
 
 

@@ -20,7 +20,7 @@ from export_site import (
 )
 from sapient_site import OBJECT, Receiver, check, framed
 
-pytestmark = pytest.mark.usefixtures("unsigned")
+pytestmark = pytest.mark.usefixtures("network")
 METRES = math.radians(1.0) * 6.371e6  # a degree of a great circle
 
 

@@ -56,6 +56,8 @@ def test_the_statuses_of_the_site_are_told(exporter, tmp_path):
     assert len(versions) == 1 and re.fullmatch(r'station="alfa",version="\d+\.\d+.*"', versions[0])
     assert 0.0 <= told["ols_station_status_age_seconds", 'station="alfa"'] < 20.0
     assert told["ols_station_reading", 'station="alfa",reading="disk_free_bytes"'] > 0.0
+    assert told["ols_station_enrolled", 'station="bravo"'] == 1.0, "though it is not there"
+    assert ("ols_station_status_age_seconds", 'station="bravo"') not in told
 
 
 def test_strangers_are_counted_and_not_told(exporter):
@@ -68,7 +70,8 @@ def test_strangers_are_counted_and_not_told(exporter):
         wire.publish("OLS_STATUS_bravo", status.encode())
     reason = ("ols_bus_distrusted_total", 'reason="unsigned"')
     listener.wait(lambda: samples(address).get(reason, 0.0) >= 20.0, "that they are counted")
-    assert not [labels for _, labels in samples(address) if "bravo" in labels]
+    names = {name for name, labels in samples(address) if "bravo" in labels}
+    assert names == {"ols_station_enrolled"}
 
 
 def test_the_bridge_is_told_by_its_status(exporter, tmp_path):

@@ -28,7 +28,7 @@ from sapient_msg.bsi_flex_335_v2_0.registration_pb2 import Registration
 from sapient_msg.bsi_flex_335_v2_0.sapient_message_pb2 import SapientMessage
 from sapient_site import OBJECT, RADAR, RECEIVER, detection, framed, stamped
 
-pytestmark = pytest.mark.usefixtures("unsigned")
+pytestmark = pytest.mark.usefixtures("network")
 NODES, READERS, WEB = 5020, 5004, 8090  # of the network namespace of the test
 PLACE = (47.6, 13.3, 900.0)
 # As in the configuration that Apex comes with: everything that it can check.

@@ -19,6 +19,7 @@
 #include "base/channel_names.h"
 #include "base/clocks.h"
 #include "base/command_line.h"
+#include "base/journal.h"
 #include "base/service_notifier.h"
 #include "base/shutdown.h"
 #include "base/small_file.h"
@@ -46,6 +47,10 @@ class Told : public prometheus::Collectable {
   void hear(const Status& status) {
     const std::lock_guard lock(mutex_);
     metrics_.hear(status, ols::clock_monotonic_s());
+  }
+  void know(std::vector<std::string> enrolled) {
+    const std::lock_guard lock(mutex_);
+    metrics_.know(std::move(enrolled));
   }
   void hear_distrusted(const ols::BusTraffic& traffic) {
     std::map<std::string, double> by_reason;
@@ -78,6 +83,7 @@ std::shared_ptr<ols::trust::BusTrust> open_trust(const ols::trust::TrustConfig& 
   ols::trust::Self self;
   self.name = "exporter";
   self.commands = true;  // statuses of a station whose clock is wrong count too
+  self.keeps_marks = true;
   return ols::trust::BusTrust::open(config, ols::trust::process_environment(), self);
 }
 
@@ -96,13 +102,16 @@ void run(const ols::exporter::ExporterConfig& config) {
   const auto told = std::make_shared<Told>(config.bridge_status);
   prometheus::Exposer server(config.address, 1);
   server.RegisterCollectable(told);
-  ols::BusConnector connector(config.lcm_url, open_trust(config.trust));
+  const auto signatures = open_trust(config.trust);
+  ols::BusConnector connector(config.lcm_url, signatures);
   std::unique_ptr<ols::LcmBus> bus;
   ols::ServiceNotifier service_manager;
   service_manager.ready("serves http://" + config.address + "/metrics");
-  spdlog::info("ready: http://{}/metrics", config.address);
+  ols::write_to_journal(
+      {.text = "ready: http://" + config.address + "/metrics", .id = ols::event::kReady});
   while (!ols::shutdown_requested()) {
     const double now_s = ols::clock_monotonic_s();
+    if (signatures) told->know(signatures->stations());
     if (bus && bus->is_deaf()) bus.reset();
     if (!bus) {
       bus = connector.take(now_s, 1e-3 * kTurn_ms);

@@ -113,6 +113,13 @@ void SiteMetrics::hear(const station_status_t& status, double now_s) {
 
 void SiteMetrics::hear(const fusion_status_t& status, double now_s) { fusion_ = {status, now_s}; }
 
+void SiteMetrics::know(std::vector<std::string> enrolled) {
+  for (const std::string& id : enrolled_) {
+    if (std::ranges::find(enrolled, id) == enrolled.end()) stations_.erase(id);
+  }
+  enrolled_ = std::move(enrolled);
+}
+
 void SiteMetrics::hear_distrusted(std::map<std::string, double> by_reason) {
   distrusted_ = std::move(by_reason);
 }
@@ -123,6 +130,10 @@ std::vector<MetricFamily> SiteMetrics::families(double now_s) const {
   for (const auto& [reason, count] : distrusted_) {
     all.counter("ols_bus_distrusted_total", "Messages that the exporter did not believe.",
                 {{"reason", reason}}, count);
+  }
+  for (const std::string& id : enrolled_) {
+    all.gauge("ols_station_enrolled", "1 for each station of the trust list, heard or not.",
+              {{"station", id}}, 1.0);
   }
   for (const auto& [id, heard] : stations_) {
     add_state(all, id, heard.status, now_s - heard.at_s);

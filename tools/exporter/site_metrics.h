@@ -17,7 +17,8 @@ namespace ols::exporter {
 
 class SiteMetrics {
  public:
-  // Of more stations nothing is kept, nor of a silent one after a day: alerts have told it by then.
+  // Of more stations nothing is kept, nor of a silent one after a day; that it is enrolled is told
+  // on, so that alerts last.
   static constexpr std::size_t kMostStations = 1000;
   static constexpr double kForget_s = 86400.0;
   // Of what one message names: readings, counters, devices.
@@ -28,6 +29,8 @@ class SiteMetrics {
   // Statuses as verified. Times: monotonic.
   void hear(const ols_msg::station_status_t& status, double now_s);
   void hear(const ols_msg::fusion_status_t& status, double now_s);
+  // The stations of the trust list; of one that is in it no more nothing is told.
+  void know(std::vector<std::string> enrolled);
   // Messages that were not believed, by reason, since the start.
   void hear_distrusted(std::map<std::string, double> by_reason);
 
@@ -44,6 +47,7 @@ class SiteMetrics {
   };
 
   std::string version_;
+  std::vector<std::string> enrolled_;
   std::map<std::string, HeardStation> stations_;
   std::optional<HeardFusion> fusion_;
   std::map<std::string, double> distrusted_;

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "base/csv_files.h"
+#include "export/gate.h"
 
 namespace ols::exports {
 namespace {
@@ -33,6 +34,18 @@ TEST(ExportFixes, WithoutDeviationsTheCovarianceIsUnknown) {
   const auto targets =
       read("utime_us,target,latitude_deg,longitude_deg,height_m\n1000,7,47.5,13.25,100\n");
   EXPECT_TRUE(std::isnan(targets.at(0).covariance_m2[0]));
+}
+
+TEST(ExportFixes, LongitudesBeyond180AreThoseInTheWest) {
+  const auto targets = read(
+      "utime_us,target,latitude_deg,longitude_deg,height_m\n"
+      "1000,1,47.5,270.5,1\n1000,2,47.5,-89.5,1\n1000,3,47.5,180,1\n1000,4,47.5,-180,1\n");
+  ASSERT_EQ(targets.size(), 4U);
+  EXPECT_EQ(targets[0].place.longitude_deg, -89.5);
+  EXPECT_EQ(targets[1].place.longitude_deg, -89.5);
+  EXPECT_EQ(targets[2].place.longitude_deg, 180.0);
+  EXPECT_EQ(targets[3].place.longitude_deg, -180.0);
+  EXPECT_TRUE(Gate(GateConfig{}).pass(targets[0])) << "within an area that has no end";
 }
 
 TEST(ExportFixes, ABadCellIsNamed) {

@@ -125,6 +125,20 @@ TEST(SiteMetrics, NamesAreBoundedAndQuoted) {
   EXPECT_EQ(stations.size(), SiteMetrics::kMostStations);
 }
 
+TEST(SiteMetrics, AnEnrolledStationIsToldBeforeItIsHeardAndUntilItIsRevoked) {
+  const std::string alfa = "ols_station_enrolled{station=\"alfa\"} 1";
+  SiteMetrics metrics("1");
+  metrics.know({"alfa", "bravo"});
+  EXPECT_TRUE(has_line(text(metrics, 0.0), alfa));
+  EXPECT_EQ(text(metrics, 0.0).find("ols_station_status_age"), std::string::npos);
+  metrics.hear(status_of("alfa"), 0.0);
+  metrics.hear(status_of("bravo"), SiteMetrics::kForget_s + 1.0);
+  EXPECT_TRUE(has_line(text(metrics, SiteMetrics::kForget_s + 1.0), alfa)) << "though forgotten";
+  metrics.know({"alfa"});
+  EXPECT_EQ(text(metrics, 0.0).find("\"bravo\""), std::string::npos);
+  EXPECT_TRUE(has_line(text(metrics, 0.0), alfa));
+}
+
 TEST(SiteMetrics, ASilentStationIsForgottenAfterADay) {
   SiteMetrics metrics("1");
   metrics.hear(status_of("alfa"), 0.0);

@@ -7,12 +7,15 @@
 namespace ols::exports {
 namespace {
 
+using testing::EndsWith;
 using testing::HasSubstr;
 using testing::StartsWith;
 
 TEST(CotText, XmlHasTimesPointAndDetail) {
   const std::string text = cot_xml(cot_event(made_target(), {}));
   EXPECT_THAT(text, StartsWith("<?xml version=\"1.0\""));
+  // Receivers of a stream cut it there; an XML declaration after anything else is an error.
+  EXPECT_THAT(text, EndsWith("</event>"));
   EXPECT_THAT(text, HasSubstr("time=\"2023-11-14T22:13:20.123Z\""));
   EXPECT_THAT(text, HasSubstr("stale=\"2023-11-14T22:13:30.123Z\""));
   EXPECT_THAT(text, HasSubstr("<point lat=\"47.50000000\" lon=\"13.25000000\" hae=\"100.00\" "
