@@ -34,7 +34,7 @@ struct LiveSite::Device {
   std::unique_ptr<PtuDevice> ptu;
   std::unique_ptr<ExposedUnit> exposed;
   std::unique_ptr<LensLine> lens;  // null: a fixed one
-  std::unique_ptr<CameraServer> camera;
+  std::unique_ptr<SimulatedCamera> camera;
   std::unique_ptr<GpioServer> gpio;
   std::unique_ptr<InclinometerLine> inclinometer;  // null: not in the scenario
   std::unique_ptr<GnssLine> gnss;
@@ -67,14 +67,14 @@ LiveSite::LiveSite(const World& world, const std::string& line_folder, LcmBus& b
           std::make_unique<LensLine>(LensUnitConfig{.zoom_travel_s = s.stations[i].zoom.travel_s},
                                      line_folder + "/" + s.stations[i].id + ".lens");
     }
-    CameraServerConfig camera;
+    SimulatedCameraConfig camera;
     camera.address = s.stations[i].camera_address;
     camera.serial = s.stations[i].id;
     camera.width_px = s.camera.width_px;
     camera.height_px = s.camera.height_px;
     camera.exposure_s = s.exposure_s;
     camera.readout_s = s.readout_s;
-    device->camera = std::make_unique<CameraServer>(
+    device->camera = std::make_unique<SimulatedCamera>(
         camera, [this, &device = *device](const Exposure& exposure, cv::Mat& gray) {
           draw(device, exposure, gray);
         });

@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "base/lcm_bus.h"
-#include "sim/camera_server.h"
 #include "sim/fault_plan.h"
 #include "sim/ptu_device.h"
 #include "sim/renderer.h"
+#include "sim/simulated_camera.h"
 #include "sim/world.h"
 
 namespace ols::sim {

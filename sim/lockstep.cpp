@@ -87,6 +87,9 @@ void Lockstep::send(std::size_t station, const station::Bearing& bearing, double
   measurement.track_id = bearing.track_id;
   measurement.calibration_id = bearing.pose_revision;
   bearings_.send(measurement, time_s);
+  for (station::Sighting& one : stations_[station]->sightings(bearing, measurement.utime_us)) {
+    result_.sightings.push_back({station, std::move(one)});
+  }
 }
 
 void Lockstep::fuse(const fusion::BearingMeasurement& measurement, double time_s) {

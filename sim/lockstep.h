@@ -26,9 +26,15 @@ struct Fix {
   std::vector<std::size_t> used;  // stations
 };
 
+struct ToldSighting {
+  std::size_t station = 0;
+  station::Sighting sighting;
+};
+
 struct LockstepResult {
   std::vector<Fix> joint, paper;
   std::vector<fusion::Slew> slews;  // as the fusion made them
+  std::vector<ToldSighting> sightings;
   std::vector<StationRecord> stations;
   std::map<std::string, double> counters;  // of the fusion at the end
   std::vector<std::string> alarms;         // of the fusion at the end

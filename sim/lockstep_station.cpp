@@ -52,7 +52,7 @@ LockstepStation::LockstepStation(const World& world, std::size_t index, const Fi
       index_(index),
       renderer_(std::move(renderer)),
       noise_(derived_seed(world.seed(), kStationTag + index)),
-      phase_s_(noise_.uniform() / world.scenario().frame_rate_hz),
+      shutter_{noise_.uniform() / world.scenario().frame_rate_hz},
       unit_(world.ptu_unit_config(), derived_seed(world.seed(), kUnitTag + index),
             monotonic_s(0.0)),
       exposed_(world.stations()[index].unit, world.ptu_unit_config()),
@@ -60,7 +60,8 @@ LockstepStation::LockstepStation(const World& world, std::size_t index, const Fi
       config_(station_config(world, index, calibration)),
       station_(config_,
                make_tracker(fidelity, views_, derived_seed(world.seed(), kTrackerTag + index))),
-      operator_(world, index, fidelity, noise_, unit_, station_) {
+      operator_(world, index, fidelity, noise_, unit_, station_),
+      told_{station::FrameService(config_.angles)} {
   const ZoomScenario& zoom = world.scenario().stations[index].zoom;
   if (zoom.is_fixed()) return;
   lens_.emplace(Lens{LensUnit({.zoom_travel_s = zoom.travel_s}, monotonic_s(0.0)),
@@ -69,7 +70,11 @@ LockstepStation::LockstepStation(const World& world, std::size_t index, const Fi
 
 std::vector<station::Bearing> LockstepStation::advance(double time_s) {
   exchange_bytes(time_s);
-  for (const ptu::AngleSample& sample : driver_.take_samples()) station_.on_angles(sample);
+  told_.unit.set_trusted(driver_.reference() == ptu::PtuReference::kTrusted);
+  for (const ptu::AngleSample& sample : driver_.take_samples()) {
+    station_.on_angles(sample);
+    told_.unit.on_angles(sample);
+  }
   move_lens(time_s);
   expose(time_s);
   operate(time_s);
@@ -101,9 +106,9 @@ void LockstepStation::move_lens(double time_s) {
 
 void LockstepStation::expose(double time_s) {
   const Scenario& s = world_.scenario();
-  const double mid_s = phase_s_ + static_cast<double>(next_frame_) / s.frame_rate_hz;
+  const double mid_s = shutter_.phase_s + static_cast<double>(shutter_.next) / s.frame_rate_hz;
   if (time_s < mid_s + 0.5 * s.exposure_s + s.readout_s + kTransport_s) return;
-  const std::int64_t number = next_frame_++;
+  const std::int64_t number = shutter_.next++;
   const bool lost = noise_.uniform() < s.errors.frames.lost;
   const double stamp_s = monotonic_s(mid_s) + kStampSd_s * noise_.gaussian();
   ExposureTruth exposure;
@@ -143,7 +148,9 @@ void LockstepStation::take_note(double mid_s, const ViewTruth& view) {
 
 void LockstepStation::operate(double time_s) {
   station_.set_reference(driver_.reference());
-  if (designated() || driver_.state() != ptu::PtuState::kReady) return;
+  if (driver_.state() != ptu::PtuState::kReady) return;
+  told_.unit.set_count(driver_.limits().count);
+  if (designated()) return;
   station_.set_limits(driver_.limits());
   operator_.act(time_s);
 }

@@ -11,6 +11,7 @@
 
 #include "edge/lens/lens_driver.h"
 #include "edge/ptu/driver.h"
+#include "edge/sighting_desk.h"
 #include "edge/station.h"
 #include "edge/tracker/tracker_config.h"
 #include "sim/exposed_unit.h"
@@ -51,6 +52,10 @@ class LockstepStation {
   // Advances to this instant of true time (in steps of about a millisecond); returns the bearings.
   std::vector<station::Bearing> advance(double time_s);
 
+  // Of a bearing of the last advance, by its stamp: what the station tells of counts and pixel.
+  std::vector<station::Sighting> sightings(const station::Bearing& bearing, std::int64_t utime_us) {
+    return told_.desk.take(bearing, utime_us, told_.unit);
+  }
   station::Refusal slew(station::SlewCommand command, double time_s);
   const station::Station& station() const { return station_; }
   // For whoever drives it by hand, between two advances; times are monotonic_s() of now.
@@ -67,6 +72,15 @@ class LockstepStation {
     sim::LensUnit unit;
     lens::LensDriver driver;
   };
+  // The counts of each exposure, and which of them are told.
+  struct Told {
+    station::FrameService unit;
+    station::SightingDesk desk = {};
+  };
+  struct Shutter {
+    double phase_s = 0.0;  // of the exposures
+    std::int64_t next = 0;
+  };
   void exchange_bytes(double time_s);
   void move_lens(double time_s);
   void expose(double time_s);
@@ -77,7 +91,7 @@ class LockstepStation {
   std::size_t index_;
   std::unique_ptr<Renderer> renderer_;
   LockstepNoise noise_;
-  double phase_s_;  // of the exposures
+  Shutter shutter_;
   PtuUnit unit_;
   ExposedUnit exposed_;
   ptu::PtuDriver driver_;
@@ -87,7 +101,7 @@ class LockstepStation {
   station::Station station_;
   LockstepOperator operator_;
   StationRecord record_;
-  std::int64_t next_frame_ = 0;
+  Told told_;
 };
 
 }  // namespace ols::sim

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/atomic_file.h"
+#include "sim/recording.h"
 
 namespace ols::sim {
 namespace {
@@ -251,6 +252,7 @@ void write_report(const World& world, const LockstepResult& result, double durat
   write_slews(result.slews, folder + "/slews.csv");
   write_counters(world, result, folder + "/counters.csv");
   write_summary(world, result, duration_s, folder + "/summary.json");
+  write_recording(world, result, folder + "/sightings.lcm");
 }
 
 }  // namespace ols::sim

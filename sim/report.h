@@ -36,8 +36,8 @@ struct PixelSummary {
 };
 PixelSummary summarise_pixels(const std::vector<StationRecord>& stations);
 
-// Writes truth.csv, fixes.csv, fixes_paper.csv, frames.csv, slews.csv, counters.csv and
-// summary.json into `folder`, which it creates.
+// Writes truth.csv, fixes.csv, fixes_paper.csv, frames.csv, slews.csv, counters.csv, summary.json
+// and sightings.lcm into `folder`, which it creates.
 void write_report(const World& world, const LockstepResult& result, double duration_s,
                   const std::string& folder);
 

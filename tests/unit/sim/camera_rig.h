@@ -13,7 +13,7 @@
 #include <thread>
 
 #include "edge/camera/aravis_camera.h"
-#include "sim/camera_server.h"
+#include "sim/simulated_camera.h"
 
 namespace ols {
 
@@ -58,15 +58,15 @@ struct Serve {
   std::function<void(const sim::Exposure&, cv::Mat&)> paint = draw;
 };
 
-inline std::unique_ptr<sim::CameraServer> serve(const Serve& how = {}) {
-  sim::CameraServerConfig config;
+inline std::unique_ptr<sim::SimulatedCamera> serve(const Serve& how = {}) {
+  sim::SimulatedCameraConfig config;
   config.address = "127.0.0.1";
   config.serial = std::string("T1");
   config.width_px = how.width_px;
   config.height_px = how.height_px;
   config.names = how.names;
   config.tick_frequency = how.tick_frequency;
-  return std::make_unique<sim::CameraServer>(config, how.paint);
+  return std::make_unique<sim::SimulatedCamera>(config, how.paint);
 }
 
 inline camera::CameraConfig station_camera() {

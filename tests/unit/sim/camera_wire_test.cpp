@@ -65,7 +65,7 @@ TEST(CameraWire, WithoutThePacketSocketAndWithSmallPackets) {
 TEST(CameraWire, ColourBecomesGray) {
   // ITU-R BT.601's weights of what the simulated scene's tint leaves.
   const double level = (200 + 2 * 100) / 8;
-  const auto& tint = sim::CameraServer::kTint;
+  const auto& tint = sim::SimulatedCamera::kTint;
   const double brightness = level * (0.299 * tint[0] + 0.587 * tint[1] + 0.114 * tint[2]);
   const auto server = serve();
   for (const char* format : {"BayerRG8", "BayerGR8", "BayerGB8", "BayerBG8", "RGB8", "BGR8"}) {
@@ -192,7 +192,7 @@ TEST(CameraWire, LostPacketsAreAskedForAgain) {
   EXPECT_LE(camera.counters().frames_incomplete, camera.counters().frames_captured / 5);
 }
 
-TEST(CameraServer, KeepsThePixelFormatOfItsFaultFromTheNextConnectionOn) {
+TEST(SimulatedCamera, KeepsThePixelFormatOfItsFaultFromTheNextConnectionOn) {
   const auto server = serve();
   camera::AravisCamera camera(station_camera());
   ASSERT_TRUE(frame_of(camera)) << camera.last_error();
@@ -208,7 +208,7 @@ TEST(CameraServer, KeepsThePixelFormatOfItsFaultFromTheNextConnectionOn) {
       << camera.last_error();
 }
 
-TEST(CameraServer, AnAddressThatIsTakenIsAnError) {
+TEST(SimulatedCamera, AnAddressThatIsTakenIsAnError) {
   const auto server = serve();
   EXPECT_THROW(serve(), std::system_error);
 }

@@ -1,4 +1,5 @@
-// A simulated GigE Vision camera on one local address; a callback draws its images. One camera per
+// A simulated GigE Vision camera on one local address; a callback draws its images, and its
+// faults leave out frames. One camera per
 // address (the control port is fixed).
 #pragma once
 
@@ -14,7 +15,7 @@
 
 namespace ols::sim {
 
-struct CameraServerConfig {
+struct SimulatedCameraConfig {
   std::string address;  // an address that the interface really has, for example 127.0.0.11
   std::string serial;   // the device id is "AVT-<serial>"
   int width_px = 1280;  // of the sensor
@@ -36,14 +37,14 @@ struct Exposure {
   std::uint64_t frame = 0;
 };
 
-class CameraServer {
+class SimulatedCamera {
  public:
   // `draw` fills an 8-bit gray image of the right size; in a Bayer or RGB format the camera sends
   // it with a slightly warm colour (kTint). Called in the camera's own thread, once per frame,
   // while a client streams. Throws std::system_error if the address is not available.
-  CameraServer(const CameraServerConfig& config,
-               std::function<void(const Exposure&, cv::Mat&)> draw);
-  ~CameraServer();
+  SimulatedCamera(const SimulatedCameraConfig& config,
+                  std::function<void(const Exposure&, cv::Mat&)> draw);
+  ~SimulatedCamera();
 
   // Factors of red, green and blue on gray.
   static constexpr std::array<double, 3> kTint = {1.0, 0.9, 0.7};

@@ -1,4 +1,4 @@
-#include "sim/camera_server.h"
+#include "sim/simulated_camera.h"
 
 #include <array>
 #include <atomic>
@@ -42,8 +42,8 @@ bool is_timed(Trigger trigger) {
 
 }  // namespace
 
-struct CameraServer::Impl {
-  Impl(const CameraServerConfig& config, std::function<void(const Exposure&, cv::Mat&)> draw);
+struct SimulatedCamera::Impl {
+  Impl(const SimulatedCameraConfig& config, std::function<void(const Exposure&, cv::Mat&)> draw);
   ~Impl();
 
   void answer(gige::Bytes packet, std::uint64_t peer, const GigeControl::Reply& reply);
@@ -53,7 +53,7 @@ struct CameraServer::Impl {
   // The camera's clock at an instant: its own, or that of the PTP master.
   std::int64_t device_ns(Clock::time_point time);
 
-  const CameraServerConfig config_;
+  const SimulatedCameraConfig config_;
   const std::function<void(const Exposure&, cv::Mat&)> draw_;
   const Clock::time_point switched_on_ = Clock::now();
   GigeDevice device_;
@@ -72,8 +72,8 @@ struct CameraServer::Impl {
   GigeControl control_;  // last: it uses the rest
 };
 
-CameraServer::Impl::Impl(const CameraServerConfig& config,
-                         std::function<void(const Exposure&, cv::Mat&)> draw)
+SimulatedCamera::Impl::Impl(const SimulatedCameraConfig& config,
+                            std::function<void(const Exposure&, cv::Mat&)> draw)
     : config_(config),
       draw_(std::move(draw)),
       device_({.serial = config.serial,
@@ -91,13 +91,13 @@ CameraServer::Impl::Impl(const CameraServerConfig& config,
   stream_thread_ = std::thread([this] { run_stream(); });
 }
 
-CameraServer::Impl::~Impl() {
+SimulatedCamera::Impl::~Impl() {
   cue_.end();
   stream_thread_.join();
 }
 
-void CameraServer::Impl::answer(gige::Bytes packet, std::uint64_t peer,
-                                const GigeControl::Reply& reply) {
+void SimulatedCamera::Impl::answer(gige::Bytes packet, std::uint64_t peer,
+                                   const GigeControl::Reply& reply) {
   if (gone_) return;
   const auto now = Clock::now();
   const Answer answer = device_.handle(packet, peer, device_ns(now), seconds(now));
@@ -107,7 +107,7 @@ void CameraServer::Impl::answer(gige::Bytes packet, std::uint64_t peer,
   cue_.client_spoke();
 }
 
-std::int64_t CameraServer::Impl::device_ns(Clock::time_point time) {
+std::int64_t SimulatedCamera::Impl::device_ns(Clock::time_point time) {
   if (device_.ptp_slave(seconds(time))) {
     const std::int64_t utc_ns = clock_utc_ns() - (nanoseconds(Clock::now()) - nanoseconds(time));
     return utc_ns + std::llround(1e9 * config_.tai_minus_utc_s);
@@ -117,7 +117,7 @@ std::int64_t CameraServer::Impl::device_ns(Clock::time_point time) {
 }
 
 // The start of the next exposure; nullopt while it is unknown. Waits briefly for a trigger.
-std::optional<Clock::time_point> CameraServer::Impl::next_start(const StreamSettings& settings) {
+std::optional<Clock::time_point> SimulatedCamera::Impl::next_start(const StreamSettings& settings) {
   const auto period = duration(settings.period_s);
   if (is_timed(settings.trigger)) return last_start_ ? *last_start_ + period : Clock::now();
   const auto triggered = cue_.wait_for_trigger(kHeartbeatCheck);
@@ -128,7 +128,7 @@ std::optional<Clock::time_point> CameraServer::Impl::next_start(const StreamSett
   return start;
 }
 
-void CameraServer::Impl::run_stream() {
+void SimulatedCamera::Impl::run_stream() {
   for (;;) {
     auto settings = device_.streaming(seconds(Clock::now()));
     if (!settings) {
@@ -156,7 +156,7 @@ void CameraServer::Impl::run_stream() {
   }
 }
 
-void CameraServer::Impl::expose(const StreamSettings& settings, Clock::time_point start) {
+void SimulatedCamera::Impl::expose(const StreamSettings& settings, Clock::time_point start) {
   if (gone_) {
     ++frames_;  // the camera continues behind the cut line until its heartbeat times out
     return;
@@ -184,29 +184,29 @@ void CameraServer::Impl::expose(const StreamSettings& settings, Clock::time_poin
   ++frames_;
 }
 
-CameraServer::CameraServer(const CameraServerConfig& config,
-                           std::function<void(const Exposure&, cv::Mat&)> draw)
+SimulatedCamera::SimulatedCamera(const SimulatedCameraConfig& config,
+                                 std::function<void(const Exposure&, cv::Mat&)> draw)
     : impl_(std::make_unique<Impl>(config, std::move(draw))) {}
 
-CameraServer::~CameraServer() = default;
+SimulatedCamera::~SimulatedCamera() = default;
 
-void CameraServer::pulse(int line) {
+void SimulatedCamera::pulse(int line) {
   constexpr std::array kLines{Trigger::kLine1, Trigger::kLine2, Trigger::kLine3, Trigger::kLine4};
   impl_->cue_.trigger(kLines.at(static_cast<std::size_t>(line - 1)));
 }
 
-void CameraServer::power_cycle() { impl_->device_.power_cycle(); }
+void SimulatedCamera::power_cycle() { impl_->device_.power_cycle(); }
 
-void CameraServer::set_size(int width_px, int height_px) {
+void SimulatedCamera::set_size(int width_px, int height_px) {
   impl_->device_.set_size(width_px, height_px);
 }
 
-void CameraServer::set_faults(const CameraFaults& faults) {
+void SimulatedCamera::set_faults(const CameraFaults& faults) {
   impl_->gone_ = faults.gone;
   impl_->stream_.set_loss(faults.gone ? 1.0 : faults.packet_loss, !faults.no_resend);
   impl_->device_.set_faults(!faults.no_resend, faults.pixel_format);
 }
 
-std::uint64_t CameraServer::skipped() const { return impl_->skipped_; }
+std::uint64_t SimulatedCamera::skipped() const { return impl_->skipped_; }
 
 }  // namespace ols::sim
