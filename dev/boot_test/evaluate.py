@@ -16,6 +16,8 @@ from pathlib import Path
 import lcm
 
 EXPOSURE_LIMIT = 2.0
+EVENT_IDS = (Path(__file__).parents[2] / "base/event_ids.h").read_text()
+ALARM_BEGINS = "MESSAGE_ID=" + re.search(r'kStationAlarmBegins = "(\w+)"', EVENT_IDS)[1]
 UNCONFINED = {"ols-station-restart.service"}  # installs packages
 
 
@@ -127,6 +129,7 @@ def doctor(measure: str, name: str, expected: set[str], evidence: Evidence) -> R
 def reported(evidence: Evidence) -> list[Row]:
     lone = evidence.read("status-text-lone.txt")
     no_network = evidence.read("no-network.txt")
+    explained = evidence.read("explained-lone.txt")
     healed_s = evidence.mark("network-answers") - evidence.mark("network")
     corrected_s = evidence.mark("wrong-answers") - evidence.mark("wrong-failed")
     restarts_done = evidence.text.get("wrong-failed", "never failed")
@@ -147,13 +150,17 @@ def reported(evidence: Evidence) -> list[Row]:
         within("corrected one is adopted automatically", corrected_s, 30.0),
         within("who stops it ends its next try too", took(evidence, "retry-stopped"), 10.0),
         doctor("ols-doctor on a station: what fails", "doctor-alfa.txt", {"gnss"}, evidence),
+        said(
+            "its alarm is an event of the journal", evidence.read("events-lone.txt"), ALARM_BEGINS
+        ),
+        said("which the catalogue explains", explained, r"Station lone: an alarm begins"),
         said("no unit has failed in the end", evidence.read("failed.txt"), r"0 loaded units"),
     ]
 
 
 def exposure(units: Path) -> list[Row]:
     rows = []
-    for unit in sorted(units.glob("*.service")):
+    for unit in sorted(units.glob("ols-*.service")):
         if unit.name in UNCONFINED:
             continue
         done = subprocess.run(

@@ -53,6 +53,15 @@ def test_systemd_understands_the_unit(units, name):
     assert complaints == []
 
 
+def test_the_bridges_queues_fit_into_its_memory():
+    """Twice: the libraries need as much again around each message. The rest is its books'."""
+    header = (ROOT / "bridge/memory_budget.h").read_text()
+    queues = [int(n.replace("'", "")) for n in re.findall(r"QueueBytes = ([\d']+)", header)]
+    unit = (FOLDER / "units/ols-bridge.service").read_text()
+    most = int(re.search(r"^MemoryMax=(\d+)M$", unit, re.M)[1]) << 20
+    assert len(queues) == 2 and 2 * sum(queues) <= 0.8 * most
+
+
 @needs_analyze
 def test_a_wrong_unit_is_found(units):
     unit = units / "ols-fusion.service"
@@ -180,6 +189,7 @@ def test_the_installed_tree_is_complete(tmp_path):
         "lib/modules-load.d/ols.conf",
         "lib/sysctl.d/60-ols.conf",
         "lib/udev/rules.d/61-ols.rules",
+        "lib/systemd/catalog/ols.catalog",
         "share/doc/ols/docs/field-guide.md",
     ):
         assert (usr / path).exists(), path
