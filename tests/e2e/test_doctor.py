@@ -1,7 +1,12 @@
 """ols-doctor beside real processes: nothing attached, devices without a station, a running site."""
 
 import json
+import os
+import shutil
 import subprocess
+import tarfile
+import tomllib
+from pathlib import Path
 
 import pytest
 from conftest import BIN, SCENARIO
@@ -57,6 +62,22 @@ def test_nothing_attached(configs):
         assert (finding["verdict"] == "ok") == (finding["advice"] == ""), finding
 
 
+def test_a_tripod_reads_the_trust_list_that_its_station_has_kept(configs, tmp_path, monkeypatch):
+    """The centre is off."""
+    _, folder = configs
+    keys, config = Path(os.environ["OLS_KEYS"]), folder / "config" / "alfa.toml"
+    shutil.copy(keys / "alfa.key", tmp_path)
+    monkeypatch.setenv("OLS_KEYS", str(tmp_path))
+    assert "no trust list yet" in Diagnosis("--config", config).of("signatures")[0]["what"]
+    state = Path(tomllib.loads(config.read_text())["state_folder"])
+    state.mkdir(parents=True, exist_ok=True)
+    shutil.copy(keys / "trust.toml", state / "trust-alfa.toml")
+    before = {path: path.stat().st_mtime_ns for path in state.iterdir()}
+    assert Diagnosis("--config", config).of("signatures")[0]["verdict"] == "ok"
+    assert {path: path.stat().st_mtime_ns for path in state.iterdir()} == before, "only read"
+    (state / "trust-alfa.toml").unlink()
+
+
 def test_a_wrong_configuration_is_named(configs, tmp_path):
     _, folder = configs
     wrong = tmp_path / "wrong.toml"
@@ -95,7 +116,10 @@ def test_a_running_station_is_asked_and_left_alone(devices):
 
     listener.wait(well, "camera and PTU of alfa", 60.0)
     before = listener.wait_for_status("alfa")
-    diagnosis = Diagnosis("--config", config)
+    bundle = folder / "bundle.tar.gz"
+    diagnosis = Diagnosis("--config", config, "--bundle", bundle)
+    with tarfile.open(bundle) as packed:
+        assert b"station    alfa, boot" in packed.extractfile("./statuses.txt").read()
     for subject in ("station", "camera", "ptu", "bus", "fusion"):
         assert diagnosis.of(subject)[0]["verdict"] in ("ok", "warn"), diagnosis.findings
     assert "alfa runs" in diagnosis.of("station")[0]["what"]

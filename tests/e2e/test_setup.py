@@ -5,7 +5,7 @@ import subprocess
 import time
 
 import pytest
-from conftest import BIN
+from conftest import BIN, ROOT
 from helpers import Listener
 from ols_demo.bus import LIVE_URL
 from ols_demo.site import Site
@@ -138,6 +138,24 @@ def test_what_a_person_has_changed_is_kept(tmp_path, centre):
     assert "= 47.5" in config.read_text() and "# my note" in config.read_text()
     assert key.read_bytes() == before
     assert key.stat().st_mode & 0o777 == 0o600
+
+
+def statements(text):
+    return [line for line in text.splitlines() if line and not line.startswith("#")]
+
+
+def test_a_receiver_keeps_the_time_from_the_first_boot(tmp_path, centre):
+    tripod, answers = tmp_path / "alfa", answers_of(tmp_path, centre, "/nonexistent")
+    answers = 'gnss = "/dev/ols/gnss"\n' + answers + '[station.ptu]\ndevice = "/dev/ols/ptu"\n'
+    assert "gpsd.service" in set_up(tripod, answers)
+    assert 'DEVICES="/dev/ols/gnss"' in (tripod / "etc/default/gpsd").read_text()
+    chrony = tripod / "etc/chrony/conf.d/ols-gnss.conf"
+    example = (ROOT / "systemd/examples/chrony-gnss.conf").read_text()
+    assert statements(chrony.read_text()) == statements(example)
+    measured = chrony.read_text().replace("offset 0.1", "offset 0.137")
+    chrony.write_text(measured)
+    set_up(tripod, answers)
+    assert chrony.read_text() == measured
 
 
 def test_a_bad_answer_is_named_and_nothing_is_written(tmp_path, centre):

@@ -1,3 +1,4 @@
+// Looks for cameras, and at the one that is configured, for ols-doctor.
 #include <arv.h>
 
 #include "edge/camera/aravis_device.h"

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "base/plain_text.h"
 #include "base/small_file.h"
 #include "edge/clock/command_output.h"
 #include "tools/doctor/secrets.h"
@@ -39,6 +40,12 @@ std::vector<Asked> commands() {
           {"adapters.txt", {"ls", "-l", "/dev/serial/by-id", "/dev/ols"}}};
 }
 
+std::string line_without_secrets(const std::string& text) {
+  std::string line = without_secrets(plain_text(text));
+  if (!line.empty()) line.pop_back();  // its end
+  return line;
+}
+
 // A folder of its own, gone with this object.
 class Folder {
  public:
@@ -54,9 +61,20 @@ class Folder {
   Folder(const Folder&) = delete;
   Folder& operator=(const Folder&) = delete;
 
-  // The only way in: nothing gets there as it was.
+  // The only ways in: nothing gets there as it was.
   void put(const std::string& name, const std::string& text) const {
     std::ofstream(path_ / name) << without_secrets(text);
+  }
+  void put_toml(const std::string& name, const std::string& text) const {
+    std::ofstream(path_ / name) << without_secrets_of_toml(text);
+  }
+  // Each text by itself: of the JSON a line would lose its end.
+  void put(const std::string& name, Findings findings) const {
+    for (Finding& finding : findings) {
+      finding.what = line_without_secrets(finding.what);
+      finding.advice = line_without_secrets(finding.advice);
+    }
+    std::ofstream(path_ / name) << to_json(findings);
   }
   std::string path() const { return path_; }
 
@@ -69,11 +87,12 @@ void put_configuration(const Folder& folder, const std::string& from) {
   for (const auto& entry : fs::directory_iterator(from, missing)) {
     const std::string extension = entry.path().extension();
     if (extension != ".toml" && extension != ".env" && extension != ".conf") continue;
+    const std::string name = "configuration-" + entry.path().filename().string();
     try {
-      folder.put("configuration-" + entry.path().filename().string(),
-                 read_small_file(entry.path(), kLargestFile));
+      const std::string text = read_small_file(entry.path(), kLargestFile);
+      extension == ".toml" ? folder.put_toml(name, text) : folder.put(name, text);
     } catch (const std::exception& problem) {
-      folder.put("configuration-" + entry.path().filename().string(), problem.what());
+      folder.put(name, problem.what());
     }
   }
 }
@@ -82,11 +101,14 @@ void put_configuration(const Folder& folder, const std::string& from) {
 
 void write_bundle(const std::string& file, const BundleContents& contents) {
   const Folder folder;
-  folder.put("doctor.json", to_json(contents.findings));
+  folder.put("doctor.json", contents.findings);
   folder.put("version.txt", contents.version);
   for (const auto& [name, command] : commands()) {
     folder.put(name, clock::command_output(command, kPatience_s).value_or("cannot be asked"));
   }
+  std::string statuses;  // in one file: a name that was heard may hold anything
+  for (const auto& [station, status] : contents.statuses) statuses += status + "\n";
+  folder.put("statuses.txt", statuses);
   put_configuration(folder, contents.configuration_folder);
   const auto packed = clock::command_output(
       {"tar", "--create", "--gzip", "--file", file, "--directory", folder.path(), "."},

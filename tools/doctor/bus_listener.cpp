@@ -15,6 +15,7 @@
 #include "ols_msg/bearing_t.hpp"
 #include "ols_msg/fusion_status_t.hpp"
 #include "ols_msg/station_status_t.hpp"
+#include "tools/ctl/status_text.h"
 #include "tools/doctor/judge_host.h"
 
 namespace ols::doctor {
@@ -82,7 +83,23 @@ StationHeard station_from(const ols_msg::station_status_t& status) {
   }
   station.last_error = status.last_error;
   station.last_error_age_s = 1e-6 * static_cast<double>(status.utime - status.last_error_utime);
+  station.text = ctl::full_status(status, clock_utime_us());
   return station;
+}
+
+// Without a list everybody is a stranger: what is heard until then says nothing.
+void wait_for_list(LcmBus& bus, const trust::BusTrust& signatures) {
+  const double end_s = clock_monotonic_s() + 2.0 * trust::BusTrust::kTell_s;
+  while (signatures.list_number() == 0 && clock_monotonic_s() < end_s) bus.handle(kPoll_ms);
+}
+
+void count_distrusted(BusHeard& heard, const BusTraffic& before, const BusTraffic& now) {
+  heard.trust_trouble = now.trust_trouble;
+  for (std::size_t i = 0; i < now.distrusted.size(); ++i) {
+    const std::string reason = trust::to_string(static_cast<trust::Distrust>(i));
+    heard.distrusted["bus_distrusted_" + reason] =
+        static_cast<double>(now.distrusted[i] - before.distrusted[i]);
+  }
 }
 
 void look_at_network(BusHeard& bus) {
@@ -126,14 +143,11 @@ BusHeard listen(const std::string& lcm_url, const trust::TrustConfig& trust, dou
       if (fusions.size() < kMostBoots) fusions.insert(status.boot_id);
       heard.fusion_alarms = status.alarm;
     });
+    if (signatures) wait_for_list(bus, *signatures);
+    const BusTraffic before = bus.traffic();
     const double end_s = clock_monotonic_s() + seconds;
     while (clock_monotonic_s() < end_s) bus.handle(kPoll_ms);
-    const BusTraffic traffic = bus.traffic();
-    heard.trust_trouble = traffic.trust_trouble;
-    for (std::size_t i = 0; i < traffic.distrusted.size(); ++i) {
-      const std::string reason = trust::to_string(static_cast<trust::Distrust>(i));
-      heard.distrusted["bus_distrusted_" + reason] = static_cast<double>(traffic.distrusted[i]);
-    }
+    count_distrusted(heard, before, bus.traffic());
   } catch (const std::exception& trouble) {
     heard.trouble = trouble.what();
   }

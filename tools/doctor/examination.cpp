@@ -13,6 +13,7 @@
 #include "console/console_config.h"
 #include "cue/cue_config.h"
 #include "edge/config.h"
+#include "edge/messages_bus.h"
 #include "export/export_config.h"
 #include "export/readiness.h"
 #include "tools/doctor/bus_listener.h"
@@ -20,6 +21,7 @@
 #include "tools/doctor/judge_devices.h"
 #include "tools/doctor/judge_host.h"
 #include "tools/doctor/judge_site.h"
+#include "tools/doctor/kept_list.h"
 #include "tools/doctor/probe.h"
 #include "tools/logger/logger_config.h"
 
@@ -111,7 +113,16 @@ Findings examine_own(const station::StationSettings& settings, const std::string
   return findings;
 }
 
-Findings examine_station(const std::string& path, const Request& request) {
+// A tripod has no list but the one that its station has heard and kept.
+trust::TrustConfig own_trust(const station::StationSettings& settings) {
+  trust::Environment environment = station::trust_environment(settings);
+  if (environment.state.empty()) environment.state = "/var/lib/ols";
+  return with_kept_list(settings.trust, environment, settings.id);
+}
+
+// With the last status of each station that it hears.
+Findings examine_station(const std::string& path, const Request& request,
+                         std::map<std::string, std::string>& statuses) {
   station::StationSettings settings;
   try {
     settings = station::load_station_settings(path);
@@ -119,7 +130,8 @@ Findings examine_station(const std::string& path, const Request& request) {
     return {refused(error)};
   }
   Findings findings{ok("configuration: " + path + ", station " + settings.id)};
-  const BusHeard bus = listen(settings.lcm_url, settings.trust, request.listen_s, settings.id);
+  const BusHeard bus = listen(settings.lcm_url, own_trust(settings), request.listen_s, settings.id);
+  for (const auto& [id, station] : bus.stations) statuses[id] = station.text;
   append(findings, judge(bus));
   append(findings, examine_own(settings, path, bus, request.patience_s));
   append(findings, examine_host(settings));
@@ -127,11 +139,13 @@ Findings examine_station(const std::string& path, const Request& request) {
   return findings;
 }
 
-Findings examine_fusion(const std::string& path, const Request& request) {
+Findings examine_fusion(const std::string& path, const Request& request,
+                        std::map<std::string, std::string>& statuses) {
   try {
     const fusion::FusionSettings settings = fusion::load_fusion_settings(path);
     Findings findings{ok("configuration: " + path)};
     const BusHeard bus = listen(settings.lcm_url, settings.trust, request.listen_s);
+    for (const auto& [id, station] : bus.stations) statuses[id] = station.text;
     append(findings, judge(bus));
     if (bus.trouble.empty()) append(findings, judge_company(bus, ""));
     return findings;
@@ -221,8 +235,9 @@ Findings examine_bridge(const std::string& path) {
 }
 
 // Of the exporter the state of its service alone is examined.
-Findings examine_program(const std::string& name, const std::string& path, const Request& request) {
-  if (name == "fusion") return examine_fusion(path, request);
+Findings examine_program(const std::string& name, const std::string& path, const Request& request,
+                         std::map<std::string, std::string>& statuses) {
+  if (name == "fusion") return examine_fusion(path, request, statuses);
   if (name == "logger") return examine_logger(path);
   if (name == "console") return examine_console(path);
   if (name == "bridge") return examine_bridge(path);
@@ -246,26 +261,28 @@ Request find_configurations(const std::string& folder) {
   return request;
 }
 
-Findings examine(const Request& request) {
+Examination examine(const Request& request) {
   if (request.stations.empty() && !request.programs.contains("fusion")) {
-    return {fail("configuration: none found",
-                 "copy station.toml of /usr/share/ols/examples to /etc/ols, or name a file: "
-                 "ols-doctor --config FILE")};
+    return {{fail("configuration: none found",
+                  "copy station.toml of /usr/share/ols/examples to /etc/ols, or name a file: "
+                  "ols-doctor --config FILE")},
+            {}};
   }
-  Findings findings;
+  Examination examination;
+  Findings& findings = examination.findings;
   std::vector<std::string> units{"ols-bus.service", "ols-time.service", "ols-logger.service"};
   for (const std::string& path : request.stations) {
-    append(findings, examine_station(path, request));
+    append(findings, examine_station(path, request, examination.statuses));
     units.push_back(unit_of(path));
   }
   for (const std::string_view name : kProgramFiles) {
     const auto path = request.programs.find(std::string(name));
     if (path == request.programs.end()) continue;
-    append(findings, examine_program(path->first, path->second, request));
+    append(findings, examine_program(path->first, path->second, request, examination.statuses));
     if (name != "logger") units.push_back(std::string("ols-").append(name).append(".service"));
   }
   append(findings, examine_units(units));
-  return findings;
+  return examination;
 }
 
 }  // namespace ols::doctor

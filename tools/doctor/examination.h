@@ -19,6 +19,10 @@ struct Request {
 // The configuration files of this host: `folder`/*.toml.
 Request find_configurations(const std::string& folder);
 
-Findings examine(const Request& request);
+struct Examination {
+  Findings findings;
+  std::map<std::string, std::string> statuses;  // as heard last, by station
+};
+Examination examine(const Request& request);
 
 }  // namespace ols::doctor

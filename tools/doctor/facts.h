@@ -31,6 +31,7 @@ struct StationHeard {
   std::string last_error;
   double last_error_age_s = 0.0;
   std::size_t boots = 1;  // number of processes that use this id
+  std::string text;       // the whole status, for a person
 };
 
 struct BusHeard {

@@ -28,9 +28,10 @@ int main(int argc, char** argv) {
   bool json = false;
   app.add_option("--config", configs, "Station's configuration; default: all of /etc/ols");
   app.add_flag("--json", json, "For programs");
-  app.add_option("--bundle", bundle,
-                 "Also write a bundle for remote support into this file (.tar.gz): findings, "
-                 "journal, configuration, versions, clock; without secrets");
+  app.add_option(
+      "--bundle", bundle,
+      "Also write a bundle for remote support into this file (.tar.gz): findings, "
+      "journal, configuration, versions, clock, the stations' statuses; without secrets");
   if (const auto status = ols::parse_command_line(app, argc, argv, "ols-doctor")) return *status;
   spdlog::set_level(spdlog::level::off);  // the drivers' messages are judged, not shown
   try {
@@ -39,14 +40,18 @@ int main(int argc, char** argv) {
       request.stations = configs;
       request.programs.clear();
     }
-    const ols::doctor::Findings findings = ols::doctor::examine(request);
+    const ols::doctor::Examination examination = ols::doctor::examine(request);
+    const ols::doctor::Findings& findings = examination.findings;
     if (json) {
       std::printf("%s\n", ols::doctor::to_json(findings).c_str());
     } else {
       for (const auto& finding : findings) std::printf("%s\n", ols::doctor::line(finding).c_str());
     }
     ols::flush_output();
-    if (!bundle.empty()) ols::doctor::write_bundle(bundle, {OLS_VERSION, findings, kConfiguration});
+    if (!bundle.empty()) {
+      ols::doctor::write_bundle(bundle,
+                                {OLS_VERSION, findings, kConfiguration, examination.statuses});
+    }
     return ols::doctor::exit_status(findings);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "ols-doctor: %s\n", error.what());

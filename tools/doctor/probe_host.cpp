@@ -1,3 +1,4 @@
+// Looks at the computer for ols-doctor: network, clock, disk, limits.
 #include <sys/statvfs.h>
 #include <unistd.h>
 

@@ -1,3 +1,4 @@
+// Looks at inclinometer, GNSS receiver and GPIO lines for ols-doctor.
 #include <chrono>
 #include <system_error>
 #include <thread>

@@ -1,3 +1,4 @@
+// Looks at the serial lines for ols-doctor: who has them open, what the PTU answers.
 #include <unistd.h>
 
 #include <algorithm>

@@ -20,31 +20,45 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kPatience_s = 600.0;
+constexpr std::string_view kEnabled = "etc/systemd/system/multi-user.target.wants/";
 // Below the root. Of a pattern's last part only the beginning is given.
-constexpr std::array<std::string_view, 7> kParts{"etc/ols/",
-                                                 "etc/credstore/ols-",
-                                                 "etc/chrony/conf.d/ols-",
-                                                 "etc/default/gpsd",
-                                                 "etc/udev/rules.d/61-ols-site.rules",
-                                                 "var/lib/ols/",
-                                                 "var/lib/ols-setup/"};
+constexpr std::array<std::string_view, 10> kParts{
+    "etc/ols/",
+    "etc/credstore/ols-",
+    "etc/chrony/conf.d/ols-",
+    "etc/default/gpsd",
+    "etc/systemd/system/ols-",  // drop-ins
+    "etc/systemd/system/multi-user.target.wants/ols-",
+    "etc/systemd/system/multi-user.target.wants/gpsd.",
+    "etc/udev/rules.d/61-ols-site.rules",
+    "var/lib/ols/calibration",
+    "var/lib/ols-setup/"};
+// Its files are states. Its other folders are maps, exports, and what else a person put there.
+constexpr std::string_view kStates = "var/lib/ols/";
 
 std::vector<std::string> present(const std::string& root) {
   std::vector<std::string> paths;
-  for (const std::string_view part : kParts) {
-    const fs::path pattern(part);
-    const std::string beginning = pattern.filename();
-    const fs::path folder = pattern.parent_path();
-    if (beginning.empty()) {
-      if (fs::exists(fs::path(root) / folder)) paths.push_back(folder);
-      continue;
-    }
+  const auto add = [&](const fs::path& folder, std::string_view beginning, bool files_alone) {
     std::error_code missing;
     for (const auto& entry : fs::directory_iterator(fs::path(root) / folder, missing)) {
       const std::string name = entry.path().filename();
+      if (files_alone && !fs::is_regular_file(entry.symlink_status())) continue;
       if (name.starts_with(beginning)) paths.push_back(folder / name);
     }
+  };
+  for (const std::string_view part : kParts) {
+    const fs::path pattern(part);
+    const fs::path folder = pattern.parent_path();
+    if (!pattern.filename().empty()) {
+      add(folder, pattern.filename().native(), false);
+    } else if (fs::exists(fs::path(root) / folder)) {
+      paths.push_back(folder);
+    }
   }
+  // A regular file may have the name of a calibration, too.
+  add(kStates, "", true);
+  std::ranges::sort(paths);
+  paths.erase(std::unique(paths.begin(), paths.end()), paths.end());
   return paths;
 }
 
@@ -93,24 +107,32 @@ void back_up(const Host& host, const std::string& file) {
 
 bool is_of_backup(const std::string& member) {
   if (member.find("..") != std::string::npos) return false;
+  if (member.starts_with(kStates)) return true;
   return std::ranges::any_of(kParts,
                              [&](std::string_view part) { return member.starts_with(part); });
 }
 
 std::vector<std::string> units_of(const std::vector<std::string>& members) {
-  std::vector<std::string> units;
+  std::vector<std::string> enabled, configured;
   for (const std::string& member : members) {
     const fs::path path(member);
+    if (member.starts_with(kEnabled)) enabled.push_back(path.filename());
     if (path.parent_path() != "etc/ols" || path.extension() != ".toml") continue;
     const std::string name = path.stem();
-    if (is_station_file(name)) units.push_back("ols-station@" + name + ".service");
-    if (is_program_file(name)) units.push_back("ols-" + name + ".service");
+    if (is_station_file(name)) configured.push_back("ols-station@" + name + ".service");
+    if (is_program_file(name)) configured.push_back("ols-" + name + ".service");
   }
-  if (!units.empty()) units.insert(units.begin(), {"ols-bus.service", "ols-time.service"});
-  return units;
+  // Debian enables gpsd by itself, also where nothing of ours was.
+  if (std::ranges::any_of(enabled, [](const auto& unit) { return unit.starts_with("ols-"); })) {
+    return enabled;
+  }
+  if (!configured.empty())
+    configured.insert(configured.begin(), {"ols-bus.service", "ols-time.service"});
+  configured.insert(configured.begin(), enabled.begin(), enabled.end());
+  return configured;
 }
 
-void restore(const Host& host, const std::string& file) {
+std::vector<std::string> restore(const Host& host, const std::string& file) {
   const std::vector<std::string> members = members_of(file);
   for (const std::string& member : members) {
     if (!is_of_backup(member)) throw std::runtime_error(file + ": holds " + member + ": no backup");
@@ -120,13 +142,7 @@ void restore(const Host& host, const std::string& file) {
                                           kPatience_s);
   if (!done) throw std::runtime_error(file + ": not all could be restored");
   restore_time_key(host, members);
-  const std::vector<std::string> units = units_of(members);
-  if (!host.is_this_host() || units.empty()) return;
-  std::vector<std::string> enable{"systemctl", "enable", "--now"};
-  enable.insert(enable.end(), units.begin(), units.end());
-  const int enabled = run(enable);
-  read_anew();
-  if (enabled != 0) throw std::runtime_error("not all services have started: ols-doctor says why");
+  return units_of(members);
 }
 
 }  // namespace ols::setup

@@ -86,6 +86,25 @@ int run(const std::vector<std::string>& command) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
-void read_anew() { run({"systemctl", "try-restart", "chrony.service", "gpsd.service"}); }
+std::vector<std::string> start(const std::vector<std::string>& units) {
+  run({"systemctl", "daemon-reload"});
+  std::vector<std::string> failed;
+  // One by one: systemctl starts none of several when one is not installed.
+  for (const std::string& unit : units) {
+    if (run({"systemctl", "enable", "--now", unit}) != 0) failed.push_back(unit);
+  }
+  run({"systemctl", "try-restart", "chrony.service", "gpsd.service"});
+  return failed;
+}
+
+std::string trouble(const std::vector<std::string>& not_started, int doctor) {
+  constexpr int kFailures = 2;
+  std::string text;
+  for (const std::string& unit : not_started) text += (text.empty() ? "" : ", ") + unit;
+  if (!text.empty()) text = "not started: " + text;
+  if (doctor >= 0 && doctor < kFailures) return text;
+  if (!text.empty()) text += "; ";
+  return text + (doctor == kFailures ? "ols-doctor finds failures" : "ols-doctor cannot run");
+}
 
 }  // namespace ols::setup

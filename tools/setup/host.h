@@ -25,8 +25,13 @@ class Host {
   std::string root_;
 };
 
-// Lets the time services read what was written: they read their files at their start only.
-void read_anew();
+// Enables and starts these units of systemd, and lets the time services read what was written: they
+// read their files at their start only. Returns the units that did not start.
+std::vector<std::string> start(const std::vector<std::string>& units);
+
+// Why a host that was set up does not work; empty if it does. `doctor`: exit status of ols-doctor.
+// Pure.
+std::string trouble(const std::vector<std::string>& not_started, int doctor);
 
 // Runs a program with this one's standard streams and returns its status; -1 if it cannot be run.
 int run(const std::vector<std::string>& command);

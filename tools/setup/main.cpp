@@ -28,6 +28,7 @@ namespace fs = std::filesystem;
 namespace setup = ols::setup;
 
 constexpr std::size_t kLargestAnswers = 1'000'000;
+constexpr int kExitTrouble = 1;
 constexpr const char* kTyped = "/var/lib/ols-setup/answers.toml";
 
 struct Words {
@@ -107,14 +108,8 @@ setup::Answers ask_person(const setup::Host& host) {
   }
 }
 
-void start(const std::vector<std::string>& units) {
-  std::vector<std::string> enable{"systemctl", "enable", "--now"};
-  enable.insert(enable.end(), units.begin(), units.end());
-  if (setup::run(enable) != 0) std::fprintf(stderr, "ols-setup: not all services have started\n");
-  setup::read_anew();
-}
-
-void set_up(const Words& words, const setup::Host& host) {
+// The units to start.
+std::vector<std::string> set_up(const Words& words, const setup::Host& host) {
   const bool asks = words.answers.empty();
   setup::Answers answers =
       asks ? ask_person(host)
@@ -133,14 +128,31 @@ void set_up(const Words& words, const setup::Host& host) {
     host.write(plan.files);
     setup::make_site(host, answers.site, answers.root);
   }
+  return plan.units;
+}
+
+int start(const Words& words, const setup::Host& host, const std::vector<std::string>& units) {
   if (!host.is_this_host() || words.no_start) {
     std::printf("to be enabled:");
-    for (const std::string& unit : plan.units) std::printf(" %s", unit.c_str());
+    for (const std::string& unit : units) std::printf(" %s", unit.c_str());
     std::printf("\n");
-    return;
+    return 0;
   }
-  start(plan.units);
-  setup::run({"ols-doctor"});
+  const std::vector<std::string> not_started = setup::start(units);
+  const std::string trouble = setup::trouble(not_started, setup::run({"ols-doctor"}));
+  if (trouble.empty()) return 0;
+  std::fprintf(stderr, "ols-setup: everything is written, but not all works: %s\n",
+               trouble.c_str());
+  return kExitTrouble;
+}
+
+int do_what_is_asked(const Words& words, const setup::Host& host) {
+  if (!words.backup.empty()) {
+    setup::back_up(host, words.backup);
+    return 0;
+  }
+  return start(words, host,
+               words.restore.empty() ? set_up(words, host) : setup::restore(host, words.restore));
 }
 
 }  // namespace
@@ -149,7 +161,8 @@ int main(int argc, char** argv) {
   CLI::App app{
       "Makes this computer a station or the centre of a site: finds its devices, writes its "
       "configuration and keys, starts its services. Asks what it cannot find, or reads it from a "
-      "file. Run it again at any time: what a person has changed in /etc/ols is kept"};
+      "file. Run it again at any time: what a person has changed in /etc/ols is kept. Exit status: "
+      "0 all works, 1 a service has not started or ols-doctor finds a failure, 2 bad input"};
   app.set_version_flag("--version", OLS_VERSION);
   Words words;
   app.add_option("--answers", words.answers, "TOML file with the answers (docs/setup.md)");
@@ -164,15 +177,9 @@ int main(int argc, char** argv) {
   try {
     if (words.root.empty() && ::geteuid() != 0) throw std::runtime_error("must run as root");
     const setup::Host host(words.root);
-    if (!words.backup.empty()) {
-      setup::back_up(host, words.backup);
-    } else if (!words.restore.empty()) {
-      setup::restore(host, words.restore);
-    } else {
-      set_up(words, host);
-    }
+    const int status = do_what_is_asked(words, host);
     ols::flush_output();
-    return 0;
+    return status;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "ols-setup: %s\n", error.what());
     return ols::kExitBadInput;

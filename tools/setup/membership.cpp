@@ -1,6 +1,7 @@
 #include "tools/setup/membership.h"
 
 #include <cstdio>
+#include <exception>
 #include <filesystem>
 #include <stdexcept>
 #include <utility>
@@ -27,6 +28,15 @@ void say_join(const std::string& station, const trust::PublicKey& key) {
       "\nAt the centre, with the stick of the site's root (compare the six words):\n"
       "  ols-key enrol %s --root /media/root.key --list %s --public %s\n  %s\n\n",
       station.c_str(), kList, trust::to_hex(key).c_str(), trust::spoken(key).c_str());
+}
+
+void keep_copy(const key::SiteFiles& files) {
+  try {
+    key::copy_list(files);
+  } catch (const std::exception& problem) {
+    std::fprintf(stderr, "there is no new copy of the trust list beside the root: %s\n",
+                 problem.what());
+  }
 }
 
 constexpr std::size_t kLargestKeys = 1'000'000;
@@ -63,7 +73,11 @@ void join_site(const Host& host, const std::string& station, const key::Invitati
 
 void make_site(const Host& host, const std::string& site, const std::string& root) {
   const key::SiteFiles files{root, host.folder("/etc/ols", 0755) + "/trust.toml"};
-  if (!fs::exists(files.root)) key::make_site(files, site);
+  if (!fs::exists(files.root)) {
+    key::make_site(files, site);
+  } else if (key::restore_list(files)) {
+    std::printf("%s: restored from the copy beside the root\n", files.list.c_str());
+  }
   for (const auto& [name, role] :
        {std::pair{"fusion", Role::kFusion}, std::pair{"console", Role::kOperator},
         std::pair{"operator", Role::kOperator}, std::pair{"logger", Role::kListener},
@@ -72,6 +86,7 @@ void make_site(const Host& host, const std::string& site, const std::string& roo
     const std::string path = key_path(host, name);
     if (!fs::exists(path)) key::enrol_with_key(files, {name, role}, path);
   }
+  keep_copy(files);
   const trust::RootKey key = trust::read_root_key(files.root);
   keep_time(host, key.site_key);
   std::printf(

@@ -12,8 +12,8 @@ namespace ols::setup {
 // centre. Throws ConfigError, std::system_error; std::invalid_argument for a key of another site.
 void join_site(const Host& host, const std::string& station, const key::Invitation& invitation);
 
-// The centre: the root and the list, unless they are there, and a key for each of its programs.
-// Says the invitation of the stations.
+// The centre: the root and the list, unless they are there, and a key for each of its programs. A
+// list that is lost is restored from the copy beside the root. Says the invitation of the stations.
 void make_site(const Host& host, const std::string& site, const std::string& root);
 
 // The key by which the hosts of a site believe each other's time, for chrony. No file: no chrony.

@@ -38,6 +38,7 @@ Plan plan_station(const Answers& answers) {
   plan.units = {"ols-bus.service", "ols-time.service"};
   if (!answers.gnss.empty()) {
     plan.files.push_back(gpsd_file(answers.gnss));
+    plan.files.push_back({"/etc/chrony/conf.d/ols-gnss.conf", receiver_chrony_file(), false});
     plan.units.emplace_back("gpsd.service");
   }
   plan.units.push_back("ols-station@" + answers.station + ".service");

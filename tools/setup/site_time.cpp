@@ -34,6 +34,17 @@ std::string chrony_file(const std::vector<std::string>& neighbours) {
   return text;
 }
 
+std::string receiver_chrony_file() {
+  return "# Time from the GNSS receiver, by gpsd. The sentences only number the pulses: they are "
+         "late by\n"
+         "# tens to hundreds of milliseconds. A pulse on a GPIO: "
+         "/usr/share/ols/examples/chrony-gnss.conf.\n"
+         "refclock SHM 0 refid NMEA offset 0.1 delay 0.4 noselect\n"
+         "refclock SHM 1 refid PPS precision 1e-6 lock NMEA prefer\n"
+         "# A board without a clock of its own starts in the past.\n"
+         "makestep 0.1 10\n";
+}
+
 std::string with_time_key(const std::string& present, const trust::SiteKey& site) {
   const std::string beginning = std::to_string(kTimeKey) + " ";
   std::istringstream lines(present);

@@ -14,6 +14,8 @@ inline constexpr int kTimeKey = 7316;
 
 // /etc/chrony/conf.d/ols-site.conf. `neighbours`: addresses of the other hosts.
 std::string chrony_file(const std::vector<std::string>& neighbours);
+// /etc/chrony/conf.d/ols-gnss.conf: time from gpsd's receiver. Without a fix it does nothing.
+std::string receiver_chrony_file();
 // /etc/chrony/chrony.keys with the site's key, all other lines as they were.
 std::string with_time_key(const std::string& present, const trust::SiteKey& site);
 

@@ -40,14 +40,29 @@ class Bundle : public testing::Test {
 
 TEST_F(Bundle, HoldsTheConfigurationWithoutItsSecrets) {
   plant("alfa.toml", "[site]\nname = \"alfa\"\nsite_key = \"Zebra-77\"\n");
+  plant("bravo.toml", "[x]\ntokens = [\n  \"Zebra-77\",\n]\nname = \"bravo\"\n");
   plant("bus.env", "OLS_INTERFACE=eth0\nAPI_TOKEN=Zebra-77\n");
   plant("key.pem", "Zebra-77");
   const std::string file = (folder_ / "b.tar.gz").string();
   write_bundle(file, contents());
   const std::string all = unpacked(file);
   EXPECT_THAT(all, HasSubstr("name = \"alfa\""));
+  EXPECT_THAT(all, HasSubstr("name = \"bravo\""));
   EXPECT_THAT(all, HasSubstr("OLS_INTERFACE=eth0"));
   EXPECT_THAT(all, HasSubstr("1.2.3"));
+  EXPECT_THAT(all, Not(HasSubstr("Zebra-77")));
+}
+
+TEST_F(Bundle, HoldsFindingsAndStatuses) {
+  findings_ = {fail("alfa: x = 1; password Zebra-77", "mend")};
+  BundleContents all_of_it = contents();
+  all_of_it.statuses = {{"alfa", "station alfa, boot 7"},
+                        {"../bravo", "station bravo\npsk=Zebra-77"}};
+  const std::string file = (folder_ / "b.tar.gz").string();
+  write_bundle(file, all_of_it);
+  const std::string all = unpacked(file);
+  EXPECT_THAT(all, HasSubstr("\"what\": \"alfa: x = 1; password [removed]\","));
+  EXPECT_THAT(all, HasSubstr("station bravo\npsk=[removed]\nstation alfa, boot 7\n"));
   EXPECT_THAT(all, Not(HasSubstr("Zebra-77")));
 }
 

@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "base/small_file.h"
 #include "base/trust/key_file.h"
@@ -17,6 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using testing::ElementsAre;
+using testing::UnorderedElementsAre;
 
 class BackupTest : public testing::Test {
  protected:
@@ -53,6 +56,42 @@ TEST_F(BackupTest, AStationComesBackOnAnotherComputer) {
   EXPECT_TRUE(fs::exists(folder_ + "/new/var/lib/ols/calibrations/7/setup.toml"));
   EXPECT_FALSE(fs::exists(folder_ + "/new/etc/credstore/other.key"));
   EXPECT_FALSE(fs::exists(folder_ + "/new/etc/passwd"));
+}
+
+TEST_F(BackupTest, WhatAPersonHasChangedAndEnabledInSystemdComesBack) {
+  const std::string system = "/etc/systemd/system/";
+  const std::string drop_in = system + "ols-station@.service.d/cameras.conf";
+  const std::string wants = system + "multi-user.target.wants/";
+  put("/etc/ols/alfa.toml", "id = \"alfa\"\n");
+  put("/etc/ols/spare.toml", "id = \"spare\"\n");
+  put(drop_in, "[Service]\n");
+  put(system + "ssh.service.d/own.conf", "not ours\n");
+  fs::create_directories(old_.path(wants));
+  for (const char* unit : {"ols-ptp@eth1.service", "ols-station@alfa.service", "ssh.service"}) {
+    fs::create_symlink(std::string("/lib/systemd/system/") + unit, old_.path(wants + unit));
+  }
+  back_up(old_, file_);
+  EXPECT_THAT(restore(new_, file_),
+              UnorderedElementsAre("ols-ptp@eth1.service", "ols-station@alfa.service"))
+      << "not the spare one, which was not enabled";
+  EXPECT_TRUE(fs::exists(new_.path(drop_in)));
+  EXPECT_TRUE(fs::is_symlink(new_.path(wants + "ols-ptp@eth1.service")));
+  EXPECT_FALSE(fs::exists(new_.path(system + "ssh.service.d")));
+  EXPECT_FALSE(fs::is_symlink(new_.path(wants + "ssh.service")));
+}
+
+TEST_F(BackupTest, OfTheStatesFolderItHasWhatAStationNeeds) {
+  const std::string states = "/var/lib/ols/";
+  const std::vector<std::string> needed{"alfa.hold", "alfa.pose", "trust-alfa.toml",
+                                        "calibrations/alfa/7/setup.toml"};
+  const std::vector<std::string> large{"maps/site.pmtiles", "exports/site.kml",
+                                       "recordings/20260101_x/1.png"};
+  for (const std::string& name : needed) put(states + name, "");
+  for (const std::string& name : large) put(states + name, "");
+  back_up(old_, file_);
+  restore(new_, file_);
+  for (const std::string& name : needed) EXPECT_TRUE(fs::exists(new_.path(states + name))) << name;
+  for (const std::string& name : large) EXPECT_FALSE(fs::exists(new_.path(states + name))) << name;
 }
 
 TEST_F(BackupTest, AnyNumberOfFilesComesBack) {
@@ -107,6 +146,16 @@ TEST(Backup, TheConfigurationSaysWhichServicesThereWere) {
   EXPECT_THAT(units_of({"etc/ols/cue.toml", "etc/ols/site.toml"}),
               ElementsAre("ols-bus.service", "ols-time.service", "ols-cue.service"));
   EXPECT_TRUE(units_of({"etc/ols/bus.env"}).empty());
+}
+
+TEST(Backup, WhatWasEnabledGoesBeforeWhatIsConfigured) {
+  const std::string wants = "etc/systemd/system/multi-user.target.wants/";
+  EXPECT_THAT(units_of({"etc/ols/alfa.toml", wants + "gpsd.service", wants + "ols-bus.service"}),
+              ElementsAre("gpsd.service", "ols-bus.service"));
+  EXPECT_THAT(units_of({"etc/ols/alfa.toml", wants + "gpsd.service"}),
+              ElementsAre("gpsd.service", "ols-bus.service", "ols-time.service",
+                          "ols-station@alfa.service"))
+      << "of others' programs alone";
 }
 
 }  // namespace

@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <string>
+#include <vector>
 
 #include "base/small_file.h"
 #include "tests/unit/temp_dir.h"
@@ -63,6 +66,31 @@ TEST_F(HostTest, APackagesFileInWhichNobodyChoseAnythingIsReplaced) {
 TEST_F(HostTest, AFolderOfSecretsIsClosed) {
   host_.folder("/etc/credstore", 0700);
   EXPECT_EQ(fs::status(root_ + "/etc/credstore").permissions(), fs::perms::owner_all);
+}
+
+// A systemctl that knows no gpsd.
+TEST_F(HostTest, OneUnitThatDoesNotStartKeepsNoOtherFromIt) {
+  const std::string program = host_.folder("/bin", 0755) + "/systemctl";
+  std::ofstream(program) << "#!/bin/sh\necho \"$*\" >>" << root_
+                         << "/asked\n[ \"$3\" != gpsd.service ]\n";
+  fs::permissions(program, fs::perms::owner_all);
+  const std::string before = ::getenv("PATH");
+  ::setenv("PATH", (root_ + "/bin:" + before).c_str(), 1);
+  const auto failed = start({"ols-bus.service", "gpsd.service", "ols-station@alfa.service"});
+  ::setenv("PATH", before.c_str(), 1);
+  EXPECT_EQ(failed, std::vector<std::string>{"gpsd.service"});
+  EXPECT_EQ(text("/asked"),
+            "daemon-reload\nenable --now ols-bus.service\nenable --now gpsd.service\n"
+            "enable --now ols-station@alfa.service\ntry-restart chrony.service gpsd.service\n");
+}
+
+TEST(Trouble, IsWhatHasNotStartedAndWhatTheDoctorFinds) {
+  EXPECT_EQ(trouble({}, 0), "");
+  EXPECT_EQ(trouble({}, 1), "") << "warnings";
+  EXPECT_EQ(trouble({}, 2), "ols-doctor finds failures");
+  EXPECT_EQ(trouble({}, -1), "ols-doctor cannot run");
+  EXPECT_EQ(trouble({"a.service", "b.service"}, 1), "not started: a.service, b.service");
+  EXPECT_EQ(trouble({"a.service"}, 3), "not started: a.service; ols-doctor cannot run");
 }
 
 TEST(Run, GivesTheStatusOfTheProgram) {

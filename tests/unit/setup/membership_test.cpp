@@ -39,6 +39,26 @@ TEST_F(MembershipTest, TheCentreHasAListAndAKeyForEachProgramOnce) {
   EXPECT_EQ(key::read_site(files, trust::read_root_key(root)).number, list.number);
 }
 
+TEST_F(MembershipTest, ACentreWhoseDiskIsLostBeginsAgainWithTheStick) {
+  fs::create_directories(root_ + "/stick");
+  const std::string root = root_ + "/stick/root.key";
+  make_site(host_, "airfield", root);
+  const auto secret = trust::read_root_key(root);
+  const trust::PublicKey alfa = kSite.alfa.public_key();
+  key::SiteFiles files{root, root_ + "/etc/ols/trust.toml"};
+  key::enrol_in(files, {"alfa", trust::Role::kStation, alfa});
+  EXPECT_EQ(key::copy_list(files), root_ + "/stick/root.trust.toml");
+  const auto before = key::read_site(files, secret);
+  fs::remove_all(root_ + "/etc");
+  make_site(host_, "airfield", root);
+  const auto list = key::read_site(files, secret);
+  EXPECT_GT(list.number, before.number);
+  EXPECT_EQ(list.find("alfa")->key, alfa) << "the tripods need not join again";
+  EXPECT_NE(list.find("fusion")->key, before.find("fusion")->key);
+  files.list = root_ + "/stick/root.trust.toml";
+  EXPECT_EQ(key::read_site(files, secret).number, list.number) << "the copy is of the newest";
+}
+
 TEST_F(MembershipTest, AStationKeepsItsKeyAndTakesNoOtherSites) {
   const key::Invitation invitation{kSite.secret, kSite.root.public_key()};
   join_site(host_, "alfa", invitation);

@@ -42,13 +42,15 @@ TEST(Plan, WithoutADeviceTheErrorNamesTheKey) {
   }
 }
 
-TEST(Plan, AReceiverGoesToGpsd) {
+TEST(Plan, AReceiverGoesToGpsdAndItsTimeToChrony) {
   Answers answers = read_answers(station_answers(devices()), "a");
   answers.gnss = "/dev/ols/gnss";
   const Plan plan = plan_station(answers);
-  EXPECT_THAT(paths(plan),
-              ElementsAre("/etc/ols/alfa.toml", "/etc/ols/bus.env", kTime, "/etc/default/gpsd"));
+  EXPECT_THAT(paths(plan), ElementsAre("/etc/ols/alfa.toml", "/etc/ols/bus.env", kTime,
+                                       "/etc/default/gpsd", "/etc/chrony/conf.d/ols-gnss.conf"));
   EXPECT_THAT(plan.files[3].text, HasSubstr("DEVICES=\"/dev/ols/gnss\"\n"));
+  EXPECT_THAT(plan.files[4].text, HasSubstr("\nrefclock SHM 1 "));
+  EXPECT_FALSE(plan.files[4].is_toml);
   EXPECT_THAT(plan.units, testing::Contains("gpsd.service"));
 }
 

@@ -22,6 +22,13 @@ TEST(SiteTime, EachNeighbourIsAskedWithTheSitesKey) {
   EXPECT_THAT(chrony_file({}), Not(HasSubstr("server ")));
 }
 
+// A pulse without its second is no time.
+TEST(SiteTime, TheReceiversPulseIsNumberedByItsSentences) {
+  const std::string text = receiver_chrony_file();
+  EXPECT_THAT(text, HasSubstr("\nrefclock SHM 0 refid NMEA "));
+  EXPECT_THAT(text, HasSubstr("\nrefclock SHM 1 refid PPS precision 1e-6 lock NMEA prefer\n"));
+}
+
 TEST(SiteTime, AllMembersOfASiteHaveOneKeyAndOthersAnother) {
   const std::string keys = with_time_key("", kSite.secret);
   EXPECT_THAT(keys, StartsWith("7316 SHA256 HEX:"));

@@ -1,0 +1,15 @@
+// The trust list by which a host examines itself: where it was not given one, the one that its
+// member has heard and kept. It is only read.
+#pragma once
+
+#include <string>
+
+#include "base/trust/trust_config.h"
+
+namespace ols::doctor {
+
+// `config` with the list that `name` has kept as the configured one, where there is no other.
+trust::TrustConfig with_kept_list(trust::TrustConfig config, const trust::Environment& environment,
+                                  const std::string& name);
+
+}  // namespace ols::doctor
