@@ -2,6 +2,7 @@
 
 import json
 import os
+import shutil
 import signal
 import socket
 import struct
@@ -154,9 +155,10 @@ def test_a_flood_stays_within_the_quota_and_the_oldest_go_first(start):
     assert greatest <= QUOTA_BYTES
     assert len(left) >= 2
     assert left == sorted(order[-len(left) :])
-    # What is left can be read to its end.
-    events = [event for name in left for event in lcm.EventLog(str(logger.logs / name))]
-    assert {event.channel for event in events} == {FLOOD}
+    # What is left can be read to its end, and each file begins with the trust list.
+    for name in left:
+        channels = [event.channel for event in lcm.EventLog(str(logger.logs / name))]
+        assert channels == ["OLS_TRUST", *[FLOOD] * (len(channels) - 1)]
 
 
 def test_waits_while_the_disk_is_full_of_other_things_and_records_again(start):
@@ -223,7 +225,7 @@ def test_a_file_that_is_taken_away_is_said_and_another_begun(start, how):
     assert code == 0
     assert "was deleted, renamed or replaced while it was written" in error
     begun = Path(logger.status()["text"])
-    assert {event.channel for event in lcm.EventLog(str(begun))} == {FLOOD}
+    assert {event.channel for event in lcm.EventLog(str(begun))} == {"OLS_TRUST", FLOOD}
 
 
 def send_raw(datagrams):
@@ -272,12 +274,45 @@ def test_records_a_flight_into_one_file(flight):
     wait(lambda: log.exists() and log.stat().st_size >= 100 * signed, "100 messages")
     process.send_signal(signal.SIGTERM)
     assert process.wait(DEADLINE_S) == 0
-    recorded = [event.data[16] for event in lcm.EventLog(str(log))]
-    assert recorded == list(range(100))
+    assert [data[16] for data in messages(log, FLOOD)] == list(range(100))
     again = subprocess.run(program, capture_output=True, text=True, timeout=DEADLINE_S)
     assert again.returncode == 2
     assert str(log) in again.stderr
-    assert len(list(lcm.EventLog(str(log)))) == 100  # it is not overwritten
+    assert len(messages(log, FLOOD)) == 100  # it is not overwritten
+
+
+def messages(log, channel):
+    return [event.data for event in lcm.EventLog(str(log)) if event.channel == channel]
+
+
+def test_a_log_is_verified_after_a_later_revocation(flight, tmp_path):
+    """Nobody tells the list on this bus: the log itself says which one was in force."""
+    process, log, _ = flight
+    bus = Flood()
+    for number in range(20):
+        bus.publish(1, bytes([number]))
+    wait(lambda: log.exists() and len(messages(log, FLOOD)) >= 20, "20 messages")
+    keys = Path(os.environ["OLS_KEYS"])
+    wait(lambda: list(tmp_path.glob("trust-*.toml")), "the list beside the log")
+    process.send_signal(signal.SIGTERM)
+    assert process.wait(DEADLINE_S) == 0
+    later = tmp_path / "later"
+    shutil.copytree(keys, later)
+    ols_key("revoke", "simulator", folder=later)
+    shutil.copy(later / "trust.toml", tmp_path / "trust-999.toml")
+    done = ols_key("verify", log, folder=tmp_path)
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "20 good" in done.stdout
+
+
+def ols_key(*words, folder):
+    return subprocess.run(
+        [str(BIN / "ols-key"), *map(str, words)],
+        cwd=folder,
+        capture_output=True,
+        text=True,
+        timeout=DEADLINE_S,
+    )
 
 
 def test_ends_though_messages_do_not(start):

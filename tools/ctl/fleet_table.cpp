@@ -73,13 +73,18 @@ constexpr const char* kLine = "%-12s %-10s %-10s %-16s %-17s %-9s %-8s ";
 
 }  // namespace
 
-std::string fleet_table(const std::map<std::string, station_status_t>& statuses) {
+std::string fleet_table(const std::map<std::string, station_status_t>& statuses,
+                        const std::vector<std::string>& enrolled) {
   std::string table =
       text(kLine, "station", "state", "version", "calibration", "clock", "disk", "cpu") + "alarm\n";
   for (const auto& [id, s] : statuses) {
     table += text(kLine, id.c_str(), command::state_name(s.state), command::software(s).c_str(),
                   calibration(s).c_str(), clock(s).c_str(), disk(s).c_str(), warmth(s).c_str()) +
              alarm(s) + "\n";
+  }
+  for (const std::string& id : enrolled) {
+    if (statuses.contains(id)) continue;
+    table += text(kLine, id.c_str(), "not heard", "-", "-", "-", "-", "-") + "-\n";
   }
   return table;
 }

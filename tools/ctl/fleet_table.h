@@ -3,12 +3,14 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 #include "ols_msg/station_status_t.hpp"
 
 namespace ols::ctl {
 
-// One line per station.
-std::string fleet_table(const std::map<std::string, ols_msg::station_status_t>& statuses);
+// One line per station: of those that were heard, then of the others that are enrolled.
+std::string fleet_table(const std::map<std::string, ols_msg::station_status_t>& statuses,
+                        const std::vector<std::string>& enrolled = {});
 
 }  // namespace ols::ctl

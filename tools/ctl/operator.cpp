@@ -26,11 +26,19 @@ std::shared_ptr<trust::BusTrust> open_operator_trust(const trust::TrustConfig& c
 Operator::Operator(const std::string& lcm_url, const trust::TrustConfig& trust, std::string station)
     : station_(std::move(station)),
       boot_id_(draw_boot_id()),
-      bus_(lcm_url, open_operator_trust(trust, boot_id_)),
+      trust_(open_operator_trust(trust, boot_id_)),
+      bus_(lcm_url, trust_),
       sender_(boot_id_) {
   const std::string which = station_ == "all" ? ".*" : station_;
   bus_.subscribe(station_channel(kStatusChannel, which),
                  [this](const BusMessage& message) { hear(message); });
+}
+
+std::vector<std::string> Operator::enrolled() const {
+  if (!trust_) return {};
+  std::vector<std::string> stations = trust_->stations();
+  if (station_ != "all") std::erase_if(stations, [&](const auto& id) { return id != station_; });
+  return stations;
 }
 
 void Operator::send(const command::Order& order) { sender_.send(bus_, order, clock_utime_us()); }
@@ -92,7 +100,7 @@ std::map<std::string, bool> Operator::stop(double timeout_s) {
   constexpr int kTurn_ms = 10;
   struct Addressed {
     double sent_s = -1.0;
-    std::optional<double> stops;  // its first stop count heard: a higher one confirms a stop
+    std::optional<command::Reply> before;  // the first heard of its boot
     bool stopped = false;
   };
   const bool all = station_ == "all";
@@ -103,8 +111,9 @@ std::map<std::string, bool> Operator::stop(double timeout_s) {
   for (double now_s = start_s; now_s < start_s + timeout_s; now_s = clock_monotonic_s()) {
     for (const auto& [id, status] : statuses_) {
       Addressed& one = addressed[id];
-      if (!one.stops) one.stops = command::counter(status, "stop_accepted");
-      one.stopped = command::confirms_stop(command::reply_of(status), *one.stops);
+      const command::Reply now = command::reply_of(status);
+      if (!one.before || one.before->boot_id != now.boot_id) one.before = now;
+      one.stopped = command::confirms_stop(*one.before, now);
     }
     const double again_s =
         std::max(command::kStopAgain_s, static_cast<double>(addressed.size()) / kMostRate);

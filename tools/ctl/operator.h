@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "base/lcm_bus.h"
 #include "command/messages.h"
@@ -31,6 +32,9 @@ class Operator {
   // The table of stations is full: forged statuses may hide real stations.
   bool is_full() const { return statuses_.size() >= command::kMostStationsHeard; }
 
+  // Those that are addressed, of the trust list, heard or not; none where signatures are off.
+  std::vector<std::string> enrolled() const;
+
   // Sends stops repeatedly to the addressed station, or to each as soon as it is heard, until its
   // status confirms one or timeout_s is over: a stop needs no status, and may get lost. Returns
   // whether each station confirmed.
@@ -52,6 +56,7 @@ class Operator {
 
   std::string station_;
   const std::int64_t boot_id_;
+  const std::shared_ptr<trust::BusTrust> trust_;
   LcmBus bus_;
   Statuses statuses_;
   command::OrderSender sender_;

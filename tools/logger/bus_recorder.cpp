@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "base/atomic_file.h"
+#include "base/boot_id.h"
 #include "base/clocks.h"
 
 namespace ols::logger {
@@ -25,6 +26,7 @@ QueueLimits limits_of(const LoggerConfig& config) {
 std::shared_ptr<trust::BusTrust> open_trust(const trust::TrustConfig& config) {
   trust::Self self;
   self.name = "logger";
+  self.boot_id = draw_boot_id();
   self.commands = true;  // statuses of a station whose clock is wrong are recorded too
   return trust::BusTrust::open(config, trust::process_environment(), self);
 }
@@ -72,12 +74,12 @@ void BusRecorder::record() {
   while (!end_) {
     bus_.handle(kTurn_ms);
     const double now_s = clock_monotonic_s();
-    if (now_s >= flush_due_s_) {
-      flush_due_s_ = now_s + kFlush_s;
+    if (now_s >= due_.flush_s) {
+      due_.flush_s = now_s + kFlush_s;
       writer_->flush();
     }
-    if (now_s >= look_due_s_) {
-      look_due_s_ = now_s + kLook_s;
+    if (now_s >= due_.look_s) {
+      due_.look_s = now_s + kLook_s;
       look_after_file();
       keep_trust_list();
     }
@@ -103,6 +105,7 @@ void BusRecorder::write(const BusMessage& message) {
     writer_->flush();
     begin_file();
   }
+  write_trust_list(message.received_utime_us);
   writer_->write(message);
   const std::lock_guard lock(mutex_);
   ++report_.messages;
@@ -127,21 +130,33 @@ void BusRecorder::keep_trust_list() {
   list_kept_ = number;
 }
 
+// Each file begins with the list in force, and has each later one where it begins to hold: so
+// `ols-key verify` can verify it by itself. lcm-logplayer plays it as any other message.
+void BusRecorder::write_trust_list(std::int64_t utime_us) {
+  if (trust_ == nullptr || trust_->list_number() == list_written_) return;
+  const std::int64_t number = trust_->list_number();
+  const auto telling = trust_->list_telling(utime_us);
+  if (!telling) return;
+  writer_->write({std::string(trust::kTrustChannel), *telling, utime_us});
+  list_written_ = number;
+}
+
 void BusRecorder::begin_file() {
   const std::string path = single_file_.empty() ? names_.next(clock_utime_us()) : single_file_;
   writer_.emplace(path);
+  list_written_ = 0;
   const std::lock_guard lock(mutex_);
   report_.file = path;
 }
 
 void BusRecorder::look_at_bus(double now_s) {
   const BusTraffic traffic = bus_.traffic();
-  watch_.look(traffic, now_s);
-  std::string alarm = watch_.alarm(now_s);
-  if (alarm.empty()) alarm = watch_.trust_alarm(now_s);
+  watch_.monitor.look(traffic, now_s);
+  std::string alarm = watch_.monitor.alarm(now_s);
+  if (alarm.empty()) alarm = watch_.monitor.trust_alarm(now_s);
+  watch_.journal.look(alarm.empty() ? std::vector<std::string>{} : std::vector{alarm}, now_s);
   {
     const std::lock_guard lock(mutex_);
-    if (!alarm.empty() && report_.bus_alarm.empty()) spdlog::warn("{}", alarm);
     report_.bus_alarm = alarm;
     report_.traffic = traffic;
     report_.dropped = traffic.overflowed;

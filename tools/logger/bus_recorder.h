@@ -11,6 +11,7 @@
 #include <string>
 #include <thread>
 
+#include "base/alarm_journal.h"
 #include "base/bus_monitor.h"
 #include "base/lcm_bus.h"
 #include "tools/logger/log_names.h"
@@ -50,19 +51,28 @@ class BusRecorder {
   void begin_file();
   void look_at_bus(double now_s);
   void keep_trust_list();
+  void write_trust_list(std::int64_t utime_us);
 
   const LoggerConfig config_;
   const std::string single_file_;
   LogNames names_;
   std::optional<LogWriter> writer_;  // used by the thread only
-  BusMonitor watch_;                 // likewise
-  double flush_due_s_ = 0.0, look_due_s_ = 0.0;
+  struct Watch {
+    BusMonitor monitor;
+    AlarmJournal journal;
+  };
+  Watch watch_;  // likewise
+  struct Due {
+    double flush_s = 0.0, look_s = 0.0;
+  };
+  Due due_;
 
   mutable std::mutex mutex_;
   RecorderReport report_;
   std::atomic<bool> end_ = false, discard_ = false;
   std::shared_ptr<trust::BusTrust> trust_;
-  std::int64_t list_kept_ = 0;  // its number; used by the thread only
+  // Numbers of the lists beside the logs and in the present file; used by the thread only.
+  std::int64_t list_kept_ = 0, list_written_ = 0;
   LcmBus bus_;
   std::thread thread_;
 };

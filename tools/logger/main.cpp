@@ -10,6 +10,7 @@
 
 #include "base/clocks.h"
 #include "base/command_line.h"
+#include "base/journal.h"
 #include "base/lcm_url.h"
 #include "base/service_notifier.h"
 #include "base/shutdown.h"
@@ -36,7 +37,8 @@ int run_into(const std::string& file, const ols::logger::LoggerConfig& config) {
   ols::logger::BusRecorder recorder(config, file);
   ols::ServiceNotifier service_manager;
   service_manager.ready("recording " + file);
-  spdlog::info("ready: records {} to {}", config.lcm_url, file);
+  ols::write_to_journal(
+      {.text = "ready: records " + config.lcm_url + " to " + file, .id = ols::event::kReady});
   while (!ols::shutdown_requested() && !recorder.report().ended) ::poll(nullptr, 0, kTurn_ms);
   service_manager.stopping();
   const ols::logger::RecorderReport report = recorder.report();
@@ -68,7 +70,7 @@ int run(const ols::logger::LoggerConfig& config) {
     ::poll(nullptr, 0, kTurn_ms);
   }
   service_manager.stopping();
-  spdlog::info("stops");
+  ols::write_to_journal({.text = "stops", .id = ols::event::kStops});
   return 0;
 }
 

@@ -8,6 +8,7 @@
 #include <exception>
 #include <nlohmann/json.hpp>
 
+#include "base/journal.h"
 #include "base/plain_text.h"
 
 namespace ols::logger {
@@ -107,7 +108,10 @@ void Supervisor::fail(const std::string& why, double retry_s) {
   // Each fault is logged and counted once, not at every attempt.
   if (why != trouble_) {
     ++failures_;
-    spdlog::error("nothing is recorded: {}", why);
+    write_to_journal({.text = "nothing is recorded: " + why,
+                      .bad = true,
+                      .id = event::kNotRecorded,
+                      .reason = why});
   }
   trouble_ = why;
   retry_s_ = retry_s;

@@ -1,3 +1,4 @@
+// ols-precision advise: the best of many places for some stations.
 #include <algorithm>
 #include <iomanip>
 #include <iostream>

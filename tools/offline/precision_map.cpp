@@ -1,3 +1,4 @@
+// ols-precision map: how well a position can be known over a site, at some heights.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,3 +1,4 @@
+// The estimators and the fusion, for Python.
 #include <pybind11/stl.h>
 
 #include "central/estimators/alignment.h"

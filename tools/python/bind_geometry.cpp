@@ -1,3 +1,4 @@
+// Frames, angles and the kinematic chain, for Python.
 #include <pybind11/stl.h>
 
 #include "geometry/direction.h"

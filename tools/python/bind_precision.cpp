@@ -1,3 +1,4 @@
+// The precision theory and the UTM grid, for Python.
 #include <pybind11/stl.h>
 
 #include <map>

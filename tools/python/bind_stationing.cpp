@@ -1,3 +1,4 @@
+// Stationing and rectification, for Python.
 #include <pybind11/stl.h>
 
 #include "geometry/stationing.h"

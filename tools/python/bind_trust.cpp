@@ -1,3 +1,4 @@
+// Signatures and the trust list, for Python.
 #include <pybind11/stl.h>
 
 #include "base/clocks.h"

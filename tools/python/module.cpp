@@ -1,3 +1,4 @@
+// The Python module `ols._core`.
 #include "tools/python/bindings.h"
 
 PYBIND11_MODULE(_core, m) {

@@ -47,6 +47,13 @@ TEST(FleetTable, AStationThatIsWell) {
   EXPECT_THAT(table[1], EndsWith(" -"));
 }
 
+TEST(FleetTable, AStationThatIsNotHeardHasALine) {
+  const auto table = lines(fleet_table({{"bravo", well()}}, {"alfa", "bravo"}));
+  ASSERT_EQ(table.size(), 3U);
+  EXPECT_THAT(table[1], testing::StartsWith("bravo "));
+  EXPECT_THAT(table[2], testing::MatchesRegex("alfa +not heard[ -]+"));
+}
+
 TEST(FleetTable, WhatIsWrongIsSaid) {
   station_status_t s{};
   s.utime = well().utime;

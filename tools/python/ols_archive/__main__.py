@@ -68,6 +68,10 @@ def check(parser: argparse.ArgumentParser, arguments: argparse.Namespace) -> Non
         parser.error("logs, --live or --stream, one of them")
     if arguments.seed and arguments.credentials:
         parser.error("--seed or --credentials")
+    if not arguments.server.startswith(("nats://", "tls://")):
+        parser.error(f"--server {arguments.server} is neither nats://HOST:PORT nor tls://HOST:PORT")
+    if arguments.authority and not arguments.server.startswith("tls://"):
+        parser.error("--authority only with a --server of tls://")
     if arguments.flush_s <= 0.0:
         parser.error("--flush-s must be more than 0")
     if arguments.archive.exists() and not arguments.archive.is_dir():

@@ -36,6 +36,7 @@ class Kind:
 # Pictures are left out: they are most of a log's bytes, and no estimator reads them.
 KINDS = (
     Kind("bearing", "bearing_t", "OLS_BEARING_", True),
+    Kind("sighting", "sighting_t", "OLS_SIGHTING_", True),
     Kind("station_status", "station_status_t", "OLS_STATUS_", True),
     Kind("target", "target_t", "OLS_TARGET", False),
     Kind("target_paper", "target_t", "OLS_TARGET_PAPER", False),

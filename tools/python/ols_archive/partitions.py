@@ -90,18 +90,34 @@ def hours_of(root: Path, kind: str) -> list[Hour]:
 def named_if_damaged(path: Path) -> Iterator[None]:
     try:
         yield
-    except FileNotFoundError:
+    except (FileNotFoundError, Damaged):
         raise
-    except (pa.ArrowException, OSError, ValueError) as error:
+    except (pa.ArrowException, OSError, LookupError, TypeError, ValueError) as error:
         why = (str(error).splitlines() or ["unreadable"])[0]
         raise Damaged(f"{path}: {why}") from None
 
 
 def read(
-    path: Path, columns: list[str] | None = None, utime_us: tuple[int, int] | None = None
+    path: Path,
+    columns: list[str] | None = None,
+    utime_us: tuple[int, int] | None = None,
+    schema: pa.Schema | None = None,
 ) -> pa.Table:
-    """Damaged if anything of what is read is not as it was written. utime_us: only the rows from
-    the first instant up to the second one."""
+    """Damaged if anything of what is read is not as it was written, or, with a schema, not of its
+    columns and types. utime_us: only the rows from the first instant up to the second one."""
+    if schema is None:
+        return read_rows(path, columns, utime_us)
+    with named_if_damaged(path):
+        table = read_rows(path, schema.names, utime_us)
+        for name in schema.names:
+            if name not in table.column_names:
+                raise ValueError(f"no column {name}")
+            if table[name].null_count:
+                raise ValueError(f"column {name} has rows without a value")
+        return table.select(schema.names).cast(schema)
+
+
+def read_rows(path: Path, columns: list[str] | None, utime_us: tuple[int, int] | None) -> pa.Table:
     # Not pyarrow's datasets: they take longer to begin than an hour takes to read.
     with named_if_damaged(path), pq.ParquetFile(path, page_checksum_verification=True) as file:
         groups = range(file.num_row_groups)
@@ -109,6 +125,8 @@ def read(
             return file.read_row_groups(groups, columns, use_threads=False)
         groups = [one for one in groups if overlaps(file.metadata.row_group(one), utime_us)]
         table = file.read_row_groups(groups, columns, use_threads=False)
+        if "utime" not in table.column_names:
+            raise ValueError("no column utime")
         times = table["utime"].to_numpy()
         # In order of time, as all files of the archive.
         first, last = times.searchsorted(utime_us)
@@ -129,15 +147,22 @@ def overlaps(group: pq.RowGroupMetaData, utime_us: tuple[int, int]) -> bool:
     return True
 
 
-def metadata(path: Path) -> dict[str, str]:
-    """What write() was given."""
+def metadata(path: Path, *needed: str, schema: pa.Schema | None = None) -> dict[str, str]:
+    """What write() was given; Damaged without one of what is needed, or with another schema."""
     with named_if_damaged(path):
-        pairs = pq.read_metadata(path).metadata or {}
-    return {
-        key.decode().removeprefix("ols."): value.decode()
-        for key, value in pairs.items()
-        if key.startswith(b"ols.")
-    }
+        footer = pq.read_metadata(path)
+        if schema is not None and not footer.schema.to_arrow_schema().equals(schema):
+            raise ValueError("other columns than this program's")
+        pairs = footer.metadata or {}
+        about = {
+            key.decode().removeprefix("ols."): value.decode()
+            for key, value in pairs.items()
+            if key.startswith(b"ols.")
+        }
+        for name in needed:
+            if name not in about:
+                raise ValueError(f"no entry ols.{name}: it is not of this program")
+        return about
 
 
 def number_leaves(schema: pa.Schema) -> list[str]:
@@ -153,16 +178,16 @@ def number_leaves(schema: pa.Schema) -> list[str]:
     return found
 
 
-def write(path: Path, table: pa.Table, about: dict[str, str]) -> None:
-    """Whole or not at all: readers see the file as it was before, or as it is now."""
+def write(path: Path, table: pa.Table, about: dict[str, str], is_durable: bool = True) -> None:
+    """Whole or not at all: readers see the file as it was before, or as it is now. is_durable:
+    whatever happens to the power."""
     path.parent.mkdir(parents=True, exist_ok=True)
     metadata = {f"ols.{name}": text for name, text in about.items()}  # and nothing from before
-    with replaced(path) as partial:
+    with replaced(path, is_durable) as partial:
         pq.write_table(
             table.replace_schema_metadata(metadata),
             partial,
-            compression="zstd",
-            compression_level=1,
+            compression="lz4",  # of numbers split by bytes: as small as zstd, and quicker
             use_dictionary=[one.name for one in table.schema if one.type == pa.string()],
             use_byte_stream_split=number_leaves(table.schema),
             row_group_size=ROW_GROUP,
@@ -171,16 +196,20 @@ def write(path: Path, table: pa.Table, about: dict[str, str]) -> None:
 
 
 @contextlib.contextmanager
-def replaced(path: Path) -> Iterator[Path]:
-    """A file beside `path` to write to. It becomes `path` when all of it is on the disk."""
+def replaced(path: Path, is_durable: bool = True) -> Iterator[Path]:
+    """A file beside `path` to write to. It becomes `path` when all of it is written; is_durable: is
+    on the disk."""
     partial = path.with_name(f"{path.name}.{os.getpid()}.partial")
     try:
         yield partial
-        with partial.open("rb+") as file:
-            os.fsync(file.fileno())
+        if is_durable:
+            with partial.open("rb+") as file:
+                os.fsync(file.fileno())
         partial.rename(path)
     finally:
         partial.unlink(missing_ok=True)
+    if not is_durable:
+        return
     folder = os.open(path.parent, os.O_RDONLY)
     try:
         os.fsync(folder)

@@ -34,6 +34,20 @@ async def unsaid(_: Exception) -> None:
     """What is raised is said; each try before it is not."""
 
 
+def over_tls_alone(client: type) -> type:
+    """Of nats.NATS: the library alone leaves it to the server whether the log-in is encrypted."""
+    from nats.errors import Error
+
+    class OverTlsAlone(client):
+        def _connect_command(self) -> bytes:
+            # Where the server demanded it, the library has shaken hands by now.
+            if not self._server_info.get("tls_required"):
+                raise Error("a server without TLS")
+            return super()._connect_command()
+
+    return OverTlsAlone
+
+
 @dataclass(frozen=True)
 class Server:
     """A server of NATS, and who we are there."""
@@ -59,6 +73,11 @@ class Server:
         if self.authority:
             options["tls"] = ssl.create_default_context(cafile=self.authority)
         return options
+
+    def client(self) -> Any:
+        import nats
+
+        return (over_tls_alone(nats.NATS) if self.url.startswith("tls://") else nats.NATS)()
 
 
 class Position:
@@ -167,16 +186,15 @@ def archive_stream(
     """OSError, in words for a person, if the server or the stream cannot be read; what came until
     then is in the files."""
     try:
-        import nats
         from nats.errors import Error
         from nkeys import NkeysError
     except ModuleNotFoundError as missing:
         raise OSError(f"{missing}: requirements-archive.txt") from None
-    options = server.options()
+    options, connection = server.options(), server.client()
 
     async def run() -> None:
         try:
-            connection = await nats.connect(**options)
+            await connection.connect(**options)
         except (OSError, Error, NkeysError) as error:
             raise OSError(f"{server.url}: {error or type(error).__name__}") from None
         try:

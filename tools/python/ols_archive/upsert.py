@@ -8,7 +8,7 @@ import numpy as np
 import pyarrow as pa
 
 from ols_archive.kinds import Kind, schema_of
-from ols_archive.partitions import Damaged, Hour, file_of, read, write
+from ols_archive.partitions import Damaged, Hour, file_of, named_if_damaged, read, write
 
 KEYS = {"channel", "boot_id", "sequence", "utime", "digest"}
 
@@ -61,14 +61,31 @@ def content_of(table: pa.Table) -> str:
     return hashlib.blake2b(numbers(table, "digest").tobytes(), digest_size=16).hexdigest()
 
 
+def read_old(path: Path, kind: Kind) -> pa.Table:
+    """Damaged also if rows of this kind cannot be added to it. It may have other columns, as those
+    of another version, but in the columns that both have the same types."""
+    old = read(path)
+    with named_if_damaged(path):
+        if missing := KEYS - set(old.column_names):
+            raise ValueError(f"without {', '.join(sorted(missing))}")
+        for name in sorted(KEYS):
+            if old[name].null_count:
+                raise ValueError(f"column {name} has rows without a value")
+        for field in schema_of(kind):
+            if field.name not in old.column_names:
+                continue
+            if (found := old.schema.field(field.name).type) != field.type:
+                raise ValueError(f"column {field.name} has {found}, not {field.type}")
+        pa.unify_schemas([old.schema, schema_of(kind)])
+    return old
+
+
 def upsert(root: Path, kind: Kind, hour: Hour, new: pa.Table) -> Merged:
     """With the archive locked. A file that cannot be read is kept beside the new one."""
     path = file_of(root, kind.name, hour)
     damaged = ""
     try:
-        old = read(path)
-        if missing := KEYS - set(old.column_names):
-            raise Damaged(f"{path}: without {', '.join(sorted(missing))}")
+        old = read_old(path, kind)
     except FileNotFoundError:
         old = schema_of(kind).empty_table()
     except Damaged:

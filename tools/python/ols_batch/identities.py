@@ -10,7 +10,6 @@ import json
 from dataclasses import dataclass
 from pathlib import Path
 
-import duckdb
 import pyarrow as pa
 from ols_archive.partitions import (
     HOUR_US,
@@ -19,9 +18,13 @@ from ols_archive.partitions import (
     file_of,
     hours_of,
     metadata,
+    named_if_damaged,
     read,
     write,
 )
+
+from ols_batch.plan import digest_of
+from ols_batch.task import FIXES, SEAM
 
 IDENTITIES = pa.schema(
     [
@@ -38,36 +41,31 @@ IDENTITIES = pa.schema(
         )
     ]
 )
-# Each object of an hour takes the one of the hour before with which it shares the most bearings, if
-# that one shares the most with it, too.
-SHARED = """
-WITH pairs AS (
-  SELECT before.object AS earlier, after.object AS later, count(*) AS shared
-  FROM before JOIN after USING (border_us, channel, boot_id, sequence)
-  GROUP BY ALL
-), ranked AS (
-  SELECT *, row_number() OVER (PARTITION BY later ORDER BY shared DESC, earlier) AS of_later,
-            row_number() OVER (PARTITION BY earlier ORDER BY shared DESC, later) AS of_earlier
-  FROM pairs
-)
-SELECT later, earlier FROM ranked WHERE of_later = 1 AND of_earlier = 1
-"""
+BEARING = ["border_us", "channel", "boot_id", "sequence"]  # what a bearing is known by
+OBJECTS = ["object_before", "object_after"]
 
 
 @dataclass
 class Joined:
     targets: int
     damaged: list[str]
-    is_new: bool = True
+    fixes: list[Path]  # files that can be read
+    made: str  # names what identities and fixes are; empty: not yet what they are to be
 
 
-def same_objects(
-    connection: duckdb.DuckDBPyConnection, before: pa.Table, after: pa.Table
-) -> dict[int, int]:
-    """Object of the later hour -> that of the earlier one."""
-    connection.register("before", before)
-    connection.register("after", after)
-    return dict(connection.execute(SHARED).fetchall())
+def same_objects(before: pa.Table, after: pa.Table) -> dict[int, int]:
+    """Object of the later hour -> that of the earlier one: each takes the one with which it shares
+    the most bearings, if that one shares the most with it, too."""
+    both = before.join(after, BEARING, None, "inner", "_before", "_after", use_threads=False)
+    pairs = both.group_by(OBJECTS).aggregate([([], "count_all")])
+    # The most shared first; of equals the first object.
+    pairs = pairs.sort_by([("count_all", "descending"), *((name, "ascending") for name in OBJECTS)])
+    earlier, later = (pairs[name].to_pylist() for name in OBJECTS)
+    first_later, first_earlier = {}, {}
+    for one, other in zip(earlier, later, strict=True):
+        first_later.setdefault(one, other)
+        first_earlier.setdefault(other, one)
+    return {other: one for other, one in first_earlier.items() if first_later[one] == other}
 
 
 def name_of(hour: Hour, number: int) -> str:
@@ -79,6 +77,7 @@ class Seamed:
     """An hour with what its task told of it."""
 
     hour: Hour
+    fixes: Path
     seam: Path
     made: str  # names the result
     objects: list[tuple[int, int, int, int]]
@@ -88,14 +87,21 @@ def seamed_hours(output: Path, damaged: list[str]) -> list[Seamed]:
     """In order; those that cannot be read are named."""
     found = []
     for hour in hours_of(output, "fixes"):
+        fixes, seam = (file_of(output, kind, hour) for kind in ("fixes", "seam"))
         try:
-            about = metadata(file_of(output, "fixes", hour))
-            seam = file_of(output, "seam", hour)
-            objects = json.loads(about["result"])["objects"]
-            found.append(Seamed(hour, seam, about["content"], objects))
+            about = metadata(fixes, "result", "content", schema=FIXES)
+            with named_if_damaged(fixes):
+                objects = [tuple(map(int, one)) for one in json.loads(about["result"])["objects"]]
+            found.append(Seamed(hour, fixes, seam, about["content"], objects))
         except (Damaged, FileNotFoundError) as error:
             damaged.append(str(error))
     return found
+
+
+def made_of(hours: list[Seamed]) -> str:
+    """Names what identities depend on."""
+    text = "\n".join([digest_of(__file__), *(f"{one.hour} {one.made}" for one in hours)])
+    return hashlib.blake2b(text.encode(), digest_size=16).hexdigest()
 
 
 def join(output: Path) -> Joined:
@@ -103,16 +109,18 @@ def join(output: Path) -> Joined:
     after its first hour."""
     damaged: list[str] = []
     hours = seamed_hours(output, damaged)
-    made = hashlib.blake2b("".join(one.made for one in hours).encode(), digest_size=16).hexdigest()
-    path = output / "identities.parquet"
+    made = made_of(hours)
+    path, fixes = output / "identities.parquet", [one.fixes for one in hours]
     with contextlib.suppress(FileNotFoundError, Damaged):
-        about = metadata(path)
+        about = metadata(path, "made", "targets")
         if about["made"] == made and not damaged:
-            return Joined(int(about["targets"]), damaged, is_new=False)
+            return Joined(int(about["targets"]), damaged, fixes, made)
     rows = named_rows(hours, damaged)
     targets = len({row[2] for row in rows})
+    if damaged:
+        made = ""  # whoever mends the file, perhaps with the same content: all is joined again
     write(path, table_of(rows), {"made": made, "targets": str(targets)})
-    return Joined(targets, damaged)
+    return Joined(targets, damaged, fixes, made)
 
 
 def named_rows(hours: list[Seamed], damaged: list[str]) -> list[tuple]:
@@ -121,21 +129,18 @@ def named_rows(hours: list[Seamed], damaged: list[str]) -> list[tuple]:
     names: dict[int, str] = {}
     previous: Hour | None = None
     before = NO_SEAM
-    with duckdb.connect() as connection:
-        for one in hours:
-            try:
-                seam = read(one.seam)
-            except (Damaged, FileNotFoundError) as error:
-                damaged.append(str(error))
-                seam = NO_SEAM
-            same = {}
-            if previous is not None and previous.next() == one.hour and len(before) and len(seam):
-                same = same_objects(connection, before, seam)
-            names = {
-                o[0]: names.get(same.get(o[0], -1), name_of(one.hour, o[0])) for o in one.objects
-            }
-            rows += [(one.hour.region, one.hour.start_us, names[o[0]], *o) for o in one.objects]
-            previous, before = one.hour, seam
+    for one in hours:
+        try:
+            seam = read(one.seam, schema=SEAM)
+        except (Damaged, FileNotFoundError) as error:
+            damaged.append(str(error))
+            seam = NO_SEAM
+        same = {}
+        if previous is not None and previous.next() == one.hour and len(before) and len(seam):
+            same = same_objects(before, seam)
+        names = {o[0]: names.get(same.get(o[0], -1), name_of(one.hour, o[0])) for o in one.objects}
+        rows += [(one.hour.region, one.hour.start_us, names[o[0]], *o) for o in one.objects]
+        previous, before = one.hour, seam
     return rows
 
 

@@ -3,15 +3,29 @@
 import functools
 import hashlib
 import json
-from dataclasses import asdict, dataclass
+import zlib
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
 import ols
-from ols_archive.partitions import HOUR_US, Damaged, Hour, file_of, hours_of, metadata
+from ols_archive import kinds, message_types, partitions
+from ols_archive.partitions import HOUR_US, Damaged, Hour, file_of, hours_of, metadata, read
 
-# A change of what a task computes or writes: results of the version before are made again.
-REVISION = 2
 AHEAD_US = 1_000_000
+
+
+@functools.cache
+def digest_of(path: str) -> str:
+    return hashlib.blake2b(Path(path).read_bytes(), digest_size=16).hexdigest()
+
+
+def program() -> str:
+    """Names what computes and writes: a version does not change with each build."""
+    modules = (ols._core, kinds, message_types, partitions)
+    own = (str(Path(__file__).with_name(name)) for name in ("plan.py", "task.py"))
+    parts = [*(module.__file__ for module in modules), *own]
+    return " ".join(map(digest_of, parts))
 
 
 @dataclass(frozen=True)
@@ -22,6 +36,7 @@ class Settings:
     run_out_s: float = 30.0  # tracks that begin at the end, and duplicates, are decided later
     estimator: str = "filter"
     smooth: bool = False
+    program: str = field(default_factory=program)
 
     def inputs(self, hour: Hour) -> list[Hour]:
         """The hours whose bearings the task of an hour reads, with a file or without."""
@@ -65,18 +80,29 @@ def fingerprint(settings: Settings, hour: Hour) -> str:
         str(one): content(file_of(settings.archive, "bearing", one))
         for one in settings.inputs(hour)
     }
-    text = json.dumps([REVISION, ols.__version__, chosen, contents], sort_keys=True)
+    text = json.dumps([chosen, contents], sort_keys=True)
     return hashlib.blake2b(text.encode(), digest_size=16).hexdigest()
 
 
+def checksum(path: Path) -> str:
+    """Of all bytes: damage is to be found, not malice. Much quicker than reading the rows."""
+    return f"{zlib.crc32(path.read_bytes()):08x}"
+
+
 def told_by(settings: Settings, hour: Hour, wanted: str) -> str | None:
-    """What the task said when it made just this result; None if it is to be done. Fixes are written
-    last."""
+    """What the task said when it made just this result; None if it is to be done. The seam is
+    written last, and has the checksum of the fixes; its own pages have theirs."""
+    fixes, seam = (file_of(settings.output, kind, hour) for kind in ("fixes", "seam"))
     try:
-        about = metadata(file_of(settings.output, "fixes", hour))
-    except (FileNotFoundError, Damaged):
+        about, last = metadata(fixes), metadata(seam)
+        if not about.get("fingerprint") == last.get("fingerprint") == wanted:
+            return None
+        if last.get("fixes") != checksum(fixes):
+            return None
+        read(seam)
+    except (OSError, Damaged):
         return None
-    return about.get("result") if about.get("fingerprint") == wanted else None
+    return about.get("result")
 
 
 @dataclass
@@ -88,14 +114,18 @@ class Plan:
 def plan(settings: Settings, region: str | None, from_us: int, to_us: int) -> Plan:
     """In the order of region and time."""
     content.cache_clear()
-    result = Plan([], {})
+    result, chosen = Plan([], {}), []
     for hour in hours_of(settings.archive, "bearing"):
         if region not in (None, hour.region) or not from_us <= hour.start_us < to_us:
             continue
-        wanted = fingerprint(settings, hour)
-        told = told_by(settings, hour, wanted)
-        if told is None:
-            result.to_do.append((hour, wanted))
-        else:
-            result.done[hour] = told
+        chosen.append(hour)
+    wanted = [fingerprint(settings, hour) for hour in chosen]
+    # Both read and check without Python's lock.
+    with ThreadPoolExecutor() as pool:
+        told = pool.map(lambda one: told_by(settings, *one), zip(chosen, wanted, strict=True))
+        for hour, print_, text in zip(chosen, wanted, told, strict=True):
+            if text is None:
+                result.to_do.append((hour, print_))
+            else:
+                result.done[hour] = text
     return result

@@ -1,11 +1,15 @@
 """Pictures of what came out: where the targets flew, how high, and how many fixes there are."""
 
+import contextlib
+import json
 from pathlib import Path
 
 import duckdb
 import matplotlib
 import numpy as np
-from ols_archive.partitions import replaced
+from ols_archive.partitions import Damaged, replaced
+
+from ols_batch.plan import digest_of
 
 matplotlib.use("Agg")
 from matplotlib import pyplot as plt  # noqa: E402
@@ -14,8 +18,8 @@ MOST_POINTS = 50_000  # of a region
 VIEW = """
 CREATE VIEW fixes AS
 SELECT f.*, i.target
-FROM read_parquet('{output}/fixes/*/*/*/fixes.parquet', hive_partitioning = true) f
-JOIN read_parquet('{output}/identities.parquet') i USING (region, day, hour, object)
+FROM read_parquet([{fixes}], hive_partitioning = true) f
+JOIN read_parquet({identities}) i USING (region, day, hour, object)
 """
 POINTS = """
 SELECT target, utime, latitude_deg, longitude_deg, height_m FROM (
@@ -60,13 +64,44 @@ def counts(rows: list[tuple[float, int]], region: str):
     return figure
 
 
-def draw(output: Path, is_new: bool = True) -> list[Path]:
-    """Two for each region that has fixes; those that are there, if nothing is new."""
-    if not is_new and (there := sorted((output / "plots").glob("*.png"))):
+def quoted(path: Path) -> str:
+    return "'" + str(path).replace("'", "''") + "'"
+
+
+def drawn_before(note: Path, made: str) -> list[Path]:
+    """The plots that are there; none if they are of something else, or not all there."""
+    with contextlib.suppress(OSError, ValueError, LookupError, TypeError):
+        told = json.loads(note.read_text())
+        plots = [note.with_name(name) for name in told["plots"]]
+        if told["made"] == made and all(plot.is_file() for plot in plots):
+            return plots
+    return []
+
+
+def draw(output: Path, fixes: list[Path], made: str) -> list[Path]:
+    """Two for each region that has fixes; those that are there, if they are of the same. Damaged if
+    what is in a file cannot be read. `made` names what they are drawn of; empty: nobody knows."""
+    made = made and f"{made} {digest_of(__file__)}"
+    note = output / "plots" / "made.json"
+    if made and (there := drawn_before(note, made)):
         return there
+    note.unlink(missing_ok=True)  # an interrupted run leaves plots of two results
+    try:
+        drawn = drawn_anew(output, fixes)
+    except duckdb.Error as error:
+        raise Damaged(f"{output}: no plots: {str(error).splitlines()[0]}") from None
+    if made and drawn:
+        with replaced(note) as partial:
+            names = [plot.name for plot in drawn]
+            partial.write_text(json.dumps({"made": made, "plots": names}) + "\n")
+    return drawn
+
+
+def drawn_anew(output: Path, fixes: list[Path]) -> list[Path]:
     drawn = []
+    identities = quoted(output / "identities.parquet")
     with duckdb.connect() as connection:
-        connection.execute(VIEW.format(output=str(output).replace("'", "''")))
+        connection.execute(VIEW.format(fixes=", ".join(map(quoted, fixes)), identities=identities))
         regions = connection.execute("SELECT DISTINCT region FROM fixes ORDER BY 1").fetchall()
         for (region,) in regions:
             points = connection.execute(POINTS, [region, MOST_POINTS]).fetchnumpy()

@@ -1,16 +1,18 @@
 """Tasks onto workers: Dask decides who does what, and does it again when a worker is gone."""
 
 import contextlib
+import functools
 import os
 import sys
 import time
+import uuid
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
 import dask
-from dask.distributed import Client, LocalCluster, as_completed
+from dask.distributed import Client, Future, LocalCluster, as_completed
 from ols_archive.partitions import Damaged, Hour, locked, remove_partials
 
 from ols_batch import identities
@@ -114,23 +116,55 @@ def workers(count: int, scheduler: str | None) -> Iterator[Client]:
         yield client
 
 
+Task = Callable[[Settings, Hour, str], Result]
+
+
+def carry_out(task: Task, settings: Settings, hour: Hour, fingerprint: str) -> str:
+    """In a worker. A text is sent much quicker than what it is made of."""
+    return task(settings, hour, fingerprint).as_text()
+
+
+def told_by(client: Client, futures: list[Future]) -> list[str | Exception]:
+    """What each has told, or why it could not. All are asked for at once, which takes no longer
+    than one; if any of them has failed, one after the other. Not from the files: this machine's
+    view of what another one has written may be old."""
+    with contextlib.suppress(Exception):
+        return client.gather(futures)
+    told: list[str | Exception] = []
+    for future in futures:
+        try:
+            told.append(future.result())
+        except Exception as error:
+            told.append(error)
+    return told
+
+
+def note(report: Report, hour: Hour, told: str | Exception) -> None:
+    if isinstance(told, str):
+        report.add(Result.of_text(hour, told))
+        report.done += 1
+        return
+    report.failed[str(hour)] = str(told) or type(told).__name__
+    if isinstance(told, Damaged):
+        report.damaged.add(str(told))
+
+
 def run_tasks(client: Client, settings: Settings, to_do: list[tuple[Hour, str]], report: Report):
     """In the order of time, so that what an interrupted run has done is at the beginning."""
     progress = Progress(len(to_do), report.skipped)
-    futures = {
-        client.submit(estimate, settings, hour, print_, pure=False, priority=-number): hour
-        for number, (hour, print_) in enumerate(to_do)
-    }
-    for finished, future in enumerate(as_completed(futures), 1):
-        try:
-            # What a worker had done when it was killed is done again in here.
-            report.add(future.result())
-            report.done += 1
-        except Exception as error:
-            report.failed[str(futures[future])] = str(error) or type(error).__name__
-            if isinstance(error, Damaged):
-                report.damaged.add(str(error))
-        future.release()
+    run_id = uuid.uuid4().hex  # a scheduler may have other runs, too
+    # Tasks of one call are begun in the order of their keys.
+    hour_of = {f"{run_id}-{number:08}": hour for number, (hour, _) in enumerate(to_do)}
+    prints = [print_ for _, print_ in to_do]
+    task = functools.partial(carry_out, estimate, settings)
+    futures = client.map(task, list(hour_of.values()), prints, key=list(hour_of), pure=False)
+    finished = 0
+    for batch in as_completed(futures).batches():
+        # What a worker had done when it was killed has been done again.
+        for future, told in zip(batch, told_by(client, batch), strict=True):
+            note(report, hour_of[future.key], told)
+            future.release()
+        finished += len(batch)
         progress.tell(finished, len(report.failed))
 
 
@@ -165,6 +199,10 @@ def run_locked(
     if with_plots and report.targets:
         from ols_batch import plots  # matplotlib takes half a second
 
-        report.plots = [str(path) for path in plots.draw(settings.output, joined.is_new)]
+        try:
+            drawn = plots.draw(settings.output, joined.fixes, joined.made)
+            report.plots = [str(path) for path in drawn]
+        except Damaged as error:
+            report.damaged.add(str(error))
     report.seconds = time.monotonic() - begin_s
     return report

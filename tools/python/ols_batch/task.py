@@ -13,10 +13,11 @@ from dataclasses import dataclass, field
 import numpy as np
 import ols
 import pyarrow as pa
+from ols_archive.kinds import BY_NAME, schema_of
 from ols_archive.message_types import list_of
 from ols_archive.partitions import Damaged, Hour, file_of, read, write
 
-from ols_batch.plan import Settings
+from ols_batch.plan import Settings, checksum, program
 
 NEAR_US, SAMPLE = 10_000_000, 8  # of a seam's bearings: all near the border, one in eight elsewhere
 
@@ -31,6 +32,7 @@ TRIPLES = {
     *("camera_ecef_m", "camera_position_sd_m", "covariance_white_rad2"),
     "covariance_systematic_rad2",
 }
+READ = pa.schema([schema_of(BY_NAME["bearing"]).field(name) for name in NEEDED])
 
 
 FIXES = pa.schema(
@@ -112,7 +114,7 @@ def bearings_around(settings: Settings, hour: Hour, result: Result) -> pa.Table:
     for one in settings.inputs(hour):
         try:
             path = file_of(settings.archive, "bearing", one)
-            tables.append(read(path, list(NEEDED), window))
+            tables.append(read(path, None, window, READ))
         except FileNotFoundError:
             continue
         except Damaged as error:
@@ -234,7 +236,9 @@ def objects_of(table: pa.Table, within_us: tuple[int, int]) -> np.ndarray:
 
 
 def estimate(settings: Settings, hour: Hour, fingerprint: str) -> Result:
-    """Writes the hour's seam and then its fixes, by which it is done."""
+    """Writes the hour's fixes and then its seam, by which it is done."""
+    if settings.program != program():
+        raise RuntimeError("this worker has another build of the program")
     result = Result(hour)
     table = bearings_around(settings, hour, result)
     bearings = bearings_of(table)
@@ -254,9 +258,14 @@ def estimate(settings: Settings, hour: Hour, fingerprint: str) -> Result:
     about = {
         "hour": str(hour),
         "fingerprint": made,
-        "content": content_of(fixes, seam),
+        # Of the fixes what identities and plots are made of.
+        "content": content_of(fixes.select(["utime", "object", "position_ecef_m"]), seam),
         "estimator": settings.estimator,
     }
-    write(file_of(settings.output, "seam", hour), seam, about)
-    write(file_of(settings.output, "fixes", hour), fixes, about | {"result": result.as_text()})
+    path = file_of(settings.output, "fixes", hour)
+    # Without waiting for the disk: what a loss of power has torn does not have its checksum, and is
+    # done again.
+    write(path, fixes, about | {"result": result.as_text()}, is_durable=False)
+    about["fixes"] = checksum(path)
+    write(file_of(settings.output, "seam", hour), seam, about, is_durable=False)
     return result
