@@ -30,6 +30,14 @@ STATIONS = [
 ]
 
 
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Several real processes, a browser, wall time: one that fails is run once more, alone, and the
+    summary names it. Everything else gets one try."""
+    for item in items:
+        if item.path.is_relative_to(ROOT / "tests/e2e"):
+            item.add_marker(pytest.mark.flaky(reruns=1))
+
+
 @pytest.fixture(scope="session")
 def network(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
     """Multicast on the loopback of a network namespace of our own, which tools/test makes. On it
