@@ -7,6 +7,7 @@ import shutil
 import subprocess
 from pathlib import Path
 
+import file_index
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -51,6 +52,31 @@ def broken_links(root: Path) -> list[str]:
 
 def test_every_link_leads_somewhere():
     assert broken_links(ROOT) == []
+
+
+# ---- files -------------------------------------------------------------------------------------
+
+
+def test_the_list_of_files_is_that_of_the_sources():
+    assert file_index.PAGE.read_text() == file_index.page(), "python3 dev/file_index.py --write"
+
+
+def test_every_file_says_what_it_is_for():
+    silent = [
+        str(folder / name)
+        for folder, files in file_index.described().items()
+        for name, what in files.items()
+        if not what
+    ]
+    assert silent == []
+
+
+def test_what_a_file_is_for_is_its_first_sentence():
+    header = "// A line of sight. It has no end.\n// More.\n#pragma once\n"
+    assert file_index.sentence(file_index.first_comment(header)) == "A line of sight"
+    script = "#!/usr/bin/env bash\n# Builds it.\n#   tools/it [FOLDER]\nset -e\n"
+    assert file_index.first_comment(script) == "Builds it."
+    assert file_index.first_comment("#pragma once\n// Later.\n") == ""
 
 
 # ---- paths -------------------------------------------------------------------------------------

@@ -71,7 +71,7 @@ NOT_PURE = {
     "base/fix_writer.* base/log_reader.* base/output_check.cpp "
     "base/small_file.cpp base/status_file.cpp base/toml_config.cpp base/toml_merge.cpp "
     "base/persisted_word.cpp "
-    "base/trust/key_file.cpp base/trust/site_keeper.* "
+    "base/trust/key_file.cpp base/trust/marks_file.* base/trust/site_keeper.* "
     "edge/calibration/*.cpp edge/drift/reference_views.* edge/drift/kept_calibration.* "
     "edge/drift/next_calibration.* "
     "edge/recorder/event_folder.cpp edge/recorder/event_store.cpp "
@@ -84,14 +84,15 @@ NOT_PURE = {
     "edge/messages* edge/video/messages_video.* central/app/messages* "
     "central/app/fusion_bus.* export/export_bus.* export/exporter.* export/messages.* "
     "export/fixes.h export/readiness.* cue/cue_bus.* cue/messages.* "
-    "bridge/bridge_bus.* bridge/messages.* sim/*flood.cpp",
-    "the operating system": "base/boot_id.cpp base/clocks.h base/command_line.h "
+    "bridge/bridge_bus.* bridge/messages.* sim/*flood.cpp sim/recording.cpp",
+    "the operating system": "base/alarm_journal.* base/boot_id.cpp base/clocks.h "
+    "base/command_line.h base/journal.* "
     "base/plain_text.cpp base/progress.cpp base/service_frame.* base/service_notifier.cpp "
     "base/shutdown.cpp base/tcp_keepalive.cpp base/trouble_log.cpp "
     "base/wakeup.cpp "
     "edge/host_monitor.cpp edge/rearm_signal.cpp edge/clock/clock_pair.cpp "
     "edge/clock/clock_source.cpp edge/clock/command_output.cpp",
-    "devices and their threads": "edge/device/device_thread.* "
+    "devices and their threads": "edge/device/behind_control_loop.* edge/device/device_thread.* "
     "edge/camera/aravis_*.cpp edge/camera/aravis_error.h "
     "edge/camera/aravis_session.h edge/camera/camera_handover.* edge/camera/tai_reference.cpp "
     "edge/frame_desk.* edge/frame_post.* "
@@ -108,7 +109,7 @@ NOT_PURE = {
     "export/factory.cpp "
     "cue/inlet/inlet.cpp cue/inlet/poll_inlet.* cue/inlet/tcp_inlet.* cue/inlet/udp_inlet.*",
     "servers of NATS": "bridge/archive_stream.* bridge/nats_link.* bridge/owner_store.*",
-    "simulated devices on real wires": "sim/camera_server.cpp sim/exposure_cue.* "
+    "simulated devices on real wires": "sim/simulated_camera.cpp sim/exposure_cue.* "
     "sim/gige_control.* sim/gige_device.* sim/gige_stream.* "
     "sim/gnss_line.cpp sim/gpio_socket.cpp sim/inclinometer_line.cpp sim/lens_line.cpp "
     "sim/live_site.* sim/nmea.cpp "
@@ -118,7 +119,7 @@ NOT_PURE = {
     "console/maps/map_library.cpp console/maps/mbtiles.cpp console/maps/pmtiles.* "
     "console/maps/tile_folder.cpp console/replay/recorded_frames.cpp "
     "console/replay/replay.* console/web_server.cpp edge/main.cpp "
-    "edge/station_process.* edge/kept_pose.cpp edge/station_journal.cpp central/app/main.cpp "
+    "edge/station_process.* edge/kept_pose.cpp central/app/main.cpp "
     "central/app/fusion_process.* "
     "export/main.cpp cue/main.cpp "
     "bridge/main.cpp bridge/bridge_process.* sim/*main.cpp",
@@ -136,7 +137,7 @@ CLOCK_OR_GLOBAL = re.compile(
 )
 GENERATED = re.compile(r"^(ols_msg/|lcm/)")
 MAY_SEE_MESSAGES = re.compile(r"(^|/)(messages[a-z_]*\.(h|cpp)|main\.cpp|lcm_bus\.(h|cpp))$")
-ARAVIS_ONLY_IN = re.compile(r"/(aravis_|gige_|camera_server)[a-z_]*\.(h|cpp)$")
+ARAVIS_ONLY_IN = re.compile(r"/(aravis_|gige_|simulated_camera)[a-z_]*\.(h|cpp)$")
 
 
 def relative(path: Path) -> str:

@@ -21,7 +21,8 @@ WITHOUT: dict[str, str] = {
         tools/calibrate/adjust_command.cpp tools/calibrate/procedure_commands.cpp
         tools/calibrate/procedure_end.cpp tools/calibrate/procedure_stages.cpp
         tools/calibrate/view_check.cpp tools/calibrate/report_*.cpp
-        tools/calibrate/result_files.cpp tools/calibrate/zoom_command.cpp
+        tools/calibrate/result_files.cpp tools/calibrate/tracks.cpp
+        tools/calibrate/zoom_command.cpp tools/ctl/subcommands.cpp
         export/conversion.cpp export/factory.cpp""",
     "they own devices, sockets or threads of a process; the end-to-end tests run them": """
         base/lcm_bus.cpp base/multicast_socket.cpp edge/device_set.cpp edge/station_process.cpp
@@ -29,13 +30,13 @@ WITHOUT: dict[str, str] = {
         console/console_bus.cpp console/handed_over_socket.cpp console/web_server.cpp
         tools/ctl/operator.cpp
         tools/doctor/bus_listener.cpp tools/doctor/probe_*.cpp tools/logger/bus_recorder.cpp
-        export/export_bus.cpp export/outlet/mqtt_link.cpp export/outlet/sapient_link.cpp
+        export/export_bus.cpp export/outlet/sapient_link.cpp
         export/outlet/stream_link.cpp export/outlet/tcp_socket.cpp export/outlet/udp_outlet.cpp
         bridge/archive_stream.cpp bridge/bridge_bus.cpp bridge/bridge_process.cpp
         bridge/nats_link.cpp bridge/owner_store.cpp
         cue/cue_bus.cpp cue/inlet/*.cpp tools/ctl/cue_operator.cpp""",
     "Aravis and its peer: tested against each other (tests/unit/sim/camera_*_test.cpp)": """
-        edge/camera/aravis_*.cpp tools/doctor/aravis_probe.cpp sim/camera_server.cpp
+        edge/camera/aravis_*.cpp tools/doctor/aravis_probe.cpp sim/simulated_camera.cpp
         sim/gige_control.cpp sim/gige_device.cpp""",
     "one end of a line: tested from its other end (gnss_test, gpio_lines_socket_test)": """
         edge/sensors/gpsd_link.cpp sim/gnss_line.cpp sim/gpio_socket.cpp""",
@@ -44,13 +45,18 @@ WITHOUT: dict[str, str] = {
     "Python bindings: tested from Python (tests/oracle)": "tools/python/*.cpp",
     "parts of the fusion, tested through it (tests/unit/central/fusion and /tracking)": """
         central/estimators/estimator.cpp
-        central/fusion/association.cpp central/fusion/bearing_lines.cpp
-        central/fusion/fusion_health.cpp central/tracking/track.cpp""",
+        central/fusion/bearing_lines.cpp central/fusion/fusion_health.cpp
+        central/fusion/track_intake.cpp central/tracking/track.cpp""",
+    "targets of an adjustment, tested through it (target_test, pixel_block_test)": """
+        calibration/targets/body.cpp calibration/targets/fixed.cpp
+        calibration/targets/other_station.cpp calibration/targets/place_seen.cpp
+        calibration/targets/scene.cpp calibration/targets/unknown.cpp""",
     "parts of ols-export, tested through it (exporter_test, home_encoder_test, cot_text_test)": """
         export/output.cpp export/home/discovery.cpp export/tak/cot_encoder.cpp""",
     "parts of the simulator, tested through it (test_scenario, test_world, test_lockstep)": """
-        sim/lead_times.cpp sim/lockstep_station.cpp sim/panorama.cpp sim/report.cpp
-        sim/scenario_places.cpp sim/scenario_trajectory.cpp sim/sighted_landmarks.cpp""",
+        sim/lead_times.cpp sim/lockstep_station.cpp sim/panorama.cpp sim/recording.cpp
+        sim/report.cpp sim/scenario_places.cpp sim/scenario_trajectory.cpp
+        sim/sighted_landmarks.cpp""",
 }
 
 
