@@ -155,6 +155,16 @@ def test_a_label_that_ends_is_no_loss_of_what_is_followed_on():
     assert measures["with_followed_on"]["calibration_error"] == 0.0
 
 
+def test_what_covers_half_of_a_large_target_is_on_it():
+    j = judged([True, False, False], [0.9, 0.9, 0.1])
+    j.overlap = np.array([1.0, 0.6, 0.4])
+    measures = belief_measures([j])
+    assert measures["off_target_believed"] == 0.5
+    assert measures["with_covering"]["off_target"] == 1
+    assert measures["with_covering"]["off_target_believed"] == 0.0
+    assert measures["with_covering"]["auroc"] == 1.0
+
+
 def test_trackers_without_belief_have_no_such_measures():
     j = judged([True], [1.0])
     j.belief = None

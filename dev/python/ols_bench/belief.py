@@ -14,6 +14,7 @@ BINS = 10
 # themselves before anybody could notice.
 LEAST_LOSS_S = 1.0 / 3.0
 NOTICED_IN_TIME_S = 0.33
+HALF = 0.5  # of the union of box and label is in both
 LEAP_PX = 60.0  # from one frame to the next nothing that is followed goes so far
 
 
@@ -107,16 +108,19 @@ def measures_of(judged: list[Judged], on_target: list[np.ndarray]) -> dict:
 
 
 def belief_measures(judged: list[Judged]) -> dict | None:
-    """By the labels; and with what is followed on where a label ends taken for the target. Nothing
-    for trackers that have no belief."""
+    """By the labels; with what is followed on where a label ends taken for the target; and with
+    what covers half of a label, of which 20 px may be a small part. Nothing for trackers that have
+    no belief."""
     if any(j.belief is None for j in judged):
         return None
     same = [followed_on(j) for j in judged]
     absent = sum(int((~j.visible).sum()) for j in judged)
     on_target = [j.on_target | f for j, f in zip(judged, same, strict=True)]
+    covering = [j.on_target | (j.visible & (j.overlap >= HALF)) for j in judged]
     return {
         "followed_on": sum(int(f.sum()) for f in same) / absent if absent else None,
         **measures_of(judged, [j.on_target for j in judged]),
         "with_followed_on": measures_of(judged, on_target),
+        "with_covering": measures_of(judged, covering),
         "believed_threshold": BELIEVED,
     }

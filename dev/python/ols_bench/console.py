@@ -16,6 +16,7 @@ from ols_bench import console_live
 from ols_bench.line import line
 from ols_bench.paper_video import BIT_PX, BITS, BOX_PX, CODE_Y_PX, FULL_PX, PaperVideo
 from ols_bench.plain_viewer import PlainViewer
+from ols_bench.processes import cpu_s, resident_kb
 
 ROOT = Path(__file__).resolve().parents[3]
 PAGE = ROOT / "build/release/console/page/files"
@@ -67,15 +68,6 @@ MAP_WATCHER = """() => {
   };
   look();
 }"""
-
-
-def cpu_s(pid: int) -> float:
-    fields = Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()
-    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
-
-
-def resident_kb(pid: int) -> int:
-    return int(re.findall(r"VmRSS:\s+(\d+)", Path(f"/proc/{pid}/status").read_text())[0])
 
 
 class Bench:
@@ -213,6 +205,7 @@ class Bench:
                 self.paper.states[name] = 0
                 box = canvas.bounding_box()
                 page.mouse.move(box["x"] + 0.4 * box["width"], box["y"] + 0.4 * box["height"])
+                press_s = time.monotonic()
                 page.mouse.down()
                 page.mouse.move(
                     box["x"] + 0.6 * box["width"], box["y"] + 0.6 * box["height"], steps=3
@@ -223,6 +216,8 @@ class Bench:
                     time.sleep(0.005)
                 times.append(time.monotonic() - start)
                 done += bool(self.paper.designations)
+                if not self.paper.designations:
+                    print(f"drag {number} designates nothing; it took {start - press_s:.2f} s")
                 page.wait_for_timeout(100 + 10 * (number % 5))
         p95 = 1000 * np.percentile(times, 95)
         line(
@@ -243,7 +238,6 @@ def arguments() -> argparse.Namespace:
     parser.add_argument("--only-memory", action="store_true", help="nothing but the visits")
     parser.add_argument("--live", action="store_true", help="with the demo's site instead")
     parser.add_argument("--drags", type=int, default=20, help="of a box, live")
-    parser.add_argument("--looks", type=int, default=3, help="clicks in the overview's picture")
     parser.add_argument("--rounds", type=int, default=4, help="without and with viewers, live")
     parser.add_argument("--seed", type=int, default=1, help="of the live site")
     return parser.parse_args()

@@ -43,6 +43,7 @@ class PaperCamera:
     ecef_m: list[float] = field(default_factory=lambda: [math.nan] * 3)
     from_ecef: list[float] = field(default_factory=lambda: [math.nan] * 9)  # by rows
     focal_length_px: float = 4000.0
+    principal_px: tuple[float, float] = (FULL_PX[0] / 2, FULL_PX[1] / 2)
 
 
 class PaperVideo(socketserver.ThreadingTCPServer):
@@ -91,8 +92,8 @@ class PaperVideo(socketserver.ThreadingTCPServer):
         m.has_box, m.box_px = True, [*map(float, box_of(number)), BOX_PX, BOX_PX]
         m.belief = BELIEF
         m.camera_ecef_m, m.camera_from_ecef = self.camera.ecef_m, self.camera.from_ecef
-        f_px, (width, height) = self.camera.focal_length_px, FULL_PX
-        m.camera_matrix_px = [f_px, f_px, width / 2, height / 2, 0.0]
+        f_px = self.camera.focal_length_px
+        m.camera_matrix_px = [f_px, f_px, *self.camera.principal_px, 0.0]
         m.jpeg_bytes, m.jpeg = len(jpeg), jpeg
         self.sent += 1
         return m.encode()

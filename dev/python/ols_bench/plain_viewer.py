@@ -1,4 +1,5 @@
-"""A browser's WebSocket to the console without the browser: asks for pictures, reads everything."""
+"""A browser's WebSocket to the console without the browser: asks for pictures, reads everything,
+takes no more than so many of each station a second."""
 
 import base64
 import json
@@ -6,12 +7,16 @@ import os
 import socket
 import struct
 import threading
+import time
 from urllib.parse import urlparse
 
 
 class PlainViewer(threading.Thread):
-    def __init__(self, address: str, stations: list[str]):
+    def __init__(self, address: str, stations: list[str], rate_hz: float | None = None):
+        """rate_hz: None: as fast as they come."""
         super().__init__(daemon=True)
+        self._period_s = 1.0 / rate_hz if rate_hz else None
+        self._stations = stations
         where = urlparse(address)
         self.bytes = 0
         self._socket = socket.create_connection((where.hostname, where.port))
@@ -27,6 +32,12 @@ class PlainViewer(threading.Thread):
         if b" 101 " not in said:
             raise ConnectionError(said.decode(errors="replace"))
         self._say({"do": "watch", "pictures": stations})
+        if self._period_s:
+            self._socket.settimeout(self._period_s)
+            self._take()
+
+    def _take(self) -> None:
+        self._say({"do": "taken", "pictures": self._stations, "state": True})
 
     def _say(self, message: dict) -> None:
         text = json.dumps(message).encode()
@@ -40,10 +51,21 @@ class PlainViewer(threading.Thread):
         )
         self._socket.sendall(b"\x81" + length + mask + masked)
 
-    def run(self) -> None:
+    def _receive(self) -> bytes | None:
+        """None: nothing for a period."""
         try:
-            while data := self._socket.recv(1 << 16):
-                self.bytes += len(data)
+            return self._socket.recv(1 << 16)
+        except TimeoutError:
+            return None
+
+    def run(self) -> None:
+        taken_s = time.monotonic()
+        try:
+            while (data := self._receive()) != b"":
+                self.bytes += len(data or b"")
+                if self._period_s and time.monotonic() >= taken_s + self._period_s:
+                    taken_s += self._period_s
+                    self._take()
         except OSError:
             return
 

@@ -111,6 +111,8 @@ def belief_rows(name: str, result: Result) -> list[list[str]]:
         other = belief["with_followed_on"]
         cells = [*belief_cells(other), on_other, "–", "–", *loss_cells(other), "–"]
         rows.append([f"{name}, followed on", *cells])
+    cells = [*belief_cells(belief["with_covering"]), *["–"] * 3]
+    rows.append([f"{name}, or half covered", *cells, *loss_cells(belief["with_covering"]), "–"])
     return rows
 
 
