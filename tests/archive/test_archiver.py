@@ -8,6 +8,7 @@ from pathlib import Path
 
 import ols_msg
 import pyarrow as pa
+import pyarrow.parquet as pq
 import pytest
 from archive_site import REGION, ROOT, SEED, event, filled, flip_a_byte, flown, write_log
 from ols_archive import partitions, upsert
@@ -207,6 +208,57 @@ def test_a_damaged_file_is_kept_beside_and_made_again_from_the_log(tmp_path, har
     assert told["counts"]["damaged_files"] == 1
     assert told["named"]["damaged_files"] == [f"set aside: {aside}"]
     assert aside.read_bytes() == harmed
+    assert path.read_bytes() == before
+
+
+def of_other_lists(table: pa.Table) -> pa.Table:
+    """As other programs write what has so many elements."""
+    place = table.column_names.index("camera_ecef_m")
+    loose = pa.array(table["camera_ecef_m"].to_pylist(), list_of(pa.float64()))
+    return table.set_column(place, "camera_ecef_m", loose)
+
+
+def of_another_type(table: pa.Table) -> pa.Table:
+    place = table.column_names.index("azimuth_rad")
+    return table.set_column(place, "azimuth_rad", pa.array(["x"] * len(table)))
+
+
+def of_another_key(table: pa.Table) -> pa.Table:
+    place = table.column_names.index("sequence")
+    return table.set_column(place, "sequence", pa.array([[1]] * len(table)))
+
+
+def without_channels(table: pa.Table) -> pa.Table:
+    place = table.column_names.index("channel")
+    return table.set_column(place, "channel", pa.nulls(len(table), pa.string()))
+
+
+def without_keys(table: pa.Table) -> pa.Table:
+    return table.drop_columns(["boot_id"])
+
+
+def with_a_name_twice(table: pa.Table) -> pa.Table:
+    one = pa.array([1] * len(table))
+    return table.append_column("former", one).append_column("former", one)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        *(of_other_lists, of_another_type, of_another_key, without_channels, without_keys),
+        with_a_name_twice,
+    ],
+)
+def test_a_foreign_file_is_kept_beside_and_made_again_from_the_log(tmp_path, change):
+    """It can be read, but is not of these messages."""
+    log = write_log(tmp_path / "a.lcmlog", map(event, flown(1)))
+    run(tmp_path, log)
+    ((path, (before, _)),) = files(tmp_path).items()
+    pq.write_table(change(read(path)), path)
+    told = run(tmp_path, log, code=1)
+    aside = path.with_name("bearing.parquet.damaged")
+    assert told["named"]["damaged_files"] == [f"set aside: {aside}"]
+    assert aside.exists()
     assert path.read_bytes() == before
 
 

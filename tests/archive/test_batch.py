@@ -11,9 +11,12 @@ import sys
 from pathlib import Path
 
 import numpy as np
+import ols
 import pytest
 from archive_site import HOURS, REGION, archived, flip_a_byte, flown
-from ols_archive.partitions import Hour, file_of, hours_of, locked, read
+from batch_site import ALL, fixes, here, hour, results
+from ols_archive.partitions import Hour, file_of, hours_of, locked, metadata, read
+from ols_batch import plan as planner
 from ols_batch import run as runner
 from ols_batch.__main__ import instant_us
 from ols_batch.__main__ import main as ols_batch
@@ -21,59 +24,17 @@ from ols_batch.plan import Settings, plan
 from ols_batch.task import FIXES, estimate, stretches
 from ols_bench import flights
 from ols_bench.uncut import compare, uncut_fixes
-from ols_demo.site import bring_up_loopback
 
-ALL = (0, 1 << 62)
+pytest_plugins = ["batch_fixtures"]
+pytestmark = pytest.mark.usefixtures("loopback")
 # Dask asks /proc for its workers; in a PID namespace it may be that of the processes outside.
 HAS_PROC = os.readlink("/proc/self") == str(os.getpid())
 with_workers = pytest.mark.skipif(not HAS_PROC, reason="run below, where /proc is ours")
 HOUR_US = 3_600_000_000
 
 
-@pytest.fixture(scope="module", name="archive")
-def fixture_archive(tmp_path_factory) -> Path:
-    """Nobody changes it."""
-    return archived(tmp_path_factory.mktemp("site"), flown())
-
-
-@pytest.fixture(scope="module", autouse=True)
-def fixture_loopback() -> None:
-    """Of the network namespace that the tests may be in: workers are reached over it."""
-    if os.environ.get("OLS_NAMESPACE") == "1":
-        bring_up_loopback([])
-
-
-def hour(number: int) -> Hour:
-    return Hour(REGION, flights.START_US).next(number)
-
-
-def here(settings: Settings) -> list:
-    """All tasks in this process, without workers."""
-    return [estimate(settings, *one) for one in plan(settings, None, *ALL).to_do]
-
-
-@pytest.fixture(scope="module", name="done")
-def fixture_done(archive, tmp_path_factory) -> Settings:
-    """A run without any trouble, tasks in the order of time, and its identities."""
-    settings = Settings(archive, tmp_path_factory.mktemp("done"))
-    here(settings)
-    runner.identities.join(settings.output)
-    return settings
-
-
-def results(output: Path) -> dict[str, bytes]:
-    return {
-        str(path.relative_to(output)): path.read_bytes()
-        for path in sorted(output.rglob("*.parquet"))
-    }
-
-
 def inodes(output: Path) -> dict[Path, int]:
     return {path: path.stat().st_ino for path in output.rglob("fixes.parquet")}
-
-
-def fixes(output: Path, number: int) -> list[dict]:
-    return read(file_of(output, "fixes", hour(number))).to_pylist()
 
 
 def test_fixes_are_those_of_an_uncut_run(done):
@@ -155,6 +116,21 @@ def estimate_or_die(settings, at, fingerprint):
     return estimate(settings, at, fingerprint)
 
 
+@with_workers
+def test_what_a_task_tells_comes_by_the_network(done, tmp_path, monkeypatch):
+    """A worker's files may not be seen here yet, as on NFS."""
+    settings = dataclasses.replace(done, output=tmp_path / "out")
+    monkeypatch.setattr(runner, "estimate", estimate_unseen)
+    report = runner.run(settings, 2, with_plots=False)
+    assert (report.done, report.failed, report.bearings) == (HOURS, {}, len(flown()))
+
+
+def estimate_unseen(settings, at, fingerprint):
+    result = estimate(settings, at, fingerprint)
+    file_of(settings.output, "fixes", at).unlink()
+    return result
+
+
 def test_a_rerun_skips_everything_and_knows_what_was_done(done, monkeypatch):
     before = inodes(done.output), results(done.output)
 
@@ -176,14 +152,6 @@ def test_any_order_gives_the_same_bytes(done, tmp_path):
         estimate(settings, at, fingerprint)
     runner.identities.join(tmp_path)
     assert results(tmp_path) == results(done.output)
-
-
-@pytest.fixture(name="own")
-def fixture_own(done, tmp_path) -> Settings:
-    """Archive and result that a test may change."""
-    shutil.copytree(done.archive, tmp_path / "archive")
-    shutil.copytree(done.output, tmp_path / "output")
-    return dataclasses.replace(done, archive=tmp_path / "archive", output=tmp_path / "output")
 
 
 def test_a_late_message_makes_just_the_hours_that_read_it_again(own):
@@ -218,14 +186,43 @@ def test_a_damaged_hour_is_named_and_the_others_are_done(own, done):
     assert results(own.output) == results(done.output)
 
 
-def test_a_damaged_result_is_made_again(own, done):
-    flip = file_of(own.output, "fixes", hour(1))
-    flip.write_bytes(flip.read_bytes()[:-9])
-    (to_do,) = plan(own, None, *ALL).to_do
-    assert to_do[0] == hour(1)
-    estimate(own, *to_do)
+def test_another_build_makes_all_again(own, tmp_path, monkeypatch):
+    """Whose version is the same."""
+    build = tmp_path / "_core.so"
+    build.write_bytes(Path(ols._core.__file__).read_bytes() + b"\0")
+    monkeypatch.setattr(ols._core, "__file__", str(build))
+    other = Settings(own.archive, own.output)
+    assert len(plan(other, None, *ALL).to_do) == HOURS
+    with pytest.raises(RuntimeError, match="another build"):
+        estimate(own, *plan(other, None, *ALL).to_do[0])
+
+
+def change_a_part(monkeypatch, module, name: str) -> None:
+    """As if the program's file of this name were another one."""
+    digest_of = module.digest_of
+
+    def digest(path: str) -> str:
+        return "other" if Path(path).name == name else digest_of(path)
+
+    monkeypatch.setattr(module, "digest_of", digest)
+
+
+@pytest.mark.parametrize(
+    "name", ["plan.py", "task.py", "kinds.py", "message_types.py", "partitions.py"]
+)
+def test_another_program_makes_all_again(own, monkeypatch, name):
+    change_a_part(monkeypatch, planner, name)
+    assert len(plan(Settings(own.archive, own.output), None, *ALL).to_do) == HOURS
+
+
+def test_another_way_to_join_joins_again(own, monkeypatch):
+    path = own.output / "identities.parquet"
+    before = metadata(path)["made"]
     runner.identities.join(own.output)
-    assert results(own.output) == results(done.output)
+    assert metadata(path)["made"] == before
+    change_a_part(monkeypatch, runner.identities, "identities.py")
+    runner.identities.join(own.output)
+    assert metadata(path)["made"] != before
 
 
 def spoilt(**fields) -> "flights.ols_msg.bearing_t":

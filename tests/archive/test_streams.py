@@ -55,3 +55,17 @@ def test_there_is_one_source(tmp_path, words, capsys):
         main([str(tmp_path), "--region", "brno", *words])
     assert ended.value.code == 2
     assert "one of them" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (["--server", "127.0.0.1:4222"], "neither nats://HOST:PORT nor tls://HOST:PORT"),
+        (["--server", "nats://a:1", "--authority", "a.pem"], "--authority only with"),
+    ],
+)
+def test_a_server_is_spoken_to_as_its_address_says(tmp_path, words, told, capsys):
+    with pytest.raises(SystemExit) as ended:
+        main([str(tmp_path), "--region", "brno", "--stream", "OLS_r", *words])
+    assert ended.value.code == 2
+    assert told in capsys.readouterr().err

@@ -12,6 +12,7 @@
 #include "ols_msg/preview_t.hpp"
 #include "ols_msg/ptu_command_t.hpp"
 #include "ols_msg/record_t.hpp"
+#include "ols_msg/sighting_t.hpp"
 #include "ols_msg/sim_fault_t.hpp"
 #include "ols_msg/slew_t.hpp"
 #include "ols_msg/station_status_t.hpp"
@@ -42,7 +43,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       decode<ols_msg::sim_fault_t>,      decode<ols_msg::slew_t>,
       decode<ols_msg::station_status_t>, decode<ols_msg::target_t>,
       decode<ols_msg::lens_command_t>,   decode<ols_msg::cue_t>,
-      decode<ols_msg::cue_order_t>};
+      decode<ols_msg::cue_order_t>,      decode<ols_msg::sighting_t>};
   ols::fuzz::Input input(data, size);
   const std::size_t kind = input.byte();
   kDecoders[kind % kDecoders.size()](input.rest());

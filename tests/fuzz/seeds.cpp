@@ -16,6 +16,7 @@
 #include "ols_msg/preview_t.hpp"
 #include "ols_msg/ptu_command_t.hpp"
 #include "ols_msg/record_t.hpp"
+#include "ols_msg/sighting_t.hpp"
 #include "ols_msg/sim_fault_t.hpp"
 #include "ols_msg/slew_t.hpp"
 #include "ols_msg/station_status_t.hpp"
@@ -213,7 +214,8 @@ int main(int argc, char** argv) {
                                         encoded(target()),
                                         encoded(command<ols_msg::lens_command_t>()),
                                         encoded(cue()),
-                                        encoded(cue_order())};
+                                        encoded(cue_order()),
+                                        encoded(from_station<ols_msg::sighting_t>())};
   for (std::size_t kind = 0; kind < all.size(); ++kind) {
     write(folder / "messages" / std::to_string(kind), static_cast<char>(kind) + all[kind]);
   }
