@@ -198,7 +198,7 @@ def test_what_was_given_before_a_stop_is_not_answered_over_it(page, overview):
         canvas = picture(page, "alfa")
         canvas.click()
         Stick(page).press(canvas)
-        expect(page.get_by_role("status")).to_contain_text("alfa")
+        expect(page.locator(".notice")).to_contain_text("alfa: ")  # refused
         page.keyboard.press("Escape")
         expect(page.get_by_text("stopping: ")).to_be_visible()
         seconds_pass(page, overview, 1)
