@@ -6,8 +6,9 @@
 
 namespace ols::bench {
 
-// A drone for 12 s, 2, 3, 4, 12 and 100 stations on a circle of 250 m: the recorded filter against
-// least squares at the same instants. Deterministic by the number of runs.
+// A manoeuvring drone for 12 s, 2, 3, 4, 12 and 100 stations on a circle of 250 m at 15 Hz: the
+// recorded filter and its smoother against least squares at the same instants. Beside it, without a
+// limit, one that hardly manoeuvres, at 30 Hz. Deterministic by the number of runs.
 void noise_only(int runs, Limits& limits);
 
 }  // namespace ols::bench

@@ -90,7 +90,7 @@ double AgainstLeastSquares::worse_percent(std::size_t i) const {
   return 100.0 * static_cast<double>(count) / static_cast<double>(log_ratio_[i].size());
 }
 
-void AgainstLeastSquares::judge(Limits& limits, double least_nees) const {
+void AgainstLeastSquares::print() const {
   std::vector<double> nees = nees_;
   std::ranges::sort(nees);
   std::printf(
@@ -98,6 +98,12 @@ void AgainstLeastSquares::judge(Limits& limits, double least_nees) const {
       "%.0f, %.0f, %.0f %%); NEES of an axis 10 %% %.2f, median %.2f, 90 %% %.2f\n",
       name_.c_str(), nees.size(), ratio(0), ratio(1), ratio(2), worse_percent(0), worse_percent(1),
       worse_percent(2), nees[nees.size() / 10], nees[nees.size() / 2], nees[nees.size() * 9 / 10]);
+}
+
+void AgainstLeastSquares::judge(Limits& limits, double least_nees) const {
+  print();
+  std::vector<double> nees = nees_;
+  std::ranges::nth_element(nees, nees.begin() + std::ssize(nees) / 2);
   const char* const sizes[] = {"median", "RMS", "95 %"};
   for (std::size_t i = 0; i < std::size(sizes); ++i) {
     limits.at_most(std::string(sizes[i]) + " over that of least squares", ratio(i), 1.02);

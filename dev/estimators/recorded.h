@@ -25,6 +25,7 @@ class AgainstLeastSquares {
   // An estimator of ols-fuse: the filter, or its smoother.
   AgainstLeastSquares(std::string name, bool smooth) : name_(std::move(name)), smooth_(smooth) {}
   void add(const Recording& recording);
+  void print() const;
   // Prints, and judges: median, RMS and 95 % of the error at most 1.02 of that of least squares;
   // the normalised error squared of an axis from `least_nees` to 2.5.
   void judge(Limits& limits, double least_nees) const;
