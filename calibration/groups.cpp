@@ -185,7 +185,7 @@ class Builder {
     return direction;
   }
 
-  // Another zone or hemisphere, or latitude and longitude exchanged, are farther; no sight is.
+  // A larger distance means a wrong zone or hemisphere, or exchanged latitude and longitude.
   void check_distance(const Observation& one) const {
     constexpr double kLeast_m = 1.0, kGreatest_m = 500e3;
     const auto found = problem_.references.find(one.reference);

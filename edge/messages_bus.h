@@ -51,8 +51,6 @@ class StationBus {
   // After the datagrams of a turn.
   void end_turn();
 
-  // Of the site, as they were heard last.
-
   // Why there is no connection; empty: connected.
   const std::string& trouble() const { return trouble_; }
   // The last refused command as text, and the number of refused commands.
@@ -88,7 +86,7 @@ class StationBus {
   const StationSettings& settings_;
   Station& station_;
   CommandTurn& turn_;
-  // What never changes: the bus's thread reads it, where the settings may be at a change.
+  // Fixed at construction: the bus's thread reads it while the control loop may replace settings.
   struct Given {
     CommandGate::Config gate;
     Record record;

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "base/atomic_file.h"
 #include "base/clocks.h"
 #include "base/command_line.h"
 #include "base/journal.h"
@@ -138,6 +139,7 @@ int act(Arguments& arguments) {
     if (arguments.conversion.log.empty() && arguments.conversion.fixes.empty()) {
       throw std::invalid_argument("--format: needs --log or --fixes");
     }
+    ols::remove_temporary_files_on_signals();
     return convert(arguments, config);
   }
   check_files(config);

@@ -211,7 +211,7 @@ Judgement BusTrust::judge(std::string_view channel, Bytes message, std::int64_t 
   const bool of_member = !verdict.distrust;
   if (channel == kTrustChannel && (of_member || is_of_site(channel, message))) {
     const bool is_new = hear_list(without_trailer(message), of_member, now_s);
-    // Its sender may be a member by it.
+    // This list may make its sender a member.
     if (is_new && !of_member) verdict = judge_and_learn(channel, message, arrival);
   }
   if (!verdict.distrust && channel == kSiteChannel) {

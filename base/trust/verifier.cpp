@@ -159,8 +159,8 @@ bool Verifier::is_replayed(const Judged& judged) const {
   return !may_be_earlier || marks_.is_heard(key, channel, judged.head);
 }
 
-// The stamp of a station without its clock says nothing of time: one that is ahead must not, once
-// its boot is forgotten, make all others late.
+// The stamp of a station whose clock is not set says nothing of time: once its boot is forgotten, a
+// stamp from the future must not make later messages look stale.
 void Verifier::note(const Judged& judged) {
   MessageHead head = judged.head;
   if (judged.channel.rule->name == kStatusChannel && !is_fresh(judged)) head.utime_us = 0;

@@ -2,13 +2,13 @@
 // slews stations to it. All run the tracks; only the publisher changes. Pure: what the store of
 // owners says comes in, what to write there goes out.
 //
-// An owner renews its record by compare-and-set; so does who takes it, and one of both fails. An
-// owner counts its lease from before its renewal was sent, and a little short; another fusion
-// counts it from after it was heard. So two never own one target at one instant, whatever their
-// clocks say. While the store does not answer it, an owner goes on, and says with each message that
-// it is not confirmed. Does it not answer anybody, then nobody can take the target. But if this
-// owner alone is cut from it, another fusion takes the target, and both publish until the old owner
-// hears the new one, which has the greater epoch: then it stops.
+// An owner renews its record by compare-and-set; so does a fusion that takes the target, and one of
+// the two fails. An owner counts its lease from before its renewal was sent, and a little short;
+// another fusion counts it from after it was heard. So two never own one target at one instant,
+// whatever their clocks say. While the store does not answer it, an owner goes on, and says with
+// each message that it is not confirmed. If it answers nobody, no fusion can take the target. But
+// if this owner alone is cut from it, another fusion takes the target, and both publish until the
+// old owner hears the new one, which has the greater epoch: then it stops.
 #pragma once
 
 #include <cstdint>
@@ -75,8 +75,7 @@ class Ownership {
   void answer(const StoreRequest& request, StoreAnswer answer, std::uint64_t revision,
               const Now& now);
 
-  // Whether the store answers. One that comes back has heard of no renewal meanwhile: nobody is
-  // replaced for that.
+  // Whether the store answers. One that returns has missed renewals: no owner is replaced for that.
   void feel_store(bool answers, const Now& now);
 
   // What is to be asked of the store now; call some 20 times a second.

@@ -107,7 +107,7 @@ std::vector<Slew> Fusion::add(const Cue& cue, std::int64_t present_us) {
 bool Fusion::allow_cue(const std::string& id, bool allow) {
   const bool taken = cues_.order(id, allow);
   log_.count(taken ? "cue_orders" : "cue_orders_refused");
-  if (!taken) log_.last_error = "cue " + id + ": there is none, or cues are not to be searched";
+  if (!taken) log_.last_error = "cue " + id + ": unknown, or the search for cues is switched off";
   return taken;
 }
 

@@ -9,7 +9,8 @@
 
 namespace ols::calibration {
 
-// What no adjustment changes, and the values were found with: of the lens model and of the unit.
+// Constants of the lens model and of the unit under which the values were found; no adjustment
+// changes them.
 struct FixedValues {
   double skew = 0.0, p1 = 0.0, p2 = 0.0, k3 = 0.0;
   int pan_sign = 1, tilt_sign = 1;

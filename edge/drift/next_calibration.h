@@ -22,7 +22,7 @@ class NextCalibration {
   // Read, whole, of this station and of its serial numbers; null: none waits.
   const CalibrationFiles* waiting() const { return files_.get(); }
   void forget() { files_.reset(); }
-  // It cannot be used; until another one is accepted.
+  // Marks it as unusable until another one is accepted.
   void refuse(const std::string& why);
   std::string alarm() const;
 

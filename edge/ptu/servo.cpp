@@ -103,8 +103,8 @@ double stopping_way(const ServoConfig& config, double speed_rad_s) {
   return std::copysign(way, speed_rad_s);
 }
 
-// A rate without a goal. An axis that is to stand stands where it can, not where it was when the
-// command came: it would come back.
+// A rate without a goal. A stopping axis holds where it comes to rest, not where it was when the
+// command came: it would turn back.
 AxisCommand rate_step(const ServoConfig& config, double wanted_rad_s, double now_rad,
                       double now_rad_s) {
   const double rate = std::clamp(wanted_rad_s, -config.max_speed_rad_s, config.max_speed_rad_s);

@@ -142,19 +142,23 @@ void add_gradients(const cv::Mat& sampled, FeatureMap& features) {
   constexpr std::size_t kBordered = kSide + 2;
   const std::vector<Histogram> cells = histograms(sampled, kMapSide);
   const std::vector<float> energy = energies(cells);
+  Map scale;
   for (std::size_t i = 0; i < kMapArea; ++i) {
-    const std::size_t at = (i / kSide + 1) * kBordered + i % kSide + 1;
-    const float scale = normaliser(energy, at, kBordered);
-    float all = 0.0F;
-    for (std::size_t b = 0; b < kUnsigned; ++b) {
-      const float one = scale * cells[at][b], other = scale * cells[at][b + kUnsigned];
+    scale[i] = normaliser(energy, (i / kSide + 1) * kBordered + i % kSide + 1, kBordered);
+  }
+  Map all{};
+  for (std::size_t b = 0; b < kUnsigned; ++b) {
+    for (std::size_t i = 0; i < kMapArea; ++i) {
+      const Histogram& cell = cells[(i / kSide + 1) * kBordered + i % kSide + 1];
+      const float one = scale[i] * cell[b], other = scale[i] * cell[b + kUnsigned];
       features[b][i] = std::min(kMost, one);
       features[b + kUnsigned][i] = std::min(kMost, other);
       features[b + kSigned][i] = std::min(kMost, one + other);
-      all += one + other;
+      all[i] += one + other;
     }
-    features[kEnergy][i] = 0.25F * std::min(kMostEnergy, all);
   }
+  for (std::size_t i = 0; i < kMapArea; ++i)
+    features[kEnergy][i] = 0.25F * std::min(kMostEnergy, all[i]);
 }
 
 // Relative to the window's mean, `deviation` across the window unless there is hardly any.

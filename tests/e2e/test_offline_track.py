@@ -1,6 +1,7 @@
 """ols-track as its users meet it: pictures of a target that moves, and files that are no good."""
 
 import csv
+import signal
 import struct
 import subprocess
 
@@ -197,6 +198,22 @@ def test_follows_through_a_clip_and_says_where_the_time_goes(clip, tmp_path):
         stages = [float(row[key]) for key in row if key not in ("frame", "total_ms")]
         assert len(stages) >= 5
         assert 0.0 < sum(stages) <= float(row["total_ms"]) + 1e-3
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_leaves_nothing_half_written(pictures, tmp_path, number):
+    """The clip takes longer than the signal does to arrive."""
+    clip, output = tmp_path / "clip.avi", tmp_path / "boxes.csv"
+    write_clip(clip, pictures * 50)
+    command = [BIN / "ols-track", "--input", clip, "--output", output, "--init", init(0)]
+    # A background job is born deaf to SIGINT.
+    heard = {"preexec_fn": lambda: signal.signal(number, signal.SIG_DFL)}
+    with subprocess.Popen(command, **heard) as process:
+        while not list(tmp_path.glob("*.partial")):
+            assert process.poll() is None
+        process.send_signal(number)
+        assert process.wait(timeout=30) == -number
+    assert list(tmp_path.iterdir()) == [clip]
 
 
 @pytest.mark.parametrize("mode", ["paper", "full"])

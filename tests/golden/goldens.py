@@ -102,6 +102,11 @@ def number(cell: str) -> float | None:
         return None
 
 
+def is_whole(cell: str) -> bool:
+    """As counts are."""
+    return cell.removeprefix("-").isdigit()
+
+
 def is_exact(column: str) -> bool:
     return column.startswith(("utime", "effect_utime", "target", "counter", "station"))
 
@@ -110,6 +115,8 @@ def same(column: str, was: str, now: str, size: float) -> bool:
     if was == now:
         return True
     a, b = number(was), number(now)
+    if is_whole(was) and is_whole(now):
+        return False
     if a is None or b is None or is_exact(column) or math.isnan(a) != math.isnan(b):
         return False
     if column in ("latitude_deg", "longitude_deg"):
@@ -134,7 +141,7 @@ def told(row: dict[str, str]) -> str:
 
 
 def row_differences(was: dict[str, str], now: dict[str, str], size: dict[str, float]) -> list[str]:
-    differences = []
+    differences = [f"column {column} is new" for column in now if column not in was]
     for column, cell in was.items():
         new = now.get(column, "no such column")
         if not same(column, cell, new, size[column]):

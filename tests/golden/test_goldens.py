@@ -61,3 +61,14 @@ def test_accepting_makes_them_the_same(fixes, tmp_path, monkeypatch):
     golden = goldens.Golden("one", ("fixes.csv",), ())
     goldens.accept(golden, output)
     assert goldens.differences(golden, output) == []
+
+
+def test_a_count_must_be_equal_however_large():
+    was = [{"of": "fusion", "counter": "bearings", "value": "1000000"}]
+    now = [{"of": "fusion", "counter": "bearings", "value": "1000001"}]
+    assert len(goldens.file_differences("counters.csv", was, now)) == 1
+
+
+def test_a_new_column_is_a_difference(fixes):
+    now = [{**row, "more": "1"} for row in fixes]
+    assert "column more is new" in goldens.file_differences("fixes.csv", fixes, now)[0]

@@ -12,7 +12,7 @@ class ManualHold {
  public:
   // The procedure has pointed the unit, which takes the station into manual operation.
   void point() { pointed_ = true; }
-  // Manual operation is the procedure's doing: it alone is given back by it.
+  // The procedure ends only the manual operation that it has begun.
   bool has_pointed() const { return pointed_; }
   // What the station says that it is doing: station_status_t's STATE_*.
   void hear(std::int8_t state) {

@@ -100,7 +100,7 @@ void read_centre(ConfigTable& root, Answers& answers) {
   config::read(console::console_section(console), root.table("console"));
 }
 
-// What the installed site shall have unless the answers say otherwise.
+// A file of the installed site: its defaults, unless the answers say otherwise.
 template <class Settings>
 std::string file_of(const std::string& head, config::Section (*section)(Settings&), Values values,
                     const Values& defaults, const std::string& name) {
