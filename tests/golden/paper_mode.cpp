@@ -1,5 +1,5 @@
-// ols-golden-paper-mode FOLDER: the tracker in the paper's mode on drawn pictures: a panning camera,
-// a target that turns back and is hidden for a second. Writes frames.csv.
+// ols-golden-paper-mode FOLDER: the tracker in the paper's mode on drawn pictures: a panning
+// camera, a target that turns back and is hidden for a second. Writes frames.csv.
 #include <cmath>
 #include <exception>
 #include <filesystem>
