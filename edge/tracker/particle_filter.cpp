@@ -62,6 +62,11 @@ void ParticleFilter::disturb(const MotionModel& motion, Random& random) {
   predicted_covariance_px2_ += sd * sd * Eigen::Matrix2d::Identity();
 }
 
+void ParticleFilter::move_half(const Eigen::Vector2d& step_px) {
+  for (std::size_t i = 0; i < particles_.size(); i += 2) particles_[i].pixel += step_px;
+  widen_prediction(step_px.norm());
+}
+
 void ParticleFilter::weigh_by_log_likelihood() {
   const double greatest = *std::max_element(log_likelihood_.begin(), log_likelihood_.end());
   weights_.assign(particles_.size(), 1.0);

@@ -30,6 +30,9 @@ class ParticleFilter {
     predicted_covariance_px2_ += sd_px * sd_px * Eigen::Matrix2d::Identity();
   }
 
+  // Every second one may instead have moved by this much more.
+  void move_half(const Eigen::Vector2d& step_px);
+
   // Weights from each particle's log-likelihood; all equal if none is finite.
   template <typename LogLikelihood>
   void weigh(const LogLikelihood& log_likelihood_of) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace ols::tracker {
 namespace {
@@ -13,11 +14,20 @@ constexpr double kNearFirst_s = 1.0;  // search for a lost target nearby, then a
 void Reacquisition::restart(const Particle& target) {
   believed_ = target;
   region_.reset();
+  measured_ = false;
 }
 
 void Reacquisition::end() {
   believed_identity_ = identity_;
   region_.reset();
+}
+
+void Reacquisition::learn_velocity(bool measured, const Eigen::Vector2d& unmoved_px,
+                                   double interval_s, Particle& target) {
+  const Eigen::Vector2d velocity_px_s = (target.pixel - unmoved_px) / interval_s;
+  const bool leapt = velocity_px_s.norm() > config_.leap_most_px_s;
+  if (region_ && measured_before_ && measured && !leapt) target.velocity_px_s = velocity_px_s;
+  measured_ = measured;
 }
 
 void Reacquisition::start(double sd_px) {
@@ -27,11 +37,13 @@ void Reacquisition::start(double sd_px) {
 void Reacquisition::start_near(const Eigen::Vector2d& pixel, double sd_px) {
   region_ = Region{pixel, sd_px, std::max(sd_px, config_.search_sd_most_px), time_s_, true};
   believed_.pixel = pixel;
+  measured_ = false;
   believed_identity_ = 1.0;  // a caller who reports the place knows which target it is
 }
 
 void Reacquisition::predict(const MotionModel& motion, const SceneMotion& scene, bool placed) {
   time_s_ = scene.time_s();
+  measured_before_ = std::exchange(measured_, false);
   unaligned_since_s_ = scene.unaligned_since_s();
   movers_.clear();
   const cv::Size& frame = scene.frame_size();

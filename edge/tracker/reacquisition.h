@@ -38,6 +38,11 @@ class Reacquisition {
   void restart(const Particle& target);
   // The target was seen and believed.
   void see(const Particle& target) { believed_ = target; }
+  // What was found elsewhere has lost its velocity: particles are drawn there with that of before,
+  // or with none. Once it has been measured in two successive frames, `target` gets what lies
+  // between them; `unmoved_px` is where it would be had it not moved.
+  void learn_velocity(bool measured, const Eigen::Vector2d& unmoved_px, double interval_s,
+                      Particle& target);
   // The target is believed: ends the search.
   void end();
   // The target is lost: `sd_px` is the uncertainty of its expected place.
@@ -79,6 +84,7 @@ class Reacquisition {
   Particle believed_;
   double believed_identity_ = 1.0;  // when last believed
   double identity_ = 1.0;
+  bool measured_ = false, measured_before_ = false;  // in this frame and in the one before
   double time_s_;
   double unaligned_since_s_ = -std::numeric_limits<double>::infinity();
 };

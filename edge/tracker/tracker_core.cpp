@@ -157,7 +157,9 @@ void TrackerCore::predict(EgoMotion ego_motion, StageTimer& timer) {
     filter_.guess_velocities(motion_, config_.initial_velocity_sd_px_s, random_);
   if (!placed_) filter_.advance(motion_);
   filter_.disturb(motion_, random_);
-  if (other_step_px_) move_half_by_other();
+  // Image and mount report different motions: dirt on the lens and burnt-in text are stationary in
+  // the image, a slipped gear in the mount. The target's appearance decides.
+  if (other_step_px_) filter_.move_half(*other_step_px_);
   timer.lap(Stage::kPrediction);
   propose(ego_motion);
   timer.lap(Stage::kProposals);
@@ -184,14 +186,6 @@ void TrackerCore::propose(EgoMotion ego_motion) {
     reacquisition_.look_for_movers(scene_motion_, last_.size_px);
     reacquisition_.force_onto_movers(particles, random_);
   }
-}
-
-// Image and mount report different motions: dirt on the lens and burnt-in text are stationary in
-// the image, a slipped gear in the mount. The target's appearance decides.
-void TrackerCore::move_half_by_other() {
-  auto& particles = filter_.particles();
-  for (std::size_t i = 0; i < particles.size(); i += 2) particles[i].pixel += *other_step_px_;
-  filter_.widen_prediction(other_step_px_->norm());
 }
 
 // The target's expected place in this frame.
@@ -271,6 +265,7 @@ TrackerOutput TrackerCore::follow(const TrackerInput& frame, StageTimer& timer) 
 
 TrackerOutput TrackerCore::update(const TrackerInput& frame, StageTimer& timer) {
   const cv::Rect2d expected = box_of(expected_px(), last_.size_px);
+  const Eigen::Vector2d unmoved = unmoved_px();
   Scene scene =
       target_.make_scene(frame.gray, filter_.particles(), expected, scene_motion_.references());
   timer.lap(Stage::kMasks);
@@ -283,6 +278,7 @@ TrackerOutput TrackerCore::update(const TrackerInput& frame, StageTimer& timer) 
   auto placed = target_.place(scene, last_.pixel, last_.size_px);
   if (placed && placed->correlation <= kSamePattern) placed.reset();
   TrackerOutput output = locate(scene, placed);
+  reacquisition_.learn_velocity(placed.has_value(), unmoved, motion_.interval_s(), last_);
   filter_.particles()[best].pixel = last_.pixel;
   timer.lap(Stage::kPosition);
   judge(scene);

@@ -39,7 +39,6 @@ class TrackerCore {
   bool recognise(const TrackerInput& frame);
   void predict(EgoMotion ego_motion, StageTimer& timer);
   void propose(EgoMotion ego_motion);
-  void move_half_by_other();
   void force_onto_differences(const cv::Rect2d& area);
   Eigen::Vector2d expected_px() const;
   Eigen::Vector2d unmoved_px() const;

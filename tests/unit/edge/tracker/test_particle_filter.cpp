@@ -25,6 +25,17 @@ TEST(ParticleFilter, ResamplesInProportionAndStandsBadWeights) {
   EXPECT_TRUE(filter.covariance_about({0.0, 0.0}).allFinite());
 }
 
+TEST(ParticleFilter, MovesEverySecondParticle) {
+  ParticleFilter filter;
+  filter.particles().assign(4, {{10.0, 20.0}, {0.0, 0.0}, {5.0, 5.0}});
+  filter.move_half({3.0, -4.0});
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Eigen::Vector2d at =
+        i % 2 == 0 ? Eigen::Vector2d(13.0, 16.0) : Eigen::Vector2d(10.0, 20.0);
+    EXPECT_EQ(filter.particles()[i].pixel, at) << i;
+  }
+}
+
 // Likelihoods that are alike: the one that the motion model predicts.
 TEST(ParticleFilter, TakesThePredictedOneOfTwoAlike) {
   MotionModel motion{TrackerConfig{}};

@@ -99,6 +99,35 @@ TEST(Reacquisition, StaysWithItsTargetBesideAnotherLikeIt) {
   EXPECT_GT(near, 70) << "of 79; for a moment it may be off and in doubt";
 }
 
+// Where it was found, particles have the velocity of before the loss, or none.
+TEST(Reacquisition, GivesAVelocityToWhatItHasFoundAndMeasuredTwice) {
+  const TrackerConfig config;
+  const cv::Mat gray(480, 640, CV_8UC1, cv::Scalar(90));
+  const SceneMotion scene(config, HomographyFit::kLeastSquares, {gray, 0.0, std::nullopt},
+                          {300.0, 200.0, 20.0, 20.0});
+  const MotionModel motion(config);
+  const Particle before{{300.0, 200.0}, {70.0, 0.0}, {20.0, 20.0}};
+  const Eigen::Vector2d unmoved(297.0, 201.0);
+  const auto velocity_px_s = [&](bool searches, const std::vector<bool>& measured,
+                                 double interval_s) {
+    Reacquisition reacquisition(config, before, 0.0);
+    if (searches) reacquisition.start(5.0);
+    Particle target = before;
+    for (const bool now : measured) {
+      reacquisition.predict(motion, scene, false);
+      reacquisition.learn_velocity(now, unmoved, interval_s, target);
+    }
+    return target.velocity_px_s;
+  };
+  const Eigen::Vector2d& unchanged = before.velocity_px_s;
+  const Eigen::Vector2d moved = (before.pixel - unmoved) / kInterval_s;
+  EXPECT_EQ(velocity_px_s(true, {true, true}, kInterval_s), moved);
+  EXPECT_EQ(velocity_px_s(true, {true}, kInterval_s), unchanged) << "it has leapt there";
+  EXPECT_EQ(velocity_px_s(true, {true, false, true}, kInterval_s), unchanged);
+  EXPECT_EQ(velocity_px_s(false, {true, true}, kInterval_s), unchanged) << "nothing was lost";
+  EXPECT_EQ(velocity_px_s(true, {true, true}, 1e-3), unchanged) << "nothing is so fast";
+}
+
 // Lost for seconds, and then there are two.
 TEST(Reacquisition, OfTwoAlikeNeitherIsBelievedIn) {
   for (const bool two : {false, true}) {
