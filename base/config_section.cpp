@@ -6,6 +6,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "base/toml_text.h"
+
 namespace ols::config {
 namespace {
 
@@ -14,8 +16,6 @@ std::string shown(double value) {
   out << value;
   return out.str();
 }
-
-std::string quoted(const std::string& text) { return '"' + text + '"'; }
 
 std::string joined(const std::vector<std::string>& words) {
   std::string text;
@@ -28,8 +28,8 @@ std::string array(const std::vector<std::string>& values) {
   return text.append(joined(values)).append("]");
 }
 
-std::vector<std::string> quoted(std::vector<std::string> words) {
-  for (auto& word : words) word = quoted(word);
+std::vector<std::string> toml_texts(std::vector<std::string> words) {
+  for (auto& word : words) word = toml_text(word);
   return words;
 }
 
@@ -197,12 +197,12 @@ Row text(std::string key, std::string& field, std::string sentence, Check check)
       throw table.error(key, problem.what());
     }
   };
-  return {key, "text", "", quoted(field), std::move(sentence), read};
+  return {key, "text", "", toml_text(field), std::move(sentence), read};
 }
 
 Row texts(std::string key, std::vector<std::string>& field, std::string sentence) {
   const auto read = [&field, key](ConfigTable& table) { field = table.texts(key, field); };
-  return {key, "array of texts", "", array(quoted(field)), std::move(sentence), read};
+  return {key, "array of texts", "", array(toml_texts(field)), std::move(sentence), read};
 }
 
 Row choice(std::string key, std::string& field, std::vector<std::string> choices,
@@ -210,7 +210,7 @@ Row choice(std::string key, std::string& field, std::vector<std::string> choices
   const auto read = [&field, key, choices](ConfigTable& table) {
     field = table.choice(key, field, choices);
   };
-  return {key, joined(quoted(choices)), "", quoted(field), std::move(sentence), read};
+  return {key, joined(toml_texts(choices)), "", toml_text(field), std::move(sentence), read};
 }
 
 Row word_row(std::string key, std::size_t fallback, std::vector<std::string> words,
@@ -219,7 +219,8 @@ Row word_row(std::string key, std::size_t fallback, std::vector<std::string> wor
     const std::string chosen = table.choice(key, words[fallback], words);
     set(static_cast<std::size_t>(std::ranges::find(words, chosen) - words.begin()));
   };
-  return {key, joined(quoted(words)), "", quoted(words[fallback]), std::move(sentence), read};
+  return {key, joined(toml_texts(words)), "", toml_text(words[fallback]), std::move(sentence),
+          read};
 }
 
 Row words_row(std::string key, const std::vector<std::size_t>& fallback,
@@ -232,18 +233,21 @@ Row words_row(std::string key, const std::vector<std::size_t>& fallback,
     for (const std::string& name : table.texts(key, by_default)) {
       const auto known = std::ranges::find(words, name);
       if (known == words.end())
-        throw table.error(key, quoted(name) + " is not one of " + joined(words));
+        throw table.error(key, toml_text(name) + " is not one of " + joined(words));
       const auto i = static_cast<std::size_t>(known - words.begin());
       if (std::ranges::count(chosen, i) != 0)
-        throw table.error(key, quoted(name) + " appears twice");
+        throw table.error(key, toml_text(name) + " appears twice");
       chosen.push_back(i);
     }
     if (chosen.empty()) throw table.error(key, "needs at least one entry");
     set(chosen);
   };
-  return {
-      key, "array of " + joined(quoted(words)), "", array(quoted(by_default)), std::move(sentence),
-      read};
+  return {key,
+          "array of " + joined(toml_texts(words)),
+          "",
+          array(toml_texts(by_default)),
+          std::move(sentence),
+          read};
 }
 
 Row integer_row(std::string key, std::int64_t fallback, std::int64_t min, std::int64_t max,

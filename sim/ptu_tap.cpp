@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "base/clocks.h"
-#include "edge/ptu/serial_port.h"
+#include "edge/serial/serial_port.h"
 #include "sim/ptu_reply_faults.h"
 #include "sim/ptu_tap_watch.h"
 #include "sim/pty.h"
@@ -33,7 +33,7 @@ struct PtuTap::Impl {
       listener =
           std::jthread([this, &impl](const std::stop_token& stop) { impl.listen(*this, stop); });
     }
-    ptu::SerialPort port;
+    serial::SerialPort port;
     std::atomic<bool> failed = false;
     std::jthread listener;  // last: it uses the rest
   };

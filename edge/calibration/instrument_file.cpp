@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "base/config_section.h"
+#include "base/toml_text.h"
 #include "edge/calibration/covariance_file.h"
 #include "edge/config_units.h"
 #include "geometry/angles.h"
@@ -208,10 +209,11 @@ std::string instrument_text(const Instrument& instrument) {
   std::ostringstream out;
   out << "# An instrument: camera, lens and pan-tilt unit together (docs/calibration.md).\n";
   if (!instrument.covariance_file.empty()) {
-    out << "covariance = \"" << instrument.covariance_file << "\"\n";
+    out << "covariance = " << toml_text(instrument.covariance_file) << "\n";
   }
-  out << "\n[serials]\ncamera = \"" << instrument.serials.camera << "\"\nlens = \""
-      << instrument.serials.lens << "\"\nptu = \"" << instrument.serials.ptu << "\"\n";
+  out << "\n[serials]\ncamera = " << toml_text(instrument.serials.camera)
+      << "\nlens = " << toml_text(instrument.serials.lens)
+      << "\nptu = " << toml_text(instrument.serials.ptu) << "\n";
   out << "\n[unit]\npan_counts_per_turn = " << instrument.pan.counts_per_turn
       << "\ntilt_counts_per_turn = " << instrument.tilt.counts_per_turn
       << "\npan_worm_teeth = " << instrument.pan.worm_teeth

@@ -9,10 +9,10 @@
 #include <thread>
 #include <utility>
 
+#include "base/command_output.h"
 #include "edge/clock/chrony_tracking.h"
 #include "edge/clock/clock_pair.h"
 #include "edge/clock/clock_reading.h"
-#include "edge/clock/command_output.h"
 
 namespace ols::clock {
 namespace {

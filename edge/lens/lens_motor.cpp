@@ -3,19 +3,18 @@
 #include <mutex>
 #include <stdexcept>
 #include <stop_token>
-#include <utility>
 
 #include "base/clocks.h"
 #include "edge/device/device_thread.h"
+#include "edge/device/reading_queue.h"
 #include "edge/lens/lens_driver.h"
-#include "edge/ptu/serial_port.h"
+#include "edge/serial/serial_port.h"
 
 namespace ols::lens {
 namespace {
 
 constexpr double kRead_s = 0.005;  // a reply takes about 20 ms
 constexpr double kFirstPause_s = 0.2, kMaxPause_s = 5.0;
-constexpr std::size_t kMostSamples = 1000;  // queued for a caller that does not take them
 
 }  // namespace
 
@@ -26,7 +25,7 @@ struct LensMotor::Impl {
         thread({"lens", "is being opened", kFirstPause_s, kMaxPause_s}) {}
 
   void run(const std::stop_token& stop) {
-    ptu::SerialPort port(config.device, config.baud);
+    serial::SerialPort port(config.device, config.baud);
     thread.opened();
     {
       const std::lock_guard lock(mutex);
@@ -35,7 +34,7 @@ struct LensMotor::Impl {
     while (!stop.stop_requested()) turn(port);
   }
 
-  void turn(ptu::SerialPort& port) {
+  void turn(serial::SerialPort& port) {
     const std::string heard = port.read(kRead_s);
     std::string request;
     {
@@ -44,8 +43,7 @@ struct LensMotor::Impl {
       driver.receive(heard, now_s);
       request = driver.step(now_s);
       for (const ZoomSample& sample : driver.take_samples()) {
-        if (samples.size() == kMostSamples) samples.erase(samples.begin());
-        samples.push_back(sample);
+        samples.add(sample);
         thread.works();
       }
       if (driver.take_link_loss()) throw std::runtime_error("does not answer");
@@ -74,7 +72,7 @@ struct LensMotor::Impl {
   const LensMotorConfig config;
   mutable std::mutex mutex;  // of everything below but the thread
   LensDriver driver;
-  std::vector<ZoomSample> samples;
+  device::ReadingQueue<ZoomSample> samples;
   device::DeviceThread thread;  // last: it uses the rest
 };
 
@@ -92,7 +90,7 @@ void LensMotor::order(const LensOrder& order) {
 
 std::vector<ZoomSample> LensMotor::take_samples() {
   const std::lock_guard lock(impl_->mutex);
-  return std::exchange(impl_->samples, {});
+  return impl_->samples.take();
 }
 
 ByAxis<std::optional<double>> LensMotor::positions() const {

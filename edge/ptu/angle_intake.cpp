@@ -6,8 +6,6 @@ namespace ols::ptu {
 
 namespace {
 
-constexpr std::size_t kSamplesKept = 1000;  // for a caller that does not take them
-
 AngleHistory::Config history_config(const PtuConfig& config, const PtuFacts& facts) {
   AngleHistory::Config history = config.history;
   history.step_rad = facts.pan.resolution_rad;
@@ -34,8 +32,7 @@ PositionCheck::Verdict AngleIntake::take(const PollCycle& done, const PanTilt& c
   change_rad_s_ = change_rad_s;
   if (!history_.add(check_.sample())) return verdict;
   last_good_s_ = time_s;
-  if (samples_.size() >= kSamplesKept) samples_.erase(samples_.begin());
-  samples_.push_back(check_.sample());
+  samples_.add(check_.sample());
   return verdict;
 }
 

@@ -3,9 +3,9 @@
 #pragma once
 
 #include <optional>
-#include <utility>
 #include <vector>
 
+#include "edge/device/reading_queue.h"
 #include "edge/ptu/angle_history.h"
 #include "edge/ptu/driver_types.h"
 #include "edge/ptu/poll_cycle.h"
@@ -30,7 +30,7 @@ class AngleIntake {
   PanTilt rate_rad_s() const { return check_.rate_rad_s(); }
   bool standing() const { return check_.standing(); }
 
-  std::vector<AngleSample> take_samples() { return std::exchange(samples_, {}); }
+  std::vector<AngleSample> take_samples() { return samples_.take(); }
   std::optional<double> last_good_s() const { return last_good_s_; }  // when it was taken in
 
  private:
@@ -40,7 +40,7 @@ class AngleIntake {
   PositionCheck check_;
   AngleHistory history_;
   PanTilt change_rad_s_;  // commanded since the last sample
-  std::vector<AngleSample> samples_;
+  device::ReadingQueue<AngleSample> samples_;
   std::optional<double> last_good_s_;
 };
 

@@ -7,7 +7,7 @@
 #include "base/clocks.h"
 #include "edge/device/device_thread.h"
 #include "edge/ptu/ptu_report.h"
-#include "edge/ptu/serial_port.h"
+#include "edge/serial/serial_port.h"
 
 namespace ols::ptu {
 
@@ -29,7 +29,7 @@ struct PtuThread::Impl {
   }
 
   void run(const std::stop_token& stop) {
-    SerialPort port(config.device, line_baud(), Parity::kNone, &wakeup);
+    serial::SerialPort port(config.device, line_baud(), serial::Parity::kNone, &wakeup);
     restart_after_failure();
     thread.opened();
     thread.works();
@@ -40,7 +40,7 @@ struct PtuThread::Impl {
   }
 
   // Returns when the port must be opened again or the thread must stop. Throws when the port fails.
-  void serve(SerialPort& port, const std::stop_token& stop) {
+  void serve(serial::SerialPort& port, const std::stop_token& stop) {
     int rate = line_baud();
     while (!stop.stop_requested()) {
       heed_emergency(port);
@@ -63,7 +63,7 @@ struct PtuThread::Impl {
   }
 
   // Only this thread writes, so that no motion command slips in behind the halt.
-  void heed_emergency(SerialPort& port) {
+  void heed_emergency(serial::SerialPort& port) {
     wakeup.clear();
     if (!halt_wanted.exchange(false)) return;
     std::string halt;

@@ -5,10 +5,10 @@
 #include <optional>
 #include <stdexcept>
 #include <stop_token>
-#include <utility>
 
 #include "base/clocks.h"
 #include "edge/device/device_thread.h"
+#include "edge/device/reading_queue.h"
 #include "edge/sensors/gnss_from_gpsd.h"
 #include "edge/sensors/gpsd_link.h"
 
@@ -20,7 +20,6 @@ constexpr double kRead_s = 0.1;        // between two looks at the stop request
 constexpr double kFirstPause_s = 0.5;  // before the next connection; doubles
 constexpr double kMaxPause_s = 10.0;
 constexpr double kReconnectAfterStale = 4.0;  // times stale_s
-constexpr std::size_t kMaxReadings = 1000;    // queued for a caller that does not take them
 
 std::string format(const GnssReading& reading) {
   char text[96];
@@ -100,8 +99,7 @@ struct Gnss::Impl {
         ++fixes;
         last_fix_s = reading.time_s;
       }
-      if (readings.size() == kMaxReadings) readings.erase(readings.begin());
-      readings.push_back(reading);
+      readings.add(reading);
     }
     thread.set_fault(fault(now_s));
   }
@@ -145,7 +143,7 @@ struct Gnss::Impl {
 
   const GnssConfig config;
   mutable std::mutex mutex;  // of everything below but the thread
-  std::vector<GnssReading> readings;
+  device::ReadingQueue<GnssReading> readings;
   std::optional<GnssReading> last;
   std::optional<double> last_fix_s;
   GpsdLink::Silence silence = GpsdLink::Silence::kReceiverSilent;  // the cause of a silence
@@ -162,7 +160,7 @@ Gnss::~Gnss() = default;
 
 std::vector<GnssReading> Gnss::take_readings() {
   const std::lock_guard lock(impl_->mutex);
-  return std::exchange(impl_->readings, {});
+  return impl_->readings.take();
 }
 
 device::DeviceReport Gnss::report() const { return impl_->report(); }

@@ -5,11 +5,11 @@
 #include <optional>
 #include <stdexcept>
 #include <stop_token>
-#include <utility>
 
 #include "base/clocks.h"
 #include "edge/device/device_thread.h"
-#include "edge/ptu/serial_port.h"
+#include "edge/device/reading_queue.h"
+#include "edge/serial/serial_port.h"
 #include "geometry/angles.h"
 
 namespace ols::sensors {
@@ -20,7 +20,6 @@ constexpr double kRead_s = 0.05;       // between two looks at the stop request
 constexpr double kFirstPause_s = 0.2;  // before the port is opened again; doubles
 constexpr double kMaxPause_s = 5.0;
 constexpr int kStartsBeforeReopening = 3;
-constexpr std::size_t kMaxReadings = 1000;  // queued for a caller that does not take them
 
 std::string in_degrees(const AxisAngles& angles) {
   char text[64];
@@ -38,8 +37,8 @@ struct Inclinometer::Impl {
         thread({"inclinometer", "is being opened", kFirstPause_s, kMaxPause_s}) {}
 
   void run(const std::stop_token& stop) {
-    ptu::SerialPort port(config.device, config.baud,
-                         config.even_parity ? ptu::Parity::kEven : ptu::Parity::kNone);
+    serial::SerialPort port(config.device, config.baud,
+                            config.even_parity ? serial::Parity::kEven : serial::Parity::kNone);
     thread.opened();
     request_version(port);
     serve(port, stop);
@@ -47,7 +46,7 @@ struct Inclinometer::Impl {
 
   // Returns when the thread must stop. Throws when the port fails, or when the sensor stays silent
   // though it was started kStartsBeforeReopening times.
-  void serve(ptu::SerialPort& port, const std::stop_token& stop) {
+  void serve(serial::SerialPort& port, const std::stop_token& stop) {
     start_streaming(port);
     double last_reading_s = clock_monotonic_s();
     int starts = 1;
@@ -65,7 +64,7 @@ struct Inclinometer::Impl {
     }
   }
 
-  void request_version(ptu::SerialPort& port) {
+  void request_version(serial::SerialPort& port) {
     {
       const std::lock_guard lock(mutex);
       parser.expect_version();
@@ -73,7 +72,7 @@ struct Inclinometer::Impl {
     port.write(Dpg2Parser::kAskVersion);
   }
 
-  void start_streaming(ptu::SerialPort& port) {
+  void start_streaming(serial::SerialPort& port) {
     port.write(Dpg2Parser::kStart);
     const std::lock_guard lock(mutex);
     ++starts_sent;
@@ -87,8 +86,7 @@ struct Inclinometer::Impl {
     for (const AxisAngles& pair : pairs) {
       if (!last || pair.x_rad != last->x_rad || pair.y_rad != last->y_rad) changed_s = now_s;
       last = pair;
-      if (readings.size() == kMaxReadings) readings.erase(readings.begin());
-      readings.push_back(origin_tilt(config, pair));
+      readings.add(origin_tilt(config, pair));
     }
     thread.set_fault(fault(now_s));
     return !pairs.empty();
@@ -137,7 +135,7 @@ struct Inclinometer::Impl {
   const InclinometerConfig config;
   mutable std::mutex mutex;  // of everything below but the thread
   Dpg2Parser parser;
-  std::vector<TiltReading> readings;
+  device::ReadingQueue<TiltReading> readings;
   std::optional<AxisAngles> last;  // the last good pair
   double changed_s = 0.0;          // last time a digit changed
   std::uint64_t starts_sent = 0;
@@ -154,7 +152,7 @@ Inclinometer::~Inclinometer() = default;
 
 std::vector<TiltReading> Inclinometer::take_readings() {
   const std::lock_guard lock(impl_->mutex);
-  return std::exchange(impl_->readings, {});
+  return impl_->readings.take();
 }
 
 device::DeviceReport Inclinometer::report() const { return impl_->report(); }

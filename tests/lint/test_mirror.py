@@ -23,7 +23,7 @@ WITHOUT: dict[str, str] = {
         tools/calibrate/view_check.cpp tools/calibrate/report_*.cpp
         tools/calibrate/result_files.cpp tools/calibrate/tracks.cpp
         tools/calibrate/zoom_command.cpp tools/ctl/subcommands.cpp
-        export/conversion.cpp export/factory.cpp""",
+        export/factory.cpp""",
     "they own devices, sockets or threads of a process; the end-to-end tests run them": """
         base/lcm_bus.cpp base/multicast_socket.cpp edge/device_set.cpp edge/station_process.cpp
         central/app/fusion_bus.cpp central/app/fusion_process.cpp console/add_user.cpp

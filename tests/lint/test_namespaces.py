@@ -19,6 +19,7 @@ NAMESPACES: dict[str, str | None] = {
     "edge/recorder": "ols::recorder",
     "edge/video": "ols::video",
     "edge/sensors": "ols::sensors",
+    "edge/serial": "ols::serial",
     "edge/tracker": "ols::tracker",
     "edge": "ols::station",
     "central": "ols::fusion",

@@ -7,9 +7,9 @@
 #include <stdexcept>
 #include <vector>
 
+#include "base/command_output.h"
 #include "base/plain_text.h"
 #include "base/small_file.h"
-#include "edge/clock/command_output.h"
 #include "tools/doctor/secrets.h"
 
 namespace ols::doctor {
@@ -104,13 +104,13 @@ void write_bundle(const std::string& file, const BundleContents& contents) {
   folder.put("doctor.json", contents.findings);
   folder.put("version.txt", contents.version);
   for (const auto& [name, command] : commands()) {
-    folder.put(name, clock::command_output(command, kPatience_s).value_or("cannot be asked"));
+    folder.put(name, command_output(command, kPatience_s).value_or("cannot be asked"));
   }
   std::string statuses;  // in one file: a name that was heard may hold anything
   for (const auto& [station, status] : contents.statuses) statuses += status + "\n";
   folder.put("statuses.txt", statuses);
   put_configuration(folder, contents.configuration_folder);
-  const auto packed = clock::command_output(
+  const auto packed = command_output(
       {"tar", "--create", "--gzip", "--file", file, "--directory", folder.path(), "."},
       kPatience_s);
   if (!packed) throw std::runtime_error(file + ": cannot be written");

@@ -8,10 +8,10 @@
 
 #include "base/channel_names.h"
 #include "base/clocks.h"
+#include "base/command_output.h"
 #include "base/lcm_bus.h"
 #include "base/lcm_url.h"
 #include "command/messages.h"
-#include "edge/clock/command_output.h"
 #include "ols_msg/bearing_t.hpp"
 #include "ols_msg/fusion_status_t.hpp"
 #include "ols_msg/station_status_t.hpp"
@@ -109,8 +109,7 @@ void look_at_network(BusHeard& bus) {
   if (!bus_address.group) return;
   std::array<char, INET_ADDRSTRLEN> address{};
   inet_ntop(AF_INET, &bus_address.group->sin_addr, address.data(), address.size());
-  if (const auto route =
-          clock::command_output({"ip", "-o", "route", "get", address.data()}, kCommand_s)) {
+  if (const auto route = command_output({"ip", "-o", "route", "get", address.data()}, kCommand_s)) {
     bus.interface = parse_route(*route);
   }
 }

@@ -5,7 +5,7 @@
 #include <cerrno>
 #include <fstream>
 
-#include "edge/clock/command_output.h"
+#include "base/command_output.h"
 #include "tools/doctor/judge_host.h"
 #include "tools/doctor/probe.h"
 
@@ -26,7 +26,7 @@ std::optional<Value> read_file(const std::string& path) {
 
 LinkFacts look_at_link(const std::string& address) {
   LinkFacts link;
-  const auto route = clock::command_output({"ip", "-o", "route", "get", address}, kCommand_s);
+  const auto route = command_output({"ip", "-o", "route", "get", address}, kCommand_s);
   if (route) link.name = parse_route(*route);
   if (link.name.empty()) return link;
   const std::string folder = "/sys/class/net/" + link.name;
@@ -64,7 +64,7 @@ std::vector<UnitFacts> look_at_units(const std::vector<std::string>& units) {
       "systemctl", "show", "--no-pager",
       "--property=Id,LoadState,ActiveState,SubState,Result,NRestarts,StatusText"};
   command.insert(command.end(), units.begin(), units.end());
-  const auto text = clock::command_output(command, kCommand_s);
+  const auto text = command_output(command, kCommand_s);
   return text ? parse_units(*text) : std::vector<UnitFacts>{};
 }
 

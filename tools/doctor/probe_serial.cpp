@@ -8,8 +8,8 @@
 
 #include "base/clocks.h"
 #include "edge/ptu/codec.h"
-#include "edge/ptu/serial_port.h"
 #include "edge/ptu/unit_model.h"
+#include "edge/serial/serial_port.h"
 #include "tools/doctor/probe.h"
 
 namespace ols::doctor {
@@ -68,7 +68,7 @@ class Questions {
   }
 
  private:
-  ptu::SerialPort port_;
+  serial::SerialPort port_;
 };
 
 std::optional<double> ask_number(Questions& unit, ptu::PtuAxis axis, ptu::PtuQuantity quantity,
@@ -108,7 +108,7 @@ SerialFacts look_at_line(const std::string& device, int baud) {
   facts.device = device;
   facts.users = users_of(device);
   try {
-    const ptu::SerialPort port(device, baud);
+    const serial::SerialPort port(device, baud);
   } catch (const std::system_error& trouble) {
     facts.error = trouble.code().value();
   }

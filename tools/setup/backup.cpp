@@ -9,9 +9,9 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "base/command_output.h"
 #include "base/configuration_files.h"
 #include "base/trust/key_file.h"
-#include "edge/clock/command_output.h"
 #include "tools/setup/membership.h"
 
 namespace ols::setup {
@@ -65,7 +65,7 @@ std::vector<std::string> present(const std::string& root) {
 std::vector<std::string> members_of(const std::string& file) {
   constexpr std::size_t kMostNames = 100'000'000;  // [byte]: of a million files
   const auto listed =
-      clock::command_output({"tar", "--list", "--gzip", "--file", file}, kPatience_s, kMostNames);
+      command_output({"tar", "--list", "--gzip", "--file", file}, kPatience_s, kMostNames);
   if (!listed) throw std::runtime_error(file + ": cannot be read as a backup");
   std::istringstream lines(*listed);
   std::vector<std::string> members;
@@ -137,9 +137,9 @@ std::vector<std::string> restore(const Host& host, const std::string& file) {
   for (const std::string& member : members) {
     if (!is_of_backup(member)) throw std::runtime_error(file + ": holds " + member + ": no backup");
   }
-  const auto done = clock::command_output({"tar", "--extract", "--gzip", "--preserve-permissions",
-                                           "--file", file, "--directory", host.path("/")},
-                                          kPatience_s);
+  const auto done = command_output({"tar", "--extract", "--gzip", "--preserve-permissions",
+                                    "--file", file, "--directory", host.path("/")},
+                                   kPatience_s);
   if (!done) throw std::runtime_error(file + ": not all could be restored");
   restore_time_key(host, members);
   return units_of(members);

@@ -6,6 +6,8 @@
 #include <ostream>
 #include <stdexcept>
 
+#include "base/toml_text.h"
+
 namespace ols::setup {
 namespace {
 
@@ -19,10 +21,7 @@ std::string read_line(std::istream& in) {
   return line.substr(first, line.find_last_not_of(" \t\r") - first + 1);
 }
 
-std::string shown(const std::string& toml) {
-  const bool is_text = toml.size() >= 2 && (toml.front() == '"' || toml.front() == '\'');
-  return is_text ? toml.substr(1, toml.size() - 2) : toml;
-}
+std::string shown(const std::string& toml) { return text_in(toml).value_or(toml); }
 
 // As TOML.
 std::string ask(std::istream& in, std::ostream& out, const Question& question, const Values& known,
@@ -37,7 +36,7 @@ std::string ask(std::istream& in, std::ostream& out, const Question& question, c
     const std::string value = line.empty() ? shown(fallback) : line;
     std::string why = value.empty() && fallback.empty() ? "an answer is needed" : "";
     if (why.empty()) why = refused(question, value);
-    if (why.empty()) return question.is_text ? quoted(value) : value;
+    if (why.empty()) return question.is_text ? toml_text(value) : value;
     out << "  " << why << "\n";
   }
 }

@@ -6,7 +6,7 @@
 #include <system_error>
 
 #include "base/clocks.h"
-#include "edge/ptu/serial_port.h"
+#include "edge/serial/serial_port.h"
 #include "tools/doctor/probe.h"
 
 namespace ols::setup {
@@ -26,7 +26,7 @@ void add_from(const std::string& folder, const std::string& beginning,
 
 std::string heard_on(const std::string& device, int baud) {
   constexpr double kListen_s = 1.3;  // receivers speak once a second
-  ptu::SerialPort port(device, baud);
+  serial::SerialPort port(device, baud);
   std::string heard;
   const double end_s = clock_monotonic_s() + kListen_s;
   while (clock_monotonic_s() < end_s && !is_receiver_talk(heard)) {

@@ -66,17 +66,15 @@ const std::string* find(const Values& values, const std::string& key) {
   return nullptr;
 }
 
+std::optional<std::string> text_in(const std::string& value) {
+  if (value.empty()) return std::nullopt;
+  return toml::parse("x = " + value)["x"].value_exact<std::string>();
+}
+
 std::string as_toml(const Values& values) {
   std::string text;
   for (const auto& [key, value] : values) text.append(key).append(" = ").append(value).append("\n");
   return text;
-}
-
-std::string quoted(const std::string& text) {
-  std::ostringstream out;
-  out << toml::toml_formatter{toml::value<std::string>(text),
-                              toml::format_flags::quote_dates_and_times};
-  return out.str();
 }
 
 }  // namespace ols::setup

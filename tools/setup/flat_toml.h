@@ -1,6 +1,7 @@
 // A TOML text as its values by full key. Pure.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,9 +17,9 @@ Values flat(const std::string& toml);
 Values of_table(const Values& values, const std::string& table);
 // Null if it is not there.
 const std::string* find(const Values& values, const std::string& key);
+// What a value says that is a text; nothing if it is none.
+std::optional<std::string> text_in(const std::string& value);
 // One "key = value" a line.
 std::string as_toml(const Values& values);
-// A text as a TOML string.
-std::string quoted(const std::string& text);
 
 }  // namespace ols::setup

@@ -13,6 +13,7 @@
 #include "base/command_line.h"
 #include "base/small_file.h"
 #include "base/toml_config.h"
+#include "base/toml_text.h"
 #include "tools/doctor/probe.h"
 #include "tools/setup/answers.h"
 #include "tools/setup/backup.h"
@@ -80,7 +81,7 @@ void find_devices(setup::Answers& answers, bool asks) {
                one_of(units, "PTU", "station.ptu.device", asks));
   }
   std::erase_if(lines, [&](const std::string& line) {
-    return setup::quoted(line) == *setup::find(answers.values, "station.ptu.device");
+    return ols::toml_text(line) == *setup::find(answers.values, "station.ptu.device");
   });
   if (!answers.gnss.empty()) return;
   const auto receivers = setup::find_receivers(lines);

@@ -1,5 +1,6 @@
 #include "tools/setup/plan.h"
 
+#include "base/toml_text.h"
 #include "tools/setup/site_time.h"
 
 namespace ols::setup {
@@ -26,7 +27,7 @@ PlannedFile time_file(const Answers& answers) {
 }  // namespace
 
 void add(Values& values, const std::string& key, const std::string& text) {
-  if (find(values, key) == nullptr) values.emplace_back(key, quoted(text));
+  if (find(values, key) == nullptr) values.emplace_back(key, toml_text(text));
 }
 
 Plan plan_station(const Answers& answers) {

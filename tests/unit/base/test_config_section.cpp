@@ -114,6 +114,8 @@ TEST(ConfigSection, RefusesNamingLineAndKey) {
   EXPECT_EQ(error_of("name = 'a'\nsign = 0\n"), "f:2: sign: 0 is not one of 1, -1");
   EXPECT_EQ(error_of("name = 'a'\ncolour = 'green'\n"),
             "f:2: colour: \"green\" is not one of red, blue");
+  EXPECT_EQ(error_of("name = 'a'\nstripes = ['r\"\\e']\n"),
+            R"(f:2: stripes: "r\"\\e" is not one of red, blue)");
   EXPECT_EQ(error_of("name = 'a'\nstripes = []\n"), "f:2: stripes: needs at least one entry");
   EXPECT_EQ(error_of("name = 'a'\nseats = 6\n"), "f:2: seats: do not fit");
 }
@@ -139,6 +141,13 @@ TEST(ConfigSection, AnExampleHasTheValuesAndTheSentences) {
   EXPECT_EQ(example(section, {{"radio.host", "\"h\""}, {"seats", "2"}}),
             "seats = 2  # For people.\n\n[radio]  # A radio.\nhost = \"h\"  # Where.\n");
   EXPECT_THROW(example(section, {{"saets", "2"}}), std::invalid_argument);
+}
+
+TEST(ConfigSection, ATextIsEscapedAsTheFileWouldWriteIt) {
+  Cart cart;
+  cart.name = "a\"\\";
+  const Section section{"cart", "A cart.", {text("name", cart.name, "Its name.")}};
+  EXPECT_THAT(markdown(section), HasSubstr(R"(| `name` | "a\"\\" |)"));
 }
 
 TEST(ConfigSection, SomeRowsCanBePicked) {

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "edge/clock/command_output.h"
+#include "base/command_output.h"
 #include "tests/unit/temp_dir.h"
 
 namespace ols::doctor {
@@ -28,8 +28,7 @@ class Bundle : public testing::Test {
   }
   // All that is in the archive, one file after the other.
   static std::string unpacked(const std::string& file) {
-    return clock::command_output({"tar", "--extract", "--gzip", "--to-stdout", "--file", file},
-                                 20.0)
+    return command_output({"tar", "--extract", "--gzip", "--to-stdout", "--file", file}, 20.0)
         .value_or("");
   }
   BundleContents contents() const { return {"1.2.3", findings_, (folder_ / "etc").string()}; }

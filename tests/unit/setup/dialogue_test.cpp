@@ -48,6 +48,16 @@ TEST(Dialogue, AnEmptyLineTakesTheAnswerOfBeforeAndWhatOnlyAFileSaysStays) {
   EXPECT_EQ(flat(again), flat(as_toml(known)));
 }
 
+TEST(Dialogue, AnAnswerOfBeforeIsShownAndTakenAsItWasTyped) {
+  const std::string path = "/media/Gr\u00fcn \"1\" \\ 2";
+  std::istringstream in("\n\n\n\n");
+  std::ostringstream out;
+  const Values known = flat(answer("centre\neth0\nairfield\n" + path + "\n"));
+  EXPECT_EQ(flat(ask_all(in, out, known, not_fitting)), known);
+  EXPECT_THAT(out.str(), HasSubstr("[" + path + "]"));
+  EXPECT_EQ(text_in(*find(known, "root")), path);
+}
+
 TEST(Dialogue, TheEndOfTheInputIsAnError) {
   EXPECT_THROW(answer("station\n"), std::runtime_error);
   EXPECT_THROW(answer("\n"), std::runtime_error) << "a role is needed";

@@ -4,6 +4,8 @@
 
 #include <stdexcept>
 
+#include "base/toml_text.h"
+
 namespace ols::setup {
 namespace {
 
@@ -16,11 +18,18 @@ TEST(FlatToml, EachValueHasItsFullKeyAndIsWrittenAsItWasRead) {
   EXPECT_EQ(of_table(values, "t"), (Values{{"c", "0.5"}, {"u.d", "true"}}));
 }
 
-TEST(FlatToml, ATextIsQuoted) {
-  for (const std::string text : {"/dev/ols/ptu", "a \"b\" \\ c", ""}) {
-    const Values values = flat("k = " + quoted(text) + "\n");
-    EXPECT_EQ(*find(values, "k"), quoted(text));
+TEST(FlatToml, ATextIsWrittenInOneWay) {
+  for (const std::string text : {"/dev/ols/ptu", "a \"b\" \\ c", "a\n\x1b", "Gr\u00fcn", ""}) {
+    const Values values = flat("k = " + toml_text(text) + "\n");
+    EXPECT_EQ(*find(values, "k"), toml_text(text));
+    EXPECT_EQ(text_in(*find(values, "k")), text);
   }
+  EXPECT_EQ(*find(flat("k = 'a\\b'"), "k"), toml_text("a\\b"));
+}
+
+TEST(FlatToml, ANumberIsNoText) {
+  EXPECT_EQ(text_in("1"), std::nullopt);
+  EXPECT_EQ(text_in(""), std::nullopt);
 }
 
 TEST(FlatToml, NonsenseIsAnError) { EXPECT_THROW(flat("a = = 1"), std::runtime_error); }

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "edge/ptu/serial_port.h"
+#include "edge/serial/serial_port.h"
 #include "geometry/angles.h"
 #include "tests/unit/eventually.h"
 
@@ -21,7 +21,7 @@ InclinometerLineConfig still() {
   return c;
 }
 
-bool says(ptu::SerialPort& port, const std::string& text) {
+bool says(serial::SerialPort& port, const std::string& text) {
   std::string heard;
   return eventually([&] {
     heard += port.read(0.02);
@@ -31,7 +31,7 @@ bool says(ptu::SerialPort& port, const std::string& text) {
 
 TEST(InclinometerLine, StreamsFromPowerUpAndObeysItsCommands) {
   const InclinometerLine line(still(), 1);
-  ptu::SerialPort port(line.device(), 9600);
+  serial::SerialPort port(line.device(), 9600);
   EXPECT_TRUE(says(port, "X=+00.430\r\nY=-00.084\r\nX=+00.430\r\n"));
   port.write("sV");
   EXPECT_TRUE(says(port, "DPG2 V1.4\r\n"));

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/clocks.h"
-#include "edge/ptu/serial_port.h"
+#include "edge/serial/serial_port.h"
 #include "tests/unit/eventually.h"
 
 namespace ols::sim {
@@ -11,7 +11,7 @@ namespace {
 
 TEST(LensLine, AnswersOnItsTerminal) {
   const LensLine line(LensUnitConfig{.start_zoom = 0.25});
-  ptu::SerialPort port(line.device(), 9600);
+  serial::SerialPort port(line.device(), 9600);
   port.write(std::string("\x81\x09\x04\x47\xff"));
   std::string heard;
   EXPECT_TRUE(eventually([&] {

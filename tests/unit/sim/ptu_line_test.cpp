@@ -9,7 +9,7 @@
 #include <system_error>
 #include <thread>
 
-#include "edge/ptu/serial_port.h"
+#include "edge/serial/serial_port.h"
 #include "tests/unit/sim/ptu_master.h"
 #include "tests/unit/temp_dir.h"
 
@@ -28,7 +28,7 @@ bool soon(const auto& condition) {
 }
 
 // What the unit said at power-up may still be on the line.
-bool answers(ptu::SerialPort& port, const std::string& request, const std::string& reply) {
+bool answers(serial::SerialPort& port, const std::string& request, const std::string& reply) {
   port.write(request);
   std::string heard;
   return soon([&] {
@@ -40,7 +40,7 @@ bool answers(ptu::SerialPort& port, const std::string& request, const std::strin
 TEST(PtuLine, VanishesAndComesBackUnderItsLink) {
   const std::string link = temp_dir() + "ols_ptu_line_" + std::to_string(::getpid());
   PtuLine line(ready_unit(), 1, link);
-  ptu::SerialPort before(link, 9600);
+  serial::SerialPort before(link, 9600);
   PtuFaults gone;
   gone.line_gone = true;
   line.set_faults(gone);
@@ -49,15 +49,15 @@ TEST(PtuLine, VanishesAndComesBackUnderItsLink) {
   EXPECT_THROW(while (true) before.read(0.01), std::system_error);
   line.set_faults({});
   ASSERT_TRUE(soon([&] { return !line.device().empty(); }));
-  ptu::SerialPort after(link, 9600);
+  serial::SerialPort after(link, 9600);
   EXPECT_TRUE(answers(after, "PX ", "* 49467\r\n"));
 }
 
 TEST(PtuLine, IsFollowedToItsNewRate) {
   PtuLine line(ready_unit(), 1);
-  EXPECT_TRUE(
-      answers(*std::make_unique<ptu::SerialPort>(line.device(), 9600), "@(38400,0,F) ", "*\r\n"));
-  ptu::SerialPort port(line.device(), 38400);
+  EXPECT_TRUE(answers(*std::make_unique<serial::SerialPort>(line.device(), 9600), "@(38400,0,F) ",
+                      "*\r\n"));
+  serial::SerialPort port(line.device(), 38400);
   EXPECT_TRUE(answers(port, " PX ", "* 49467\r\n"));
 }
 

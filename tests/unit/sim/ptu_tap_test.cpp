@@ -14,7 +14,7 @@
 
 #include "base/clocks.h"
 #include "edge/ptu/driver.h"
-#include "edge/ptu/serial_port.h"
+#include "edge/serial/serial_port.h"
 #include "sim/ptu_line.h"
 #include "sim/ptu_tap_watch.h"
 #include "tests/unit/sim/ptu_master.h"
@@ -46,7 +46,7 @@ bool exists(const std::string& link) {
   return std::filesystem::exists(std::filesystem::symlink_status(link));
 }
 
-bool answers(ptu::SerialPort& port, const std::string& request, const std::string& reply) {
+bool answers(serial::SerialPort& port, const std::string& request, const std::string& reply) {
   port.write(request);
   std::string heard;
   return soon([&] {
@@ -56,7 +56,7 @@ bool answers(ptu::SerialPort& port, const std::string& request, const std::strin
 }
 
 // One question at a time: both replies have come when this is over.
-void ask_angles(ptu::SerialPort& port) {
+void ask_angles(serial::SerialPort& port) {
   port.write("PP TP ");
   std::string heard;
   soon([&] {
@@ -69,7 +69,7 @@ TEST(PtuTap, PassesBytesOnAndSeesWhereTheUnitPoints) {
   PtuLine unit(ready_unit(), 1, path("unit"));
   PtuTap tap({path("unit"), 9600, kStep_rad}, 2, path("station"));
   ASSERT_TRUE(soon([&] { return exists(path("station")); }));
-  ptu::SerialPort port(path("station"), 9600);
+  serial::SerialPort port(path("station"), 9600);
   EXPECT_TRUE(answers(port, " PA20000 TA20000 PP500 TP300 A ", "*\r\n*\r\n*\r\n*\r\n*\r\n"));
   EXPECT_TRUE(answers(port, "PP TP ", "* 500\r\n* 300\r\n"));
   EXPECT_TRUE(answers(port, "PP TP ", "* 500\r\n* 300\r\n"));
@@ -83,7 +83,7 @@ TEST(PtuTap, WaitsForTheReadingBehindAnInstant) {
   PtuTap tap({path("unit"), 9600, kStep_rad}, 2, path("station"));
   tap.await(clock_monotonic_s());  // of a unit that has said nothing it expects nothing
   ASSERT_TRUE(soon([&] { return exists(path("station")); }));
-  ptu::SerialPort port(path("station"), 9600);
+  serial::SerialPort port(path("station"), 9600);
   // Half a minute of motion, so that an angle that was guessed is another one later. The answer to
   // PX cannot be mistaken for the end of what the unit says at power-up.
   EXPECT_TRUE(answers(port, " PS1000 PA20000 PP30000 PX ", "* 49467\r\n"));
@@ -109,10 +109,10 @@ TEST(PtuTap, FollowsTheStationToAnotherRate) {
   PtuTap tap({path("unit"), 9600, kStep_rad}, 2, path("station"));
   ASSERT_TRUE(soon([&] { return exists(path("station")); }));
   {
-    ptu::SerialPort port(path("station"), 9600);
+    serial::SerialPort port(path("station"), 9600);
     EXPECT_TRUE(answers(port, " @(38400,0,F) ", "*\r\n"));
   }
-  ptu::SerialPort port(path("station"), 38400);
+  serial::SerialPort port(path("station"), 38400);
   EXPECT_TRUE(answers(port, " PX ", "* 49467\r\n"));
 }
 
@@ -128,7 +128,7 @@ TEST(PtuTap, OutlivesTheUnitBeingUnplugged) {
   EXPECT_TRUE(soon([&] { return tap.counters().failures > 1; }));
   unit->set_faults({});
   ASSERT_TRUE(soon([&] { return exists(path("station")); }));
-  ptu::SerialPort port(path("station"), 9600);
+  serial::SerialPort port(path("station"), 9600);
   EXPECT_TRUE(answers(port, " PX ", "* 49467\r\n"));
 }
 
@@ -145,7 +145,7 @@ TEST(PtuTap, HasTheFaultsOfALineOnly) {
   faults.garble_share = 1.0;
   tap.set_faults(faults);
   ASSERT_TRUE(soon([&] { return exists(path("station")); }));
-  ptu::SerialPort port(path("station"), 9600);
+  serial::SerialPort port(path("station"), 9600);
   port.write(" PX PX PX PX ");
   std::string heard;
   EXPECT_TRUE(soon([&] {

@@ -16,7 +16,6 @@
 #include <system_error>
 
 #include "base/clocks.h"
-#include "edge/ptu/serial_port.h"
 #include "geometry/angles.h"
 #include "sim/ptu_line.h"
 #include "tests/unit/eventually.h"
@@ -226,15 +225,6 @@ TEST(PtuThread, OpensThePortAgainWhenTheUnitFallsSilent) {
   }));
   line.set_faults({});
   EXPECT_TRUE(eventually([&] { return ready(ptu); }));
-}
-
-TEST(SerialPort, SaysWhatIsWrongWithADevice) {
-  EXPECT_THROW(SerialPort("/nonexistent/tty", 9600), std::system_error);
-  EXPECT_THROW(SerialPort("/dev/null", 9600), std::system_error);
-  PtuLine line(unit(), 1);
-  EXPECT_THROW(SerialPort(line.device(), 9601), std::system_error);
-  const SerialPort first(line.device(), 9600);
-  EXPECT_THROW(SerialPort(line.device(), 9600), std::system_error);  // in use
 }
 
 TEST(PtuLine, DoesNotReplaceWhatIsNotALink) {

@@ -6,7 +6,7 @@
 
 #include <memory>
 
-#include "edge/ptu/serial_port.h"
+#include "edge/serial/serial_port.h"
 #include "geometry/angles.h"
 #include "sim/inclinometer_line.h"
 #include "tests/unit/eventually.h"
@@ -95,7 +95,7 @@ TEST(Inclinometer, SilenceAndAStuckSensorAreToldAndHeal) {
 TEST(Inclinometer, ASensorThatWasStoppedIsStartedAgain) {
   sim::InclinometerLine line(sensor(), 4);
   {
-    ptu::SerialPort port(line.device(), 9600);
+    serial::SerialPort port(line.device(), 9600);
     port.write("s");
     port.drain(1.0);
   }

@@ -1,5 +1,5 @@
 // The serial port on a pseudo-terminal.
-#include "edge/ptu/serial_port.h"
+#include "edge/serial/serial_port.h"
 
 #include <gtest/gtest.h>
 #include <pty.h>
@@ -7,7 +7,7 @@
 
 #include <system_error>
 
-namespace ols::ptu {
+namespace ols::serial {
 namespace {
 
 class SerialPortTest : public testing::Test {
@@ -71,4 +71,4 @@ TEST_F(SerialPortTest, AWakeupEndsTheWaiting) {
 }
 
 }  // namespace
-}  // namespace ols::ptu
+}  // namespace ols::serial

@@ -1,4 +1,4 @@
-#include "edge/ptu/serial_port.h"
+#include "edge/serial/serial_port.h"
 
 #include <fcntl.h>
 #include <linux/serial.h>
@@ -14,7 +14,7 @@
 #include <cmath>
 #include <system_error>
 
-namespace ols::ptu {
+namespace ols::serial {
 
 namespace {
 
@@ -149,4 +149,4 @@ bool SerialPort::drain(double timeout_s) {
   }
 }
 
-}  // namespace ols::ptu
+}  // namespace ols::serial

@@ -7,7 +7,7 @@
 
 #include "base/wakeup.h"
 
-namespace ols::ptu {
+namespace ols::serial {
 
 enum class Parity { kNone, kEven };
 
@@ -51,4 +51,4 @@ class SerialPort {
   int fd_ = -1;
 };
 
-}  // namespace ols::ptu
+}  // namespace ols::serial

@@ -1,27 +1,27 @@
-#include "edge/clock/command_output.h"
+#include "base/command_output.h"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
 #include <cerrno>
 
-namespace ols::clock {
+namespace ols {
 namespace {
 
-constexpr double kLong_s = 30.0;
+constexpr double kPatience_s = 30.0;
 
 TEST(CommandOutput, IsWhatTheProgramWrites) {
-  EXPECT_EQ(command_output({"printf", "a\\nb"}, kLong_s), "a\nb");
+  EXPECT_EQ(command_output({"printf", "a\\nb"}, kPatience_s), "a\nb");
 }
 
 TEST(CommandOutput, NothingFromAProgramThatIsNotThereOrFails) {
-  EXPECT_EQ(command_output({"ols-no-such-program"}, kLong_s), std::nullopt);
-  EXPECT_EQ(command_output({"sh", "-c", "echo x; exit 1"}, kLong_s), std::nullopt);
-  EXPECT_EQ(command_output({}, kLong_s), std::nullopt);
+  EXPECT_EQ(command_output({"ols-no-such-program"}, kPatience_s), std::nullopt);
+  EXPECT_EQ(command_output({"sh", "-c", "echo x; exit 1"}, kPatience_s), std::nullopt);
+  EXPECT_EQ(command_output({}, kPatience_s), std::nullopt);
 }
 
 TEST(CommandOutput, ErrorsAreNotOutput) {
-  EXPECT_EQ(command_output({"sh", "-c", "echo x >&2; echo y"}, kLong_s), "y\n");
+  EXPECT_EQ(command_output({"sh", "-c", "echo x >&2; echo y"}, kPatience_s), "y\n");
 }
 
 TEST(CommandOutput, AProgramThatHangsIsKilled) {
@@ -31,15 +31,15 @@ TEST(CommandOutput, AProgramThatHangsIsKilled) {
 }
 
 TEST(CommandOutput, AProgramThatNeverStopsTalkingIsKilled) {
-  EXPECT_EQ(command_output({"yes"}, kLong_s), std::nullopt);
+  EXPECT_EQ(command_output({"yes"}, kPatience_s), std::nullopt);
 }
 
 TEST(CommandOutput, LeavesNoChildBehind) {
-  command_output({"true"}, kLong_s);
+  command_output({"true"}, kPatience_s);
   command_output({"sleep", "1000"}, 0.05);
   EXPECT_EQ(::waitpid(-1, nullptr, WNOHANG), -1);
   EXPECT_EQ(errno, ECHILD);
 }
 
 }  // namespace
-}  // namespace ols::clock
+}  // namespace ols

@@ -1,4 +1,4 @@
-#include "edge/clock/command_output.h"
+#include "base/command_output.h"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -14,7 +14,7 @@
 
 #include "base/clocks.h"
 
-namespace ols::clock {
+namespace ols {
 namespace {
 
 // Nothing if the program cannot be started.
@@ -85,4 +85,4 @@ std::optional<std::string> command_output(const std::vector<std::string>& comman
   return text;
 }
 
-}  // namespace ols::clock
+}  // namespace ols
