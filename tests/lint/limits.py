@@ -1,4 +1,8 @@
-"""What the sources declare, read with universal-ctags: classes, their data members, their files."""
+"""What the sources declare: classes, their data members, their files, and where functions end.
+
+Read with universal-ctags; those of the page with its own compiler, which alone knows where an arrow
+function ends.
+"""
 
 import json
 import subprocess
@@ -12,6 +16,7 @@ FOLDERS = (
     "bridge",
     *("sim", "tools", "dev"),
 )
+PAGE_COMPILER = ROOT / "build/page-libraries/node_modules/typescript"
 
 
 @dataclass
@@ -51,6 +56,16 @@ def declared(paths: list[Path]) -> list[dict]:
     command = ["ctags", "--output-format=json", "--fields=+nKSe", "--kinds-C++=+p", "-f", "-"]
     done = subprocess.run(
         [*command, *map(str, paths)], capture_output=True, text=True, check=True, timeout=120
+    )
+    return [json.loads(line) for line in done.stdout.splitlines()]
+
+
+def declared_by_page(paths: list[Path]) -> list[dict]:
+    """The outermost functions of TypeScript sources: what stands within one is counted with it."""
+    reader = Path(__file__).with_name("page_functions.mjs")
+    command = ["node", reader, PAGE_COMPILER, *paths]
+    done = subprocess.run(
+        [str(part) for part in command], capture_output=True, text=True, check=True, timeout=120
     )
     return [json.loads(line) for line in done.stdout.splitlines()]
 

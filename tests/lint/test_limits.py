@@ -95,11 +95,34 @@ def test_no_function_is_too_long():
     assert too_long(limits.declared([path for path in WRITTEN if ".ts" not in path.suffix])) == []
 
 
-@pytest.mark.parametrize(
-    ("name", "head", "line", "tail"),
-    [("a.cpp", "void f() {", "  g();", "}"), ("a.py", "def f():", "    g()", "")],
+needs_page_compiler = pytest.mark.skipif(
+    not limits.PAGE_COMPILER.exists(),
+    reason="build/page-libraries is missing: tools/fetch-page-libraries",
 )
-def test_a_long_function_is_found(tmp_path, name, head, line, tail):
+
+
+@needs_page_compiler
+def test_no_function_of_the_page_is_too_long():
+    assert too_long(limits.declared_by_page(limits.page_sources())) == []
+
+
+def in_page(*values):
+    return pytest.param(limits.declared_by_page, *values, marks=needs_page_compiler)
+
+
+@pytest.mark.parametrize(
+    ("declared", "name", "head", "line", "tail"),
+    [
+        (limits.declared, "a.cpp", "void f() {", "  g();", "}"),
+        (limits.declared, "a.py", "def f():", "    g()", ""),
+        in_page("a.ts", "export async function f() {", "  g();", "}"),
+        in_page("a.ts", "const f = async (x: number): Promise<void> => {", "  g();", "};"),
+        in_page("a.tsx", "const f = ({ x }: Props) => (", "  <p onClick={() => g()}>{x}</p>", ");"),
+        in_page("a.ts", "class A { private readonly f = () => {", "  g();", "}; }"),
+        in_page("a.ts", "class A { get f(): number {", "  g();", "} }"),
+    ],
+)
+def test_a_long_function_is_found(tmp_path, declared, name, head, line, tail):
     path = tmp_path / name
     most = MOST_FUNCTION_LINES - 1 - bool(tail)
     for lines, found in (
@@ -107,7 +130,25 @@ def test_a_long_function_is_found(tmp_path, name, head, line, tail):
         (most + 1, [f"{path}:1 f has {MOST_FUNCTION_LINES + 1} lines"]),
     ):
         path.write_text("\n".join([head, *[line] * lines, *[tail] * bool(tail)]) + "\n")
-        assert too_long(limits.declared([path])) == found
+        assert too_long(declared([path])) == found
+
+
+@needs_page_compiler
+def test_a_function_of_the_page_has_the_lines_of_those_within_it(tmp_path):
+    path = tmp_path / "a.tsx"
+    path.write_text(
+        "function Eye() {\n  const move = () => {\n    g();\n  };\n  return <p />;\n}\n"
+        "class A {\n  constructor() {\n    g();\n  }\n  f = {\n    g() {},\n  };\n}\n"
+        "list.map((one) => {\n  g(one);\n});\n"
+        "declare function h(): void;\n"
+    )
+    found = limits.function_lines(limits.declared_by_page([path]))
+    assert found == [
+        (f"{path}:1 Eye", 6),
+        (f"{path}:8 constructor", 3),
+        (f"{path}:12 g", 1),
+        (f"{path}:15 unnamed", 3),
+    ]
 
 
 def test_exceptions_are_few_and_needed():

@@ -1,4 +1,4 @@
-// Numbers as people read them.
+// Numbers as people read and write them.
 
 export const DASH = "–";
 
@@ -38,4 +38,9 @@ export function spacedMgrs(name: string | undefined): string {
   if (!parts) return DASH;
   const half = parts[3].length / 2;
   return [parts[1], parts[2], parts[3].slice(0, half), parts[3].slice(half)].join(" ").trim();
+}
+
+// What a person wrote; null: not a number.
+export function numberOf(text: string): number | null {
+  return isFinite(Number(text)) && text.trim() !== "" ? Number(text) : null;
 }

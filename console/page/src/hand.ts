@@ -1,18 +1,13 @@
-// The operator's hand on a picture: a joystick while it holds, the lens, and the part of the picture
-// that is shown where the lens does not zoom. Sends what it wants; the station decides.
+// The operator's hand on a picture: a joystick while it holds, and the lens. Sends what it wants; the
+// station decides.
 
 import type { Link } from "./link";
 import type { Station } from "./site";
 
-export type Region = [number, number, number, number]; // x, y, width, height in the full frame [px]
-
 const AGAIN_MS = 100; // two may get lost within the 0.3 s for which a station obeys one
 const PICTURES_A_SECOND = 0.8; // at full deflection: slower the longer the lens
 const FASTEST_DEG_S = 60;
-const LARGEST_ZOOM = 16;
 const REFUSING = ["stopped", "emergency"]; // states in which a station obeys no rates; its lens does
-export const HOLD_MS = 500; // pressed for so long before it moves: a joystick, not a box or a click
-export const STILL_PX = 6;
 
 // Fine in the middle, fast at the edge.
 const felt = (deflection: number) => {
@@ -128,45 +123,5 @@ export class Hand {
 
   private say(command: string, more: Record<string, unknown>) {
     this.link.rate({ command, station: this.station().id, ...more });
-  }
-}
-
-// The part of the frame that is shown, `factor` times larger (or smaller) about a point; null: all of it.
-export function magnified(region: Region | null, full: [number, number], at: [number, number], factor: number): Region | null {
-  const [x, y, width, height] = region ?? [0, 0, full[0], full[1]];
-  const wide = Math.max(full[0] / LARGEST_ZOOM, width / factor);
-  if (wide >= full[0]) return null;
-  const by = wide / width;
-  const within = (value: number, most: number) => Math.max(0, Math.min(most, value));
-  const high = height * by;
-  return [within(at[0] - (at[0] - x) * by, full[0] - wide), within(at[1] - (at[1] - y) * by, full[1] - high), wide, high];
-}
-
-// Two fingers: by how much their distance has grown since the last move.
-export class Pinch {
-  private fingers = new Map<number, [number, number]>();
-
-  get isTwo(): boolean {
-    return this.fingers.size === 2;
-  }
-
-  down(event: PointerEvent) {
-    if (event.pointerType === "touch") this.fingers.set(event.pointerId, [event.clientX, event.clientY]);
-  }
-
-  up(event: PointerEvent) {
-    this.fingers.delete(event.pointerId);
-  }
-
-  move(event: PointerEvent): number {
-    if (!this.isTwo || !this.fingers.has(event.pointerId)) return 1;
-    const before = this.apart();
-    this.fingers.set(event.pointerId, [event.clientX, event.clientY]);
-    return before > 0 ? this.apart() / before : 1;
-  }
-
-  private apart(): number {
-    const [a, b] = [...this.fingers.values()];
-    return Math.hypot(a[0] - b[0], a[1] - b[1]);
   }
 }

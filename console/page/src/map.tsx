@@ -1,6 +1,6 @@
 // The map with its tools.
 
-import { h } from "preact";
+import { h, type RefObject } from "preact";
 import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
 import type { Link } from "./link";
 import { OwnMaps } from "./ownmaps";
@@ -8,19 +8,19 @@ import { SiteMap } from "./sitemap";
 import { View3d } from "./view3d";
 import { t } from "./words";
 
+type Options = SiteMap["options"];
 type Props = { link: Link; version: number; theme: string; selected: string; onPick: (pick: string) => void };
 
-export function MapView({ link, version, theme, selected, onPick }: Props) {
-  const element = useRef<HTMLDivElement>(null);
+const OPTIONS: Options = { rings: true, grid: true, trails: true, views: true, limits: true, follow: false, measuring: false };
+
+// The map in its element, which follows what the page shows; null until it is made.
+function useSiteMap(element: RefObject<HTMLDivElement>, { link, version, theme, selected, onPick }: Props, onMeasured: (text: string) => void): SiteMap | null {
   const map = useRef<SiteMap | null>(null);
-  const [options, setOptions] = useState({ rings: true, grid: true, trails: true, views: true, limits: true, follow: false, measuring: false });
-  const [measured, setMeasured] = useState("");
   const [made, setMade] = useState<SiteMap | null>(null);
-  const [isSolid, setSolid] = useState(false);
   useEffect(() => {
     const one = new SiteMap(link, element.current!);
     map.current = one;
-    one.onMeasured = setMeasured;
+    one.onMeasured = onMeasured;
     setMade(one);
     return () => one.map.setTarget(undefined);
   }, []);
@@ -33,55 +33,72 @@ export function MapView({ link, version, theme, selected, onPick }: Props) {
   }, [selected, onPick]);
   // In the frame in which the news came: an effect and the map's own rendering would take two more.
   useLayoutEffect(() => map.current?.drawNow(), [version]);
-  const toggle = (name: keyof typeof options) => {
+  return made;
+}
+
+type ToolsProps = { map: SiteMap | null; options: Options; isSolid: boolean; onToggle: (name: keyof Options) => void; onSolid: () => void };
+
+function Tools({ map, options, isSolid, onToggle, onSolid }: ToolsProps) {
+  const button = (name: keyof Options, text: string) => (
+    <button type="button" aria-pressed={options[name]} onClick={() => onToggle(name)}>
+      {text}
+    </button>
+  );
+  return (
+    <div class="map-tools" role="toolbar" aria-label={t("layers")}>
+      {!isSolid && (
+        <button type="button" onClick={() => map?.fit()}>
+          {t("fit")}
+        </button>
+      )}
+      {button("follow", t("follow"))}
+      <button type="button" aria-pressed={isSolid} onClick={onSolid}>
+        {t("view_3d")}
+      </button>
+      {button("measuring", t("measure"))}
+      <details class="layers">
+        <summary>{t("layers")}</summary>
+        <div>
+          {button("grid", t("grid"))}
+          {button("rings", t("rings"))}
+          {button("trails", t("trails"))}
+          {button("views", t("views"))}
+          {button("limits", t("limits"))}
+          {isSolid && <p class="layers-note">{t("flat_only")}</p>}
+          {map && (
+            <fieldset disabled={isSolid}>
+              <OwnMaps map={map} />
+            </fieldset>
+          )}
+        </div>
+      </details>
+    </div>
+  );
+}
+
+export function MapView(props: Props) {
+  const element = useRef<HTMLDivElement>(null);
+  const [options, setOptions] = useState(OPTIONS);
+  const [measured, setMeasured] = useState("");
+  const [isSolid, setSolid] = useState(false);
+  const map = useSiteMap(element, props, setMeasured);
+  const toggle = (name: keyof Options) => {
     const value = !options[name];
     setOptions({ ...options, [name]: value });
     if (name === "measuring") setMeasured("");
-    map.current?.setOption(name, value);
+    map?.setOption(name, value);
   };
   // What was measured belongs to the view in which it was.
   const showSolid = () => {
     setSolid(!isSolid);
     setMeasured("");
-    map.current?.endMeasuring();
+    map?.endMeasuring();
   };
-  const button = (name: keyof typeof options, text: string) => (
-    <button type="button" aria-pressed={options[name]} onClick={() => toggle(name)}>
-      {text}
-    </button>
-  );
   return (
     <section class="map" aria-label={t("map")}>
       <div class="map-canvas" ref={element} tabIndex={0} role="application" aria-label={t("map")} />
-      {isSolid && <View3d link={link} version={version} theme={theme} selected={selected} options={options} onPick={onPick} onMeasured={setMeasured} />}
-      <div class="map-tools" role="toolbar" aria-label={t("layers")}>
-        {!isSolid && (
-          <button type="button" onClick={() => map.current?.fit()}>
-            {t("fit")}
-          </button>
-        )}
-        {button("follow", t("follow"))}
-        <button type="button" aria-pressed={isSolid} onClick={showSolid}>
-          {t("view_3d")}
-        </button>
-        {button("measuring", t("measure"))}
-        <details class="layers">
-          <summary>{t("layers")}</summary>
-          <div>
-            {button("grid", t("grid"))}
-            {button("rings", t("rings"))}
-            {button("trails", t("trails"))}
-            {button("views", t("views"))}
-            {button("limits", t("limits"))}
-            {isSolid && <p class="layers-note">{t("flat_only")}</p>}
-            {made && (
-              <fieldset disabled={isSolid}>
-                <OwnMaps map={made} />
-              </fieldset>
-            )}
-          </div>
-        </details>
-      </div>
+      {isSolid && <View3d {...props} options={options} onMeasured={setMeasured} />}
+      <Tools map={map} options={options} isSolid={isSolid} onToggle={toggle} onSolid={showSolid} />
       {!isSolid && (
         <div class="map-north" aria-hidden="true">
           <span>N</span>

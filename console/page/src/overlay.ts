@@ -1,8 +1,8 @@
 // What is drawn over a station's picture: the tracker's box, and what has a known place.
 
-import type { Region } from "./hand";
 import type { Picture } from "./link";
 import { axisMark, bordersOf, horizonOf, marksOf, type Mark, type PictureLine } from "./marks";
+import type { Region } from "./region";
 import type { Site } from "./site";
 
 export type Box = [number, number, number, number]; // x, y, width, height in the full frame [px]

@@ -8,12 +8,10 @@ import { t } from "./words";
 
 const ABOVE_M = [50, 100, 300, 1000, 3000];
 
-// The users' maps, each with its trouble in words, and the accuracy at a height.
-export function OwnMaps({ map }: { map: SiteMap }) {
+// Which of the users' maps there are, and which of them the map shows.
+function useOwnMaps(map: SiteMap) {
   const [known, setKnown] = useState<UserMaps>({ maps: [], problem: "" });
   const [chosen, setChosen] = useState<string[] | null>(null); // null: all of them
-  const [accuracy, setAccuracy] = useState<AccuracyChoice | null>(null);
-  const [failed, setFailed] = useState(false);
   const look = () => void userMaps().then(setKnown);
   useEffect(() => {
     look();
@@ -22,16 +20,67 @@ export function OwnMaps({ map }: { map: SiteMap }) {
     map.onMapTrouble = () => (waiting ||= window.setTimeout(() => ((waiting = 0), look()), 1000));
     return () => clearTimeout(waiting);
   }, []);
-  const choose = (choice: AccuracyChoice | null) => {
-    setAccuracy(choice);
-    void map.showAccuracy(choice).then((shown) => setFailed(!shown));
-  };
   const isShown = (one: UserMap) => chosen === null || chosen.includes(one.id);
   useEffect(() => map.showMaps(known.maps.filter((one) => isShown(one))), [known, chosen]);
   const toggle = (id: string) => {
     const all = known.maps.filter(isShown).map((one) => one.id);
     setChosen(all.includes(id) ? all.filter((one) => one !== id) : [...all, id]);
   };
+  return { known, isShown, toggle };
+}
+
+function Legend() {
+  return (
+    <ul class="legend" aria-label={t("accuracy")}>
+      {ACCURACY_STEPS.map(([most, colour]) => (
+        <li>
+          <svg width="12" height="12" aria-hidden="true">
+            <rect width="12" height="12" fill={colour} />
+          </svg>
+          ≤ {most} m
+        </li>
+      ))}
+    </ul>
+  );
+}
+
+// At a height above the stations: that of the site as it is, or that of a plan.
+function Accuracy({ map, plans }: { map: SiteMap; plans: UserMap[] }) {
+  const [accuracy, setAccuracy] = useState<AccuracyChoice | null>(null);
+  const [failed, setFailed] = useState(false);
+  const choose = (choice: AccuracyChoice | null) => {
+    setAccuracy(choice);
+    void map.showAccuracy(choice).then((shown) => setFailed(!shown));
+  };
+  return (
+    <Fragment>
+      <label>
+        {t("accuracy")}
+        <select value={JSON.stringify(accuracy)} onChange={(e) => choose(JSON.parse(e.currentTarget.value))}>
+          <option value="null">{t("off")}</option>
+          <optgroup label={t("site_now")}>
+            {ABOVE_M.map((above_m) => (
+              <option value={JSON.stringify({ above_m })}>{`${t("above")} ${above_m} m`}</option>
+            ))}
+          </optgroup>
+          {plans.map((one) => (
+            <optgroup label={one.name} key={one.id}>
+              {one.above_m!.map((above_m) => (
+                <option value={JSON.stringify({ above_m, plan: one.id })}>{`${one.name}, ${t("above")} ${above_m} m`}</option>
+              ))}
+            </optgroup>
+          ))}
+        </select>
+      </label>
+      {failed && <p class="map-problem" role="alert">{t("no_accuracy")}</p>}
+      {accuracy && <Legend />}
+    </Fragment>
+  );
+}
+
+// The users' maps, each with its trouble in words, and the accuracy.
+export function OwnMaps({ map }: { map: SiteMap }) {
+  const { known, isShown, toggle } = useOwnMaps(map);
   return (
     <Fragment>
       {known.problem && <p class="map-problem" role="alert">{known.problem}</p>}
@@ -45,39 +94,7 @@ export function OwnMaps({ map }: { map: SiteMap }) {
           {one.problem && <p class="map-problem" role="alert">{`${one.name}: ${one.problem}`}</p>}
         </Fragment>
       ))}
-      <label>
-        {t("accuracy")}
-        <select value={JSON.stringify(accuracy)} onChange={(e) => choose(JSON.parse(e.currentTarget.value))}>
-          <option value="null">{t("off")}</option>
-          <optgroup label={t("site_now")}>
-            {ABOVE_M.map((above_m) => (
-              <option value={JSON.stringify({ above_m })}>{`${t("above")} ${above_m} m`}</option>
-            ))}
-          </optgroup>
-          {known.maps.map((one) =>
-            one.above_m ? (
-              <optgroup label={one.name} key={one.id}>
-                {one.above_m.map((above_m) => (
-                  <option value={JSON.stringify({ above_m, plan: one.id })}>{`${one.name}, ${t("above")} ${above_m} m`}</option>
-                ))}
-              </optgroup>
-            ) : null,
-          )}
-        </select>
-      </label>
-      {failed && <p class="map-problem" role="alert">{t("no_accuracy")}</p>}
-      {accuracy && (
-        <ul class="legend" aria-label={t("accuracy")}>
-          {ACCURACY_STEPS.map(([most, colour]) => (
-            <li>
-              <svg width="12" height="12" aria-hidden="true">
-                <rect width="12" height="12" fill={colour} />
-              </svg>
-              ≤ {most} m
-            </li>
-          ))}
-        </ul>
-      )}
+      <Accuracy map={map} plans={known.maps.filter((one) => one.above_m)} />
     </Fragment>
   );
 }

@@ -1,10 +1,9 @@
 // Guided procedures (calibrations): what each is at, its picture, its question, and a person's answer.
 
 import { h } from "preact";
-import { useState } from "preact/hooks";
 import type { Link } from "./link";
 import type { Procedure, Station } from "./site";
-import { fixed } from "./format";
+import { fixed, numberOf } from "./format";
 import { Sure } from "./sure";
 import { named, t } from "./words";
 
@@ -21,11 +20,9 @@ function isShown(procedure: Procedure | undefined, now_us: number): procedure is
   return now_us - procedure.utime_us < (isAtWork(procedure) ? SILENT_US : RESULT_US);
 }
 
-const number = (text: string) => (isFinite(Number(text)) && text.trim() !== "" ? Number(text) : null);
-
 function pairOf(form: HTMLFormElement): [number, number] | null {
   const data = new FormData(form);
-  const [a, b] = [number(String(data.get("a"))), number(String(data.get("b")))];
+  const [a, b] = [numberOf(String(data.get("a"))), numberOf(String(data.get("b")))];
   return a == null || b == null ? null : [a, b];
 }
 

@@ -4,16 +4,17 @@
 import { distance, fixed } from "./format";
 import { fineOutline } from "./marks";
 import { ecef } from "./projection";
-import type { Line, Station, Target } from "./site";
+import { followed, type Line, type Site, type Station, type Target } from "./site";
 
 export type Layers = { grid: boolean; rings: boolean; trails: boolean; views: boolean; limits: boolean };
 
 export type Vector = [number, number, number];
-export type Eye = { azimuth: number; elevation: number; away_m: number; at: Vector }; // looks at `at`, from that direction
+export type View = { away_m: number; at: Vector }; // looks at `at`
+export type Eye = View & { azimuth: number; elevation: number }; // from that direction
 type Stroke = { points: Vector[]; colour: string; width: number; dash?: number[] };
 type Name = { id: string; at: Vector; text: string; colour: string; isPlain?: boolean };
 
-export const RAY_M = 3000;
+const RAY_M = 3000;
 const SCALE_95 = 2.7955; // of a sigma ellipsoid: the root of the 95 % point of chi-square with three degrees of freedom
 export const LARGER = [1, 10, 100];
 const FOCAL = 1.2; // of the width of the canvas
@@ -41,8 +42,10 @@ class Frame {
   }
 }
 
+const isPlaced = (s: Station) => s.latitude_deg != null && s.longitude_deg != null && s.height_m != null;
+
 export function frameOf(stations: Station[]): Frame | null {
-  const placed = stations.filter((s) => s.latitude_deg != null && s.longitude_deg != null && s.height_m != null);
+  const placed = stations.filter(isPlaced);
   if (!placed.length) return null;
   const mean = (of: (s: Station) => number) => placed.reduce((sum, s) => sum + of(s), 0) / placed.length;
   return new Frame(mean((s) => s.latitude_deg!), mean((s) => s.longitude_deg!), mean((s) => s.height_m!));
@@ -96,7 +99,19 @@ export class Scene {
     private larger: number,
   ) {}
 
-  addStation(s: Station, reach_m: number, layers: Layers, isSelected: boolean) {
+  // All of the site's own; returns what it needs to be seen, and where the target is that is followed.
+  addSite(site: Site, selected: string, layers: Layers): { whole: View; followed: Vector | null | undefined } {
+    const targets = [...site.targets.values()].map((target) => ({ target, at: this.addTarget(target, selected === `target:${target.id}`, layers.trails) }));
+    const placed = [...site.stations.values()].filter(isPlaced);
+    const places = placed.map((s) => this.frame.place(s.latitude_deg!, s.longitude_deg!, s.height_m!));
+    const whole = around([...places, ...targets.flatMap(({ at }) => (at ? [at] : []))]);
+    const reach_m = Math.max(RAY_M, whole.away_m);
+    for (const station of placed) this.addStation(station, reach_m, layers, selected === `station:${station.id}`);
+    for (const line of site.lines.values()) this.addLine(line, site.stations.get(line.id), reach_m);
+    return { whole, followed: targets.find(({ target }) => target === followed(site, selected))?.at };
+  }
+
+  private addStation(s: Station, reach_m: number, layers: Layers, isSelected: boolean) {
     if (s.latitude_deg == null || s.longitude_deg == null || s.height_m == null) return;
     const at = this.frame.place(s.latitude_deg, s.longitude_deg, s.height_m);
     const colour = this.colour(s.stale ? "--map-station-quiet" : isSelected ? "--map-accent" : "--map-station");
@@ -134,13 +149,13 @@ export class Scene {
   }
 
   // Of a station whose object has no position yet.
-  addLine(line: Line, s: Station | undefined, reach_m: number) {
+  private addLine(line: Line, s: Station | undefined, reach_m: number) {
     if (line.stale || s?.latitude_deg == null || s.longitude_deg == null || s.height_m == null) return;
     const at = this.frame.place(s.latitude_deg, s.longitude_deg, s.height_m);
     this.strokes.push({ points: [at, plus(at, along(line.azimuth_deg, line.elevation_deg, reach_m))], colour: this.colour("--map-born"), width: 1.5, dash: [8, 6] });
   }
 
-  addTarget(target: Target, isSelected: boolean, trails: boolean): Vector | null {
+  private addTarget(target: Target, isSelected: boolean, trails: boolean): Vector | null {
     if (target.latitude_deg == null) return null;
     const at = this.frame.place(target.latitude_deg, target.longitude_deg, target.height_m);
     const colour = this.colour(target.stale ? "--map-coasted" : "--map-target");
@@ -258,7 +273,7 @@ export function groundAt([x, y]: [number, number], eye: Eye, [width, height]: [n
 }
 
 // So that all of the site is in sight.
-export function around(places: Vector[]): { at: Vector; away_m: number } {
+function around(places: Vector[]): View {
   const middle = (i: number) => (Math.min(...places.map((p) => p[i])) + Math.max(...places.map((p) => p[i]))) / 2;
   const at: Vector = [middle(0), middle(1), middle(2)];
   const size = Math.max(100, ...places.map((p) => Math.hypot(p[0] - at[0], p[1] - at[1], p[2] - at[2])));

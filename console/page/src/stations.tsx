@@ -1,21 +1,13 @@
 // The stations, each with its alarms, commands and readings.
 
 import { h, Fragment } from "preact";
-import { useState } from "preact/hooks";
 import { Alarms } from "./alarms";
 import { calibrationText } from "./calibration";
 import { Fleet } from "./fleet";
 import { bearing, clockError, DASH, fixed, utc } from "./format";
-import { LensForm } from "./lensform";
-import type { Link } from "./link";
 import type { Station } from "./site";
-import { Sure } from "./sure";
+import { Commands, type StationProps } from "./stationcommands";
 import { named, t, Word } from "./words";
-
-export type Command = (station: string, command: string, more?: object) => void;
-export type Control = (station: string, take: boolean) => void;
-
-type StationProps = { link: Link; station: Station; mayCommand: boolean; onCommand: Command; onControl: Control };
 
 function Row({ word, children }: { word: Word; children: any }) {
   return (
@@ -23,74 +15,6 @@ function Row({ word, children }: { word: Word; children: any }) {
       <dt>{t(word)}</dt>
       <dd>{children}</dd>
     </Fragment>
-  );
-}
-
-function Commands({ link, station, mayCommand, onCommand, onControl }: StationProps) {
-  const [pan, setPan] = useState("0");
-  const [tilt, setTilt] = useState("0");
-  const [name, setName] = useState("event");
-  const id = station.id;
-  const holder = station.control;
-  const isMine = holder?.viewer === link.viewer;
-  const number = (text: string) => (isFinite(Number(text)) && text.trim() !== "" ? Number(text) : null);
-  return (
-    <div class="commands">
-      <p class="holder">
-        {t("control")}: {!holder ? t("control_free") : isMine ? t("control_you") : `${holder.by} ${t("control_other")}`}
-        {mayCommand && holder && !isMine && <button onClick={() => onControl(id, true)}>{t("take")}</button>}
-        {isMine && <button onClick={() => onControl(id, false)}>{t("give_up")}</button>}
-      </p>
-      <div class="buttons">
-        {!link.replay && (
-          <button class="danger" onClick={() => onCommand(id, "stop")}>
-            {t("stop")}
-          </button>
-        )}
-        {mayCommand && (
-          <Fragment>
-            <button onClick={() => onCommand(id, "release")}>{t("release")}</button>
-            <Sure key={`home ${id}`} word={t("home")} question={`${id}: ${t("home_sure")}`} onSure={() => onCommand(id, "home")} />
-            <button onClick={() => onCommand(id, "rearm")}>{t("rearm")}</button>
-            <Sure key={`reference ${id}`} word={t("reference_ok")} question={`${id}: ${t("reference_sure")}`} onSure={() => onCommand(id, "reference_ok")} />
-          </Fragment>
-        )}
-      </div>
-      <LensForm station={station} onMove={mayCommand ? (axis, position) => onCommand(id, "lens", { is_rate: false, [axis]: position }) : null} />
-      {mayCommand && (
-        <Fragment>
-          <form
-            onSubmit={(e) => {
-              e.preventDefault();
-              const [p, l] = [number(pan), number(tilt)];
-              if (p != null && l != null) onCommand(id, "point", { pan_deg: p, tilt_deg: l });
-            }}
-          >
-            <label>
-              {t("pan")}
-              <input inputMode="decimal" value={pan} onInput={(e) => setPan(e.currentTarget.value)} />
-            </label>
-            <label>
-              {t("tilt_angle")}
-              <input inputMode="decimal" value={tilt} onInput={(e) => setTilt(e.currentTarget.value)} />
-            </label>
-            <button>{t("point")}</button>
-          </form>
-          <form
-            onSubmit={(e) => {
-              e.preventDefault();
-              onCommand(id, "record", { before_s: 5, after_s: 5, label: name });
-            }}
-          >
-            <label>
-              {t("label")}
-              <input value={name} maxLength={40} onInput={(e) => setName(e.currentTarget.value)} />
-            </label>
-            <button>{t("record")} ±5 s</button>
-          </form>
-        </Fragment>
-      )}
-    </div>
   );
 }
 
@@ -112,6 +36,46 @@ function Numbers({ word, values }: { word: Word; values: Record<string, number |
   );
 }
 
+function Facts({ station: s }: { station: Station }) {
+  return (
+    <dl>
+      <Row word="pointing">
+        {t("azimuth")} {bearing(s.azimuth_deg, 2)} {t("elevation")} {fixed(s.elevation_deg, 2, "°")} · {t("pan")} {fixed(s.pan_deg, 2)} {t("tilt_angle")} {fixed(s.tilt_deg, 2)}
+      </Row>
+      <Row word="position">
+        {fixed(s.latitude_deg, 7)}° {fixed(s.longitude_deg, 7)}° {fixed(s.height_m, 1, " m")}, ±{fixed(s.position_sd_m?.[0], 2, " m")} ({named("v", s.position_source)})
+      </Row>
+      <Row word="heading">
+        {fixed(s.heading_deg, 3, "°")} ±{fixed(s.heading_sd_deg, 4, "°")}
+      </Row>
+      <Row word="tilt">
+        {fixed(s.tilt_x_deg, 3, "°")} {fixed(s.tilt_y_deg, 3, "°")} ±{fixed(s.tilt_sd_deg, 4, "°")} ({named("v", s.tilt_source)})
+      </Row>
+      <Row word="clock">
+        {named("v", s.clock?.state ?? "unknown")} {clockError(s.clock?.error_s ?? null)}
+      </Row>
+      <Row word="calibration">{calibrationText(s.calibration)}</Row>
+      <Row word="latency">{fixed(s.frame_latency_s == null ? null : s.frame_latency_s * 1000, 0, " ms")}</Row>
+      <Row word="devices">
+        <ul class="devices">
+          {s.devices?.map((device) => (
+            <li>
+              <i class={`dot ${device.state}`} aria-hidden="true" />
+              <b>{device.name}</b> {named("v", device.state)}
+              {device.text ? `: ${device.text}` : ""}
+            </li>
+          ))}
+        </ul>
+      </Row>
+      {s.last_error && (
+        <Row word="last_error">
+          {utc(s.last_error_utime_us)} {s.last_error}
+        </Row>
+      )}
+    </dl>
+  );
+}
+
 function Details(props: StationProps) {
   const { station: s, link } = props;
   const quarantine = link.site.fusion?.stations?.find((one) => one.id === s.id)?.quarantine;
@@ -124,48 +88,14 @@ function Details(props: StationProps) {
         </p>
       )}
       <Commands {...props} />
-      <dl>
-        <Row word="pointing">
-          {t("azimuth")} {bearing(s.azimuth_deg, 2)} {t("elevation")} {fixed(s.elevation_deg, 2, "°")} · {t("pan")} {fixed(s.pan_deg, 2)} {t("tilt_angle")} {fixed(s.tilt_deg, 2)}
-        </Row>
-        <Row word="position">
-          {fixed(s.latitude_deg, 7)}° {fixed(s.longitude_deg, 7)}° {fixed(s.height_m, 1, " m")}, ±{fixed(s.position_sd_m?.[0], 2, " m")} ({named("v", s.position_source)})
-        </Row>
-        <Row word="heading">
-          {fixed(s.heading_deg, 3, "°")} ±{fixed(s.heading_sd_deg, 4, "°")}
-        </Row>
-        <Row word="tilt">
-          {fixed(s.tilt_x_deg, 3, "°")} {fixed(s.tilt_y_deg, 3, "°")} ±{fixed(s.tilt_sd_deg, 4, "°")} ({named("v", s.tilt_source)})
-        </Row>
-        <Row word="clock">
-          {named("v", s.clock?.state ?? "unknown")} {clockError(s.clock?.error_s ?? null)}
-        </Row>
-        <Row word="calibration">{calibrationText(s.calibration)}</Row>
-        <Row word="latency">{fixed(s.frame_latency_s == null ? null : s.frame_latency_s * 1000, 0, " ms")}</Row>
-        <Row word="devices">
-          <ul class="devices">
-            {s.devices?.map((device) => (
-              <li>
-                <i class={`dot ${device.state}`} aria-hidden="true" />
-                <b>{device.name}</b> {named("v", device.state)}
-                {device.text ? `: ${device.text}` : ""}
-              </li>
-            ))}
-          </ul>
-        </Row>
-        {s.last_error && (
-          <Row word="last_error">
-            {utc(s.last_error_utime_us)} {s.last_error}
-          </Row>
-        )}
-      </dl>
+      <Facts station={s} />
       <Numbers word="readings" values={s.readings} />
       <Numbers word="counters" values={s.counters} />
     </div>
   );
 }
 
-type StationsProps = { link: Link; selected: string; mayCommand: boolean; onSelect: (pick: string) => void; onCommand: Command; onControl: Control };
+type StationsProps = Omit<StationProps, "station"> & { selected: string; onSelect: (pick: string) => void };
 
 export function Stations({ link, selected, onSelect, ...rest }: StationsProps) {
   const stations = [...link.site.stations.values()].sort((a, b) => a.id.localeCompare(b.id));

@@ -4,7 +4,7 @@ import { h } from "preact";
 import { useState } from "preact/hooks";
 import { bearing, DASH, fixed, spacedMgrs } from "./format";
 import type { Link } from "./link";
-import type { Cue, Target } from "./site";
+import type { Cue, Line, Target } from "./site";
 import { named, t, Word } from "./words";
 
 type Column = { word: Word; of: (target: Target) => string | number | null; text: (target: Target, link: Link) => string };
@@ -44,16 +44,65 @@ function CueRow({ cue, mayCommand, onCue }: { cue: Cue; mayCommand: boolean; onC
   );
 }
 
-export function Targets({ link, selected, mayCommand, onSelect, onCue }: TargetsProps) {
-  const [sort, setSort] = useState({ column: 0, down: false });
-  const [state, setState] = useState("");
-  const targets = [...link.site.targets.values()].filter((one) => !state || one.state === state);
+function LineRow({ line }: { line: Line }) {
+  return (
+    <tr class="line">
+      <td>{DASH}</td>
+      <td colSpan={COLUMNS.length - 1}>
+        {line.id}: {t("line_only")}, {t("azimuth")} {bearing(line.azimuth_deg, 2)} {t("elevation")} {fixed(line.elevation_deg, 2)}°
+      </td>
+    </tr>
+  );
+}
+
+type TargetRowProps = { target: Target; link: Link; isSelected: boolean; onSelect: () => void };
+
+function TargetRow({ target, link, isSelected, onSelect }: TargetRowProps) {
+  return (
+    <tr aria-selected={isSelected} class={target.stale ? "stale" : ""} onClick={onSelect}>
+      <td>
+        <button type="button" class={`tag ${target.state}`} aria-pressed={isSelected}>
+          {COLUMNS[0].text(target, link)}
+        </button>
+      </td>
+      {COLUMNS.slice(1).map((column) => (
+        <td>{column.text(target, link)}</td>
+      ))}
+    </tr>
+  );
+}
+
+type Sort = { column: number; down: boolean };
+
+// In place; what is not known counts as the greatest.
+function sorted(targets: Target[], sort: Sort): Target[] {
   const key = COLUMNS[sort.column].of;
-  targets.sort((a, b) => {
+  return targets.sort((a, b) => {
     const [x, y] = [key(a), key(b)];
     const order = x == null ? 1 : y == null ? -1 : x < y ? -1 : x > y ? 1 : 0;
     return sort.down ? -order : order;
   });
+}
+
+function Heads({ sort, onSort }: { sort: Sort; onSort: (sort: Sort) => void }) {
+  return (
+    <tr>
+      {COLUMNS.map((column, i) => (
+        <th aria-sort={sort.column !== i ? "none" : sort.down ? "descending" : "ascending"}>
+          <button type="button" onClick={() => onSort({ column: i, down: sort.column === i && !sort.down })}>
+            {t(column.word)}
+            <span aria-hidden="true">{sort.column === i ? (sort.down ? " ▾" : " ▴") : ""}</span>
+          </button>
+        </th>
+      ))}
+    </tr>
+  );
+}
+
+export function Targets({ link, selected, mayCommand, onSelect, onCue }: TargetsProps) {
+  const [sort, setSort] = useState<Sort>({ column: 0, down: false });
+  const [state, setState] = useState("");
+  const targets = sorted([...link.site.targets.values()].filter((one) => !state || one.state === state), sort);
   const lines = [...link.site.lines.values()].filter((line) => !line.stale);
   const cues = link.site.fusion?.stale ? [] : (link.site.fusion?.cues ?? []);
   return (
@@ -73,41 +122,15 @@ export function Targets({ link, selected, mayCommand, onSelect, onCue }: Targets
       <div class="scroll" tabIndex={0} role="group" aria-label={t("targets")}>
         <table>
           <thead>
-            <tr>
-              {COLUMNS.map((column, i) => (
-                <th aria-sort={sort.column !== i ? "none" : sort.down ? "descending" : "ascending"}>
-                  <button type="button" onClick={() => setSort({ column: i, down: sort.column === i && !sort.down })}>
-                    {t(column.word)}
-                    <span aria-hidden="true">{sort.column === i ? (sort.down ? " ▾" : " ▴") : ""}</span>
-                  </button>
-                </th>
-              ))}
-            </tr>
+            <Heads sort={sort} onSort={setSort} />
           </thead>
           <tbody>
             {targets.map((target) => {
               const pick = `target:${target.id}`;
-              const name = COLUMNS[0].text(target, link);
-              return (
-                <tr key={target.id} aria-selected={selected === pick} class={target.stale ? "stale" : ""} onClick={() => onSelect(pick)}>
-                  <td>
-                    <button type="button" class={`tag ${target.state}`} aria-pressed={selected === pick}>
-                      {name}
-                    </button>
-                  </td>
-                  {COLUMNS.slice(1).map((column) => (
-                    <td>{column.text(target, link)}</td>
-                  ))}
-                </tr>
-              );
+              return <TargetRow key={target.id} target={target} link={link} isSelected={selected === pick} onSelect={() => onSelect(pick)} />;
             })}
             {lines.map((line) => (
-              <tr key={`line:${line.id}`} class="line">
-                <td>{DASH}</td>
-                <td colSpan={COLUMNS.length - 1}>
-                  {line.id}: {t("line_only")}, {t("azimuth")} {bearing(line.azimuth_deg, 2)} {t("elevation")} {fixed(line.elevation_deg, 2)}°
-                </td>
-              </tr>
+              <LineRow key={`line:${line.id}`} line={line} />
             ))}
             {cues.map((cue) => (
               <CueRow key={`cue:${cue.id}`} cue={cue} mayCommand={mayCommand} onCue={onCue} />

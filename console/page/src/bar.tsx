@@ -1,0 +1,111 @@
+// The bar on top of the page: the state of the site, the time, the choices of how the page looks, who is
+// logged in, and the stop of all.
+
+import { h, Fragment } from "preact";
+import { utc } from "./format";
+import type { Link, Session } from "./link";
+import { Language, LANGUAGES, t, type Word } from "./words";
+
+const THEMES = ["night", "day", "sunlight"] as const;
+
+// How the page looks; a browser remembers it.
+export type Look = {
+  theme: string;
+  language: Language;
+  onTheme: (theme: string) => void;
+  onLanguage: (language: Language) => void;
+};
+
+function Chips({ link }: { link: Link }) {
+  const stations = [...link.site.stations.values()];
+  const heard = stations.filter((s) => !s.stale).length;
+  const alarms = stations.reduce((sum, s) => sum + (s.alarms?.length ?? 0), 0) + (link.site.fusion?.alarms?.length ?? 0);
+  const fusion = link.site.fusion && !link.site.fusion.stale;
+  return (
+    <ul class="chips">
+      <li class={heard === stations.length && heard > 0 ? "good" : "bad"}>
+        {t("stations")} <b>{`${heard}/${stations.length}`}</b>
+      </li>
+      <li class={fusion ? "good" : "bad"}>
+        {t("fusion")} <b>{fusion ? t("ok") : t("silent")}</b>
+      </li>
+      <li class="plain">
+        {t("targets")} <b>{[...link.site.targets.values()].filter((x) => !x.stale).length}</b>
+      </li>
+      {alarms > 0 && (
+        <li class="bad">
+          {t("alarm")} <b>{alarms}</b>
+        </li>
+      )}
+    </ul>
+  );
+}
+
+function LookChoice({ theme, language, onTheme, onLanguage }: Look) {
+  return (
+    <Fragment>
+      <select aria-label={t("theme")} value={theme} onChange={(e) => onTheme(e.currentTarget.value)}>
+        {THEMES.map((one) => (
+          <option value={one}>{t(one)}</option>
+        ))}
+      </select>
+      <select aria-label={t("language")} value={language} onChange={(e) => onLanguage(e.currentTarget.value as Language)}>
+        {LANGUAGES.map((one) => (
+          <option value={one}>{one.toUpperCase()}</option>
+        ))}
+      </select>
+    </Fragment>
+  );
+}
+
+type LoggedInProps = { session: Session; onLogOut: () => void; onUsers: () => void };
+
+function LoggedIn({ session, onLogOut, onUsers }: LoggedInProps) {
+  const role = t(`r_${session.role}` as Word);
+  if (session.open) {
+    return (
+      <span class="user" title={t("local_user")}>
+        {role}
+      </span>
+    );
+  }
+  return (
+    <Fragment>
+      <span class="user">
+        {session.name} · {role}
+      </span>
+      {session.role === "admin" && (
+        <button type="button" onClick={onUsers}>
+          {t("users")}
+        </button>
+      )}
+      <button type="button" onClick={onLogOut}>
+        {t("log_out")}
+      </button>
+    </Fragment>
+  );
+}
+
+type BarProps = LoggedInProps & { link: Link; look: Look; onStop: () => void };
+
+export function Bar({ link, look, onStop, ...person }: BarProps) {
+  return (
+    <header class="bar">
+      <h1>OLS</h1>
+      <Chips link={link} />
+      <span class="gap" />
+      <time class="utc">{link.isUp ? utc(link.now_us()) : "--:--:--"} UTC</time>
+      <div class="settings">
+        <LookChoice {...look} />
+        <LoggedIn {...person} />
+      </div>
+      {link.replay ? (
+        <strong class="replay-tag">{t("replay")}</strong>
+      ) : (
+        <button type="button" class="stop-all" onClick={onStop} aria-keyshortcuts="Escape">
+          {t("stop_all")} <kbd>Esc</kbd>
+        </button>
+      )}
+    </header>
+  );
+}

@@ -1,0 +1,118 @@
+// The console of whoever is logged in: the bar, the views, and the connection that they share.
+
+import { h } from "preact";
+import { useEffect, useMemo, useState } from "preact/hooks";
+import { AlarmSpoken } from "./alarms";
+import { Bar, type Look } from "./bar";
+import { History } from "./history";
+import { Link, type Session } from "./link";
+import { MapView } from "./map";
+import { Notice, useNotice } from "./notice";
+import { Orders } from "./orders";
+import { Procedures } from "./procedure";
+import { ReplayBar } from "./replay";
+import { Stations } from "./stations";
+import { Targets } from "./targets";
+import { Users } from "./users";
+import { VideoView } from "./video";
+import { t } from "./words";
+
+// The link runs from the first to the last rendering. Returns a number that grows with its news, at
+// most once a frame.
+function useNews(link: Link, orders: Orders, onLoggedOut: () => void): number {
+  const [version, setVersion] = useState(0);
+  useEffect(() => {
+    let waiting = false;
+    link.onChange = () => {
+      if (waiting) return;
+      waiting = true;
+      requestAnimationFrame(() => {
+        waiting = false;
+        setVersion((n) => n + 1);
+      });
+    };
+    link.onAnswer = (answer) => orders.answered(answer);
+    link.onUnconfirmed = (stations) => orders.unconfirmed(stations);
+    link.onLoggedOut = onLoggedOut;
+    link.start();
+    return () => link.end();
+  }, []);
+  return version;
+}
+
+// Wherever on the page it is pressed.
+function useStopKey(onStop: () => void) {
+  useEffect(() => {
+    const key = (event: KeyboardEvent) => {
+      if (event.key === "Escape" && !event.repeat) onStop();
+    };
+    window.addEventListener("keydown", key, { capture: true });
+    return () => window.removeEventListener("keydown", key, { capture: true });
+  });
+}
+
+type SideProps = { link: Link; version: number; station: string; mayCommand: boolean; orders: Orders; onSelect: (station: string) => void };
+
+// Beside the map: the stations, in pictures and in words.
+function Side({ link, version, station, mayCommand, orders, onSelect }: SideProps) {
+  return (
+    <div class="side">
+      <Procedures link={link} mayCommand={mayCommand} onAnswer={(answer) => orders.answer(answer)} />
+      <VideoView
+        link={link}
+        version={version}
+        selected={station}
+        mayCommand={mayCommand}
+        onSelect={onSelect}
+        onPoint={(id, what, frame_utime_us, point_px) => orders.command(id, what, { frame_utime_us, point_px })}
+        onDesignate={(id, frame_utime_us, box_px) => orders.command(id, "designate", { frame_utime_us, box_px })}
+      />
+      <Stations
+        link={link}
+        selected={station}
+        mayCommand={mayCommand}
+        onSelect={onSelect}
+        onCommand={(id, what, more) => orders.command(id, what, more)}
+        onControl={(id, take) => orders.control(id, take)}
+      />
+    </div>
+  );
+}
+
+type Props = { session: Session; look: Look; onLoggedOut: () => void };
+
+export function Console({ session, look, onLoggedOut }: Props) {
+  const [station, setStation] = useState("");
+  const [target, setTarget] = useState("");
+  const [isUsersOpen, setUsersOpen] = useState(false);
+  const [notice, notices] = useNotice();
+  const link = useMemo(() => new Link(), []);
+  const orders = useMemo(() => new Orders(link, notices), []);
+  const version = useNews(link, orders, onLoggedOut);
+  const stopAll = () => void orders.stopAll();
+  useStopKey(stopAll);
+  const mayCommand = session.role !== "viewer" && !link.replay;
+  const pick = (what: string) => (what.startsWith("station:") ? setStation(what.slice(8)) : setTarget(what));
+  return (
+    <div class={`console ${link.replay ? "of-replay" : ""}`}>
+      <Bar link={link} session={session} look={look} onStop={stopAll} onLogOut={onLoggedOut} onUsers={() => setUsersOpen(true)} />
+      <AlarmSpoken link={link} />
+      {!link.isUp && <p class="lost" role="alert">{t("link_lost")}</p>}
+      {link.replay && <ReplayBar link={link} />}
+      {isUsersOpen && <Users self={session.name} onClose={() => setUsersOpen(false)} />}
+      <main class="views">
+        <MapView link={link} version={version} theme={look.theme} selected={target || `station:${station}`} onPick={pick} />
+        <Side link={link} version={version} station={station} mayCommand={mayCommand} orders={orders} onSelect={setStation} />
+        <Targets
+          link={link}
+          selected={target}
+          mayCommand={mayCommand}
+          onSelect={(what) => setTarget(what === target ? "" : what)}
+          onCue={(cue, allow) => orders.cue(cue, allow)}
+        />
+        <History link={link} />
+      </main>
+      <Notice notice={notice} />
+    </div>
+  );
+}

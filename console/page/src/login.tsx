@@ -1,0 +1,40 @@
+// The form of whoever logs in.
+
+import { h } from "preact";
+import { useState } from "preact/hooks";
+import type { Session } from "./link";
+import { t } from "./words";
+
+export function LogIn({ onSession }: { onSession: (session: Session) => void }) {
+  const [problem, setProblem] = useState("");
+  const submit = async (event: Event) => {
+    event.preventDefault();
+    const form = new FormData(event.currentTarget as HTMLFormElement);
+    const response = await fetch("/api/session", {
+      method: "POST",
+      headers: { "Content-Type": "application/json" },
+      body: JSON.stringify({ name: form.get("name"), password: form.get("password") }),
+    }).catch(() => null);
+    if (!response) return setProblem(t("link_lost"));
+    const said = await response.json();
+    if (response.ok) onSession({ open: false, ...said });
+    else setProblem(said.error);
+  };
+  return (
+    <main class="log-in">
+      <form onSubmit={submit}>
+        <h1>{t("title")}</h1>
+        <label>
+          {t("name")}
+          <input name="name" autocomplete="username" required autofocus />
+        </label>
+        <label>
+          {t("password")}
+          <input name="password" type="password" autocomplete="current-password" required />
+        </label>
+        <button class="primary">{t("log_in")}</button>
+        <p role="alert">{problem}</p>
+      </form>
+    </main>
+  );
+}

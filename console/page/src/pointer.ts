@@ -1,0 +1,69 @@
+// The pointer on a picture: what a press means, and by how much two fingers pinch.
+
+const HOLD_MS = 500; // pressed for so long before it moves: a joystick, not a box or a click
+export const STILL_PX = 6;
+
+// One press, by the events' own times: a busy page delays them and does not change what the hand meant.
+export class Press {
+  private readonly at: [number, number];
+  private readonly stamp_ms: number;
+  private meant: "" | "box" | "joystick" = ""; // "": it has not moved yet
+
+  constructor(event: PointerEvent) {
+    this.at = [event.clientX, event.clientY];
+    this.stamp_ms = event.timeStamp;
+  }
+
+  get isJoystick(): boolean {
+    return this.meant === "joystick";
+  }
+
+  // With each move; true with the one that makes it a joystick.
+  becomesJoystick(event: PointerEvent): boolean {
+    if (this.meant || Math.hypot(...this.way(event)) <= STILL_PX) return false;
+    this.meant = this.isLong(event) ? "joystick" : "box";
+    return this.isJoystick;
+  }
+
+  isClick(event: PointerEvent): boolean {
+    return this.meant === "" && !this.isLong(event);
+  }
+
+  // To the right and down [px], since it began.
+  way(event: PointerEvent): [number, number] {
+    return [event.clientX - this.at[0], event.clientY - this.at[1]];
+  }
+
+  private isLong(event: PointerEvent): boolean {
+    return event.timeStamp - this.stamp_ms >= HOLD_MS;
+  }
+}
+
+// Two fingers: by how much their distance has grown since the last move.
+export class Pinch {
+  private fingers = new Map<number, [number, number]>();
+
+  get isTwo(): boolean {
+    return this.fingers.size === 2;
+  }
+
+  down(event: PointerEvent) {
+    if (event.pointerType === "touch") this.fingers.set(event.pointerId, [event.clientX, event.clientY]);
+  }
+
+  up(event: PointerEvent) {
+    this.fingers.delete(event.pointerId);
+  }
+
+  move(event: PointerEvent): number {
+    if (!this.isTwo || !this.fingers.has(event.pointerId)) return 1;
+    const before = this.apart();
+    this.fingers.set(event.pointerId, [event.clientX, event.clientY]);
+    return before > 0 ? this.apart() / before : 1;
+  }
+
+  private apart(): number {
+    const [a, b] = [...this.fingers.values()];
+    return Math.hypot(a[0] - b[0], a[1] - b[1]);
+  }
+}
