@@ -76,7 +76,9 @@ class TrackFilter {
   TrackFilter(const FilterConfig& config, std::int64_t utime_us, const FilterStart& start);
 
   Innovation innovation(const BearingMeasurement& measurement, const BiasModel& priors) const;
-  // `known`: the bearing's innovation() with the same priors, if available.
+  // `known`: the bearing's innovation() with the same priors, if available. It serves a late
+  // bearing. A newer one moves the state to its instant, with mixing and fading biases, and is
+  // compared there: what innovation() extrapolates is good for a gate, not for a gain.
   [[nodiscard]] FilterUpdate update(const BearingMeasurement& measurement, const BiasModel& priors,
                                     const Innovation* known = nullptr);
   // Propagates the state without a bearing; returns the evidence on the biases.

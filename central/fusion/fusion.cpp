@@ -134,8 +134,8 @@ void Fusion::note_unassociated(const BearingMeasurement& measurement, const Asso
   const bool by_none =
       result.kind == Association::Kind::kUnexplained || result.kind == Association::Kind::kRejected;
   if (!by_none) {
-    const bool by_born = result.kind == Association::Kind::kTrack && result.track_id == 0;
-    if (!by_born) unassociated_.agrees(measurement.station);
+    const bool by_tentative = result.kind == Association::Kind::kTrack && result.track_id == 0;
+    if (!by_tentative) unassociated_.agrees(measurement.station);
   } else if (!std::ranges::any_of(tracks_.tracks(), is_established)) {
     unassociated_.agrees(measurement.station);
   } else if (measurement.track_id != 0) {

@@ -15,7 +15,7 @@ std::map<std::string, double> all_counters(const FusionLog& log, const TrackMana
   const TrackManager::Counts& counts = tracks.counts();
   counters["tracks_born"] = static_cast<double>(counts.initiated);
   counters["tracks_confirmed"] = static_cast<double>(counts.confirmed);
-  counters["tracks_dropped"] = static_cast<double>(counts.dropped);
+  counters["tracks_dropped"] = static_cast<double>(counts.deleted);
   counters["tracks_merged"] = static_cast<double>(counts.merged);
   counters["bearings_ambiguous"] = static_cast<double>(counts.ambiguous);
   counters["bearings_set_aside"] = static_cast<double>(counts.rejected);

@@ -20,7 +20,7 @@ std::vector<LiveTracks::Candidate> LiveTracks::candidates(const BearingMeasureme
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
     if (!glances_[i].may_see(measurement, direction, off_rad)) continue;
     const Track& track = tracks_[i];
-    if (is_established(track) != confirmed || track.state == TrackState::kDropped) continue;
+    if (is_established(track) != confirmed || track.state == TrackState::kDeleted) continue;
     if (track.has_taken(measurement)) continue;
     Innovation seen = track.filter.innovation(measurement, errors_);
     if (seen.nis < config_.filter.gate_nis) found.push_back({i, std::move(seen)});
@@ -123,7 +123,7 @@ void LiveTracks::merge(std::int64_t older, std::int64_t younger) {
   if (bearings(*other) > bearings(*own)) std::swap(*own, *other);
   own->id = older;
   other->id = 0;
-  other->state = TrackState::kDropped;
+  other->state = TrackState::kDeleted;
   identities_.merge(older, younger);
   constexpr std::size_t kKeptMerged = 64;  // live, nobody takes them
   if (merged_.size() == kKeptMerged) merged_.erase(merged_.begin());

@@ -8,12 +8,12 @@
 //  - Unassociated bearings are kept for track initiation (track_initiation.h).
 //  - tentative -> confirmed: three stations have given two bearings each, or two stations five each
 //    for confirm_s; the track explains most of their bearings; and it has a position.
-//  - tentative -> dropped: no two stations have seen it for tentative_delete_s; or it is a
+//  - tentative -> deleted: no two stations have seen it for tentative_delete_s; or it is a
 //    duplicate.
-//  - coasted -> dropped: no two stations for drop_s; or for coast_s, after too many consecutive
+//  - coasting -> deleted: no two stations for drop_s; or for coast_s, after too many consecutive
 //    rejections of one while no two others agree.
 //  - two confirmed ones -> one: they have been duplicates for a second (duplicate_tracks.h).
-//  - A track that is confirmed at the predicted position of a dropped one takes over its identity;
+//  - A track that is confirmed at the predicted position of a deleted one takes over its identity;
 //    otherwise that of the bearing-only track of one of its stations.
 #pragma once
 

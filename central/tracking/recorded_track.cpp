@@ -75,7 +75,7 @@ bool RecordedTrack::most_stations_disagree() const {
 void RecordedTrack::take_back(std::int64_t utime_us) {
   errors_ = errors_before_;
   taken_back_us_ = utime_us;
-  tracks_.front().state = TrackState::kDropped;
+  tracks_.front().state = TrackState::kDeleted;
   advance(utime_us);
 }
 

@@ -6,7 +6,7 @@
 //    initiation begins one.
 //  - When at least two stations, and half of all, are rejected most of the time, an initiation on
 //    which more stations agree replaces it under the same identity.
-//  - coasted -> dropped: no two stations for drop_s. Two rays then begin it again.
+//  - coasting -> deleted: no two stations for drop_s. Two rays then begin it again.
 #pragma once
 
 #include <cstdint>

@@ -4,20 +4,6 @@
 
 namespace ols::fusion {
 
-const char* to_string(TrackState state) {
-  switch (state) {
-    case TrackState::kTentative:
-      return "born";
-    case TrackState::kConfirmed:
-      return "confirmed";
-    case TrackState::kCoasted:
-      return "coasted";
-    case TrackState::kDropped:
-      return "dropped";
-  }
-  return "unknown";
-}
-
 bool Track::has_taken(const BearingMeasurement& measurement) const {
   const auto own = bearings.find(measurement.station);
   if (own == bearings.end()) return false;
@@ -30,7 +16,7 @@ bool Track::has_taken(const BearingMeasurement& measurement) const {
 }
 
 bool is_established(const Track& track) {
-  return track.state == TrackState::kConfirmed || track.state == TrackState::kCoasted;
+  return track.state == TrackState::kConfirmed || track.state == TrackState::kCoasting;
 }
 
 }  // namespace ols::fusion

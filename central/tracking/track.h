@@ -13,8 +13,7 @@
 namespace ols::fusion {
 
 // The transitions are in docs/fusion.md and central/tracking/track_manager.h.
-enum class TrackState { kTentative, kConfirmed, kCoasted, kDropped };
-const char* to_string(TrackState state);
+enum class TrackState { kTentative, kConfirmed, kCoasting, kDeleted };
 
 using StationBearings =
     std::map<std::string, std::vector<BearingMeasurement>>;  // each in order of time
@@ -35,7 +34,7 @@ struct Track {
   bool has_taken(const BearingMeasurement& measurement) const;
 };
 
-// Confirmed or coasted.
+// Confirmed or coasting.
 bool is_established(const Track& track);
 
 }  // namespace ols::fusion

@@ -17,11 +17,11 @@ bool is_alive(std::int64_t id, const std::vector<Track>& tracks) {
 
 void TrackIdentities::confirm(Track& track, const std::vector<Track>& tracks) {
   const KinematicState own = track.filter.at(track.filter.utime_us());
-  // An identity of a dropped track whose predicted position is here.
-  const auto before = std::ranges::find_if(dropped_, [&](const Track& old) {
+  // An identity of a deleted track whose predicted position is here.
+  const auto before = std::ranges::find_if(deleted_, [&](const Track& old) {
     return !same_place_ || is_same_place(own, old.filter.at(own.utime_us));
   });
-  if (before != dropped_.end()) {
+  if (before != deleted_.end()) {
     track.id = before->id;
   } else {
     for (const auto& [station, bearings] : track.bearings) {
@@ -32,7 +32,7 @@ void TrackIdentities::confirm(Track& track, const std::vector<Track>& tracks) {
     }
   }
   if (track.id == 0) track.id = next_id_++;
-  std::erase_if(dropped_, [&](const Track& old) { return old.id == track.id; });
+  std::erase_if(deleted_, [&](const Track& old) { return old.id == track.id; });
 }
 
 void TrackIdentities::follow(const BearingMeasurement& measurement, const Track& track) {
@@ -75,15 +75,15 @@ std::int64_t TrackIdentities::identify(const BearingMeasurement& newest, double 
   return own.id;
 }
 
-void TrackIdentities::forget_dropped(std::int64_t now_us, double after_s) {
-  std::erase_if(dropped_, [&](const Track& old) {
+void TrackIdentities::forget_deleted(std::int64_t now_us, double after_s) {
+  std::erase_if(deleted_, [&](const Track& old) {
     return same_place_ && seconds(now_us - old.last_two_station_us) > after_s;
   });
-  while (dropped_.size() > 64) dropped_.pop_front();
+  while (deleted_.size() > 64) deleted_.pop_front();
 }
 
 void TrackIdentities::clear() {
-  dropped_.clear();
+  deleted_.clear();
   local_ = {};
 }
 

@@ -14,10 +14,10 @@ namespace ols::fusion {
 
 class TrackIdentities {
  public:
-  // same_place: a track takes over the identity of a dropped one only at its predicted position.
+  // same_place: a track takes over the identity of a deleted one only at its predicted position.
   explicit TrackIdentities(bool same_place) : same_place_(same_place) {}
 
-  // Assigns an identity to a confirmed track: that of a dropped track, that of the oldest
+  // Assigns an identity to a confirmed track: that of a deleted track, that of the oldest
   // bearing-only track of its stations, or a new one.
   void confirm(Track& track, const std::vector<Track>& tracks);
   // Binds the station's local track to the track.
@@ -33,8 +33,8 @@ class TrackIdentities {
                         std::set<std::int64_t>& told, const std::vector<Track>& tracks);
   void merge(std::int64_t older, std::int64_t younger) { local_.rename(younger, older); }
   // A confirmed track ended; it may be reacquired.
-  void drop(const Track& track) { dropped_.push_back(track); }
-  void forget_dropped(std::int64_t now_us, double after_s);
+  void keep_deleted(const Track& track) { deleted_.push_back(track); }
+  void forget_deleted(std::int64_t now_us, double after_s);
   // The local track ids of a station have new meanings from now on.
   void forget(const std::string& station) { local_.forget(station); }
   // Forgets everything except which identities are in use.
@@ -43,7 +43,7 @@ class TrackIdentities {
 
  private:
   bool same_place_;
-  std::deque<Track> dropped_;
+  std::deque<Track> deleted_;
   std::int64_t next_id_ = 1;
   LocalTracks local_;
 };

@@ -44,7 +44,7 @@ Association TrackManager::give_to(Track& track, const BearingMeasurement& measur
   identities_.follow(measurement, track);
   if (stations_lately(track.filter, Activity::kDeliversS) >= 2) {
     track.last_two_station_us = track.filter.utime_us();
-    if (track.state == TrackState::kCoasted) track.state = TrackState::kConfirmed;
+    if (track.state == TrackState::kCoasting) track.state = TrackState::kConfirmed;
   }
   const std::int64_t id = track.id;
   if (track.state == TrackState::kTentative) consider(track);
@@ -74,7 +74,7 @@ void TrackManager::consider(Track& track) {
   const KinematicState now = track.filter.at(track.filter.utime_us());
   if (judge_position(track.filter, now) != Solution::kOk || !is_worth_confirming(track)) return;
   if (is_duplicate(track)) {
-    track.state = TrackState::kDropped;
+    track.state = TrackState::kDeleted;
     return;
   }
   confirm(track);
@@ -106,32 +106,32 @@ void TrackManager::forget_what_it_taught(const Track& track) {
 void TrackManager::age(Track& track, std::int64_t now_us) {
   if (is_inconsistent_pair(track.filter)) {  // what it has taught of the stations is wrong, too
     forget_what_it_taught(track);
-    track.state = TrackState::kDropped;
+    track.state = TrackState::kDeleted;
     return;
   }
   const double unseen_s = seconds(now_us - track.last_two_station_us);
   if (track.state == TrackState::kTentative) {
-    if (is_tentative_lost(unseen_s)) track.state = TrackState::kDropped;
+    if (is_tentative_lost(unseen_s)) track.state = TrackState::kDeleted;
   } else if (unseen_s > config_.coast_s || unseen_s > config_.drop_s) {
-    if (unseen_s > config_.coast_s) track.state = TrackState::kCoasted;
-    if (is_lost(track, unseen_s, now_us)) track.state = TrackState::kDropped;
+    if (unseen_s > config_.coast_s) track.state = TrackState::kCoasting;
+    if (is_lost(track, unseen_s, now_us)) track.state = TrackState::kDeleted;
   }
 }
 
 void TrackManager::advance(std::int64_t now_us) {
   for (Track& track : tracks_) {
-    if (track.state != TrackState::kDropped) age(track, now_us);
+    if (track.state != TrackState::kDeleted) age(track, now_us);
   }
   merge_duplicates();
   for (const Track& track : tracks_) {
-    if (track.state != TrackState::kDropped) continue;
-    ++counts_.dropped;
-    if (track.id != 0) identities_.drop(track);
+    if (track.state != TrackState::kDeleted) continue;
+    ++counts_.deleted;
+    if (track.id != 0) identities_.keep_deleted(track);
   }
-  std::erase_if(tracks_, [](const Track& t) { return t.state == TrackState::kDropped; });
+  std::erase_if(tracks_, [](const Track& t) { return t.state == TrackState::kDeleted; });
   glances_.clear();
   for (const Track& track : tracks_) glances_.push_back(summarise_track(track));
-  identities_.forget_dropped(now_us, config_.remember_s + config_.drop_s);
+  identities_.forget_deleted(now_us, config_.remember_s + config_.drop_s);
 }
 
 std::optional<Eigen::Vector2d> TrackManager::off_nearest(

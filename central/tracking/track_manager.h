@@ -2,9 +2,9 @@
 // to live tracks (live_tracks.h) and the one track of a recording (recorded_track.h). Pure.
 //
 //  - tentative -> confirmed: it meets the criteria, and is no duplicate of a confirmed one.
-//  - confirmed -> coasted: no two stations have seen it for coast_s. coasted -> confirmed: two
+//  - confirmed -> coasting: no two stations have seen it for coast_s. coasting -> confirmed: two
 //    have.
-//  - any -> dropped: an inconsistent pair, two stations alone whose rays intersect only with larger
+//  - any -> deleted: an inconsistent pair, two stations alone whose rays intersect only with larger
 //    biases than they state.
 // The two classes define the criteria for confirmation and loss.
 #pragma once
@@ -33,7 +33,7 @@ struct TrackManagerConfig {
   double tentative_delete_s = 0.4;
   double coast_s = 0.5;
   double drop_s = Activity::kSupportsS;
-  double remember_s = 5.0;     // how long the identity of a dropped track is kept
+  double remember_s = 5.0;     // how long the identity of a deleted track is kept
   double ambiguous_nis = 9.0;  // min difference of two tracks' normalised residuals
   double memory_s = 1.0;       // of the bearings kept for the estimators without memory
   InitiationConfig initiation{};
@@ -81,7 +81,7 @@ class TrackManager {
   bool takes(const BearingMeasurement& newest, std::int64_t now_us, double within_s) const;
   const LocalTracks& followed() const { return identities_.local(); }
   struct Counts {
-    std::int64_t initiated = 0, confirmed = 0, dropped = 0, merged = 0, ambiguous = 0, rejected = 0,
+    std::int64_t initiated = 0, confirmed = 0, deleted = 0, merged = 0, ambiguous = 0, rejected = 0,
                  unexplained = 0;
   };
   const Counts& counts() const { return counts_; }
@@ -101,7 +101,7 @@ class TrackManager {
   // likewise, for longer than coast_s.
   virtual bool is_tentative_lost(double unseen_s) const = 0;
   virtual bool is_lost(const Track& track, double unseen_s, std::int64_t now_us) const = 0;
-  // Called before the dropped tracks are removed.
+  // Called before the deleted tracks are removed.
   virtual void merge_duplicates() {}
 
   Association give_to(Track& track, const BearingMeasurement& measurement,

@@ -164,7 +164,7 @@ TEST(PoseErrors, ALongFlightKeepsItsTrack) {
   Fusion fusion(FusionConfig{});
   for (const BearingMeasurement& measurement : measure(world, {path}, kFlightS, random))
     fusion.add(measurement);
-  EXPECT_EQ(fusion.tracks().counts().dropped, 0);
+  EXPECT_EQ(fusion.tracks().counts().deleted, 0);
   ASSERT_EQ(fusion.tracks().tracks().size(), 1U);
   const FilterMatrix P = fusion.tracks().tracks().front().filter.mixed().covariance;
   const Eigen::VectorXd sd = P.diagonal().cwiseMax(1e-30).cwiseSqrt();

@@ -78,9 +78,9 @@ TEST(TwoStations, WhoFollowTwoObjectsAreAPositionOnlyWhileTheirRaysMeet) {
   }
 }
 
-// A track that begins on such rays, next to one that four stations follow, is dropped before it is
+// A track that begins on such rays, next to one that four stations follow, is deleted before it is
 // confirmed; it must not leave its stations with the biases that made its rays intersect.
-TEST(TwoStations, WhatTheirRaysHadToBeTurnedByIsForgottenWithABornTrack) {
+TEST(TwoStations, WhatTheirRaysHadToBeTurnedByIsForgottenWithATentativeTrack) {
   constexpr double kLongS = 40.0;
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     std::mt19937_64 random(seed);

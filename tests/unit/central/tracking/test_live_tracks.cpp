@@ -36,9 +36,9 @@ std::vector<BearingMeasurement> with_a_ghost(double seconds) {
   return all;
 }
 
-TEST(LiveTracks, ADroppedTrackTakesNothingThatAnotherOneHasTaught) {
+TEST(LiveTracks, ADeletedTrackTakesNothingThatAnotherOneHasTaught) {
   LiveTracks live{TrackManagerConfig{}};
-  std::int64_t dropped = 0;
+  std::int64_t deleted = 0;
   for (const BearingMeasurement& measurement : with_a_ghost(8.0)) {
     live.add(measurement);
     live.advance(measurement.utime_us);
@@ -47,9 +47,9 @@ TEST(LiveTracks, ADroppedTrackTakesNothingThatAnotherOneHasTaught) {
       ASSERT_GT(live.errors().noise_scale(station), 2.0)
           << station << ' ' << measurement.utime_us - bench::kStartUs;
     }
-    dropped = live.counts().dropped;
+    deleted = live.counts().deleted;
   }
-  EXPECT_GE(dropped, 1);
+  EXPECT_GE(deleted, 1);
   EXPECT_EQ(std::ranges::count_if(live.tracks(), is_established), 1);
 }
 

@@ -23,19 +23,19 @@ BearingMeasurement named(std::int64_t track_id, double t_s = 0.0) {
   return measurement;
 }
 
-TEST(TrackIdentities, ADroppedTrackIsFoundAgainWhereItMustBe) {
+TEST(TrackIdentities, ADeletedTrackIsFoundAgainWhereItMustBe) {
   TrackIdentities identities(true);
   Track first = track_at({0, 300, 50});
   identities.confirm(first, {});
   EXPECT_EQ(first.id, 1);
-  identities.drop(first);
+  identities.keep_deleted(first);
   Track elsewhere = track_at({100, 300, 50}), same = track_at({1, 300, 50});
   identities.confirm(elsewhere, {});
   EXPECT_EQ(elsewhere.id, 2);
   identities.confirm(same, {});
   EXPECT_EQ(same.id, 1);
-  identities.drop(same);
-  identities.forget_dropped(kStart + 8'000'000, 7.0);
+  identities.keep_deleted(same);
+  identities.forget_deleted(kStart + 8'000'000, 7.0);
   Track late = track_at({1, 300, 50});
   identities.confirm(late, {});
   EXPECT_EQ(late.id, 3);
@@ -45,7 +45,7 @@ TEST(TrackIdentities, OfARecordingThereIsOneObjectWhereverItIs) {
   TrackIdentities identities(false);
   Track first = track_at({0, 300, 50}), next = track_at({500, 300, 50});
   identities.confirm(first, {});
-  identities.drop(first);
+  identities.keep_deleted(first);
   identities.confirm(next, {});
   EXPECT_EQ(next.id, first.id);
 }

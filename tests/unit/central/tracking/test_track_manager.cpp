@@ -53,16 +53,16 @@ TEST(TrackManager, ABearingBesideTheTrackIsRejectedAndCounted) {
   EXPECT_EQ(tracks.counts().rejected, 1);
 }
 
-TEST(TrackManager, ADuplicateOfAConfirmedTrackIsDropped) {
+TEST(TrackManager, ADuplicateOfAConfirmedTrackIsDeleted) {
   GivenTracks tracks;
   std::int64_t now_us = confirm_at(tracks, kPlace);
   now_us = confirm_at(tracks, kPlace, now_us);
   ASSERT_EQ(tracks.tracks().size(), 2U);
-  EXPECT_EQ(tracks.tracks()[1].state, TrackState::kDropped);
+  EXPECT_EQ(tracks.tracks()[1].state, TrackState::kDeleted);
   tracks.advance(now_us);
   ASSERT_EQ(tracks.tracks().size(), 1U);
   EXPECT_EQ(tracks.tracks()[0].id, 1);
-  EXPECT_EQ(tracks.counts().dropped, 1);
+  EXPECT_EQ(tracks.counts().deleted, 1);
   confirm_at(tracks, kElsewhere, now_us);
   ASSERT_EQ(tracks.tracks().size(), 2U);
   EXPECT_EQ(tracks.tracks()[1].id, 2) << "what stands elsewhere is another object";
@@ -76,15 +76,15 @@ TEST(TrackManager, ATrackCoastsWithoutTwoStationsAndComesBackWithTwo) {
   EXPECT_EQ(tracks.tracks()[0].state, TrackState::kConfirmed);
   const std::int64_t later_us = seen_us + coast_us + 1000;
   tracks.advance(later_us);
-  EXPECT_EQ(tracks.tracks()[0].state, TrackState::kCoasted);
+  EXPECT_EQ(tracks.tracks()[0].state, TrackState::kCoasting);
   tracks.add(sight_of(0, kPlace, later_us));
-  EXPECT_EQ(tracks.tracks()[0].state, TrackState::kCoasted) << "one station alone";
+  EXPECT_EQ(tracks.tracks()[0].state, TrackState::kCoasting) << "one station alone";
   tracks.add(sight_of(1, kPlace, later_us));
   EXPECT_EQ(tracks.tracks()[0].state, TrackState::kConfirmed);
   EXPECT_EQ(tracks.counts().confirmed, 1) << "it was all the time";
 }
 
-TEST(TrackManager, ATrackThatIsLostIsDroppedAndFoundAgainUnderItsIdentity) {
+TEST(TrackManager, ATrackThatIsLostIsDeletedAndFoundAgainUnderItsIdentity) {
   GivenTracks tracks;
   const std::int64_t seen_us = confirm_at(tracks, kPlace);
   tracks.lost = true;
@@ -92,14 +92,14 @@ TEST(TrackManager, ATrackThatIsLostIsDroppedAndFoundAgainUnderItsIdentity) {
   EXPECT_EQ(tracks.tracks().size(), 1U) << "only what coasts can be lost";
   tracks.advance(seen_us + kSecondUs);
   EXPECT_TRUE(tracks.tracks().empty());
-  EXPECT_EQ(tracks.counts().dropped, 1);
+  EXPECT_EQ(tracks.counts().deleted, 1);
   tracks.lost = false;
   confirm_at(tracks, kPlace, seen_us + kSecondUs);
   ASSERT_EQ(tracks.tracks().size(), 1U);
   EXPECT_EQ(tracks.tracks()[0].id, 1);
 }
 
-TEST(TrackManager, ATentativeTrackIsDroppedByItsOwnCriterion) {
+TEST(TrackManager, ATentativeTrackIsDeletedByItsOwnCriterion) {
   GivenTracks tracks;
   tracks.begin_at(kPlace);
   tracks.lost = true;
@@ -111,7 +111,7 @@ TEST(TrackManager, ATentativeTrackIsDroppedByItsOwnCriterion) {
 }
 
 // Two rays that miss by more than their stations declare: what they taught is wrong, too.
-TEST(TrackManager, AnInconsistentPairIsDroppedWithWhatItTaught) {
+TEST(TrackManager, AnInconsistentPairIsDeletedWithWhatItTaught) {
   FilterConfig strict;
   strict.two_stations_nis = 8.0;
   GivenTracks tracks;
