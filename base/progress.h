@@ -8,6 +8,10 @@
 
 namespace ols {
 
+// Told of long work: how many steps are done, and their total; 0: the total is unknown.
+using TellSteps = std::function<void(std::size_t done, std::size_t all)>;
+
+// Itself a TellSteps.
 class Progress {
  public:
   // "program: 120 of 900 frames after 10 s"; `steps` is the word for the steps.
@@ -16,7 +20,7 @@ class Progress {
   Progress(std::string program, std::string steps, std::ostream& out,
            std::function<double()> now_s);
 
-  // Called often with the number of steps done and their total; 0: the total is unknown.
+  // Called often.
   void operator()(std::size_t done, std::size_t all);
 
  private:

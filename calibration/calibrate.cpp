@@ -27,8 +27,8 @@ bool is_settled(const Fit& fit) { return fit.converged && is_finite(fit); }
 // The groups of the tests' kinds whose statistic is worst over their critical value; none above 1.
 class Snooping {
  public:
-  Snooping(const Adjustment& adjustment, const Levels& levels)
-      : adjustment_(adjustment), levels_(levels) {}
+  Snooping(const Adjustment& adjustment, const Levels& levels, const TellAdjusted& tell)
+      : adjustment_(adjustment), levels_(levels), tell_(tell) {}
 
   Fit run() {
     const Start start = find_start(adjustment_, levels_.mistaken);
@@ -36,6 +36,7 @@ class Snooping {
     // Each round rejects one group or takes one back; a set that was tried before ends it.
     // Observations that contradict each other may not converge before some are rejected.
     while (is_finite(fit) && tried_.insert(fit.kept).second) {
+      if (tell_) tell_();
       const auto change = next_change(fit);
       if (!change) break;
       std::vector<bool> kept = fit.kept;
@@ -76,6 +77,7 @@ class Snooping {
 
   const Adjustment& adjustment_;
   Levels levels_;
+  const TellAdjusted& tell_;
   std::set<std::vector<bool>> tried_;
 };
 
@@ -286,9 +288,10 @@ StationMatrix Calibration::covariance(const Network& network, std::size_t statio
          fit.covariance.block<kStationParameters, kStationParameters>(first, first);
 }
 
-Calibration calibrate(const Adjustment& adjustment, const Levels& levels) {
+Calibration calibrate(const Adjustment& adjustment, const Levels& levels,
+                      const TellAdjusted& tell) {
   Calibration result;
-  result.fit = Snooping(adjustment, levels).run();
+  result.fit = Snooping(adjustment, levels, tell).run();
   if (!is_settled(result.fit)) throw std::invalid_argument("the adjustment does not converge");
   check_majority(adjustment, result.fit);
   result.headings_known = !tells_instrument_alone(adjustment);

@@ -7,6 +7,7 @@
 // tested; a robust weight holds back those that do not fit.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -55,7 +56,11 @@ class Contradiction : public std::invalid_argument {
   using std::invalid_argument::invalid_argument;
 };
 
-// Contradiction; std::invalid_argument where a heading stays unknown.
-Calibration calibrate(const Adjustment& adjustment, const Levels& levels = {});
+using TellAdjusted = std::function<void()>;
+
+// Contradiction; std::invalid_argument where a heading stays unknown. `tell` is called after each
+// adjustment on the way.
+Calibration calibrate(const Adjustment& adjustment, const Levels& levels = {},
+                      const TellAdjusted& tell = {});
 
 }  // namespace ols::calibration

@@ -178,10 +178,14 @@ class TrackFinder {
               const References& references)
       : stations_(stations), names_(names), references_(references) {}
 
-  FollowedObservations build(const std::vector<Instant>& instants) {
+  FollowedObservations build(const std::vector<Instant>& instants, const TellTracks& tell) {
     std::map<OwnTrack, std::vector<Instant>> tracks;
     for (const Instant& one : instants) tracks[own_track(one)].push_back(one);
-    for (const auto& [own, track] : tracks) add_aircraft(track);
+    std::size_t done = 0;
+    for (const auto& [own, track] : tracks) {
+      add_aircraft(track);
+      if (tell) tell(++done, tracks.size());
+    }
     add_joint(instants);
     return std::move(result_);
   }
@@ -279,8 +283,9 @@ Instants instants_of(std::vector<FollowedSighting> sightings,
 
 FollowedObservations followed(const std::vector<Instant>& instants,
                               const std::vector<StationPrior>& stations,
-                              const std::vector<std::string>& names, const References& references) {
-  return TrackFinder(stations, names, references).build(instants);
+                              const std::vector<std::string>& names, const References& references,
+                              const TellTracks& tell) {
+  return TrackFinder(stations, names, references).build(instants, tell);
 }
 
 }  // namespace ols::calibration

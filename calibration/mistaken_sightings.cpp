@@ -68,8 +68,12 @@ Network apart(const Network& network, const std::vector<Part>& parts) {
 
 class SightingTests {
  public:
-  SightingTests(const Network& whole, const Levels& levels)
-      : whole_(whole), levels_(levels), parts_(parts_of(whole)), out_(parts_.size(), false) {
+  SightingTests(const Network& whole, const Levels& levels, const TellAdjusted& tell)
+      : whole_(whole),
+        levels_(levels),
+        tell_(tell),
+        parts_(parts_of(whole)),
+        out_(parts_.size(), false) {
     for (std::size_t p = 0; p < parts_.size(); ++p) {
       if (parts_[p].sighting) sighted_[parts_[p].block].push_back(p);
     }
@@ -79,6 +83,7 @@ class SightingTests {
     if (parts_.empty()) return {};
     Fit fit = begin();
     while (usable(fit) && tried_.insert({fit.kept, out_}).second) {
+      if (tell_) tell_();
       const auto change = next_change(fit);
       if (!change) break;
       std::vector<bool> kept = fit.kept;
@@ -265,6 +270,7 @@ class SightingTests {
 
   const Network& whole_;
   Levels levels_;
+  const TellAdjusted& tell_;
   std::vector<Part> parts_;
   std::map<std::size_t, std::vector<std::size_t>>
       sighted_;            // parts of blocks with several, by block
@@ -274,8 +280,9 @@ class SightingTests {
 
 }  // namespace
 
-std::set<std::size_t> mistaken_sightings(const Network& network, const Levels& levels) {
-  return SightingTests(network, levels).run();
+std::set<std::size_t> mistaken_sightings(const Network& network, const Levels& levels,
+                                         const TellAdjusted& tell) {
+  return SightingTests(network, levels, tell).run();
 }
 
 Network without(const Network& network, const std::set<std::size_t>& observations) {

@@ -14,8 +14,9 @@
 
 namespace ols::calibration {
 
-// Observations, by their index. Empty where there is nothing of the kind.
-std::set<std::size_t> mistaken_sightings(const Network& network, const Levels& levels = {});
+// Observations, by their index. Empty where there is nothing of the kind. `tell`: as calibrate().
+std::set<std::size_t> mistaken_sightings(const Network& network, const Levels& levels = {},
+                                         const TellAdjusted& tell = {});
 
 // The network without these sightings of followed targets; its blocks keep their numbers.
 Network without(const Network& network, const std::set<std::size_t>& observations);

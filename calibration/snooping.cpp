@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <utility>
 
 #include "geometry/angles.h"
 #include "geometry/chi_square.h"
@@ -81,12 +82,18 @@ class Agreement {
       return agree != other.agree ? agree > other.agree : misfit < other.misfit;
     }
   };
-  bool agrees(const State& state, std::size_t group, double& misfit) const {
+  // Without equations yet. One serves all groups: where each of thousands of sightings is a group,
+  // a copy of the state for each takes minutes.
+  Fit begin_at(State state) const {
     Fit at;
-    at.state = state;
+    at.state = std::move(state);
     at.equations.resize(adjustment_.network().blocks.size());
+    return at;
+  }
+  // Computes the group's equations.
+  bool agrees(Fit& at, std::size_t group, double& misfit) const {
     for (const std::size_t b : adjustment_.groups()[group].blocks) {
-      at.equations[b] = adjustment_.network().blocks[b]->equations(state, b, 0.0);
+      at.equations[b] = adjustment_.network().blocks[b]->equations(at.state, b, 0.0);
       if (!at.equations[b].valid) return false;
     }
     const BlockEquations equations = adjustment_.equations(at, group);
@@ -95,11 +102,12 @@ class Agreement {
     // Linearised far from the solution: generous.
     return misfit < 4.0 * critical_value(one, adjustment_.groups().size(), level_);
   }
-  Vote vote(const State& state, const std::vector<std::size_t>& groups) const {
+  Vote vote(State state, const std::vector<std::size_t>& groups) const {
     Vote vote;
+    Fit at = begin_at(std::move(state));
     for (const std::size_t g : groups) {
       double misfit = 0.0;
-      if (!agrees(state, g, misfit)) continue;
+      if (!agrees(at, g, misfit)) continue;
       ++vote.agree;
       vote.misfit += misfit;
     }
@@ -226,10 +234,11 @@ Start find_start(const Adjustment& adjustment, double level) {
     headings[s] = heading_of(adjustment, s, level);
   }
   Start start{adjustment.start(headings), std::vector<bool>(adjustment.groups().size(), true)};
+  Fit at = agreement.begin_at(start.state);
   for (std::size_t g = 0; g < start.kept.size(); ++g) {
     double misfit = 0.0;
     const Group& group = adjustment.groups()[g];
-    if (group.is_absolute()) start.kept[g] = agreement.agrees(start.state, g, misfit);
+    if (group.is_absolute()) start.kept[g] = agreement.agrees(at, g, misfit);
   }
   return start;
 }

@@ -75,9 +75,11 @@ class Recording {
   ConversionReport report_;
 };
 
-void read_log(const std::string& path, const SiteContext& site, Recording& recording) {
+void read_log(const std::string& path, const SiteContext& site, Recording& recording,
+              const TellSteps& tell) {
   LogReader log(path);
   while (const auto message = log.next()) {
+    if (tell) tell(log.offset(), log.size());
     recording.end_silent(message->received_utime_us);
     if (const auto target = target_from(*message, site)) {
       recording.take(*target);
@@ -92,14 +94,14 @@ void read_log(const std::string& path, const SiteContext& site, Recording& recor
 }  // namespace
 
 ConversionReport convert(const Conversion& conversion, const ExportConfig& config,
-                         const GateConfig& gate) {
+                         const GateConfig& gate, const TellSteps& tell) {
   check_outputs({{"--log", conversion.log}, {"--fixes", conversion.fixes}},
                 {{"--output", conversion.output}});
   const SiteContext site = site_context(config, {conversion.format});
   const auto encoder = encoder_of(conversion.format, config);
   Recording recording(gate, *encoder);
   if (!conversion.log.empty()) {
-    read_log(conversion.log, site, recording);
+    read_log(conversion.log, site, recording, tell);
   } else {
     for (const Target& target : read_fixes(conversion.fixes, site)) recording.take(target);
   }

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "base/progress.h"
 #include "export/export_config.h"
 
 namespace ols::exports {
@@ -19,8 +20,8 @@ struct ConversionReport {
 };
 
 // Everything in the recording, whatever its rate; tentative targets only where the gate lets them.
-// Throws std::exception with the file's name.
+// Throws std::exception with the file's name. `tell`: of a log's bytes.
 ConversionReport convert(const Conversion& conversion, const ExportConfig& config,
-                         const GateConfig& gate);
+                         const GateConfig& gate, const TellSteps& tell = {});
 
 }  // namespace ols::exports

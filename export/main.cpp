@@ -13,6 +13,7 @@
 #include "base/clocks.h"
 #include "base/command_line.h"
 #include "base/journal.h"
+#include "base/progress.h"
 #include "base/service_frame.h"
 #include "base/service_notifier.h"
 #include "base/status_file.h"
@@ -103,7 +104,8 @@ int convert(const Arguments& arguments, const exports::ExportConfig& config) {
   gate.lines = arguments.lines;
   gate.tentative = arguments.tentative;
   try {
-    const exports::ConversionReport report = exports::convert(arguments.conversion, config, gate);
+    const exports::ConversionReport report = exports::convert(
+        arguments.conversion, config, gate, ols::Progress("ols-export", "bytes of the log"));
     std::fprintf(stderr, "ols-export: %zu positions, %zu places of stations, %zu lines\n",
                  report.targets, report.stations, report.lines);
     return 0;

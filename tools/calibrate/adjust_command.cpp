@@ -97,9 +97,10 @@ std::string angles_for_person(const Adjusted& adjusted) {
   return text;
 }
 
-Calibration calibrated(const Problem& problem, const Adjustment& adjustment) {
+Calibration calibrated(const Problem& problem, const Adjustment& adjustment,
+                       const TellAdjusted& tell) {
   try {
-    return calibrate(adjustment);
+    return calibrate(adjustment, {}, tell);
   } catch (const std::invalid_argument& refused) {
     std::string text = refused.what();
     for (const std::string& cause : causes_of_contradiction(problem)) text += "; " + cause;
@@ -124,13 +125,14 @@ AdjustedResult instrument_for_person(const Adjusted& adjusted) {
 
 }  // namespace
 
-Adjusted adjust_into(const CaseOptions& options, const std::filesystem::path& folder) {
+Adjusted adjust_into(const CaseOptions& options, const std::filesystem::path& folder,
+                     const TellAdjusted& tell) {
   Adjusted adjusted;
   adjusted.what = read_case(options);
-  find_mistaken(adjusted.what);
+  find_mistaken(adjusted.what, tell);
   const Case& what = adjusted.what;
   const Adjustment adjustment(network_of(what));
-  adjusted.found = calibrated(what.problem, adjustment);
+  adjusted.found = calibrated(what.problem, adjustment, tell);
   Calibration& found = adjusted.found;
   for (const std::string& line : mistaken_in_words(what)) found.remarks.push_back(line);
   for (const std::string& line : exchanged_landmarks(what.problem, adjustment, found)) {

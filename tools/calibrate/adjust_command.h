@@ -26,7 +26,9 @@ struct Adjusted {
 };
 
 // Reads, adjusts and writes the folder. Throws what its parts throw, naming file, line and key.
-Adjusted adjust_into(const CaseOptions& options, const std::filesystem::path& folder);
+// `tell`: as calibrate().
+Adjusted adjust_into(const CaseOptions& options, const std::filesystem::path& folder,
+                     const TellAdjusted& tell = {});
 
 // One screen for a person: what is left, what was rejected, what is worst.
 AdjustedResult result_for_person(const Adjusted& adjusted);

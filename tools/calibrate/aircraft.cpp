@@ -21,6 +21,7 @@
 #include "base/output_check.h"
 #include "edge/clock/clock_source.h"
 #include "tools/calibrate/aircraft_feed.h"
+#include "tools/calibrate/input_bytes.h"
 
 namespace ols::calibration {
 namespace {
@@ -46,6 +47,22 @@ void check_clock() {
                            "): aircraft cannot be used; wait for GNSS or a time server, or give "
                            "--clock-is-right if you know that it is right");
 }
+
+// How many bytes of all inputs have come.
+class Received {
+ public:
+  Received(const std::vector<std::string>& inputs, const TellSteps& tell)
+      : all_(input_bytes(inputs)), tell_(tell) {}
+
+  void add(std::size_t bytes) {
+    done_ += bytes;
+    if (tell_) tell_(done_, all_);
+  }
+
+ private:
+  std::size_t done_ = 0, all_;
+  const TellSteps& tell_;
+};
 
 // One input's bytes to positions.
 class Feed {
@@ -142,17 +159,19 @@ class Connection {
   Connection& operator=(const Connection&) = delete;
 
   // Until the other end closes, or for so long.
-  void read(double duration_s, Feed& feed) const {
+  void read(double duration_s, Feed& feed, Received& received) const {
     using Clock = std::chrono::steady_clock;
     const auto end = Clock::now() + std::chrono::duration<double>(duration_s);
     std::vector<std::uint8_t> buffer(65536);
     while (Clock::now() < end) {
       pollfd waited{fd_, POLLIN, 0};
       constexpr int kLook_ms = 200;
+      received.add(0);
       if (::poll(&waited, 1, kLook_ms) <= 0) continue;
       const ssize_t count = ::read(fd_, buffer.data(), buffer.size());
       if (count <= 0) return;
       feed.take({buffer.data(), static_cast<std::size_t>(count)});
+      received.add(static_cast<std::size_t>(count));
     }
   }
 
@@ -160,7 +179,7 @@ class Connection {
   int fd_ = -1;
 };
 
-void read_file(const std::string& path, Feed& feed) {
+void read_file(const std::string& path, Feed& feed, Received& received) {
   std::ifstream file(path, std::ios::binary);
   file.peek();
   if (!file.is_open() || file.bad()) throw std::runtime_error(path + ": cannot be read");
@@ -169,19 +188,21 @@ void read_file(const std::string& path, Feed& feed) {
          file.gcount() > 0) {
     const auto* bytes = reinterpret_cast<const std::uint8_t*>(buffer.data());
     feed.take({bytes, static_cast<std::size_t>(file.gcount())});
+    received.add(static_cast<std::size_t>(file.gcount()));
   }
   if (file.bad()) throw std::runtime_error(path + ": cannot be read to its end");
 }
 
-void read_input(const std::string& input, const AircraftOptions& options, Feed& feed) {
+void read_input(const std::string& input, const AircraftOptions& options, Feed& feed,
+                Received& received) {
   const std::size_t colon = input.rfind(':');
   const bool is_file = std::filesystem::exists(input) || colon == std::string::npos;
   if (is_file) {
-    read_file(input, feed);
+    read_file(input, feed, received);
   } else {
     if (!options.clock_is_right) check_clock();
     Connection(input.substr(0, colon), input.substr(colon + 1), input)
-        .read(options.duration_s, feed);
+        .read(options.duration_s, feed, received);
   }
   try {
     feed.end();
@@ -257,13 +278,14 @@ std::string reference_rows(std::vector<AircraftPosition> positions, double sd_m)
   return out.str();
 }
 
-std::vector<std::string> write_aircraft(const AircraftOptions& options) {
+std::vector<std::string> write_aircraft(const AircraftOptions& options, const TellSteps& tell) {
   check(options);
   std::vector<AircraftPosition> positions;
   int barometric_only = 0;
+  Received received(options.inputs, tell);
   for (const std::string& input : options.inputs) {
     Feed feed(options);
-    read_input(input, options, feed);
+    read_input(input, options, feed, received);
     positions.insert(positions.end(), feed.positions.begin(), feed.positions.end());
     barometric_only += feed.barometric_only;
   }

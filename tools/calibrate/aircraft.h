@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/progress.h"
 #include "calibration/adsb.h"
 
 namespace ols::calibration {
@@ -29,6 +30,7 @@ std::string receiver_clock_trouble(std::int64_t least_delay_us);
 std::string reference_rows(std::vector<AircraftPosition> positions, double sd_m);
 
 // Reads, writes, and returns what a person should know. std::runtime_error naming input or option.
-std::vector<std::string> write_aircraft(const AircraftOptions& options);
+// `tell`: of the bytes of all inputs, and while a receiver is silent.
+std::vector<std::string> write_aircraft(const AircraftOptions& options, const TellSteps& tell = {});
 
 }  // namespace ols::calibration

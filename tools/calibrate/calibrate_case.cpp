@@ -226,7 +226,9 @@ Network network_of(const Case& what) {
   }
 }
 
-void find_mistaken(Case& what) { what.mistaken = mistaken_sightings(network_of(what)); }
+void find_mistaken(Case& what, const TellAdjusted& tell) {
+  what.mistaken = mistaken_sightings(network_of(what), {}, tell);
+}
 
 std::vector<std::string> mistaken_in_words(const Case& what) {
   constexpr std::size_t kMost = 20;

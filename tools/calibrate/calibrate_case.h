@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "calibration/calibrate.h"
 #include "calibration/groups.h"
 #include "edge/calibration/instrument_file.h"
 #include "tools/calibrate/ut1_value.h"
@@ -51,8 +52,9 @@ Case read_case(const CaseOptions& options);
 // its file and line.
 Network network_of(const Case& what);
 
-// Finds single sightings of drones, aircraft and tracks that contradict all others.
-void find_mistaken(Case& what);
+// Finds single sightings of drones, aircraft and tracks that contradict all others. `tell`: as
+// calibrate().
+void find_mistaken(Case& what, const TellAdjusted& tell = {});
 // One sentence for each of the first few, with file and line.
 std::vector<std::string> mistaken_in_words(const Case& what);
 

@@ -6,6 +6,7 @@
 #include "base/atomic_file.h"
 #include "base/command_line.h"
 #include "base/output_check.h"
+#include "base/progress.h"
 #include "tools/calibrate/adjust_command.h"
 #include "tools/calibrate/aircraft.h"
 #include "tools/calibrate/camera.h"
@@ -110,7 +111,11 @@ fs::path output_folder(const calibration::CaseOptions& o) {
 }
 
 void adjust(const calibration::CaseOptions& options) {
-  for (const std::string& line : calibration::adjust_into(options, output_folder(options)).notes) {
+  ols::Progress progress("ols-calibrate", "adjustments");
+  std::size_t done = 0;
+  const auto tell = [&] { progress(++done, 0); };
+  const auto adjusted = calibration::adjust_into(options, output_folder(options), tell);
+  for (const std::string& line : adjusted.notes) {
     std::cerr << "ols-calibrate: " << line << '\n';
   }
 }
@@ -148,7 +153,7 @@ int main(int argc, char** argv) {
     if (zooms->parsed()) return calibration::run_zoom(zoom);
     std::vector<std::string> remarks;
     if (heard->parsed()) {
-      remarks = calibration::write_aircraft(aircraft);
+      remarks = calibration::write_aircraft(aircraft, ols::Progress("ols-calibrate", "bytes"));
     } else if (followed->parsed()) {
       remarks = calibration::write_tracks(tracks);
     } else if (boards->parsed()) {

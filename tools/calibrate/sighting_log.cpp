@@ -10,6 +10,7 @@
 #include "edge/unit_count.h"
 #include "ols_msg/bearing_t.hpp"
 #include "ols_msg/sighting_t.hpp"
+#include "tools/calibrate/input_bytes.h"
 
 namespace ols::calibration {
 namespace {
@@ -103,12 +104,18 @@ class Reader {
 }  // namespace
 
 SightingLog read_sightings(const SightingLogOptions& options, const std::vector<std::string>& names,
-                           const std::vector<StationPrior>& stations) {
+                           const std::vector<StationPrior>& stations, const TellSteps& tell) {
   Reader reader(options.least_belief, names, stations);
+  const std::size_t all = input_bytes(options.recordings);
+  std::size_t before = 0;  // in the recordings that are read
   for (const std::string& path : options.recordings) {
     try {
       LogReader log(path, LogTimes::kAsRecorded);
-      while (const auto message = log.next()) reader.take(*message);
+      while (const auto message = log.next()) {
+        reader.take(*message);
+        if (tell) tell(before + log.offset(), all);
+      }
+      before += log.size();
     } catch (const std::exception& error) {
       const std::string text = error.what();
       throw std::runtime_error(text.find(path) == std::string::npos ? path + ": " + text : text);

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/progress.h"
 #include "calibration/followed_tracks.h"
 
 namespace ols::calibration {
@@ -22,8 +23,8 @@ struct SightingLogOptions {
 };
 
 // std::runtime_error naming a file that cannot be read, or a station whose unit counts otherwise
-// than its instrument says.
+// than its instrument says. `tell`: of the bytes of all recordings.
 SightingLog read_sightings(const SightingLogOptions& options, const std::vector<std::string>& names,
-                           const std::vector<StationPrior>& stations);
+                           const std::vector<StationPrior>& stations, const TellSteps& tell = {});
 
 }  // namespace ols::calibration

@@ -5,6 +5,7 @@
 
 #include "base/atomic_file.h"
 #include "base/output_check.h"
+#include "base/progress.h"
 #include "tools/calibrate/observation_writer.h"
 
 namespace ols::calibration {
@@ -42,10 +43,12 @@ std::vector<std::string> write_tracks(const TracksOptions& options) {
   check(options);
   const Case stations = read_stations(options.stations);
   const Problem& problem = stations.problem;
-  const SightingLog log = read_sightings(options.log, problem.names, problem.stations);
+  const SightingLog log = read_sightings(options.log, problem.names, problem.stations,
+                                         Progress("ols-calibrate", "bytes of the recordings"));
   const Instants instants = instants_of(log.sightings, problem.stations);
   const FollowedObservations found =
-      followed(instants.instants, problem.stations, problem.names, references_in(options.aircraft));
+      followed(instants.instants, problem.stations, problem.names, references_in(options.aircraft),
+               Progress("ols-calibrate", "tracks of stations"));
   std::vector<std::string> remarks = remarks_of(log, instants);
   remarks.insert(remarks.end(), found.remarks.begin(), found.remarks.end());
   if (found.observations.empty()) {

@@ -10,6 +10,7 @@
 #include "base/atomic_file.h"
 #include "base/csv_files.h"
 #include "base/output_check.h"
+#include "base/progress.h"
 #include "geometry/precision_paper.h"
 
 namespace ols::offline {
@@ -57,6 +58,8 @@ void add_steps(CLI::App& command, PaperOptions& o) {
       ->capture_default_str();
 }
 
+constexpr const char* kRows = "rows of the grid";
+
 // An empty cell if the error is unbounded.
 std::ostream& cell(std::ostream& out, double value) {
   out << ',';
@@ -67,6 +70,7 @@ void write_figure3(const PaperOptions& o) {
   AtomicFile file(o.output);
   std::ostream& out = file.stream();
   out << "base_m,distance_m,rotating_pair_m,canonical_m,both_cameras_m\n" << std::setprecision(9);
+  Progress progress("ols-precision", kRows);
   for (int i = 1; i <= o.steps; ++i) {
     const double base_m = o.greatest_base_m * i / o.steps;
     for (int k = 1; k <= o.steps; ++k) {
@@ -77,6 +81,7 @@ void write_figure3(const PaperOptions& o) {
       cell(out, pair_error_m({0, 0, 0}, {base_m, 0, 0}, {0, distance_m, 0}, o.angle_rad()));
       out << '\n';
     }
+    progress(static_cast<std::size_t>(i), static_cast<std::size_t>(o.steps));
   }
   file.commit();
 }
@@ -88,6 +93,7 @@ void write_figure4(const PaperOptions& o) {
   AtomicFile file(o.output);
   std::ostream& out = file.stream();
   out << "x_m,y_m,two_cameras_m,three_cameras_m,baseline,best_possible_m\n" << std::setprecision(9);
+  Progress progress("ols-precision", kRows);
   for (int i = 0; i <= o.steps; ++i) {
     for (int k = 0; k <= o.steps; ++k) {
       const Vector3d target(o.far_m * (2.0 * k / o.steps - 1.0),
@@ -103,6 +109,7 @@ void write_figure4(const PaperOptions& o) {
       cell(out, errors.at(chosen)) << ',' << chosen + 1;
       cell(out, *std::ranges::min_element(errors)) << '\n';
     }
+    progress(static_cast<std::size_t>(i) + 1, static_cast<std::size_t>(o.steps) + 1);
   }
   file.commit();
 }

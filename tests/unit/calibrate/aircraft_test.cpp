@@ -3,11 +3,19 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
+#include <utility>
+
+#include "tests/unit/base/log_file.h"
 
 namespace ols::calibration {
 namespace {
 
 constexpr std::int64_t kSecond_us = 1'000'000;
+
+const std::string kHeard =
+    R"({"now": 1780000000, "aircraft": [{"hex": "4ca2d6", "lat": 49.5, "lon": 16.25,)"
+    R"( "alt_geom": 33000, "seen_pos": 0.5}]})";
 
 // Two passes of one aircraft, mixed with one that was heard once; one instant came twice.
 TEST(ReferenceRows, ArePassesInTheOrderOfTime) {
@@ -34,6 +42,22 @@ TEST(ReceiverClock, WhatIsSlowOrAheadIsNamed) {
   EXPECT_NE(receiver_clock_trouble(59 * kSecond_us).find("59.0 s old"), std::string::npos);
   EXPECT_NE(receiver_clock_trouble(-kSecond_us / 5).find("0.2 s ahead"), std::string::npos)
       << "nothing comes before it was sent";
+}
+
+TEST(WriteAircraft, TellsHowManyBytesOfAllInputsHaveCome) {
+  const LogFile first(kHeard), second(kHeard);
+  const auto output = std::filesystem::temp_directory_path() / "ols_calibrate_aircraft_test.csv";
+  AircraftOptions options;
+  options.inputs = {first.path(), second.path()};
+  options.format = "json";
+  options.output = output.string();
+  std::filesystem::remove(output);
+  std::vector<std::pair<std::size_t, std::size_t>> told;
+  write_aircraft(options, [&](std::size_t done, std::size_t all) { told.emplace_back(done, all); });
+  std::filesystem::remove(output);
+  const std::size_t size = kHeard.size();
+  EXPECT_EQ(told, (std::vector<std::pair<std::size_t, std::size_t>>{{size, 2 * size},
+                                                                    {2 * size, 2 * size}}));
 }
 
 }  // namespace

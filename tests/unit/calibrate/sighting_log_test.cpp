@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "base/channel_names.h"
 #include "ols_msg/bearing_t.hpp"
@@ -66,6 +68,17 @@ TEST(SightingLog, CountsWhatItDoesNotUse) {
   EXPECT_EQ(log.unsynchronised, 1U);
   EXPECT_EQ(log.disbelieved, 1U);
   EXPECT_EQ(log.of_others, 1U);
+}
+
+TEST(SightingLog, TellsHowFarItIsInAllRecordings) {
+  const std::string one = record(sighting());
+  const LogFile first(one), second(one + one);
+  std::vector<std::pair<std::size_t, std::size_t>> told;
+  read_sightings({{first.path(), second.path()}, 0.5}, {"alfa"}, {test::prior_of(test::hill())},
+                 [&](std::size_t done, std::size_t all) { told.emplace_back(done, all); });
+  const std::size_t size = one.size();
+  EXPECT_EQ(told, (std::vector<std::pair<std::size_t, std::size_t>>{
+                      {size, 3 * size}, {2 * size, 3 * size}, {3 * size, 3 * size}}));
 }
 
 TEST(SightingLog, OfAUnitThatCountsOtherwiseNothingIsUsed) {

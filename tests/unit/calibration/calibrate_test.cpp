@@ -57,6 +57,13 @@ TEST(Calibrate, NamesALandmarkThatIsOffByAMetre) {
   EXPECT_EQ(found.remarks.size(), 1U);
 }
 
+TEST(Calibrate, TellsEachAdjustment) {
+  const Problem problem = landmarks_around(crooked(), just_put_up(), 7);
+  int adjustments = 0;
+  calibrate(Adjustment(network_of(problem)), {}, [&] { ++adjustments; });
+  EXPECT_EQ(adjustments, 1) << "nothing is rejected";
+}
+
 TEST(Calibrate, SaysSoWhereNoMajorityAgrees) {
   Problem problem = landmarks_around(crooked(), just_put_up(), 4);
   for (const char* name : {"landmark0", "landmark2"}) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "calibration/guidance.h"
 #include "tests/unit/calibration/scene.h"
@@ -151,6 +152,17 @@ TEST(Followed, AnAircraftIsKnownByHowItFlies) {
   // Of two that fly alike nobody knows which.
   const References twice{{"a", announced(high, 40)}, {"b", announced(high, 40)}};
   EXPECT_TRUE(followed(instants, taken(), kNames, twice).observations.empty());
+}
+
+TEST(Followed, TellsHowManyOfTheTracksAreCompared) {
+  std::vector<FollowedSighting> all;
+  follow(all, 0, past, 10, 0.02, 3);
+  follow(all, 0, past, 10, 0.02, 4);
+  follow(all, 1, past, 10, 0.04, 8);
+  std::vector<std::pair<std::size_t, std::size_t>> told;
+  followed(instants_of(all, taken()).instants, taken(), kNames, {},
+           [&](std::size_t done, std::size_t tracks) { told.emplace_back(done, tracks); });
+  EXPECT_EQ(told, (std::vector<std::pair<std::size_t, std::size_t>>{{1, 3}, {2, 3}, {3, 3}}));
 }
 
 }  // namespace

@@ -63,6 +63,17 @@ TEST(MistakenSightings, OneOfADroneIsNamedAndTheOthersAreGood) {
   }
 }
 
+TEST(MistakenSightings, TellsEachAdjustment) {
+  Problem problem = drone_alone(20);
+  int adjustments = 0;
+  const auto tell = [&] { ++adjustments; };
+  mistaken_sightings(network_of(problem), {}, tell);
+  EXPECT_EQ(adjustments, 1) << "nothing is rejected";
+  problem.observations[7].pixel.x() += 15.0;
+  mistaken_sightings(network_of(problem), {}, tell);
+  EXPECT_GE(adjustments, 3) << "another one without what is rejected";
+}
+
 // The first one proposes the heading; here it proposes a wrong one.
 TEST(MistakenSightings, SomeByManyDegreesDoNotTakeTheHeadingAlong) {
   Problem problem = drone_alone(20);
