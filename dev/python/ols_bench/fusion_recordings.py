@@ -9,6 +9,7 @@ import argparse
 import csv
 import math
 import subprocess
+import sys
 import tempfile
 from pathlib import Path
 
@@ -16,6 +17,10 @@ import numpy as np
 import ols
 
 GAP_US = 500_000
+# Errors are alike for some seconds: a ratio is as sure as so many independent pieces make it.
+BLOCK_US = 3_000_000
+LEAST_BLOCKS = 10
+MOST_RATIO = 1.02
 OPTIONS = {
     "least squares": ["--estimator", "least-squares"],
     "filter": [],
@@ -92,6 +97,24 @@ def figures_of(errors, instants):
     return np.array(sizes), ((off / sd) ** 2).mean(0)
 
 
+def ratio_interval(own, reference, instants, draws=1000):
+    """Of the ratios of median, RMS and 95 %: their 95 % interval (2 x 3), by a block bootstrap.
+
+    Both are drawn at the same instants. H. R. Kuensch, "The jackknife and the bootstrap for general
+    stationary observations", Annals of Statistics 17(3), 1989.
+    """
+    times = np.array(instants)
+    first = np.searchsorted(times, np.arange(times[0], times[-1] + 1, BLOCK_US))
+    blocks = [block for block in np.split(np.arange(len(times)), first[1:]) if len(block) > 0]
+    random = np.random.default_rng(1)
+    ratios = []
+    for _ in range(draws):
+        drawn = np.concatenate([blocks[i] for i in random.integers(len(blocks), size=len(blocks))])
+        some = [instants[i] for i in drawn]
+        ratios.append(figures_of(own, some)[0] / figures_of(reference, some)[0])
+    return np.percentile(ratios, [2.5, 97.5], axis=0), len(blocks)
+
+
 def steps_of_truth(folder, errors):
     """Where the truth's height steps and the fixes' does not: (time, error before, after) [us, m].
 
@@ -133,8 +156,9 @@ def report(program, folder, options):
         f"{folder.name}{' of ' + ','.join(stations) if stations else ''}: {len(instants)} instants"
     )
     if not instants:
-        return
+        return True
     reference, _ = figures_of(errors["least squares"], instants)
+    good = True
     for name, own in errors.items():
         sizes, nees = figures_of(own, instants)
         print(
@@ -145,8 +169,17 @@ def report(program, folder, options):
             + "  NEES"
             + "".join(f"{value:6.2f}" for value in nees)
         )
+        if name != "least squares":
+            (low, high), blocks = ratio_interval(own, errors["least squares"], instants)
+            told = blocks >= LEAST_BLOCKS
+            worse = told and name == "filter" and bool((low > MOST_RATIO).any())
+            good &= not worse
+            between = "  ".join(f"{a:.2f} to {b:.2f}" for a, b in zip(low, high, strict=True))
+            known = f"ratios between {between}" if told else "too short for an interval"
+            print(f"    {known} (pieces: {blocks}){'  SURELY WORSE' if worse else ''}")
     if options.steps:
         report_steps(folder, {instant: errors["filter"][instant] for instant in instants})
+    return good
 
 
 def main():
@@ -166,9 +199,9 @@ def main():
     options = parser.parse_args()
     options.stations = [name for name in options.stations.split(",") if name]
     print("median, RMS, 95 % of the error; its ratio to least squares; NEES of east, north, up")
-    for folder in options.folders:
-        report(options.fuse, folder, options)
+    good = [report(options.fuse, folder, options) for folder in options.folders]
+    return 0 if all(good) else 1
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())
