@@ -44,6 +44,22 @@ TEST(MoverDetection, FindsWhatMovesAgainstTheScene) {
   }
 }
 
+// Two that touch nowhere: each has the pixels that differ from before, and no others.
+TEST(MoverDetection, BoundsEachMover) {
+  const cv::Mat before(240, 320, CV_8UC1, cv::Scalar(100));
+  cv::Mat now = before.clone();
+  const cv::Rect first(40, 60, 7, 5), second(200, 150, 4, 9);
+  now(first).setTo(160);
+  now(second).setTo(150);
+  MoverSearch search;
+  search.area = {0.0, 0.0, 320.0, 240.0};
+  const auto movers =
+      detect_movers(before, Eigen::Matrix3d::Identity(), reduce_frame(now, 320), search);
+  ASSERT_EQ(movers.size(), 2U);
+  EXPECT_EQ(movers[0].box, cv::Rect2d(first)) << "the stronger one";
+  EXPECT_EQ(movers[1].box, cv::Rect2d(second));
+}
+
 // A bright spot of this many pixels on a noisy sky, moved since: the mean normalised error squared
 // an axis of the candidate nearest to it, and how often there is one.
 struct Consistency {
