@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "base/atomic_file.h"
+#include "base/toml_text.h"
 #include "edge/calibration_folder.h"
 #include "edge/persisted_station_state.h"
 #include "sim/calibration_round.h"
@@ -42,7 +43,7 @@ void write_lens_motor(std::ostream& out, const StationTruth& station,
                       const std::string& line_stem) {
   if (!station.zoom) return;
   out << "\n[lens_motor]"
-      << "\ndevice = \"" << line_stem << ".lens\"\n";
+      << "\ndevice = " << toml_text(line_stem + ".lens") << "\n";
   for (const ZoomPoint& point : station.zoom_points) {
     out << "\n[[lens_motor.point]]"
         << "\nposition = " << point.position << "\nfocal_px = " << point.camera.fx_px
@@ -63,11 +64,10 @@ void write_sd(std::ostream& out, const World& world, const CalibrationSd& sd) {
 void write_devices(std::ostream& out, const Scenario& s, const StationScenario& station,
                    const std::string& line_folder) {
   out << "\n[camera]"
-      << "\ndevice = \"" << station.camera_address << "\""
-      << "\nwidth_px = " << s.camera.width_px << "\nheight_px = " << s.camera.height_px
-      << "\nframe_rate_hz = " << s.frame_rate_hz << "\nexposure_us = " << 1e6 * s.exposure_s
-      << "\nreadout_s = " << s.readout_s << "\n\n[ptu]"
-      << "\ndevice = \"" << line_folder << "/" << station.ptu_line << "\""
+      << "\ndevice = " << toml_text(station.camera_address) << "\nwidth_px = " << s.camera.width_px
+      << "\nheight_px = " << s.camera.height_px << "\nframe_rate_hz = " << s.frame_rate_hz
+      << "\nexposure_us = " << 1e6 * s.exposure_s << "\nreadout_s = " << s.readout_s << "\n\n[ptu]"
+      << "\ndevice = " << toml_text(line_folder + "/" + station.ptu_line)
       << "\nbaud = " << s.ptu.baud << "\npoll_interval_s = " << s.ptu.poll_interval_s << "\n";
 }
 
@@ -75,7 +75,7 @@ void write_devices(std::ostream& out, const Scenario& s, const StationScenario& 
 void write_video(std::ostream& out, const StationScenario& station) {
   constexpr int kPort = 7790;
   out << "\n[video]"
-      << "\naddress = \"" << station.camera_address << ':' << kPort << "\"\n";
+      << "\naddress = " << toml_text(station.camera_address + ":" + std::to_string(kPort)) << "\n";
 }
 
 void write_sensors(std::ostream& out, const Scenario& s, std::size_t station,
@@ -83,8 +83,7 @@ void write_sensors(std::ostream& out, const Scenario& s, std::size_t station,
   if (s.inclinometer.on) {
     constexpr double kLeastSd_rad = radians(0.002);
     out << "\n[inclinometer]"
-        << "\ndevice = \"" << line_stem << ".inclinometer\""
-        << "\nstuck_s = 10"
+        << "\ndevice = " << toml_text(line_stem + ".inclinometer") << "\nstuck_s = 10"
         << "\nsd_deg = " << degrees(std::max(s.inclinometer.zero_sd_rad, kLeastSd_rad)) << "\n";
   }
   if (s.gnss.on) {
@@ -101,7 +100,7 @@ void write_gpio(std::ostream& out, const Scenario& s, const std::string& line_st
   if (!s.gpio.on) return;
   const GpioServerConfig lines;
   out << "\n[gpio]"
-      << "\nchip = \"socket:" << line_stem << ".gpio\""
+      << "\nchip = " << toml_text("socket:" + line_stem + ".gpio")
       << "\nled_line = " << lines.led_line << "\nstop_line = " << lines.stop_line
       << "\nrearm_line = " << lines.rearm_line << "\n";
 }
@@ -122,9 +121,11 @@ std::string station_file(const World& world, std::size_t station,
   std::ostringstream out;
   // All digits of a double, so that reading restores the written value.
   out << std::setprecision(17);
-  out << "# Station " << truth.id << " of the simulated site \"" << world.scenario().name << "\".\n"
-      << "id = \"" << truth.id << "\"\nlcm_url = \"" << options.lcm_url << "\"\n"
-      << (options.state_folder.empty() ? "" : "state_folder = \"" + options.state_folder + "\"\n")
+  out << "# Station " << truth.id << " of the simulated site " << toml_text(world.scenario().name)
+      << ".\n"
+      << "id = " << toml_text(truth.id) << "\nlcm_url = " << toml_text(options.lcm_url) << "\n"
+      << (options.state_folder.empty() ? ""
+                                       : "state_folder = " + toml_text(options.state_folder) + "\n")
       << (world.scenario().stations[station].overview ? "kind = \"overview\"\n" : "")
       << "tracker_seed = " << (derived_seed(world.seed(), 3000 + station) >> 1) << "\n";
   write_pose(out, truth.nominal);

@@ -53,7 +53,7 @@ WITHOUT: dict[str, str] = {
         calibration/targets/scene.cpp calibration/targets/unknown.cpp""",
     "parts of ols-export, tested through it (exporter_test, home_encoder_test, cot_text_test)": """
         export/output.cpp export/home/discovery.cpp export/tak/cot_encoder.cpp""",
-    "parts of the simulator, tested through it (test_scenario, test_world, test_lockstep)": """
+    "parts of the simulator, tested through it (scenario_test, world_test, lockstep_test)": """
         sim/lead_times.cpp sim/lockstep_station.cpp sim/panorama.cpp sim/recording.cpp
         sim/report.cpp sim/scenario_places.cpp sim/scenario_trajectory.cpp
         sim/sighted_landmarks.cpp""",

@@ -55,5 +55,18 @@ TEST(StationFiles, HaveNoSensorsWhereTheScenarioHasNone) {
   EXPECT_EQ(file.find("[gnss]"), std::string::npos);
 }
 
+TEST(StationFiles, AreReadFromAFolderOfAnyName) {
+  const World world(load_scenario(std::string(OLS_SCENARIOS) + "/fig7.toml"), 5);
+  const auto folder = std::filesystem::path(temp_dir()) / ("named_" + std::to_string(::getpid()));
+  const std::string state = folder / "a \"quoted\" \\ state", lines = folder / "li\"nes";
+  write_station_files(world, {"udpm://239.255.76.67:7667?ttl=0", lines, state}, folder);
+  const std::string& id = world.stations()[0].id;
+  const station::StationSettings read = station::load_station_settings(folder / (id + ".toml"));
+  EXPECT_EQ(read.state_folder, state);
+  EXPECT_EQ(read.ptu.device, lines + "/" + id + ".ptu");
+  EXPECT_EQ(read.inclinometer.device, lines + "/" + id + ".inclinometer");
+  std::filesystem::remove_all(folder);
+}
+
 }  // namespace
 }  // namespace ols::sim
