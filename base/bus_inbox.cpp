@@ -76,7 +76,8 @@ void BusInbox::deliver(const Admitted& admitted) {
                        {payload.begin(), payload.end()},
                        admitted.utime_us,
                        {trailer.begin(), trailer.end()},
-                       admitted.judgement.addressed};
+                       admitted.judgement.addressed,
+                       admitted.judgement.list_number};
     if (subscription->express && subscription->express(message)) continue;
     enqueue(*subscription, std::move(message));
   }

@@ -32,6 +32,7 @@ struct BusMessage {
   // A command that names this process's boot; of others only a stop may be obeyed. Always true
   // where signatures are not required.
   bool addressed = true;
+  std::int64_t list_number = 0;  // of the trust list that it was judged by; 0: none
 };
 
 // The limit of one subscription's queue. The oldest messages are displaced.

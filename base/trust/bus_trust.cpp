@@ -185,7 +185,7 @@ bool BusTrust::wants(std::string_view channel) const {
          (!self_.is_station && channel.starts_with(kStatusChannel));
 }
 
-Verifier::Verdict BusTrust::judge_and_learn(std::string_view channel, Bytes message,
+BusTrust::Learned BusTrust::judge_and_learn(std::string_view channel, Bytes message,
                                             const Arrival& arrival) {
   const std::lock_guard lock(mutex_);
   auto verdict = verifier_->judge(channel, message, arrival);
@@ -194,7 +194,7 @@ Verifier::Verdict BusTrust::judge_and_learn(std::string_view channel, Bytes mess
                        std::abs(verdict.head.utime_us - arrival.utime_us) <= tolerance_us_;
     book_.hear(verdict.head.station, verdict.head.boot_id, fresh, arrival.monotonic_s);
   }
-  return verdict;
+  return {verdict, list_.number};
 }
 
 // Whoever has the site's secret may tell the list, because that is believed by the root's signature
@@ -207,19 +207,21 @@ bool BusTrust::is_of_site(std::string_view channel, Bytes message) const {
 Judgement BusTrust::judge(std::string_view channel, Bytes message, std::int64_t utime_us,
                           double now_s) {
   const Arrival arrival{utime_us, now_s};
-  auto verdict = judge_and_learn(channel, message, arrival);
-  const bool of_member = !verdict.distrust;
+  Learned learned = judge_and_learn(channel, message, arrival);
+  const bool of_member = !learned.verdict.distrust;
   if (channel == kTrustChannel && (of_member || is_of_site(channel, message))) {
     const bool is_new = hear_list(without_trailer(message), of_member, now_s);
     // This list may make its sender a member.
-    if (is_new && !of_member) verdict = judge_and_learn(channel, message, arrival);
+    if (is_new && !of_member) learned = judge_and_learn(channel, message, arrival);
   }
+  const Verifier::Verdict& verdict = learned.verdict;
   if (!verdict.distrust && channel == kSiteChannel) {
     if (const auto text = settings_from(without_trailer(message))) site_.hear(*text);
   }
   Judgement judgement{without_trailer(message)};
   judgement.distrust = verdict.distrust;
   judgement.sender = verdict.sender;
+  judgement.list_number = learned.list_number;
   if (mode_ != Mode::kRequire) return judgement;
   judgement.passes = !verdict.distrust;
   judgement.addressed = verdict.addressed;

@@ -43,6 +43,7 @@ struct Judgement {
   bool addressed = true;               // a command that names this boot, where that is required
   std::optional<Distrust> distrust{};  // counted, in mode observe too
   std::string sender{};                // its member, where its key is known
+  std::int64_t list_number = 0;        // of the trust list that it was judged by
 };
 
 Environment process_environment();
@@ -102,8 +103,11 @@ class BusTrust {
   void keep();
   const Member* own_entry() const;
   std::string membership_trouble() const;
-  Verifier::Verdict judge_and_learn(std::string_view channel, Bytes message,
-                                    const Arrival& arrival);
+  struct Learned {
+    Verifier::Verdict verdict;
+    std::int64_t list_number = 0;
+  };
+  Learned judge_and_learn(std::string_view channel, Bytes message, const Arrival& arrival);
 
   struct Key {
     explicit Key(const MemberKey& member) : file(member), signing(member.seed) {}

@@ -10,6 +10,7 @@
 #include "base/atomic_file.h"
 #include "base/boot_id.h"
 #include "base/clocks.h"
+#include "tools/logger/list_placement.h"
 
 namespace ols::logger {
 namespace {
@@ -105,7 +106,7 @@ void BusRecorder::write(const BusMessage& message) {
     writer_->flush();
     begin_file();
   }
-  write_trust_list(message.received_utime_us);
+  write_trust_list(message);
   writer_->write(message);
   const std::lock_guard lock(mutex_);
   ++report_.messages;
@@ -132,12 +133,13 @@ void BusRecorder::keep_trust_list() {
 
 // Each file begins with the list in force, and has each later one where it begins to hold: so
 // `ols-key verify` can verify it by itself. lcm-logplayer plays it as any other message.
-void BusRecorder::write_trust_list(std::int64_t utime_us) {
-  if (trust_ == nullptr || trust_->list_number() == list_written_) return;
+void BusRecorder::write_trust_list(const BusMessage& next) {
+  if (trust_ == nullptr) return;
   const std::int64_t number = trust_->list_number();
-  const auto telling = trust_->list_telling(utime_us);
+  if (!list_goes_before(next.list_number, number, list_written_)) return;
+  const auto telling = trust_->list_telling(next.received_utime_us);
   if (!telling) return;
-  writer_->write({std::string(trust::kTrustChannel), *telling, utime_us});
+  writer_->write({std::string(trust::kTrustChannel), *telling, next.received_utime_us});
   list_written_ = number;
 }
 

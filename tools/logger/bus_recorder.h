@@ -51,7 +51,7 @@ class BusRecorder {
   void begin_file();
   void look_at_bus(double now_s);
   void keep_trust_list();
-  void write_trust_list(std::int64_t utime_us);
+  void write_trust_list(const BusMessage& next);
 
   const LoggerConfig config_;
   const std::string single_file_;

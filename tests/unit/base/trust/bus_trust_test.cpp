@@ -125,6 +125,14 @@ TEST_F(BusTrustTest, TellsEachListThatItTakes) {
   EXPECT_EQ(taken, (std::vector<std::int64_t>{1, 2}));
 }
 
+TEST_F(BusTrustTest, SaysByWhichListAMessageWasJudged) {
+  const auto station = alfa(), centre = fusion();
+  const std::vector<std::uint8_t> order = payload(kNow_us, 1, 1);
+  EXPECT_EQ(hear(*station, "OLS_PTU_alfa", order).list_number, 1);
+  tell(*station, *centre, sign_list(kSite.list(2), kSite.root), 1);
+  EXPECT_EQ(hear(*station, "OLS_PTU_alfa", order).list_number, 2);
+}
+
 TEST_F(BusTrustTest, ObserveCountsAndLetsPass) {
   const auto watching = open({.name = "alfa", .boot_id = 11, .is_station = true}, "observe");
   const Judgement judged = hear(*watching, "OLS_PTU_alfa", payload(kNow_us, 1, 1));
