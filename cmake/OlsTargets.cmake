@@ -54,7 +54,8 @@ endfunction()
 
 # ols_test(NAME SOURCES ... LINK ... [ALONE ...]): a GoogleTest program, one ctest entry per test case.
 # Most of a test's compilation is GoogleTest's and Eigen's headers: eight sources are compiled at once.
-# Of the rest, a third is saved by not optimising the tests as what they test: that is in libraries.
+# Tests are compiled with less optimisation than the libraries, which saves a quarter of the rest; inline
+# functions that a test uses too may be run as compiled for it.
 # ALONE are those of the sources whose local names are also names of another source.
 function(ols_test name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK;ALONE" ${ARGN})

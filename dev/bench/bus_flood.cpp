@@ -1,6 +1,6 @@
-// ols-bench-bus-flood: how long a signed bearing takes from its station to the fusion's handler
-// while somebody floods the bus with unsigned ones in the same stations' names, for
-// tools/bench-bus-flood.
+// ols-bench-bus-flood: how long a signed bearing takes from its station to the handler of a
+// receiver that subscribes as the fusion does, while somebody floods the bus with unsigned ones in
+// the same stations' names; for tools/bench-bus-flood.
 #include <unistd.h>
 
 #include <algorithm>
@@ -137,15 +137,16 @@ class Attacker {
     ols_msg::bearing_t bearing{};
     ols::stamp_message(bearing, ols::clock_utime_us(), 666, static_cast<std::int64_t>(turn) + 1);
     bearing.station = ThrowAwaySite::name_of(1 + turn % stations_);
-    bus_.publish(ols::station_channel(ols::kBearingChannel, bearing.station), bearing);
+    if (bus_.publish(ols::station_channel(ols::kBearingChannel, bearing.station), bearing)) ++sent_;
   }
+  std::size_t sent() const { return sent_; }
 
  private:
   ols::LcmBus bus_;
-  std::size_t stations_;
+  std::size_t stations_, sent_ = 0;
 };
 
-// As the fusion's process receives them.
+// Receives them as the fusion does; its handler only notes when.
 class Fusion {
  public:
   Fusion(const Arguments& arguments, const ThrowAwaySite& site)
@@ -207,7 +208,7 @@ double flood(const Arguments& arguments, double rate_hz) {
   Attacker attacker(arguments);
   const double begin_s = ols::clock_monotonic_s();
   at_rate(rate_hz, arguments.seconds, [&](std::size_t turn) { attacker.send(turn); });
-  return rate_hz * arguments.seconds / (ols::clock_monotonic_s() - begin_s);
+  return static_cast<double>(attacker.sent()) / (ols::clock_monotonic_s() - begin_s);
 }
 
 Phase measure(const Arguments& arguments, double flood_hz, Stations& stations, Fusion& fusion) {

@@ -6,11 +6,11 @@
 #include <filesystem>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include "base/atomic_file.h"
 #include "base/boot_id.h"
 #include "base/clocks.h"
-#include "tools/logger/list_placement.h"
 
 namespace ols::logger {
 namespace {
@@ -47,7 +47,11 @@ BusRecorder::BusRecorder(const LoggerConfig& config, const std::string& file)
       bus_(config.lcm_url, trust_) {
   // Before the file: a failed connection must not leave an empty file.
   bus_.subscribe(
-      wanted(config_), [this](const BusMessage& message) { write(message); }, limits_of(config_));
+      wanted(config_), [this](const BusMessage& message) { write(message); }, limits_of(config_),
+      [this](const BusMessage& message) {
+        receive_trust_list(message);
+        return false;
+      });
   begin_file();
   thread_ = std::thread([this] { run(); });
 }
@@ -82,7 +86,6 @@ void BusRecorder::record() {
     if (now_s >= due_.look_s) {
       due_.look_s = now_s + kLook_s;
       look_after_file();
-      keep_trust_list();
     }
     look_at_bus(now_s);
   }
@@ -106,7 +109,7 @@ void BusRecorder::write(const BusMessage& message) {
     writer_->flush();
     begin_file();
   }
-  write_trust_list(message);
+  write_trust_lists(message);
   writer_->write(message);
   const std::lock_guard lock(mutex_);
   ++report_.messages;
@@ -120,27 +123,34 @@ void BusRecorder::look_after_file() {
   ++report_.files_lost;
 }
 
-// Beside the logs, each under its number: `ols-key verify` reads them years later.
-void BusRecorder::keep_trust_list() {
-  if (trust_ == nullptr || trust_->list_number() == list_kept_) return;
-  const std::int64_t number = trust_->list_number();
-  const auto folder = std::filesystem::absolute(writer_->path()).parent_path();
-  AtomicFile file((folder / ("trust-" + std::to_string(number) + ".toml")).string());
-  file.stream() << trust_->list_text();
-  file.commit();
-  list_kept_ = number;
+// In the receiving thread. The list by which the message was judged is the newest one, unless that
+// was replaced in the meantime: then the newer one is taken with the next message.
+void BusRecorder::receive_trust_list(const BusMessage& received) {
+  if (received.list_number <= lists_.newest()) return;
+  ReceivedList list{received.list_number, trust_->list_text(),
+                    trust_->list_telling(received.received_utime_us)};
+  if (trust_->list_number() == received.list_number) lists_.add(std::move(list));
 }
 
 // Each file begins with the list in force, and has each later one where it begins to hold: so
 // `ols-key verify` can verify it by itself. lcm-logplayer plays it as any other message.
-void BusRecorder::write_trust_list(const BusMessage& next) {
-  if (trust_ == nullptr) return;
-  const std::int64_t number = trust_->list_number();
-  if (!list_goes_before(next.list_number, number, list_written_)) return;
-  const auto telling = trust_->list_telling(next.received_utime_us);
-  if (!telling) return;
-  writer_->write({std::string(trust::kTrustChannel), *telling, next.received_utime_us});
-  list_written_ = number;
+void BusRecorder::write_trust_lists(const BusMessage& next) {
+  for (const ReceivedList& list : lists_.due(next.list_number, list_written_)) {
+    keep_beside(list);
+    list_written_ = list.number;
+    if (!list.telling) continue;
+    writer_->write({std::string(trust::kTrustChannel), *list.telling, next.received_utime_us});
+  }
+}
+
+// Each under its number: `ols-key verify` reads them years later.
+void BusRecorder::keep_beside(const ReceivedList& list) {
+  if (list.number <= list_kept_) return;
+  const auto folder = std::filesystem::absolute(writer_->path()).parent_path();
+  AtomicFile file((folder / ("trust-" + std::to_string(list.number) + ".toml")).string());
+  file.stream() << list.text;
+  file.commit();
+  list_kept_ = list.number;
 }
 
 void BusRecorder::begin_file() {

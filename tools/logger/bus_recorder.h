@@ -17,6 +17,7 @@
 #include "tools/logger/log_names.h"
 #include "tools/logger/log_writer.h"
 #include "tools/logger/logger_config.h"
+#include "tools/logger/trust_lists.h"
 
 namespace ols::logger {
 
@@ -50,8 +51,9 @@ class BusRecorder {
   void look_after_file();
   void begin_file();
   void look_at_bus(double now_s);
-  void keep_trust_list();
-  void write_trust_list(const BusMessage& next);
+  void receive_trust_list(const BusMessage& received);
+  void write_trust_lists(const BusMessage& next);
+  void keep_beside(const ReceivedList& list);
 
   const LoggerConfig config_;
   const std::string single_file_;
@@ -71,7 +73,8 @@ class BusRecorder {
   RecorderReport report_;
   std::atomic<bool> end_ = false, discard_ = false;
   std::shared_ptr<trust::BusTrust> trust_;
-  // Numbers of the lists beside the logs and in the present file; used by the thread only.
+  TrustLists lists_;
+  // Numbers of the last list beside the logs and in the present file; used by the thread only.
   std::int64_t list_kept_ = 0, list_written_ = 0;
   LcmBus bus_;
   std::thread thread_;
