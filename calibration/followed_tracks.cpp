@@ -178,7 +178,7 @@ class TrackFinder {
               const References& references)
       : stations_(stations), names_(names), references_(references) {}
 
-  FollowedObservations build(const std::vector<Instant>& instants, const TellSteps& tell) {
+  FollowedObservations build(const std::vector<Instant>& instants, const TellTracks& tell) {
     std::map<OwnTrack, std::vector<Instant>> tracks;
     for (const Instant& one : instants) tracks[own_track(one)].push_back(one);
     std::size_t done = 0;
@@ -284,7 +284,7 @@ Instants instants_of(std::vector<FollowedSighting> sightings,
 FollowedObservations followed(const std::vector<Instant>& instants,
                               const std::vector<StationPrior>& stations,
                               const std::vector<std::string>& names, const References& references,
-                              const TellSteps& tell) {
+                              const TellTracks& tell) {
   return TrackFinder(stations, names, references).build(instants, tell);
 }
 

@@ -3,10 +3,10 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
-#include "base/progress.h"
 #include "calibration/observation.h"
 #include "calibration/state.h"
 
@@ -42,12 +42,14 @@ struct FollowedObservations {
   std::vector<std::string> remarks;       // what became an aircraft, a track; what did not
 };
 
+using TellTracks = std::function<void(std::size_t done, std::size_t all)>;
+
 // What flies as an aircraft of `references` becomes that aircraft; of the others, what several
 // stations see at the same instants becomes one track for each set of the stations' own tracks.
 // `tell` is called for each of these, when it has been compared with all aircraft.
 FollowedObservations followed(const std::vector<Instant>& instants,
                               const std::vector<StationPrior>& stations,
                               const std::vector<std::string>& names, const References& references,
-                              const TellSteps& tell = {});
+                              const TellTracks& tell = {});
 
 }  // namespace ols::calibration

@@ -126,18 +126,18 @@ void BusRecorder::look_after_file() {
 // In the receiving thread. The list by which the message was judged is the newest one, unless that
 // was replaced in the meantime: then the newer one is taken with the next message.
 void BusRecorder::receive_trust_list(const BusMessage& received) {
-  if (received.list_number <= lists_.newest()) return;
+  if (received.list_number <= lists_.received.newest()) return;
   ReceivedList list{received.list_number, trust_->list_text(),
                     trust_->list_telling(received.received_utime_us)};
-  if (trust_->list_number() == received.list_number) lists_.add(std::move(list));
+  if (trust_->list_number() == received.list_number) lists_.received.add(std::move(list));
 }
 
 // Each file begins with the list in force, and has each later one where it begins to hold: so
 // `ols-key verify` can verify it by itself. lcm-logplayer plays it as any other message.
 void BusRecorder::write_trust_lists(const BusMessage& next) {
-  for (const ReceivedList& list : lists_.due(next.list_number, list_written_)) {
+  for (const ReceivedList& list : lists_.received.due(next.list_number, lists_.written)) {
     keep_beside(list);
-    list_written_ = list.number;
+    lists_.written = list.number;
     if (!list.telling) continue;
     writer_->write({std::string(trust::kTrustChannel), *list.telling, next.received_utime_us});
   }
@@ -145,18 +145,18 @@ void BusRecorder::write_trust_lists(const BusMessage& next) {
 
 // Each under its number: `ols-key verify` reads them years later.
 void BusRecorder::keep_beside(const ReceivedList& list) {
-  if (list.number <= list_kept_) return;
+  if (list.number <= lists_.kept) return;
   const auto folder = std::filesystem::absolute(writer_->path()).parent_path();
   AtomicFile file((folder / ("trust-" + std::to_string(list.number) + ".toml")).string());
   file.stream() << list.text;
   file.commit();
-  list_kept_ = list.number;
+  lists_.kept = list.number;
 }
 
 void BusRecorder::begin_file() {
   const std::string path = single_file_.empty() ? names_.next(clock_utime_us()) : single_file_;
   writer_.emplace(path);
-  list_written_ = 0;
+  lists_.written = 0;
   const std::lock_guard lock(mutex_);
   report_.file = path;
 }

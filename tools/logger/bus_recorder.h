@@ -73,9 +73,12 @@ class BusRecorder {
   RecorderReport report_;
   std::atomic<bool> end_ = false, discard_ = false;
   std::shared_ptr<trust::BusTrust> trust_;
-  TrustLists lists_;
-  // Numbers of the last list beside the logs and in the present file; used by the thread only.
-  std::int64_t list_kept_ = 0, list_written_ = 0;
+  struct Lists {
+    TrustLists received;
+    // Numbers of the last one beside the logs and in the present file; used by the thread only.
+    std::int64_t kept = 0, written = 0;
+  };
+  Lists lists_;
   LcmBus bus_;
   std::thread thread_;
 };

@@ -1,10 +1,10 @@
+#include "base/config_section.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <array>
 #include <stdexcept>
-
-#include "base/config_section.h"
 
 namespace ols::config {
 namespace {

@@ -1,6 +1,7 @@
+#include "edge/active_slew.h"
+
 #include <gtest/gtest.h>
 
-#include "edge/active_slew.h"
 #include "geometry/angles.h"
 
 namespace ols::station {

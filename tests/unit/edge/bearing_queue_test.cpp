@@ -1,6 +1,7 @@
+#include "edge/bearing_queue.h"
+
 #include <gtest/gtest.h>
 
-#include "edge/bearing_queue.h"
 #include "geometry/angles.h"
 
 namespace ols::station {

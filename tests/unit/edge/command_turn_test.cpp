@@ -1,4 +1,5 @@
 #include "edge/command_turn.h"
+
 #include "station_fixture.h"
 
 namespace ols::station {

@@ -1,6 +1,7 @@
+#include "edge/pointing_model.h"
+
 #include <gtest/gtest.h>
 
-#include "edge/pointing_model.h"
 #include "geometry/angles.h"
 #include "tests/unit/edge/angle_sample.h"
 

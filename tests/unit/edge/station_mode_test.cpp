@@ -1,6 +1,6 @@
-#include <gtest/gtest.h>
-
 #include "edge/station_mode.h"
+
+#include <gtest/gtest.h>
 
 namespace ols::station {
 namespace {

@@ -1,3 +1,5 @@
+#include "sim/calibration_round.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -5,8 +7,6 @@
 #include <sstream>
 #include <string>
 #include <vector>
-
-#include "sim/calibration_round.h"
 
 namespace ols::sim {
 namespace {

@@ -1,6 +1,6 @@
-#include <gtest/gtest.h>
-
 #include "sim/drone.h"
+
+#include <gtest/gtest.h>
 
 namespace ols::sim {
 namespace {

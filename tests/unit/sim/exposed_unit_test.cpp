@@ -1,7 +1,8 @@
+#include "sim/exposed_unit.h"
+
 #include <gtest/gtest.h>
 
 #include "geometry/angles.h"
-#include "sim/exposed_unit.h"
 
 namespace ols::sim {
 namespace {

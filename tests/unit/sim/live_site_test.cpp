@@ -1,5 +1,7 @@
 // The host's clock may be stepped while the site runs: this program brings a clock_gettime of its
 // own that does so.
+#include "sim/live_site.h"
+
 #include <gtest/gtest.h>
 #include <sys/syscall.h>
 #include <unistd.h>
@@ -9,7 +11,6 @@
 
 #include "base/clocks.h"
 #include "ols_msg/truth_target_t.hpp"
-#include "sim/live_site.h"
 #include "tests/unit/temp_dir.h"
 
 namespace {

@@ -1,6 +1,6 @@
-#include <gtest/gtest.h>
-
 #include "sim/network.h"
+
+#include <gtest/gtest.h>
 
 namespace ols::sim {
 namespace {

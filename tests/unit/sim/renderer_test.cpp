@@ -1,9 +1,9 @@
+#include "sim/renderer.h"
+
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
 #include <opencv2/imgproc.hpp>
-
-#include "sim/renderer.h"
 
 namespace ols::sim {
 namespace {

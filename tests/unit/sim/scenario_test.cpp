@@ -1,3 +1,5 @@
+#include "sim/scenario.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -5,7 +7,6 @@
 #include <stdexcept>
 
 #include "base/toml_config.h"
-#include "sim/scenario.h"
 
 namespace ols::sim {
 namespace {

@@ -1,10 +1,11 @@
+#include "sim/station_files.h"
+
 #include <gtest/gtest.h>
 
 #include <filesystem>
 
 #include "edge/config.h"
 #include "edge/persisted_station_state.h"
-#include "sim/station_files.h"
 #include "tests/unit/temp_dir.h"
 
 namespace ols::sim {

@@ -1,3 +1,5 @@
+#include "sim/trajectory_file.h"
+
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -5,7 +7,6 @@
 
 #include "base/toml_config.h"
 #include "geometry/angles.h"
-#include "sim/trajectory_file.h"
 #include "tests/unit/temp_dir.h"
 
 namespace ols::sim {

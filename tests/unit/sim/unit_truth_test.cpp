@@ -1,9 +1,10 @@
+#include "sim/unit_truth.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "geometry/angles.h"
-#include "sim/unit_truth.h"
 #include "sim/world.h"
 
 namespace ols::sim {

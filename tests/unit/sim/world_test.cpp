@@ -1,10 +1,10 @@
+#include "sim/world.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <functional>
 #include <stdexcept>
-
-#include "sim/world.h"
 
 namespace ols::sim {
 namespace {

@@ -1,6 +1,7 @@
+#include "central/admission/admission.h"
+
 #include <gtest/gtest.h>
 
-#include "central/admission/admission.h"
 #include "tests/unit/central/scene.h"
 
 namespace ols::fusion {

@@ -1,8 +1,9 @@
+#include "central/admission/bearing_check.h"
+
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "central/admission/bearing_check.h"
 #include "tests/unit/central/scene.h"
 
 namespace ols::fusion {

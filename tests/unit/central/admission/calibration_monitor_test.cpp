@@ -1,6 +1,7 @@
+#include "central/admission/calibration_monitor.h"
+
 #include <gtest/gtest.h>
 
-#include "central/admission/calibration_monitor.h"
 #include "geometry/angles.h"
 
 namespace ols::fusion {

@@ -1,10 +1,10 @@
+#include "central/admission/clock_monitor.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <map>
 #include <string>
-
-#include "central/admission/clock_monitor.h"
 
 namespace ols::fusion {
 namespace {

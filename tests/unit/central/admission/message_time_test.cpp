@@ -1,6 +1,6 @@
-#include <gtest/gtest.h>
-
 #include "central/admission/message_time.h"
+
+#include <gtest/gtest.h>
 
 namespace ols::fusion {
 namespace {

@@ -1,8 +1,8 @@
+#include "central/admission/pointing_monitor.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
-
-#include "central/admission/pointing_monitor.h"
 
 namespace ols::fusion {
 namespace {

@@ -1,6 +1,6 @@
-#include <gtest/gtest.h>
-
 #include "central/admission/recent_exposures.h"
+
+#include <gtest/gtest.h>
 
 namespace ols::fusion {
 namespace {

@@ -1,6 +1,6 @@
-#include <gtest/gtest.h>
-
 #include "central/admission/station_registry.h"
+
+#include <gtest/gtest.h>
 
 namespace ols::fusion {
 namespace {

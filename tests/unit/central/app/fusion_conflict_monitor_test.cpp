@@ -1,6 +1,6 @@
-#include <gtest/gtest.h>
-
 #include "central/app/fusion_conflict_monitor.h"
+
+#include <gtest/gtest.h>
 
 namespace ols::fusion {
 namespace {

@@ -1,3 +1,5 @@
+#include "central/app/fusion_settings.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -5,7 +7,6 @@
 #include <fstream>
 
 #include "base/toml_config.h"
-#include "central/app/fusion_settings.h"
 #include "tests/unit/temp_dir.h"
 
 namespace ols::fusion {

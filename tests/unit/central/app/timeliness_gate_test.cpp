@@ -1,6 +1,6 @@
-#include <gtest/gtest.h>
-
 #include "central/app/timeliness_gate.h"
+
+#include <gtest/gtest.h>
 
 namespace ols::fusion {
 namespace {

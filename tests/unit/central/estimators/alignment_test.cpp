@@ -1,3 +1,5 @@
+#include "central/estimators/alignment.h"
+
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
@@ -5,7 +7,6 @@
 #include <functional>
 #include <random>
 
-#include "central/estimators/alignment.h"
 #include "tests/unit/central/scene.h"
 
 namespace ols::fusion {

@@ -1,3 +1,5 @@
+#include "central/estimators/least_squares.h"
+
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
@@ -7,7 +9,6 @@
 #include <cmath>
 #include <random>
 
-#include "central/estimators/least_squares.h"
 #include "tests/unit/central/scene.h"
 
 namespace ols::fusion {

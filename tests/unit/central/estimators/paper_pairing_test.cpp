@@ -1,9 +1,9 @@
+#include "central/estimators/paper_pairing.h"
+
 #include <gtest/gtest.h>
 
 #include <random>
 #include <string>
-
-#include "central/estimators/paper_pairing.h"
 
 namespace ols::fusion {
 namespace {

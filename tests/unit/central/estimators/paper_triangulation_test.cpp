@@ -1,9 +1,10 @@
+#include "central/estimators/paper_triangulation.h"
+
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "central/estimators/paper_triangulation.h"
 #include "tests/unit/central/scene.h"
 
 namespace ols::fusion {

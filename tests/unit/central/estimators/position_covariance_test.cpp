@@ -1,8 +1,8 @@
+#include "central/estimators/position_covariance.h"
+
 #include <gtest/gtest.h>
 
 #include <limits>
-
-#include "central/estimators/position_covariance.h"
 
 namespace ols::fusion {
 namespace {

@@ -1,10 +1,11 @@
+#include "central/filter/bias_model.h"
+
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 #include <cmath>
 #include <random>
 
-#include "central/filter/bias_model.h"
 #include "central/filter/track_filter.h"
 #include "tests/unit/central/flight.h"
 

@@ -1,6 +1,7 @@
+#include "central/filter/bias_observability.h"
+
 #include <gtest/gtest.h>
 
-#include "central/filter/bias_observability.h"
 #include "tests/unit/central/scene.h"
 
 namespace ols::fusion {

@@ -1,8 +1,9 @@
+#include "central/filter/coloured_noise.h"
+
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "central/filter/coloured_noise.h"
 #include "tests/unit/central/scene.h"
 
 namespace ols::fusion {

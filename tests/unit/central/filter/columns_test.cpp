@@ -1,10 +1,10 @@
 // The loops give what one element after the other gives, bit for bit, whatever the processor.
+#include "central/filter/columns.h"
+
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
 #include <random>
-
-#include "central/filter/columns.h"
 
 namespace ols::fusion {
 namespace {

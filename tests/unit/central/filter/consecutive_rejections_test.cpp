@@ -1,6 +1,6 @@
-#include <gtest/gtest.h>
-
 #include "central/filter/consecutive_rejections.h"
+
+#include <gtest/gtest.h>
 
 namespace ols::fusion {
 namespace {

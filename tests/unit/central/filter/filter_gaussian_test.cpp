@@ -1,10 +1,10 @@
 // The operations on the lower triangle, compared with the formulas on whole matrices.
+#include "central/filter/filter_gaussian.h"
+
 #include <gtest/gtest.h>
 
 #include <random>
 #include <vector>
-
-#include "central/filter/filter_gaussian.h"
 
 namespace ols::fusion {
 namespace {

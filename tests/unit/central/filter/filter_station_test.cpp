@@ -1,6 +1,7 @@
+#include "central/filter/filter_station.h"
+
 #include <gtest/gtest.h>
 
-#include "central/filter/filter_station.h"
 #include "geometry/wgs84.h"
 #include "tests/unit/central/scene.h"
 

@@ -1,6 +1,7 @@
+#include "central/filter/innovation.h"
+
 #include <gtest/gtest.h>
 
-#include "central/filter/innovation.h"
 #include "tests/unit/central/scene.h"
 
 namespace ols::fusion {

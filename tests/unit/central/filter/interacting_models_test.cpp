@@ -1,9 +1,9 @@
+#include "central/filter/interacting_models.h"
+
 #include <gtest/gtest.h>
 
 #include <array>
 #include <numeric>
-
-#include "central/filter/interacting_models.h"
 
 namespace ols::fusion {
 namespace {

@@ -1,9 +1,9 @@
+#include "central/filter/motion_model.h"
+
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
-
-#include "central/filter/motion_model.h"
 
 namespace ols::fusion {
 namespace {

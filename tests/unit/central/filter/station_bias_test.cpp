@@ -1,6 +1,7 @@
+#include "central/filter/station_bias.h"
+
 #include <gtest/gtest.h>
 
-#include "central/filter/station_bias.h"
 #include "tests/unit/central/flight.h"
 
 namespace ols::fusion {

@@ -1,3 +1,5 @@
+#include "central/filter/track_filter.h"
+
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
@@ -7,7 +9,6 @@
 #include <stdexcept>
 #include <vector>
 
-#include "central/filter/track_filter.h"
 #include "geometry/wgs84.h"
 #include "tests/unit/central/flight.h"
 

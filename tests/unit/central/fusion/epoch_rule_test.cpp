@@ -1,10 +1,11 @@
+#include "central/fusion/epoch_rule.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <optional>
 #include <string>
 
-#include "central/fusion/epoch_rule.h"
 #include "tests/unit/central/flight.h"
 
 namespace ols::fusion {

@@ -1,9 +1,10 @@
+#include "central/fusion/fusion.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "central/fusion/fusion.h"
 #include "tests/unit/central/flight.h"
 
 namespace ols::fusion {

@@ -1,6 +1,6 @@
-#include <gtest/gtest.h>
-
 #include "dev/estimators/several_targets.h"
+
+#include <gtest/gtest.h>
 
 namespace ols::bench {
 

@@ -1,10 +1,11 @@
+#include "central/fusion/slew_planner.h"
+
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
-#include "central/fusion/slew_planner.h"
 #include "tests/unit/central/flight.h"
 
 namespace ols::fusion {

@@ -1,3 +1,5 @@
+#include "central/fusion/slew_schedule.h"
+
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -7,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "central/fusion/slew_schedule.h"
 #include "tests/unit/central/given_tracks.h"
 
 namespace ols::fusion {

@@ -1,3 +1,5 @@
+#include "central/fusion/target_schedule.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -5,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "central/fusion/target_schedule.h"
 #include "tests/unit/central/given_tracks.h"
 
 namespace ols::fusion {

@@ -1,6 +1,7 @@
+#include "central/measurement/place_axes.h"
+
 #include <gtest/gtest.h>
 
-#include "central/measurement/place_axes.h"
 #include "geometry/wgs84.h"
 
 namespace ols::fusion {

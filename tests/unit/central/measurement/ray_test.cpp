@@ -1,6 +1,7 @@
+#include "central/measurement/ray.h"
+
 #include <gtest/gtest.h>
 
-#include "central/measurement/ray.h"
 #include "tests/unit/central/scene.h"
 
 namespace ols::fusion {

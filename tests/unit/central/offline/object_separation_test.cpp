@@ -1,8 +1,9 @@
+#include "central/offline/object_separation.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "central/offline/object_separation.h"
 #include "tests/unit/central/scene.h"
 
 namespace ols::fusion {

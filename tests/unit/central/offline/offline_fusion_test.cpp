@@ -1,3 +1,5 @@
+#include "central/offline/offline_fusion.h"
+
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
@@ -6,7 +8,6 @@
 #include <random>
 #include <stdexcept>
 
-#include "central/offline/offline_fusion.h"
 #include "geometry/angles.h"
 #include "tests/unit/central/scene.h"
 

@@ -1,3 +1,5 @@
+#include "central/offline/smoother.h"
+
 #include <gtest/gtest.h>
 
 #include <array>
@@ -5,7 +7,6 @@
 #include <random>
 #include <string>
 
-#include "central/offline/smoother.h"
 #include "tests/unit/central/flight.h"
 
 namespace ols::fusion {

@@ -1,11 +1,12 @@
 // Two tracks of one object are merged; two objects that fly side by side are not.
+#include "central/tracking/duplicate_tracks.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <numbers>
 #include <set>
 
-#include "central/tracking/duplicate_tracks.h"
 #include "dev/estimators/bearing_world.h"
 
 namespace ols::bench {

@@ -1,6 +1,7 @@
+#include "central/tracking/likeness.h"
+
 #include <gtest/gtest.h>
 
-#include "central/tracking/likeness.h"
 #include "tests/unit/central/flight.h"
 
 namespace ols::fusion {

@@ -1,9 +1,10 @@
+#include "central/tracking/live_tracks.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <random>
 
-#include "central/tracking/live_tracks.h"
 #include "dev/estimators/bearing_world.h"
 #include "tests/unit/central/scene.h"
 

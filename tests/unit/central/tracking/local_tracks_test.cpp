@@ -1,6 +1,6 @@
-#include <gtest/gtest.h>
-
 #include "central/tracking/local_tracks.h"
+
+#include <gtest/gtest.h>
 
 namespace ols::fusion {
 namespace {

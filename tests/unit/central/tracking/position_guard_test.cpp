@@ -1,10 +1,11 @@
+#include "central/tracking/position_guard.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <string>
 #include <vector>
 
-#include "central/tracking/position_guard.h"
 #include "tests/unit/central/flight.h"
 
 namespace ols::fusion {

@@ -1,6 +1,7 @@
+#include "central/tracking/ray_meetings.h"
+
 #include <gtest/gtest.h>
 
-#include "central/tracking/ray_meetings.h"
 #include "tests/unit/central/flight.h"
 
 namespace ols::fusion {

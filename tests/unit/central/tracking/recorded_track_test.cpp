@@ -1,9 +1,10 @@
+#include "central/tracking/recorded_track.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "central/offline/offline_fusion.h"
-#include "central/tracking/recorded_track.h"
 #include "tests/unit/central/wrong_heading.h"
 
 namespace ols::fusion {

@@ -1,6 +1,7 @@
+#include "central/tracking/track_identities.h"
+
 #include <gtest/gtest.h>
 
-#include "central/tracking/track_identities.h"
 #include "tests/unit/central/flight.h"
 
 namespace ols::fusion {

@@ -1,8 +1,9 @@
+#include "central/tracking/track_initiation.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "central/tracking/track_initiation.h"
 #include "dev/estimators/bearing_world.h"
 #include "tests/unit/central/wrong_heading.h"
 

@@ -1,10 +1,11 @@
+#include "central/tracking/track_manager.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <set>
 
-#include "central/tracking/track_manager.h"
 #include "tests/unit/central/given_tracks.h"
 
 namespace ols::fusion {

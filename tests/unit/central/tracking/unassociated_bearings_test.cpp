@@ -1,6 +1,7 @@
+#include "central/tracking/unassociated_bearings.h"
+
 #include <gtest/gtest.h>
 
-#include "central/tracking/unassociated_bearings.h"
 #include "tests/unit/central/flight.h"
 
 namespace ols::fusion {

@@ -1,6 +1,6 @@
-#include <gtest/gtest.h>
-
 #include "edge/recorder/event_queue.h"
+
+#include <gtest/gtest.h>
 
 namespace ols::recorder {
 namespace {

@@ -1,3 +1,5 @@
+#include "edge/tracker/acquisition.h"
+
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -6,7 +8,6 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "edge/tracker/acquisition.h"
 #include "synthetic.h"
 
 namespace ols::tracker {

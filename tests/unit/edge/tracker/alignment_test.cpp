@@ -1,6 +1,7 @@
+#include "edge/tracker/alignment.h"
+
 #include <gtest/gtest.h>
 
-#include "edge/tracker/alignment.h"
 #include "tests/unit/edge/tracker/synthetic.h"
 
 namespace ols::tracker {

@@ -1,6 +1,7 @@
+#include "edge/tracker/background_change.h"
+
 #include <gtest/gtest.h>
 
-#include "edge/tracker/background_change.h"
 #include "tests/unit/edge/tracker/synthetic.h"
 
 namespace ols::tracker {

@@ -1,10 +1,10 @@
+#include "edge/tracker/colour_picture.h"
+
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cstdint>
 #include <opencv2/imgproc.hpp>
-
-#include "edge/tracker/colour_picture.h"
 
 namespace ols::tracker {
 namespace {

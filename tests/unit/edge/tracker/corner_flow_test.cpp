@@ -1,9 +1,10 @@
+#include "edge/tracker/corner_flow.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "edge/tracker/corner_flow.h"
 #include "tests/unit/edge/tracker/synthetic.h"
 
 namespace ols::tracker {

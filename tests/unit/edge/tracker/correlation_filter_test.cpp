@@ -1,6 +1,7 @@
+#include "edge/tracker/correlation_filter.h"
+
 #include <gtest/gtest.h>
 
-#include "edge/tracker/correlation_filter.h"
 #include "tests/unit/edge/tracker/synthetic.h"
 
 namespace ols::tracker {

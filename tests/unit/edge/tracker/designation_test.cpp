@@ -1,8 +1,9 @@
+#include "edge/tracker/designation.h"
+
 #include <gtest/gtest.h>
 
 #include <opencv2/imgproc.hpp>
 
-#include "edge/tracker/designation.h"
 #include "tests/unit/edge/tracker/synthetic.h"
 
 namespace ols::tracker {

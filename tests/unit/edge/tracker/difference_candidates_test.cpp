@@ -1,8 +1,9 @@
+#include "edge/tracker/difference_candidates.h"
+
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
 
-#include "edge/tracker/difference_candidates.h"
 #include "tests/unit/edge/tracker/synthetic.h"
 
 namespace ols::tracker {

@@ -1,8 +1,9 @@
+#include "edge/tracker/ego_motion.h"
+
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
 
-#include "edge/tracker/ego_motion.h"
 #include "edge/tracker/particle.h"
 #include "tests/unit/edge/tracker/synthetic.h"
 

@@ -1,9 +1,9 @@
+#include "edge/tracker/feature_map.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
-
-#include "edge/tracker/feature_map.h"
 
 namespace ols::tracker {
 namespace {

@@ -1,8 +1,9 @@
+#include "edge/tracker/foreground_mask.h"
+
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
 
-#include "edge/tracker/foreground_mask.h"
 #include "tests/unit/edge/tracker/synthetic.h"
 
 namespace ols::tracker {

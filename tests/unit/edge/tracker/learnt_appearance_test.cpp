@@ -1,6 +1,7 @@
+#include "edge/tracker/learnt_appearance.h"
+
 #include <gtest/gtest.h>
 
-#include "edge/tracker/learnt_appearance.h"
 #include "tests/unit/edge/tracker/synthetic.h"
 
 namespace ols::tracker {

@@ -1,8 +1,8 @@
+#include "edge/tracker/local_contrast.h"
+
 #include <gtest/gtest.h>
 
 #include <opencv2/imgproc.hpp>
-
-#include "edge/tracker/local_contrast.h"
 
 namespace ols::tracker {
 namespace {

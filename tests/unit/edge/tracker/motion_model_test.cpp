@@ -1,9 +1,10 @@
+#include "edge/tracker/motion_model.h"
+
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
 #include <cmath>
 
-#include "edge/tracker/motion_model.h"
 #include "tests/unit/edge/tracker/synthetic.h"
 
 namespace ols::tracker {

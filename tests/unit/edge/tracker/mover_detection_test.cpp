@@ -1,3 +1,5 @@
+#include "edge/tracker/mover_detection.h"
+
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -5,7 +7,6 @@
 #include <cmath>
 #include <limits>
 
-#include "edge/tracker/mover_detection.h"
 #include "tests/unit/edge/tracker/synthetic.h"
 
 namespace ols::tracker {

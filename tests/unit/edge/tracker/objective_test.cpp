@@ -1,8 +1,8 @@
+#include "edge/tracker/objective.h"
+
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
-
-#include "edge/tracker/objective.h"
 
 namespace ols::tracker {
 namespace {

@@ -1,8 +1,8 @@
+#include "edge/tracker/paper_template.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
-
-#include "edge/tracker/paper_template.h"
 
 namespace ols::tracker {
 namespace {

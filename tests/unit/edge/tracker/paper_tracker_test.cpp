@@ -1,9 +1,10 @@
+#include "edge/tracker/paper_tracker.h"
+
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
 #include <cmath>
 
-#include "edge/tracker/paper_tracker.h"
 #include "edge/tracker/tracker.h"
 #include "tests/unit/edge/tracker/synthetic.h"
 

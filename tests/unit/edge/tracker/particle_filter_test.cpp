@@ -1,10 +1,11 @@
+#include "edge/tracker/particle_filter.h"
+
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
 #include <cmath>
 #include <limits>
 
-#include "edge/tracker/particle_filter.h"
 #include "tests/unit/edge/tracker/synthetic.h"
 
 namespace ols::tracker {

@@ -1,8 +1,8 @@
+#include "edge/tracker/patch.h"
+
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
-
-#include "edge/tracker/patch.h"
 
 namespace ols::tracker {
 namespace {

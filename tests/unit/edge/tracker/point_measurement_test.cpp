@@ -1,6 +1,7 @@
+#include "edge/tracker/point_measurement.h"
+
 #include <gtest/gtest.h>
 
-#include "edge/tracker/point_measurement.h"
 #include "tests/unit/edge/tracker/synthetic.h"
 
 namespace ols::tracker {

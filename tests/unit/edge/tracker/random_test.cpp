@@ -1,6 +1,6 @@
-#include <gtest/gtest.h>
-
 #include "edge/tracker/random.h"
+
+#include <gtest/gtest.h>
 
 namespace ols::tracker {
 namespace {

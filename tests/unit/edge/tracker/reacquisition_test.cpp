@@ -1,10 +1,11 @@
 // What a tracker may believe in when the picture no longer goes on as it did.
+#include "edge/tracker/reacquisition.h"
+
 #include <gtest/gtest.h>
 
 #include <utility>
 
 #include "edge/tracker/belief.h"
-#include "edge/tracker/reacquisition.h"
 #include "tests/unit/edge/tracker/synthetic.h"
 
 namespace ols::tracker {

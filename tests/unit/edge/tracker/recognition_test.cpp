@@ -1,6 +1,7 @@
+#include "edge/tracker/recognition.h"
+
 #include <gtest/gtest.h>
 
-#include "edge/tracker/recognition.h"
 #include "tests/unit/edge/tracker/synthetic.h"
 
 namespace ols::tracker {

@@ -1,3 +1,5 @@
+#include "edge/tracker/refinement.h"
+
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -5,7 +7,6 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
-#include "edge/tracker/refinement.h"
 #include "edge/tracker/target_model.h"
 
 namespace {

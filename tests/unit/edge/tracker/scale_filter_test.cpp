@@ -1,9 +1,9 @@
+#include "edge/tracker/scale_filter.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <opencv2/imgproc.hpp>
-
-#include "edge/tracker/scale_filter.h"
 
 namespace ols::tracker {
 namespace {

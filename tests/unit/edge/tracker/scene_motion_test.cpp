@@ -1,6 +1,7 @@
+#include "edge/tracker/scene_motion.h"
+
 #include <gtest/gtest.h>
 
-#include "edge/tracker/scene_motion.h"
 #include "tests/unit/edge/tracker/synthetic.h"
 
 namespace ols::tracker {

@@ -1,9 +1,9 @@
+#include "edge/tracker/spectrum.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <random>
-
-#include "edge/tracker/spectrum.h"
 
 namespace ols::tracker {
 namespace {

@@ -1,6 +1,7 @@
+#include "edge/tracker/sure_memory.h"
+
 #include <gtest/gtest.h>
 
-#include "edge/tracker/sure_memory.h"
 #include "tests/unit/edge/tracker/synthetic.h"
 
 namespace ols::tracker {

@@ -1,6 +1,7 @@
+#include "edge/tracker/target_model.h"
+
 #include <gtest/gtest.h>
 
-#include "edge/tracker/target_model.h"
 #include "tests/unit/edge/tracker/synthetic.h"
 
 namespace ols::tracker {

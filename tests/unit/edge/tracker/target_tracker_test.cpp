@@ -1,9 +1,9 @@
+#include "edge/tracker/target_tracker.h"
+
 #include <gtest/gtest.h>
 
 #include <set>
 #include <string>
-
-#include "edge/tracker/target_tracker.h"
 
 namespace ols::tracker {
 namespace {

@@ -1,7 +1,8 @@
+#include "edge/tracker/tracker_config.h"
+
 #include <gtest/gtest.h>
 
 #include "base/config_section.h"
-#include "edge/tracker/tracker_config.h"
 
 namespace ols::tracker {
 namespace {

@@ -1,9 +1,10 @@
+#include "edge/tracker/tracker_core.h"
+
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
 #include <cmath>
 
-#include "edge/tracker/tracker_core.h"
 #include "tests/unit/edge/tracker/synthetic.h"
 
 namespace ols::tracker {

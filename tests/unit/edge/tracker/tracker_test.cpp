@@ -1,10 +1,11 @@
+#include "edge/tracker/tracker.h"
+
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
 #include <limits>
 #include <opencv2/core/utility.hpp>
 
-#include "edge/tracker/tracker.h"
 #include "tests/unit/edge/tracker/synthetic.h"
 
 namespace ols::tracker {

@@ -1,9 +1,9 @@
+#include "edge/tracker/wide_search.h"
+
 #include <gtest/gtest.h>
 
 #include <set>
 #include <utility>
-
-#include "edge/tracker/wide_search.h"
 
 namespace ols::tracker {
 namespace {
