@@ -83,7 +83,10 @@ int run(const std::vector<std::string>& command) {
   while (::waitpid(process, &status, 0) < 0) {
     if (errno != EINTR) return -1;
   }
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  // POSIX: where posix_spawn cannot return why the program did not start, as under emulation, the
+  // child ends with 127.
+  constexpr int kNotStarted = 127;
+  return WIFEXITED(status) && WEXITSTATUS(status) != kNotStarted ? WEXITSTATUS(status) : -1;
 }
 
 std::vector<std::string> start(const std::vector<std::string>& units) {

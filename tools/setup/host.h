@@ -33,7 +33,8 @@ std::vector<std::string> start(const std::vector<std::string>& units);
 // Pure.
 std::string trouble(const std::vector<std::string>& not_started, int doctor);
 
-// Runs a program with this one's standard streams and returns its status; -1 if it cannot be run.
+// Runs a program with this one's standard streams and returns its status; -1 if it cannot be run
+// (or ends with 127, which says the same).
 int run(const std::vector<std::string>& command);
 
 }  // namespace ols::setup

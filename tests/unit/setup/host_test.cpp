@@ -97,6 +97,7 @@ TEST(Run, GivesTheStatusOfTheProgram) {
   EXPECT_EQ(run({"true"}), 0);
   EXPECT_EQ(run({"sh", "-c", "exit 3"}), 3);
   EXPECT_EQ(run({"/nonexistent/program"}), -1);
+  EXPECT_EQ(run({"sh", "-c", "exit 127"}), -1);
 }
 
 }  // namespace
