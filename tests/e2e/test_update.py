@@ -1,151 +1,12 @@
 """An update of a station's packages: kept, put into use when the station is idle, taken back when
 it is bad.
-
-The scripts are run as they are installed, on a host whose systemctl, dpkg and ols-doctor are
-scripts of this test.
 """
 
-import os
 import shutil
-import subprocess
 
 import pytest
 from conftest import ROOT
-
-RESTART = ROOT / "systemd/ols-station-restart"
-KEEP = ROOT / "systemd/ols-keep-packages"
-STATION = "ols-station@alfa.service"
-OTHER = "ols-station@bravo.service"
-START_S = 5000  # after this host's start
-
-SYSTEMCTL = r"""#!/bin/sh
-now_s=$(cut -d. -f1 "$OLS_UPTIME")
-case "$*" in
-  list-units*--state=failed*) grep ' failed ' "$HOST/units" ;;
-  list-units*) cat "$HOST/units" ;;
-  *ActiveState*bravo*) echo failed ;;
-  *ActiveState*) cat "$HOST/active" ;;
-  *ActiveEnterTimestampMonotonic*)
-    # A program that ends too soon again and again has been running for a moment whenever one looks.
-    if [ -e "$HOST/crashes" ] && grep -q restart "$HOST/done"; then echo "$((now_s - 3))000000"
-    else cat "$HOST/started_us"; fi ;;
-  *StatusText*)
-    # One line a question; the last one stays.
-    head -1 "$HOST/state"
-    if [ "$(wc -l <"$HOST/state")" -gt 1 ]; then sed -i 1d "$HOST/state"; fi ;;
-  *) echo "systemctl $*" >>"$HOST/done"
-     if [ "$1" = restart ]; then
-       echo "${now_s}000000" >"$HOST/started_us"
-       if [ -e "$HOST/active_after" ]; then cp "$HOST/active_after" "$HOST/active"; fi
-     fi ;;
-esac
-"""
-# A failure a line, by its first words. It takes its time, as the real one does.
-DOCTOR = r"""#!/bin/sh
-sleep 6
-before="$HOST/failures"
-if grep -q restart "$HOST/done" 2>/dev/null; then before="$HOST/failures_after"; fi
-if [ "$(cut -d. -f1 "$OLS_UPTIME")" -lt "$(cat "$HOST/not_before_s")" ]; then exit 0; fi
-[ "$(cat "$before")" != crash ] || exit 139
-echo "ok    configuration: /etc/ols/alfa.toml"
-[ -s "$before" ] || exit 0
-sed 's/.*/FAIL  &: something is wrong; do something/' "$before"
-exit 2
-"""
-DPKG = r"""#!/bin/sh
-echo "$(cut -d. -f1 "$OLS_UPTIME") dpkg $*" >>"$HOST/dpkg"
-if [ -e "$HOST/dpkg_busy" ]; then rm "$HOST/dpkg_busy"; exit 2; fi
-if [ -e "$HOST/dpkg_broken" ]; then exit 1; fi
-echo "dpkg $*" >>"$HOST/done"
-"""
-# Debian's own, for packages that are nothing but a name here.
-DPKG_DEB = '#!/bin/sh\nbasename "$2" | cut -d_ -f2\n'
-DPKG_QUERY = r"""#!/bin/sh
-case "$*" in
-  *Status*) sed 's/^/installed /' "$HOST/installed" ;;
-  *) sed -n 's/^ols-station //p' "$HOST/installed"
-     # The next update comes.
-     if [ -e "$HOST/next" ] && grep -q restart "$HOST/done"; then
-       mv "$HOST/next" "$HOST/installed"
-     fi ;;
-esac
-"""
-REPACK = r"""#!/bin/sh
-[ ! -e "$HOST/no_repack" ] || exit 1
-touch "$1_$(sed -n "s/^$1 //p" "$HOST/installed")_amd64.deb"
-"""
-SLEEP = r"""#!/bin/sh
-echo "$(($(cut -d. -f1 "$OLS_UPTIME") + $1)).25 17.5" >"$OLS_UPTIME"
-"""
-
-
-class Host:
-    def __init__(self, folder):
-        self.folder = folder
-        self.packages = folder / "packages"
-        self.refused = folder / "preferences"
-        commands = folder / "bin"
-        commands.mkdir()
-        scripts = {
-            "systemctl": SYSTEMCTL,
-            "ols-doctor": DOCTOR,
-            "dpkg": DPKG,
-            "dpkg-deb": DPKG_DEB,
-            "dpkg-query": DPKG_QUERY,
-            "dpkg-repack": REPACK,
-            "sleep": SLEEP,
-        }
-        for name, text in scripts.items():
-            (commands / name).write_text(text)
-            (commands / name).chmod(0o755)
-        self.environment = {
-            **os.environ,
-            "PATH": f"{commands}:{os.environ['PATH']}",
-            "HOST": str(folder),
-            "OLS_PACKAGES": str(self.packages),
-            "OLS_PREFERENCES": str(self.refused),
-            "OLS_UPTIME": str(folder / "uptime"),
-        }
-        self.set(units=f"{STATION} loaded active running", active="active", state="idle")
-        self.set(uptime=f"{START_S}.25 17.5", started_us="1000000000", installed="bash 5.2")
-        self.set(not_before_s="0")
-        (folder / "failures").touch()
-        (folder / "failures_after").touch()
-
-    def set(self, **files):
-        for name, text in files.items():
-            (self.folder / name).write_text(text + "\n")
-
-    def run(self, *command, **options):
-        return subprocess.run(
-            [str(part) for part in command],
-            env=self.environment,
-            capture_output=True,
-            text=True,
-            timeout=60,
-            check=False,
-            **options,
-        )
-
-    def install(self, version):
-        """As apt announces what it is about to install, and then does."""
-        folder = self.folder / f"archive-{version}"
-        folder.mkdir(exist_ok=True)
-        names = [f"ols-station_{version}_amd64.deb", f"ols-common_{version}_amd64.deb"]
-        for name in (*names, "chrony_4.3_amd64.deb"):
-            (folder / name).write_text(version)
-        text = "".join(f"{path}\n" for path in sorted(folder.iterdir()))
-        done = self.run(KEEP, input=text)
-        assert done.returncode == 0, done.stderr
-        self.set(installed=f"ols-common {version}\nols-station {version}")
-        return done
-
-    def restart(self):
-        return self.run(RESTART)
-
-    def done(self):
-        path = self.folder / "done"
-        return path.read_text().splitlines() if path.exists() else []
+from update_host import BUSY, OTHER, RESTART, START_S, STATION, Host, took_s, went_back
 
 
 @pytest.fixture(name="host")
@@ -219,14 +80,6 @@ def bad(host):
     done = host.restart()
     assert done.returncode == 1, done.stderr
     return done
-
-
-def took_s(host):
-    return float((host.folder / "uptime").read_text().split()[0]) - START_S
-
-
-def went_back(host):
-    return [line for line in host.done() if line.startswith("dpkg") and "/1.0/" in line]
 
 
 def test_a_new_failure_takes_the_update_back(host):
@@ -379,6 +232,37 @@ def test_the_next_update_is_put_into_use_while_this_one_is_watched(host):
     host.set(next="ols-common 1.1\nols-station 1.1")
     assert host.restart().returncode == 0
     assert host.done().count(f"systemctl restart --no-block {STATION}") == 2
+
+
+def test_what_breaks_while_the_station_is_at_work_is_not_the_updates_fault(host):
+    host.set(state="tracking\n" * 4 + "idle", not_before_s=str(START_S + 5))
+    host.set(failures="camera", failures_after="camera")
+    host.install("1.0")
+    host.install("1.1")
+    done = host.restart()
+    assert done.returncode == 0, done.stderr
+    assert "at work" in done.stdout
+    assert went_back(host) == []
+
+
+def test_a_doctor_that_never_ran_takes_the_update_back(host):
+    """It is of the update itself."""
+    host.set(failures="crash", failures_after="crash")
+    bad(host)
+    assert len(went_back(host)) == 1
+
+
+def test_a_doctor_that_hangs_takes_the_update_back(host):
+    host.set(hangs="")
+    bad(host)
+    assert len(went_back(host)) == 1
+
+
+def test_a_station_is_watched_while_another_is_at_work(host):
+    host.set(units=f"{STATION} loaded active running\n{BUSY} loaded active running", crashes="")
+    bad(host)
+    assert len(went_back(host)) == 1
+    assert took_s(host) < 360.0
 
 
 def test_without_an_earlier_version_it_says_so(host):
