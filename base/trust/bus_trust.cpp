@@ -241,7 +241,11 @@ bool BusTrust::hear_list(Bytes payload, bool from_member, double now_s) {
     }
   }
   try {
-    return offer(*text, "OLS_TRUST");
+    const TrustList list = read_list(*text, "OLS_TRUST", key_.file.root);
+    if (adopt(list, *text)) return true;
+    const std::lock_guard lock(mutex_);
+    if (from_member && list.number < list_.number) telling_.answers = true;
+    return false;
   } catch (const ConfigError& problem) {
     const std::lock_guard lock(mutex_);
     if (from_member) trouble_.file = problem.what();
@@ -250,10 +254,11 @@ bool BusTrust::hear_list(Bytes payload, bool from_member, double now_s) {
 }
 
 std::optional<std::string> BusTrust::list_to_tell(double now_s) {
-  if (!self_.tells_list) return std::nullopt;
   const std::lock_guard lock(mutex_);
+  if (!self_.tells_list && !telling_.answers) return std::nullopt;
   if (now_s < telling_.due_s || text_.empty() || text_.size() > kLargestList) return std::nullopt;
   telling_.due_s = now_s + kTell_s;
+  telling_.answers = false;
   return text_;
 }
 

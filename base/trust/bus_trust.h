@@ -69,7 +69,8 @@ class BusTrust {
   // From the receiving thread.
   Judgement judge(std::string_view channel, Bytes message, std::int64_t utime_us, double now_s);
 
-  // The list, and the settings, when it is time to tell them again.
+  // The list, and the settings, when it is time to tell them again. Who does not pass the list on
+  // answers an older one of a member: a centre that was restored does not know what was revoked.
   std::optional<std::string> list_to_tell(double now_s);
   std::optional<std::string> settings_to_tell(double now_s);
   static constexpr double kTell_s = 2.0;
@@ -140,6 +141,7 @@ class BusTrust {
   AudienceBook book_;
   struct Telling {
     double due_s = 0.0;
+    bool answers = false;      // a member has told an older one
     RateLimit strangers{5.0};  // by who is no member: to verify it must not keep from the members
   };
   Telling telling_;  // of the list

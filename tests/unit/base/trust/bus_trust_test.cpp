@@ -248,6 +248,22 @@ TEST_F(BusTrustTest, ListsThatAStrangerTellsNeitherReplaceNewerOnesNorKeepFromTh
   EXPECT_EQ(station->list_number(), 7) << "a member is heard meanwhile";
 }
 
+// A centre that was restored from an old backup believes whom the others do not believe any more.
+TEST_F(BusTrustTest, AMemberAnswersAnOlderListOfAnotherWithItsOwn) {
+  write_list(kSite.list(5));
+  const auto station = alfa(), centre = fusion();
+  EXPECT_FALSE(station->list_to_tell(1.0)) << "it does not pass lists on";
+  hear(*station, "OLS_TRUST", told_by_stranger(kSite.list(4), kSite.root));
+  tell(*station, *centre, sign_list(kSite.list(5), kSite.root), 1);
+  EXPECT_FALSE(station->list_to_tell(2.0)) << "neither a stranger's nor its own is answered";
+  tell(*station, *centre, sign_list(kSite.list(4), kSite.root), 2);
+  EXPECT_EQ(station->list_to_tell(3.0), sign_list(kSite.list(5), kSite.root));
+  EXPECT_FALSE(station->list_to_tell(9.0)) << "once";
+  tell(*station, *centre, sign_list(kSite.list(3), kSite.root), 3);
+  tell(*station, *centre, sign_list(kSite.list(6), kSite.root), 4);
+  EXPECT_EQ(station->list_number(), 6);
+}
+
 TEST_F(BusTrustTest, TheListOfAMemberIsTheHeadOfALog) {
   const auto station = alfa(), centre = fusion();
   const auto telling = centre->list_telling(kNow_us);
