@@ -1,5 +1,6 @@
 // ols-key: the keys and the trust list of a site. Parses, reads, writes.
 #include <lcm/eventlog.h>
+#include <sys/stat.h>
 
 #include <cerrno>
 #include <cstdio>
@@ -274,6 +275,7 @@ int main(int argc, char** argv) {
   verified->add_option("--root-public", words.root_public, "The root's public key, to be sure");
   if (const auto status = ols::parse_command_line(app, argc, argv, "ols-key")) return *status;
   try {
+    ::umask(022);  // services read the lists; keys are written for their owner alone
     int status = 0;
     if (*site) site_new(words);
     if (*invited) invite(words);

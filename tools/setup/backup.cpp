@@ -13,6 +13,7 @@
 #include "base/configuration_files.h"
 #include "base/trust/key_file.h"
 #include "tools/setup/membership.h"
+#include "tools/setup/never_older.h"
 
 namespace ols::setup {
 namespace {
@@ -137,9 +138,11 @@ std::vector<std::string> restore(const Host& host, const std::string& file) {
   for (const std::string& member : members) {
     if (!is_of_backup(member)) throw std::runtime_error(file + ": holds " + member + ": no backup");
   }
+  const NeverOlder present(host);
   const auto done = command_output({"tar", "--extract", "--gzip", "--preserve-permissions",
                                     "--file", file, "--directory", host.path("/")},
                                    kPatience_s);
+  present.put_back();
   if (!done) throw std::runtime_error(file + ": not all could be restored");
   restore_time_key(host, members);
   return units_of(members);

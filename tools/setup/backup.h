@@ -10,7 +10,8 @@ namespace ols::setup {
 
 // Throws std::runtime_error. The file holds private keys: its mode is 0600.
 void back_up(const Host& host, const std::string& file);
-// Returns the units to start. Throws std::runtime_error, before anything is written, for a file
+// Returns the units to start. A trust list or settings that are newer than the backup's stay, and
+// so do marks against replays. Throws std::runtime_error, before anything is written, for a file
 // that holds anything else.
 std::vector<std::string> restore(const Host& host, const std::string& file);
 

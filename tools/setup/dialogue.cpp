@@ -1,9 +1,11 @@
 #include "tools/setup/dialogue.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <istream>
 #include <ostream>
+#include <sstream>
 #include <stdexcept>
 
 #include "base/toml_text.h"
@@ -21,7 +23,28 @@ std::string read_line(std::istream& in) {
   return line.substr(first, line.find_last_not_of(" \t\r") - first + 1);
 }
 
-std::string shown(const std::string& toml) { return text_in(toml).value_or(toml); }
+constexpr const char* kNone = "none";
+
+// A value as it is typed.
+std::string shown(const std::string& toml) {
+  const auto list = texts_in(toml);
+  if (!list) return text_in(toml).value_or(toml);
+  std::string text;
+  for (const std::string& one : *list) text += (text.empty() ? "" : " ") + one;
+  return text.empty() ? kNone : text;
+}
+
+// What was typed as a value.
+std::string as_value(Form form, const std::string& typed) {
+  if (form == Form::kNumber) return typed;
+  if (form == Form::kText) return toml_text(typed);
+  if (typed == kNone) return "[]";
+  std::string words = typed, list;
+  std::ranges::replace(words, ',', ' ');
+  std::istringstream each(words);
+  for (std::string word; each >> word;) list += (list.empty() ? "" : ", ") + toml_text(word);
+  return "[" + list + "]";
+}
 
 // As TOML.
 std::string ask(std::istream& in, std::ostream& out, const Question& question, const Values& known,
@@ -36,7 +59,7 @@ std::string ask(std::istream& in, std::ostream& out, const Question& question, c
     const std::string value = line.empty() ? shown(fallback) : line;
     std::string why = value.empty() && fallback.empty() ? "an answer is needed" : "";
     if (why.empty()) why = refused(question, value);
-    if (why.empty()) return question.is_text ? toml_text(value) : value;
+    if (why.empty()) return as_value(question.form, value);
     out << "  " << why << "\n";
   }
 }
@@ -45,24 +68,30 @@ std::string ask(std::istream& in, std::ostream& out, const Question& question, c
 
 std::vector<Question> questions(const std::string& role) {
   const Question interface { "interface", "Network interface that leads to the other computers:" };
+  const Question neighbours{
+      "neighbours",
+      "IP addresses of these, which keep each other's time without GNSS:", Form::kList, "[]"};
   if (role == "centre") {
-    return {interface,
-            {"site", "Name of the site:"},
-            {"root", "File for the site's root key, on a stick:", true, "\"/media/root.key\""}};
+    return {
+        interface,
+        neighbours,
+        {"site", "Name of the site:"},
+        {"root", "File for the site's root key, on a stick:", Form::kText, "\"/media/root.key\""}};
   }
   return {interface,
+          neighbours,
           {"invitation", "The site's invitation (ols-setup says it at the centre):"},
           {"station.id", "Name of this station:"},
-          {"station.pose.latitude_deg", "Latitude of the tripod, WGS84 [deg]:", false},
-          {"station.pose.longitude_deg", "Longitude, east positive [deg]:", false},
-          {"station.pose.height_m", "Height above the ellipsoid [m]:", false},
-          {"station.pose.heading_deg", "Heading of the PTU's zero pan [deg]:", false},
+          {"station.pose.latitude_deg", "Latitude of the tripod, WGS84 [deg]:", Form::kNumber},
+          {"station.pose.longitude_deg", "Longitude, east positive [deg]:", Form::kNumber},
+          {"station.pose.height_m", "Height above the ellipsoid [m]:", Form::kNumber},
+          {"station.pose.heading_deg", "Heading of the PTU's zero pan [deg]:", Form::kNumber},
           {"station.calibration.sd.heading_deg", "How well is the heading known, 1-sigma [deg]?",
-           false, "0.5"},
-          {"station.calibration.sd.mount_deg", "And the camera's mounting, 1-sigma [deg]?", false,
-           "0.1"},
-          {"station.lens.fx_px", "Focal length along x [px]:", false},
-          {"station.lens.fy_px", "Focal length along y [px]:", false}};
+           Form::kNumber, "0.5"},
+          {"station.calibration.sd.mount_deg", "And the camera's mounting, 1-sigma [deg]?",
+           Form::kNumber, "0.1"},
+          {"station.lens.fx_px", "Focal length along x [px]:", Form::kNumber},
+          {"station.lens.fy_px", "Focal length along y [px]:", Form::kNumber}};
 }
 
 std::string ask_all(std::istream& in, std::ostream& out, const Values& known,
@@ -79,6 +108,11 @@ std::string ask_all(std::istream& in, std::ostream& out, const Values& known,
     if (same_role && find(answers, key) == nullptr) answers.emplace_back(key, value);
   }
   return as_toml(answers);
+}
+
+std::string ask_text(std::istream& in, std::ostream& out, const std::string& words) {
+  const Question question{"", words};
+  return *text_in(ask(in, out, question, {}, [](const auto&, const auto&) { return ""; }));
 }
 
 std::string ask_which(std::istream& in, std::ostream& out, const std::string& what,
@@ -112,7 +146,7 @@ std::string not_fitting(const Question& question, const std::string& value) {
   if (question.key == "role") {
     return value == "station" || value == "centre" ? "" : "station or centre";
   }
-  if (question.is_text) return "";
+  if (question.form != Form::kNumber) return "";
   double number = 0.0;
   const char* end = value.data() + value.size();
   const auto parsed = std::from_chars(value.data(), end, number);

@@ -71,6 +71,20 @@ std::optional<std::string> text_in(const std::string& value) {
   return toml::parse("x = " + value)["x"].value_exact<std::string>();
 }
 
+std::optional<std::vector<std::string>> texts_in(const std::string& value) {
+  if (value.empty()) return std::nullopt;
+  const toml::table table = toml::parse("x = " + value);
+  const toml::array* list = table["x"].as_array();
+  if (list == nullptr) return std::nullopt;
+  std::vector<std::string> texts;
+  for (const toml::node& node : *list) {
+    const auto text = node.value_exact<std::string>();
+    if (!text) return std::nullopt;
+    texts.push_back(*text);
+  }
+  return texts;
+}
+
 std::string as_toml(const Values& values) {
   std::string text;
   for (const auto& [key, value] : values) text.append(key).append(" = ").append(value).append("\n");

@@ -19,6 +19,8 @@ Values of_table(const Values& values, const std::string& table);
 const std::string* find(const Values& values, const std::string& key);
 // What a value says that is a text; nothing if it is none.
 std::optional<std::string> text_in(const std::string& value);
+// What a list of texts says; nothing if it is none.
+std::optional<std::vector<std::string>> texts_in(const std::string& value);
 // One "key = value" a line.
 std::string as_toml(const Values& values);
 

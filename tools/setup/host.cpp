@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <optional>
+#include <string_view>
 
 #include "base/atomic_file.h"
 #include "base/small_file.h"
@@ -21,6 +22,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kLargestFile = 1'000'000;
 constexpr const char* kRecords = "/var/lib/ols-setup";  // what was written last
+constexpr std::string_view kUnit = "ols-", kStationUnit = "ols-station@";
 
 std::optional<std::string> text_if_any(const std::string& path) {
   if (!fs::exists(path)) return std::nullopt;
@@ -48,7 +50,8 @@ std::string Host::folder(const std::string& path, unsigned mode) const {
   return there;
 }
 
-void Host::write(const std::vector<PlannedFile>& files) const {
+std::vector<std::string> Host::write(const std::vector<PlannedFile>& files) const {
+  std::vector<std::string> changed;
   const std::string records = folder(kRecords, 0700);
   for (const PlannedFile& file : files) {
     const std::string there = path(file.path);
@@ -63,11 +66,13 @@ void Host::write(const std::vector<PlannedFile>& files) const {
     if (now.text) {
       folder(fs::path(file.path).parent_path(), 0755);
       replace(there, *now.text);
+      changed.push_back(file.path);
     }
     // Only of what is in place by now: else the next run would find nothing to change.
     if (now.text || last) replace(record, file.text);
     std::printf("%s: %s\n", there.c_str(), now.note.c_str());
   }
+  return changed;
 }
 
 int run(const std::vector<std::string>& command) {
@@ -98,6 +103,32 @@ std::vector<std::string> start(const std::vector<std::string>& units) {
   }
   run({"systemctl", "try-restart", "chrony.service", "gpsd.service"});
   return failed;
+}
+
+std::vector<std::string> running(const std::vector<std::string>& units) {
+  std::vector<std::string> found = units;
+  std::erase_if(found, [](const std::string& unit) {
+    return run({"systemctl", "is-active", "--quiet", unit}) != 0;
+  });
+  return found;
+}
+
+std::vector<std::string> readers(const std::vector<std::string>& units,
+                                 const std::vector<std::string>& changed) {
+  const auto reads = [&](const std::string& unit) {
+    const bool is_station = unit.starts_with(kStationUnit);
+    std::string name = unit.substr(is_station ? kStationUnit.size() : kUnit.size());
+    name = name.substr(0, name.rfind(".service"));
+    return std::ranges::any_of(changed, [&](const std::string& path) {
+      return path == "/etc/ols/bus.env" || path == "/etc/ols/" + name + ".toml" ||
+             path == "/etc/credstore/ols-" + name + ".key";
+    });
+  };
+  std::vector<std::string> found;
+  for (const std::string& unit : units) {
+    if (unit.starts_with(kUnit) && reads(unit)) found.push_back(unit);
+  }
+  return found;
 }
 
 std::string trouble(const std::vector<std::string>& not_started, int doctor) {

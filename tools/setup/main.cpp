@@ -1,4 +1,5 @@
 // ols-setup: makes a fresh computer a station or the centre of a site.
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -37,9 +38,13 @@ struct Words {
   bool no_start = false;
 };
 
-// The only one; a person chooses among several.
+// The only one; a person chooses among several, and names one where none answers.
 std::string one_of(const std::vector<std::string>& found, const std::string& what,
                    const std::string& key, bool asks) {
+  if (found.empty() && asks) {
+    return setup::ask_text(std::cin, std::cout,
+                           "No " + what + " answers. What is to be " + key + "?");
+  }
   if (found.empty()) throw std::runtime_error("no " + what + " answers: say " + key);
   if (found.size() == 1) return found.front();
   if (asks) return setup::ask_which(std::cin, std::cout, "Which " + what + "?", found);
@@ -109,36 +114,58 @@ setup::Answers ask_person(const setup::Host& host) {
   }
 }
 
-// The units to start.
-std::vector<std::string> set_up(const Words& words, const setup::Host& host) {
+struct Done {
+  std::vector<std::string> units;    // to start
+  std::vector<std::string> changed;  // files that programs read at their start
+};
+
+Done set_up(const Words& words, const setup::Host& host) {
   const bool asks = words.answers.empty();
   setup::Answers answers =
       asks ? ask_person(host)
            : setup::read_answers(ols::read_small_file(words.answers, kLargestAnswers),
                                  words.answers);
   setup::Plan plan;
+  std::vector<std::string> changed, keys;
   if (answers.is_station) {
     take_known_devices(host, answers);
     find_devices(answers, asks);
     plan = setup::plan_station(answers);
-    host.write(plan.files);
-    setup::join_site(host, answers.station, answers.invitation);
+    changed = host.write(plan.files);
+    keys = setup::join_site(host, answers.station, answers.invitation);
   } else {
     plan = setup::plan_centre(answers, {fs::exists(host.path("/usr/bin/ols-fusion")),
                                         fs::exists(host.path("/usr/bin/ols-console"))});
-    host.write(plan.files);
-    setup::make_site(host, answers.site, answers.root);
+    changed = host.write(plan.files);
+    keys = setup::make_site(host, answers.site, answers.root);
   }
-  return plan.units;
+  changed.insert(changed.end(), keys.begin(), keys.end());
+  return {plan.units, changed};
 }
 
-int start(const Words& words, const setup::Host& host, const std::vector<std::string>& units) {
+Done restore(const Words& words, const setup::Host& host) {
+  return {setup::restore(host, words.restore), {}};
+}
+
+// A person decides when: a station that tracks would lose its target.
+void say_restart(const std::vector<std::string>& units) {
+  if (units.empty()) return;
+  std::printf(
+      "\nRunning services go on with what they read at their start, until\n"
+      "  systemctl restart");
+  for (const std::string& unit : units) std::printf(" %s", unit.c_str());
+  std::printf("\n\n");
+}
+
+int start(const Words& words, const setup::Host& host, const Done& done) {
+  const std::vector<std::string>& units = done.units;
   if (!host.is_this_host() || words.no_start) {
     std::printf("to be enabled:");
     for (const std::string& unit : units) std::printf(" %s", unit.c_str());
     std::printf("\n");
     return 0;
   }
+  say_restart(setup::readers(setup::running(units), done.changed));
   const std::vector<std::string> not_started = setup::start(units);
   const std::string trouble = setup::trouble(not_started, setup::run({"ols-doctor"}));
   if (trouble.empty()) return 0;
@@ -152,8 +179,7 @@ int do_what_is_asked(const Words& words, const setup::Host& host) {
     setup::back_up(host, words.backup);
     return 0;
   }
-  return start(words, host,
-               words.restore.empty() ? set_up(words, host) : setup::restore(host, words.restore));
+  return start(words, host, words.restore.empty() ? set_up(words, host) : restore(words, host));
 }
 
 }  // namespace
@@ -176,6 +202,7 @@ int main(int argc, char** argv) {
       ->excludes(backup);
   if (const auto status = ols::parse_command_line(app, argc, argv, "ols-setup")) return *status;
   try {
+    ::umask(022);  // the services read what is no secret, whatever root's own files are to be
     if (words.root.empty() && ::geteuid() != 0) throw std::runtime_error("must run as root");
     const setup::Host host(words.root);
     const int status = do_what_is_asked(words, host);

@@ -103,6 +103,19 @@ TEST_F(BackupTest, AnyNumberOfFilesComesBack) {
   EXPECT_TRUE(fs::exists(folder_ + "/new" + deep + "599"));
 }
 
+TEST_F(BackupTest, ANewerTrustListStays) {
+  put("/etc/ols/trust.toml", "number = 4\n");
+  put("/etc/ols/fusion.toml", "old\n");
+  back_up(old_, file_);
+  restore(new_, file_);
+  EXPECT_EQ(read_small_file(new_.path("/etc/ols/trust.toml"), 100), "number = 4\n");
+  std::ofstream(new_.path("/etc/ols/trust.toml")) << "number = 10\n";
+  std::ofstream(new_.path("/etc/ols/fusion.toml")) << "new\n";
+  restore(new_, file_);
+  EXPECT_EQ(read_small_file(new_.path("/etc/ols/trust.toml"), 100), "number = 10\n");
+  EXPECT_EQ(read_small_file(new_.path("/etc/ols/fusion.toml"), 100), "old\n");
+}
+
 TEST_F(BackupTest, TheTimesKeyIsMadeAgain) {
   const trust::MemberKey key{"alfa", trust::draw_secret(), trust::draw_secret(), {}};
   fs::create_directories(folder_ + "/old/etc/credstore");

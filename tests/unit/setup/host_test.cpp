@@ -31,12 +31,14 @@ class HostTest : public testing::Test {
 TEST_F(HostTest, WhatAPersonHasChangedOutlastsTheNextRuns) {
   const PlannedFile config{"/etc/ols/alfa.toml", "a = 1\nb = 2\n"};
   const PlannedFile route{"/etc/ols/bus.env", "X=eth0\n", false};
-  host_.write({config, route});
+  EXPECT_EQ(host_.write({config, route}), (std::vector<std::string>{config.path, route.path}));
   EXPECT_EQ(text(config.path), config.text);
   std::ofstream(root_ + config.path) << "# mine\na = 5\nb = 2\n";
   std::ofstream(root_ + route.path) << "X=eth7\n";
-  host_.write({config, route});
-  host_.write({{config.path, "a = 1\nb = 3\n"}, {route.path, "X=eth1\n", false}});
+  EXPECT_EQ(host_.write({config, route}), std::vector<std::string>{});
+  const PlannedFile other{route.path, "X=eth1\n", false};
+  EXPECT_EQ(host_.write({{config.path, "a = 1\nb = 3\n"}, other}),
+            std::vector<std::string>{config.path});
   EXPECT_EQ(text(config.path), "# mine\na = 5\nb = 3\n");
   EXPECT_EQ(text(route.path), "X=eth7\n");
   host_.write({{config.path, "a = 1\nb = 3\n"}});
@@ -82,6 +84,17 @@ TEST_F(HostTest, OneUnitThatDoesNotStartKeepsNoOtherFromIt) {
   EXPECT_EQ(text("/asked"),
             "daemon-reload\nenable --now ols-bus.service\nenable --now gpsd.service\n"
             "enable --now ols-station@alfa.service\ntry-restart chrony.service gpsd.service\n");
+}
+
+TEST(Readers, AreWhoReadsTheFileAtTheStart) {
+  const std::vector<std::string> units{"ols-bus.service", "ols-fusion.service", "gpsd.service",
+                                       "ols-station@alfa.service"};
+  using Found = std::vector<std::string>;
+  EXPECT_EQ(readers(units, {"/etc/ols/alfa.toml"}), Found{"ols-station@alfa.service"});
+  EXPECT_EQ(readers(units, {"/etc/credstore/ols-fusion.key"}), Found{"ols-fusion.service"});
+  EXPECT_EQ(readers(units, {"/etc/ols/bus.env"}),
+            (Found{"ols-bus.service", "ols-fusion.service", "ols-station@alfa.service"}));
+  EXPECT_EQ(readers(units, {"/etc/chrony/conf.d/ols-site.conf", "/etc/ols/bravo.toml"}), Found{});
 }
 
 TEST(Trouble, IsWhatHasNotStartedAndWhatTheDoctorFinds) {

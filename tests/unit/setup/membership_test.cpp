@@ -29,13 +29,13 @@ class MembershipTest : public testing::Test {
 TEST_F(MembershipTest, TheCentreHasAListAndAKeyForEachProgramOnce) {
   fs::create_directories(root_);
   const std::string root = root_ + "/root.key";
-  make_site(host_, "airfield", root);
+  EXPECT_EQ(make_site(host_, "airfield", root).size(), 7U);
   const key::SiteFiles files{root, root_ + "/etc/ols/trust.toml"};
   const auto list = key::read_site(files, trust::read_root_key(root));
   EXPECT_EQ(list.members.size(), 7U);
   EXPECT_EQ(trust::read_member_key(root_ + "/etc/credstore/ols-cue.key").name, "cue");
   EXPECT_EQ(trust::read_member_key(root_ + "/etc/credstore/ols-fusion.key").name, "fusion");
-  make_site(host_, "airfield", root);
+  EXPECT_TRUE(make_site(host_, "airfield", root).empty());
   EXPECT_EQ(key::read_site(files, trust::read_root_key(root)).number, list.number);
 }
 
@@ -61,11 +61,12 @@ TEST_F(MembershipTest, ACentreWhoseDiskIsLostBeginsAgainWithTheStick) {
 
 TEST_F(MembershipTest, AStationKeepsItsKeyAndTakesNoOtherSites) {
   const key::Invitation invitation{kSite.secret, kSite.root.public_key()};
-  join_site(host_, "alfa", invitation);
-  const std::string path = root_ + "/etc/credstore/ols-alfa.key";
+  const std::string own = "/etc/credstore/ols-alfa.key";
+  EXPECT_EQ(join_site(host_, "alfa", invitation), std::vector<std::string>{own});
+  const std::string path = root_ + own;
   const auto key = trust::read_member_key(path);
   EXPECT_EQ(key.root, invitation.root);
-  join_site(host_, "alfa", invitation);
+  EXPECT_TRUE(join_site(host_, "alfa", invitation).empty());
   EXPECT_EQ(trust::read_member_key(path).seed, key.seed);
   EXPECT_THROW(join_site(host_, "alfa", {kSite.secret, kSite.stranger.public_key()}),
                std::invalid_argument);
