@@ -15,7 +15,7 @@ from pathlib import Path
 
 import lcm
 
-EXPOSURE_LIMIT = 2.0
+EXPOSURE_LIMIT = 1.9
 EVENT_IDS = (Path(__file__).parents[2] / "base/event_ids.h").read_text()
 ALARM_BEGINS = "MESSAGE_ID=" + re.search(r'kStationAlarmBegins = "(\w+)"', EVENT_IDS)[1]
 UNCONFINED = {"ols-station-restart.service"}  # installs packages
@@ -149,6 +149,7 @@ def reported(evidence: Evidence) -> list[Row]:
         Row("and not run in circles", "0 restarts", restarts_done, restarts_done == "0"),
         within("corrected one is adopted automatically", corrected_s, 30.0),
         within("who stops it ends its next try too", took(evidence, "retry-stopped"), 10.0),
+        within("an order without a signature is refused", took(evidence, "unsigned-refused"), 10.0),
         doctor("ols-doctor on a station: what fails", "doctor-alfa.txt", {"gnss"}, evidence),
         said(
             "its alarm is an event of the journal", evidence.read("events-lone.txt"), ALARM_BEGINS
