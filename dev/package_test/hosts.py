@@ -34,11 +34,15 @@ class Host:
         layers = f"lowerdir={rootfs},upperdir={changes}/upper,workdir={changes}/work"
         run("mount", "-t", "overlay", "overlay", "-o", layers, self.root)
         (self.root / "etc/machine-id").write_text("")
+        self.start()
+
+    def start(self):
         environment = {**os.environ, "SYSTEMD_NSPAWN_UNIFIED_HIERARCHY": "1"}
         self.container = subprocess.Popen(
             [
                 *("systemd-nspawn", "--quiet", "--register=no", "--keep-unit", "--link-journal=no"),
-                *(f"--machine={name}", f"--directory={self.root}", f"--network-bridge={BRIDGE}"),
+                *(f"--machine={self.name}", f"--directory={self.root}"),
+                f"--network-bridge={BRIDGE}",
                 *("--system-call-filter=bpf", "--capability=CAP_BPF", "--boot"),
             ],
             env=environment,
@@ -98,13 +102,22 @@ class Host:
                 raise RuntimeError(f"{self.name}: ended; see {self.console.name}")
             time.sleep(0.1)
 
+    def start_again(self):
+        """As a computer that is switched off and on: what was started by hand is gone."""
+        self.stop()
+        self.start()
+
+    def stop(self):
+        if self.container.poll() is not None:
+            return
+        self.container.terminate()
+        try:
+            self.container.wait(30)
+        except subprocess.TimeoutExpired:
+            self.container.kill()
+            self.container.wait()
+
     def end(self):
-        if self.container.poll() is None:
-            self.container.terminate()
-            try:
-                self.container.wait(30)
-            except subprocess.TimeoutExpired:
-                self.container.kill()
-                self.container.wait()
+        self.stop()
         self.console.close()
         run("umount", "--lazy", self.root)

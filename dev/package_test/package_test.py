@@ -102,13 +102,25 @@ def restart_says(host):
     return host.says("journalctl", "--no-pager", "-o", "cat", "-u", "ols-station-restart")
 
 
-def bad_updates(report, packages, centre, alfa, bravo, folder):
-    """Both at once: they take five minutes each."""
+def bad_updates(report, packages, centre, stations, folder):
+    """All at once: they take five minutes each. The last one's computer is started again while its
+    update is watched."""
+    alfa, bravo, charlie = stations
     order(centre, "bravo", "stop")
     start_s = time.monotonic()
-    cases = ((alfa, "0.1.2", CRASHES, "0.1.1"), (bravo, "0.1.3", REFUSES, "0.1.0"))
+    cases = (
+        (alfa, "0.1.2", CRASHES, "0.1.1"),
+        (bravo, "0.1.3", REFUSES, "0.1.0"),
+        (charlie, "0.1.4", CRASHES, "0.1.0"),
+    )
     for station, version, program, _ in cases:
         install(station, versions.reversioned(packages(STATION), version, folder, program))
+    charlie.wait("its restart", lambda: "restarting" in restart_says(charlie))
+    charlie.start_again()
+    report.holds(
+        "the watch goes on when the computer was started again",
+        charlie.wait("its watch", lambda: "started again" in restart_says(charlie)),
+    )
     waiting = list(cases)
     while waiting and time.monotonic() - start_s < 500.0:
         for case in list(waiting):
@@ -151,14 +163,14 @@ def main():
     report, hosts = Report(), []
     make_network()
     try:
-        print("== three fresh hosts", flush=True)
-        for number, name in ((1, "centre"), (11, "alfa"), (12, "bravo")):
+        print("== four fresh hosts", flush=True)
+        for number, name in ((1, "centre"), (11, "alfa"), (12, "bravo"), (13, "charlie")):
             hosts.append(Host(name, number, work / "rootfs", work))
-        centre, alfa, bravo = hosts
-        set_up(report, packages, centre, (alfa, bravo))
+        centre, alfa, bravo, charlie = hosts
+        set_up(report, packages, centre, (alfa, bravo, charlie))
         update_while_it_tracks(report, packages, centre, alfa, bravo, work)
         if not options.skip_bad_updates:
-            bad_updates(report, packages, centre, alfa, bravo, work)
+            bad_updates(report, packages, centre, (alfa, bravo, charlie), work)
         for host in hosts:
             purge(report, host)
     finally:
