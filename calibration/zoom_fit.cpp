@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 namespace ols::calibration {
@@ -16,7 +17,7 @@ using Eigen::VectorXd;
 // picture what its pan and tilt are off.
 constexpr Eigen::Index kOfLens = 4;
 constexpr std::size_t kLeastPairs = 12;
-constexpr int kTurns = 12;
+constexpr int kRobustTurns = 8, kTurns = 16;
 
 class Fit {
  public:
@@ -34,7 +35,14 @@ class Fit {
   ZoomFit solve() {
     for (int turn = 0; turn < kTurns; ++turn) {
       improve();
-      if (turn >= 2) leave_out();
+      const std::vector<double> lengths = residual_lengths();
+      const double middle = median(lengths);
+      if (turn < kRobustTurns) {
+        far_sd_ = std::max(1.0, middle);
+      } else {
+        far_sd_ = std::numeric_limits<double>::infinity();
+        leave_out(lengths, middle);
+      }
     }
     return result();
   }
@@ -90,23 +98,30 @@ class Fit {
       const auto r = used_[i] ? residual(x_, pairs_[i]) : std::nullopt;
       if (!r) continue;
       const MatrixXd J = derivative(pairs_[i], *r);
-      N_ += J.transpose() * J;
-      b -= J.transpose() * *r;
+      const double weight = std::min(1.0, far_sd_ / r->norm());
+      N_ += weight * J.transpose() * J;
+      b -= weight * J.transpose() * *r;
     }
     x_ += N_.ldlt().solve(b);
   }
-  // Mismatches, and what moves: by the median of what is left, which they do not reach.
-  void leave_out() {
+  // In deviations.
+  std::vector<double> residual_lengths() const {
     std::vector<double> lengths;
     for (const ZoomPair& pair : pairs_) {
       const auto r = residual(x_, pair);
       lengths.push_back(r ? r->norm() : 1e9);
     }
-    std::vector<double> sorted = lengths;
-    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-    std::ranges::nth_element(sorted, middle);
+    return lengths;
+  }
+  static double median(std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::ranges::nth_element(values, middle);
+    return *middle;
+  }
+  // Mismatches, and what moves: by the median of what is left, which they do not reach.
+  void leave_out(const std::vector<double>& lengths, double middle) {
     constexpr double kMostMedians = 4.0, kLeast_sd = 4.0;
-    const double most = std::max(kLeast_sd, kMostMedians * *middle);
+    const double most = std::max(kLeast_sd, kMostMedians * middle);
     for (std::size_t i = 0; i < pairs_.size(); ++i) used_[i] = lengths[i] < most;
   }
   ZoomFit result() const {
@@ -133,6 +148,9 @@ class Fit {
   const std::vector<PanTilt>& angles_;
   const std::vector<ZoomPair>& pairs_;
   std::vector<bool> used_;
+  // What is off by more counts by its distance, not by its square (Huber): what moves together, as
+  // a third of the scenery may, must not take a picture along before it is left out.
+  double far_sd_ = std::numeric_limits<double>::infinity();
   VectorXd x_, prior_sd_;
   MatrixXd N_;
 };
