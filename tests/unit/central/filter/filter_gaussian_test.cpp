@@ -22,7 +22,9 @@ class FilterGaussianTest : public testing::Test {
   }
   MatrixXd covariance() {
     const MatrixXd root = random(kStates, kStates);
-    return root * root.transpose();
+    const MatrixXd product = root * root.transpose();
+    // Symmetric to the last bit, which the product is not on every machine.
+    return product.selfadjointView<Eigen::Lower>();
   }
 
  private:
