@@ -168,8 +168,13 @@ def test_a_program_that_ends_again_and_again_takes_the_update_back(host):
     assert len(went_back(host)) == 1
 
 
-def test_a_doctor_that_cannot_run_takes_the_update_back(host):
-    host.set(failures_after="crash")
+@pytest.mark.parametrize(
+    "state",
+    [{"failures_after": "crash"}, {"failures": "crash", "failures_after": "crash"}, {"hangs": ""}],
+    ids=["crashes", "never ran: it is of the update itself", "hangs"],
+)
+def test_a_doctor_that_does_not_come_to_its_end_takes_the_update_back(host, state):
+    host.set(**state)
     bad(host)
     assert len(went_back(host)) == 1
 
@@ -243,19 +248,6 @@ def test_what_breaks_while_the_station_is_at_work_is_not_the_updates_fault(host)
     assert done.returncode == 0, done.stderr
     assert "at work" in done.stdout
     assert went_back(host) == []
-
-
-def test_a_doctor_that_never_ran_takes_the_update_back(host):
-    """It is of the update itself."""
-    host.set(failures="crash", failures_after="crash")
-    bad(host)
-    assert len(went_back(host)) == 1
-
-
-def test_a_doctor_that_hangs_takes_the_update_back(host):
-    host.set(hangs="")
-    bad(host)
-    assert len(went_back(host)) == 1
 
 
 def test_a_station_is_watched_while_another_is_at_work(host):

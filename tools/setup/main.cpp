@@ -165,7 +165,9 @@ int start(const Words& words, const setup::Host& host, const Done& done) {
     std::printf("\n");
     return 0;
   }
-  say_restart(setup::readers(setup::running(units), done.changed));
+  // A restore replaces the files of all.
+  const std::vector<std::string> running = setup::running(units);
+  say_restart(words.restore.empty() ? setup::readers(running, done.changed) : running);
   const std::vector<std::string> not_started = setup::start(units);
   const std::string trouble = setup::trouble(not_started, setup::run({"ols-doctor"}));
   if (trouble.empty()) return 0;

@@ -24,9 +24,8 @@ std::string key_path(const std::string& name) { return "/etc/credstore/ols-" + n
 
 void say_join(const std::string& station, const trust::PublicKey& key) {
   std::printf(
-      "\nAt the centre, where ROOT.KEY is the file of the site's root on its stick (compare the "
-      "six "
-      "words):\n  ols-key enrol %s --root ROOT.KEY --list %s --public %s\n  %s\n\n",
+      "\nAt the centre, where ROOT.KEY is the file of the site's root on its stick (compare the\n"
+      "six words):\n  ols-key enrol %s --root ROOT.KEY --list %s --public %s\n  %s\n\n",
       station.c_str(), kList, trust::to_hex(key).c_str(), trust::spoken(key).c_str());
 }
 
