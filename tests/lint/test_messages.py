@@ -1,0 +1,41 @@
+"""The messages: one a file, and each of their fields is explained."""
+
+import re
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+MESSAGES = sorted((ROOT / "lcmtypes").glob("*.lcm"))
+FIELD = re.compile(r"^\s*(?:int\d+_t|float|double|boolean|byte|string)\s+(\w+)[^;]*;(.*)$")
+# A name with its unit, and the arrays of a list whose count is explained, need no comment.
+UNIT_IN_NAME = re.compile(r"_(rad|deg|m|px|s|us|hz|rad_s|rad2|m2|bytes)$")
+PARALLEL_ARRAY = re.compile(r"\[(counters|stations|devices|alarms|readings|jpeg_bytes)\]")
+
+
+def unexplained(path: Path) -> list[str]:
+    """Fields without a comment, neither on their line nor above it."""
+    found = []
+    above = ""
+    for number, line in enumerate(path.read_text().splitlines(), 1):
+        if field := FIELD.match(line):
+            name, rest = field.groups()
+            is_commented = "//" in rest or above.strip().startswith("//")
+            if not (is_commented or UNIT_IN_NAME.search(name) or PARALLEL_ARRAY.search(line)):
+                found.append(f"{path.name}:{number}: {name}")
+        above = line
+    return found
+
+
+def test_every_field_of_a_message_is_explained():
+    assert [field for path in MESSAGES for field in unexplained(path)] == []
+
+
+def test_a_file_has_the_one_message_of_its_name():
+    """Others find a message by the name of its file."""
+    named = {path.name: re.findall(r"^struct (\w+)$", path.read_text(), re.M) for path in MESSAGES}
+    assert {name: found for name, found in named.items() if found != [name[:-4]]} == {}
+
+
+def test_a_field_without_a_comment_is_found(tmp_path):
+    path = tmp_path / "a_t.lcm"
+    path.write_text("struct a_t\n{\n  double x;  // metres\n  double y;\n  double z_m;\n}\n")
+    assert unexplained(path) == ["a_t.lcm:4: y"]
