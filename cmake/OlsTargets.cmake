@@ -2,7 +2,9 @@
 
 find_program(OLS_CCACHE ccache)
 if(OLS_CCACHE)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${OLS_CCACHE})
+  # A precompiled header has its own time in it; its contents are what counts.
+  set(CMAKE_CXX_COMPILER_LAUNCHER
+      ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${OLS_CCACHE})
 endif()
 
 add_library(ols_options INTERFACE)
@@ -23,6 +25,16 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
   # Debian's libfccp exports an option that only GCC accepts.
   target_compile_options(ols_options INTERFACE -Wno-unknown-warning-option)
 endif()
+if(OLS_QUICK_BUILD)
+  # One precompiled header serves all: the same definitions, threads and position independence everywhere.
+  target_compile_options(ols_options INTERFACE -fPIC -pthread)
+  foreach(package Boost::headers PkgConfig::tomlplusplus spdlog::spdlog)
+    target_compile_definitions(
+      ols_options INTERFACE $<TARGET_PROPERTY:${package},INTERFACE_COMPILE_DEFINITIONS>)
+    target_compile_options(
+      ols_options INTERFACE $<TARGET_PROPERTY:${package},INTERFACE_COMPILE_OPTIONS>)
+  endforeach()
+endif()
 if(CMAKE_UNITY_BUILD)
   # A local name may hide one of a source that happens to be compiled with it. The debug preset
   # compiles each source by itself: it is the one that checks.
@@ -34,14 +46,60 @@ if(OLS_SANITIZE)
   target_link_options(ols_options INTERFACE -fsanitize=${OLS_SANITIZE})
 endif()
 
-# ols_library(NAME SOURCES ... LINK ... [ALONE ...]): one library of the product. ALONE are those of
-# the sources that share local names with others: they are never compiled together with those.
+# ols_library(NAME [HOT] SOURCES ... LINK ... [ALONE ...]): one library of the product. HOT: it computes for each
+# frame, bearing or simulated picture. ALONE are those of the sources that share local names with
+# others: they are never compiled together with those.
 function(ols_library name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;LINK;ALONE" ${ARGN})
+  cmake_parse_arguments(ARG "HOT" "" "SOURCES;LINK;ALONE" ${ARGN})
   add_library(${name} STATIC ${ARG_SOURCES})
   target_link_libraries(${name} PUBLIC ols_options ${ARG_LINK})
   set_source_files_properties(${ARG_ALONE} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  if(NOT ARG_HOT)
+    ols_compile_quickly(${name})
+  endif()
 endfunction()
+
+# ols_compile_quickly(TARGET): for what waits for people, disks and networks.
+function(ols_compile_quickly target)
+  if(OLS_QUICK_BUILD)
+    target_compile_options(${target} PRIVATE -O1)
+    target_precompile_headers(${target} REUSE_FROM ols_common_headers)
+  endif()
+endfunction()
+
+if(OLS_QUICK_BUILD)
+  # What most sources include, and is long to read.
+  set(ols_long_headers
+      <CLI/CLI.hpp>
+      <Eigen/Dense>
+      <nlohmann/json.hpp>
+      <opencv2/core.hpp>
+      <opencv2/imgproc.hpp>
+      <algorithm>
+      <chrono>
+      <cmath>
+      <filesystem>
+      <fstream>
+      <functional>
+      <iostream>
+      <map>
+      <memory>
+      <mutex>
+      <optional>
+      <random>
+      <set>
+      <sstream>
+      <string>
+      <thread>
+      <unordered_map>
+      <variant>
+      <vector>)
+  file(WRITE ${CMAKE_BINARY_DIR}/common_headers.cpp "")
+  add_library(ols_common_headers STATIC ${CMAKE_BINARY_DIR}/common_headers.cpp)
+  target_link_libraries(ols_common_headers PRIVATE ols_options ols_opencv Eigen3::Eigen)
+  target_compile_options(ols_common_headers PRIVATE -O1)
+  target_precompile_headers(ols_common_headers PRIVATE ${ols_long_headers})
+endif()
 
 # ols_program(NAME SOURCES ... LINK ... [ALONE ...]): one executable of the product.
 function(ols_program name)
@@ -50,20 +108,29 @@ function(ols_program name)
   set_source_files_properties(${ARG_ALONE} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   target_link_libraries(${name} PRIVATE ols_options ${ARG_LINK})
   target_compile_definitions(${name} PRIVATE OLS_VERSION="${PROJECT_VERSION}")
+  ols_compile_quickly(${name})
 endfunction()
 
-# ols_test(NAME SOURCES ... LINK ... [ALONE ...]): a GoogleTest program, one ctest entry per test case.
+# ols_test(NAME [HOT] SOURCES ... LINK ... [ALONE ...]): a GoogleTest program, one process and one ctest entry.
 # Most of a test's compilation is GoogleTest's and Eigen's headers: eight sources are compiled at once.
-# Tests are compiled with less optimisation than the libraries, which saves a quarter of the rest; inline
-# functions that a test uses too may be run as compiled for it.
+# Tests are not optimised, which halves the rest, but those that are HOT: inline functions that a test uses too
+# may be run as compiled for it, and these compute for minutes.
 # ALONE are those of the sources whose local names are also names of another source.
 function(ols_test name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;LINK;ALONE" ${ARGN})
+  cmake_parse_arguments(ARG "HOT" "" "SOURCES;LINK;ALONE" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE ols_options ${ARG_LINK} ols_test_main)
-  target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
+  if(ARG_HOT)
+    target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
+  else()
+    target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O0>)
+    if(OLS_QUICK_BUILD)
+      target_precompile_headers(${name} REUSE_FROM ols_test_main)
+    endif()
+  endif()
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests
                                            UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
   set_source_files_properties(${ARG_ALONE} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
-  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300)
+  add_test(NAME ${name} COMMAND ${name} --gtest_brief=1)
+  set_tests_properties(${name} PROPERTIES TIMEOUT 600)
 endfunction()

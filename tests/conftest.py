@@ -1,5 +1,6 @@
 """Shared by all Python tests: where the built programs are, and the network they may use."""
 
+import ctypes
 import os
 import re
 import subprocess
@@ -11,6 +12,7 @@ import pytest
 ROOT = Path(__file__).resolve().parents[1]
 BIN = Path(os.environ.get("OLS_BIN", ROOT / "build/release/bin"))
 SCENARIO = ROOT / "sim/scenarios/fig7.toml"
+CLONE_NEWNET = 0x40000000  # linux/sched.h
 
 
 # Every station that a test runs or plays.
@@ -30,12 +32,24 @@ STATIONS = [
 ]
 
 
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Several real processes, a browser, wall time: one that fails is run once more, and the
-    summary names it. All others get one try, and so do attacks: none may succeed even once."""
-    for item in items:
-        if item.path.is_relative_to(ROOT / "tests/e2e") and "attack" not in item.path.name:
-            item.add_marker(pytest.mark.flaky(reruns=1))
+def pytest_addoption(parser: pytest.Parser) -> None:
+    parser.addoption("--all", action="store_true", help="those marked `night` too")
+
+
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    if config.getoption("--all"):
+        return
+    night = [item for item in items if item.get_closest_marker("night")]
+    config.hook.pytest_deselected(items=night)
+    items[:] = [item for item in items if not item.get_closest_marker("night")]
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Each worker of pytest-xdist gets a network of its own, so that their sites do not meet."""
+    if not hasattr(config, "workerinput") or os.environ.get("OLS_NAMESPACE") != "1":
+        return
+    if ctypes.CDLL(None, use_errno=True).unshare(CLONE_NEWNET) != 0:
+        raise OSError(ctypes.get_errno(), "unshare: no network namespace for this worker")
 
 
 @pytest.fixture(scope="session")

@@ -96,9 +96,13 @@ SeparatedBearings separate_objects(const MutableBearings& measurements, const Fu
   separated.low_belief = std::erase_if(ordered, [&](const BearingMeasurement* m) {
     return m->belief < config.admission.min_belief;
   });
-  const auto doubled = std::ranges::unique(ordered, {}, exposure_and_direction);
-  separated.duplicate = doubled.size();
-  ordered.erase(doubled.begin(), doubled.end());
+  // Not std::ranges::unique: clang 14 cannot read what it returns.
+  const auto doubled = std::unique(ordered.begin(), ordered.end(),
+                                   [](const BearingMeasurement* a, const BearingMeasurement* b) {
+                                     return exposure_and_direction(a) == exposure_and_direction(b);
+                                   });
+  separated.duplicate = static_cast<std::size_t>(ordered.end() - doubled);
+  ordered.erase(doubled, ordered.end());
   Separation separation(config, ordered);
   for (std::size_t i = 0; i < ordered.size(); ++i) {
     if (tell) tell();

@@ -29,9 +29,13 @@ BearingPointers in_order(const BearingPointers& measurements, double min_belief,
     return std::tie(m->utime_us, m->station);
   };
   std::ranges::stable_sort(used, {}, exposure);
-  const auto doubled = std::ranges::unique(used, {}, exposure);
-  unused.duplicate = doubled.size();
-  used.erase(doubled.begin(), doubled.end());
+  // Not std::ranges::unique: clang 14 cannot read what it returns.
+  const auto doubled = std::unique(used.begin(), used.end(),
+                                   [&](const BearingMeasurement* a, const BearingMeasurement* b) {
+                                     return exposure(a) == exposure(b);
+                                   });
+  unused.duplicate = static_cast<std::size_t>(used.end() - doubled);
+  used.erase(doubled, used.end());
   return used;
 }
 

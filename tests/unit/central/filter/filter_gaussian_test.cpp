@@ -125,7 +125,7 @@ TEST_F(FilterGaussianTest, MixesMeansAndCovariances) {
     for (std::size_t i = 0; i < count; ++i) {
       P.push_back(covariance());
       means.emplace_back(random(kStates, 1));
-      parts.emplace_back(means[i], kept(P[i]));
+      parts.push_back({means[i], kept(P[i])});
     }
     std::vector<FilterGaussian> mixed = parts;
     interact(weights, mixed);

@@ -43,7 +43,7 @@ TEST_P(ExposureAccuracy, IsAsGoodAsItSays) {
   ASSERT_TRUE(loop.start());
   PublishedAngles angles(config.history);
   const double begin_s = loop.time_s;
-  const auto follow = [&](PublishedAngles* measured) {
+  const auto follow = [&, &motion = motion](PublishedAngles* measured) {
     const auto [pan, rate] = pan_at(motion, loop.time_s - begin_s);
     loop.driver.set_goal(loop.goal({pan, 0.3 * radians(10.0) * std::sin(pan)}, {rate, 0.0}));
     if (measured != nullptr) measured->step(loop);
