@@ -5,7 +5,7 @@ import re
 import time
 
 import pytest
-from conftest import ROOT
+from conftest import BIN
 from console_page import axe_finds, picture, region
 from console_site import DEADLINE_S, FULL_PX, PASSWORD, Api, wait_for
 from playwright.sync_api import expect
@@ -229,7 +229,7 @@ def test_nothing_comes_from_elsewhere(page, consoles):
     page.reload()
     picture(page, "alfa")
     assert all(url.startswith((consoles[0], "blob:", "data:")) for url in urls)
-    files = ROOT / "build/release/console/page/files"
+    files = BIN.parent / "console/page/files"
     named = set(re.findall(r"https?://[\w.-]+", (files / "page.js").read_text()))
     named |= set(re.findall(r"https?://[\w.-]+", (files / "page.css").read_text()))
     assert named <= {"http://www.w3.org", "http://www.opengis.net"}

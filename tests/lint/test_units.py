@@ -6,6 +6,7 @@ import subprocess
 from pathlib import Path
 
 import pytest
+from conftest import BIN
 
 ROOT = Path(__file__).resolve().parents[2]
 FOLDER = ROOT / "systemd"
@@ -159,9 +160,9 @@ def test_users_groups_and_folders_can_be_made(tmp_path):
 
 
 def test_the_installed_tree_is_complete(tmp_path):
-    build = ROOT / "build" / "release"
-    if not (build / "bin" / "ols-station").exists():
-        pytest.skip("nothing is built in build/release")
+    build = BIN.parent
+    if not (BIN / "ols-station").exists():
+        pytest.skip(f"nothing is built in {build}")
     done = run(
         *("cmake", "--install", build, "--prefix", "/usr"),
         env={"DESTDIR": str(tmp_path), "PATH": "/usr/bin:/bin"},
