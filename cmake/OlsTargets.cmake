@@ -51,7 +51,7 @@ endif()
 # others: they are never compiled together with those.
 function(ols_library name)
   cmake_parse_arguments(ARG "HOT" "" "SOURCES;LINK;ALONE" ${ARGN})
-  add_library(${name} STATIC ${ARG_SOURCES})
+  add_library(${name} ${OLS_LIBRARY_TYPE} ${ARG_SOURCES})
   target_link_libraries(${name} PUBLIC ols_options ${ARG_LINK})
   set_source_files_properties(${ARG_ALONE} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   if(NOT ARG_HOT)

@@ -1,0 +1,1 @@
+"""Mutation testing of the C++ product code: tools/mutate."""
