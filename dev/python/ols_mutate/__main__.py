@@ -162,7 +162,7 @@ def write_report(chosen: argparse.Namespace, judged: list[Judged]) -> None:
 
 def main() -> int:
     processes = Processes()
-    # SIGINT too: a shell ignores it for what runs behind it, and then so would the programs under test.
+    # SIGINT too: what a script starts with & ignores it, and then so would the test programs.
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, signal.default_int_handler)
     try:
