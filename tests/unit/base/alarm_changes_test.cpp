@@ -35,6 +35,8 @@ TEST(AlarmChanges, AnotherNewestCauseIsNoOtherAlarm) {
   AlarmChanges alarms;
   EXPECT_EQ(looked(alarms, {"bus: 7 messages are refused; the last: A: unsigned"}).size(), 1U);
   EXPECT_EQ(looked(alarms, {"bus: 9 messages are refused; the last: B: unsigned"}), Texts{});
+  EXPECT_EQ(looked(alarms, {"trust: refused; A"}).size(), 2U);
+  EXPECT_EQ(looked(alarms, {"trust: refused; B"}), Texts{});
 }
 
 TEST(AlarmChanges, HaveTheSameKeyWhenTheyBeginAndEnd) {

@@ -88,6 +88,7 @@ TEST(LogReader, ReadsFromAnyRecordOn) {
   const std::uint64_t second = reader.offset();
   EXPECT_EQ(times(reader), (std::vector<std::int64_t>{2, 3}));
   reader.seek(second, kStart_us + 1);
+  EXPECT_EQ(reader.offset(), second);
   EXPECT_EQ(times(reader), (std::vector<std::int64_t>{2, 3}));
 }
 

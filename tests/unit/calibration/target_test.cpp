@@ -94,6 +94,21 @@ TEST(Target, TheAirLiftsALandmarkByItsDistanceOverTheEarthsDiameter) {
   EXPECT_NEAR(lift / (high.point.x.norm() / 6371e3), 0.344, 0.001);
 }
 
+// Its direction has the usual air in it already.
+TEST(Target, AStarIsWhereItAppearsAndMovesWithTheAirAndTheEarth) {
+  State state = two_stations();
+  const Eigen::Matrix3d R = R_ecef_enu(test::hill().geometry.position).transpose();
+  SkyDirection star;
+  star.ecef = R.transpose() * Vector3d(0.0, 0.8, 0.6);
+  star.by_air = R.transpose() * Vector3d(0.0, -6e-4, 8e-4);
+  star.by_ut1 = R.transpose() * Vector3d(7e-5, 0.0, 0.0);
+  const auto seen = [&] { return sky_target(star)->view(state, now(), VectorXd(0)).point.x; };
+  EXPECT_TRUE(near(seen(), Vector3d(0.0, 0.8, 0.6), 1e-12));
+  state.stations[0].air = 1.1;
+  state.ut1_s = 0.2;
+  EXPECT_TRUE(near(seen(), Vector3d(1.4e-5, 0.8 - 6e-5, 0.6 + 8e-5), 1e-12));
+}
+
 TEST(Target, AnUnknownPlaceBeginsWhereTheLinesOfSightMeet) {
   const State state = two_stations();
   const Vector3d place = above(400.0, 700.0, 90.0);

@@ -26,6 +26,18 @@ TEST(LineFit, WhatDoesNotBelongToTheLineIsLeftOut) {
   EXPECT_NEAR(line->gyration_px, 300.0 / std::sqrt(12.0), 3.0);
 }
 
+TEST(LineFit, PointsOnALineAreNotOffIt) {
+  LinePoints points;
+  for (int x = 0; x < 100; ++x) {
+    points.x.push_back(x);
+    points.y.push_back(7.0 - 0.25 * x);
+  }
+  const auto line = fit_line(points, {.offset = 7.0, .slope = -0.24});
+  ASSERT_TRUE(line);
+  EXPECT_EQ(line->columns, 100U);
+  EXPECT_NEAR(line->rms_px, 0.0, 1e-6);
+}
+
 TEST(LineFit, AFewPointsAreNoLine) {
   EXPECT_FALSE(fit_line({{1, 2, 3, 4, 5}, {1, 1, 1, 1, 1}}, {}));
 }

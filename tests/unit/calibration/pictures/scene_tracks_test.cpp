@@ -134,6 +134,17 @@ TEST_F(SceneTracksTest, WhatMovesIsLeftOut) {
   EXPECT_LT(scatter(all, angles).second, 1.5);
 }
 
+TEST_F(SceneTracksTest, EveryPointOfAPictureAgreesWithItself) {
+  build();
+  SceneTracks tracks(world->stations()[0].nominal);
+  const PanTilt pose = poses().front();
+  const cv::Mat gray = seen(pose);
+  for (int i = 0; i < 2; ++i) tracks.add(gray, pose);
+  ASSERT_EQ(tracks.pairs().size(), 1U);
+  EXPECT_GT(tracks.pairs().front().matched, 20);
+  EXPECT_EQ(tracks.pairs().front().moved, 0);
+}
+
 TEST_F(SceneTracksTest, ASceneThatIsAnotherEachTimeGivesNothing) {
   build();
   SceneTracks tracks(world->stations()[0].nominal);

@@ -117,6 +117,31 @@ TEST(DuplicateTracks, OneObjectIsOneTrackAlsoWhereItsNoiseIsFiveTimesTheStatedOn
   EXPECT_GT(merged, 20);
 }
 
+// Two stations of 23 exposures, whose bearing both tracks explain, each of them every other time
+// better; in some exposures there is one bearing for each.
+bool are_same_with_apart(int exposures_apart) {
+  DuplicateTracks duplicates({.memory_s = 1e6});
+  for (int k = 0; k < 23; ++k) {
+    for (const char* station : {"a", "b"}) {
+      BearingMeasurement bearing;
+      bearing.station = station;
+      bearing.utime_us = 1'000'000 + 100'000 * k;
+      const std::vector<std::int64_t> best_first =
+          k % 2 == 0 ? std::vector<std::int64_t>{1, 2} : std::vector<std::int64_t>{2, 1};
+      duplicates.note(bearing, best_first);
+      if (k < exposures_apart) duplicates.note(bearing, std::span(best_first).last(1));
+    }
+  }
+  return duplicates.same().size() == 1;
+}
+
+// A station judges 22 of them: the newest is not complete yet.
+TEST(DuplicateTracks, AreTwoAboveOneExposureOf20WithABearingForEach) {
+  EXPECT_TRUE(are_same_with_apart(0));
+  EXPECT_TRUE(are_same_with_apart(1)) << "2 of 42";
+  EXPECT_FALSE(are_same_with_apart(2)) << "4 of 40";
+}
+
 TEST(DuplicateTracks, TwoObjectsSideBySideStayTwo) {
   for (const int stations : {3, 4}) {
     for (const double apart_m : {5.0, 2.5}) {

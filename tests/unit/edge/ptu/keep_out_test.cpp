@@ -42,6 +42,14 @@ TEST(KeepOut, RoundTheMastOverItsTop) {
   EXPECT_DOUBLE_EQ((*way)[2].pan_rad, radians(80.0));
 }
 
+TEST(KeepOut, RoundTheMastInBothDirections) {
+  const auto way = way_round(kTravel, {kMast}, deg(80, -20), deg(0, -10));
+  ASSERT_TRUE(way);
+  ASSERT_EQ(way->size(), 3u);
+  EXPECT_GT((*way)[1].tilt_rad, radians(5.2));
+  EXPECT_DOUBLE_EQ((*way)[2].pan_rad, 0.0);
+}
+
 TEST(KeepOut, NoWayThroughAWallOrIntoARegion) {
   EXPECT_FALSE(way_round(kTravel, {kWall}, deg(0, 0), deg(80, 0)));
   EXPECT_FALSE(way_round(kTravel, {kMast}, deg(0, 0), deg(30, 0)));

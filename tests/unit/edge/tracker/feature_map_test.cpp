@@ -8,14 +8,16 @@
 namespace ols::tracker {
 namespace {
 
-TrackerInput half_red() {
+// Grey to the left, a colour (blue, green, red) to the right.
+TrackerInput half(const cv::Scalar& bgr) {
   TrackerInput frame;
   frame.gray = cv::Mat(200, 200, CV_8U, cv::Scalar(100));
   frame.colour.image = cv::Mat(200, 200, CV_8UC3, cv::Scalar(100, 100, 100));
-  cv::rectangle(frame.colour.image, cv::Rect(100, 0, 100, 200), cv::Scalar(100, 20, 180),
-                cv::FILLED);
+  cv::rectangle(frame.colour.image, cv::Rect(100, 0, 100, 200), bgr, cv::FILLED);
   return frame;
 }
+
+TrackerInput half_red() { return half({100, 20, 180}); }
 
 float greatest(const Map& map) { return *std::max_element(map.begin(), map.end()); }
 
@@ -25,6 +27,23 @@ TEST(FeatureMap, AColourShowsWhereGreyLevelsAreEqual) {
   EXPECT_GT(greatest(features[kChannels - 2]), 0.3F);
   for (std::size_t c = 0; c + 2 < features.size(); ++c)
     EXPECT_LT(greatest(features[c]), 1e-6F) << c;
+}
+
+TEST(FeatureMap, BrightnessIsNoColour) {
+  const FeatureMap features = extract_features(half({200, 200, 200}), {{99.5, 99.5}, 3.0});
+  for (std::size_t c = kChannels - 2; c < kChannels; ++c) {
+    EXPECT_LT(greatest(features[c]), 1e-6F) << c;
+  }
+}
+
+TEST(FeatureMap, YellowAndBlueAreOpposites) {
+  const auto yellow_at = [](const cv::Scalar& bgr, std::size_t column) {
+    const FeatureMap features = extract_features(half(bgr), {{99.5, 99.5}, 3.0});
+    EXPECT_LT(greatest(features[kChannels - 2]), 1e-6F);
+    return features[kChannels - 1][kMapSide * (kMapSide / 2) + column];
+  };
+  EXPECT_GT(yellow_at({40, 120, 120}, kMapSide * 3 / 4), 0.1F);
+  EXPECT_LT(yellow_at({160, 80, 80}, kMapSide * 3 / 4), -0.1F);
 }
 
 TEST(FeatureMap, WithoutAColourImageItsChannelsAreZero) {

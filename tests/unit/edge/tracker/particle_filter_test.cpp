@@ -19,6 +19,7 @@ TEST(ParticleFilter, ResamplesInProportionAndStandsBadWeights) {
       [](const Particle& p) { return p.pixel.x() == 0.0 ? std::log(3.0) - 900.0 : -900.0; });
   Random random(1);
   filter.resample(random);
+  EXPECT_EQ(filter.particles().size(), 100U);
   double ones = 0.0;
   for (const Particle& particle : filter.particles()) ones += particle.pixel.x();
   EXPECT_NEAR(ones, 25.0, 1.0);

@@ -129,6 +129,27 @@ TEST(Reacquisition, GivesAVelocityToWhatItHasFoundAndMeasuredTwice) {
   EXPECT_EQ(velocity_px_s(true, {true, true}, 1e-3), unchanged) << "nothing is so fast";
 }
 
+TEST(Reacquisition, ScattersItsShareEvenlyOverTheRegion) {
+  TrackerConfig config;
+  config.search_fraction = 0.4;
+  const Particle before{{300.0, 200.0}, {0.0, 0.0}, {20.0, 20.0}};
+  const Eigen::Vector2d told(500.0, 100.0);
+  Reacquisition reacquisition(config, before, 0.0);
+  reacquisition.start_near(told, 5.0);
+  std::vector<Particle> particles(100, before);
+  Random random(3);
+  reacquisition.scatter(particles, random);
+  for (std::size_t ten = 0; ten < 100; ten += 10) {
+    int moved = 0;
+    for (std::size_t i = ten; i < ten + 10; ++i) {
+      if (particles[i].pixel == before.pixel) continue;
+      ++moved;
+      EXPECT_LT((particles[i].pixel - told).norm(), 30.0) << i;
+    }
+    EXPECT_EQ(moved, 4) << "of the ten from " << ten;
+  }
+}
+
 // Lost for seconds, and then there are two.
 TEST(Reacquisition, OfTwoAlikeNeitherIsBelievedIn) {
   for (const bool two : {false, true}) {

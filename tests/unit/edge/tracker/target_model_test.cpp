@@ -47,5 +47,37 @@ TEST(TargetModel, IsEmptyWhereNothingStandsOut) {
   EXPECT_TRUE(target.empty());
 }
 
+TEST(TargetModel, LearnsAShareOfTheContrastThatItSees) {
+  SyntheticScene pictures(Backdrop::kSky, 2);
+  const cv::Rect2d box = SyntheticScene::box_around(kStart);
+  const cv::Mat gray = pictures.picture({400, 300}, kStart);
+  cv::Mat faint;  // half the contrast, before the sky's level of 150
+  gray.convertTo(faint, CV_8U, 0.5, 75.0);
+  for (const auto& [share, expected] : {std::pair(0.5, 0.5 / 0.75), std::pair(1.0, 1.0)}) {
+    TargetModel target(TrackerConfig{}, gray, box);
+    const Scene scene = target.make_scene(faint, {}, box, ReferenceFrames(0.3));
+    const auto standing_out = [&] {
+      return target.standing_out(scene, centre_of(box), size_of(box));
+    };
+    EXPECT_NEAR(standing_out(), 0.5, 0.03);
+    target.learn(scene, centre_of(box), size_of(box), share);
+    EXPECT_NEAR(standing_out(), expected, 0.03);
+  }
+}
+
+// Where its view is a part of the picture.
+TEST(TargetModel, LooksThreeBoxesFarToEverySideOfALargeTarget) {
+  SyntheticScene pictures(Backdrop::kTextured, 2);
+  const cv::Mat gray = pictures.picture({400, 300}, kStart);
+  const cv::Rect2d box(270.0, 210.0, 60.0, 48.0);
+  const TargetModel target(TrackerConfig{}, gray, box);
+  const FrameView view = target.make_scene(gray, {}, box, ReferenceFrames(0.3)).view;
+  ASSERT_EQ(view.reduction, 2);
+  EXPECT_NEAR(view.origin.x, 270.0 - 180.0, 2.0);
+  EXPECT_NEAR(view.origin.y, 210.0 - 144.0, 2.0);
+  EXPECT_NEAR(view.image.cols * 2, 7.0 * 60.0, 4.0);
+  EXPECT_NEAR(view.image.rows * 2, 7.0 * 48.0, 4.0);
+}
+
 }  // namespace
 }  // namespace ols::tracker

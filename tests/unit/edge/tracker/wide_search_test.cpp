@@ -53,6 +53,9 @@ TEST(WideSearch, StaysInsideTheFrame) {
       EXPECT_TRUE(place.y() >= 0.0 && place.y() < kFrame.height);
     }
   }
+  for (const Eigen::Vector2d& border : {Eigen::Vector2d(0.0, 240.0), Eigen::Vector2d(320.0, 0.0)}) {
+    EXPECT_EQ(WideSearch().next(border, kStep_px, kFrame).front(), border);
+  }
   EXPECT_TRUE(WideSearch().next({-1e6, 0.0}, kStep_px, kFrame).empty());
 }
 
