@@ -133,10 +133,15 @@ class Bench:
         source = folder / Path(site.file).name
         source.write_text(site.changed((ROOT / site.file).read_text()))
         loaded = folder / "mutant.so"
+        name = self.model.library_of[site.file]
+        library = BUILD / self.model.paths[name]
         command = [
-            *self.compilers[self.model.library_of[site.file]],
+            *self.compilers[name],
             *("-w", "-shared", "-iquote", str((ROOT / site.file).parent)),
             *(str(source), "-o", str(loaded)),
+            # So that it can be loaded into a program that does not have the library, too: one that
+            # starts the program under test.
+            *("-Wl,--no-as-needed", str(library), f"-Wl,-rpath,{library.parent}"),
         ]
         done = self.processes.run(command, COMPILE_LIMIT_S)
         return loaded if done.code == 0 else None

@@ -26,6 +26,7 @@ class Model:
     """What is built from what."""
 
     library_of: dict[str, str] = field(default_factory=dict)  # by the library's sources
+    paths: dict[str, str] = field(default_factory=dict)  # of the built libraries, by their names
     programs: list[Program] = field(default_factory=list)
 
 
@@ -45,6 +46,7 @@ def model_of(targets: list[dict]) -> Model:
         folder = target["paths"]["source"]
         if target["type"] == "SHARED_LIBRARY":
             model.library_of |= dict.fromkeys(sources, target["name"])
+            model.paths[target["name"]] = target["artifacts"][0]["path"]
         elif target["type"] == "EXECUTABLE":
             libraries = frozenset(names[one["id"]] for one in target.get("dependencies", ()))
             path = target["artifacts"][0]["path"]
