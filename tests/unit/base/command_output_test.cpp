@@ -30,6 +30,11 @@ TEST(CommandOutput, AProgramThatHangsIsKilled) {
   EXPECT_EQ(command_output({"sh", "-c", "exec >&-; sleep 1000 2>&-"}, 0.05), std::nullopt);
 }
 
+// It has ended, but what it has started may still write.
+TEST(CommandOutput, IsNotCompleteWhileAnotherHoldsIt) {
+  EXPECT_EQ(command_output({"sh", "-c", "sleep 5 & echo x"}, 0.5), std::nullopt);
+}
+
 TEST(CommandOutput, AProgramThatNeverStopsTalkingIsKilled) {
   EXPECT_EQ(command_output({"yes"}, kPatience_s), std::nullopt);
 }

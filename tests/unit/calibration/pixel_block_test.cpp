@@ -47,5 +47,16 @@ TEST(PixelBlock, ItsGradientIsThatOfItsSquares) {
   }
 }
 
+TEST(PixelBlock, OnlyWhatHasNoPriorCostsDegreesOfFreedom) {
+  const auto degrees_of_freedom = [](TargetPtr target) {
+    const std::vector<Sighting> sightings(5);
+    return pixel_block(std::move(target), sightings, {.layout = {.stations = 1}, .pose_sd_rad = {}})
+        ->degrees_of_freedom();
+  };
+  EXPECT_EQ(degrees_of_freedom(fixed_target({{0, 0, 6.4e6}, 0.1})), 10);
+  EXPECT_EQ(degrees_of_freedom(scene_target()), 10 - 2);
+  EXPECT_EQ(degrees_of_freedom(unknown_target()), 10 - 3);
+}
+
 }  // namespace
 }  // namespace ols::calibration

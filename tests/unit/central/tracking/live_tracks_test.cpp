@@ -54,5 +54,26 @@ TEST(LiveTracks, ADeletedTrackTakesNothingThatAnotherOneHasTaught) {
   EXPECT_EQ(std::ranges::count_if(live.tracks(), is_established), 1);
 }
 
+TEST(LiveTracks, TwoStationsConfirmATrackByThatManyHitsOfEach) {
+  TrackManagerConfig config;
+  config.confirm_pair_hits = 25;
+  config.confirm_s = 0.1;
+  LiveTracks live(config);
+  const auto square = test::square();
+  bench::WorldConfig world{.stations_enu = {square[0], square[1]}, .aims_enu = {}};
+  std::mt19937_64 random(5);
+  const bench::Path path = bench::cruising({{60, 60, 150}, {3.0, 0.0, 0.0}}, 1e-6, 3.0, random);
+  for (const BearingMeasurement& measurement : bench::measure(world, {path}, 3.0, random)) {
+    live.add(measurement);
+    live.advance(measurement.utime_us);
+    if (!live.tracks().empty() && is_established(live.tracks().front())) break;
+  }
+  ASSERT_EQ(live.tracks().size(), 1U);
+  ASSERT_TRUE(is_established(live.tracks().front()));
+  const auto& hits = live.tracks().front().hits;
+  ASSERT_EQ(hits.size(), 2U);
+  EXPECT_EQ(std::min(hits.begin()->second, hits.rbegin()->second), 25);
+}
+
 }  // namespace
 }  // namespace ols::fusion

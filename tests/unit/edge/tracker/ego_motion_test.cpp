@@ -112,6 +112,13 @@ TEST(EgoMotion, TellsSenselessHomographies) {
   Eigen::Matrix3d mirror = Eigen::Matrix3d::Identity();
   mirror(0, 0) = -1.0;
   EXPECT_FALSE(plausible_homography(mirror, {640, 480}));
+  for (const int side : {0, 1}) {
+    Eigen::Matrix3d tilted = Eigen::Matrix3d::Identity();
+    tilted(2, side) = 1e-4;
+    EXPECT_TRUE(plausible_homography(tilted, {640, 480})) << side;
+    tilted(2, side) = -1e-3;
+    EXPECT_FALSE(plausible_homography(tilted, {640, 480})) << side;
+  }
 }
 
 }  // namespace

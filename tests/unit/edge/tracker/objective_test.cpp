@@ -36,6 +36,19 @@ TEST(Objective, IsOneForTheTemplateWhateverTheExposure) {
   EXPECT_NEAR(objective(blank, all).correlation, 0.0, 1e-6);
 }
 
+// Bright before the dark and dark before the bright: rarer, so it counts a little less.
+TEST(Objective, AnInvertedTargetCorrelatesNearlyAsWell) {
+  const Template target = pattern();
+  const Objective objective(target);
+  MaskPatch all;
+  all.fill(255);
+  Patch inverted = target.gray;
+  for (float& value : inverted) value = 190.0F - value;
+  const double correlation = objective(inverted, all).correlation;
+  EXPECT_GT(correlation, 0.7);
+  EXPECT_LT(correlation, 0.99);
+}
+
 // Eq. (5): only where both masks say foreground does a pixel count e-fold.
 TEST(Objective, WeighsByTheLesserOfBothMasks) {
   const Template target = pattern();
