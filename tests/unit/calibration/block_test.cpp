@@ -69,5 +69,21 @@ TEST(StationPrior, CorrelatedParametersAreOne) {
   EXPECT_EQ(block->degrees_of_freedom(), 2);
 }
 
+// Their zero is one unknown of both: it costs once.
+TEST(Level, ReadingsAreAsWrongAsTheirNoiseAndTheirZero) {
+  Observation reading;
+  reading.tilt_rad = {1e-3, 0.0};
+  reading.tilt_sd_rad = 1e-4;
+  reading.zero_sd_rad = 2e-4;
+  State state;
+  state.stations = {station_at({.model = test::hill()}, StationVector::Zero())};
+  state.nuisances = {VectorXd::Zero(2)};
+  for (const std::size_t count : {1, 2}) {
+    const BlockPtr block = level_block({1, 0}, std::vector<Observation>(count, reading));
+    const double variance = 1e-8 / static_cast<double>(count) + 4e-8;
+    EXPECT_NEAR(block->equations(state, 0, 0.0).squares, 1e-6 / variance, 1e-6) << count;
+  }
+}
+
 }  // namespace
 }  // namespace ols::calibration

@@ -67,6 +67,7 @@ TEST(ZoomFit, TheDeviationSaysHowWrongItIs) {
     const double error = (fit.point.camera.fx_px - 4000.0) / fit.point.focal_sd_px;
     squared += error * error;
     EXPECT_LT(fit.point.focal_sd_px, 8.0);
+    EXPECT_NEAR(fit.rms_sd, 1.0, 0.15);
   }
   EXPECT_GT(squared / kRuns, 0.35);
   EXPECT_LT(squared / kRuns, 1.9);

@@ -2,12 +2,18 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+
 #include "tests/unit/central/flight.h"
 
 namespace ols::fusion {
 namespace {
 
-using namespace test;
+using test::feed;
+using test::flight;
+using test::kStart;
+using test::path;
+using test::site;
 
 TEST(Estimator, TheStationsOfATargetAreThoseWhoseBearingsItUses) {
   BiasModel errors;

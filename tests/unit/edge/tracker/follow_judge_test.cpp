@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace ols::tracker {
 namespace {
 
@@ -47,6 +49,16 @@ TEST(FollowJudge, NoResponseOfItsOwnMakesNoiseATarget) {
 TEST(FollowJudge, AFrameDoesNotDecideAndAThirdOfASecondDoes) {
   EXPECT_GT(after(kInterval_s, {8.0, 0.0}), 0.5);
   EXPECT_LT(after(1.0 / 3.0, {8.0, 0.0}), 0.2);
+}
+
+TEST(FollowJudge, DoubtsSoonerThanItBelieves) {
+  const FollowEvidence none{2.0, -1.0}, clear{80.0, 2.5};
+  FollowJudge judge;
+  judge.update(none, kInterval_s);
+  EXPECT_NEAR(judge.value(), std::exp(-kInterval_s / 0.12), 0.005);
+  for (int k = 0; k < 60; ++k) judge.update(none, kInterval_s);
+  judge.update(clear, kInterval_s);
+  EXPECT_NEAR(judge.value(), 1.0 - std::exp(-kInterval_s / 0.15), 0.005);
 }
 
 TEST(FollowJudge, IsWaryAfterADoubtUntilItBelievesAgain) {
