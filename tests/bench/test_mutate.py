@@ -1,7 +1,10 @@
 """tools/mutate: where code is changed, which mutants are chosen, what tests them, what it tells."""
 
+from pathlib import Path
+
 import pytest
 from ols_mutate import code, covering, report
+from ols_mutate.bench import Processes
 from ols_mutate.sites import chosen_order, sites
 
 HEAD = "#include <a.h>\nnamespace ols {\n"
@@ -276,3 +279,15 @@ def test_a_survivor_is_shown_with_its_line_before_and_after():
         "    + return a - b;",
     ]
     assert JUDGED[1].line() == "killed     base/trust/y.cpp:4 (arithmetic +) by test_trust T.T"
+
+
+def test_a_program_that_hangs_is_ended_with_what_it_has_started():
+    done = Processes().run(["sh", "-c", "sleep 1000 & echo $!; wait"], 2.0)
+    assert done.code is None
+    state = Path(f"/proc/{int(done.output)}/stat")
+    assert not state.exists() or state.read_text().rpartition(")")[2].split()[0] == "Z"
+
+
+def test_how_a_program_ended_is_known_and_what_it_said():
+    done = Processes().run(["sh", "-c", "echo out $WORD; echo err >&2; exit 3"], 60.0, WORD="a")
+    assert (done.code, done.output) == (3, "out a\nerr\n")

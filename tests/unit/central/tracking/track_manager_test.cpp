@@ -166,6 +166,18 @@ TEST(TrackManager, TellsHowFarABearingIsOffTheNearestConfirmedTrack) {
   }
 }
 
+TEST(TrackManager, ABearingIsOffNoTrackThatIsBehindItsCamera) {
+  GivenTracks tracks;
+  const std::int64_t now_us = confirm_at(tracks, kPlace);
+  const Vector3d north(0.0, 1.0, 0.0);
+  const auto looking_north = [&](const Vector3d& from) {
+    const Ray ray = test::ray_to("e", from, from + 100.0 * north, 1e-4);
+    return tracks.off_nearest(test::measurement_of(ray, now_us)).has_value();
+  };
+  EXPECT_TRUE(looking_north(kPlace - 0.5 * north));
+  EXPECT_FALSE(looking_north(kPlace + 0.5 * north));
+}
+
 TEST(TrackManager, ClearedItForgetsTracksErrorsAndCounts) {
   GivenTracks tracks;
   confirm_at(tracks, kPlace);
