@@ -1,5 +1,6 @@
 """tools/mutate: where code is changed, which mutants are chosen, what tests them, what it tells."""
 
+import time
 from pathlib import Path
 
 import pytest
@@ -281,11 +282,26 @@ def test_a_survivor_is_shown_with_its_line_before_and_after():
     assert JUDGED[1].line() == "killed     base/trust/y.cpp:4 (arithmetic +) by test_trust T.T"
 
 
+def runs(number: str) -> bool:
+    """Whether there is such a process, or only what is left of it until its parent looks."""
+    state = Path(f"/proc/{number}/stat")
+    try:
+        return state.read_text().rpartition(")")[2].split()[0] not in "ZX"
+    except FileNotFoundError:
+        return False
+
+
 def test_a_program_that_hangs_is_ended_with_what_it_has_started():
-    done = Processes().run(["sh", "-c", "sleep 1000 & echo $!; wait"], 2.0)
+    done = Processes().run(["sh", "-c", "sleep 1000 & echo $!; wait"], 0.2)
     assert done.code is None
-    state = Path(f"/proc/{int(done.output)}/stat")
-    assert not state.exists() or state.read_text().rpartition(")")[2].split()[0] == "Z"
+    last_s = time.monotonic() + 60.0
+    while runs(done.output.strip()):
+        assert time.monotonic() < last_s
+
+
+def test_a_program_that_is_busy_for_too_long_is_ended():
+    done = Processes().run(["sh", "-c", "while :; do :; done"], 1.0)
+    assert done.code is None
 
 
 def test_how_a_program_ended_is_known_and_what_it_said():

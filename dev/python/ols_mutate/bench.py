@@ -4,6 +4,7 @@ no file of the tree or of the build is changed."""
 
 import contextlib
 import json
+import math
 import os
 import re
 import shlex
@@ -24,6 +25,9 @@ QUERY = BUILD / ".cmake/api/v1/query/client-ols-mutate/codemodel-v2"
 PYTHON = ROOT / "build/venv/bin/python"
 # A mutant may ask for any amount of memory, or write for ever.
 LIMITS = ("prlimit", "--as=8000000000", "--fsize=1000000000", "--core=0")
+# A program's limit is of processor time, which other load does not use up. One that waits for ever
+# uses none: it has this many times as long by the clock.
+CLOCK_OF_PROCESSOR = 10.0
 COMPILE_LIMIT_S = 600.0
 FAILED = re.compile(r"^\[  FAILED  \] ([\w/]+\.[\w/]+)", re.MULTILINE)
 BEGUN = re.compile(r"^\[ RUN      \] ([\w/.]+)", re.MULTILINE)
@@ -49,10 +53,13 @@ class Processes:
         self.over = False
 
     def run(self, command: list[str], limit_s: float, **environment: str) -> Ended:
+        whole_s = math.ceil(limit_s)
+        command = [*LIMITS, f"--cpu={whole_s}:{whole_s + 1}", *command]
         with tempfile.TemporaryDirectory(prefix="ols-mutate-") as folder:
             path = Path(folder) / "output"
             with path.open("wb") as output:
-                code = self._wait(command, limit_s, output, environment | {"TMPDIR": folder})
+                clock_s = CLOCK_OF_PROCESSOR * limit_s
+                code = self._wait(command, clock_s, output, environment | {"TMPDIR": folder})
             return Ended(code, path.read_text(errors="replace"))
 
     def show(self, command: list[str]) -> int | None:
@@ -67,7 +74,7 @@ class Processes:
         environment: dict[str, str],
     ) -> int | None:
         process = subprocess.Popen(
-            [*LIMITS, *command],
+            command,
             cwd=ROOT,
             stdin=subprocess.DEVNULL,
             stdout=output,
@@ -79,7 +86,8 @@ class Processes:
         try:
             if self.over:
                 raise KeyboardInterrupt
-            return process.wait(limit_s)
+            code = process.wait(limit_s)
+            return None if code == -signal.SIGXCPU else code
         except subprocess.TimeoutExpired:
             return None
         finally:

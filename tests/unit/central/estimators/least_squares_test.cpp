@@ -127,6 +127,15 @@ TEST(LeastSquares, NamesItsFailures) {
   const std::vector<Ray> diverging = {ray_to("a", {-50, 0, 0}, {-100, 100, 0}),
                                       ray_to("b", {50, 0, 0}, {100, 100, 0})};
   EXPECT_EQ(least_squares(diverging).solution, Solution::kBehindCamera);
+  // The better one passes behind the camera of the other, to which every step comes nearer.
+  const auto along = [](const char* name, const Vector3d& from, double azimuth, double elevation,
+                        double sigma) {
+    return ray_to(name, from, from + 100.0 * enu_from_azimuth_elevation({azimuth, elevation}),
+                  sigma);
+  };
+  const std::vector<Ray> skew = {along("a", {87.6, -6.9, 0.3}, 4.053, 0.047, 0.036),
+                                 along("b", {5.7, 46.6, -4.2}, 1.452, 0.934, 0.0032)};
+  EXPECT_EQ(least_squares(skew).solution, Solution::kBehindCamera);
   LeastSquaresConfig near;
   near.max_range_m = 100.0;
   EXPECT_EQ(least_squares(rays_from(square(), {0, 500, 0}), near).solution, Solution::kTooFar);
