@@ -145,6 +145,16 @@ TEST_F(SceneTracksTest, EveryPointOfAPictureAgreesWithItself) {
   EXPECT_EQ(tracks.pairs().front().moved, 0);
 }
 
+TEST_F(SceneTracksTest, NoPointsAreAddedToEnough) {
+  build();
+  SceneTracks tracks(world->stations()[0].nominal, {.points_a_picture = 10});
+  const PanTilt pose = poses().front();
+  const cv::Mat gray = seen(pose);
+  for (int i = 0; i < 3; ++i) tracks.add(gray, pose);
+  ASSERT_FALSE(tracks.pairs().empty());
+  for (const ScenePair& pair : tracks.pairs()) EXPECT_EQ(pair.matched, 10) << pair.second;
+}
+
 TEST_F(SceneTracksTest, ASceneThatIsAnotherEachTimeGivesNothing) {
   build();
   SceneTracks tracks(world->stations()[0].nominal);

@@ -60,5 +60,11 @@ TEST_F(FusionSettingsTest, ModelsThatCannotBeMixedAreRefusedByName) {
   EXPECT_EQ(refusal("[motion]\nmodels = []\n"), place + "needs at least one entry");
 }
 
+TEST_F(FusionSettingsTest, ACuesAccelerationHasLimits) {
+  EXPECT_EQ(load("[cues]\nacceleration_sd_m_s2 = 100.0\n").fusion.cues.acceleration_sd_m_s2, 100.0);
+  EXPECT_THAT(refusal("[cues]\nacceleration_sd_m_s2 = 101.0\n"),
+              testing::HasSubstr(":2: cues.acceleration_sd_m_s2: "));
+}
+
 }  // namespace
 }  // namespace ols::fusion

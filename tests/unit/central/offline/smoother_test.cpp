@@ -140,6 +140,13 @@ TEST(Smoother, OfTwentyStationsWithHeadingsOff) {
   EXPECT_LT(score.over_stated, 1.5);
 }
 
+// To and fro, and once more block by block where not all instants are one block.
+TEST(Smoother, SaysHowOftenItRunsOverTheBearings) {
+  EXPECT_EQ(smoother_runs(1), 2U);
+  EXPECT_EQ(smoother_runs(100), 2U);
+  EXPECT_EQ(smoother_runs(100'000), 3U);
+}
+
 // All are reported, whether a filter has states for them or not.
 TEST(Smoother, OfTwentyStations) {
   const auto bearings = of_twenty(4.0, 0.0);

@@ -22,6 +22,14 @@ TEST(PtuDriver, StartsAUnitWithFactorySettings) {
   EXPECT_EQ(loop.sent.substr(0, 4), " ED ");
 }
 
+TEST(PtuDriver, CountsEachStartButTheFirst) {
+  ClosedLoop loop(quick_driver(), quick_unit());
+  loop.driver.restart(0.0);
+  EXPECT_EQ(loop.driver.counters().restarts, 0u);
+  loop.driver.restart(1.0);
+  EXPECT_EQ(loop.driver.counters().restarts, 1u);
+}
+
 TEST(PtuDriver, NarrowsItsLimitsToTheUnits) {
   PtuConfig config = quick_driver();
   config.limits = {-10.0, 10.0, -10.0, 10.0};

@@ -25,6 +25,15 @@ TEST(Patch, SamplesPixelCentres) {
   EXPECT_NEAR(bilinear(half.image, half.x_of(30.0), half.y_of(30.0)), 90.0, 1.0);
 }
 
+// Bright above the box, where its upper side is, and dark beside that.
+TEST(Patch, TheLevelAroundABoxIsThatOfItsSides) {
+  cv::Mat picture(100, 100, CV_8U, cv::Scalar(100));
+  const double side = 20.0, reach = 0.72 * side;
+  const int left = static_cast<int>(50.0 - reach);
+  picture(cv::Rect(left, 0, 100 - left, 56)) = 200;
+  EXPECT_EQ(level_around({picture, {0, 0}, 1}, {50.0, 50.0}, {side, side}), 200.0F);
+}
+
 TEST(Patch, IsBilinearWhereverAndHoweverLargeTheBox) {
   cv::Mat picture(90, 700, CV_8U);
   cv::RNG random(5);
