@@ -13,15 +13,16 @@ from ols_demo.wiring import Wiring
 from playwright.sync_api import expect
 
 STATION = "alfa"
+SCENARIO = ROOT / "sim/scenarios/small.toml"  # its target is slow, as a busy machine needs it
 PATIENCE_S = 60.0
 
 
 @pytest.fixture
 def site(network, tmp_path):
-    wiring = Wiring(BIN, ROOT / "sim/scenarios/fig7.toml", 1, tmp_path)
+    wiring = Wiring(BIN, SCENARIO, 1, tmp_path)
     bring_up_loopback(wiring.prepare())
     with Site(tmp_path / "logs") as started:
-        sim = [wiring.program("ols-sim"), "--scenario", str(ROOT / "sim/scenarios/fig7.toml")]
+        sim = [wiring.program("ols-sim"), "--scenario", str(SCENARIO)]
         sim += ["--seed", "1", "--lcm-url", LIVE_URL, "--directory", str(tmp_path / "lines")]
         started.start_and_wait("ols-sim", sim, "ready")
         wiring.start_station(started, STATION)
