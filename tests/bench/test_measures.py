@@ -21,8 +21,6 @@ from ols_bench.measures import (
     folder_measures,
     judge,
     overlap,
-    precision_curve,
-    success_curve,
 )
 
 NONE = [np.nan] * 4
@@ -79,13 +77,6 @@ def test_tracking_begins_with_the_first_box(tmp_path):
     truth = [NONE, NONE, [0, 0, 10, 10], [0, 0, 10, 10]]
     got = judge(clip(truth, tmp_path), boxes([NONE, NONE, NONE, [0, 0, 10, 10]]), 30.0)
     assert got.overlap == pytest.approx([1.0])
-
-
-def test_curves_fall_and_rise():
-    j = judged([True] * 3 + [False], [1.0] * 4)
-    success, precision = success_curve([j]), precision_curve([j])
-    assert success[0] == 0.75 and success[79] == 0.75 and success[81] == 0.0
-    assert precision[0] == 0.0 and precision[2] == 0.75 and precision[-1] == 0.75
 
 
 def test_calibration_of_a_belief_that_is_right_and_of_one_that_boasts():

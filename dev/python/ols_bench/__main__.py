@@ -8,7 +8,7 @@ from pathlib import Path
 
 import cv2
 
-from ols_bench import figures, tables, worst
+from ols_bench import tables
 from ols_bench.clips import BadInput, Clip, read_folder
 from ols_bench.pictures import frames_per_second
 from ols_bench.places import places_of
@@ -45,7 +45,7 @@ def arguments() -> argparse.Namespace:
     parser.add_argument(
         "--seeds",
         default="1",
-        help="of the random numbers, such as 1,2,3: tables and plots are of the first one, mean "
+        help="of the random numbers, such as 1,2,3: tables are of the first one, mean "
         "and range of all are given beside (default: %(default)s)",
     )
     parser.add_argument("--config", type=Path, help="TOML file with a table [tracker] for ours")
@@ -171,9 +171,6 @@ def bench(given: argparse.Namespace) -> None:
         of = seeds if name in wanted else seeds[:1]
         results[name] = results_with_seeds(name, folders, together, given.output, of)
     tables.write(given.output, results, about(wanted, shown, seeds))
-    figures.draw(given.output, results)
-    if "ours (full)" in results:
-        worst.draw(given.output, "ours (full)", folders, results["ours (full)"])
 
 
 def main() -> None:

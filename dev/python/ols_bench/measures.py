@@ -15,8 +15,6 @@ from ols_bench.clips import Boxes, Clip
 NEAR_PX = 20.0  # "on target"
 LOCK_SHARE = 0.9
 BELIEVED = 0.5
-OVERLAPS = np.linspace(0.0, 1.0, 101)
-DISTANCES = np.linspace(0.0, 50.0, 101)  # [px]
 
 
 def overlap(a: np.ndarray, b: np.ndarray) -> np.ndarray:
@@ -109,17 +107,3 @@ def folder_measures(clips: dict[str, dict]) -> dict:
         "absent": absent,
         "false_belief": believed / absent if absent else None,
     }
-
-
-def success_curve(judged: list[Judged]) -> np.ndarray:
-    """Share of frames whose overlap is greater than each of OVERLAPS, mean over clips."""
-    return np.mean(
-        [[(j.overlap[j.visible] > limit).mean() for limit in OVERLAPS] for j in judged], axis=0
-    )
-
-
-def precision_curve(judged: list[Judged]) -> np.ndarray:
-    """Share of frames within each of DISTANCES, mean over clips."""
-    return np.mean(
-        [[(j.distance[j.visible] <= limit).mean() for limit in DISTANCES] for j in judged], axis=0
-    )

@@ -42,7 +42,6 @@ def main() -> None:
     points = [point_measures(point) for point in read_points(rows)]
     about = f"Mode {given.mode}, seeds {given.seed} to {given.seed + given.runs - 1} at each point."
     synthetic_report.write(given.output, points, about)
-    synthetic_report.draw(given.output, points)
     print((given.output / "synthetic.md").read_text())
     print(f"Written to {given.output}")
 
