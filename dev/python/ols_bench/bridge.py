@@ -12,6 +12,8 @@ import bridge_site
 import numpy as np
 from ols_demo.site import bring_up_loopback
 
+from ols_bench.processes import cpu_s
+
 MOST_P99_MS = 10.0
 
 
@@ -31,11 +33,6 @@ class Network(bridge_site.Network):
         return any_station(super()._leaf(text)).replace(":7522", ":7422")
 
 
-def processor_s(pid: int) -> float:
-    fields = Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()
-    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
-
-
 def measure(net: Network, options: argparse.Namespace) -> bool:
     parts = {
         "bridge of the site": net.site.process.pid,
@@ -47,10 +44,10 @@ def measure(net: Network, options: argparse.Namespace) -> bool:
     command = [str(program), "--from", net.site_url, "--to", net.region_url]
     for name in ("stations", "rate", "seconds", "bytes"):
         command += [f"--{name}", str(getattr(options, name))]
-    before = {name: processor_s(pid) for name, pid in parts.items()}
+    before = {name: cpu_s(pid) for name, pid in parts.items()}
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as load:
         sending = json.loads(load.stdout.readline())
-        used = {name: processor_s(pid) - before[name] for name, pid in parts.items()}
+        used = {name: cpu_s(pid) - before[name] for name, pid in parts.items()}
         delays_ms = np.array(json.loads(load.stdout.readline())["delays_ms"])
     sent, took_s = sending["sent"], sending["took_s"]
     print(f"{options.stations} stations, {options.rate:g} Hz, {options.bytes} bytes each")

@@ -1,7 +1,6 @@
 """See tools/bench-export."""
 
 import argparse
-import os
 import re
 import shutil
 import socket
@@ -15,6 +14,8 @@ import export_site
 import numpy as np
 from ols_demo.site import bring_up_loopback
 from sapient_site import Receiver as SapientReceiver
+
+from ols_bench.processes import cpu_s
 
 BROKER_PORT = 18830
 LATITUDE = re.compile(rb'lat="([0-9.]+)"')
@@ -72,11 +73,6 @@ def outputs(folder: Path, port: int, rate_hz: float) -> str:
     return text
 
 
-def processor_s(pid: int) -> float:
-    fields = Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()
-    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
-
-
 def publish(publisher, count: int, rate_hz: float, seconds: float, published: dict) -> int:
     """Evenly in time, as a fusion does; each with a latitude of its own."""
     begin_s, sent = time.monotonic(), 0
@@ -119,11 +115,11 @@ def main() -> None:
             publish(publisher, arguments.targets, arguments.rate, 2.0, published)
             receiver.delays_s.clear()
             published.clear()
-            before_s = processor_s(exporter.process.pid)
+            before_s = cpu_s(exporter.process.pid)
             sent = publish(
                 publisher, arguments.targets, arguments.rate, arguments.seconds, published
             )
-            cores = (processor_s(exporter.process.pid) - before_s) / arguments.seconds
+            cores = (cpu_s(exporter.process.pid) - before_s) / arguments.seconds
             time.sleep(1.5)
             status = exporter.status()
     finally:

@@ -2,7 +2,6 @@
 
 import argparse
 import math
-import os
 import sys
 import tempfile
 import time
@@ -14,6 +13,8 @@ import ols
 import ols_msg
 from ols_demo.bus import LIVE_URL, counters, decode
 from ols_demo.site import Site, bring_up_loopback
+
+from ols_bench.processes import cpu_s
 
 SITE = ols.LocalFrame(
     ols.Geodetic(latitude_rad=math.radians(49.2), longitude_rad=math.radians(16.6), height_m=250.0)
@@ -98,11 +99,6 @@ class Published:
             self.ids.add(message.target_id)
 
 
-def processor_s(pid: int) -> float:
-    fields = Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()
-    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
-
-
 def feed(
     stations: Stations, bus: lcm.LCM, published: Published, rate_hz: float, until_s: float
 ) -> None:
@@ -138,9 +134,9 @@ def measure(arguments: argparse.Namespace, folder: Path) -> bool:
         pid = site.processes["fusion"].pid
         feed(stations, receiver, published, arguments.rate, time.time() + SETTLED_S)
         published.judging = True
-        used_s, begun_s = processor_s(pid), time.monotonic()
+        used_s, begun_s = cpu_s(pid), time.monotonic()
         feed(stations, receiver, published, arguments.rate, time.time() + arguments.seconds)
-        cores = (processor_s(pid) - used_s) / (time.monotonic() - begun_s)
+        cores = (cpu_s(pid) - used_s) / (time.monotonic() - begun_s)
         site.stop("fusion")
     return report(arguments, published, cores)
 
