@@ -14,13 +14,9 @@ def judge(evidence: Evidence, outcome: Outcome) -> None:
     judge_target(evidence, outcome, window, 10.0)
     arrivals = measure.target_arrivals_us(evidence.heard, *window)
     middle_us = sum(window) // 2
-    outcome.at_most(
-        "longest time without a target",
-        measure.longest_gap_s(arrivals, *window),
-        0.5,
-        "s",
-        broken_by=mutations.targets_lost((middle_us, middle_us + 700_000)),
-    )
+    measured = measure.longest_gap_s(arrivals, *window)
+    broken_by = mutations.targets_lost((middle_us, middle_us + 700_000))
+    outcome.at_most("longest time without a target", measured, 0.5, "s", broken_by=broken_by)
     for station in evidence.stations:
         judge_goes_on(evidence, outcome, station, window, 10.0)
         judge_motion(evidence, outcome, station, window)

@@ -109,13 +109,9 @@ def judge_fragments(evidence: Evidence, outcome: Outcome) -> None:
         f"{evidence['recorders'][0]}, then {evidence['recorders'][1]}",
         broken_by=mutations.fact("it is restarted", "recorders", ([1], [2])),
     )
-    outcome.at_least(
-        "recorded meanwhile",
-        evidence["recorded_bytes"] / 1e3,
-        50.0,
-        "kB",
-        broken_by=mutations.fact("it stands still", "recorded_bytes", 0),
-    )
+    measured = evidence["recorded_bytes"] / 1e3
+    broken_by = mutations.fact("it stands still", "recorded_bytes", 0)
+    outcome.at_least("recorded meanwhile", measured, 50.0, "kB", broken_by=broken_by)
     for station in evidence.stations:
         judge_goes_on(evidence, outcome, station, window, 0.6 * FRAME_HZ)
         status = f"OLS_STATUS_{station}"
@@ -124,13 +120,9 @@ def judge_fragments(evidence: Evidence, outcome: Outcome) -> None:
     for name in (REFUSED, MALFORMED):
         judge_counted(evidence, outcome, f"fusion: {name}", FUSION, name, window, 100.0)
     middle_us = sum(window) // 2
-    outcome.at_most(
-        "longest time without a target",
-        measure.longest_gap_s(measure.target_arrivals_us(evidence.heard, *window), *window),
-        1.0,
-        "s",
-        broken_by=mutations.targets_lost((middle_us, middle_us + 1_500_000)),
-    )
+    measured = measure.longest_gap_s(measure.target_arrivals_us(evidence.heard, *window), *window)
+    broken_by = mutations.targets_lost((middle_us, middle_us + 1_500_000))
+    outcome.at_most("longest time without a target", measured, 1.0, "s", broken_by=broken_by)
 
 
 @case(
@@ -176,12 +168,9 @@ def judge_channels(evidence: Evidence, outcome: Outcome) -> None:
         def leaks(altered: Evidence, name: str = name) -> None:
             altered["grown"][name] += round(105 * heard[name])
 
+        broken_by = Mutation("105 bytes of each name stay", leaks)
         outcome.at_most(
-            f"{name}: resident memory grown",
-            grown[name] / 1e6,
-            GROWN_MB,
-            "MB",
-            broken_by=Mutation("105 bytes of each name stay", leaks),
+            f"{name}: resident memory grown", grown[name] / 1e6, GROWN_MB, "MB", broken_by=broken_by
         )
 
 

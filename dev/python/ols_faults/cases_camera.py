@@ -64,13 +64,9 @@ def judge_packet_loss(evidence: Evidence, outcome: Outcome) -> None:
     channel = f"OLS_STATUS_{station}"
     words = "camera:", "of the frames incomplete"
     judge_alarm(evidence, outcome, "reported", station, window[0], 5.0, *words)
-    outcome.at_least(
-        "bearings meanwhile",
-        measure.bearings_hz(evidence.heard, station, *window),
-        4.0,
-        "Hz",
-        broken_by=mutations.bearings_lost(station, window, 0.78),
-    )
+    measured = measure.bearings_hz(evidence.heard, station, *window)
+    broken_by = mutations.bearings_lost(station, window, 0.78)
+    outcome.at_least("bearings meanwhile", measured, 4.0, "Hz", broken_by=broken_by)
     name = "frames_incomplete"
     judge_counted(evidence, outcome, "spoiled frames counted", channel, name, window, 20.0)
     judge_recovery(evidence, outcome)

@@ -66,20 +66,13 @@ def judge_marks(evidence: Evidence, outcome: Outcome, step_s: float) -> None:
     def not_stepped(bearing: Any) -> Any:
         return put(bearing, utime=bearing.utime - round(step_s * 1e6))
 
-    outcome.holds(
-        "the clock was stepped",
-        abs(ahead_s - step_s) < 0.5,
-        f"{ahead_s:+.2f} s",
-        broken_by=mutations.altering("the clock is not stepped", channel, not_stepped, window),
-    )
+    measured = abs(ahead_s - step_s) < 0.5
+    broken_by = mutations.altering("the clock is not stepped", channel, not_stepped, window)
+    outcome.holds("the clock was stepped", measured, f"{ahead_s:+.2f} s", broken_by=broken_by)
     marked = partial(is_marked, step_s=step_s)
-    outcome.at_most(
-        "bearings marked",
-        measure.first_s(evidence.heard, channel, *window, marked),
-        MARKED_S,
-        "s",
-        broken_by=mutations.altering("bearings are not marked", channel, unmarked),
-    )
+    measured = measure.first_s(evidence.heard, channel, *window, marked)
+    broken_by = mutations.altering("bearings are not marked", channel, unmarked)
+    outcome.at_most("bearings marked", measured, MARKED_S, "s", broken_by=broken_by)
     before = measure.between_arrivals(evidence.heard, channel, window[0] - 3_000_000, window[0])
 
     def always_marked(bearing: Any) -> Any:
@@ -97,12 +90,10 @@ def judge_quarantine(evidence: Evidence, outcome: Outcome) -> None:
     others = set(evidence.stations) - {station}
     span = window[0] + round(QUARANTINED_S * 1e6), window[1]
     later = measure.positions(evidence.heard, *span)
+    measured = float(sum(station in measure.used(target) for target in later)) if later else None
+    broken_by = mutations.rays("the stepped station is used", station, True, span)
     outcome.at_most(
-        "targets with this station",
-        float(sum(station in measure.used(target) for target in later)) if later else None,
-        0,
-        note=f"of {len(later)}",
-        broken_by=mutations.rays("the stepped station is used", station, True, span),
+        "targets with this station", measured, 0, note=f"of {len(later)}", broken_by=broken_by
     )
     lacking = sum(not others <= measure.used(target) for target in later)
     other = min(others)

@@ -117,13 +117,9 @@ def judge_refused(evidence: Evidence, outcome: Outcome, kind: str, expected: lis
     station, noted = evidence["station"], evidence[kind]
     window = noted["window"]
     one_moves = window[0], window[0] + 500_000
-    outcome.at_most(
-        f"moved by bad {kind}",
-        measure.moved_deg(evidence.heard, station, *window),
-        STILL_DEG,
-        "deg",
-        broken_by=mutations.moves_on(station, one_moves, 1.0),
-    )
+    measured = measure.moved_deg(evidence.heard, station, *window)
+    broken_by = mutations.moves_on(station, one_moves, 1.0)
+    outcome.at_most(f"moved by bad {kind}", measured, STILL_DEG, "deg", broken_by=broken_by)
     grown = {
         why: int(n - noted["before"].get(why, 0.0))
         for why, n in noted["after"].items()

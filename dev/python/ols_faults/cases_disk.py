@@ -75,12 +75,8 @@ def judge(evidence: Evidence, outcome: Outcome, words: tuple[str, ...]) -> None:
         ", ".join(evidence["meanwhile"]) or "yes",
         broken_by=mutations.fact("the disk takes it", "meanwhile", ["20261122_full"]),
     )
-    outcome.recovered(
-        "records again",
-        evidence["recorded_s"],
-        8.0,
-        broken_by=mutations.fact("no event is ever complete", "recorded_s", None),
-    )
+    broken_by = mutations.fact("no event is ever complete", "recorded_s", None)
+    outcome.recovered("records again", evidence["recorded_s"], 8.0, broken_by=broken_by)
 
 
 def do(session: Session, evidence: Evidence, label: str, begin: Any, end: Any) -> None:

@@ -77,11 +77,9 @@ class FarFusion:
 
 def judge_beside_the_twin(evidence: Evidence, outcome: Outcome, window: tuple[int, int]) -> None:
     errors, share = measure.same_epochs_m(evidence.heard, JOINT, TWIN, *window)
+    broken_by = mutations.targets_lost(window, 0.5)
     outcome.at_least(
-        "positions, over those of the undisturbed fusion",
-        share,
-        FIXES,
-        broken_by=mutations.targets_lost(window, 0.5),
+        "positions, over those of the undisturbed fusion", share, FIXES, broken_by=broken_by
     )
     rms = np.sqrt(np.mean(errors**2, axis=0)) if len(errors) else np.full(2, np.nan)
     outcome.at_most(
@@ -92,13 +90,9 @@ def judge_beside_the_twin(evidence: Evidence, outcome: Outcome, window: tuple[in
         broken_by=mutations.targets_shifted(0.5, window),
     )
     middle_us = sum(window) // 2
-    outcome.at_most(
-        "longest time without a target",
-        measure.longest_gap_s(measure.target_arrivals_us(evidence.heard, *window), *window),
-        LONGEST_S,
-        "s",
-        broken_by=mutations.targets_lost((middle_us, middle_us + 800_000)),
-    )
+    measured = measure.longest_gap_s(measure.target_arrivals_us(evidence.heard, *window), *window)
+    broken_by = mutations.targets_lost((middle_us, middle_us + 800_000))
+    outcome.at_most("longest time without a target", measured, LONGEST_S, "s", broken_by=broken_by)
 
 
 def arriving(evidence: Evidence, window: tuple[int, int]) -> float | None:
@@ -118,12 +112,10 @@ def arriving(evidence: Evidence, window: tuple[int, int]) -> float | None:
 def judge_bad_network(evidence: Evidence, outcome: Outcome) -> None:
     window = evidence["window"]
     for station in evidence.stations:
+        measured = measure.bearings_hz(evidence.heard, station, *window)
+        broken_by = mutations.bearings_lost(station, window, 0.78)
         outcome.at_least(
-            f"{station}: bearings sent",
-            measure.bearings_hz(evidence.heard, station, *window),
-            0.85 * FRAME_HZ,
-            "Hz",
-            broken_by=mutations.bearings_lost(station, window, 0.78),
+            f"{station}: bearings sent", measured, 0.85 * FRAME_HZ, "Hz", broken_by=broken_by
         )
     share = arriving(evidence, window)
 
@@ -133,18 +125,10 @@ def judge_bad_network(evidence: Evidence, outcome: Outcome) -> None:
     def none_lost(status: Any) -> Any:
         return mutations.scaled_counter(status, "bearings", 1.0 / (share or 1.0))
 
-    outcome.at_least(
-        "share of the bearings that arrives",
-        share,
-        ARRIVING,
-        broken_by=mutations.altering("78 % of the messages are lost", FUSION, fewer),
-    )
-    outcome.at_most(
-        "and at most",
-        share,
-        0.98,
-        broken_by=mutations.altering("the relay loses nothing", FUSION, none_lost),
-    )
+    broken_by = mutations.altering("78 % of the messages are lost", FUSION, fewer)
+    outcome.at_least("share of the bearings that arrives", share, ARRIVING, broken_by=broken_by)
+    broken_by = mutations.altering("the relay loses nothing", FUSION, none_lost)
+    outcome.at_most("and at most", share, 0.98, broken_by=broken_by)
     judge_beside_the_twin(evidence, outcome, window)
     counts = evidence["relay"]
     outcome.holds(
@@ -188,49 +172,30 @@ def relayed(log: Path) -> tuple[int, ...]:
 
 def judge_flood(evidence: Evidence, outcome: Outcome) -> None:
     window = evidence["window"]
-    outcome.at_least(
-        "messages sent",
-        evidence["rate_hz"],
-        0.95 * FLOOD_HZ,
-        "Hz",
-        broken_by=mutations.fact("the flood is half of it", "rate_hz", FLOOD_HZ / 2),
-    )
+    measured = evidence["rate_hz"]
+    broken_by = mutations.fact("the flood is half of it", "rate_hz", FLOOD_HZ / 2)
+    outcome.at_least("messages sent", measured, 0.95 * FLOOD_HZ, "Hz", broken_by=broken_by)
     grown = evidence["grown"]
     worst = max(grown, key=lambda name: grown[name])
-    outcome.at_most(
-        "resident memory grown",
-        grown[worst] / 1e6,
-        2.0,
-        "MB",
-        note=worst,
-        broken_by=mutations.fact("a queue grows", "grown", {worst: grown[worst] + 5e6}),
-    )
-    outcome.at_most(
-        "age of targets (95 %)",
-        target_lag_s(evidence, window),
-        0.5,
-        "s",
-        broken_by=mutations.late("the fusion lags behind", JOINT, window, 0.5),
-    )
+    measured = grown[worst] / 1e6
+    broken_by = mutations.fact("a queue grows", "grown", {worst: grown[worst] + 5e6})
+    outcome.at_most("resident memory grown", measured, 2.0, "MB", note=worst, broken_by=broken_by)
+    measured = target_lag_s(evidence, window)
+    broken_by = mutations.late("the fusion lags behind", JOINT, window, 0.5)
+    outcome.at_most("age of targets (95 %)", measured, 0.5, "s", broken_by=broken_by)
     for station in evidence.stations:
+        measured = measure.bearings_hz(evidence.heard, station, *window)
+        broken_by = mutations.bearings_lost(station, window, 0.5)
         outcome.at_least(
-            f"{station}: bearings sent",
-            measure.bearings_hz(evidence.heard, station, *window),
-            0.75 * FRAME_HZ,
-            "Hz",
-            broken_by=mutations.bearings_lost(station, window, 0.5),
+            f"{station}: bearings sent", measured, 0.75 * FRAME_HZ, "Hz", broken_by=broken_by
         )
     judge_beside_the_twin(evidence, outcome, window)
     least = 0.5 * FUSION_HZ * FLOOD_S
     judge_counted(
         evidence, outcome, "counted by the fusion", FUSION, "messages_malformed", window, least
     )
-    outcome.recovered(
-        "normal after the flood",
-        evidence["well_s"],
-        5.0,
-        broken_by=mutations.fact("it does not get well again", "well_s", None),
-    )
+    broken_by = mutations.fact("it does not get well again", "well_s", None)
+    outcome.recovered("normal after the flood", evidence["well_s"], 5.0, broken_by=broken_by)
 
 
 @case(

@@ -60,13 +60,9 @@ def judge_speed(evidence: Evidence, outcome: Outcome, what: str, least_deg_s: fl
     station, at_us = evidence["station"], evidence["at_us"]
     window = at_us - 150_000, at_us
     speed = measure.speeds(*measure.ptu_track(evidence.heard, station, *window))
-    outcome.at_least(
-        what,
-        float(np.median(speed)) if len(speed) else None,
-        least_deg_s,
-        "deg/s",
-        broken_by=mutations.stands(station, (window[0] - 100_000, at_us)),
-    )
+    measured = float(np.median(speed)) if len(speed) else None
+    broken_by = mutations.stands(station, (window[0] - 100_000, at_us))
+    outcome.at_least(what, measured, least_deg_s, "deg/s", broken_by=broken_by)
 
 
 def judge_back_by_slew(evidence: Evidence, outcome: Outcome) -> None:
@@ -75,29 +71,18 @@ def judge_back_by_slew(evidence: Evidence, outcome: Outcome) -> None:
     judge_tracking_again(evidence, outcome, what, station, since_us, BACK_BY_SLEW_S)
     window = since_us, evidence["judged_us"]
     said = measure.statuses(evidence.heard, station, *window)
-    outcome.holds(
-        "it is another process",
-        bool(said) and all(status.boot_id != evidence["boot"] for status in said),
-        broken_by=mutations.status_altered(
-            "it was not killed", station, lambda s: put(s, boot_id=evidence["boot"])
-        ),
+    measured = bool(said) and all(status.boot_id != evidence["boot"] for status in said)
+    broken_by = mutations.status_altered(
+        "it was not killed", station, lambda s: put(s, boot_id=evidence["boot"])
     )
+    outcome.holds("it is another process", measured, broken_by=broken_by)
     channel = f"OLS_STATUS_{station}"
     found = measure.counter_at_end(evidence.heard, channel, "acquisitions", *window)
-    outcome.at_least(
-        "found along a slew",
-        found,
-        1.0,
-        note="acquisitions",
-        broken_by=mutations.without_counter(channel, "acquisitions"),
-    )
+    broken_by = mutations.without_counter(channel, "acquisitions")
+    outcome.at_least("found along a slew", found, 1.0, note="acquisitions", broken_by=broken_by)
     by_hand = measure.counter_at_end(evidence.heard, channel, "designate_accepted", *window)
-    outcome.at_most(
-        "designations by hand",
-        by_hand,
-        0.0,
-        broken_by=mutations.counter_more(channel, "designate_accepted", 1.0, window),
-    )
+    broken_by = mutations.counter_more(channel, "designate_accepted", 1.0, window)
+    outcome.at_most("designations by hand", by_hand, 0.0, broken_by=broken_by)
 
 
 def judge_killed(evidence: Evidence, outcome: Outcome, least_deg_s: float) -> None:
@@ -198,21 +183,15 @@ def judge_fusion_killed(evidence: Evidence, outcome: Outcome) -> None:
     for station in evidence.stations:
         judge_goes_on(evidence, outcome, station, window, 5.0)
     shortly = window[0] + 300_000, window[1]
-    outcome.at_most(
-        "targets while there was none",
-        float(len(measure.target_arrivals_us(evidence.heard, *shortly))),
-        0.0,
-        broken_by=mutations.late("the fusion continues", JOINT, (0, window[0]), 1.0),
-    )
+    measured = float(len(measure.target_arrivals_us(evidence.heard, *shortly)))
+    broken_by = mutations.late("the fusion continues", JOINT, (0, window[0]), 1.0)
+    outcome.at_most("targets while there was none", measured, 0.0, broken_by=broken_by)
     late = started_us, started_us + round((BACK_FUSION_S + 1.0) * 1e6)
-    outcome.recovered(
-        "targets again after its start",
-        measure.first_s(
-            evidence.heard, JOINT, started_us, mutations.EVER, lambda t: t.solution == OK
-        ),
-        BACK_FUSION_S,
-        broken_by=mutations.targets_lost(late),
+    measured = measure.first_s(
+        evidence.heard, JOINT, started_us, mutations.EVER, lambda t: t.solution == OK
     )
+    broken_by = mutations.targets_lost(late)
+    outcome.recovered("targets again after its start", measured, BACK_FUSION_S, broken_by=broken_by)
     judge_target(evidence, outcome, evidence["after"], 8.0)
 
 
@@ -261,20 +240,12 @@ def judge_starved(evidence: Evidence, outcome: Outcome) -> None:
     expected = (end_us - stopped_us) * 1e-6 * FRAME_HZ
     handled = measure.grown(evidence.heard, status, "frames_tracked", stopped_us, end_us)
     share = handled / expected if handled is not None else None
-    outcome.at_most(
-        "share of that time's frames handled",
-        share,
-        0.85,
-        broken_by=mutations.counter_more(
-            status, "frames_tracked", STARVED_S * FRAME_HZ, (going_us, end_us)
-        ),
+    broken_by = mutations.counter_more(
+        status, "frames_tracked", STARVED_S * FRAME_HZ, (going_us, end_us)
     )
-    outcome.at_least(
-        "and at least",
-        share,
-        0.35,
-        broken_by=mutations.without_counter(status, "frames_tracked"),
-    )
+    outcome.at_most("share of that time's frames handled", share, 0.85, broken_by=broken_by)
+    broken_by = mutations.without_counter(status, "frames_tracked")
+    outcome.at_least("and at least", share, 0.35, broken_by=broken_by)
     judge_tracking_again(evidence, outcome, "tracking again", station, going_us, 8.0)
 
 

@@ -58,13 +58,9 @@ def judge_well_again(
     evidence: Evidence, outcome: Outcome, what: str, station: str, since_us: int, limit_s: float
 ) -> None:
     late = since_us, since_us + round((limit_s + 1.0) * 1e6)
-    outcome.at_most(
-        what,
-        well_again_s(evidence.heard, station, since_us, mutations.EVER),
-        limit_s,
-        "s",
-        broken_by=mutations.device_ails(station, "ptu", late),
-    )
+    measured = well_again_s(evidence.heard, station, since_us, mutations.EVER)
+    broken_by = mutations.device_ails(station, "ptu", late)
+    outcome.at_most(what, measured, limit_s, "s", broken_by=broken_by)
 
 
 def settle(session: Session, evidence: Evidence) -> None:
@@ -138,13 +134,9 @@ def judge_ridden_through(
         x, y = view.centre_px
         return mutations.put(view, centre_px=[x + 1.5 * AIM_PX, y])
 
-    outcome.at_most(
-        "target from the image centre",
-        aim_px(evidence.heard, station, window),
-        AIM_PX,
-        "px",
-        broken_by=mutations.altering("it does not follow", f"OLS_SIM_VIEW_{station}", astray),
-    )
+    measured = aim_px(evidence.heard, station, window)
+    broken_by = mutations.altering("it does not follow", f"OLS_SIM_VIEW_{station}", astray)
+    outcome.at_most("target from the image centre", measured, AIM_PX, "px", broken_by=broken_by)
     judge_tracking_again(evidence, outcome, "tracking", station, window[1], 3.0)
 
 
@@ -255,13 +247,9 @@ def ptu_power_cycle(session: Session, evidence: Evidence) -> None:
 def judge_unhomed(evidence: Evidence, outcome: Outcome) -> None:
     station, window = evidence["station"], evidence["doubt"]
     judge_reported(evidence, outcome)
-    outcome.at_most(
-        "moved while in doubt",
-        measure.moved_deg(evidence.heard, station, *window),
-        STILL_DEG,
-        "deg",
-        broken_by=mutations.moves_on(station, (window[0], window[0] + 500_000), 1.0),
-    )
+    measured = measure.moved_deg(evidence.heard, station, *window)
+    broken_by = mutations.moves_on(station, (window[0], window[0] + 500_000), 1.0)
+    outcome.at_most("moved while in doubt", measured, STILL_DEG, "deg", broken_by=broken_by)
     shortly_us = evidence["at_us"] + round(SHORTLY_S * 1e6)
     judge_outage(evidence, outcome, station, (shortly_us, window[1]))
     said = measure.statuses(evidence.heard, station, *window)
@@ -294,27 +282,17 @@ def judge_lost_steps(evidence: Evidence, outcome: Outcome) -> None:
     """The unit does not report this fault, so its station cannot; the other stations reveal it."""
     station, at_us, window = (evidence[name] for name in ("station", "at_us", "window"))
     without = partial(is_without, station=station)
-    outcome.at_most(
-        "positions without its rays",
-        measure.first_s(evidence.heard, JOINT, at_us, window[1], without),
-        5.0,
-        "s",
-        broken_by=mutations.rays("its rays are used", station, True, (at_us, mutations.EVER)),
-    )
+    measured = measure.first_s(evidence.heard, JOINT, at_us, window[1], without)
+    broken_by = mutations.rays("its rays are used", station, True, (at_us, mutations.EVER))
+    outcome.at_most("positions without its rays", measured, 5.0, "s", broken_by=broken_by)
     found = measure.positions(evidence.heard, *window)
-    outcome.at_most(
-        "share of positions with its rays",
-        float(np.mean([not without(target) for target in found])) if found else None,
-        0.05,
-        broken_by=mutations.rays("its rays are used again", station, True, window),
-    )
+    measured = float(np.mean([not without(target) for target in found])) if found else None
+    broken_by = mutations.rays("its rays are used again", station, True, window)
+    outcome.at_most("share of positions with its rays", measured, 0.05, broken_by=broken_by)
     others = set(evidence.stations) - {station}
-    outcome.at_most(
-        "share of positions that lack another's",
-        float(np.mean([not others <= measure.used(t) for t in found])) if found else None,
-        0.1,
-        broken_by=mutations.rays("the others' are rejected", min(others), False, window),
-    )
+    measured = float(np.mean([not others <= measure.used(t) for t in found])) if found else None
+    broken_by = mutations.rays("the others' are rejected", min(others), False, window)
+    outcome.at_most("share of positions that lack another's", measured, 0.1, broken_by=broken_by)
     judge_target(evidence, outcome, window, 8.0)
     judge_back(evidence, outcome, "ready after `home`")
     judge_whole(evidence, outcome, evidence["again_us"], 1.5)

@@ -39,57 +39,41 @@ def around(evidence: Evidence) -> tuple[Any, Any]:
 def judge_position(evidence: Evidence, outcome: Outcome) -> None:
     station, since = evidence["station"], (evidence["at_us"], mutations.EVER)
     before, during = around(evidence)
-    outcome.at_most(
-        "position moved",
-        float(np.linalg.norm(place(during) - place(before))),
-        KEPT_M,
-        "m",
-        broken_by=mutations.status_altered(
-            "the pose goes with the sensor by 1 m",
-            station,
-            lambda s: put(s, height_m=s.height_m + 1.0),
-            since,
-        ),
+    measured = float(np.linalg.norm(place(during) - place(before)))
+    broken_by = mutations.status_altered(
+        "the pose goes with the sensor by 1 m",
+        station,
+        lambda s: put(s, height_m=s.height_m + 1.0),
+        since,
     )
-    outcome.at_least(
-        "its 1-sigma grown",
-        max(during.position_sd_m) - max(before.position_sd_m),
-        1e-4,
-        "m",
-        broken_by=mutations.status_altered(
-            "the sigma stays",
-            station,
-            lambda s: put(s, position_sd_m=before.position_sd_m),
-            since,
-        ),
+    outcome.at_most("position moved", measured, KEPT_M, "m", broken_by=broken_by)
+    measured = max(during.position_sd_m) - max(before.position_sd_m)
+    broken_by = mutations.status_altered(
+        "the sigma stays",
+        station,
+        lambda s: put(s, position_sd_m=before.position_sd_m),
+        since,
     )
+    outcome.at_least("its 1-sigma grown", measured, 1e-4, "m", broken_by=broken_by)
 
 
 def judge_tilt(evidence: Evidence, outcome: Outcome) -> None:
     station, since = evidence["station"], (evidence["at_us"], mutations.EVER)
     before, during = around(evidence)
     tilts = [(s.tilt_x_rad, s.tilt_y_rad) for s in (before, during)]
-    outcome.at_most(
-        "tilt changed",
-        float(np.degrees(np.abs(np.subtract(*tilts)).max())),
-        KEPT_DEG,
-        "deg",
-        broken_by=mutations.status_altered(
-            "the tilt goes off by 0.05 deg",
-            station,
-            lambda s: put(s, tilt_x_rad=s.tilt_x_rad + np.radians(0.05)),
-            since,
-        ),
+    measured = float(np.degrees(np.abs(np.subtract(*tilts)).max()))
+    broken_by = mutations.status_altered(
+        "the tilt goes off by 0.05 deg",
+        station,
+        lambda s: put(s, tilt_x_rad=s.tilt_x_rad + np.radians(0.05)),
+        since,
     )
-    outcome.at_least(
-        "its 1-sigma grown",
-        float(np.degrees(during.tilt_sd_rad - before.tilt_sd_rad)),
-        1e-5,
-        "deg",
-        broken_by=mutations.status_altered(
-            "the sigma stays", station, lambda s: put(s, tilt_sd_rad=before.tilt_sd_rad), since
-        ),
+    outcome.at_most("tilt changed", measured, KEPT_DEG, "deg", broken_by=broken_by)
+    measured = float(np.degrees(during.tilt_sd_rad - before.tilt_sd_rad))
+    broken_by = mutations.status_altered(
+        "the sigma stays", station, lambda s: put(s, tilt_sd_rad=before.tilt_sd_rad), since
     )
+    outcome.at_least("its 1-sigma grown", measured, 1e-5, "deg", broken_by=broken_by)
 
 
 def judge(evidence: Evidence, outcome: Outcome, words: tuple[str, ...]) -> None:
@@ -97,30 +81,24 @@ def judge(evidence: Evidence, outcome: Outcome, words: tuple[str, ...]) -> None:
     of_position = words[0].startswith("gnss")
     before, _ = around(evidence)
     source = before.position_source if of_position else before.tilt_source
-    outcome.holds(
-        "its pose is the sensors'",
-        source == POSE_SENSOR,
-        f"source {source}",
-        broken_by=mutations.status_altered(
-            "the pose is a survey's", station, lambda s: put(s, position_source=1, tilt_source=1)
-        ),
+    measured = source == POSE_SENSOR
+    broken_by = mutations.status_altered(
+        "the pose is a survey's", station, lambda s: put(s, position_source=1, tilt_source=1)
     )
+    outcome.holds("its pose is the sensors'", measured, f"source {source}", broken_by=broken_by)
     judge_alarm(evidence, outcome, "flagged", station, at_us, FLAGGED_S, *words)
     (judge_position if of_position else judge_tilt)(evidence, outcome)
     judge_goes_on(evidence, outcome, station, (at_us, ended_us), 8.0)
     still = ended_us, ended_us + round((GONE_S + 6.0) * 1e6)
-    outcome.recovered(
-        "alarm gone",
-        measure.first_s(
-            evidence.heard,
-            f"OLS_STATUS_{station}",
-            ended_us,
-            mutations.EVER,
-            lambda status: not alarm_of(status, words[0]),
-        ),
-        GONE_S,
-        broken_by=mutations.alarm_instead(station, " ".join(words), still),
+    measured = measure.first_s(
+        evidence.heard,
+        f"OLS_STATUS_{station}",
+        ended_us,
+        mutations.EVER,
+        lambda status: not alarm_of(status, words[0]),
     )
+    broken_by = mutations.alarm_instead(station, " ".join(words), still)
+    outcome.recovered("alarm gone", measured, GONE_S, broken_by=broken_by)
 
 
 def do(session: Session, evidence: Evidence, kind: str, word: str, value: float) -> None:

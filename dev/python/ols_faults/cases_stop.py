@@ -28,19 +28,13 @@ def judge_stop(evidence: Evidence, outcome: Outcome, station: str, window: tuple
     heard = evidence.heard
     speed, braking_s, slowing = measure.braking(heard, station, window[0])
     before = window[0] - 300_000, window[0]
+    broken_by = mutations.stands(station, before)
     outcome.at_least(
-        "PTU's speed at the edge",
-        speed,
-        FAST_DEG_S * 0.9,
-        "deg/s",
-        broken_by=mutations.stands(station, before),
+        "PTU's speed at the edge", speed, FAST_DEG_S * 0.9, "deg/s", broken_by=broken_by
     )
+    broken_by = mutations.shafts_late(station, 0.1)
     outcome.at_most(
-        "it begins to brake after the edge",
-        braking_s,
-        HALT_S,
-        "s",
-        broken_by=mutations.shafts_late(station, 0.1),
+        "it begins to brake after the edge", braking_s, HALT_S, "s", broken_by=broken_by
     )
     unsure_s = measure.rest_uncertainty_s(heard, station)
     outcome.at_most(
@@ -57,13 +51,9 @@ def judge_stop(evidence: Evidence, outcome: Outcome, station: str, window: tuple
 def judge_still(
     evidence: Evidence, outcome: Outcome, when: str, station: str, window: tuple[int, int]
 ) -> None:
-    outcome.at_most(
-        f"moved {when}",
-        measure.moved_deg(evidence.heard, station, *window),
-        STILL_DEG,
-        "deg",
-        broken_by=mutations.moves_on(station, (window[0], window[0] + 500_000), 1.0),
-    )
+    measured = measure.moved_deg(evidence.heard, station, *window)
+    broken_by = mutations.moves_on(station, (window[0], window[0] + 500_000), 1.0)
+    outcome.at_most(f"moved {when}", measured, STILL_DEG, "deg", broken_by=broken_by)
 
 
 def judge(evidence: Evidence, outcome: Outcome) -> None:
@@ -91,13 +81,9 @@ def judge(evidence: Evidence, outcome: Outcome) -> None:
     )
     judge_still(evidence, outcome, "while pressed", station, evidence["pressed"])
     judge_still(evidence, outcome, "released, not re-armed", station, evidence["released"])
-    outcome.at_least(
-        "moves once re-armed",
-        measure.moved_deg(heard, station, *evidence["rearmed"]),
-        5.0,
-        "deg",
-        broken_by=mutations.stands(station, evidence["rearmed"]),
-    )
+    measured = measure.moved_deg(heard, station, *evidence["rearmed"])
+    broken_by = mutations.stands(station, evidence["rearmed"])
+    outcome.at_least("moves once re-armed", measured, 5.0, "deg", broken_by=broken_by)
     freed_us = evidence["freed_us"]
     judge_tracking_again(evidence, outcome, "tracking again", station, freed_us, 15.0)
 

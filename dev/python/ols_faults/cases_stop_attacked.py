@@ -124,13 +124,8 @@ def judge(evidence: Evidence, outcome: Outcome, least_hz: float) -> None:
         note=f"of {len(stops)}",
         broken_by=Mutation("ols-ctl dies once", one_dies),
     )
-    outcome.at_least(
-        "attack",
-        evidence["rate_hz"],
-        least_hz,
-        "Hz",
-        broken_by=mutations.fact("it is half of it", "rate_hz", least_hz / 2),
-    )
+    broken_by = mutations.fact("it is half of it", "rate_hz", least_hz / 2)
+    outcome.at_least("attack", evidence["rate_hz"], least_hz, "Hz", broken_by=broken_by)
     freed_us = evidence["freed_us"]
     judge_tracking_again(evidence, outcome, "tracking again", station, freed_us, 15.0)
 

@@ -51,12 +51,9 @@ def judge_angles(
         note=f"of {len(ratio)}",
         broken_by=mutations.bearings_turned(station, off_deg, every=5),
     )
-    outcome.at_most(
-        f"{station}: greatest error in sigmas",
-        float(ratio.max()) if len(ratio) else None,
-        4.5,
-        broken_by=mutations.bearings_turned(station, 2 * off_deg, every=10),
-    )
+    measured = float(ratio.max()) if len(ratio) else None
+    broken_by = mutations.bearings_turned(station, 2 * off_deg, every=10)
+    outcome.at_most(f"{station}: greatest error in sigmas", measured, 4.5, broken_by=broken_by)
     outcome.at_most(
         f"{station}: median of the published sigmas",
         wide_deg,
@@ -87,28 +84,19 @@ def judge_motion(evidence: Evidence, outcome: Outcome, station: str, window: Win
 def judge_target(evidence: Evidence, outcome: Outcome, window: Window, least_hz: float) -> None:
     """Relative to the published error, because fewer stations are less accurate."""
     found = evaluate.accuracy(evidence.heard, evaluate.JOINT, window)
-    outcome.at_least(
-        "targets",
-        found["fixes"] / seconds(window),
-        least_hz,
-        "Hz",
-        broken_by=mutations.targets_lost(share=0.78),
-    )
-    outcome.at_most(
-        "RMS error over predicted",
-        found.get("rmse_over_predicted"),
-        CONSISTENT,
-        broken_by=mutations.target_sigmas_scaled(0.02),
-    )
+    measured = found["fixes"] / seconds(window)
+    broken_by = mutations.targets_lost(share=0.78)
+    outcome.at_least("targets", measured, least_hz, "Hz", broken_by=broken_by)
+    measured = found.get("rmse_over_predicted")
+    broken_by = mutations.target_sigmas_scaled(0.02)
+    outcome.at_most("RMS error over predicted", measured, CONSISTENT, broken_by=broken_by)
     outcome.at_most(
         "RMS error", found["rmse_m"], ERROR_M, "m", broken_by=mutations.targets_shifted(0.7)
     )
+    measured = found["predicted_rmse_m"]
+    broken_by = mutations.target_sigmas_scaled(10.0)
     outcome.at_most(
-        "error that the fusion predicts",
-        found["predicted_rmse_m"],
-        PREDICTED_M,
-        "m",
-        broken_by=mutations.target_sigmas_scaled(10.0),
+        "error that the fusion predicts", measured, PREDICTED_M, "m", broken_by=broken_by
     )
 
 
@@ -123,12 +111,10 @@ def judge_goes_on(
         ", ".join(sorted(seen - GOES_ON)) or ("yes" if seen else "no status"),
         broken_by=mutations.in_state(station, "lost", window),
     )
+    measured = measure.bearings_hz(evidence.heard, station, *window)
+    broken_by = mutations.bearings_lost(station, window, 0.78)
     outcome.at_least(
-        f"{station}: bearings meanwhile",
-        measure.bearings_hz(evidence.heard, station, *window),
-        least_hz,
-        "Hz",
-        broken_by=mutations.bearings_lost(station, window, 0.78),
+        f"{station}: bearings meanwhile", measured, least_hz, "Hz", broken_by=broken_by
     )
 
 
@@ -136,24 +122,17 @@ def judge_outage(evidence: Evidence, outcome: Outcome, station: str, window: Win
     """While the device is away there can be no bearing: else the fault was not done, or they are
     made up."""
     sent = measure.between(evidence.heard.bearings.get(station, []), *window)
-    outcome.at_most(
-        f"{station}: bearings meanwhile",
-        float(len(sent)),
-        0.0,
-        broken_by=mutations.goes_on_publishing(station, window),
-    )
+    broken_by = mutations.goes_on_publishing(station, window)
+    outcome.at_most(f"{station}: bearings meanwhile", float(len(sent)), 0.0, broken_by=broken_by)
 
 
 def judge_tracking_again(
     evidence: Evidence, outcome: Outcome, what: str, station: str, since_us: int, limit_s: float
 ) -> None:
     """The recovery is its first bearing of an image taken since then."""
-    outcome.recovered(
-        what,
-        measure.tracking_again_s(evidence.heard, station, since_us, mutations.EVER),
-        limit_s,
-        broken_by=mutations.not_tracking_for(station, since_us, limit_s),
-    )
+    measured = measure.tracking_again_s(evidence.heard, station, since_us, mutations.EVER)
+    broken_by = mutations.not_tracking_for(station, since_us, limit_s)
+    outcome.recovered(what, measured, limit_s, broken_by=broken_by)
 
 
 def judge_rest(
@@ -161,13 +140,9 @@ def judge_rest(
 ) -> None:
     """The PTU comes to rest within the limit after the window's start."""
     after_us = window[0] + round((limit_s + 0.1) * 1e6)
-    outcome.at_most(
-        "PTU at rest",
-        measure.rest_s(evidence.heard, station, *window),
-        limit_s,
-        "s",
-        broken_by=mutations.moves_on(station, (window[0], after_us), 3.0),
-    )
+    measured = measure.rest_s(evidence.heard, station, *window)
+    broken_by = mutations.moves_on(station, (window[0], after_us), 3.0)
+    outcome.at_most("PTU at rest", measured, limit_s, "s", broken_by=broken_by)
 
 
 def alarm_of(status: object, *words: str) -> str:
@@ -195,16 +170,8 @@ def judge_alarm(
         return bool(text)
 
     seen_s = measure.first_s(recording, channel, since_us, mutations.EVER, alarmed)
-    outcome.at_most(
-        what,
-        seen_s,
-        limit_s,
-        "s",
-        note=text or "no such alarm",
-        broken_by=mutations.alarm_instead(
-            station, words[0] + " trouble", (since_us, mutations.EVER)
-        ),
-    )
+    broken_by = mutations.alarm_instead(station, words[0] + " trouble", (since_us, mutations.EVER))
+    outcome.at_most(what, seen_s, limit_s, "s", note=text or "no such alarm", broken_by=broken_by)
     outcome.holds(
         f"{what}: not before it",
         bool(before) and not any(alarm_of(status, *words) for status in before),
@@ -225,10 +192,6 @@ def judge_counted(
     names = (names,) if isinstance(names, str) else names
     counted = [measure.grown(evidence.heard, channel, name, *window) for name in names]
     silent = [mutations.without_counter(channel, name) for name in names]
-    outcome.at_least(
-        what,
-        None if None in counted else sum(counted),
-        least,
-        note=" + ".join(names),
-        broken_by=mutations.together(f"{' and '.join(names)} not counted", *silent),
-    )
+    measured = None if None in counted else sum(counted)
+    broken_by = mutations.together(f"{' and '.join(names)} not counted", *silent)
+    outcome.at_least(what, measured, least, note=" + ".join(names), broken_by=broken_by)
