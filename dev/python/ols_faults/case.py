@@ -51,31 +51,13 @@ class Outcome:
     def passed(self) -> bool:
         return not self.error and bool(self.checks) and all(check.passed for check in self.checks)
 
-    def at_most(
-        self,
-        what: str,
-        value: float | None,
-        limit: float,
-        unit: str = "",
-        *,
-        broken_by: Mutation | None = None,
-        note: str = "",
-    ) -> None:
+    def at_most(self, what: str, value: float | None, limit: float, unit="", **more) -> None:
         passed = value is not None and bool(math.isfinite(value) and value <= limit)
-        self._add(what, value, f"<= {limit:.3g}", unit, passed, broken_by, note)
+        self._add(what, value, f"<= {limit:.3g}", unit, passed, **more)
 
-    def at_least(
-        self,
-        what: str,
-        value: float | None,
-        limit: float,
-        unit: str = "",
-        *,
-        broken_by: Mutation | None = None,
-        note: str = "",
-    ) -> None:
+    def at_least(self, what: str, value: float | None, limit: float, unit="", **more) -> None:
         passed = value is not None and bool(math.isfinite(value) and value >= limit)
-        self._add(what, value, f">= {limit:.3g}", unit, passed, broken_by, note)
+        self._add(what, value, f">= {limit:.3g}", unit, passed, **more)
 
     def holds(
         self, what: str, passed: bool, measured: str = "", *, broken_by: Mutation | None = None
@@ -83,27 +65,13 @@ class Outcome:
         said = measured or ("yes" if passed else "no")
         self.checks.append(Check(what, said, "yes", bool(passed), broken_by))
 
-    def recovered(
-        self,
-        what: str,
-        seconds: float | None,
-        limit_s: float,
-        *,
-        broken_by: Mutation | None = None,
-    ) -> None:
+    def recovered(self, what: str, seconds: float | None, limit_s: float, **more) -> None:
         """Adds the recovery time to the table, and checks that the recovery came in time."""
         self.recovery_s = seconds
-        self.at_most(what, seconds, limit_s, "s", broken_by=broken_by)
+        self.at_most(what, seconds, limit_s, "s", **more)
 
     def _add(
-        self,
-        what: str,
-        value: float | None,
-        limit: str,
-        unit: str,
-        passed: bool,
-        broken_by: Mutation | None,
-        note: str,
+        self, what, value, limit, unit, passed, broken_by: Mutation | None = None, note: str = ""
     ) -> None:
         measured = figure(value, unit) + (f" ({note})" if note else "")
         self.checks.append(Check(what, measured, f"{limit} {unit}".strip(), passed, broken_by))

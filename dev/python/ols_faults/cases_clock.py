@@ -78,11 +78,9 @@ def judge_marks(evidence: Evidence, outcome: Outcome, step_s: float) -> None:
     def always_marked(bearing: Any) -> Any:
         return put(bearing, clock_error_s=abs(step_s))
 
-    outcome.holds(
-        "and not before",
-        bool(before) and not any(marked(bearing) for bearing, _ in before),
-        broken_by=mutations.altering("bearings are always marked", channel, always_marked),
-    )
+    measured = bool(before) and not any(marked(bearing) for bearing, _ in before)
+    broken_by = mutations.altering("bearings are always marked", channel, always_marked)
+    outcome.holds("and not before", measured, broken_by=broken_by)
 
 
 def judge_quarantine(evidence: Evidence, outcome: Outcome) -> None:

@@ -253,11 +253,8 @@ def judge_unhomed(evidence: Evidence, outcome: Outcome) -> None:
     shortly_us = evidence["at_us"] + round(SHORTLY_S * 1e6)
     judge_outage(evidence, outcome, station, (shortly_us, window[1]))
     said = measure.statuses(evidence.heard, station, *window)
-    outcome.holds(
-        "still reported",
-        bool(said) and not any(is_well(status) for status in said),
-        broken_by=mutations.says_nothing(station, window),
-    )
+    measured = bool(said) and not any(is_well(status) for status in said)
+    outcome.holds("still reported", measured, broken_by=mutations.says_nothing(station, window))
     judge_back(evidence, outcome, "ready after `home`")
     judge_whole(evidence, outcome, evidence["again_us"], 1.5)
 

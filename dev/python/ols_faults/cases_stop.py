@@ -66,11 +66,8 @@ def judge(evidence: Evidence, outcome: Outcome) -> None:
     def not_pressed(ptu: object) -> object:
         return mutations.put(ptu, stop_pressed=False, stop_edge_utime=at_us - 100_000_000)
 
-    outcome.holds(
-        "it was pressed",
-        len(edges) == 1,
-        broken_by=mutations.altering("it is not pressed", f"OLS_SIM_PTU_{station}", not_pressed),
-    )
+    broken_by = mutations.altering("it is not pressed", f"OLS_SIM_PTU_{station}", not_pressed)
+    outcome.holds("it was pressed", len(edges) == 1, broken_by=broken_by)
     judge_stop(evidence, outcome, station, (edge_us, braked_us))
     said = measure.states(heard, station, edge_us + 1_000_000, braked_us)
     outcome.holds(

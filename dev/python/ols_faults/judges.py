@@ -172,11 +172,9 @@ def judge_alarm(
     seen_s = measure.first_s(recording, channel, since_us, mutations.EVER, alarmed)
     broken_by = mutations.alarm_instead(station, words[0] + " trouble", (since_us, mutations.EVER))
     outcome.at_most(what, seen_s, limit_s, "s", note=text or "no such alarm", broken_by=broken_by)
-    outcome.holds(
-        f"{what}: not before it",
-        bool(before) and not any(alarm_of(status, *words) for status in before),
-        broken_by=mutations.alarm_instead(station, " ".join(words), (0, since_us)),
-    )
+    measured = bool(before) and not any(alarm_of(status, *words) for status in before)
+    broken_by = mutations.alarm_instead(station, " ".join(words), (0, since_us))
+    outcome.holds(f"{what}: not before it", measured, broken_by=broken_by)
 
 
 def judge_counted(
