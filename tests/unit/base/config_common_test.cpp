@@ -7,6 +7,7 @@
 #include <span>
 #include <stdexcept>
 
+#include "tests/unit/error_text.h"
 #include "tests/unit/temp_dir.h"
 
 namespace ols::config {
@@ -30,12 +31,7 @@ Section sample_section(Sample& s) {
 }
 
 std::string error_of(const std::string& toml) {
-  try {
-    parse(toml, "f", sample_section);
-  } catch (const ConfigError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return error_text<ConfigError>([&] { parse(toml, "f", sample_section); }, "accepted");
 }
 
 TEST(ConfigCommon, AFileAndATextGiveTheSame) {

@@ -6,6 +6,8 @@
 #include <array>
 #include <stdexcept>
 
+#include "tests/unit/error_text.h"
+
 namespace ols::config {
 namespace {
 
@@ -64,12 +66,7 @@ Cart loaded(const std::string& toml) {
 }
 
 std::string error_of(const std::string& toml) {
-  try {
-    loaded(toml);
-  } catch (const ConfigError& error) {
-    return error.what();
-  }
-  return "none";
+  return error_text<ConfigError>([&] { loaded(toml); }, "none");
 }
 
 TEST(ConfigSection, ReadsEachKindOfRow) {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "base/config_section.h"
+#include "tests/unit/error_text.h"
 
 namespace ols::test {
 
@@ -19,12 +20,7 @@ struct SectionText {
     return config;
   }
   std::string error_of(const std::string& text) const {
-    try {
-      static_cast<void>(read(text));
-    } catch (const ConfigError& error) {
-      return error.what();
-    }
-    return "accepted";
+    return error_text<ConfigError>([&] { static_cast<void>(read(text)); }, "accepted");
   }
 };
 

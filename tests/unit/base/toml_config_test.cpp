@@ -8,6 +8,7 @@
 #include <fstream>
 #include <string>
 
+#include "tests/unit/error_text.h"
 #include "tests/unit/temp_dir.h"
 
 namespace ols {
@@ -16,13 +17,10 @@ namespace {
 using testing::HasSubstr;
 
 std::string error_of(std::string_view text, void (*read)(ConfigTable&)) {
-  try {
+  return error_text<ConfigError>([&] {
     ConfigFile file(text, "station.toml");
     read(file.root());
-  } catch (const ConfigError& error) {
-    return error.what();
-  }
-  return "";
+  });
 }
 
 TEST(ConfigFile, ReadsValuesAndFallbacks) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "base/toml_config.h"
+#include "tests/unit/error_text.h"
 
 namespace ols::bridge {
 namespace {
@@ -14,12 +15,7 @@ using testing::HasSubstr;
 BridgeConfig parsed(const std::string& text) { return parse_bridge_config(text, "bridge.toml"); }
 
 std::string error_of(const std::string& text) {
-  try {
-    parsed(text);
-  } catch (const ConfigError& error) {
-    return error.what();
-  }
-  return "";
+  return error_text<ConfigError>([&] { parsed(text); });
 }
 
 TEST(BridgeConfig, BridgesASiteAndStoresNothingByDefault) {

@@ -9,6 +9,8 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "tests/unit/error_text.h"
+
 namespace ols::calibration {
 namespace {
 
@@ -102,12 +104,7 @@ double farthest(const BoardView& found, const View& view, const std::vector<cv::
   return most;
 }
 std::string refusal(const BoardShape& shape) {
-  try {
-    check_board(shape);
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "";
+  return error_text<std::invalid_argument>([&] { check_board(shape); });
 }
 
 TEST(BoardDetection, ACharucoOfOddRowsIsFoundCornerByCorner) {

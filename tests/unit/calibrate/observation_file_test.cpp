@@ -5,6 +5,8 @@
 #include <sstream>
 #include <streambuf>
 
+#include "tests/unit/error_text.h"
+
 namespace ols::calibration {
 namespace {
 
@@ -14,12 +16,7 @@ const std::string kLevel =
 
 std::string refusal(const std::string& text) {
   std::istringstream file(text);
-  try {
-    read_observations(file, "site.jsonl", {"alfa"});
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "";
+  return error_text<std::runtime_error>([&] { read_observations(file, "site.jsonl", {"alfa"}); });
 }
 
 // A disk that fails after the first block.

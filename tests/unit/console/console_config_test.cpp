@@ -3,17 +3,13 @@
 #include <gtest/gtest.h>
 
 #include "base/toml_config.h"
+#include "tests/unit/error_text.h"
 
 namespace ols::console {
 namespace {
 
 std::string error_of(const std::string& text) {
-  try {
-    parse_console_config(text, "console.toml");
-  } catch (const ConfigError& error) {
-    return error.what();
-  }
-  return "taken";
+  return error_text<ConfigError>([&] { parse_console_config(text, "console.toml"); }, "taken");
 }
 
 TEST(ConsoleConfig, TheDefaultsServeThisHostAlone) {

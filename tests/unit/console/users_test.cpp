@@ -4,16 +4,13 @@
 
 #include <stdexcept>
 
+#include "tests/unit/error_text.h"
+
 namespace ols::console {
 namespace {
 
 std::string error_of(const std::string& text) {
-  try {
-    parse_users(text, "users");
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "taken";
+  return error_text<std::invalid_argument>([&] { parse_users(text, "users"); }, "taken");
 }
 
 TEST(Users, AFileIsReadAsItWasWritten) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "base/toml_config.h"
+#include "tests/unit/error_text.h"
 
 namespace ols::cues {
 namespace {
@@ -13,12 +14,7 @@ using testing::HasSubstr;
 CueConfig parsed(const std::string& text) { return parse_cue_config(text, "cue.toml"); }
 
 std::string error_of(const std::string& text) {
-  try {
-    parsed(text);
-  } catch (const ConfigError& error) {
-    return error.what();
-  }
-  return "";
+  return error_text<ConfigError>([&] { parsed(text); });
 }
 
 std::string input(const std::string& format, const std::string& from,

@@ -10,6 +10,7 @@
 
 #include "base/toml_config.h"
 #include "geometry/angles.h"
+#include "tests/unit/error_text.h"
 #include "tests/unit/temp_dir.h"
 
 namespace ols::station {
@@ -52,12 +53,7 @@ class StationConfigFile : public testing::Test {
 TEST_F(StationConfigFile, TheLensAndTheDoubtOfTheCalibrationAreAskedFor) {
   const std::string pose = "[pose]\nheading_deg = 10\n" + kPlace;
   const auto asked = [&](const std::string& text) {
-    try {
-      load_exactly(text);
-    } catch (const ConfigError& error) {
-      return std::string(error.what());
-    }
-    return std::string("none");
+    return error_text<ConfigError>([&] { load_exactly(text); }, "none");
   };
   const std::string sd = kSd + "heading_deg = 0.1\n";
   EXPECT_NE(asked(kStart + pose).find("heading_deg"), std::string::npos);

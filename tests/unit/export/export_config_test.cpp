@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "base/toml_config.h"
+#include "tests/unit/error_text.h"
 
 namespace ols::exports {
 namespace {
@@ -12,12 +13,7 @@ using testing::HasSubstr;
 ExportConfig parsed(const std::string& text) { return parse_export_config(text, "export.toml"); }
 
 std::string complaint(const std::string& text) {
-  try {
-    parsed(text);
-  } catch (const ConfigError& error) {
-    return error.what();
-  }
-  return "none";
+  return error_text<ConfigError>([&] { parsed(text); }, "none");
 }
 
 std::string output(const std::string& more) { return "[[output]]\nname = \"a\"\n" + more; }

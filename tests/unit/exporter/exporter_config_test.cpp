@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "base/toml_config.h"
+#include "tests/unit/error_text.h"
 #include "tests/unit/temp_dir.h"
 
 namespace ols::exporter {
@@ -16,12 +17,7 @@ using testing::HasSubstr;
 std::string error_of(const std::string& text) {
   const std::string path = temp_dir() + "exporter.toml";
   std::ofstream(path) << text;
-  try {
-    load_exporter_config(path);
-  } catch (const ConfigError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return error_text<ConfigError>([&] { load_exporter_config(path); }, "accepted");
 }
 
 TEST(ExporterConfig, ReadsEachKey) {

@@ -12,6 +12,7 @@
 
 #include "geometry/angles.h"
 #include "geometry/utm.h"
+#include "tests/unit/error_text.h"
 
 namespace ols {
 namespace {
@@ -180,12 +181,8 @@ TEST(Stationing, LandmarksTakeInTheMountingAndTheMoreTheNearerToTheHorizon) {
 }
 
 std::string refusal(const StationGeometry& rough, std::vector<LandmarkSighting> sightings) {
-  try {
-    station_by_landmarks(rough, sightings, kHighest_rad);
-  } catch (const std::invalid_argument& problem) {
-    return problem.what();
-  }
-  return "";
+  return error_text<std::invalid_argument>(
+      [&] { station_by_landmarks(rough, sightings, kHighest_rad); });
 }
 
 TEST(Stationing, RefusesWhatIsNoSighting) {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "tests/unit/error_text.h"
+
 namespace ols {
 namespace {
 
@@ -52,12 +54,8 @@ TEST(ZoomTable, OutsideItIsTheNearestPoint) {
 
 TEST(ZoomTable, RefusesWhatIsNoTable) {
   const auto refusal = [](std::vector<ZoomPoint> points) -> std::string {
-    try {
-      static_cast<void>(ZoomTable(std::move(points)));
-    } catch (const std::invalid_argument& error) {
-      return error.what();
-    }
-    return "taken";
+    return error_text<std::invalid_argument>(
+        [&] { static_cast<void>(ZoomTable(std::move(points))); }, "taken");
   };
   EXPECT_EQ(refusal({point(0.0, 1000.0)}), "needs at least two points");
   EXPECT_EQ(refusal({point(0.5, 1000.0), point(0.5, 2000.0)}), "point 2: positions must rise");

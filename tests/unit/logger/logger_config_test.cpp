@@ -4,17 +4,13 @@
 #include <gtest/gtest.h>
 
 #include "base/toml_config.h"
+#include "tests/unit/error_text.h"
 
 namespace ols::logger {
 namespace {
 
 std::string error_of(const std::string& text) {
-  try {
-    parse_logger_config(text, "logger.toml");
-  } catch (const ConfigError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return error_text<ConfigError>([&] { parse_logger_config(text, "logger.toml"); }, "accepted");
 }
 
 TEST(LoggerConfig, AllKeysHaveDefaults) {

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "geometry/angles.h"
+#include "tests/unit/error_text.h"
 #include "tests/unit/temp_dir.h"
 
 namespace ols::offline {
@@ -21,12 +22,7 @@ class GeoJson : public testing::Test {
     return read_geojson(path_);
   }
   std::string why_not(const std::string& text) const {
-    try {
-      read(text);
-    } catch (const GeoJsonError& error) {
-      return error.what();
-    }
-    return "";
+    return error_text<GeoJsonError>([&] { read(text); });
   }
   void TearDown() override { std::filesystem::remove(path_); }
 

@@ -5,6 +5,7 @@
 
 #include <stdexcept>
 
+#include "tests/unit/error_text.h"
 #include "tests/unit/setup/answers_fixture.h"
 
 namespace ols::setup {
@@ -13,12 +14,7 @@ namespace {
 using testing::HasSubstr;
 
 std::string complaint(const std::string& text) {
-  try {
-    read_answers(text, "answers.toml");
-  } catch (const ConfigError& error) {
-    return error.what();
-  }
-  return "none";
+  return error_text<ConfigError>([&] { read_answers(text, "answers.toml"); }, "none");
 }
 
 std::string with(std::string text, const std::string& from, const std::string& to) {

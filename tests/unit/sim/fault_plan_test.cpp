@@ -8,6 +8,7 @@
 
 #include "base/toml_config.h"
 #include "sim/scenario.h"
+#include "tests/unit/error_text.h"
 
 namespace ols::sim {
 namespace {
@@ -118,12 +119,7 @@ const std::string kScenario =
     "[[fault]]\n";                       // 12
 
 std::string error_of(const std::string& fault) {
-  try {
-    parse_scenario(kScenario + fault, "s.toml", ".");
-  } catch (const ConfigError& error) {
-    return error.what();
-  }
-  return "";
+  return error_text<ConfigError>([&] { parse_scenario(kScenario + fault, "s.toml", "."); });
 }
 
 TEST(FaultPlan, AScenarioSchedulesFaults) {

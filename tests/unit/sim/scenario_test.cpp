@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "base/toml_config.h"
+#include "tests/unit/error_text.h"
 
 namespace ols::sim {
 namespace {
@@ -28,12 +29,7 @@ const std::string kSmall =
     "kind = \"line\"\n";                 // 11
 
 std::string error_of(const std::string& text) {
-  try {
-    parse_scenario(text, "s.toml", ".");
-  } catch (const ConfigError& error) {
-    return error.what();
-  }
-  return "";
+  return error_text<ConfigError>([&] { parse_scenario(text, "s.toml", "."); });
 }
 
 TEST(Scenario, ShippedOnesLoad) {

@@ -10,6 +10,7 @@
 
 #include "base/toml_config.h"
 #include "tests/unit/base/trust/site_fixture.h"
+#include "tests/unit/error_text.h"
 #include "tests/unit/temp_dir.h"
 
 namespace ols::trust {
@@ -28,12 +29,7 @@ class KeyFileTest : public testing::Test {
   std::string error_of(const std::string& text) const {
     std::ofstream(path_) << text;
     ::chmod(path_.c_str(), 0600);
-    try {
-      read_member_key(path_);
-    } catch (const ConfigError& error) {
-      return error.what();
-    }
-    return "";
+    return error_text<ConfigError>([&] { read_member_key(path_); });
   }
 
   const std::string folder_ =

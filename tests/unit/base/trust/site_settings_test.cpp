@@ -6,6 +6,7 @@
 #include "base/toml_config.h"
 #include "base/trust/signed_text.h"
 #include "tests/unit/base/trust/site_fixture.h"
+#include "tests/unit/error_text.h"
 
 namespace ols::trust {
 namespace {
@@ -23,12 +24,8 @@ SiteSettings head(std::int64_t number = 3) {
 }
 
 std::string error_of(const std::string& text) {
-  try {
-    read_settings(text, "site.toml", kSite.root.public_key());
-  } catch (const ConfigError& error) {
-    return error.what();
-  }
-  return "";
+  return error_text<ConfigError>(
+      [&] { read_settings(text, "site.toml", kSite.root.public_key()); });
 }
 
 std::string signed_body(const std::string& body) {

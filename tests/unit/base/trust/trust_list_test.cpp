@@ -7,6 +7,7 @@
 
 #include "base/toml_config.h"
 #include "tests/unit/base/trust/site_fixture.h"
+#include "tests/unit/error_text.h"
 
 namespace ols::trust {
 namespace {
@@ -16,12 +17,7 @@ using testing::HasSubstr;
 const Site kSite;
 
 std::string error_of(const std::string& text) {
-  try {
-    read_list(text, "trust.toml", kSite.root.public_key());
-  } catch (const ConfigError& error) {
-    return error.what();
-  }
-  return "";
+  return error_text<ConfigError>([&] { read_list(text, "trust.toml", kSite.root.public_key()); });
 }
 
 // Signed, whatever it says.

@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "tests/unit/error_text.h"
+
 namespace ols::trust {
 namespace {
 
@@ -23,12 +25,7 @@ TEST(TrustWords, ANameIsShortAndOfPlainCharacters) {
 TEST(TrustWords, AnErrorNamesFileLineAndKey) {
   ConfigFile file("name = \"a b\"\nseed = \"12\"\n", "alfa.key");
   const auto complaint = [&](auto read, const char* key) -> std::string {
-    try {
-      read(file.root(), key);
-    } catch (const ConfigError& error) {
-      return error.what();
-    }
-    return "none";
+    return error_text<ConfigError>([&] { read(file.root(), key); }, "none");
   };
   EXPECT_THAT(complaint(read_name, "name"), HasSubstr("alfa.key:1: name: must be 1 to 32"));
   EXPECT_THAT(complaint(read_hex, "seed"), HasSubstr("alfa.key:2: seed: must be 64"));

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "base/toml_config.h"
+#include "tests/unit/error_text.h"
 #include "tests/unit/temp_dir.h"
 
 namespace ols::fusion {
@@ -23,12 +24,7 @@ class FusionSettingsTest : public testing::Test {
   }
   std::string path() const { return (folder_ / "fusion.toml").string(); }
   std::string refusal(const std::string& text) const {
-    try {
-      load(text);
-    } catch (const ConfigError& error) {
-      return error.what();
-    }
-    return "none";
+    return error_text<ConfigError>([&] { load(text); }, "none");
   }
 
  private:

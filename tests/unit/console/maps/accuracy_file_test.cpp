@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tests/unit/console/maps/map_folder.h"
+#include "tests/unit/error_text.h"
 
 namespace ols::console {
 namespace {
@@ -33,12 +34,7 @@ std::string file(const std::vector<Json>& features) {
 }
 
 std::string problem(const std::string& text) {
-  try {
-    accuracy_cells(text);
-  } catch (const std::exception& error) {
-    return error.what();
-  }
-  return "";
+  return error_text<std::exception>([&] { accuracy_cells(text); });
 }
 
 TEST(AccuracyFile, HasTheCellsOfEachHeightWithTheRootOfTheirTrace) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "base/config_section.h"
+#include "tests/unit/error_text.h"
 
 namespace ols::camera {
 namespace {
@@ -16,12 +17,7 @@ CameraConfig read(std::string_view text) {
 }
 
 std::string error_of(std::string_view text) {
-  try {
-    read(text);
-  } catch (const ConfigError& error) {
-    return error.what();
-  }
-  return "";
+  return error_text<ConfigError>([&] { read(text); });
 }
 
 TEST(CameraConfig, OnlyTheDeviceIsNeeded) {

@@ -11,6 +11,7 @@
 #include "base/clocks.h"
 #include "edge/gpio/gpio_lines.h"
 #include "tests/unit/edge/gpio/fake_gpiod.h"
+#include "tests/unit/error_text.h"
 
 namespace ols::gpio {
 namespace {
@@ -28,12 +29,7 @@ class ChipLines : public testing::Test {
   }
   std::unique_ptr<GpioLines> open() { return open_chip_lines(fake::chip().path, use); }
   std::string error_of(const std::function<void()>& action) {
-    try {
-      action();
-    } catch (const std::system_error& error) {
-      return error.what();
-    }
-    return "none";
+    return error_text<std::system_error>([&] { action(); }, "none");
   }
   static bool readable(int fd) {
     pollfd entry{fd, POLLIN, 0};

@@ -14,6 +14,7 @@
 #include <system_error>
 
 #include "edge/gpio/gpio_lines.h"
+#include "tests/unit/error_text.h"
 
 namespace ols::gpio {
 namespace {
@@ -56,12 +57,7 @@ class SocketLines : public testing::Test {
     client_ = -1;
   }
   std::string error_of_receive() const {
-    try {
-      lines_->receive();
-    } catch (const std::system_error& error) {
-      return error.what();
-    }
-    return "none";
+    return error_text<std::system_error>([&] { lines_->receive(); }, "none");
   }
 
   std::string path_;

@@ -2,6 +2,7 @@
 
 #include "base/config_section.h"
 #include "edge/lens/lens_motor.h"
+#include "tests/unit/error_text.h"
 
 namespace ols::lens {
 namespace {
@@ -14,12 +15,7 @@ LensMotorConfig read(const std::string& text) {
 }
 
 std::string refusal(const std::string& text) {
-  try {
-    static_cast<void>(read(text));
-  } catch (const ConfigError& error) {
-    return error.what();
-  }
-  return "taken";
+  return error_text<ConfigError>([&] { static_cast<void>(read(text)); }, "taken");
 }
 
 std::string point(const char* position, const char* focal) {

@@ -3,6 +3,7 @@
 #include "base/config_section.h"
 #include "edge/sensors/pose_estimator_config.h"
 #include "geometry/angles.h"
+#include "tests/unit/error_text.h"
 
 namespace ols::sensors {
 namespace {
@@ -22,12 +23,7 @@ GnssConfig gnss(const std::string& text) {
 }
 
 std::string error_of(auto&& read) {
-  try {
-    read();
-  } catch (const ConfigError& problem) {
-    return problem.what();
-  }
-  return "none";
+  return error_text<ConfigError>([&] { read(); }, "none");
 }
 
 TEST(SensorsConfig, NothingIsConfiguredByDefault) {
