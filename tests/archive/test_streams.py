@@ -47,8 +47,7 @@ def test_a_damaged_position_is_none(tmp_path, text):
 
 
 @pytest.mark.parametrize(
-    "words",
-    [["--stream", "OLS_r", "a.lcmlog"], ["--stream", "OLS_r", "--live", "memq://"]],
+    "words", [["--stream", "OLS_r", "a.lcmlog"], ["--stream", "OLS_r", "--live", "memq://"]]
 )
 def test_there_is_one_source(tmp_path, words, capsys):
     with pytest.raises(SystemExit) as ended:

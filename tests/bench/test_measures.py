@@ -14,14 +14,7 @@ from ols_bench.belief import (
     reliability,
 )
 from ols_bench.clips import BadInput, Boxes, Clip, read_boxes, read_folder
-from ols_bench.measures import (
-    Judged,
-    clip_measures,
-    distance,
-    folder_measures,
-    judge,
-    overlap,
-)
+from ols_bench.measures import Judged, clip_measures, distance, folder_measures, judge, overlap
 
 NONE = [np.nan] * 4
 

@@ -128,8 +128,7 @@ class Listener:
         """A status that was sent after this call."""
         before = self.observer.status.get(station)
         self.wait(
-            lambda: self.observer.status.get(station) not in (None, before),
-            f"status of {station}",
+            lambda: self.observer.status.get(station) not in (None, before), f"status of {station}"
         )
         return self.observer.status[station]
 

@@ -17,14 +17,7 @@ from helpers import VideoViewer
 from ols_demo.places import geodetic
 from ols_demo.site import Site
 from PIL import Image
-from tripod import (
-    SCENARIO,
-    SIGNS,
-    Tripod,
-    found_values,
-    heading_of_picture_deg,
-    references,
-)
+from tripod import SCENARIO, SIGNS, Tripod, found_values, heading_of_picture_deg, references
 
 SWEEP_POSES = 10
 
@@ -78,8 +71,7 @@ def test_a_new_unit_is_calibrated_from_the_console(tripod, accepted):
 
 
 @pytest.mark.skipif(
-    os.environ.get("OLS_WHOLE_FIELD") != "1",
-    reason="takes five minutes: OLS_WHOLE_FIELD=1 runs it",
+    os.environ.get("OLS_WHOLE_FIELD") != "1", reason="takes five minutes: OLS_WHOLE_FIELD=1 runs it"
 )
 def test_all_of_it_takes_five_minutes(tripod, accepted):
     """From a unit of which nothing is known: 60 pictures, and two rounds over eight signs."""
@@ -313,8 +305,7 @@ def test_a_sweep_is_accepted_as_an_instrument_and_compared_with(tripod, accepted
 
 
 @pytest.mark.skipif(
-    os.environ.get("OLS_WHOLE_FIELD") != "1",
-    reason="takes some minutes: OLS_WHOLE_FIELD=1 runs it",
+    os.environ.get("OLS_WHOLE_FIELD") != "1", reason="takes some minutes: OLS_WHOLE_FIELD=1 runs it"
 )
 def test_how_long_ninety_pictures_take(tripod, accepted):
     """What is measured stands in docs/benchmarks.md."""
@@ -356,8 +347,7 @@ def test_wrong_serial_numbers_are_refused_before_anything_moves(tripod, accepted
     text = text.replace('lens = ""', 'lens = "one"').replace('covariance = "covariance.csv"\n', "")
     instrument.write_text(text)
     command = tripod.command(
-        "field",
-        *("--references", tripod.folder / "references.csv", "--instrument", instrument),
+        "field", *("--references", tripod.folder / "references.csv", "--instrument", instrument)
     )
     command[command.index(str(tripod.config))] = str(config)
     done = subprocess.run(command, capture_output=True, text=True, timeout=30, check=False)

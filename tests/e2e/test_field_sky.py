@@ -10,13 +10,7 @@ import ols_msg
 import pytest
 from ols_demo.places import geodetic
 from ols_demo.site import Site
-from tripod import (
-    SCENARIO,
-    Tripod,
-    found_values,
-    head_and_camera,
-    heading_of_picture_deg,
-)
+from tripod import SCENARIO, Tripod, found_values, head_and_camera, heading_of_picture_deg
 
 SEED = 20261123
 AIR = ("--ut1-utc", 0.03, "--pressure", 980, "--temperature", 10)  # as the simulator's

@@ -194,10 +194,7 @@ def test_a_disk_without_any_room_is_waited_for(start):
     logger.wait_recording()
     filler = logger.logs / "filler"
     logger.shell.run(f"head -c 1000000 /dev/zero > {filler} 2>/dev/null")
-    wait(
-        lambda: logger.bus.publish(2000) or logger.status().get("failures"),
-        "trouble",
-    )
+    wait(lambda: logger.bus.publish(2000) or logger.status().get("failures"), "trouble")
     logger.shell.run(f"rm {filler}")
     logger.wait_for("recording", lambda s: s["recording"])
     logger.wait_recording()

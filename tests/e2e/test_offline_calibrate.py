@@ -209,7 +209,7 @@ def test_rectification_targets_give_an_instrument_without_a_setup(tmp_path):
     assert done.returncode == 0, done.stderr
     assert "the result is an instrument without a setup" in done.stderr
     assert sorted(path.name for path in run.output.iterdir()) == [
-        *("covariance.csv", "instrument.toml", "report.html", "report.json"),
+        *("covariance.csv", "instrument.toml", "report.html", "report.json")
     ]
     report = run.report()
     assert report["stations"][0]["systematic_rms_arcsec"] is None

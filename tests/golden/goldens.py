@@ -70,11 +70,7 @@ GOLDENS = (
         ("targets.csv", "slews.csv", "counters.csv"),
         (str(BUILD / "tests/ols-golden-replay"), str(LOG), "OUTPUT"),
     ),
-    Golden(
-        "paper_mode",
-        ("frames.csv",),
-        (str(BUILD / "tests/ols-golden-paper-mode"), "OUTPUT"),
-    ),
+    Golden("paper_mode", ("frames.csv",), (str(BUILD / "tests/ols-golden-paper-mode"), "OUTPUT")),
     offline("offline_filter"),
     offline("offline_smooth", "--smooth"),
     offline("offline_least_squares", "--estimator", "least-squares"),

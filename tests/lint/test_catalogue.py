@@ -63,10 +63,7 @@ def test_systemd_reads_the_catalogue(tmp_path):
 
     def journalctl(word):
         done = subprocess.run(
-            ["journalctl", f"--root={tmp_path}", word],
-            capture_output=True,
-            text=True,
-            check=False,
+            ["journalctl", f"--root={tmp_path}", word], capture_output=True, text=True, check=False
         )
         assert done.returncode == 0, done.stderr
         return done

@@ -152,11 +152,7 @@ def test_utm_by_the_textbook_series():
     """Transverse Mercator by Krueger's series to the third order (Karney 2011, eq. 7 to 15)."""
     n = reference.FLATTENING / (2 - reference.FLATTENING)
     radius = reference.A_M / (1 + n) * (1 + n**2 / 4 + n**4 / 64)
-    alpha = [
-        n / 2 - 2 / 3 * n**2 + 5 / 16 * n**3,
-        13 / 48 * n**2 - 3 / 5 * n**3,
-        61 / 240 * n**3,
-    ]
+    alpha = [n / 2 - 2 / 3 * n**2 + 5 / 16 * n**3, 13 / 48 * n**2 - 3 / 5 * n**3, 61 / 240 * n**3]
     e = np.sqrt(reference.E2)
     lat, lon = np.radians(49.2266), np.radians(16.5969 - 15.0)
     t = np.sinh(np.arctanh(np.sin(lat)) - e * np.arctanh(e * np.sin(lat)))

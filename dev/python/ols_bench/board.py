@@ -93,10 +93,7 @@ def placed(
 ) -> tuple[Board, np.ndarray] | None:
     """The board and the frames that it hides the target in; nothing where none suits."""
     path = centres(boxes, to_reference)
-    candidates = (
-        standing(boxes, path, middle, wanted),
-        passing(boxes, path, middle, wanted),
-    )
+    candidates = (standing(boxes, path, middle, wanted), passing(boxes, path, middle, wanted))
     for board in candidates:
         if board is None:
             continue

@@ -22,13 +22,7 @@ from .model import (
     refracted,
 )
 from .rectification import put_up
-from .site import (
-    UTIME_US,
-    Site,
-    anywhere,
-    icrs_of,
-    station,
-)
+from .site import UTIME_US, Site, anywhere, icrs_of, station
 from .star_table import spots, stars_around, table_stars
 
 ROOT = Path(__file__).resolve().parents[3]

@@ -214,10 +214,7 @@ def judge_slews(evidence: Evidence, outcome: Outcome) -> None:
     )
 
 
-LED_STATES = (
-    ols_msg.station_status_t.STATE_SLEWED,
-    ols_msg.station_status_t.STATE_TRACKING,
-)
+LED_STATES = (ols_msg.station_status_t.STATE_SLEWED, ols_msg.station_status_t.STATE_TRACKING)
 
 
 @case(

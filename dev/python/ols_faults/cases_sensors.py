@@ -49,10 +49,7 @@ def judge_position(evidence: Evidence, outcome: Outcome) -> None:
     outcome.at_most("position moved", measured, KEPT_M, "m", broken_by=broken_by)
     measured = max(during.position_sd_m) - max(before.position_sd_m)
     broken_by = mutations.status_altered(
-        "the sigma stays",
-        station,
-        lambda s: put(s, position_sd_m=before.position_sd_m),
-        since,
+        "the sigma stays", station, lambda s: put(s, position_sd_m=before.position_sd_m), since
     )
     outcome.at_least("its 1-sigma grown", measured, 1e-4, "m", broken_by=broken_by)
 

@@ -166,11 +166,7 @@ def states(recording: Recording, station: str, start_us: int, end_us: int) -> se
 
 
 def first_s(
-    recording: Recording,
-    channel: str,
-    start_us: int,
-    end_us: int,
-    condition: Callable[[Any], bool],
+    recording: Recording, channel: str, start_us: int, end_us: int, condition: Callable[[Any], bool]
 ) -> float | None:
     """Time from the start to the first message that meets the condition, or None."""
     for message, at in between_arrivals(recording, channel, start_us, end_us):

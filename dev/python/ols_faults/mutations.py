@@ -261,11 +261,7 @@ def alarm_instead(station: str, text: str, window: Window = ALWAYS) -> Mutation:
 
     def change(status: Any) -> Any:
         return put(
-            status,
-            alarms=1,
-            alarm=[text],
-            device_text=[text] * status.devices,
-            last_error=text,
+            status, alarms=1, alarm=[text], device_text=[text] * status.devices, last_error=text
         )
 
     return status_altered(f'{station} only says "{text}"', station, change, window)

@@ -16,10 +16,7 @@ def measured(command: list[str], **options) -> tuple[int, dict[str, float]]:
     process = subprocess.Popen(command, **options)
     _, status, usage = os.wait4(process.pid, 0)
     process.returncode = os.waitstatus_to_exitcode(status)
-    spent = {
-        "processor_s": usage.ru_utime + usage.ru_stime,
-        "wall_s": time.monotonic() - start,
-    }
+    spent = {"processor_s": usage.ru_utime + usage.ru_stime, "wall_s": time.monotonic() - start}
     return process.returncode, spent
 
 
