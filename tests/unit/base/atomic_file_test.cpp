@@ -8,21 +8,16 @@
 #include <sstream>
 #include <system_error>
 
-#include "tests/unit/temp_dir.h"
+#include "tests/unit/folder_test.h"
 
 namespace ols {
 namespace {
 
 namespace fs = std::filesystem;
 
-class AtomicFileTest : public testing::Test {
+class AtomicFileTest : public FolderTest<std::filesystem::path> {
  protected:
-  void SetUp() override {
-    folder_ = fs::path(temp_dir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
-    fs::create_directories(folder_);
-    std::ofstream(path()) << "old";
-  }
-  void TearDown() override { fs::remove_all(folder_); }
+  void SetUp() override { std::ofstream(path()) << "old"; }
   std::string path() const { return folder_ / "out.csv"; }
   std::string content() const {
     std::ostringstream text;
@@ -33,7 +28,6 @@ class AtomicFileTest : public testing::Test {
     return static_cast<std::size_t>(
         std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
   }
-  fs::path folder_;
 };
 
 TEST_F(AtomicFileTest, ReplacesOnCommit) {

@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "tests/unit/eventually.h"
-#include "tests/unit/temp_dir.h"
+#include "tests/unit/folder_test.h"
 
 namespace ols {
 namespace {
@@ -16,21 +16,13 @@ namespace fs = std::filesystem;
 
 constexpr double kLong_s = 60.0;
 
-class BackgroundFileTest : public testing::Test {
+class BackgroundFileTest : public FolderTest<std::filesystem::path> {
  protected:
-  BackgroundFileTest() {
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  ~BackgroundFileTest() override { fs::remove_all(folder_); }
   std::string content() const {
     std::ostringstream text;
     text << std::ifstream(path_).rdbuf();
     return text.str();
   }
-  const fs::path folder_ =
-      fs::path(temp_dir()) / (std::string("background_file_") +
-                              testing::UnitTest::GetInstance()->current_test_info()->name());
   const fs::path path_ = folder_ / "state";
 };
 

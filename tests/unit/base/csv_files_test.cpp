@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "base/csv_rows.h"
-#include "tests/unit/temp_dir.h"
+#include "tests/unit/folder_test.h"
 
 namespace ols {
 namespace {
@@ -18,15 +18,8 @@ namespace fs = std::filesystem;
 const char* const kStations = "station,latitude_deg,longitude_deg,height_m\n";
 const char* const kBearings = "utime_us,station,azimuth_deg,elevation_deg,sigma_deg\n";
 
-class CsvFilesTest : public testing::Test {
+class CsvFilesTest : public FolderTest<std::filesystem::path> {
  protected:
-  void SetUp() override {
-    folder_ = fs::path(temp_dir()) /
-              (std::string("csv_") + testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   std::string write(const std::string& name, const std::string& text) const {
     std::ofstream(folder_ / name, std::ios::binary) << text;
     return folder_ / name;
@@ -49,8 +42,6 @@ class CsvFilesTest : public testing::Test {
     }
     return "none";
   }
-
-  fs::path folder_;
 };
 
 TEST_F(CsvFilesTest, ReadsStations) {

@@ -7,22 +7,16 @@
 #include <limits>
 #include <sstream>
 
-#include "tests/unit/temp_dir.h"
+#include "tests/unit/folder_test.h"
 
 namespace ols {
 namespace {
 
 namespace fs = std::filesystem;
 
-class FixWriterTest : public testing::Test {
+class FixWriterTest : public FolderTest<std::filesystem::path> {
  protected:
-  void SetUp() override {
-    folder_ = fs::path(temp_dir()) /
-              (std::string("fix_") + testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::create_directories(folder_);
-    path_ = folder_ / "fixes.csv";
-  }
-  void TearDown() override { fs::remove_all(folder_); }
+  void SetUp() override { path_ = folder_ / "fixes.csv"; }
 
   std::string content() const {
     std::ostringstream text;
@@ -30,7 +24,6 @@ class FixWriterTest : public testing::Test {
     return text.str();
   }
 
-  fs::path folder_;
   std::string path_;
 };
 

@@ -2,14 +2,13 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
 
 #include "base/command_output.h"
-#include "tests/unit/temp_dir.h"
+#include "tests/unit/folder_test.h"
 
 namespace ols::doctor {
 namespace {
@@ -18,10 +17,9 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::Not;
 
-class Bundle : public testing::Test {
+class Bundle : public FolderTest<std::filesystem::path> {
  protected:
   Bundle() { fs::create_directories(folder_ / "etc"); }
-  ~Bundle() override { fs::remove_all(folder_); }
 
   void plant(const std::string& name, const std::string& text) const {
     std::ofstream(folder_ / "etc" / name) << text;
@@ -33,7 +31,6 @@ class Bundle : public testing::Test {
   }
   BundleContents contents() const { return {"1.2.3", findings_, (folder_ / "etc").string()}; }
 
-  fs::path folder_ = fs::path(temp_dir()) / ("bundle" + std::to_string(::getpid()));
   Findings findings_;
 };
 

@@ -8,7 +8,7 @@
 
 #include "base/clocks.h"
 #include "geometry/angles.h"
-#include "tests/unit/temp_dir.h"
+#include "tests/unit/folder_test.h"
 
 namespace ols::station {
 namespace {
@@ -17,16 +17,14 @@ using testing::Contains;
 using testing::HasSubstr;
 using testing::Not;
 
-class KeptPoseTest : public testing::Test {
+class KeptPoseTest : public FolderTest<> {
  protected:
   KeptPoseTest() {
-    std::filesystem::create_directories(folder_);
     settings_.id = "alfa";
     settings_.state_folder = folder_;
     settings_.gnss.host = "localhost";
     settings_.inclinometer.device = "/dev/dpg2";
   }
-  ~KeptPoseTest() override { std::filesystem::remove_all(folder_); }
 
   void persist() const {
     sensors::PersistedPose pose;
@@ -36,8 +34,6 @@ class KeptPoseTest : public testing::Test {
     std::ofstream(folder_ + "/alfa.pose") << to_text(pose);
   }
 
-  const std::string folder_ =
-      temp_dir() + "kept_pose_" + testing::UnitTest::GetInstance()->current_test_info()->name();
   StationSettings settings_;
 };
 

@@ -10,7 +10,7 @@
 
 #include "base/small_file.h"
 #include "base/toml_config.h"
-#include "tests/unit/temp_dir.h"
+#include "tests/unit/folder_test.h"
 
 namespace ols::key {
 namespace {
@@ -18,16 +18,8 @@ namespace {
 namespace fs = std::filesystem;
 using trust::Role;
 
-class SiteFilesTest : public testing::Test {
+class SiteFilesTest : public FolderTest<> {
  protected:
-  SiteFilesTest() {
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  ~SiteFilesTest() override { fs::remove_all(folder_); }
-
-  const std::string folder_ = temp_dir() + "site_files_test_" +
-                              testing::UnitTest::GetInstance()->current_test_info()->name();
   const SiteFiles files_{folder_ + "/root.key", folder_ + "/trust.toml"};
 };
 

@@ -11,7 +11,7 @@
 
 #include "base/small_file.h"
 #include "base/trust/key_file.h"
-#include "tests/unit/temp_dir.h"
+#include "tests/unit/folder_test.h"
 #include "tools/setup/site_time.h"
 
 namespace ols::setup {
@@ -21,13 +21,9 @@ namespace fs = std::filesystem;
 using testing::ElementsAre;
 using testing::UnorderedElementsAre;
 
-class BackupTest : public testing::Test {
+class BackupTest : public FolderTest<> {
  protected:
-  BackupTest() {
-    fs::remove_all(folder_);
-    fs::create_directories(folder_ + "/new");
-  }
-  ~BackupTest() override { fs::remove_all(folder_); }
+  BackupTest() { fs::create_directories(folder_ + "/new"); }
 
   void put(const std::string& path, const std::string& text) const {
     const fs::path there = folder_ + "/old" + path;
@@ -35,8 +31,6 @@ class BackupTest : public testing::Test {
     std::ofstream(there) << text;
   }
 
-  const std::string folder_ = temp_dir() + "setup_backup_test_" +
-                              testing::UnitTest::GetInstance()->current_test_info()->name();
   const Host old_{folder_ + "/old"}, new_{folder_ + "/new"};
   const std::string file_ = folder_ + "/alfa.backup";
 };

@@ -12,7 +12,7 @@
 #include "base/trust/messages_trust.h"
 #include "tests/unit/base/trust/site_fixture.h"
 #include "tests/unit/eventually.h"
-#include "tests/unit/temp_dir.h"
+#include "tests/unit/folder_test.h"
 
 namespace ols::trust {
 namespace {
@@ -23,16 +23,14 @@ constexpr std::int64_t kNow_us = 1'700'000'000'000'000;
 const Site kSite;
 
 // Station alfa and the fusion, with their files.
-class BusTrustTest : public testing::Test {
+class BusTrustTest : public FolderTest<> {
  protected:
   BusTrustTest() {
-    std::filesystem::remove_all(folder_);
     std::filesystem::create_directories(folder_ + "/state");
     write_key("alfa", 2);
     write_key("fusion", 4);
     write_list(kSite.list());
   }
-  ~BusTrustTest() override { std::filesystem::remove_all(folder_); }
 
   void write_key(const std::string& name, std::uint8_t seed) const {
     write_member_key(folder_ + "/" + name + ".key",
@@ -73,9 +71,6 @@ class BusTrustTest : public testing::Test {
     message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
     return with_trailer(kSite.stranger, kSite.secret, "OLS_TRUST", bytes, 0);
   }
-
-  const std::string folder_ = temp_dir() + "bus_trust_test_" +
-                              testing::UnitTest::GetInstance()->current_test_info()->name();
 };
 
 TEST_F(BusTrustTest, OffIsNothingAndAWrongModeIsAnError) {

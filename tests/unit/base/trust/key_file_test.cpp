@@ -11,29 +11,21 @@
 #include "base/toml_config.h"
 #include "tests/unit/base/trust/site_fixture.h"
 #include "tests/unit/error_text.h"
-#include "tests/unit/temp_dir.h"
+#include "tests/unit/folder_test.h"
 
 namespace ols::trust {
 namespace {
 
 using testing::HasSubstr;
 
-class KeyFileTest : public testing::Test {
+class KeyFileTest : public FolderTest<> {
  protected:
-  KeyFileTest() {
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(folder_);
-  }
-  ~KeyFileTest() override { std::filesystem::remove_all(folder_); }
-
   std::string error_of(const std::string& text) const {
     std::ofstream(path_) << text;
     ::chmod(path_.c_str(), 0600);
     return error_text<ConfigError>([&] { read_member_key(path_); });
   }
 
-  const std::string folder_ =
-      temp_dir() + "key_file_test_" + testing::UnitTest::GetInstance()->current_test_info()->name();
   const std::string path_ = folder_ + "/alfa.key";
 };
 

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "tests/unit/temp_dir.h"
+#include "tests/unit/folder_test.h"
 
 namespace ols::trust {
 namespace {
@@ -15,14 +15,9 @@ namespace fs = std::filesystem;
 using testing::AllOf;
 using testing::HasSubstr;
 
-class MarksFileTest : public testing::Test {
+class MarksFileTest : public FolderTest<> {
  protected:
-  MarksFileTest() {
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-    marks_.note({1, 2, 3}, "OLS_BEARING_alfa", head_);
-  }
-  ~MarksFileTest() override { fs::remove_all(folder_); }
+  MarksFileTest() { marks_.note({1, 2, 3}, "OLS_BEARING_alfa", head_); }
 
   // A start after this one.
   bool still_heard(MarksFile& file) const {
@@ -31,8 +26,6 @@ class MarksFileTest : public testing::Test {
     return marks.is_heard({1, 2, 3}, "OLS_BEARING_alfa", head_);
   }
 
-  const std::string folder_ = temp_dir() + "marks_file_test_" +
-                              testing::UnitTest::GetInstance()->current_test_info()->name();
   const std::string path_ = folder_ + "/heard-fusion";
   const MessageHead head_{100, "", 7, 50};
   ReplayMarks marks_;

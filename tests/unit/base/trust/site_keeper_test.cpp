@@ -9,7 +9,7 @@
 #include "base/small_file.h"
 #include "base/toml_config.h"
 #include "tests/unit/base/trust/site_fixture.h"
-#include "tests/unit/temp_dir.h"
+#include "tests/unit/folder_test.h"
 
 namespace ols::trust {
 namespace {
@@ -25,14 +25,8 @@ std::string told(std::int64_t number, const SigningKey& by = kSite.root) {
   return sign_settings(head, "geoid = \"g" + std::to_string(number) + "\"\n", "wanted", by);
 }
 
-class SiteKeeperTest : public testing::Test {
+class SiteKeeperTest : public FolderTest<> {
  protected:
-  SiteKeeperTest() {
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(folder_);
-  }
-  ~SiteKeeperTest() override { std::filesystem::remove_all(folder_); }
-
   SiteKeeper keeper(SettingsCheck check = {}) const {
     return {kSite.root.public_key(), {given_, kept_}, std::move(check)};
   }
@@ -40,8 +34,6 @@ class SiteKeeperTest : public testing::Test {
     std::ofstream(path, std::ios::trunc) << text;
   }
 
-  const std::string folder_ = temp_dir() + "site_keeper_test_" +
-                              testing::UnitTest::GetInstance()->current_test_info()->name();
   const std::string given_ = folder_ + "/site.toml", kept_ = folder_ + "/site-alfa.toml";
 };
 

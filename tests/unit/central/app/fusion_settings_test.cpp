@@ -8,16 +8,13 @@
 
 #include "base/toml_config.h"
 #include "tests/unit/error_text.h"
-#include "tests/unit/temp_dir.h"
+#include "tests/unit/folder_test.h"
 
 namespace ols::fusion {
 namespace {
 
-class FusionSettingsTest : public testing::Test {
+class FusionSettingsTest : public FolderTest<std::filesystem::path> {
  protected:
-  FusionSettingsTest() { std::filesystem::create_directories(folder_); }
-  ~FusionSettingsTest() override { std::filesystem::remove_all(folder_); }
-
   FusionSettings load(const std::string& text) const {
     std::ofstream(path()) << text;
     return load_fusion_settings(path());
@@ -26,10 +23,6 @@ class FusionSettingsTest : public testing::Test {
   std::string refusal(const std::string& text) const {
     return error_text<ConfigError>([&] { load(text); }, "none");
   }
-
- private:
-  std::filesystem::path folder_ = std::filesystem::path(temp_dir()) /
-                                  testing::UnitTest::GetInstance()->current_test_info()->name();
 };
 
 const std::vector<Motion>& models(const FusionSettings& settings) {

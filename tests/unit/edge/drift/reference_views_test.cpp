@@ -1,32 +1,29 @@
 #include "edge/drift/reference_views.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <map>
 
 #include "geometry/angles.h"
 #include "tests/unit/eventually.h"
+#include "tests/unit/folder_test.h"
 #include "tests/unit/moved_scene.h"
-#include "tests/unit/temp_dir.h"
 
 namespace ols::station {
 namespace {
 
 const double kCount = radians(11.5714 / 3600.0);
 
-class ReferenceViewsTest : public testing::Test {
+class ReferenceViewsTest : public FolderTest<> {
  protected:
   ReferenceViewsTest() {
-    std::filesystem::create_directories(folder_);
     config_.folder = folder_;
     limits_.count = {kCount, kCount};
     config_.station = "alfa";
     config_.calibration_id = 9;
     calibration_.angle_sd_rad = radians(5.0 / 3600.0);
   }
-  ~ReferenceViewsTest() override { std::filesystem::remove_all(folder_); }
 
   // Its thread reads the stored pictures, in real time.
   void load(ReferenceViews& views) const {
@@ -89,8 +86,6 @@ class ReferenceViewsTest : public testing::Test {
   }
 
   std::map<std::pair<int, double>, cv::Mat> scenes_;
-  std::string folder_ =
-      std::filesystem::path(temp_dir()) / ("reference_views_" + std::to_string(::getpid()));
   ReferenceViews::Config config_;
   StationCalibration calibration_;
   double now_s_ = 100.0;
