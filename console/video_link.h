@@ -21,7 +21,7 @@ namespace ols::console {
 struct VideoWish {
   int max_width_px = 960;
   int quality = 65;
-  // Of H.264: a tenth of the JPEGs' rate in the demo (tools/bench-console --thin).
+  // Of H.264: a tenth of the JPEGs' rate in the demo.
   int thin_quality = 45;
   double interval_s = 0.0;  // from one picture to the next request
   Codec codec = Codec::kJpeg;

@@ -8,8 +8,7 @@
 namespace ols::video {
 namespace {
 
-// The quantiser at which H.264 is as true to the picture as JPEG of this quality
-// (tools/bench-console --thin).
+// The quantiser at which H.264 is as true to the picture as JPEG of this quality.
 int quantiser(int quality) {
   constexpr double kAtBest = 12.0, kAtWorst = 44.0;
   return static_cast<int>(std::lround(kAtWorst + (kAtBest - kAtWorst) * quality / 100.0));

@@ -8,29 +8,14 @@ import time
 import ols_msg
 import pytest
 from conftest import BIN
-from helpers import Listener, StopSwitch, addressed, slew
+from helpers import Listener, StopSwitch, addressed, slew, station_without_devices
 from ols_demo.site import Site
 
-CONFIG = """\
-id = "kept"
-state_folder = "{folder}/state"
-[pose]
-latitude_deg = 49.2
-longitude_deg = 16.6
-height_m = 250.0
-heading_deg = 0.0
-[lens]
-fx_px = 13333.3
-fy_px = 13333.3
-[calibration.sd]
-heading_deg = 0.1
-mount_deg = 0.1
-[camera]
-device = "127.0.0.99"
-[ptu]
-device = "/nonexistent/ptu"
+CONFIG = f"""\
+state_folder = "{{folder}}/state"
+{station_without_devices("kept")}
 [gpio]
-chip = "socket:{folder}/gpio"
+chip = "socket:{{folder}}/gpio"
 stop_line = 17
 """
 STATUS, PTU = ols_msg.station_status_t, ols_msg.ptu_command_t

@@ -12,34 +12,19 @@ from pathlib import Path
 import ols_msg
 import pytest
 from conftest import BIN
-from helpers import Listener, StopSwitch, addressed, point
+from helpers import Listener, StopSwitch, addressed, point, station_without_devices
 from ols_demo.site import Site
 
-CONFIG = """\
-id = "tool"
-state_folder = "{folder}"
-[pose]
-latitude_deg = 49.2
-longitude_deg = 16.6
-height_m = 250.0
-heading_deg = 0.0
-[lens]
-fx_px = 13333.3
-fy_px = 13333.3
-[calibration.sd]
-heading_deg = 0.1
-mount_deg = 0.1
-[camera]
-device = "127.0.0.99"
-[ptu]
-device = "/nonexistent/ptu"
+CONFIG = f"""\
+state_folder = "{{folder}}"
+{station_without_devices("tool")}
 [gpio]
-chip = "socket:{folder}/gpio"
+chip = "socket:{{folder}}/gpio"
 led_line = 22
 stop_line = 17
 rearm_line = 18
 [recorder]
-folder = "{folder}/events"
+folder = "{{folder}}/events"
 """
 WATCHDOG_S = 1.0
 DRAINED = b"DRAINED"
