@@ -2,7 +2,6 @@
 // follow the target, with pictures and in simulated time: the same figures on any computer.
 #include <algorithm>
 #include <cstdio>
-#include <iostream>
 #include <opencv2/core/utility.hpp>
 #include <string>
 #include <vector>

@@ -1,6 +1,5 @@
 #include "dev/bench/synthetic_cases.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "geometry/angles.h"

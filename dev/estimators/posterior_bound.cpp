@@ -1,7 +1,6 @@
 #include "dev/estimators/posterior_bound.h"
 
 #include <Eigen/LU>
-#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 

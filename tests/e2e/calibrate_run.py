@@ -37,6 +37,17 @@ class Run:
             [str(part) for part in command], capture_output=True, text=True, check=False
         )
 
+    def adjusted(self, *more):
+        done = self.adjust(*more)
+        assert done.returncode == 0, done.stderr
+        return done
+
+    def refused(self, *more):
+        """What is said of it."""
+        done = self.adjust(*more)
+        assert done.returncode == 2
+        return done.stderr
+
     def report(self):
         return json.loads((self.output / "report.json").read_text())
 

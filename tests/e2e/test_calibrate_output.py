@@ -18,8 +18,7 @@ def fixture_run(tmp_path):
 
 
 def test_the_folder_has_all_that_was_found(run):
-    done = run.adjust()
-    assert done.returncode == 0, done.stderr
+    run.adjusted()
     assert sorted(path.name for path in run.output.iterdir()) == [
         *("covariance.csv", "instrument.toml", "predictions.csv"),
         *("report.html", "report.json", "setup.toml"),
@@ -51,9 +50,8 @@ def test_the_same_input_has_the_same_id_and_another_one_another(run):
 def test_a_calibration_is_never_overwritten(run):
     assert run.adjust().returncode == 0
     before = {path.name: path.read_bytes() for path in run.output.iterdir()}
-    done = run.adjust()
-    assert done.returncode == 2
-    assert "is not empty: a calibration is never overwritten" in done.stderr
+    error = run.refused()
+    assert "is not empty: a calibration is never overwritten" in error
     assert before == {path.name: path.read_bytes() for path in run.output.iterdir()}
     run.output = run.folder / "references.csv"
     assert "--output" in run.adjust().stderr
@@ -62,26 +60,23 @@ def test_a_calibration_is_never_overwritten(run):
 def test_an_output_without_a_name_is_refused(run):
     before = sorted(run.folder.iterdir())
     run.output = ""
-    done = run.adjust()
-    assert done.returncode == 2
-    assert "--output: is empty" in done.stderr
+    error = run.refused()
+    assert "--output: is empty" in error
     assert before == sorted(run.folder.iterdir())
 
 
 def test_a_slash_at_the_end_of_the_output_says_nothing(run):
     run.output.mkdir()
     output, run.output = run.output, f"{run.output}/"
-    done = run.adjust()
-    assert done.returncode == 0, done.stderr
+    run.adjusted()
     assert (output / "report.html").exists()
     assert not output.with_name("out.partial").exists()
 
 
 def test_what_an_interrupted_run_has_left_is_not_overwritten(run):
     (run.folder / "out.partial").mkdir()
-    done = run.adjust()
-    assert done.returncode == 2
-    assert "out.partial exists" in done.stderr
+    error = run.refused()
+    assert "out.partial exists" in error
 
 
 def test_a_disk_that_is_full_leaves_nothing(run):

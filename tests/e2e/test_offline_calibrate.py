@@ -54,8 +54,7 @@ def test_the_instrument_found_is_the_next_ones_prior(run):
 
 def test_a_landmark_that_is_wrong_by_a_metre_is_named(tmp_path):
     run = Run(tmp_path, cases.wrong_landmark)
-    done = run.adjust()
-    assert done.returncode == 0, done.stderr
+    done = run.adjusted()
     assert run.rejected() == ["landmark0"]
     assert "landmark 'landmark0' is rejected as mistaken" in done.stderr
 
@@ -65,8 +64,7 @@ def test_stations_that_aim_at_each_other_find_their_headings(tmp_path):
     run = Run(tmp_path, cases.other_stations)
     rows = volume(run.site, np.random.default_rng(SEED))
     (tmp_path / "predict.csv").write_text(predict_text(rows))
-    done = run.adjust()
-    assert done.returncode == 0, done.stderr
+    run.adjusted()
     assert run.rejected() == []
     groups = {
         (group["kind"], group["name"], group["sightings"]) for group in run.report()["groups"]
@@ -85,8 +83,7 @@ def test_stations_that_aim_at_each_other_find_their_headings(tmp_path):
 def test_one_landmark_alone_is_said_to_be_unchecked(run):
     lines = [line for line in run.lines("observations.jsonl") if "landmark0" in line]
     (run.folder / "observations.jsonl").write_text("\n".join(lines) + "\n")
-    done = run.adjust()
-    assert done.returncode == 0, done.stderr
+    done = run.adjusted()
     assert "landmark 'landmark0' is the only reference: nothing checks it" in done.stderr
     [group] = run.report()["groups"]
     assert group["detectable_across_arcsec"] is None
@@ -97,8 +94,7 @@ def test_landmarks_that_were_exchanged_are_named(run):
     for old, new in (("landmark1", "x"), ("landmark3", "landmark1"), ("x", "landmark3")):
         text = text.replace(f'"reference": "{old}"', f'"reference": "{new}"')
     (run.folder / "observations.jsonl").write_text(text)
-    done = run.adjust()
-    assert done.returncode == 0, done.stderr
+    done = run.adjusted()
     assert "landmarks 'landmark1' and 'landmark3' seem to be exchanged" in done.stderr
 
 
@@ -120,9 +116,8 @@ def test_the_counts_of_a_turn_follow_from_the_printed_resolution(run):
     unit = tomllib.loads((run.output / "instrument.toml").read_text())["unit"]
     assert unit["pan_counts_per_turn"] == unit["tilt_counts_per_turn"] == 112000
     run.output = run.folder / "other"
-    done = run.adjust("--resolution", "11.6")
-    assert done.returncode == 2
-    assert "--resolution: is no whole fraction" in done.stderr
+    error = run.refused("--resolution", "11.6")
+    assert "--resolution: is no whole fraction" in error
 
 
 def test_without_an_instrument_the_unit_is_a_new_one(run):
@@ -131,8 +126,7 @@ def test_without_an_instrument_the_unit_is_a_new_one(run):
     at = run.arguments.index("--instrument")
     del run.arguments[at : at + 2]
     run.output = run.folder / "new"
-    done = run.adjust()
-    assert done.returncode == 0, done.stderr
+    run.adjusted()
     assert run.report()["stations"][0]["systematic_rms_arcsec"] > 1.5 * known
 
 
@@ -154,8 +148,7 @@ def test_an_old_ut1_is_named_and_its_age_is_in_the_result(tmp_path):
     assert run.adjust("--ut1-date", day_of(UTIME_US)).returncode == 0
     fresh = run.report()["stations"][0]["systematic_rms_arcsec"]
     run.output = run.folder / "old"
-    done = run.adjust("--ut1-date", day_of(UTIME_US - 200 * 86400 * 10**6))
-    assert done.returncode == 0, done.stderr
+    done = run.adjusted("--ut1-date", day_of(UTIME_US - 200 * 86400 * 10**6))
     assert "UT1 - UTC is old" in done.stderr
     assert run.report()["stations"][0]["systematic_rms_arcsec"] > fresh + 0.2
     run.output = run.folder / "none"
@@ -167,8 +160,7 @@ def test_an_old_ut1_is_named_and_its_age_is_in_the_result(tmp_path):
 def test_stars_get_their_names_without_a_heading(tmp_path):
     """Three frames of ten, and five false detections in each."""
     run = Run(tmp_path, cases.nameless_stars)
-    done = run.adjust()
-    assert done.returncode == 0, done.stderr
+    run.adjusted()
     stars = accepted_stars(run.report(), run.one.true_names)
     assert stars["right"] >= 12
     assert stars["exchanged"] == 0 and stars["false"] == 0
@@ -193,8 +185,7 @@ def test_two_stations_are_one_network(tmp_path):
     (tmp_path / "predict.csv").write_text(
         "station,pan_counts,tilt_counts,x_px,y_px\nbravo,0,0,1,2\nalfa,0,0,1,2\n"
     )
-    done = run.adjust()
-    assert done.returncode == 0, done.stderr
+    run.adjusted()
     report = run.report()
     assert [one["station"] for one in report["stations"]] == ["alfa", "bravo"]
     [difference] = report["heading_differences"]
@@ -205,8 +196,7 @@ def test_two_stations_are_one_network(tmp_path):
 
 def test_rectification_targets_give_an_instrument_without_a_setup(tmp_path):
     run = Run(tmp_path, cases.rectification)
-    done = run.adjust()
-    assert done.returncode == 0, done.stderr
+    done = run.adjusted()
     assert "the result is an instrument without a setup" in done.stderr
     assert sorted(path.name for path in run.output.iterdir()) == [
         *("covariance.csv", "instrument.toml", "report.html", "report.json")

@@ -3,7 +3,6 @@
 #include "tools/setup/answers.h"
 
 #include <algorithm>
-#include <exception>
 #include <string>
 
 #include "base/toml_config.h"

@@ -3,7 +3,6 @@
 // and two with its length.
 #include "console/console.h"
 
-#include <array>
 #include <stdexcept>
 
 #include "console/map_geometry.h"

@@ -1,6 +1,5 @@
 // Whatever the sources of cues send: bytes in any pieces, of each format. What is taken is finite.
 #include <cmath>
-#include <string>
 
 #include "cue/cue_desk.h"
 #include "cue/input_reader.h"

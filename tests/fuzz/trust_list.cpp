@@ -3,7 +3,6 @@
 // the fuzzer's root signs: what is signed may be nonsense too.
 #include "base/trust/trust_list.h"
 
-#include <exception>
 #include <string>
 
 #include "base/toml_config.h"

@@ -2,7 +2,6 @@
 // that programs that run side by side never write each other's.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>

@@ -5,7 +5,6 @@
 
 #include <fstream>
 #include <span>
-#include <stdexcept>
 
 #include "tests/unit/error_text.h"
 #include "tests/unit/temp_dir.h"

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 
 #include "base/csv_rows.h"
 #include "tests/unit/folder_test.h"

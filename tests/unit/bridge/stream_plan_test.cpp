@@ -9,7 +9,6 @@ namespace ols::bridge {
 namespace {
 
 using testing::ElementsAre;
-using testing::IsEmpty;
 
 BridgeConfig config(Role role, std::vector<std::string> sources = {}) {
   BridgeConfig config;

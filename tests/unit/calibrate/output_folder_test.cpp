@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <atomic>
-#include <ctime>
 #include <stdexcept>
 
 #include "tests/unit/temp_dir.h"

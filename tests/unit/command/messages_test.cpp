@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <string>
-#include <vector>
 
 #include "base/lcm_bus.h"
 #include "ols_msg/designate_t.hpp"

@@ -14,6 +14,11 @@ StationHeard station(const std::string& id, double stops = 0, bool stopped = fal
   return heard;
 }
 
+// Has heard alfa.
+struct Listening : Console {
+  Listening() : Console(60.0) { hear(station("alfa"), {0.0, 0}); }
+};
+
 // All that a viewer is sent now.
 std::vector<Json> received(Console& console, std::uint64_t viewer, const Now& now) {
   std::vector<Json> messages;
@@ -31,8 +36,7 @@ Json answer_in(const std::vector<Json>& messages) {
 }
 
 TEST(Console, GreetsThenSendsASnapshotThenDeltasAtTwentyHertz) {
-  Console console(60.0);
-  console.hear(station("alfa"), {0.0, 0});
+  Listening console;
   const auto viewer = console.open("ana", Role::kOperator);
   const auto first = received(console, viewer, {1.0, 5});
   ASSERT_EQ(first.size(), 2U);
@@ -49,8 +53,7 @@ TEST(Console, GreetsThenSendsASnapshotThenDeltasAtTwentyHertz) {
 }
 
 TEST(Console, ASlowViewerGetsTheNewestNotAQueue) {
-  Console console(60.0);
-  console.hear(station("alfa"), {0.0, 0});
+  Listening console;
   const auto viewer = console.open("ana", Role::kViewer);
   static_cast<void>(received(console, viewer, {0.0, 0}));
   for (int i = 1; i <= 1000; ++i) console.hear_bearing("alfa", {{"azimuth_deg", i}});
@@ -60,8 +63,7 @@ TEST(Console, ASlowViewerGetsTheNewestNotAQueue) {
 }
 
 TEST(Console, OnlyTheNewestPictureThatIsWatchedIsSent) {
-  Console console(60.0);
-  console.hear(station("alfa"), {0.0, 0});
+  Listening console;
   console.hear(station("bravo"), {0.0, 0});
   const auto viewer = console.open("ana", Role::kViewer);
   static_cast<void>(received(console, viewer, {0.0, 0}));
@@ -78,8 +80,7 @@ TEST(Console, OnlyTheNewestPictureThatIsWatchedIsSent) {
 }
 
 TEST(Console, ABrowserThatSaysWhatItHasTakenIsSentTheNextOnlyThen) {
-  Console console(60.0);
-  console.hear(station("alfa"), {0.0, 0});
+  Listening console;
   const auto viewer = console.open("ana", Role::kViewer);
   console.take(viewer, R"({"do":"watch","pictures":["alfa"]})", {0.0, 0});
   const auto show = [&](const std::string& jpeg) {
@@ -103,8 +104,7 @@ TEST(Console, ABrowserThatSaysWhatItHasTakenIsSentTheNextOnlyThen) {
 }
 
 TEST(Console, ACommandIsAnsweredWithTheStationsOwnWord) {
-  Console console(60.0);
-  console.hear(station("alfa"), {0.0, 0});
+  Listening console;
   const auto viewer = console.open("ana", Role::kOperator);
   console.take(viewer, R"({"do":"command","number":4,"station":"alfa","command":"home"})",
                {1.0, 9});
@@ -122,8 +122,7 @@ TEST(Console, ACommandIsAnsweredWithTheStationsOwnWord) {
 }
 
 TEST(Console, AViewerMayLookAndStopOnly) {
-  Console console(60.0);
-  console.hear(station("alfa"), {0.0, 0});
+  Listening console;
   const auto viewer = console.open("guest", Role::kViewer);
   console.take(viewer, R"({"do":"command","number":1,"station":"alfa","command":"release"})",
                {0.0, 0});
@@ -138,8 +137,7 @@ TEST(Console, AViewerMayLookAndStopOnly) {
 }
 
 TEST(Console, OneHolderAStationUntilAnotherTakesOver) {
-  Console console(60.0);
-  console.hear(station("alfa"), {0.0, 0});
+  Listening console;
   const auto ana = console.open("ana", Role::kOperator);
   const auto ben = console.open("ben", Role::kOperator);
   const std::string release = R"({"do":"command","number":1,"station":"alfa","command":"release"})";
@@ -172,8 +170,7 @@ TEST(Console, StopAllStopsEachStationUntilItStandsAndThoseHeardSoonAfter) {
 }
 
 TEST(Console, AStopOfAllThatIsNotConfirmedIsToldToEverybody) {
-  Console console(60.0);
-  console.hear(station("alfa"), {0.0, 0});
+  Listening console;
   console.hear(station("bravo"), {0.0, 0});
   const auto ana = console.open("ana", Role::kOperator), ben = console.open("ben", Role::kViewer);
   static_cast<void>(console.stop_all("ana", {}, {1.0, 0}));
@@ -195,8 +192,7 @@ TEST(Console, AStopOfAllThatIsNotConfirmedIsToldToEverybody) {
 }
 
 TEST(Console, AStopWithoutABusSaysSo) {
-  Console console(60.0);
-  console.hear(station("alfa"), {0.0, 0});
+  Listening console;
   const auto viewer = console.open("ana", Role::kOperator);
   console.bus_is("no bus: connecting");
   console.take(viewer, R"({"do":"stop_all","number":3})", {1.0, 0});
@@ -205,8 +201,7 @@ TEST(Console, AStopWithoutABusSaysSo) {
 
 // A browser's link was cut during a hold: what it delivers afterwards moves nothing.
 TEST(Console, ARateThatWasHeldUpIsRefusedAndAHoldIsOneEvent) {
-  Console console(60.0);
-  console.hear(station("alfa"), {0.0, 0});
+  Listening console;
   const auto viewer = console.open("ana", Role::kOperator);
   const auto rate = [&](std::int64_t heard_us, const Now& now) {
     console.take(viewer,
@@ -229,8 +224,7 @@ TEST(Console, ARateThatWasHeldUpIsRefusedAndAHoldIsOneEvent) {
 
 // So does any other command that it delivers late, but for a stop, which comes never too late.
 TEST(Console, ACommandThatWasHeldUpIsRefusedAndAStopIsNot) {
-  Console console(60.0);
-  console.hear(station("alfa"), {0.0, 0});
+  Listening console;
   const auto viewer = console.open("ana", Role::kOperator);
   const auto orders = [&](const std::string& command, const Now& now) {
     console.take(viewer,
@@ -287,8 +281,7 @@ ProcedureHeard asking(const std::string& station) {
 }
 
 TEST(Console, AProcedureIsPartOfItsStation) {
-  Console console(60.0);
-  console.hear(station("alfa"), {0.0, 0});
+  Listening console;
   console.hear(asking("alfa"));
   console.hear(asking("unknown"));
   const Json state = console.state({0.0, 0});
@@ -300,8 +293,7 @@ TEST(Console, AProcedureIsPartOfItsStation) {
 }
 
 TEST(Console, AnOperatorAnswersAProcedureAndAViewerDoesNot) {
-  Console console(60.0);
-  console.hear(station("alfa"), {0.0, 0});
+  Listening console;
   console.hear(asking("alfa"));
   const char* const confirm =
       R"({"do":"answer","number":8,"station":"alfa","question":3,"choice":"confirm"})";
@@ -321,8 +313,7 @@ TEST(Console, AnOperatorAnswersAProcedureAndAViewerDoesNot) {
 }
 
 TEST(Console, AnAnswerThatComesTooLateIsRefusedUnlessItEndsTheProcedure) {
-  Console console(60.0);
-  console.hear(station("alfa"), {0.0, 0});
+  Listening console;
   console.hear(asking("alfa"));
   const auto operating = console.open("ana", Role::kOperator);
   const auto answered = [&](const std::string& choice, std::int64_t heard_us) {
@@ -341,8 +332,7 @@ TEST(Console, AnAnswerThatComesTooLateIsRefusedUnlessItEndsTheProcedure) {
 }
 
 TEST(Console, ACueIsAllowedAndControlIsTakenInTimeOrNotAtAll) {
-  Console console(60.0);
-  console.hear(station("alfa"), {0.0, 0});
+  Listening console;
   const auto operating = console.open("ana", Role::kOperator);
   const auto says = [&](const std::string& what, std::int64_t heard_us) {
     const auto heard = R"(,"number":8,"heard_us":)" + std::to_string(heard_us) + "}";
@@ -377,8 +367,7 @@ TEST(Console, AnOperatorsWordOnACueGoesOutAndAViewersDoesNot) {
 }
 
 TEST(Console, AnAnswerNeedsControlUnlessItEndsTheProcedure) {
-  Console console(60.0);
-  console.hear(station("alfa"), {0.0, 0});
+  Listening console;
   console.hear(asking("alfa"));
   const auto holder = console.open("ana", Role::kOperator);
   console.take(holder, R"({"do":"take","station":"alfa"})", {1.0, 5});

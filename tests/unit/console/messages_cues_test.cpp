@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "ols_msg/fusion_status_t.hpp"
 
 namespace ols::console {

@@ -5,7 +5,6 @@
 
 #include <filesystem>
 #include <fstream>
-#include <variant>
 
 #include "tests/unit/eventually.h"
 #include "tests/unit/temp_dir.h"

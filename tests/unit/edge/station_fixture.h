@@ -113,6 +113,10 @@ class StationTest : public testing::Test {
     run_until(now_ + 0.3);
     ASSERT_EQ(station_.designate({std::nullopt, {629, 469, 20, 20}}, now_), Refusal::kNone);
   }
+  void designated_for(double duration_s) {
+    designated();
+    run_until(now_ + duration_s);
+  }
 
   ScriptedTracker::Script script_;
   Station station_;

@@ -116,8 +116,7 @@ TEST_F(StationSafetyTest, NoSpoiltDesignationTracks) {
 }
 
 TEST_F(StationSafetyTest, InAnEmergencyOnlyStopAndRearmAreHeard) {
-  designated();
-  run_until(now_ + 0.5);
+  designated_for(0.5);
   ASSERT_TRUE(station_.goal(now_));
   press();
   EXPECT_EQ(station_.state(), StationState::kEmergency);
@@ -138,8 +137,7 @@ TEST_F(StationSafetyTest, InAnEmergencyOnlyStopAndRearmAreHeard) {
 }
 
 TEST_F(StationSafetyTest, LettingGoOfTheEmergencyStopMovesNothing) {
-  designated();
-  run_until(now_ + 0.5);
+  designated_for(0.5);
   press();
   let_go();
   run_until(now_ + 1.0);
@@ -149,8 +147,7 @@ TEST_F(StationSafetyTest, LettingGoOfTheEmergencyStopMovesNothing) {
 }
 
 TEST_F(StationSafetyTest, AfterRearmingOnlyANewCommandOfTheOperatorMoves) {
-  designated();
-  run_until(now_ + 0.5);
+  designated_for(0.5);
   press();
   let_go();
   EXPECT_EQ(station_.rearm(now_), Refusal::kNone);
@@ -190,8 +187,7 @@ TEST_F(StationSafetyTest, ASiteMayLetItBeRearmedFromAfar) {
 }
 
 TEST_F(StationSafetyTest, RearmingAStationInOrderChangesNothing) {
-  designated();
-  run_until(now_ + 0.5);
+  designated_for(0.5);
   EXPECT_EQ(station_.rearm(now_), Refusal::kNone);
   EXPECT_EQ(station_.state(), StationState::kTracking);
 }
@@ -209,8 +205,7 @@ TEST_F(StationSafetyTest, WithoutAPositionItFollowsButSendsNoBearing) {
   sensors::StationPose unknown = pose();
   unknown.position_source = sensors::PoseSource::kNone;
   station_.set_pose(unknown);
-  designated();
-  run_until(now_ + 0.5);
+  designated_for(0.5);
   EXPECT_TRUE(bearings_.empty());
   EXPECT_GT(counter("bearings_without_pose"), 5.0);
   EXPECT_TRUE(station_.goal(now_)) << "the target is followed all the same";
@@ -223,8 +218,7 @@ TEST_F(StationSafetyTest, ThePoseAndItsSigmasAreInTheBearings) {
   sensors::StationPose leaning = pose(10.0, 0.5);
   leaning.tilt_sd_rad = radians(1.0);
   station_.set_pose(leaning);
-  designated();
-  run_until(now_ + 0.5);
+  designated_for(0.5);
   ASSERT_FALSE(bearings_.empty());
   const LineOfSight& sight = bearings_.back().sight;
   EXPECT_EQ(sight.origin_sd_enu_m, Eigen::Vector3d(0.5, 0.5, 1.0));
@@ -237,16 +231,14 @@ TEST_F(StationSafetyTest, AConfiguredPoseIsNoRevision) {
   sensors::StationPose surveyed = pose(0.0, 0.0);
   surveyed.position_source = surveyed.tilt_source = sensors::PoseSource::kSurveyed;
   station_.set_pose(surveyed);
-  designated();
-  run_until(now_ + 0.3);
+  designated_for(0.3);
   EXPECT_EQ(bearings_.back().pose_revision, 0);
 }
 
 TEST_F(StationSafetyTest, OnlyAPoseOutsideOfItsSigmasIsAnotherCalibration) {
   station_.set_pose(pose(0.0, 0.5));
   station_.set_pose(pose(0.4, 0.1));
-  designated();
-  run_until(now_ + 0.3);
+  designated_for(0.3);
   EXPECT_EQ(bearings_.back().pose_revision, 1) << "no longer the configured one";
   station_.set_pose(pose(0.6, 0.1));
   run_until(now_ + 0.3);
@@ -260,8 +252,7 @@ TEST_F(StationSafetyTest, OnlyAPoseOutsideOfItsSigmasIsAnotherCalibration) {
 
 // The computer stood still for two seconds: what lay waiting is dropped, not worked off.
 TEST_F(StationSafetyTest, AfterAStandstillThereIsNoBacklog) {
-  designated();
-  run_until(now_ + 0.5);
+  designated_for(0.5);
   next_sample_ = now_ + 10.0;  // the angles after the last frame never come
   const int tracked = script_.tracked;
   camera::Frame waiting;
@@ -303,8 +294,7 @@ TEST_F(StationSafetyTest, NothingIsPointedOrSlewedWithoutAReference) {
 
 TEST_F(StationSafetyTest, ATargetOutlastsALostReferenceAndIsSlewedToAgain) {
   station_.set_reference(ptu::PtuReference::kTrusted);
-  designated();
-  run_until(now_ + 1.0);
+  designated_for(1.0);
   ASSERT_EQ(station_.state(), StationState::kTracking);
   station_.set_reference(ptu::PtuReference::kDoubted);
   EXPECT_EQ(station_.state(), StationState::kLost);

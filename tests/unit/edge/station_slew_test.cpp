@@ -35,8 +35,7 @@ TEST_F(StationSlewTest, ASlewCarriesItsRate) {
 }
 
 TEST_F(StationSlewTest, ALostStationIsSlewedBackOntoTheTarget) {
-  designated();
-  run_until(now_ + 0.5);
+  designated_for(0.5);
   script_.belief = 0.1;
   run_until(now_ + config().coast_s + 0.2);
   ASSERT_EQ(station_.state(), StationState::kLost);

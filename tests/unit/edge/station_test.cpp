@@ -22,8 +22,7 @@ TEST_F(StationTest, IsIdleAndSendsNothing) {
 }
 
 TEST_F(StationTest, TracksAfterDesignationAndSendsBearingsAlongTheAxis) {
-  designated();
-  run_until(now_ + 1.0);
+  designated_for(1.0);
   EXPECT_EQ(station_.state(), StationState::kTracking);
   ASSERT_GE(bearings_.size(), 13u);
   const Bearing& bearing = bearings_.back();
@@ -74,8 +73,7 @@ TEST_F(StationTest, WithoutATargetAViewerSeesNoBox) {
 
 TEST_F(StationTest, ANewDesignationIsANewTrack) {
   designated();
-  designated();
-  run_until(now_ + 0.3);
+  designated_for(0.3);
   EXPECT_EQ(bearings_.back().track_id, 2);
 }
 
@@ -108,8 +106,7 @@ TEST_F(StationTest, DesignationThatTheTrackerRefusesChangesNothing) {
 }
 
 TEST_F(StationTest, CoastsThenLosesThenHalts) {
-  designated();
-  run_until(now_ + 0.5);
+  designated_for(0.5);
   script_.belief = 0.1;
   run_until(now_ + 0.2);
   EXPECT_EQ(station_.state(), StationState::kCoasting);
@@ -122,8 +119,7 @@ TEST_F(StationTest, CoastsThenLosesThenHalts) {
 }
 
 TEST_F(StationTest, ReturnsFromCoastingAtOnce) {
-  designated();
-  run_until(now_ + 0.5);
+  designated_for(0.5);
   script_.belief = 0.1;
   run_until(now_ + 0.2);
   script_.belief = 0.9;
@@ -132,8 +128,7 @@ TEST_F(StationTest, ReturnsFromCoastingAtOnce) {
 }
 
 TEST_F(StationTest, LosesTheTargetWhenTheFramesStop) {
-  designated();
-  run_until(now_ + 0.5);
+  designated_for(0.5);
   run_until(now_ + config().coast_s + 0.3, false);
   EXPECT_EQ(station_.state(), StationState::kLost);
   EXPECT_FALSE(station_.goal(now_));
@@ -141,8 +136,7 @@ TEST_F(StationTest, LosesTheTargetWhenTheFramesStop) {
 
 TEST_F(StationTest, GoalOfATargetOffTheAxisLeadsThere) {
   script_.pixel = {639.5 + 100.0, 479.5};  // to the right: pan is positive to the left
-  designated();
-  run_until(now_ + 0.5);
+  designated_for(0.5);
   const auto goal = station_.goal(now_);
   ASSERT_TRUE(goal);
   EXPECT_NEAR(goal->angles.pan_rad, -100.0 * 75e-6, 2e-6);
@@ -177,8 +171,7 @@ TEST_F(StationTest, AManualGoalStaysFreshUntilItsTimeIsOver) {
 }
 
 TEST_F(StationTest, StopEndsTracking) {
-  designated();
-  run_until(now_ + 0.5);
+  designated_for(0.5);
   station_.stop(now_);
   const std::size_t before = bearings_.size();
   run_until(now_ + 1.0);
@@ -195,8 +188,7 @@ TEST_F(StationTest, RefusesToPointWhereTheUnitCannotReach) {
 }
 
 TEST_F(StationTest, FramesThatGoBackInTimeAreCountedAndLeftOut) {
-  designated();
-  run_until(now_ + 0.2);
+  designated_for(0.2);
   const int before = script_.tracked;
   camera::Frame old;
   old.mid_exposure_s = now_ - 0.5;
@@ -206,8 +198,7 @@ TEST_F(StationTest, FramesThatGoBackInTimeAreCountedAndLeftOut) {
 }
 
 TEST_F(StationTest, PredictsTheHomographyFromThePtu) {
-  designated();
-  run_until(now_ + 0.3);
+  designated_for(0.3);
   angles_.pan_rad += 0.01;  // to the left: the scene moves right
   run_until(now_ + 0.15);
   ASSERT_TRUE(script_.last && script_.last->predicted_homography);
@@ -219,8 +210,7 @@ TEST_F(StationTest, PredictsTheHomographyFromThePtu) {
 
 TEST_F(StationTest, CountsTheSecondsInEachState) {
   run_until(100.5);
-  designated();
-  run_until(now_ + 2.0);
+  designated_for(2.0);
   EXPECT_NEAR(station_.snapshot().counters.at("seconds_tracking"), 2.0, 0.02);
 }
 
@@ -229,16 +219,14 @@ TEST_F(StationTest, TellsTheSamePlaceOfItsCameraAsItsBearings) {
   const Eigen::Vector3d at_zero = camera_centre_ecef(config().geometry, PanTilt{});
   EXPECT_EQ(station_.snapshot().camera_ecef, at_zero) << "before the unit has told its angles";
   angles_ = {0.8, 0.3};
-  designated();
-  run_until(now_ + 0.5);
+  designated_for(0.5);
   const Eigen::Vector3d camera = bearings_.back().sight.origin_ecef;
   EXPECT_LT((station_.snapshot().camera_ecef - camera).norm(), 1e-9);
   EXPECT_GT((camera - at_zero).norm(), 0.01);
 }
 
 TEST_F(StationTest, WaitsForTheAnglesAfterTheExposureButNotForever) {
-  designated();
-  run_until(now_ + 0.3);
+  designated_for(0.3);
   next_sample_ = now_ + 10.0;  // the PTU falls silent
   const std::size_t before = bearings_.size();
   run_until(now_ + 0.12);

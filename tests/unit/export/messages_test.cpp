@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "geometry/angles.h"
 #include "geometry/wgs84.h"
 #include "tests/unit/export/made_messages.h"

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <optional>
 #include <random>
-#include <string>
 
 #include "geometry/angles.h"
 #include "geometry/stationing.h"

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 #include <lcm/lcm-cpp.hpp>
 #include <system_error>
 

@@ -4,8 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "tests/unit/sim/ptu_master.h"
 
 namespace ols::sim {

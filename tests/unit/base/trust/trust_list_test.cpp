@@ -3,8 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <stdexcept>
-
 #include "base/toml_config.h"
 #include "tests/unit/base/trust/site_fixture.h"
 #include "tests/unit/error_text.h"

@@ -8,8 +8,6 @@ namespace ols::calibration {
 namespace {
 
 using Eigen::Vector2d;
-using Eigen::Vector3d;
-using test::Board;
 using test::Conditions;
 using Refusal = RulerReading::Refusal;
 

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "tests/unit/calibration/scene.h"
 
 namespace ols::calibration {

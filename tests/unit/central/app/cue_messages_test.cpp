@@ -1,7 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "central/app/messages.h"
 #include "geometry/angles.h"
 #include "ols_msg/cue_order_t.hpp"

@@ -13,7 +13,6 @@ namespace ols::fusion {
 namespace {
 
 using Eigen::Vector3d;
-using test::direction_to;
 using test::measurement_of;
 using test::ray_to;
 using test::site;

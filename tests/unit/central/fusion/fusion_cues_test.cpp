@@ -1,8 +1,6 @@
 // Cues from outside in the whole fusion: whom they lead where, and what they never touch.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 #include "central/fusion/fusion.h"
 #include "geometry/angles.h"
 #include "tests/unit/central/flight.h"

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "central/fusion/fusion.h"
 #include "tests/unit/central/flight.h"

@@ -15,7 +15,6 @@ using Eigen::Vector3d;
 using test::kStart;
 using test::path;
 using test::site;
-using test::square;
 
 Track track_of_flight(std::int64_t id, double seconds) {
   Track track(TrackFilter(

@@ -10,7 +10,6 @@
 namespace ols::fusion {
 namespace {
 
-using test::error_m;
 using test::kStart;
 using test::off_by;
 using test::watch;

@@ -16,6 +16,7 @@ constexpr std::int64_t kEpoch_us = 1'700'000'000'000'000;
 class Machine {
  public:
   explicit Machine(const ClockWatch::Config& config = {}) : watch(config) {}
+  explicit Machine(double runs_s) : Machine() { run(runs_s); }
 
   void run(double duration_s, double slew_per_s = 0.0) {
     const double end_s = now_s + duration_s;
@@ -55,8 +56,7 @@ class Machine {
 };
 
 TEST(ClockWatch, WithoutAServiceTheClockIsUnknownNotBad) {
-  Machine machine;
-  machine.run(1.0);
+  Machine machine(1.0);
   EXPECT_EQ(machine.quality().state, ClockState::kUnknown);
   machine.watch.add(machine.none());
   const ClockQuality quality = machine.quality();
@@ -66,8 +66,7 @@ TEST(ClockWatch, WithoutAServiceTheClockIsUnknownNotBad) {
 }
 
 TEST(ClockWatch, TheServicesEstimateIsTheError) {
-  Machine machine;
-  machine.run(1.0);
+  Machine machine(1.0);
   machine.watch.add(machine.reading(true, 2e-5));
   const ClockQuality quality = machine.quality();
   EXPECT_EQ(quality.state, ClockState::kSynchronised);
@@ -119,8 +118,7 @@ TEST(ClockWatch, AServiceThatIsSilentIsNotBelievedForEver) {
 class Stepped : public testing::TestWithParam<double> {};
 
 TEST_P(Stepped, IsMarkedAtTheNextTick) {
-  Machine machine;
-  machine.run(1.0);
+  Machine machine(1.0);
   machine.step(GetParam());
   machine.run(0.01);
   const ClockQuality quality = machine.quality();
@@ -133,16 +131,14 @@ TEST_P(Stepped, IsMarkedAtTheNextTick) {
 INSTANTIATE_TEST_SUITE_P(Sizes, Stepped, testing::Values(2.0, -2.0, 0.06, -0.06, 86400.0));
 
 TEST(ClockWatch, SaysWhenAndByHowMuch) {
-  Machine machine;
-  machine.run(1.0);
+  Machine machine(1.0);
   machine.step(2.0);
   machine.run(12.01);
   EXPECT_EQ(machine.quality().alarm, "clock: stepped by +2.000 s 12 s ago");
 }
 
 TEST(ClockWatch, WithoutAServiceAStepIsDistrustedForAWhile) {
-  Machine machine;
-  machine.run(1.0);
+  Machine machine(1.0);
   machine.step(2.0);
   machine.run(59.0);
   EXPECT_EQ(machine.quality().state, ClockState::kUnsynchronised);
@@ -171,8 +167,7 @@ TEST(ClockWatch, WithAServiceAStepIsDistrustedUntilItHasMeasured) {
 }
 
 TEST(ClockWatch, AReadingFromBeforeTheStepConfirmsNothing) {
-  Machine machine;
-  machine.run(1.0);
+  Machine machine(1.0);
   const ClockReading before = machine.reading(true);
   machine.step(2.0);
   machine.run(0.01);
@@ -197,8 +192,7 @@ TEST(ClockWatch, TheKernelsWordConfirmsAStep) {
 }
 
 TEST(ClockWatch, AStepThatIsTakenBackLeavesTheClockAsItWas) {
-  Machine machine;
-  machine.run(1.0);
+  Machine machine(1.0);
   machine.step(2.0);
   machine.run(1.0);
   machine.step(-2.0);
@@ -218,16 +212,14 @@ TEST(ClockWatch, SlewingIsNoStep) {
 }
 
 TEST(ClockWatch, APauseInWhichBothClocksRanIsNoStep) {
-  Machine machine;
-  machine.run(1.0);
+  Machine machine(1.0);
   machine.now_s += 3600.0;
   machine.run(1.0);
   EXPECT_EQ(machine.quality().steps, 0U);
 }
 
 TEST(ClockWatch, ASuspendedMachineHasTheTimeOfItsBatteryClock) {
-  Machine machine;
-  machine.run(1.0);
+  Machine machine(1.0);
   machine.step(3600.0);  // CLOCK_MONOTONIC stood
   machine.run(1.0);
   EXPECT_EQ(machine.quality().state, ClockState::kUnsynchronised);

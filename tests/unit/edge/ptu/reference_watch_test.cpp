@@ -11,6 +11,11 @@ ReferenceWatch driven() {
   return watch;
 }
 
+void ready_again(ReferenceWatch& watch) {
+  watch.rate_is(9600);
+  watch.ready();
+}
+
 TEST(ReferenceWatch, TrustsAUnitAtFirst) { EXPECT_EQ(driven().cause(), std::nullopt); }
 
 TEST(ReferenceWatch, DoubtsAUnitThatRanIntoALimit) {
@@ -40,8 +45,7 @@ TEST(ReferenceWatch, TakesNoiseAtAnotherRateForNothing) {
   ReferenceWatch watch = driven();
   watch.power_cycled();
   watch.while_not_driven({1, 1}, 38400, 1.0);
-  watch.rate_is(9600);
-  watch.ready();
+  ready_again(watch);
   EXPECT_EQ(watch.cause(), PtuDoubtCause::kPowerCycle);
 }
 
@@ -49,8 +53,7 @@ TEST(ReferenceWatch, TakesNoiseAtAnotherRateForNothing) {
 TEST(ReferenceWatch, TakesAnOldHomingForNothing) {
   ReferenceWatch watch = driven();
   watch.while_not_driven({2, 2}, 9600, 1.0);
-  watch.rate_is(9600);
-  watch.ready();
+  ready_again(watch);
   watch.power_cycled();
   watch.ready();
   EXPECT_EQ(watch.cause(), PtuDoubtCause::kPowerCycle);
@@ -67,8 +70,7 @@ TEST(ReferenceWatch, TrustsAUnitThatWasHomedByHandWhileItWasDriven) {
 TEST(ReferenceWatch, DoubtsAUnitThatHitALimitOnTheWay) {
   ReferenceWatch watch = driven();
   watch.while_not_driven({1, 0}, 9600, 1.0);
-  watch.rate_is(9600);
-  watch.ready();
+  ready_again(watch);
   EXPECT_EQ(watch.cause(), PtuDoubtCause::kLimitHit);
 }
 
@@ -77,8 +79,7 @@ TEST(ReferenceWatch, DoubtsAHomingThatWasInterrupted) {
   watch.while_not_driven({0, 2}, 9600, 1.0);
   watch.homing_interrupted();
   watch.while_not_driven({2, 0}, 9600, 2.0);
-  watch.rate_is(9600);
-  watch.ready();
+  ready_again(watch);
   EXPECT_EQ(watch.cause(), PtuDoubtCause::kHomingInterrupted);
 }
 
@@ -88,13 +89,11 @@ TEST(ReferenceWatch, BelievesAfterABrokenHomingOnlyAWholeOneOfItsOwn) {
   watch.while_not_driven({1, 1}, 9600, 1.0);
   watch.homing_interrupted();
   watch.while_not_driven({2, 2}, 9600, 2.0);  // a unit that does not heed a halt goes on
-  watch.rate_is(9600);
-  watch.ready();
+  ready_again(watch);
   EXPECT_EQ(watch.cause(), PtuDoubtCause::kHomingInterrupted);
   watch.while_not_driven({2, 2}, 9600, 2.5);
   watch.power_cycled();  // or what looks like one
-  watch.rate_is(9600);
-  watch.ready();
+  ready_again(watch);
   EXPECT_EQ(watch.doubt(), (PtuReferenceDoubt{true, false}));
   EXPECT_EQ(watch.cause(), PtuDoubtCause::kHomingInterrupted);
   watch.homing_ordered();
@@ -102,8 +101,7 @@ TEST(ReferenceWatch, BelievesAfterABrokenHomingOnlyAWholeOneOfItsOwn) {
   watch.while_not_driven({2, 2}, 9600, 3.0);
   EXPECT_TRUE(watch.saw_both_ends());
   watch.homing_complete();
-  watch.rate_is(9600);
-  watch.ready();
+  ready_again(watch);
   EXPECT_EQ(watch.cause(), std::nullopt);
 }
 

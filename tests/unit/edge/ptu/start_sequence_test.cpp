@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <map>
-#include <memory>
 
 #include "tests/unit/edge/ptu/unit_replies.h"
 

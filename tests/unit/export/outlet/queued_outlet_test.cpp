@@ -4,7 +4,6 @@
 #include <poll.h>
 
 #include <atomic>
-#include <condition_variable>
 #include <vector>
 
 #include "tests/unit/eventually.h"
