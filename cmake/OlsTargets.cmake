@@ -113,20 +113,18 @@ endfunction()
 
 # ols_test(NAME [HOT] SOURCES ... LINK ... [ALONE ...]): a GoogleTest program, one process and one ctest entry.
 # Most of a test's compilation is GoogleTest's and Eigen's headers: eight sources are compiled at once.
-# Tests are not optimised, which halves the rest, but those that are HOT: inline functions that a test uses too
-# may be run as compiled for it, and these compute for minutes.
+# Tests are optimised less than the libraries, in a quick build not at all unless they are HOT: inline functions
+# that a test uses too may be run as compiled for it, and these tests compute for minutes.
 # ALONE are those of the sources whose local names are also names of another source.
 function(ols_test name)
   cmake_parse_arguments(ARG "HOT" "" "SOURCES;LINK;ALONE" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE ols_options ${ARG_LINK} ols_test_main)
-  if(ARG_HOT)
-    target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
+  if(OLS_QUICK_BUILD AND NOT ARG_HOT)
+    target_compile_options(${name} PRIVATE -O0)
+    target_precompile_headers(${name} REUSE_FROM ols_test_main)
   else()
-    target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O0>)
-    if(OLS_QUICK_BUILD)
-      target_precompile_headers(${name} REUSE_FROM ols_test_main)
-    endif()
+    target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
   endif()
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests
                                            UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
