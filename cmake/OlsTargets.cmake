@@ -94,7 +94,7 @@ if(OLS_QUICK_BUILD)
       <unordered_map>
       <variant>
       <vector>)
-  file(WRITE ${CMAKE_BINARY_DIR}/common_headers.cpp "")
+  file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/common_headers.cpp CONTENT "") # untouched where it is there
   add_library(ols_common_headers STATIC ${CMAKE_BINARY_DIR}/common_headers.cpp)
   target_link_libraries(ols_common_headers PRIVATE ols_options ols_opencv Eigen3::Eigen)
   target_compile_options(ols_common_headers PRIVATE -O1)
