@@ -13,7 +13,7 @@ import ols
 from ols_demo import evaluate, plot, recording
 from ols_demo.bus import LIVE_URL, Bus
 from ols_demo.doorway import VARIABLE
-from ols_demo.live import Screen
+from ols_demo.live import Screen, at_work
 from ols_demo.observer import Observer
 from ols_demo.operator import Operator
 from ols_demo.site import Site, SiteError, bring_up_loopback
@@ -88,7 +88,7 @@ class Run:
         end = time.monotonic() + seconds
         while time.monotonic() < end:
             left = end - time.monotonic()
-            self.turn(site, f"tracking, {left:.0f} s left")
+            self.turn(site, f"{at_work(self.observer)}, {left:.0f} s left")
         return start_us, time.time_ns() // 1000
 
 

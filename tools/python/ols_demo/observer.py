@@ -26,6 +26,7 @@ class Observer:
         self.turning_rad_s: dict[str, float] = {}  # rate of the camera between the newest views
         self.truth: Any = None
         self.target: dict[str, Any] = {}  # by channel
+        self.fix: dict[str, Any] = {}  # the same, the newest with a position
         self.fusion: Any = None
         self.targets = 0
 
@@ -41,6 +42,8 @@ class Observer:
             self.fusion = message
         elif channel.startswith("OLS_TARGET"):
             self.target[channel] = message
+            if message.solution == message.SOLUTION_OK and np.isfinite(message.latitude_deg):
+                self.fix[channel] = message
             self.targets += channel == "OLS_TARGET"
 
     def _notice_turning(self, view: Any) -> None:

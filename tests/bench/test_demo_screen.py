@@ -1,0 +1,64 @@
+"""What the demo's terminal says of a site: of what is unknown or over, that it is."""
+
+import math
+
+import ols_msg
+from ols_demo.live import at_work, station_lines, target_lines
+from ols_demo.observer import Observer
+
+STATUS, TARGET = ols_msg.station_status_t, ols_msg.target_t
+HEARD_US = 1_700_000_000_000_000
+
+
+def status(station, state, **fields):
+    m = STATUS()
+    m.station, m.state = station, state
+    m.azimuth_rad = m.elevation_rad = m.belief = math.nan
+    m.target_offset_px = [math.nan, math.nan]
+    for name, value in fields.items():
+        setattr(m, name, value)
+    return m
+
+
+def target(**fields):
+    m = TARGET()
+    m.utime, m.latitude_deg, m.longitude_deg, m.height_m = HEARD_US, 49.2, 16.5, 400.0
+    m.stations, m.used = 2, [True, True]
+    for name, value in fields.items():
+        setattr(m, name, value)
+    return m
+
+
+def heard(*messages):
+    observer = Observer()
+    for m in messages:
+        observer.receive("OLS_TARGET" if isinstance(m, TARGET) else f"OLS_STATUS_{m.station}", m)
+    return observer
+
+
+def test_tracking_are_those_that_track():
+    observer = heard(
+        status("alfa", STATUS.STATE_LOST),
+        status("bravo", STATUS.STATE_TRACKING),
+        status("overview", STATUS.STATE_IDLE, kind=STATUS.KIND_OVERVIEW),
+    )
+    assert at_work(observer) == "1 of 2 stations track"
+
+
+def test_what_is_unknown_is_a_dash():
+    lines = station_lines(heard(status("alfa", STATUS.STATE_LOST)))
+    assert len(lines[1]) == len(station_lines(heard(status("alfa", 0, belief=1.0)))[1])
+    assert "nan" not in "".join(lines)
+    assert "nan" not in "".join(target_lines(heard(target()), HEARD_US))
+
+
+def test_a_target_without_a_position_has_none():
+    nowhere = target(solution=TARGET.SOLUTION_TOO_FEW_RAYS, latitude_deg=math.nan)
+    assert target_lines(heard(nowhere), HEARD_US) == ["target     none yet"]
+    (place, *_) = target_lines(heard(target(), nowhere), HEARD_US + 100_000)
+    assert "49.200000°" in place
+
+
+def test_a_target_that_is_not_seen_any_more_is_none():
+    (said, _) = target_lines(heard(target()), HEARD_US + 7_000_000)
+    assert said == "target     none now, seen 7 s ago"
