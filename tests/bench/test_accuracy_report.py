@@ -8,7 +8,7 @@ import sys
 
 import numpy as np
 import pytest
-from ols_accuracy import document, run_plots, theory_plots
+from ols_accuracy import document, plot, run_plots, theory_plots
 from ols_accuracy.__main__ import budget_basis
 from ols_accuracy.runs import (
     EACH_OTHER,
@@ -168,13 +168,26 @@ def test_precision_has_a_picture(tmp_path, kind, options):
     source, picture = tmp_path / "source.csv", tmp_path / "picture.png"
     program = str(PROGRAMS / "ols-precision")
     subprocess.run([program, kind, *options, "--output", str(source)], check=True)
-    plot = [sys.executable, "-m", "ols_accuracy.plot"]
-    subprocess.run([*plot, kind, str(source), str(picture)], check=True)
+    command = [sys.executable, "-m", "ols_accuracy.plot", kind, str(source), str(picture)]
+    subprocess.run(command, check=True)
     assert colours(picture) > 20
-    wrong = subprocess.run(
-        [*plot, "figure3" if kind != "figure3" else "map", str(source), str(picture)],
-        capture_output=True,
-        text=True,
-        check=False,
+
+
+def test_what_cannot_be_plotted_is_said_in_words(tmp_path, monkeypatch):
+    picture, table, none = (tmp_path / name for name in ("picture.png", "table.csv", "none.csv"))
+
+    def said(kind, source):
+        monkeypatch.setattr(sys, "argv", ["precision-plot", kind, str(source), str(picture)])
+        with pytest.raises(SystemExit) as ended:
+            plot.main()
+        return ended.value.code
+
+    table.write_text("x_m,y_m\n1,2\n")
+    assert said("figure3", table) == (
+        f"precision-plot: {table}: has no column base_m: not what `ols-precision figure3` writes"
     )
-    assert wrong.returncode != 0 and "not what ols-precision writes" in wrong.stderr
+    table.write_text("")
+    assert f"{table}: has no row" in said("map", table)
+    table.write_bytes(bytes(range(256)))
+    assert f"{table}: cannot be drawn" in said("map", table)
+    assert said("map", none) == f"precision-plot: {none}: No such file or directory"

@@ -1,6 +1,7 @@
 """Plots the output of ols-precision: tools/precision-plot."""
 
 import argparse
+import csv
 import sys
 from pathlib import Path
 
@@ -14,6 +15,8 @@ def main() -> None:
     parser.add_argument("picture", type=Path, help="PNG or SVG to write")
     parser.add_argument("--stations", type=Path, help="stations.csv, drawn into a map")
     arguments = parser.parse_args()
+    if arguments.picture.suffix not in (".png", ".svg"):
+        parser.error(f"{arguments.picture}: must end in .png or .svg")
     try:
         if arguments.kind == "map":
             theory_plots.site_map(arguments.source, arguments.picture, arguments.stations)
@@ -24,8 +27,15 @@ def main() -> None:
                 "table": theory_plots.table1,
             }
             plots[arguments.kind](arguments.source, arguments.picture)
-    except (OSError, KeyError, IndexError, ValueError) as problem:
-        sys.exit(f"precision-plot: {arguments.source}: {problem!r}: not what ols-precision writes")
+    except OSError as problem:
+        sys.exit(f"precision-plot: {problem.filename}: {problem.strerror}")
+    except theory_plots.BadTable as problem:
+        sys.exit(f"precision-plot: {problem}: not what `ols-precision {arguments.kind}` writes")
+    except (TypeError, ValueError, csv.Error):
+        sys.exit(
+            f"precision-plot: {arguments.source}: cannot be drawn: not what "
+            f"`ols-precision {arguments.kind}` writes"
+        )
 
 
 if __name__ == "__main__":

@@ -12,11 +12,28 @@ from matplotlib.contour import QuadContourSet
 from ols_accuracy.style import MAP, OURS, PAPER, STATION, save
 
 
-def columns(path: Path) -> dict[str, np.ndarray]:
-    """Columns of a CSV; numbers where all cells are, empty ones NaN."""
+class BadTable(ValueError):
+    """In words for a person, with the file."""
+
+
+class Table(dict[str, np.ndarray]):
+    """Columns of the CSV at `path`."""
+
+    def __init__(self, path: Path):
+        super().__init__()
+        self._path = path
+
+    def __missing__(self, name: str) -> np.ndarray:
+        raise BadTable(f"{self._path}: has no column {name}")
+
+
+def columns(path: Path) -> Table:
+    """Numbers where all cells are, empty ones NaN."""
     with open(path, newline="") as file:
         rows = list(csv.DictReader(file))
-    result = {}
+    if not rows:
+        raise BadTable(f"{path}: has no row")
+    result = Table(path)
     for name in rows[0]:
         cells = [row[name] for row in rows]
         try:
