@@ -1,9 +1,13 @@
-"""What the demo's terminal says of a site: of what is unknown or over, that it is."""
+"""What the demo's terminal says of a site: of what is unknown or over, that it is. And the way into
+its network for other programs."""
 
 import math
+import os
+import subprocess
 
 import ols_msg
-from ols_demo.live import at_work, station_lines, target_lines
+from ols_demo.inside import write_in_site
+from ols_demo.live import Screen, at_work, station_lines, target_lines
 from ols_demo.observer import Observer
 
 STATUS, TARGET = ols_msg.station_status_t, ols_msg.target_t
@@ -62,3 +66,25 @@ def test_a_target_without_a_position_has_none():
 def test_a_target_that_is_not_seen_any_more_is_none():
     (said, _) = target_lines(heard(target()), HEARD_US + 7_000_000)
     assert said == "target     none now, seen 7 s ago"
+
+
+def test_a_file_gets_no_control_characters(capsys):
+    screen = Screen()
+    for left_s in (60, 50):
+        screen.draw(f"4 of 4 stations track, {left_s} s left", heard(target()))
+    said = capsys.readouterr().out
+    assert said.count("4 of 4 stations track") == 2 and "\x1b" not in said
+
+
+def test_a_command_runs_in_the_network_of_the_demo(tmp_path):
+    """Here it is our own; afterwards that of a process that has ended."""
+    script = write_in_site(tmp_path, tmp_path, {"OLS_KEYS": "some keys"})
+    look = ["sh", "-c", 'readlink /proc/self/ns/net; echo "$OLS_KEYS"; echo "$PATH"']
+    done = subprocess.run([script, *look], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    network, keys, path = done.stdout.splitlines()
+    assert (network, keys) == (os.readlink("/proc/self/ns/net"), "some keys")
+    assert path.split(":")[0] == str(tmp_path)
+    script.write_text(script.read_text().replace(os.readlink("/proc/self"), "4194305"))
+    done = subprocess.run([script, *look], capture_output=True, text=True, check=False)
+    assert done.returncode == 1 and done.stderr.endswith("the demo has ended\n")

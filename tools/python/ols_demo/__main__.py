@@ -13,6 +13,7 @@ import ols
 from ols_demo import evaluate, plot, recording
 from ols_demo.bus import LIVE_URL, Bus
 from ols_demo.doorway import VARIABLE
+from ols_demo.inside import write_in_site
 from ols_demo.live import Screen, at_work
 from ols_demo.observer import Observer
 from ols_demo.operator import Operator
@@ -20,7 +21,6 @@ from ols_demo.site import Site, SiteError, bring_up_loopback
 from ols_demo.wiring import Wiring
 
 DESIGNATION_S = 60.0
-DRAW_S = 0.5
 
 
 def arguments() -> argparse.Namespace:
@@ -68,7 +68,7 @@ class Run:
         self.operator.act()
         site.check()
         if self.screen and time.monotonic() >= self._draw_due:
-            self._draw_due = time.monotonic() + DRAW_S
+            self._draw_due = time.monotonic() + self.screen.period_s
             self.screen.draw(title, self.observer)
 
     def designate(self, site: Site, stations: list[str]) -> None:
@@ -149,7 +149,7 @@ def replay(options: argparse.Namespace) -> int:
             address = wiring.start_console(site, doorway(), replay=options.console_only.resolve())
             print(f"the console replays it in a browser: {address}", flush=True)
             while True:
-                time.sleep(DRAW_S)
+                time.sleep(0.5)
                 site.check()
     except SiteError as error:
         print(f"tools/demo: {error}", file=sys.stderr)
@@ -171,6 +171,8 @@ def main() -> int:
             if not options.headless:
                 address = wiring.start_console(site, doorway())
                 print(f"the console shows it in a browser: {address}", flush=True)
+            in_site = write_in_site(options.output, options.bin, wiring.keys)
+            print(f"commands to its stations: {in_site} ols-ctl all status", flush=True)
             run = Run(options, wiring.keys["OLS_KEYS"])
             run.designate(site, wiring.tracking_stations)
             window = run.watch(site)

@@ -73,13 +73,14 @@ def target_lines(observer: Observer, now_us: int) -> list[str]:
 
 
 class Screen:
-    """Overwrites its previous output."""
+    """On a terminal it overwrites its previous output; into a file it writes now and then."""
 
     def __init__(self) -> None:
         self._drawn = 0
+        self._is_terminal = sys.stdout.isatty()
+        self.period_s = 0.5 if self._is_terminal else 10.0
 
     def draw(self, title: str, observer: Observer) -> None:
-        width = shutil.get_terminal_size().columns
         lines = [
             title,
             "",
@@ -87,7 +88,11 @@ class Screen:
             "",
             *target_lines(observer, time.time_ns() // 1000),
         ]
+        if not self._is_terminal:
+            print("\n".join(lines), end="\n\n", flush=True)
+            return
+        width = shutil.get_terminal_size().columns
         up = f"\x1b[{self._drawn}F" if self._drawn else ""
-        sys.stdout.write(up + "".join(f"\x1b[2K{line[: width - 1]}\n" for line in lines))
+        sys.stdout.write(up + "".join(f"\x1b[2K{line[: width - 1]}\n" for line in lines) + "\x1b[J")
         sys.stdout.flush()
         self._drawn = len(lines)
