@@ -21,6 +21,8 @@ target_compile_options(
             -Werror
             # Bit-for-bit the same arithmetic on every machine of one architecture.
             -ffp-contract=off)
+# A program loads only the libraries that it calls: OpenCV's video input alone brings 200 along.
+target_link_options(ols_options INTERFACE -Wl,--as-needed)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
   # Debian's libfccp exports an option that only GCC accepts.
   target_compile_options(ols_options INTERFACE -Wno-unknown-warning-option)
