@@ -6,7 +6,7 @@ import shutil
 
 import pytest
 from conftest import ROOT
-from update_host import BUSY, OTHER, RESTART, START_S, STATION, Host, took_s, went_back
+from update_host import BRIEFLY, BUSY, OTHER, RESTART, START_S, STATION, Host, took_s, went_back
 
 
 @pytest.fixture(name="host")
@@ -51,7 +51,7 @@ def test_what_cannot_be_kept_stops_no_update_and_is_no_half_version(host):
 
 def test_a_station_at_work_is_restarted_when_it_is_idle(host):
     host.set(state="tracking; 33 fps\ncoasting\nno bus; tracking\nidle")
-    done = host.restart()
+    done = host.restart(*BRIEFLY)
     assert done.returncode == 0, done.stderr
     assert "goes on with the program that it has" in done.stdout
     assert host.done() == [
@@ -64,20 +64,20 @@ def test_a_station_at_work_is_restarted_when_it_is_idle(host):
 @pytest.mark.parametrize("state", ["idle; camera absent", "stopped", "no bus; idle", "emergency"])
 def test_a_station_that_follows_nothing_is_restarted_at_once(host, state):
     host.set(state=state)
-    assert "at work" not in host.restart().stdout
+    assert "at work" not in host.restart(*BRIEFLY).stdout
     assert f"systemctl restart --no-block {STATION}" in host.done()
 
 
 def test_without_a_running_station_nothing_happens(host):
     host.set(units="")
-    assert host.restart().returncode == 0
+    assert host.restart(*BRIEFLY).returncode == 0
     assert host.done() == []
 
 
-def bad(host):
+def bad(host, *words):
     host.install("1.0")
     host.install("1.1")
-    done = host.restart()
+    done = host.restart(*words)
     assert done.returncode == 1, done.stderr
     return done
 
@@ -94,7 +94,7 @@ def test_a_new_failure_takes_the_update_back(host):
 
 def test_a_version_that_was_taken_back_is_not_installed_again(host):
     host.set(failures_after="camera")
-    bad(host)
+    bad(host, *BRIEFLY)
     assert host.refused.read_text().endswith(
         "Package: ols-* python3-ols\nPin: version 1.1\nPin-Priority: -1\n"
     )
@@ -107,11 +107,11 @@ def test_the_journal_is_told_once_and_by_its_kind(host):
     )
     (host.folder / "bin/logger").chmod(0o755)
     host.set(failures_after="camera")
-    assert "version 1.0 is back" in bad(host).stderr
+    assert "version 1.0 is back" in bad(host, *BRIEFLY).stderr
     assert not (host.folder / "told").exists()
-    listens = 'JOURNAL_STREAM=$(stat -L -c %d:%i /dev/stderr) exec "$0"'
-    (host.folder / "done").unlink()
-    assert "version 1.0 is back" not in host.run("sh", "-c", listens, RESTART).stderr
+    listens = 'JOURNAL_STREAM=$(stat -L -c %d:%i /dev/stderr) exec "$0" "$@"'
+    (host.folder / "restarted").unlink()
+    assert "version 1.0 is back" not in host.run("sh", "-c", listens, RESTART, *BRIEFLY).stderr
     told = (host.folder / "told").read_text().splitlines()
     header = (ROOT / "base/event_ids.h").read_text()
     number = header.split('kUpdateTakenBack = "')[1][:32]
@@ -151,20 +151,20 @@ def candidate(host, *versions):
 @pytest.mark.skipif(shutil.which("apt-get") is None, reason="no apt")
 def test_apt_leaves_out_what_was_taken_back_and_takes_what_comes_later(host):
     host.set(failures_after="camera")
-    bad(host)
+    bad(host, *BRIEFLY)
     assert candidate(host, "1.0", "1.1") == "1.0"
     assert candidate(host, "1.0", "1.1", "1.2") == "1.2"
 
 
 def test_a_program_that_does_not_run_takes_the_update_back(host):
     host.set(failures="camera", failures_after="camera", active_after="failed")
-    bad(host)
+    bad(host, *BRIEFLY)
     assert len(went_back(host)) == 1
 
 
 def test_a_program_that_ends_again_and_again_takes_the_update_back(host):
     host.set(crashes="")
-    bad(host)
+    bad(host, *BRIEFLY)
     assert len(went_back(host)) == 1
 
 
@@ -175,13 +175,13 @@ def test_a_program_that_ends_again_and_again_takes_the_update_back(host):
 )
 def test_a_doctor_that_does_not_come_to_its_end_takes_the_update_back(host, state):
     host.set(**state)
-    bad(host)
+    bad(host, *BRIEFLY)
     assert len(went_back(host)) == 1
 
 
 def test_what_was_broken_before_hides_no_new_failure(host):
     host.set(failures="gnss", failures_after="gnss\nptu")
-    bad(host)
+    bad(host, *BRIEFLY)
     assert len(went_back(host)) == 1
 
 
@@ -199,7 +199,7 @@ def test_a_station_that_had_failed_before_is_restarted_and_counts_for_nothing(ho
     host.set(units=f"{STATION} loaded active running\n{OTHER} loaded failed failed")
     host.install("1.0")
     host.install("1.1")
-    done = host.restart()
+    done = host.restart(*BRIEFLY)
     assert done.returncode == 0, done.stderr
     assert f"systemctl restart --no-block {OTHER}" in host.done()
     assert went_back(host) == []
@@ -207,7 +207,7 @@ def test_a_station_that_had_failed_before_is_restarted_and_counts_for_nothing(ho
 
 def test_a_station_that_had_failed_before_hides_no_other(host):
     host.set(units=f"{STATION} loaded active running\n{OTHER} loaded failed failed", crashes="")
-    bad(host)
+    bad(host, *BRIEFLY)
     assert len(went_back(host)) == 1
 
 
@@ -228,14 +228,14 @@ def test_what_cannot_be_taken_back_is_not_called_well(host):
 
 def test_it_waits_for_whoever_else_is_installing(host):
     host.set(failures_after="camera", dpkg_busy="")
-    assert "trying again" in bad(host).stderr
+    assert "trying again" in bad(host, *BRIEFLY).stderr
     assert len(went_back(host)) == 1
 
 
 def test_the_next_update_is_put_into_use_while_this_one_is_watched(host):
     host.install("1.0")
     host.set(next="ols-common 1.1\nols-station 1.1")
-    assert host.restart().returncode == 0
+    assert host.restart(*BRIEFLY).returncode == 0
     assert host.done().count(f"systemctl restart --no-block {STATION}") == 2
 
 
@@ -244,7 +244,7 @@ def test_what_breaks_while_the_station_is_at_work_is_not_the_updates_fault(host)
     host.set(failures="camera", failures_after="camera")
     host.install("1.0")
     host.install("1.1")
-    done = host.restart()
+    done = host.restart(*BRIEFLY)
     assert done.returncode == 0, done.stderr
     assert "at work" in done.stdout
     assert went_back(host) == []
@@ -260,7 +260,7 @@ def test_a_station_is_watched_while_another_is_at_work(host):
 def test_without_an_earlier_version_it_says_so(host):
     host.set(failures_after="camera")
     host.install("1.0")
-    done = host.restart()
+    done = host.restart(*BRIEFLY)
     assert done.returncode == 1
     assert "nothing to go back to" in done.stderr
     assert went_back(host) == []

@@ -1,7 +1,7 @@
 """An update that was waited for or watched when the computer was started again."""
 
 import pytest
-from update_host import OTHER, STATION, Host, took_s, went_back
+from update_host import BRIEFLY, OTHER, STATION, Host, took_s, went_back
 
 
 @pytest.fixture(name="host")
@@ -37,7 +37,7 @@ def test_another_watch_is_not_gone_on_with(host, watch):
     """One that has only just begun, of another version, of the present boot."""
     host.install("1.0")
     host.install("1.1")
-    assert host.start_again(watch).returncode == 0
+    assert host.start_again(watch, *BRIEFLY).returncode == 0
     assert f"systemctl restart --no-block {STATION}" in host.done()
 
 
@@ -46,5 +46,5 @@ def test_whoever_waits_has_written_down_what_for(host):
     host.install("1.1")
     (host.folder / "bin/sync").write_text('#!/bin/sh\ncp "$1" "$HOST/watch"\n')
     (host.folder / "bin/sync").chmod(0o755)
-    host.restart()
+    host.restart(*BRIEFLY)
     assert (host.folder / "watch").read_text() == f"1.1 first\n{OTHER}\n"
