@@ -58,9 +58,12 @@ class Kept(Listener):
     def refuses_slews(self):
         reason = "refused_emergency" if self.emergency() else "refused_precedence"
         before = self.counter("kept", reason)
-        for _ in range(3):
+
+        def refused():  # a slew is short-lived: on a busy machine some are stale when they are read
             self.publish("OLS_SLEW_kept", slew("kept", time.time_ns(), 0.1).encode())
-        self.wait_for_counter("kept", reason, before + 3)
+            return self.counter("kept", reason) >= before + 3
+
+        self.wait(refused, f"three {reason}")
         assert self.observer.status["kept"].state in (STATUS.STATE_STOPPED, STATUS.STATE_EMERGENCY)
 
     def emergency(self):
@@ -118,59 +121,19 @@ def test_a_folder_that_was_taken_away_is_no_leave_to_move(station):
     station.wait(lambda: not station.alarmed(NOT_KNOWN), "its alarm to go")
 
 
-def missing(_, file):
-    file.unlink()
-
-
-def empty(_, file):
-    file.write_text("")
-
-
-def foreign(_, file):
-    file.write_text("holiday\n")
-
-
-def directory(_, file):
-    file.unlink()
-    file.mkdir()
-
-
-def unreadable(_, file):
-    """For root, too."""
-    file.unlink()
-    file.symlink_to(file)
-
-
-def folder_missing(folder, _):
-    shutil.rmtree(folder)
-
-
-def folder_is_a_file(folder, _):
-    shutil.rmtree(folder)
-    folder.write_text("")
-
-
-@pytest.mark.parametrize("subject", ["hold", "doubt"])
-@pytest.mark.parametrize(
-    "spoil", [missing, empty, foreign, directory, unreadable, folder_missing, folder_is_a_file]
-)
-def test_what_is_not_known_is_taken_for_the_worse(station, subject, spoil):
-    station.state_folder.joinpath("kept.hold").write_text("free\n")
-    station.state_folder.joinpath("kept.doubt").write_text("none\n")
-    spoil(station.state_folder, station.state_folder / f"kept.{subject}")
+def test_what_is_damaged_needs_a_hand_at_the_station(station):
+    """A stop may have been pressed. The unit test has every file in every condition."""
+    station.state_folder.joinpath("kept.hold").write_text("holiday\n")
+    station.state_folder.joinpath("kept.doubt").mkdir()
     station.start()
-    if subject == "doubt":
-        assert station.alarmed("ptu: reference before the restart is unknown")
-        return
-    damaged = spoil not in (missing, folder_missing)
-    station.wait_for_state(STATUS.STATE_EMERGENCY if damaged else STATUS.STATE_STOPPED)
+    station.wait_for_state(STATUS.STATE_EMERGENCY)
     assert station.alarmed(NOT_KNOWN)
+    assert station.alarmed("ptu: reference before the restart is unknown")
     station.refuses_slews()
-    if damaged:  # a stop may have been pressed: it needs a hand at the station
-        station.command(PTU.COMMAND_REARM)
-        station.wait_for_counter("kept", "refused_rearm_needs_a_hand", 1)
-        os.kill(station.site.processes["station"].pid, signal.SIGUSR1)
-        station.wait_for_state(STATUS.STATE_STOPPED)
+    station.command(PTU.COMMAND_REARM)
+    station.wait_for_counter("kept", "refused_rearm_needs_a_hand", 1)
+    os.kill(station.site.processes["station"].pid, signal.SIGUSR1)
+    station.wait_for_state(STATUS.STATE_STOPPED)
     station.command(PTU.COMMAND_RELEASE)
     station.wait_for_state(STATUS.STATE_IDLE)
     station.wait(lambda: not station.alarmed(NOT_KNOWN), "its alarm to go")
