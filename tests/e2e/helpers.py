@@ -1,9 +1,11 @@
 """Talks to running processes as another member of the site's bus would."""
 
+import re
 import socket
 import struct
 import threading
 import time
+from pathlib import Path
 from typing import Any
 
 import ols_msg
@@ -36,6 +38,16 @@ device = "/nonexistent/ptu"
 fx_px = 13333.3
 fy_px = 13333.3
 """
+
+
+def at_frame_rate(scenario: Path, hz: float, folder: Path) -> Path:
+    """The scenario with slower cameras, where no test judges motion: most of what a simulated
+    station costs are its pictures."""
+    text, count = re.subn(r"(?m)^frame_rate_hz = .*", f"frame_rate_hz = {hz}", scenario.read_text())
+    assert count == 1, scenario
+    path = folder / f"{scenario.stem}-at-{hz}-hz.toml"
+    path.write_text(text)
+    return path
 
 
 class Babbler:

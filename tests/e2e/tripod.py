@@ -13,7 +13,7 @@ import numpy as np
 import ols
 import ols_msg
 from conftest import BIN, ROOT
-from helpers import Listener, addressed
+from helpers import Listener, addressed, at_frame_rate
 from ols_calibration.model import rx, ry, rz
 from ols_demo.places import geodetic
 from ols_demo.wiring import Wiring
@@ -22,6 +22,7 @@ from PIL import Image
 SCENARIO = ROOT / "sim/scenarios/calibration.toml"
 DEADLINE_S = 150.0
 AGAIN_S = 3.0
+FRAMES_HZ = 8.0
 SIGNS = ("spire", "mast", "gable", "chimney")  # enough for a short test
 CHRONY = "50505300,PPS,1,{now:.9f},0.0,0.0,1e-7,-1.8,0.0,0.016,1e-9,1e-5,16.0,Normal"
 
@@ -56,7 +57,7 @@ class Tripod:
     def __init__(self, folder, site, scenario=SCENARIO, seed=5, timed=False, station="alfa"):
         """`timed`: a time service says that the clock is right."""
         self.folder, self.station = folder, station
-        self.wiring = Wiring(BIN, scenario, seed, folder)
+        self.wiring = Wiring(BIN, at_frame_rate(scenario, FRAMES_HZ, folder), seed, folder)
         self.wiring.prepare()
         site.start_and_wait("ols-sim", self.wiring._sim(), "ready")
         self.wiring.start_station(site, station, self._time_service() if timed else None)
@@ -66,12 +67,14 @@ class Tripod:
         self.listener.bus.lcm.subscribe(f"OLS_PROCEDURE_{station}", self._procedure)
         self.views = {}  # what the simulator says of each picture, by its stamp
         self.listener.bus.lcm.subscribe(f"OLS_SIM_VIEW_{station}", self._view)
-        self.state = None
+        self.state, self.begun_us = None, 0
         self.answered = 0
         self.sequence = int(time.time())
 
     def _procedure(self, _channel, data):
-        self.state = ols_msg.procedure_t.decode(data)
+        state = ols_msg.procedure_t.decode(data)
+        if state.utime >= self.begun_us:  # not what has waited since an earlier procedure
+            self.state = state
 
     def _view(self, _channel, data):
         view = ols_msg.truth_view_t.decode(data)
@@ -157,6 +160,7 @@ class Tripod:
 
     def begin(self, name, *options):
         self.state, self.answered = None, 0
+        self.begun_us = time.time_ns() // 1000
         self.log = self.folder / f"{name}.out"
         with open(self.log, "ab") as out:
             return subprocess.Popen(
