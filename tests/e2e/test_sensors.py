@@ -1,6 +1,7 @@
 """Inclinometer and GNSS receiver of real stations on their real wires: a simulated sensor on a pty,
 a simulated receiver behind a real gpsd, and their faults. Function only: deadlines are generous."""
 
+import itertools
 import math
 import re
 import time
@@ -70,6 +71,13 @@ class SensorSite(Listener):
         self.fault("all", station, 0.0)
         self.wait_until_well(station)
         return self.wait_for_status(station)
+
+    def has_grown(self, station, before, tilt):
+        """Its position's sigma, and its tilt's."""
+        now = self.observer.status[station]
+        return now.position_sd_m[0] > before.position_sd_m[0] + 0.004 and (
+            not tilt or now.tilt_sd_rad > before.tilt_sd_rad + 1e-6
+        )
 
     def off_survey_m(self, status):
         survey = self.surveys[status.station]
@@ -147,50 +155,45 @@ def test_the_survey_overrides(sensors):
     )
 
 
-@pytest.mark.parametrize("station", [SURVEYED, SENSING])
-@pytest.mark.parametrize(
-    ("kind", "value", "alarm"),
-    [
-        ("gnss-no-fix", math.nan, r"^gnss: no fix for .*position kept"),
-        ("gnss-silent", math.nan, r"^gnss: silent for .*position kept"),
-        ("gnss-jump", 100.0, r"^gnss: (99|100|101) m from the (survey|kept position)"),
-    ],
-)
-def test_gnss_faults_leave_the_position_and_its_sigma_grows(sensors, station, kind, value, alarm):
-    before = sensors.settled(station)
-    sensors.fault(kind, station, value=value)
-    sensors.wait_for_alarm(station, alarm)
-    sensors.wait(
-        lambda: sensors.observer.status[station].position_sd_m[0] > before.position_sd_m[0] + 0.004,
-        "growth of the position's sigma",
-    )
-    during = sensors.observer.status[station]
-    assert during.position_source == before.position_source
-    moved_m = abs(sensors.off_survey_m(during) - sensors.off_survey_m(before))
-    assert moved_m < 0.01
-    after = sensors.settled(station)
-    assert after.position_sd_m[0] == pytest.approx(before.position_sd_m[0], abs=0.005)
+POSITION_KEPT = r"^gnss: {} for .*position kept"
+TILT_KEPT = r"^inclinometer: {} for .*tilt kept"
 
 
 @pytest.mark.parametrize(
-    ("kind", "alarm"),
+    "faults",
     [
-        ("inclinometer-stuck", r"^inclinometer: stuck for .*tilt kept"),
-        ("inclinometer-silent", r"^inclinometer: silent for .*tilt kept"),
+        {
+            "gnss-no-fix": POSITION_KEPT.format("no fix"),
+            "inclinometer-stuck": TILT_KEPT.format("stuck"),
+        },
+        {
+            "gnss-silent": POSITION_KEPT.format("silent"),
+            "inclinometer-silent": TILT_KEPT.format("silent"),
+        },
+        {"gnss-jump": r"^gnss: (99|100|101) m from the (survey|kept position)"},
     ],
+    ids=" ".join,
 )
-@pytest.mark.parametrize("station", [SURVEYED, SENSING])
-def test_inclinometer_faults_leave_the_tilt_and_its_sigma_grows(sensors, station, kind, alarm):
-    before = sensors.settled(station)
-    sensors.fault(kind, station)
-    sensors.wait_for_alarm(station, alarm)
-    sensors.wait(
-        lambda: sensors.observer.status[station].tilt_sd_rad > before.tilt_sd_rad + 1e-6,
-        "growth of the tilt's sigma",
-    )
-    during = sensors.observer.status[station]
-    assert during.tilt_x_rad == pytest.approx(before.tilt_x_rad, abs=1e-4)
-    sensors.settled(station)
+def test_faults_leave_position_and_tilt_and_their_sigmas_grow(sensors, faults):
+    """Of both sensors and of both stations at once: they know nothing of each other."""
+    before = {station: sensors.settled(station) for station in (SURVEYED, SENSING)}
+    for kind in faults:
+        sensors.fault(kind, "", value=100.0 if kind == "gnss-jump" else math.nan)
+    for station, alarm in itertools.product(before, faults.values()):
+        sensors.wait_for_alarm(station, alarm)
+    for station, status in before.items():
+        sensors.wait(
+            lambda now=station, was=status: sensors.has_grown(now, was, len(faults) > 1),
+            f"growth of the sigmas of {station}",
+        )
+        during = sensors.observer.status[station]
+        assert during.position_source == status.position_source
+        assert abs(sensors.off_survey_m(during) - sensors.off_survey_m(status)) < 0.01
+        assert during.tilt_x_rad == pytest.approx(status.tilt_x_rad, abs=1e-4)
+    sensors.fault("all", "", 0.0)
+    for station, status in before.items():
+        after = sensors.settled(station)
+        assert after.position_sd_m[0] == pytest.approx(status.position_sd_m[0], abs=0.005)
 
 
 def test_garbled_lines_are_counted_and_nothing_else_happens(sensors):
