@@ -6,6 +6,7 @@ import shutil
 import subprocess
 import tarfile
 import tomllib
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
@@ -18,9 +19,16 @@ OK, WARNINGS, FAILURES = 0, 1, 2
 
 
 class Diagnosis:
-    def __init__(self, *arguments):
+    def __init__(self, *arguments, **environment):
         command = [str(BIN / "ols-doctor"), "--json", *map(str, arguments)]
-        done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=120)
+        done = subprocess.run(
+            command,
+            capture_output=True,
+            text=True,
+            check=False,
+            timeout=120,
+            env={**os.environ, **environment},
+        )
         self.status, self.stderr = done.returncode, done.stderr
         answer = json.loads(done.stdout)
         self.verdict, self.findings = answer["verdict"], answer["findings"]
@@ -52,9 +60,34 @@ def fixture_devices(configs):
         yield site, folder
 
 
-def test_nothing_attached(configs):
+@pytest.fixture(scope="module", name="alone")
+def fixture_alone(configs, tmp_path_factory):
+    """Its answers where nothing is attached, asked for at once: each waits for devices."""
     _, folder = configs
-    diagnosis = Diagnosis("--config", folder / "config" / "alfa.toml")
+    config = folder / "config" / "alfa.toml"
+    wrong = folder / "wrong.toml"
+    wrong.write_text("heigth_m = 1\n" + config.read_text())
+    site_keys, keys = Path(os.environ["OLS_KEYS"]), tmp_path_factory.mktemp("tripod")
+    shutil.copy(site_keys / "alfa.key", keys)
+    kept = folder / "kept.toml"
+    kept.write_text(config.read_text().replace(f"{folder}/state", f"{folder}/kept"))
+    state = Path(tomllib.loads(kept.read_text())["state_folder"])
+    state.mkdir()
+    shutil.copy(site_keys / "trust.toml", state / "trust-alfa.toml")
+    before = {path: path.stat().st_mtime_ns for path in state.iterdir()}
+    with ThreadPoolExecutor() as pool:
+        answers = {
+            "right": pool.submit(Diagnosis, "--config", config),
+            "wrong": pool.submit(Diagnosis, "--config", wrong),
+            "no list": pool.submit(Diagnosis, "--config", config, OLS_KEYS=str(keys)),
+            "kept list": pool.submit(Diagnosis, "--config", kept, OLS_KEYS=str(keys)),
+        }
+    assert {path: path.stat().st_mtime_ns for path in state.iterdir()} == before, "only read"
+    return {name: answer.result() for name, answer in answers.items()}
+
+
+def test_nothing_attached(alone):
+    diagnosis = alone["right"]
     assert diagnosis.status == FAILURES and diagnosis.verdict == "FAIL"
     assert {"station", "camera", "ptu"} <= diagnosis.failures()
     assert "is not there" in diagnosis.of("ptu")[0]["what"]
@@ -62,29 +95,15 @@ def test_nothing_attached(configs):
         assert (finding["verdict"] == "ok") == (finding["advice"] == ""), finding
 
 
-def test_a_tripod_reads_the_trust_list_that_its_station_has_kept(configs, tmp_path, monkeypatch):
+def test_a_tripod_reads_the_trust_list_that_its_station_has_kept(alone):
     """The centre is off."""
-    _, folder = configs
-    keys, config = Path(os.environ["OLS_KEYS"]), folder / "config" / "alfa.toml"
-    shutil.copy(keys / "alfa.key", tmp_path)
-    monkeypatch.setenv("OLS_KEYS", str(tmp_path))
-    assert "no trust list yet" in Diagnosis("--config", config).of("signatures")[0]["what"]
-    state = Path(tomllib.loads(config.read_text())["state_folder"])
-    state.mkdir(parents=True, exist_ok=True)
-    shutil.copy(keys / "trust.toml", state / "trust-alfa.toml")
-    before = {path: path.stat().st_mtime_ns for path in state.iterdir()}
-    assert Diagnosis("--config", config).of("signatures")[0]["verdict"] == "ok"
-    assert {path: path.stat().st_mtime_ns for path in state.iterdir()} == before, "only read"
-    (state / "trust-alfa.toml").unlink()
+    assert "no trust list yet" in alone["no list"].of("signatures")[0]["what"]
+    assert alone["kept list"].of("signatures")[0]["verdict"] == "ok"
 
 
-def test_a_wrong_configuration_is_named(configs, tmp_path):
-    _, folder = configs
-    wrong = tmp_path / "wrong.toml"
-    wrong.write_text("heigth_m = 1\n" + (folder / "config" / "alfa.toml").read_text())
-    diagnosis = Diagnosis("--config", wrong)
-    assert diagnosis.status == FAILURES
-    assert "heigth_m: unknown key" in diagnosis.of("configuration")[0]["what"]
+def test_a_wrong_configuration_is_named(alone):
+    assert alone["wrong"].status == FAILURES
+    assert "heigth_m: unknown key" in alone["wrong"].of("configuration")[0]["what"]
 
 
 def test_devices_are_asked_where_no_station_runs(devices):

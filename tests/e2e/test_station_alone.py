@@ -15,6 +15,7 @@ from conftest import BIN
 from helpers import Listener, addressed, point, slew, station_without_devices
 from ols_demo.site import Site
 
+REPLAYED = "refused in 10 s: replayed"
 LONG_LEASE_S = 9.0  # of what is played again some statuses later
 
 
@@ -50,11 +51,13 @@ def station(unsigned, tmp_path_factory):
         yield listener
 
 
-def refused(station, name, channel, data):
-    """Publishes and waits until the refusal is counted; nothing else may have happened."""
+def refused(station, name, channel, *messages):
+    """Publishes and waits until the refusals are counted; nothing else may have happened."""
     before = station.counter("lone", name)
-    station.publish(channel, data)
-    station.wait_for_counter("lone", name, before + 1)
+    for data in messages:
+        station.publish(channel, data)
+    station.wait_for_counter("lone", name, before + len(messages))
+    assert station.counter("lone", name) == before + len(messages)
     station.site.check()
     assert station.observer.state("lone") == "idle"
 
@@ -74,8 +77,8 @@ def test_foreign_and_truncated_messages_are_refused(station, kind):
     # The station's id begins behind fingerprint, utime, version, boot id and sequence.
     no_string = whole[:36] + b"\0\0\0\0" + whole[40:]
     damaged = (b"", b"x", whole[:-1], whole + b"\0", no_string)
-    for data in (*damaged, ols_msg.truth_target_t().encode()):
-        refused(station, "messages_refused_malformed", f"OLS_{kind}_lone", data)
+    bad = (*damaged, ols_msg.truth_target_t().encode())
+    refused(station, "messages_refused_malformed", f"OLS_{kind}_lone", *bad)
 
 
 def test_commands_that_are_not_commands_are_refused(station):
@@ -126,11 +129,8 @@ def test_commands_that_keep_being_refused_are_an_alarm(station):
     again = slew("lone", 9000, math.nan)
     again.lease_s = LONG_LEASE_S
     refused(station, "refused_not_finite", "OLS_SLEW_lone", again.encode())
-    for _ in range(4):
-        refused(station, "messages_refused_replayed", "OLS_SLEW_lone", again.encode())
-    said = "refused in 10 s: replayed"
-    station.wait(lambda: any(a.endswith(said) for a in alarms(station)), "the alarm")
-    station.wait(lambda: not any(a.endswith(said) for a in alarms(station)), "its end")
+    refused(station, "messages_refused_replayed", "OLS_SLEW_lone", *[again.encode()] * 4)
+    station.wait(lambda: any(a.endswith(REPLAYED) for a in alarms(station)), "the alarm")
 
 
 def test_designation_without_a_frame_is_refused(station):
@@ -214,6 +214,11 @@ def test_the_journal_tells_of_devices_and_refusals(station):
         )
 
     station.wait(told, "the journal")
+
+
+def test_the_alarm_of_refused_commands_ends(station):
+    """Ten seconds after it rose, in which other tests ran."""
+    station.wait(lambda: not any(a.endswith(REPLAYED) for a in alarms(station)), "its end")
 
 
 def test_it_ends_in_order(station):
