@@ -5,7 +5,6 @@ count as well: the tracker says how sure it is there too, and it is not on targe
 """
 
 import numpy as np
-from scipy import stats
 
 from ols_bench.measures import BELIEVED, Judged
 
@@ -43,6 +42,8 @@ def auroc(belief: np.ndarray, on_target: np.ndarray) -> float | None:
     positive, negative = int(on_target.sum()), int((~on_target).sum())
     if not positive or not negative:
         return None
+    from scipy import stats  # it takes a second, which most who import this do not need
+
     ranks = stats.rankdata(belief)
     return float((ranks[on_target].sum() - positive * (positive + 1) / 2) / (positive * negative))
 

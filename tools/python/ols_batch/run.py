@@ -1,5 +1,7 @@
 """Tasks onto workers: Dask decides who does what, and does it again when a worker is gone."""
 
+from __future__ import annotations
+
 import contextlib
 import functools
 import os
@@ -9,15 +11,16 @@ import uuid
 from collections import Counter
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-import dask
-from dask.distributed import Client, Future, LocalCluster, as_completed
 from ols_archive.partitions import Damaged, Hour, locked, remove_partials
 
 from ols_batch import identities
 from ols_batch.plan import Plan, Settings, plan
 from ols_batch.task import Result, estimate
+
+if TYPE_CHECKING:
+    from dask.distributed import Client, Future
 
 # A worker can die of the machine, not of the task that it happens to have.
 DASK = {
@@ -97,6 +100,9 @@ class Progress:
 @contextlib.contextmanager
 def workers(count: int, scheduler: str | None) -> Iterator[Client]:
     """Those of a scheduler that runs elsewhere, or our own, whom only this process can reach."""
+    import dask  # it takes a second, and most runs have nothing to do
+    from dask.distributed import Client, LocalCluster
+
     dask.config.set(DASK)
     if scheduler is not None:
         with Client(scheduler) as client:
@@ -151,6 +157,8 @@ def note(report: Report, hour: Hour, told: str | Exception) -> None:
 
 def run_tasks(client: Client, settings: Settings, to_do: list[tuple[Hour, str]], report: Report):
     """In the order of time, so that what an interrupted run has done is at the beginning."""
+    from dask.distributed import as_completed
+
     progress = Progress(len(to_do), report.skipped)
     run_id = uuid.uuid4().hex  # a scheduler may have other runs, too
     # Tasks of one call are begun in the order of their keys.
