@@ -121,7 +121,7 @@ def test_what_a_task_tells_comes_by_the_network(done, tmp_path, monkeypatch):
     """A worker's files may not be seen here yet, as on NFS."""
     settings = dataclasses.replace(done, output=tmp_path / "out")
     monkeypatch.setattr(runner, "estimate", estimate_unseen)
-    report = runner.run(settings, 2, with_plots=False)
+    report = runner.run(settings, 1, with_plots=False)
     assert (report.done, report.failed, report.bearings) == (HOURS, {}, len(flown()))
 
 
@@ -175,14 +175,14 @@ def test_a_damaged_hour_is_named_and_the_others_are_done(own, done):
     whole = path.read_bytes()
     shutil.rmtree(own.output)
     flip_a_byte(path)
-    report = runner.run(own, 2, with_plots=False)
+    report = runner.run(own, 1, with_plots=False)
     assert list(report.failed) == [str(hour(2))]
     assert list(report.damaged) and all(str(path) in text for text in report.damaged)
     assert hours_of(own.output, "fixes") == [hour(n) for n in (0, 1, 3, 4)]
     unharmed = [n for n in (0, 4) if fixes(own.output, n) == fixes(done.output, n)]
     assert unharmed == [0, 4]
     path.write_bytes(whole)
-    assert runner.run(own, 2, with_plots=False).failed == {}
+    assert runner.run(own, 1, with_plots=False).failed == {}
     assert results(own.output) == results(done.output)
 
 
