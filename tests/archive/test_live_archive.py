@@ -17,7 +17,7 @@ from ols_archive.sources import LiveSource
 from ols_demo.bus import LIVE_URL
 from ols_demo.keys import members_of_environment
 
-DEADLINE_S = 30.0
+DEADLINE_S = 60.0
 
 
 def bearing(sequence: int) -> "ols_msg.bearing_t":

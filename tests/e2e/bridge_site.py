@@ -19,7 +19,7 @@ import ols_msg
 import pytest
 from conftest import BIN, ROOT
 
-DEADLINE_S = 30.0
+DEADLINE_S = 60.0
 SERVER = Path(os.environ.get("OLS_NATS_SERVER", ROOT / "build/nats/nats-server"))
 EXAMPLES = ROOT / "systemd/examples"
 NAMES = {"moravia": "r", "bohemia": "q", "airfield": "s", "alfa": "alfa", "bravo": "bravo"}

@@ -29,11 +29,11 @@ from ols_demo.places import geodetic
 from PIL import Image
 from playwright.sync_api import sync_playwright
 
-CHROMIUM = "/usr/bin/chromium"
+CHROMIUM = "/usr/bin/chromium-headless-shell"
 PLACES = {"alfa": (49.225, 16.594), "bravo": (49.225, 16.600), "charlie": (49.229, 16.597)}
 TARGET = geodetic(49.2265, 16.597, 380.0)
 FULL_PX = (1280, 960)
-DEADLINE_S = 15.0
+DEADLINE_S = 45.0
 PASSWORD = "correct horse"  # of ana
 STATUS, PTU = ols_msg.station_status_t, ols_msg.ptu_command_t
 COMMANDS = {

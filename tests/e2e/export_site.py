@@ -15,7 +15,7 @@ from conftest import BIN
 from ols_demo.bus import LIVE_URL
 from ols_demo.keys import members_of_environment
 
-DEADLINE_S = 30.0
+DEADLINE_S = 60.0
 HEIGHT_M = 100.0  # of the target above the ellipsoid
 LATITUDE_DEG, LONGITUDE_DEG = 47.5, 13.25
 COVARIANCE = [4.0, 1.0, 0.5, 9.0, -0.5, 25.0]

@@ -13,7 +13,7 @@ from ols_demo.bus import LIVE_URL, Bus, counters
 from ols_demo.keys import members_of_environment
 from ols_demo.observer import Observer
 
-DEADLINE_S = 20.0
+DEADLINE_S = 60.0
 STOP_LINE, REARM_LINE = 17, 18
 
 

@@ -74,9 +74,13 @@ def wait_until_still(page):
     return images[-1]
 
 
-@pytest.mark.parametrize("layer", ["UTM/MGRS grid", "Rings", "Views"])
-def test_a_layer_can_be_switched_off_and_on(page, chart, layer):
+def test_layers_can_be_switched_off_and_on(page, chart):
     chart.get_by_text("Layers").click()
+    for layer in ("UTM/MGRS grid", "Rings", "Views"):
+        switch_off_and_on(page, chart, layer)
+
+
+def switch_off_and_on(page, chart, layer):
     with_it = wait_until_still(page)
     button = chart.get_by_role("button", name=layer)
     expect(button).to_have_attribute("aria-pressed", "true")

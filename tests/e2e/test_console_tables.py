@@ -61,26 +61,23 @@ def test_an_alarm_that_begins_is_told_to_who_cannot_see_it(page, paper):
     paper.alarms.clear()
 
 
-@pytest.mark.parametrize(
-    ("button", "command"),
-    [
-        ("Home", PTU.COMMAND_HOME),
-        ("Re-arm", PTU.COMMAND_REARM),
-        ("Reference ok", PTU.COMMAND_REFERENCE_OK),
-        ("Stop", PTU.COMMAND_STOP),
-        ("Release", PTU.COMMAND_RELEASE),
-    ],
-)
-def test_each_command_of_a_station(page, paper, button, command):
-    paper.ptu_commands.clear()
+def test_each_command_of_a_station(page, paper):
     stations = region(page, "Stations")
     stations.get_by_role("button", name="charlie").click()
-    stations.get_by_role("button", name=button, exact=True).click()
-    if command in (PTU.COMMAND_HOME, PTU.COMMAND_REFERENCE_OK):
-        stations.get_by_role("group", name="?").get_by_role("button", name=button).click()
-    (first, *_) = wait_for(lambda: paper.ptu_commands, f"{button} on the bus")
-    assert (first.station, first.command) == ("charlie", command)
-    expect(page.locator("output.notice")).to_contain_text("done")
+    for button, command in {
+        "Home": PTU.COMMAND_HOME,
+        "Re-arm": PTU.COMMAND_REARM,
+        "Reference ok": PTU.COMMAND_REFERENCE_OK,
+        "Stop": PTU.COMMAND_STOP,
+        "Release": PTU.COMMAND_RELEASE,
+    }.items():
+        paper.ptu_commands.clear()
+        stations.get_by_role("button", name=button, exact=True).click()
+        if command in (PTU.COMMAND_HOME, PTU.COMMAND_REFERENCE_OK):
+            stations.get_by_role("group", name="?").get_by_role("button", name=button).click()
+        (first, *_) = wait_for(lambda: paper.ptu_commands, f"{button} on the bus")
+        assert (first.station, first.command) == ("charlie", command)
+        expect(page.locator("output.notice")).to_contain_text("done")
 
 
 def test_what_may_be_dangerous_is_asked_about_first(page, paper):

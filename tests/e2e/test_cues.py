@@ -24,7 +24,7 @@ from ols_demo.places import geodetic
 from ols_demo.site import Site
 from sapient_site import OBJECT, as_our_own, detection, framed
 
-DEADLINE_S = 20.0
+DEADLINE_S = 60.0
 STATION = (49.2, 16.6, 250.0)
 CUE = (49.203, 16.601, 400.0)
 RUBBISH = b"\xff\x00rubbish\n"

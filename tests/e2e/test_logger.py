@@ -17,7 +17,7 @@ from ols_demo.bus import LIVE_URL
 from ols_demo.keys import members_of_environment
 
 FLOOD = "OLS_SIM_FLOOD"  # of the simulator, which may send much and anything
-DEADLINE_S = 30.0
+DEADLINE_S = 60.0
 SPLIT_BYTES = 50_000
 QUOTA_BYTES = 300_000
 

@@ -12,7 +12,7 @@ from pathlib import Path
 import ols_msg
 import pytest
 from conftest import BIN
-from helpers import Listener, StopSwitch, addressed, point, station_without_devices
+from helpers import DEADLINE_S, Listener, StopSwitch, addressed, point, station_without_devices
 from ols_demo.site import Site
 
 CONFIG = f"""\
@@ -232,7 +232,14 @@ def test_a_flood_neither_fills_nor_stops_it(station):
     accepted = station.counter("tool", "release_accepted")
     start = time.monotonic()
     sent = 0
-    while time.monotonic() < start + 3.0:
+
+    def is_over():
+        """After three seconds, or when a release came through: on a busy machine many are stale."""
+        went_s = time.monotonic() - start
+        heard = station.counter("tool", "release_accepted") > accepted
+        return went_s > 3.0 and (heard or went_s > DEADLINE_S)
+
+    while not is_over():
         for _ in range(100):
             station.bus.lcm.publish("OLS_SLEW_tool", rubbish)
             station.bus.lcm.publish("OLS_PTU_other", rubbish)
@@ -242,7 +249,7 @@ def test_a_flood_neither_fills_nor_stops_it(station):
             station.command(ols_msg.ptu_command_t.COMMAND_RELEASE)
             station.bus.handle(0.0)
     station.wait_for_counter("tool", unsigned, before + 1000)
-    station.wait_for_counter("tool", "release_accepted", accepted + 1)
+    assert station.counter("tool", "release_accepted") > accepted
     assert resident_kb(station.config) < before_kb + 50_000
     station.site.check()
 
@@ -267,8 +274,12 @@ def test_the_network_goes_and_comes(station):
     before = station.counter("tool", "bus_connects")
     station.wait_for_counter("tool", "bus_connects", before + 1)
     assert station.counter("tool", "messages_not_sent") > 0
-    station.command(ols_msg.ptu_command_t.COMMAND_STOP)
-    station.wait_for_state(ols_msg.station_status_t.STATE_STOPPED)  # it hears, too
+
+    def stopped():  # it hears, too
+        station.command(ols_msg.ptu_command_t.COMMAND_STOP)
+        return station.state() == ols_msg.station_status_t.STATE_STOPPED
+
+    station.wait(stopped, "the stop")
 
 
 @pytest.mark.parametrize("program", ["ols-station", "ols-fusion"])

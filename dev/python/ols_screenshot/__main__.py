@@ -66,7 +66,7 @@ def main() -> int:
         with Site(folder / "console-logs") as site, sync_playwright() as playwright:
             address = wiring.start_console(site)
             browser = playwright.chromium.launch(
-                executable_path="/usr/bin/chromium",
+                executable_path="/usr/bin/chromium-headless-shell",
                 args=["--no-sandbox"] if os.geteuid() == 0 else [],
             )
             scheme = "dark" if options.theme == "night" else "light"
