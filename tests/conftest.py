@@ -32,11 +32,38 @@ STATIONS = [
 ]
 
 
+# The longest modules: they begin first, so that the workers end together.
+LONGEST = [
+    "test_calibrate_field.py",
+    "test_site.py",
+    "test_faults.py",
+    "test_attacks.py",
+    "test_console_station.py",
+    "test_field_sky.py",
+    "test_rectify.py",
+    "test_hardware_in_the_loop.py",
+    "test_calibrate_zoom.py",
+    "test_console_cut_link.py",
+    "test_console_maps.py",
+    "test_console_map.py",
+    "test_console_by_hand.py",
+    "test_console_halt.py",
+    "test_batch.py",
+    "test_doctor.py",
+    "test_sensors.py",
+    "test_station_instrument.py",
+    "test_station_alone.py",
+    "test_cues.py",
+]
+
+
 def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addoption("--all", action="store_true", help="those marked `night` too")
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    places = {name: place for place, name in enumerate(LONGEST)}
+    items.sort(key=lambda item: places.get(item.path.name, len(places)))
     if config.getoption("--all"):
         return
     night = [item for item in items if item.get_closest_marker("night")]
