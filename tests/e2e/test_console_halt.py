@@ -9,6 +9,7 @@ from conftest import BIN, ROOT
 from console_cable import Cable
 from console_page import picture
 from console_site import browser
+from helpers import at_frame_rate
 from ols_demo.bus import LIVE_URL, Bus
 from ols_demo.keys import members_of_environment
 from ols_demo.observer import Observer
@@ -49,10 +50,11 @@ class Shaft(Observer):
 
 @pytest.fixture
 def site(network, tmp_path):
-    wiring = Wiring(BIN, SCENARIO, 1, tmp_path)
+    scenario = at_frame_rate(SCENARIO, 6.0, tmp_path)
+    wiring = Wiring(BIN, scenario, 1, tmp_path)
     bring_up_loopback(wiring.prepare())
     with Site(tmp_path / "logs") as started:
-        sim = [wiring.program("ols-sim"), "--scenario", str(SCENARIO)]
+        sim = [wiring.program("ols-sim"), "--scenario", str(scenario)]
         sim += ["--seed", "1", "--lcm-url", LIVE_URL, "--directory", str(tmp_path / "lines")]
         started.start_and_wait("ols-sim", sim, "ready")
         wiring.start_station(started, STATION)

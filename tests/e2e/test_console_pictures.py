@@ -60,9 +60,15 @@ def address(paper, tmp_path_factory):
         yield addresses[0]
 
 
+@pytest.fixture(scope="module")
+def chromium():
+    with browser() as started:
+        yield started
+
+
 @pytest.fixture
-def page(address):
-    with browser() as chromium, watched_page(chromium, address) as opened:
+def page(chromium, address):
+    with watched_page(chromium, address) as opened:
         yield opened
 
 

@@ -4,6 +4,7 @@ import pytest
 from conftest import BIN, SCENARIO
 from console_page import region, watched_page
 from console_site import browser
+from helpers import at_frame_rate
 from ols_demo.bus import LIVE_URL
 from ols_demo.site import Site, bring_up_loopback
 from ols_demo.wiring import Wiring
@@ -29,15 +30,22 @@ GREYS = """() => {
 @pytest.fixture(scope="module")
 def console(network, tmp_path_factory):
     folder = tmp_path_factory.mktemp("thin")
-    wiring = Wiring(BIN, SCENARIO, 1, folder)
+    scenario = at_frame_rate(SCENARIO, 6.0, folder)
+    wiring = Wiring(BIN, scenario, 1, folder)
     bring_up_loopback(wiring.prepare())
     with Site(folder / "logs") as started:
-        sim = [wiring.program("ols-sim"), "--scenario", str(SCENARIO), "--seed", "1"]
+        sim = [wiring.program("ols-sim"), "--scenario", str(scenario), "--seed", "1"]
         sim += ["--lcm-url", LIVE_URL, "--directory", str(folder / "lines")]
         started.start_and_wait("ols-sim", sim, "ready")
         wiring.start_station(started, "alfa")
         yield wiring.start_console(started)
         started.check()
+
+
+@pytest.fixture(scope="module")
+def chromium():
+    with browser() as started:
+        yield started
 
 
 def caption(page):
@@ -52,8 +60,8 @@ def wait_for_pictures(page, count):
         before = page.evaluate(f"Number({canvas}?.dataset.utimeUs)")
 
 
-def test_a_thin_link_shows_the_same_pictures(console):
-    with browser() as chromium, watched_page(chromium, console) as page:
+def test_a_thin_link_shows_the_same_pictures(chromium, console):
+    with watched_page(chromium, console) as page:
         thin = region(page, "Video").get_by_role("checkbox", name="Thin link")
         wait_for_pictures(page, 3)
         jpeg = page.evaluate(GREYS)
@@ -73,8 +81,8 @@ def test_a_thin_link_shows_the_same_pictures(console):
         wait_for_pictures(page, 3)
 
 
-def test_a_browser_without_it_says_so_and_shows_jpegs(console):
-    with browser() as chromium, watched_page(chromium, console) as page:
+def test_a_browser_without_it_says_so_and_shows_jpegs(chromium, console):
+    with watched_page(chromium, console) as page:
         page.add_init_script("delete window.VideoDecoder")
         page.reload()
         region(page, "Video").get_by_role("checkbox", name="Thin link").check()

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 from conftest import BIN, SCENARIO
-from helpers import Listener
+from helpers import Listener, at_frame_rate
 from ols_demo.bus import LIVE_URL
 from ols_demo.site import Site
 
@@ -44,7 +44,8 @@ class Diagnosis:
 def fixture_configs(network, tmp_path_factory):
     """The stations' files of a simulated site, and the folder of its serial lines."""
     folder = tmp_path_factory.mktemp("doctor")
-    command = [str(BIN / "ols-sim"), "--scenario", str(SCENARIO), "--seed", "1"]
+    scenario = at_frame_rate(SCENARIO, 6.0, folder)
+    command = [str(BIN / "ols-sim"), "--scenario", str(scenario), "--seed", "1"]
     command += ["--lcm-url", LIVE_URL, "--directory", str(folder / "lines")]
     (folder / "lines").mkdir()
     write = ["--write-configs", str(folder / "config"), "--state-folder", str(folder / "state")]

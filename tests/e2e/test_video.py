@@ -9,7 +9,7 @@ import numpy as np
 import ols_msg
 import pytest
 from conftest import BIN, SCENARIO
-from helpers import DEADLINE_S, Listener, VideoViewer
+from helpers import DEADLINE_S, Listener, VideoViewer, at_frame_rate
 from ols_demo.site import Site
 from PIL import Image
 
@@ -21,7 +21,8 @@ OK = ols_msg.station_status_t.DEVICE_OK
 @pytest.fixture(scope="module")
 def site(network, tmp_path_factory):
     folder = tmp_path_factory.mktemp("video")
-    simulator = [str(BIN / "ols-sim"), "--scenario", str(SCENARIO.parent / "servo.toml")]
+    scenario = at_frame_rate(SCENARIO.parent / "servo.toml", 6.0, folder)
+    simulator = [str(BIN / "ols-sim"), "--scenario", str(scenario)]
     simulator += ["--directory", str(folder / "lines")]
     listener = Listener()
     with Site(folder / "logs") as running:
