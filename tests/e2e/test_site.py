@@ -28,6 +28,8 @@ def run(network, tmp_path_factory):
     folder = tmp_path_factory.mktemp("site")
     report = folder / "r.json"
     command = [sys.executable, "-m", "ols_demo", "--headless", "--seconds", str(RUN_S)]
+    # Small pictures: two ordinary processors have other tests to run as well.
+    command += ["--scenario", str(ROOT / "sim/scenarios/faults.toml")]
     command += ["--report", str(report), "--output", str(folder), "--bin", str(BIN)]
     done = subprocess.run(
         command, capture_output=True, text=True, timeout=DEADLINE_S, check=False, cwd=ROOT
