@@ -17,6 +17,7 @@ from ols_bench.hiding import covered, erased
 from ols_bench.pictures import frames_per_second, pictures, write_clip
 from ols_bench.variants import KINDS, variant
 
+pytestmark = pytest.mark.night  # of what the trackers are compared on, no part of the product
 FRAMES, SIDE, RATE = 150, 16, 25.0
 BRIGHT = 200  # gray levels; the background stays below 160
 
