@@ -4,11 +4,10 @@
 #include <utility>
 
 namespace ols {
-namespace {
 
 // Without its digits, but for the words before the first colon: "station s2" is not "station s1".
 // Behind a semicolon stands what is said besides, such as the newest of many causes.
-std::string key_of(const std::string& alarm) {
+std::string alarm_key(const std::string& alarm) {
   const std::size_t colon = alarm.find(": ");
   const std::size_t begin = colon == std::string::npos ? 0 : colon;
   std::string text = alarm.substr(begin, alarm.find(';', begin) - begin);
@@ -16,13 +15,11 @@ std::string key_of(const std::string& alarm) {
   return alarm.substr(0, begin) + text;
 }
 
-}  // namespace
-
 std::vector<AlarmChanges::Change> AlarmChanges::look(const std::vector<std::string>& alarms) {
   std::vector<Change> changes;
   std::map<std::string, std::string> now;
   for (const std::string& alarm : alarms) {
-    const std::string key = key_of(alarm);
+    const std::string key = alarm_key(alarm);
     if (!alarms_.contains(key) && !now.contains(key)) changes.push_back({key, alarm, true});
     now[key] = alarm;
   }

@@ -7,6 +7,9 @@
 
 namespace ols {
 
+// Which alarm a text is, whatever its numbers: "ptu: silent for 5 s" and "... for 6 s" are one.
+std::string alarm_key(const std::string& alarm);
+
 class AlarmChanges {
  public:
   struct Change {

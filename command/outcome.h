@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "command/order.h"
 
@@ -24,6 +25,13 @@ struct Outcome {
   bool accepted = false;
   std::string why;  // when refused: the station's reason
 };
+
+// What a person is told of a reason by which stations refuse: "no_frame". Empty: no such reason.
+std::string_view words_for(std::string_view reason);
+
+// A station's last error with its reason in words: "DESIGNATE refused: no_frame" becomes
+// "designate refused: that picture is too old; ...".
+std::string error_in_words(const std::string& error);
 
 // Nothing while the station has not counted the order. `before`: its status before it was sent; of
 // another boot than `now` nothing can be told: one of the two may be a recording.

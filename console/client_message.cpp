@@ -72,7 +72,7 @@ void refuse_others(const Json& message, Keys own) {
   refuse_unknown(message, {"do", "number", "station", "command", "heard_us"}, own);
 }
 
-std::int64_t utime(const Json& message, const char* key) {
+std::int64_t whole(const Json& message, const char* key) {
   const Json& value = field(message, key);
   if (!value.is_number_integer()) throw Wrong(std::string(key) + " must be a whole number");
   return static_cast<std::int64_t>(number_of(value, key, 0.0, 9e15));
@@ -81,7 +81,7 @@ std::int64_t utime(const Json& message, const char* key) {
 // When the browser last heard something, if it says so.
 std::optional<std::int64_t> heard(const Json& message) {
   if (!message.contains("heard_us")) return std::nullopt;
-  return utime(message, "heard_us");
+  return whole(message, "heard_us");
 }
 
 void read_box(const Json& message, command::Order& order) {
@@ -93,7 +93,7 @@ void read_box(const Json& message, command::Order& order) {
   order.width_px = number_of(box[2], "box_px", 0.5, kMostPixels);
   order.height_px = number_of(box[3], "box_px", 0.5, kMostPixels);
   if (!message.contains("frame_utime_us")) return;
-  order.frame_utime_us = utime(message, "frame_utime_us");
+  order.frame_utime_us = whole(message, "frame_utime_us");
 }
 
 void read_point(const Json& message, command::Order& order) {
@@ -102,7 +102,7 @@ void read_point(const Json& message, command::Order& order) {
   if (!point.is_array() || point.size() != 2) throw Wrong("point_px must be [x, y]");
   order.x_px = number_of(point[0], "point_px", -kMostPixels, kMostPixels);
   order.y_px = number_of(point[1], "point_px", -kMostPixels, kMostPixels);
-  if (message.contains("frame_utime_us")) order.frame_utime_us = utime(message, "frame_utime_us");
+  if (message.contains("frame_utime_us")) order.frame_utime_us = whole(message, "frame_utime_us");
 }
 
 void read_angles(const Json& message, command::Order& order) {
@@ -172,7 +172,7 @@ CommandRequest read_command(const Json& message, std::int64_t number) {
       refuse_others(message, {});
   }
   request.heard_utime_us =
-      command::is_joystick(request.order) ? utime(message, "heard_us") : heard(message);
+      command::is_joystick(request.order) ? whole(message, "heard_us") : heard(message);
   return request;
 }
 
@@ -234,7 +234,7 @@ AnswerRequest read_answer(const Json& message, std::int64_t of_browser) {
   AnswerRequest request{of_browser, {}, {}};
   ProcedureAnswer& answer = request.answer;
   answer.station = text(message, "station");
-  answer.question = utime(message, "question");
+  answer.question = whole(message, "question");
   answer.choice = text(message, "choice");
   answer.pixel_px = pair(message, "pixel_px", kMostPixels);
   answer.turn_deg = pair(message, "turn_deg", kMostTurn_deg).value_or(answer.turn_deg);
@@ -267,11 +267,17 @@ ClientMessage read(const Json& message, std::int64_t number) {
     refuse_unknown(message, {"do", "number"});
     return StopAllRequest{number};
   }
+  if (what == "acknowledge") {
+    refuse_unknown(message, {"do", "number", "event"});
+    return AcknowledgeRequest{number, static_cast<std::uint64_t>(whole(message, "event"))};
+  }
   if (what == "take" || what == "give_up") {
     refuse_unknown(message, {"do", "number", "station", "heard_us"});
     return ControlRequest{number, text(message, "station"), what == "take", heard(message)};
   }
-  throw Wrong("do must be command, stop_all, take, give_up, watch, taken, answer, cue or replay");
+  throw Wrong(
+      "do must be command, stop_all, take, give_up, watch, taken, answer, cue, acknowledge or "
+      "replay");
 }
 
 }  // namespace

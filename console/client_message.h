@@ -62,13 +62,19 @@ struct CueRequest {
   CueOrder order;
   std::optional<std::int64_t> heard_utime_us;  // as with a command
 };
+// Somebody looks after an alarm: an event of that number.
+struct AcknowledgeRequest {
+  std::int64_t number = 0;
+  std::uint64_t event = 0;
+};
 struct Refused {
   std::int64_t number = 0;
   std::string why;
 };
 
-using ClientMessage = std::variant<CommandRequest, StopAllRequest, ControlRequest, WatchRequest,
-                                   TakenRequest, ReplayRequest, AnswerRequest, CueRequest, Refused>;
+using ClientMessage =
+    std::variant<CommandRequest, StopAllRequest, ControlRequest, WatchRequest, TakenRequest,
+                 ReplayRequest, AnswerRequest, CueRequest, AcknowledgeRequest, Refused>;
 
 inline constexpr std::size_t kMostMessageBytes = 8192;
 inline constexpr std::size_t kMostWatched = 64;

@@ -64,6 +64,17 @@ std::uint64_t CommandDesk::stop_event(const std::string& station, const std::str
   return 0;
 }
 
+bool CommandDesk::is_stopping(const std::string& station) const {
+  return std::ranges::any_of(pending_, [&](const Pending& pending) {
+    return pending.order.station == station && pending.order.kind == Kind::kStop;
+  });
+}
+
+bool CommandDesk::is_stopped(const std::string& station) const {
+  const auto known = replies_.find(station);
+  return known != replies_.end() && known->second.stopped;
+}
+
 std::vector<command::Order> CommandDesk::due(double now_s) {
   std::vector<command::Order> orders;
   for (Pending& pending : pending_) {

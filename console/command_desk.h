@@ -47,6 +47,11 @@ class CommandDesk {
   // The event of a stop that this person has on its way to a station already; 0: none.
   std::uint64_t stop_event(const std::string& station, const std::string& who) const;
 
+  // Whether a stop of this station is on its way.
+  bool is_stopping(const std::string& station) const;
+  // Whether it is stopped already, by its newest status.
+  bool is_stopped(const std::string& station) const;
+
   // What to send now: each order once; a stop again and again until it is confirmed.
   std::vector<command::Order> due(double now_s);
   // Orders whose outcome is known, or whose time is over.

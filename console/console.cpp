@@ -1,6 +1,8 @@
 #include "console/console.h"
 
+#include <algorithm>
 #include <utility>
+
 namespace ols::console {
 namespace {
 
@@ -35,6 +37,8 @@ void Console::hear(const StationHeard& station, const Now& now) {
   const bool is_new = !site_.knows(station.id);
   site_.hear(station, now);
   if (!site_.knows(station.id)) return;  // no room: a flood of invented names
+  const bool is_news = station.reply.stopped && !is_new && !desk_.is_stopped(station.id);
+  if (is_news && !desk_.is_stopping(station.id)) tell_holders({station.id}, "stop", {}, now);
   desk_.hear(station.id, station.reply);
   if (station.video_address.empty()) {
     video_addresses_.erase(station.id);
@@ -81,9 +85,25 @@ WatchedVideos Console::watched_video() const {
   return watched;
 }
 
+std::string Console::distinct(const std::string& name) const {
+  std::string result = name;
+  const auto is_taken = [&result](const auto& entry) { return entry.second.name == result; };
+  for (int i = 2; std::ranges::any_of(viewers_, is_taken); ++i) {
+    result = name + " " + std::to_string(i);
+  }
+  return result;
+}
+
+Person Console::person(const std::string& name, std::uint64_t viewer) const {
+  const auto known = viewers_.find(viewer);
+  if (known == viewers_.end() || known->second.account != name) return {name, 0};
+  return {known->second.name, viewer};
+}
+
 std::uint64_t Console::open(const std::string& name, Role role) {
   Viewer viewer;
-  viewer.name = name;
+  viewer.name = distinct(name);
+  viewer.account = name;
   viewer.role = role;
   viewers_.emplace(++viewer_numbers_, std::move(viewer));
   return viewer_numbers_;
@@ -157,6 +177,16 @@ void Console::act(std::uint64_t id, const CueRequest& request, const Now& now) {
   answer(id, request.number, "", refusal);
 }
 
+void Console::act(std::uint64_t id, const AcknowledgeRequest& request, const Now&) {
+  const Viewer& viewer = viewers_.at(id);
+  if (is_replay()) return answer(id, request.number, "", kReplay);
+  if (viewer.role == Role::kViewer) {
+    return answer(id, request.number, "", "refused: a viewer may only look and stop");
+  }
+  const bool is_there = site_.acknowledge(request.event, viewer.name);
+  answer(id, request.number, "", is_there ? "" : "refused: there is no such alarm any more");
+}
+
 void Console::act(std::uint64_t id, const WatchRequest& request, const Now&) {
   PictureDesk::View& view = viewers_.at(id).view;
   view.watched = {request.stations.begin(), request.stations.end()};
@@ -186,8 +216,9 @@ void Console::act(std::uint64_t id, const ControlRequest& request, const Now& no
     return answer(id, request.number, request.station, kTooLate);
   }
   if (request.take) {
+    tell_holders({request.station}, "take", {viewer.name, id}, now);
     control_.take(request.station, id, viewer.name, now.monotonic_s);
-    note("command", viewer.name, "takes control of " + request.station, now);
+    site_.note({now.utime_us, "command", request.station, viewer.name, "takes control", "done"});
   } else {
     control_.give_up(request.station, id);
   }
@@ -202,6 +233,7 @@ void Console::act(std::uint64_t id, const CommandRequest& request, const Now& no
     if (!site_.knows(order.station)) {
       return answer(id, request.number, order.station, "refused: no such station is heard");
     }
+    tell_holders({order.station}, "stop", {viewer.name, id}, now);
     return begin_stop(order.station, viewer.name, {.viewer = id, .number = request.number}, now);
   }
   // Neither is history: it would push out what has happened.
@@ -230,8 +262,8 @@ void Console::act(std::uint64_t id, const CommandRequest& request, const Now& no
 
 void Console::act(std::uint64_t id, const StopAllRequest& request, const Now& now) {
   if (is_replay()) return answer(id, request.number, kAll, kReplay);
-  const std::string name = viewers_.at(id).name;
-  const bool is_nobody = stop_all(name, {.viewer = id, .number = request.number}, now).empty();
+  const Person by{viewers_.at(id).name, id};
+  const bool is_nobody = stop_all(by, {.viewer = id, .number = request.number}, now).empty();
   if (!bus_trouble_.empty()) {
     answer(id, request.number, kAll, bus_trouble_);
   } else if (is_nobody) {
@@ -252,14 +284,32 @@ void Console::begin_stop(const std::string& station, const std::string& name, Ti
   }
 }
 
-std::vector<std::string> Console::stop_all(const std::string& name, const Ticket& ticket,
-                                           const Now& now) {
+void Console::tell_holders(const std::vector<std::string>& stations, const char* what,
+                           const Person& by, const Now& now) {
+  std::map<std::uint64_t, Json> told;
+  for (const std::string& station : stations) {
+    const std::uint64_t holder = control_.holder(station, now.monotonic_s);
+    // A stop of all comes twice, by the WebSocket and by a request.
+    const bool is_again = !by.name.empty() && desk_.stop_event(station, by.name) != 0;
+    const bool is_known = by.viewer == holder || (is_again && std::string_view(what) == "stop");
+    if (holder != 0 && !is_known) told[holder].push_back(station);
+  }
+  for (auto& [holder, of] : told) {
+    const auto viewer = viewers_.find(holder);
+    if (viewer == viewers_.end()) continue;
+    viewer->second.answers.push_back(
+        dumped({{"kind", "hand"}, {"what", what}, {"by", by.name}, {"stations", std::move(of)}}));
+  }
+}
+
+std::vector<std::string> Console::stop_all(const Person& by, const Ticket& ticket, const Now& now) {
   stop_until_s_ = now.monotonic_s + CommandDesk::kStopPatience_s;
-  stopped_by_ = name;
+  stopped_by_ = by.name;
   std::vector<std::string> stations = site_.station_ids();
+  tell_holders(stations, "stop", by, now);
   Ticket for_all = ticket;
   for_all.is_for_all = true;
-  for (const std::string& station : stations) begin_stop(station, name, for_all, now);
+  for (const std::string& station : stations) begin_stop(station, by.name, for_all, now);
   return stations;
 }
 

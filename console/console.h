@@ -35,6 +35,12 @@ struct Moment {
   std::map<std::string, Picture> pictures;
 };
 
+// Who gives an order.
+struct Person {
+  std::string name;          // empty: nobody of this console
+  std::uint64_t viewer = 0;  // the browser; 0: none that is known
+};
+
 class Console {
  public:
   explicit Console(double control_timeout_s) : control_(control_timeout_s) {}
@@ -62,7 +68,12 @@ class Console {
   // The videos that somebody looks at.
   WatchedVideos watched_video() const;
 
-  // A browser that has opened its WebSocket; its number.
+  // The alarms of the console itself.
+  void hear_own(const std::vector<std::string>& alarms, const Now& now) {
+    site_.hear_own(alarms, now);
+  }
+
+  // A browser that has opened its WebSocket; its number. A second one of the same name is "ana 2".
   std::uint64_t open(const std::string& name, Role role);
   void close(std::uint64_t viewer);
   void take(std::uint64_t viewer, std::string_view text, const Now& now);
@@ -76,7 +87,9 @@ class Console {
 
   // Stops every station; those that are first heard within the next seconds too. Their ids. All
   // viewers are told which do not confirm it.
-  std::vector<std::string> stop_all(const std::string& name, const Ticket& ticket, const Now& now);
+  std::vector<std::string> stop_all(const Person& by, const Ticket& ticket, const Now& now);
+  // Who asks outside of the WebSocket: this browser, if it is one of that name's.
+  Person person(const std::string& name, std::uint64_t viewer) const;
 
   // Call often: outcomes, control, ages. Returns the orders to be sent now.
   std::vector<command::Order> turn(const Now& now);
@@ -106,7 +119,7 @@ class Console {
 
  private:
   struct Viewer {
-    std::string name;
+    std::string name, account;  // "ana 2", "ana"
     Role role = Role::kViewer;
     bool is_greeted = false;
     Revision sent = 0;
@@ -127,6 +140,7 @@ class Console {
   void act(std::uint64_t id, const ReplayRequest& request, const Now& now);
   void act(std::uint64_t id, const AnswerRequest& request, const Now& now);
   void act(std::uint64_t id, const CueRequest& request, const Now& now);
+  void act(std::uint64_t id, const AcknowledgeRequest& request, const Now& now);
   void act(std::uint64_t id, const Refused& refused, const Now& now);
   void answer(std::uint64_t id, std::int64_t number, const std::string& station,
               const std::string& refusal);
@@ -134,6 +148,10 @@ class Console {
   void tell_outcomes(const Now& now);
   void begin_stop(const std::string& station, const std::string& name, Ticket ticket,
                   const Now& now);
+  std::string distinct(const std::string& name) const;
+  // Whoever has control of one of these stations is told what another has done there.
+  void tell_holders(const std::vector<std::string>& stations, const char* what, const Person& by,
+                    const Now& now);
   void forget_gone();
   void add_time(Json& message, const Now& now) const;
   Outgoing greeting(std::uint64_t id, Viewer& viewer, const Now& now) const;

@@ -72,12 +72,9 @@ void ConsoleBus::turn(const Now& now) {
   send_failed_ = false;
 }
 
-// Their texts count, and so change: an event is that one more or one fewer stands.
 void ConsoleBus::note_alarms() {
-  std::vector<std::string> alarms = client_.alarms(now_.monotonic_s);
-  if (alarms.size() > alarms_.size()) console_.note("alarm", "", alarms.back(), now_);
-  if (alarms.size() < alarms_.size()) console_.note("alarm_over", "", alarms_.back(), now_);
-  alarms_ = std::move(alarms);
+  alarms_ = client_.alarms(now_.monotonic_s);
+  console_.hear_own(alarms_, now_);
 }
 
 void ConsoleBus::send(const std::vector<command::Order>& orders, const Now& now) {

@@ -29,6 +29,11 @@ void ControlDesk::take(const std::string& station, std::uint64_t viewer, const s
   set(station, viewer, name, now_s);
 }
 
+std::uint64_t ControlDesk::holder(const std::string& station, double now_s) const {
+  const auto held = holders_.find(station);
+  return held == holders_.end() || now_s >= held->second.until_s ? 0 : held->second.viewer;
+}
+
 void ControlDesk::give_up(const std::string& station, std::uint64_t viewer) {
   const auto held = holders_.find(station);
   if (held == holders_.end() || held->second.viewer != viewer) return;

@@ -29,6 +29,9 @@ class ControlDesk {
   void give_up(const std::string& station, std::uint64_t viewer);
   void leave(std::uint64_t viewer);  // of all stations
 
+  // The viewer who has control of it; 0: nobody.
+  std::uint64_t holder(const std::string& station, double now_s) const;
+
   // Stations whose holder has changed since the last call, with the holder of now.
   std::vector<std::pair<std::string, std::optional<Holder>>> changes(double now_s);
 

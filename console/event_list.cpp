@@ -3,27 +3,64 @@
 #include <algorithm>
 #include <utility>
 
-namespace ols::console {
+#include "base/alarm_changes.h"
 
-std::deque<EventList::Kept>::iterator EventList::repeated(const Event& event) {
+namespace ols::console {
+namespace {
+
+constexpr std::int64_t kAnswer_us = 5'000'000;  // a refused command is answered within
+
+// "camera", of "camera: no frames for 3 s" and of "camera 10.0.0.3 does not answer".
+std::string subject(const std::string& text) { return text.substr(0, text.find_first_of(": ")); }
+
+bool is_refusal(const std::string& error) { return error.find(" refused: ") != std::string::npos; }
+
+}  // namespace
+
+std::deque<EventList::Kept>::iterator EventList::repeated(const Event& event,
+                                                          const std::string& key) {
   if (event.kind == "command") return events_.end();
-  return std::ranges::find_if(events_, [&event](const Kept& kept) {
-    const bool is_same = kept.event.kind == event.kind && kept.event.station == event.station &&
-                         kept.event.text == event.text;
-    return is_same && event.utime_us - kept.event.utime_us < kRepeat_us;
+  return std::ranges::find_if(events_, [&](const Kept& kept) {
+    const bool is_same =
+        kept.event.kind == event.kind && kept.event.station == event.station && kept.key == key;
+    const std::int64_t last_us = kept.over_us.value_or(kept.event.utime_us);
+    return is_same && (kept.holds() || event.utime_us - last_us < kRepeat_us);
   });
 }
 
+// Stations report a new alarm as their last error too, and what their device said of it; and why
+// they have refused a command.
+bool EventList::explains_another(const Event& error, const std::string& key) const {
+  if (error.kind != "error") return false;
+  return std::ranges::any_of(events_, [&](const Kept& kept) {
+    if (kept.event.station != error.station) return false;
+    if (kept.holds()) return kept.key == key || subject(kept.key) == subject(key);
+    if (kept.over_us) return kept.key == key && error.utime_us - *kept.over_us < kRepeat_us;
+    return kept.event.kind == "command" && is_refusal(error.text) &&
+           error.utime_us - kept.event.utime_us < kAnswer_us;
+  });
+}
+
+// Alarms that hold are kept as long as there is anything else.
+void EventList::forget_oldest() {
+  const auto oldest = std::ranges::find_if_not(events_, &Kept::holds);
+  events_.erase(oldest == events_.end() ? events_.begin() : oldest);
+}
+
 std::uint64_t EventList::add(Event event, Revision& revision) {
-  if (const auto known = repeated(event); known != events_.end()) {
+  const std::string key = alarm_key(event.text);
+  if (explains_another(event, key)) return 0;
+  if (const auto known = repeated(event, key); known != events_.end()) {
     ++known->times;
     known->changed = ++revision;
     known->event.utime_us = event.utime_us;
+    known->event.text = std::move(event.text);
+    known->over_us.reset();
     std::rotate(known, known + 1, events_.end());
     return events_.back().number;
   }
-  events_.push_back({++numbers_, ++revision, std::move(event), 1});
-  if (events_.size() > kMost) events_.pop_front();
+  events_.push_back({++numbers_, ++revision, std::move(event), key, 1, {}, {}});
+  if (events_.size() > kMost) forget_oldest();
   return numbers_;
 }
 
@@ -33,6 +70,34 @@ void EventList::conclude(std::uint64_t number, const std::string& outcome, Revis
     kept.event.outcome = outcome;
     kept.changed = ++revision;
   }
+}
+
+void EventList::end(const std::string& station, const std::string& text, std::int64_t utime_us,
+                    Revision& revision) {
+  const std::string key = alarm_key(text);
+  for (Kept& kept : events_) {
+    if (!kept.holds() || kept.event.station != station || kept.key != key) continue;
+    kept.over_us = utime_us;
+    kept.changed = ++revision;
+  }
+}
+
+void EventList::end_all(const std::string& station, std::int64_t utime_us, Revision& revision) {
+  for (Kept& kept : events_) {
+    if (!kept.holds() || kept.event.station != station) continue;
+    kept.over_us = utime_us;
+    kept.changed = ++revision;
+  }
+}
+
+bool EventList::acknowledge(std::uint64_t number, const std::string& who, Revision& revision) {
+  const auto known = std::ranges::find_if(events_, [number](const Kept& kept) {
+    return kept.number == number && kept.event.kind == "alarm";
+  });
+  if (known == events_.end()) return false;
+  known->acknowledged = who;
+  known->changed = ++revision;
+  return true;
 }
 
 Json EventList::since(Revision revision) const {
@@ -47,6 +112,8 @@ Json EventList::since(Revision revision) const {
                       {"who", e.who},
                       {"text", e.text},
                       {"outcome", e.outcome},
+                      {"over_us", kept.over_us ? Json(*kept.over_us) : Json(nullptr)},
+                      {"acknowledged", kept.acknowledged},
                       {"times", kept.times}});
   }
   return result;

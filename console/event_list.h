@@ -13,7 +13,7 @@ namespace ols::console {
 
 struct Event {
   std::int64_t utime_us = 0;  // this host's UTC
-  std::string kind;           // "error", "alarm", "alarm_over", "command", "site", "console"
+  std::string kind;           // "error", "alarm", "command", "site", "console"
   std::string station;        // empty: the site
   std::string who;            // of a command
   std::string text;
@@ -24,9 +24,18 @@ class EventList {
  public:
   // Its number, by which its outcome can be added. What repeats itself within kRepeat_us, but for
   // commands, is counted and moves to the end, not listed again: it must not push out what else
-  // happened.
+  // happened. An alarm stands until it is ended. An error that only explains an alarm or a refused
+  // command is not listed (0).
   std::uint64_t add(Event event, Revision& revision);
   void conclude(std::uint64_t number, const std::string& outcome, Revision& revision);
+
+  // The alarm of this text (its numbers may differ) holds no more.
+  void end(const std::string& station, const std::string& text, std::int64_t utime_us,
+           Revision& revision);
+  // All alarms of a station.
+  void end_all(const std::string& station, std::int64_t utime_us, Revision& revision);
+  // Somebody has seen this alarm and looks after it. False: there is no such alarm.
+  bool acknowledge(std::uint64_t number, const std::string& who, Revision& revision);
 
   Json since(Revision revision) const;  // an array, oldest first
   static constexpr std::size_t kMost = 500;
@@ -37,9 +46,16 @@ class EventList {
     std::uint64_t number;
     Revision changed;
     Event event;
+    std::string key;  // the text without its numbers
     int times = 1;
+    std::optional<std::int64_t> over_us;  // of an alarm; nothing: it holds
+    std::string acknowledged;             // by whom
+    bool holds() const { return event.kind == "alarm" && !over_us; }
   };
-  std::deque<Kept>::iterator repeated(const Event& event);
+  std::deque<Kept>::iterator repeated(const Event& event, const std::string& key);
+  bool explains_another(const Event& error, const std::string& key) const;
+  void forget_oldest();
+
   std::deque<Kept> events_;
   std::uint64_t numbers_ = 0;
 };

@@ -225,6 +225,7 @@ std::optional<StationHeard> station_from(const BusMessage& message) {
   const auto status = command::heard_status(message);
   if (!status) return std::nullopt;
   const Status& s = *status;
+  const std::string error = command::error_in_words(plain_text(s.last_error));
   Json fields{
       {"boot", number_text(s.boot_id)},
       {"utime_us", s.utime},
@@ -239,12 +240,13 @@ std::optional<StationHeard> station_from(const BusMessage& message) {
       {"alarms", plain(s.alarm)},
       {"readings", named(s.reading_name, s.reading_value)},
       {"counters", named(s.counter_name, s.counter_value)},
-      {"last_error", s.last_error},
+      {"last_error", error},
       {"last_error_utime_us", s.last_error_utime}};
   add_pose(s, fields);
   add_pointing(s, fields);
-  return StationHeard{s.station,      std::move(fields), command::reply_of(s), video_address_of(s),
-                      plain(s.alarm), s.last_error,      s.last_error_utime};
+  return StationHeard{s.station,           std::move(fields), command::reply_of(s),
+                      video_address_of(s), plain(s.alarm),    error,
+                      s.last_error_utime};
 }
 
 std::optional<std::pair<std::string, Json>> bearing_from(const BusMessage& message) {

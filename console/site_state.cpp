@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "console/alarm_changes.h"
-
 namespace ols::console {
 namespace {
 
@@ -14,18 +12,21 @@ constexpr double kLineStale_s = 1.5, kForgetLine_s = 5.0;
 constexpr double kFusionStale_s = 5.0;  // it reports each second, or as often as configured
 constexpr double kTrailPeriod_s = 0.4;
 constexpr const char* kFusion = "fusion";
+constexpr const char* kFusionSilent = "the fusion has fallen silent";
 
 }  // namespace
 
-void SiteState::note_alarms(const std::string& station, const std::vector<std::string>& alarms,
-                            std::int64_t utime_us) {
-  Kept& kept = kept_[station];
+void SiteState::note_alarms(AlarmChanges& known, const std::string& station,
+                            const std::vector<std::string>& alarms, std::int64_t utime_us) {
   const std::vector<std::string> first(
       alarms.begin(), alarms.begin() + std::min(alarms.size(), std::size_t{kMostAlarms}));
-  const AlarmChanges changes = alarm_changes(kept.alarms, first);
-  for (const auto& text : changes.begun) note({utime_us, "alarm", station, "", text, ""});
-  for (const auto& text : changes.ended) note({utime_us, "alarm_over", station, "", text, ""});
-  kept.alarms = first;
+  for (const AlarmChanges::Change& change : known.look(first)) {
+    if (change.begins) {
+      note({utime_us, "alarm", station, "", change.alarm, ""});
+    } else {
+      events_.end(station, change.alarm, utime_us, revision_);
+    }
+  }
 }
 
 void SiteState::note_error(const std::string& station, const std::string& error,
@@ -42,12 +43,17 @@ void SiteState::hear(const StationHeard& station, const Now& now) {
     ++refused_;
     return;
   }
-  note_alarms(station.id, station.alarms, now.utime_us);
+  events_.end(station.id, kSilent, now.utime_us, revision_);
+  note_alarms(kept_[station.id].alarms, station.id, station.alarms, now.utime_us);
   note_error(station.id, station.last_error, station.last_error_utime_us, now.utime_us);
 }
 
 void SiteState::hear_bearing(const std::string& station, const Json& bearing) {
   stations_.mark(station, "bearing", bearing, revision_);
+}
+
+void SiteState::hear_own(const std::vector<std::string>& alarms, const Now& now) {
+  note_alarms(own_, "", alarms, now.utime_us);
 }
 
 void SiteState::set_holder(const std::string& station, const Json& holder) {
@@ -113,23 +119,26 @@ void SiteState::hear(const TargetHeard& target, const Now& now) {
 void SiteState::hear(const FusionHeard& fusion, const Now& now) {
   if (!is_of_fusion(fusion.boot_id, now)) return;
   fusion_.set(kFusion, fusion.fields, now.monotonic_s, revision_);
-  note_alarms("", fusion.alarms, now.utime_us);
+  events_.end("", kFusionSilent, now.utime_us, revision_);
+  note_alarms(kept_[""].alarms, "", fusion.alarms, now.utime_us);
   note_error("", fusion.last_error, 0, now.utime_us);
 }
 
 void SiteState::look(const Now& now) {
   const double now_s = now.monotonic_s;
   for (const auto& id : stations_.age(now_s, kStationStale_s, kForgetStation_s, revision_)) {
-    note({now.utime_us, "site", id, "", "no status any more", ""});
+    note({now.utime_us, "alarm", id, "", kSilent, ""});
   }
-  for (const auto& id : fusion_.age(now_s, kFusionStale_s, kForgetStation_s, revision_)) {
-    note({now.utime_us, "site", "", "", "the " + id + " has fallen silent", ""});
+  if (!fusion_.age(now_s, kFusionStale_s, kForgetStation_s, revision_).empty()) {
+    note({now.utime_us, "alarm", "", "", kFusionSilent, ""});
   }
   targets_.age(now_s, kTargetStale_s, kForgetTarget_s, revision_);
   lines_.age(now_s, kLineStale_s, kForgetLine_s, revision_);
   std::erase_if(trails_, [this](const auto& t) { return targets_.find(t.first) == nullptr; });
-  std::erase_if(kept_, [this](const auto& k) {
-    return !k.first.empty() && stations_.find(k.first) == nullptr;
+  std::erase_if(kept_, [&](const auto& k) {
+    if (k.first.empty() || stations_.find(k.first) != nullptr) return false;
+    events_.end_all(k.first, now.utime_us, revision_);
+    return true;
   });
 }
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "base/alarm_changes.h"
 #include "console/entity_table.h"
 #include "console/event_list.h"
 #include "console/heard.h"
@@ -28,6 +29,8 @@ class SiteState {
   void hear(const FusionHeard& fusion, const Now& now);
   // The newest bearing of a station that has sent a status; others are ignored.
   void hear_bearing(const std::string& station, const Json& bearing);
+  // The alarms of the console itself.
+  void hear_own(const std::vector<std::string>& alarms, const Now& now);
   // The state of a guided procedure of a station.
   void set_procedure(const std::string& station, const Json& procedure);
   // Call often.
@@ -36,6 +39,10 @@ class SiteState {
   std::uint64_t note(Event event) { return events_.add(std::move(event), revision_); }
   void conclude(std::uint64_t event, const std::string& outcome) {
     events_.conclude(event, outcome, revision_);
+  }
+  // Somebody looks after an alarm. False: there is no such alarm.
+  bool acknowledge(std::uint64_t event, const std::string& who) {
+    return events_.acknowledge(event, who, revision_);
   }
   // Who holds control of a station: {"by": NAME, "viewer": N}, or null.
   void set_holder(const std::string& station, const Json& holder);
@@ -56,12 +63,13 @@ class SiteState {
   static constexpr double kStationStale_s = 2.5;  // five status intervals
   static constexpr double kTargetStale_s = 1.5;
   static constexpr double kFusionGone_s = 1.5;
-  static constexpr std::size_t kMostAlarms = 32;  // of a station
+  static constexpr std::size_t kMostAlarms = 32;                // of a station
+  static constexpr const char* kSilent = "no status any more";  // an alarm
   static constexpr std::size_t kMostStations = 200, kMostTargets = 500, kMostTrailPoints = 600;
 
  private:
   struct Kept {  // of a station or, by the empty name, of the fusion
-    std::vector<std::string> alarms;
+    AlarmChanges alarms;
     std::string last_error;
     std::int64_t last_error_utime_us = -1;
   };
@@ -70,8 +78,8 @@ class SiteState {
     double added_s = -1e9;
   };
 
-  void note_alarms(const std::string& station, const std::vector<std::string>& alarms,
-                   std::int64_t utime_us);
+  void note_alarms(AlarmChanges& known, const std::string& station,
+                   const std::vector<std::string>& alarms, std::int64_t utime_us);
   void note_error(const std::string& station, const std::string& error, std::int64_t error_utime_us,
                   std::int64_t utime_us);
   void add_to_trail(const TargetHeard& target, double now_s);
@@ -85,6 +93,7 @@ class SiteState {
   EntityTable fusion_{1};
   EventList events_;
   std::map<std::string, Kept> kept_;
+  AlarmChanges own_;
   std::map<std::string, Trail> trails_;
   std::int64_t fusion_boot_ = 0;
   double fusion_heard_s_ = -1e9;

@@ -107,7 +107,7 @@ std::vector<std::pair<std::string, std::string>> WebApi::security_headers(bool i
 }
 
 std::optional<Session> WebApi::who(const WebRequest& request, const Now& now) const {
-  if (is_open()) return Session{"local", Role::kOperator, 0.0};
+  if (is_open()) return Session{"operator", Role::kOperator, 0.0};
   return sessions_.find(token_in(request.cookies), now.monotonic_s);
 }
 
@@ -210,7 +210,12 @@ WebAnswer WebApi::post(const WebRequest& request, const Now& now) {
   if (request.path == "/api/users") return enter_user(request, now);
   if (request.path != "/api/stop") return refused(404, "there is no " + request.path);
   if (console_.is_replay()) return refused(409, console_.bus_trouble());
-  Json said{{"stopping", console_.stop_all(session->name, {}, now)}};
+  // The page says which browser it is in; whatever it says, the stop is carried out.
+  const Json body = Json::parse(request.body, nullptr, false);
+  const Json viewer = body.is_object() ? body.value("viewer", Json(0)) : Json(0);
+  const Person by =
+      console_.person(session->name, viewer.is_number_unsigned() ? viewer.get<std::uint64_t>() : 0);
+  Json said{{"stopping", console_.stop_all(by, {}, now)}};
   if (!console_.bus_trouble().empty()) said["problem"] = console_.bus_trouble();
   return json(200, said);
 }

@@ -3,9 +3,10 @@
 namespace ols::station {
 
 void FaultLog::set(const std::string& source, JournalEvent event, std::int64_t utime_us) {
-  text_ = event.reason;
+  const bool says_source = event.reason.starts_with(source);
+  event.text = says_source ? event.reason : source + ": " + event.reason;
+  text_ = event.id == event::kCommandRefused ? event.reason : event.text;
   utime_us_ = utime_us;
-  event.text = source + ": " + event.reason;
   event.bad = true;
   news_.push_back({source, std::move(event)});
 }

@@ -5,6 +5,9 @@
 namespace ols::station {
 namespace {
 
+constexpr double kStart_s =
+    8.0;  // devices answer within; from then on that they do not is an alarm
+
 FaultLog::State state_of(StationState state) {
   const bool emergency = state == StationState::kEmergency;
   return {to_string(state), "", emergency || state == StationState::kLost,
@@ -25,7 +28,21 @@ FaultLog::State state_of(const device::DeviceReport& device) {
 StationJournal::StationJournal(std::string station, Write write)
     : station_(std::move(station)), write_(std::move(write)) {}
 
+// A stop that cannot be read is no device that comes up.
+void StationJournal::hush_what_starts(StationReport& report, double now_s) {
+  if (!begun_s_) begun_s_ = now_s;
+  if (now_s - *begun_s_ > kStart_s) return;
+  for (device::DeviceReport& device : report.devices) {
+    const bool starts = device.state == device::DeviceState::kAbsent ||
+                        device.state == device::DeviceState::kStarting;
+    if (!starts || device.last_good_s || device.name == "gpio") continue;
+    device.alarms.clear();
+    device.last_error.clear();
+  }
+}
+
 void StationJournal::note(const clock::ClockPair& now, const Bus& bus, StationReport& report) {
+  hush_what_starts(report, now.monotonic_s);
   note_devices(report, now.utime_us);
   troubles_.note_alarms(all_alarms(report), now.utime_us);
   note_bus(bus, now.utime_us);

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "base/news_limit.h"
@@ -24,15 +25,17 @@ class StationJournal {
     std::string last_refusal;
     std::uint64_t refusals = 0;
   };
-  // Fills in the report's last error.
+  // Fills in the report's last error, and takes out the alarms of devices that are only coming up.
   void note(const clock::ClockPair& now, const Bus& bus, StationReport& report);
 
  private:
+  void hush_what_starts(StationReport& report, double now_s);
   void note_devices(const StationReport& report, std::int64_t utime_us);
   void note_bus(const Bus& bus, std::int64_t utime_us);
 
   FaultLog troubles_;
   NewsLimit limit_;
+  std::optional<double> begun_s_;  // of the first note
   const std::string station_;
   const Write write_;
 };

@@ -43,6 +43,9 @@ Admitted Admission::admit(const BearingMeasurement& measurement, FusionLog& log)
   if (place.evicted) evict(*place.evicted, log);
   Admitted admitted{.station = place.station, .evicted = place.evicted};
   admitted.refusal = judge(measurement, *place.station, log);
+  const bool is_untimely =
+      admitted.refusal == BearingRefusal::kStale || admitted.refusal == BearingRefusal::kFuture;
+  place.station->untimely = is_untimely ? place.station->untimely + 1 : 0;
   if (admitted.refusal == BearingRefusal::kNone) notice_changes(measurement, log, admitted);
   return admitted;
 }

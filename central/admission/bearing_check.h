@@ -22,6 +22,8 @@ enum class BearingRefusal {
   kCount,  // not a reason: how many there are
 };
 const char* to_string(BearingRefusal refusal);
+// For people: what is wrong and where to look.
+const char* in_words(BearingRefusal refusal);
 
 // Whether a station can be at this position: near the Earth's surface, with a valid standard
 // deviation.

@@ -35,6 +35,7 @@ struct KnownStation {
   std::int64_t heard = 0;     // index of its last message among all
   std::int64_t calibration_id = 0;
   std::int64_t boot_id = 0;
+  int untimely = 0;            // bearings in a row that were too old or from the future
   std::int64_t target_id = 0;  // the last target that it saw
   Activity saw_target;
 

@@ -66,7 +66,7 @@ FusionOutput Fusion::add(const BearingMeasurement& measurement) {
   if (output.refusal == BearingRefusal::kNone) {
     output.refusal = associate(measurement, *admitted.station);
   }
-  note_refusal(output.refusal, measurement);
+  note_refusal(output.refusal, measurement, admitted);
   const std::int64_t now = now_us();
   // After a silence "now" is old until most stations have sent again: nothing is published by it.
   if (now == 0 || admission_.is_future(measurement.utime_us)) return output;
@@ -163,12 +163,16 @@ void Fusion::forget_what_changed(const BearingMeasurement& measurement, const Ad
   }
 }
 
-void Fusion::note_refusal(BearingRefusal refusal, const BearingMeasurement& measurement) {
+void Fusion::note_refusal(BearingRefusal refusal, const BearingMeasurement& measurement,
+                          const Admitted& admitted) {
+  constexpr int kManyUntimely = 10;  // fewer are normal while stations begin or the network stalls
   if (refusal == BearingRefusal::kNone) return;
   log_.count(to_string(refusal));
   // A normal condition, or already reported when it began.
   if (refusal == BearingRefusal::kLowBelief || refusal == BearingRefusal::kQuarantine) return;
-  log_.error(measurement.station, to_string(refusal));
+  const int untimely = admitted.station == nullptr ? 0 : admitted.station->untimely;
+  if (untimely > 0 && untimely < kManyUntimely) return;
+  log_.error(measurement.station, in_words(refusal));
 }
 
 void Fusion::begin_time_line() {

@@ -67,7 +67,8 @@ class Fusion {
   void forget_what_changed(const BearingMeasurement& measurement, const Admitted& admitted);
   void begin_time_line();
   std::vector<Slew> slews_at(std::int64_t now_us);
-  void note_refusal(BearingRefusal refusal, const BearingMeasurement& measurement);
+  void note_refusal(BearingRefusal refusal, const BearingMeasurement& measurement,
+                    const Admitted& admitted);
 
   FusionConfig config_;
   Admission admission_;

@@ -13,6 +13,17 @@ std::size_t size_of(const Moment& moment) {
   return size;
 }
 
+Json mark_of(const Json& event, const Json& kind, const Json& utime_us) {
+  return {{"utime_us", utime_us},           {"kind", kind},
+          {"station", event.at("station")}, {"who", event.at("who")},
+          {"text", event.at("text")},       {"outcome", event.at("outcome")}};
+}
+
+// An alarm that has come back within a minute is the same event.
+bool begins_again(const Json& event, const Json& mark) {
+  return event.at("utime_us") != mark.at("utime_us");
+}
+
 }  // namespace
 
 void Timeline::add_mark(Json mark) {
@@ -28,18 +39,15 @@ void Timeline::add_marks(const Console& console) {
   for (const Json& event : console.events_since(std::exchange(seen_, console.revision()))) {
     const auto number = event.at("number").get<std::uint64_t>();
     const auto known = of_event_.find(number);
-    if (known != of_event_.end()) {
+    const bool is_alarm = event.at("kind") == "alarm";
+    if (known == of_event_.end() || (is_alarm && begins_again(event, marks_[known->second]))) {
+      if (marks_.size() < kMostMarks) of_event_[number] = marks_.size();
+      add_mark(mark_of(event, event.at("kind"), event.at("utime_us")));
+    } else {
       marks_[known->second]["outcome"] = event.at("outcome");
       ++changes_;
-      continue;
     }
-    if (marks_.size() < kMostMarks) of_event_[number] = marks_.size();
-    add_mark({{"utime_us", event.at("utime_us")},
-              {"kind", event.at("kind")},
-              {"station", event.at("station")},
-              {"who", event.at("who")},
-              {"text", event.at("text")},
-              {"outcome", event.at("outcome")}});
+    if (!event.at("over_us").is_null()) add_mark(mark_of(event, "alarm_over", event.at("over_us")));
   }
 }
 

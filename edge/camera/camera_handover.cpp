@@ -85,7 +85,7 @@ void CameraHandover::note_incomplete(std::uint64_t lost, const FrameStatistics& 
   const std::lock_guard lock(mutex_);
   note_statistics(lost, statistics);
   ++facts_.counters.frames_incomplete;
-  note_trouble(kIncomplete);
+  if (facts_.incomplete_share > kManyIncomplete) note_trouble(kIncomplete);
 }
 
 void CameraHandover::note_refused(const std::string& why, std::uint64_t lost,

@@ -9,9 +9,8 @@
 namespace ols::camera {
 namespace {
 
-constexpr double kSilence_s = 0.5;        // plus three frame periods: an alarm
-constexpr double kManyIncomplete = 0.02;  // of recent frames
-constexpr double kMuchLight = 1.3;        // factor
+constexpr double kSilence_s = 0.5;  // plus three frame periods: an alarm
+constexpr double kMuchLight = 1.3;  // factor
 
 template <typename... Values>
 std::string words(const char* format, Values... values) {

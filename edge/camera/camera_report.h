@@ -51,6 +51,9 @@ struct CameraFacts {
   std::optional<double> ptp_disagreement_s;
 };
 
+// The share of recent frames of which packets may be missing before it is a fault.
+inline constexpr double kManyIncomplete = 0.02;
+
 device::DeviceReport make_camera_report(const CameraConfig& config, const CameraFacts& facts,
                                         double now_s);
 

@@ -78,18 +78,24 @@ void PtuSteadyState::watch(double time_s) {
   if (!failure) return;
   const bool garbled = *failure == Polling::Failure::kGarbled;
   ++(garbled ? counters_.garbled : counters_.timeouts);
-  send_all_again(garbled ? "a reply was garbled" : "replies are missing");
+  send_all_again(garbled ? "a reply was garbled" : "replies are missing", time_s);
 }
 
 void PtuSteadyState::abandon(double time_s) {
   polling_.abandon(time_s);
-  send_all_again("interrupted");
+  send_all_again("interrupted", time_s);
 }
 
 // Some of the commands may not have reached the unit.
-void PtuSteadyState::send_all_again(std::string because) {
-  error_ = std::move(because);
+void PtuSteadyState::send_all_again(std::string because, double time_s) {
+  note_corrected(std::move(because), time_s);
   commands_.send_all_again();
+}
+
+void PtuSteadyState::note_corrected(std::string what, double time_s) {
+  if (time_s - corrected_.since_s > kCorrected_s) corrected_ = {0, time_s};
+  ++corrected_.times;
+  error_ = std::move(what);
 }
 
 void PtuSteadyState::fail(Trouble::Kind kind, std::string reason) {
@@ -105,7 +111,7 @@ void PtuSteadyState::take(const PtuReply& reply, double time_s, double late_s) {
     unit_restarted();
   } else if (!polling_.under_way()) {
     ++counters_.garbled;
-    error_ = "an unexpected reply";
+    note_corrected("an unexpected reply", time_s);
     polling_.unexpected_reply();
   } else if (const auto done = polling_.take(reply, late_s)) {
     finish(*done, time_s);
@@ -115,7 +121,7 @@ void PtuSteadyState::take(const PtuReply& reply, double time_s, double late_s) {
 void PtuSteadyState::finish(const PollCycle& done, double time_s) {
   if (done.command_lost()) {
     ++counters_.garbled;
-    send_all_again("a reply to a command is missing");
+    send_all_again("a reply to a command is missing", time_s);
   }
   judge_refusals(done.refusals(), time_s);
   judge_modes(done);
@@ -136,7 +142,7 @@ void PtuSteadyState::take_angles(const PollCycle& done, double time_s) {
       break;
     case PositionCheck::Verdict::kRefused:
       ++counters_.refused_positions;
-      send_all_again("positions that contradict each other");
+      send_all_again("positions that contradict each other", time_s);
       break;
   }
 }
@@ -160,7 +166,7 @@ void PtuSteadyState::judge_modes(const PollCycle& done) {
 void PtuSteadyState::judge_refusals(const std::vector<std::string>& refusals, double time_s) {
   for (const std::string& text : refusals) {
     ++counters_.errors;
-    send_all_again(text);
+    send_all_again(text, time_s);
     const PtuComplaint what = complaint(text);
     if (what == PtuComplaint::kNotReferenced) fail(Trouble::Kind::kNotReferenced, text);
     const bool bounds = what == PtuComplaint::kPositionLimit || what == PtuComplaint::kSpeedLimit;

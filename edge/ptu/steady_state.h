@@ -56,7 +56,10 @@ class PtuSteadyState {
   const std::optional<PtuEnvironment>& environment() const { return environment_.newest; }
   std::optional<double> last_good_s() const { return angles_.last_good_s(); }
   bool standing() const { return angles_.standing(); }
-  std::string last_error() const { return error_; }
+  // Empty as long as the line is corrected only now and then.
+  std::string last_error() const {
+    return corrected_.times >= kManyCorrected ? error_ : std::string();
+  }
   const std::optional<PtuLoweredSpeed>& lowered_speed() const { return commands_.lowered_speed(); }
 
  private:
@@ -64,6 +67,12 @@ class PtuSteadyState {
     double next_s;
     bool asked = false;  // in the cycle that is under way
     std::optional<PtuEnvironment> newest = {};
+  };
+  static constexpr int kManyCorrected = 10;  // within kCorrected_s
+  static constexpr double kCorrected_s = 60.0;
+  struct Corrected {
+    int times = 0;
+    double since_s = 0.0;
   };
   struct BoundsRefused {
     int times = 0;
@@ -77,7 +86,8 @@ class PtuSteadyState {
   void take_angles(const PollCycle& done, double time_s);
   void judge_refusals(const std::vector<std::string>& refusals, double time_s);
   void judge_modes(const PollCycle& done);
-  void send_all_again(std::string because);
+  void send_all_again(std::string because, double time_s);
+  void note_corrected(std::string what, double time_s);
   void fail(Trouble::Kind kind, std::string reason);
 
   const PtuConfig& config_;
@@ -90,6 +100,7 @@ class PtuSteadyState {
   ModeCheck modes_;
   Environment environment_;
   BoundsRefused bounds_refused_;
+  Corrected corrected_;
   std::optional<double> waiting_since_s_;  // for plausible positions
   std::optional<Trouble> trouble_;
   std::string error_;

@@ -141,8 +141,8 @@ def test_a_refusal_is_in_the_stations_words(page, paper):
     paper.refusing["bravo"] = "emergency"
     region(page, "Stations").get_by_role("button", name="bravo").click()
     region(page, "Stations").get_by_role("button", name="Release").click()
-    expect(page.get_by_text("bravo release: refused: emergency")).to_be_visible()
-    expect(region(page, "History")).to_contain_text("refused: emergency")
+    expect(page.get_by_text("bravo release: refused: the emergency stop holds")).to_be_visible()
+    expect(region(page, "History")).to_contain_text("refused: the emergency stop holds")
     paper.refusing.clear()
 
 

@@ -48,7 +48,9 @@ def test_an_alarm_comes_with_what_to_do(page, paper):
     region(page, "Stations").get_by_role("button", name="charlie").click()
     expect(region(page, "Stations")).to_contain_text("charge or replace the battery")
     paper.alarms.clear()
-    expect(region(page, "History")).to_contain_text("alarm over")
+    row = region(page, "History").get_by_role("row", name="supply voltage low")
+    expect(row).to_have_count(1)
+    expect(row).to_contain_text("until")
 
 
 def test_a_keyboard_is_enough(chromium, consoles, paper):
@@ -128,8 +130,15 @@ def test_axe_finds_nothing(chromium, consoles, theme):
     context.close()
 
 
-def test_two_languages(page):
+def test_two_languages(page, paper):
+    paper.alarms["bravo"] = ["camera: no frames for 3 s, it is waiting for a trigger"]
     page.get_by_label("Language").select_option("de")
+    history = region(page, "Verlauf")
+    said = "Kamera: seit 3 s keine Bilder, sie wartet auf einen Trigger"
+    alarm = history.get_by_role("row", name=said)
+    expect(alarm).to_contain_text("dringend")
+    expect(alarm).to_contain_text("Was tun: Strom, Kabel")
+    paper.alarms.clear()
     expect(region(page, "Karte")).to_be_visible()
     expect(page.get_by_role("button", name="Alles halt")).to_be_visible()
 

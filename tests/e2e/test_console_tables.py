@@ -1,6 +1,8 @@
 """Targets, stations and history on the console's page, in a real browser: sorting, filters, every
 command of a station, who has control, the fusion's state."""
 
+import re
+
 import ols_msg
 import pytest
 from console_page import axe_finds, picture, region, watched_page
@@ -45,7 +47,10 @@ def test_history_is_filtered(page, paper):
     region(page, "Stations").get_by_role("button", name="Release").click()
     history = region(page, "History")
     expect(history).to_contain_text("release → done")
-    expect(history).to_contain_text("supply voltage low")
+    alarm = history.get_by_role("row", name="supply voltage low")
+    alarm.get_by_role("button", name="Acknowledge").click()
+    expect(alarm).to_contain_text("warning")
+    expect(alarm).to_contain_text("acknowledged by operator")
     history.get_by_label("Filter").select_option("command")
     expect(history).not_to_contain_text("supply voltage low")
     history.get_by_label("Filter").select_option("alarm")
@@ -116,6 +121,9 @@ def test_a_station_is_pointed_and_records(page, paper):
     paper.records.clear()
     stations = region(page, "Stations")
     stations.get_by_role("button", name="bravo").click()
+    expect(stations.get_by_label("Pan °")).to_have_value(re.compile(r"^-?\d+\.\d$"))
+    expect(stations.get_by_role("button", name="Record")).to_have_count(0)
+    paper.devices["bravo"] = {"recorder": "12 GB free"}
     stations.get_by_label("Pan °").fill("-12.5")
     stations.get_by_label("Tilt °").fill("4")
     stations.get_by_role("button", name="Point", exact=True).click()
@@ -128,6 +136,7 @@ def test_a_station_is_pointed_and_records(page, paper):
     (recorded,) = wait_for(lambda: paper.records, "the recording")
     assert (recorded.station, recorded.label) == ("bravo", "bird")
     assert (recorded.before_s, recorded.after_s) == (5.0, 5.0)
+    paper.devices.clear()
 
 
 def test_one_browser_has_control_until_another_takes_it_over(page, paper, chromium, consoles):
@@ -144,6 +153,8 @@ def test_one_browser_has_control_until_another_takes_it_over(page, paper, chromi
         theirs.get_by_role("button", name="Take over").click()
         expect(theirs).to_contain_text("you have control")
         assert paper.ptu_commands == [], "what was refused is not on the bus"
+        told = page.locator("output.notice")
+        expect(told).to_have_text("operator 2 has taken control of alfa")
         theirs.get_by_role("button", name="Release").click()
         wait_for(lambda: paper.ptu_commands, "the command of who took over")
         expect(ours.get_by_role("button", name="Take over")).to_be_visible()

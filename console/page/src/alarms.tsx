@@ -1,31 +1,69 @@
-// What is wrong, and what to do; and a word to whoever cannot see it begin.
+// What is wrong, how grave it is, and what to do; and a word to whoever cannot see it begin.
 
-import { h } from "preact";
+import { h, Fragment } from "preact";
 import { useRef } from "preact/hooks";
-import { adviceFor } from "./advice";
+import { conditionOf, eventOf, inWords, type Severity } from "./conditions";
 import type { Link } from "./link";
-import { t } from "./words";
+import type { SiteEvent } from "./site";
+import { named, t } from "./words";
 
-export function Alarms({ alarms }: { alarms: string[] }) {
+// "`state_folder`" is set as code.
+function Coded({ text }: { text: string }) {
+  return <Fragment>{text.split("`").map((part, i) => (i % 2 ? <code>{part}</code> : part))}</Fragment>;
+}
+
+export function SeverityChip({ severity }: { severity: Severity }) {
+  return <span class={`kind ${severity}`}>{named("g", severity)}</span>;
+}
+
+export function WhatToDo({ alarm }: { alarm: string }) {
+  const { meaning, action } = conditionOf(alarm);
+  if (!meaning && !action) return null;
+  return (
+    <p class="advice">
+      {meaning && <Coded text={`${meaning}. `} />}
+      {action && (
+        <em>
+          {t("what_to_do")}: <Coded text={action} />
+        </em>
+      )}
+    </p>
+  );
+}
+
+export type OnAcknowledge = ((event: SiteEvent) => void) | null; // null: who may only look
+
+// Who looks after it; whoever may says so here.
+export function Acknowledgement({ event, onAcknowledge }: { event: SiteEvent | undefined; onAcknowledge: OnAcknowledge }) {
+  if (!event) return null;
+  if (event.acknowledged) {
+    return (
+      <span class="acknowledged">
+        {t("acknowledged_by")} {inWords(event.acknowledged)}
+      </span>
+    );
+  }
+  if (!onAcknowledge || event.over_us != null) return null;
+  return (
+    <button type="button" class="acknowledge" onClick={() => onAcknowledge(event)}>
+      {t("acknowledge")}
+    </button>
+  );
+}
+
+type AlarmsProps = { alarms: string[]; station: string; link: Link; onAcknowledge: OnAcknowledge };
+
+export function Alarms({ alarms, station, link, onAcknowledge }: AlarmsProps) {
   if (!alarms?.length) return <p class="fine">{t("no_alarm")}</p>;
   return (
     <ul class="alarms">
-      {alarms.map((alarm) => {
-        const advice = adviceFor(alarm);
-        return (
-          <li>
-            <b>{alarm}</b>
-            {advice && (
-              <p>
-                {advice.meaning && <span lang="en">{advice.meaning}. </span>}
-                <em>
-                  {t("what_to_do")}: <span lang="en">{advice.action}</span>
-                </em>
-              </p>
-            )}
-          </li>
-        );
-      })}
+      {alarms.map((alarm) => (
+        <li class={conditionOf(alarm).severity}>
+          <SeverityChip severity={conditionOf(alarm).severity} /> <b>{inWords(alarm)}</b>{" "}
+          <Acknowledgement event={eventOf(link.site.events, station, alarm)} onAcknowledge={onAcknowledge} />
+          <WhatToDo alarm={alarm} />
+        </li>
+      ))}
     </ul>
   );
 }
@@ -37,7 +75,7 @@ export function AlarmSpoken({ link }: { link: Link }) {
   const newest = link.site.events.find((event) => event.kind === "alarm");
   return (
     <p key={newest && `${newest.number} ${newest.times}`} class="unseen" role="alert">
-      {newest && opened_us.current && newest.utime_us > opened_us.current ? `${t("alarm")}: ${newest.station} ${newest.text}` : ""}
+      {newest && opened_us.current && newest.utime_us > opened_us.current ? `${t("alarm")}: ${newest.station} ${inWords(newest.text)}` : ""}
     </p>
   );
 }

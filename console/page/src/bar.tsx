@@ -2,6 +2,7 @@
 // logged in, and the stop of all.
 
 import { h, Fragment } from "preact";
+import { conditionOf, holds, inWords } from "./conditions";
 import { utc } from "./format";
 import type { Link, Session } from "./link";
 import { Language, LANGUAGES, t, type Word } from "./words";
@@ -19,7 +20,8 @@ export type Look = {
 function Chips({ link }: { link: Link }) {
   const stations = [...link.site.stations.values()];
   const heard = stations.filter((s) => !s.stale).length;
-  const alarms = stations.reduce((sum, s) => sum + (s.alarms?.length ?? 0), 0) + (link.site.fusion?.alarms?.length ?? 0);
+  const alarms = link.site.events.filter((event) => holds(event) && conditionOf(event.text).severity !== "notice");
+  const isNew = alarms.some((event) => !event.acknowledged);
   const fusion = link.site.fusion && !link.site.fusion.stale;
   return (
     <ul class="chips">
@@ -32,9 +34,9 @@ function Chips({ link }: { link: Link }) {
       <li class="plain">
         {t("targets")} <b>{[...link.site.targets.values()].filter((x) => !x.stale).length}</b>
       </li>
-      {alarms > 0 && (
-        <li class="bad">
-          {t("alarm")} <b>{alarms}</b>
+      {alarms.length > 0 && (
+        <li class={isNew ? "bad" : "plain"}>
+          {t("alarm")} <b>{alarms.length}</b>
         </li>
       )}
     </ul>
@@ -58,21 +60,21 @@ function LookChoice({ theme, language, onTheme, onLanguage }: Look) {
   );
 }
 
-type LoggedInProps = { session: Session; onLogOut: () => void; onUsers: () => void };
+type LoggedInProps = { session: Session; name: string; onLogOut: () => void; onUsers: () => void };
 
-function LoggedIn({ session, onLogOut, onUsers }: LoggedInProps) {
+function LoggedIn({ session, name, onLogOut, onUsers }: LoggedInProps) {
   const role = t(`r_${session.role}` as Word);
   if (session.open) {
     return (
       <span class="user" title={t("local_user")}>
-        {role}
+        {inWords(name) || role}
       </span>
     );
   }
   return (
     <Fragment>
       <span class="user">
-        {session.name} · {role}
+        {name || session.name} · {role}
       </span>
       {session.role === "admin" && (
         <button type="button" onClick={onUsers}>
@@ -86,7 +88,7 @@ function LoggedIn({ session, onLogOut, onUsers }: LoggedInProps) {
   );
 }
 
-type BarProps = LoggedInProps & { link: Link; look: Look; onStop: () => void };
+type BarProps = Omit<LoggedInProps, "name"> & { link: Link; look: Look; onStop: () => void };
 
 export function Bar({ link, look, onStop, ...person }: BarProps) {
   return (
@@ -97,7 +99,7 @@ export function Bar({ link, look, onStop, ...person }: BarProps) {
       <time class="utc">{link.isUp ? utc(link.now_us()) : "--:--:--"} UTC</time>
       <div class="settings">
         <LookChoice {...look} />
-        <LoggedIn {...person} />
+        <LoggedIn name={link.name} {...person} />
       </div>
       {link.replay ? (
         <strong class="replay-tag">{t("replay")}</strong>

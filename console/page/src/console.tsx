@@ -32,6 +32,7 @@ function useNews(link: Link, orders: Orders, onLoggedOut: () => void): number {
       });
     };
     link.onAnswer = (answer) => orders.answered(answer);
+    link.onHand = (hand) => orders.hand(hand);
     link.onUnconfirmed = (stations) => orders.unconfirmed(stations);
     link.onLoggedOut = onLoggedOut;
     link.start();
@@ -74,6 +75,7 @@ function Side({ link, version, station, mayCommand, orders, onSelect }: SideProp
         onSelect={onSelect}
         onCommand={(id, what, more) => orders.command(id, what, more)}
         onControl={(id, take) => orders.control(id, take)}
+        onAcknowledge={mayCommand ? (event) => orders.acknowledge(event) : null}
       />
     </div>
   );
@@ -110,7 +112,7 @@ export function Console({ session, look, onLoggedOut }: Props) {
           onSelect={(what) => setTarget(what === target ? "" : what)}
           onCue={(cue, allow) => orders.cue(cue, allow)}
         />
-        <History link={link} />
+        <History link={link} onAcknowledge={mayCommand ? (event) => orders.acknowledge(event) : null} />
       </main>
       <Notice notice={notice} />
     </div>

@@ -10,6 +10,14 @@ export function distance(m: number): string {
   return m < 1000 ? `${m.toFixed(m < 10 ? 1 : 0)} m` : `${(m / 1000).toFixed(m < 10_000 ? 2 : 1)} km`;
 }
 
+// Of "1000 mm".
+export const inMetres = (mm: string) => `${parseFloat(mm) / 1000} m`;
+
+// Of a line of the grid, in kilometres, with as many digits as tell it from the next.
+export function gridName(at_m: number, step_m: number): string {
+  return (at_m / 1000).toFixed(Math.max(0, 3 - Math.floor(Math.log10(step_m) + 1e-9)));
+}
+
 export function bearing(deg: number | null | undefined, decimals = 1): string {
   if (deg == null) return DASH;
   return `${deg.toFixed(decimals).padStart(decimals ? 4 + decimals : 3, "0")}°`;

@@ -1,7 +1,10 @@
-// What happened: commands, alarms and errors, the newest first.
+// What happened: commands, alarms and errors, the newest first; an alarm is one row from its beginning to its
+// end.
 
-import { h } from "preact";
+import { h, Fragment } from "preact";
 import { useState } from "preact/hooks";
+import { Acknowledgement, type OnAcknowledge, SeverityChip, WhatToDo } from "./alarms";
+import { conditionOf, holds, inWords } from "./conditions";
 import { DASH, utc } from "./format";
 import type { Link } from "./link";
 import type { SiteEvent } from "./site";
@@ -12,28 +15,47 @@ const KINDS = ["command", "alarm", "error", "site", "console"];
 // What was refused is a sentence of its own; of a word to the fusion only the sending is known.
 const inOrder = (outcome: string): outcome is "sent" | "done" => outcome === "sent" || outcome === "done";
 
-function EventRow({ event }: { event: SiteEvent }) {
-  const kind = event.kind === "alarm_over" ? "alarm" : event.kind;
+function textOf(event: SiteEvent): string {
+  if (event.kind !== "command") return inWords(event.text);
+  const answer = /^answers (.+)$/.exec(event.text);
+  if (answer) return `${t("answers")} ${named("c", answer[1])}`;
+  const order = named("o", event.text);
+  return order === event.text ? inWords(event.text) : order;
+}
+
+function AlarmText({ event, onAcknowledge }: { event: SiteEvent; onAcknowledge: OnAcknowledge }) {
   return (
-    <tr class={`${event.kind} ${event.kind === "command" && event.outcome && !inOrder(event.outcome) ? "refused" : ""}`}>
+    <Fragment>
+      {" "}
+      <span class="span">{event.over_us == null ? t("holds") : `${t("until")} ${utc(event.over_us)}`}</span>{" "}
+      <Acknowledgement event={event} onAcknowledge={onAcknowledge} />
+      {holds(event) && <WhatToDo alarm={event.text} />}
+    </Fragment>
+  );
+}
+
+function EventRow({ event, onAcknowledge }: { event: SiteEvent; onAcknowledge: OnAcknowledge }) {
+  const isAlarm = event.kind === "alarm";
+  const isRefused = event.kind === "command" && event.outcome && !inOrder(event.outcome);
+  return (
+    <tr class={`${event.kind} ${isAlarm && !holds(event) ? "over" : ""} ${isRefused ? "refused" : ""}`}>
       <td>{utc(event.utime_us)}</td>
-      <td>
-        <span class={`kind ${kind}`}>{named("k", event.kind)}</span>
-      </td>
+      <td>{isAlarm ? <SeverityChip severity={conditionOf(event.text).severity} /> : <span class={`kind ${event.kind}`}>{named("k", event.kind)}</span>}</td>
       <td>{event.station || DASH}</td>
       <td>
-        {event.who && <b>{event.who} </b>}
-        {event.text}
+        {event.who && <b>{inWords(event.who)} </b>}
+        {textOf(event)}
         {event.times > 1 && <span class="times"> ×{event.times}</span>}
-        {event.kind === "command" && <span class="outcome"> → {inOrder(event.outcome) ? t(event.outcome) : event.outcome || "…"}</span>}
+        {event.kind === "command" && <span class="outcome"> → {inOrder(event.outcome) ? t(event.outcome) : inWords(event.outcome) || "…"}</span>}
+        {isAlarm && <AlarmText event={event} onAcknowledge={onAcknowledge} />}
       </td>
     </tr>
   );
 }
 
-export function History({ link }: { link: Link }) {
+export function History({ link, onAcknowledge }: { link: Link; onAcknowledge: OnAcknowledge }) {
   const [kind, setKind] = useState("");
-  const events = link.site.events.filter((e) => !kind || e.kind === kind || (kind === "alarm" && e.kind === "alarm_over")).slice(0, 200);
+  const events = link.site.events.filter((e) => !kind || e.kind === kind).slice(0, 200);
   return (
     <section class="history" aria-label={t("history")}>
       <header>
@@ -60,7 +82,7 @@ export function History({ link }: { link: Link }) {
           </thead>
           <tbody>
             {events.map((event) => (
-              <EventRow key={event.number} event={event} />
+              <EventRow key={event.number} event={event} onAcknowledge={onAcknowledge} />
             ))}
           </tbody>
         </table>

@@ -28,6 +28,8 @@ export interface PictureSource {
 // "log_in": the session is over; null: the console did not answer.
 export type StopAnswer = { stopping: string[]; problem?: string } | "log_in" | null;
 export type Answer = { number: number; station: string; accepted: boolean; why: string };
+// Somebody has stopped stations that are in this browser's hand, or taken them over; by "": nobody of the console.
+export type Hand = { what: "stop" | "take"; by: string; stations: string[] };
 export type Session = { name: string; role: string; open: boolean };
 
 type StreamHeader = Omit<Picture, "image"> & { units: Unit[] };
@@ -42,6 +44,7 @@ const STALLED_MS = 1500; // kLateRate_us of console/console.cpp: what is sent no
 export class Link implements PictureSource {
   site: Site = emptySite();
   viewer = 0;
+  name = ""; // by which the others know this browser
   isUp = false;
   focus = "";
   era = 0; // ends with each cut and each stop, and with it what a hand holds
@@ -51,6 +54,7 @@ export class Link implements PictureSource {
   onNoStream: () => void = () => {}; // this browser has failed to decode H.264
   onAnswer: (answer: Answer) => void = () => {};
   onUnconfirmed: (stations: string[]) => void = () => {}; // of a stop of all, anybody's
+  onHand: (hand: Hand) => void = () => {};
   onLoggedOut: () => void = () => {};
 
   private socket: WebSocket | null = null;
@@ -138,8 +142,10 @@ export class Link implements PictureSource {
     if (message.replay) this.replay = message.replay;
     if (message.kind === "answer") return this.answered(message);
     if (message.kind === "stop_unconfirmed") return this.onUnconfirmed(message.stations);
+    if (message.kind === "hand") return this.onHand(message);
     if (message.kind === "hello") {
       this.viewer = message.viewer;
+      this.name = message.name;
       this.isUp = true;
       this.closeStreams(() => true); // the server begins anew, with key frames
       this.say({ do: "watch", ...this.watched });
@@ -252,7 +258,7 @@ export class Link implements PictureSource {
       const response = await fetch("/api/stop", {
         method: "POST",
         headers: { "Content-Type": "application/json" },
-        body: "{}",
+        body: JSON.stringify({ viewer: this.viewer }),
         signal: AbortSignal.timeout(STOP_PATIENCE_MS),
       });
       if (response.status === 401) return "log_in";

@@ -2,6 +2,7 @@
 
 import { h } from "preact";
 import { useState } from "preact/hooks";
+import { inWords } from "./conditions";
 import type { Session } from "./link";
 import { t } from "./words";
 
@@ -33,7 +34,7 @@ export function LogIn({ onSession }: { onSession: (session: Session) => void }) 
           <input name="password" type="password" autocomplete="current-password" required />
         </label>
         <button class="primary">{t("log_in")}</button>
-        <p role="alert">{problem}</p>
+        <p role="alert">{inWords(problem)}</p>
       </form>
     </main>
   );

@@ -3,7 +3,7 @@
 import { h, type RefObject } from "preact";
 import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
 import type { Link } from "./link";
-import { OwnMaps } from "./ownmaps";
+import { Legend, OwnMaps } from "./ownmaps";
 import { SiteMap } from "./sitemap";
 import { View3d } from "./view3d";
 import { t } from "./words";
@@ -36,9 +36,9 @@ function useSiteMap(element: RefObject<HTMLDivElement>, { link, version, theme, 
   return made;
 }
 
-type ToolsProps = { map: SiteMap | null; options: Options; isSolid: boolean; onToggle: (name: keyof Options) => void; onSolid: () => void };
+type ToolsProps = { map: SiteMap | null; options: Options; isSolid: boolean; onToggle: (name: keyof Options) => void; onSolid: () => void; onAccuracy: (isShown: boolean) => void };
 
-function Tools({ map, options, isSolid, onToggle, onSolid }: ToolsProps) {
+function Tools({ map, options, isSolid, onToggle, onSolid, onAccuracy }: ToolsProps) {
   const button = (name: keyof Options, text: string) => (
     <button type="button" aria-pressed={options[name]} onClick={() => onToggle(name)}>
       {text}
@@ -67,7 +67,7 @@ function Tools({ map, options, isSolid, onToggle, onSolid }: ToolsProps) {
           {isSolid && <p class="layers-note">{t("flat_only")}</p>}
           {map && (
             <fieldset disabled={isSolid}>
-              <OwnMaps map={map} />
+              <OwnMaps map={map} onAccuracy={onAccuracy} />
             </fieldset>
           )}
         </div>
@@ -81,6 +81,7 @@ export function MapView(props: Props) {
   const [options, setOptions] = useState(OPTIONS);
   const [measured, setMeasured] = useState("");
   const [isSolid, setSolid] = useState(false);
+  const [hasAccuracy, setAccuracy] = useState(false);
   const map = useSiteMap(element, props, setMeasured);
   const toggle = (name: keyof Options) => {
     const value = !options[name];
@@ -98,7 +99,8 @@ export function MapView(props: Props) {
     <section class="map" aria-label={t("map")}>
       <div class="map-canvas" ref={element} tabIndex={0} role="application" aria-label={t("map")} />
       {isSolid && <View3d {...props} options={options} onMeasured={setMeasured} />}
-      <Tools map={map} options={options} isSolid={isSolid} onToggle={toggle} onSolid={showSolid} />
+      <Tools map={map} options={options} isSolid={isSolid} onToggle={toggle} onSolid={showSolid} onAccuracy={setAccuracy} />
+      {hasAccuracy && !isSolid && <Legend />}
       {!isSolid && (
         <div class="map-north" aria-hidden="true">
           <span>N</span>

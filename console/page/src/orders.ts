@@ -1,8 +1,10 @@
 // The operator's orders, and what is said of each: that it was sent, and what came of it.
 
-import type { Answer, Link } from "./link";
+import { inWords } from "./conditions";
+import type { Answer, Hand, Link } from "./link";
 import type { Notices } from "./notice";
 import type { ProcedureAnswer } from "./procedure";
+import type { SiteEvent } from "./site";
 import { named, t } from "./words";
 
 export class Orders {
@@ -25,6 +27,13 @@ export class Orders {
     this.give({ do: "cue", cue, allow }, `${cue} ${t(allow ? "cue_allow" : "cue_forbid")}`);
   }
 
+  acknowledge(event: SiteEvent) {
+    const words = `${event.station} ${inWords(event.text)}: ${t("acknowledge")}`;
+    const number = this.link.send({ do: "acknowledge", event: event.number });
+    if (!number) return this.notices.say(`${words}: ${t("not_sent")}`, true);
+    this.asked.set(number, words);
+  }
+
   // Of a procedure's question.
   answer(answer: ProcedureAnswer) {
     this.give({ do: "answer", ...answer }, `${answer.station} ${named("c", answer.choice)}`);
@@ -38,7 +47,7 @@ export class Orders {
     if (!answer) return notices.sayOfStop(t("stop_failed"), true);
     if (answer === "log_in") return notices.sayOfStop(t("stop_log_in"), true);
     const { stopping, problem } = answer;
-    if (problem) return notices.sayOfStop(`${problem}: ${t("stop_by_hand")}`, true);
+    if (problem) return notices.sayOfStop(`${inWords(problem)}: ${t("stop_by_hand")}`, true);
     notices.sayOfStop(stopping.length ? t("stopping") + stopping.join(", ") : t("stop_none"), stopping.length === 0);
   }
 
@@ -46,12 +55,18 @@ export class Orders {
     const words = this.asked.get(answer.number);
     this.asked.delete(answer.number);
     const tell = words ? this.notices.say : this.notices.sayLate;
-    tell(`${words ?? answer.station}: ${answer.accepted ? t("done") : answer.why}`, !answer.accepted);
+    tell(`${words ?? answer.station}: ${answer.accepted ? t("done") : inWords(answer.why)}`, !answer.accepted);
   }
 
   // By these stations, of a stop of all.
   unconfirmed(stations: string[]) {
     this.notices.sayOfStop(`${t("stop_unconfirmed")} ${stations.join(", ")}: ${t("stop_by_hand")}`, true);
+  }
+
+  // What another has done to stations that are in this browser's hand.
+  hand({ what, by, stations }: Hand) {
+    const who = by ? inWords(by) : t("hand_other");
+    this.notices.sayOfStop(`${who} ${t(what === "stop" ? "hand_stop" : "hand_take")} ${stations.join(", ")}`, true);
   }
 
   private give(message: object, words: string) {

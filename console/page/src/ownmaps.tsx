@@ -2,6 +2,7 @@
 
 import { h, Fragment } from "preact";
 import { useEffect, useState } from "preact/hooks";
+import { inWords } from "./conditions";
 import { ACCURACY_STEPS, AccuracyChoice, UserMap, userMaps, UserMaps } from "./maplayers";
 import type { SiteMap } from "./sitemap";
 import { t } from "./words";
@@ -29,7 +30,8 @@ function useOwnMaps(map: SiteMap) {
   return { known, isShown, toggle };
 }
 
-function Legend() {
+// On the map, as long as the accuracy is drawn.
+export function Legend() {
   return (
     <ul class="legend" aria-label={t("accuracy")}>
       {ACCURACY_STEPS.map(([most, colour]) => (
@@ -37,7 +39,7 @@ function Legend() {
           <svg width="12" height="12" aria-hidden="true">
             <rect width="12" height="12" fill={colour} />
           </svg>
-          ≤ {most} m
+          1σ ≤ {most} m
         </li>
       ))}
     </ul>
@@ -45,12 +47,15 @@ function Legend() {
 }
 
 // At a height above the stations: that of the site as it is, or that of a plan.
-function Accuracy({ map, plans }: { map: SiteMap; plans: UserMap[] }) {
+function Accuracy({ map, plans, onAccuracy }: { map: SiteMap; plans: UserMap[]; onAccuracy: (isShown: boolean) => void }) {
   const [accuracy, setAccuracy] = useState<AccuracyChoice | null>(null);
   const [failed, setFailed] = useState(false);
   const choose = (choice: AccuracyChoice | null) => {
     setAccuracy(choice);
-    void map.showAccuracy(choice).then((shown) => setFailed(!shown));
+    void map.showAccuracy(choice).then((shown) => {
+      setFailed(!shown);
+      onAccuracy(choice !== null && shown);
+    });
   };
   return (
     <Fragment>
@@ -73,17 +78,16 @@ function Accuracy({ map, plans }: { map: SiteMap; plans: UserMap[] }) {
         </select>
       </label>
       {failed && <p class="map-problem" role="alert">{t("no_accuracy")}</p>}
-      {accuracy && <Legend />}
     </Fragment>
   );
 }
 
 // The users' maps, each with its trouble in words, and the accuracy.
-export function OwnMaps({ map }: { map: SiteMap }) {
+export function OwnMaps({ map, onAccuracy }: { map: SiteMap; onAccuracy: (isShown: boolean) => void }) {
   const { known, isShown, toggle } = useOwnMaps(map);
   return (
     <Fragment>
-      {known.problem && <p class="map-problem" role="alert">{known.problem}</p>}
+      {known.problem && <p class="map-problem" role="alert">{inWords(known.problem)}</p>}
       {known.maps.map((one) => (
         <Fragment key={one.id}>
           {one.zoom && (
@@ -91,10 +95,10 @@ export function OwnMaps({ map }: { map: SiteMap }) {
               {one.name}
             </button>
           )}
-          {one.problem && <p class="map-problem" role="alert">{`${one.name}: ${one.problem}`}</p>}
+          {one.problem && <p class="map-problem" role="alert">{`${one.name}: ${inWords(one.problem)}`}</p>}
         </Fragment>
       ))}
-      <Accuracy map={map} plans={known.maps.filter((one) => one.above_m)} />
+      <Accuracy map={map} plans={known.maps.filter((one) => one.above_m)} onAccuracy={onAccuracy} />
     </Fragment>
   );
 }

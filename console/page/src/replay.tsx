@@ -4,6 +4,7 @@
 import { h, Fragment } from "preact";
 import { useEffect, useState } from "preact/hooks";
 import type { Link } from "./link";
+import { inWords } from "./conditions";
 import { utc } from "./format";
 import { named, t } from "./words";
 
@@ -29,8 +30,8 @@ const STEP_MS = 1000;
 const KINDS = ["alarm", "error", "command", "birth", "end"];
 
 function describe(mark: TimelineMark): string {
-  const outcome = mark.outcome && mark.outcome !== "done" ? ` → ${mark.outcome}` : "";
-  return [utc(mark.utime_us), named("k", mark.kind), mark.station, mark.text + outcome].filter(Boolean).join(" · ");
+  const outcome = mark.outcome && mark.outcome !== "done" ? ` → ${inWords(mark.outcome)}` : "";
+  return [utc(mark.utime_us), named("k", mark.kind), mark.station, inWords(mark.text) + outcome].filter(Boolean).join(" · ");
 }
 
 function useTimeline(changes: number): Timeline {
@@ -143,7 +144,7 @@ export function ReplayBar({ link }: { link: Link }) {
   return (
     <section class="replay" aria-label={t("replay")}>
       <WhatOf state={state} left_out={timeline.marks_left_out} />
-      {state.problem && <p class="replay-problem" role="alert">{state.problem}</p>}
+      {state.problem && <p class="replay-problem" role="alert">{inWords(state.problem)}</p>}
       <div class="replay-tools">
         <button type="button" class="play" onClick={play}>
           {state.playing ? t("pause") : t("play")}

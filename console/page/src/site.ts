@@ -119,6 +119,8 @@ export type SiteEvent = {
   who: string;
   text: string;
   outcome: string;
+  over_us: number | null; // of an alarm; null: it holds
+  acknowledged: string; // by whom
   times: number;
 };
 
@@ -177,7 +179,12 @@ function addEvents(site: Site, events: SiteEvent[] | undefined) {
     if (known < 0 || isAgain) site.events.unshift(event);
     else site.events[known] = event;
   }
-  site.events.length = Math.min(site.events.length, MOST_EVENTS);
+  // As the server does: what holds stays.
+  while (site.events.length > MOST_EVENTS) {
+    let oldest = site.events.length - 1;
+    while (oldest > 0 && site.events[oldest].kind === "alarm" && site.events[oldest].over_us == null) oldest--;
+    site.events.splice(oldest, 1);
+  }
 }
 
 const trailTimes = new Map<string, number>();

@@ -2,22 +2,29 @@
 
 import { h, Fragment } from "preact";
 import { useState } from "preact/hooks";
-import { numberOf } from "./format";
+import type { OnAcknowledge } from "./alarms";
+import { inWords } from "./conditions";
+import { fixed, numberOf } from "./format";
 import { LensForm } from "./lensform";
 import type { Link } from "./link";
 import type { Station } from "./site";
 import { Sure } from "./sure";
-import { t } from "./words";
+import { named, t } from "./words";
 
 type Command = (station: string, command: string, more?: object) => void;
 type Control = (station: string, take: boolean) => void;
-export type StationProps = { link: Link; station: Station; mayCommand: boolean; onCommand: Command; onControl: Control };
+export type StationProps = { link: Link; station: Station; mayCommand: boolean; onCommand: Command; onControl: Control; onAcknowledge: OnAcknowledge };
 
 type FormProps = { id: string; onCommand: Command };
 
-function PointForm({ id, onCommand }: FormProps) {
-  const [pan, setPan] = useState("0");
-  const [tilt, setTilt] = useState("0");
+const angle = (deg: number | null) => (deg == null ? "" : fixed(deg, 1));
+
+type PointProps = FormProps & { station: Station };
+
+// It begins with where the unit is: "point" alone goes nowhere.
+function PointForm({ id, station, onCommand }: PointProps) {
+  const [pan, setPan] = useState(angle(station.pan_deg));
+  const [tilt, setTilt] = useState(angle(station.tilt_deg));
   const submit = (event: Event) => {
     event.preventDefault();
     const [pan_deg, tilt_deg] = [numberOf(pan), numberOf(tilt)];
@@ -38,12 +45,16 @@ function PointForm({ id, onCommand }: FormProps) {
   );
 }
 
-function RecordForm({ id, onCommand }: FormProps) {
+// Only where there is something that records; what is wrong with it is said instead.
+function RecordForm({ id, station, onCommand }: PointProps) {
+  const recorder = station.devices?.find((device) => device.name === "recorder");
   const [label, setLabel] = useState("event");
   const submit = (event: Event) => {
     event.preventDefault();
     onCommand(id, "record", { before_s: 5, after_s: 5, label });
   };
+  if (!recorder) return null;
+  if (recorder.state === "absent" || recorder.state === "fault") return <p class="holder">{`${t("record")}: ${inWords(recorder.text) || named("v", recorder.state)}`}</p>;
   return (
     <form onSubmit={submit}>
       <label>
@@ -56,12 +67,12 @@ function RecordForm({ id, onCommand }: FormProps) {
 }
 
 // Who has the station in hand.
-function Holder({ link, station, mayCommand, onControl }: Omit<StationProps, "onCommand">) {
+function Holder({ link, station, mayCommand, onControl }: Pick<StationProps, "link" | "station" | "mayCommand" | "onControl">) {
   const holder = station.control;
   const isMine = holder?.viewer === link.viewer;
   return (
     <p class="holder">
-      {t("control")}: {!holder ? t("control_free") : isMine ? t("control_you") : `${holder.by} ${t("control_other")}`}
+      {t("control")}: {!holder ? t("control_free") : isMine ? t("control_you") : `${inWords(holder.by)} ${t("control_other")}`}
       {mayCommand && holder && !isMine && <button onClick={() => onControl(station.id, true)}>{t("take")}</button>}
       {isMine && <button onClick={() => onControl(station.id, false)}>{t("give_up")}</button>}
     </p>
@@ -91,8 +102,8 @@ export function Commands({ link, station, mayCommand, onCommand, onControl }: St
       <LensForm station={station} onMove={mayCommand ? (axis, position) => onCommand(id, "lens", { is_rate: false, [axis]: position }) : null} />
       {mayCommand && (
         <Fragment>
-          <PointForm id={id} onCommand={onCommand} />
-          <RecordForm id={id} onCommand={onCommand} />
+          <PointForm key={`point ${id}`} id={id} station={station} onCommand={onCommand} />
+          <RecordForm id={id} station={station} onCommand={onCommand} />
         </Fragment>
       )}
     </div>

@@ -3,6 +3,7 @@
 import { h, Fragment } from "preact";
 import { Alarms } from "./alarms";
 import { calibrationText } from "./calibration";
+import { inWords } from "./conditions";
 import { Fleet } from "./fleet";
 import { bearing, clockError, DASH, fixed, utc } from "./format";
 import type { Station } from "./site";
@@ -61,15 +62,15 @@ function Facts({ station: s }: { station: Station }) {
           {s.devices?.map((device) => (
             <li>
               <i class={`dot ${device.state}`} aria-hidden="true" />
-              <b>{device.name}</b> {named("v", device.state)}
-              {device.text ? `: ${device.text}` : ""}
+              <b>{inWords(device.name)}</b> {named("v", device.state)}
+              {device.text ? `: ${inWords(device.text)}` : ""}
             </li>
           ))}
         </ul>
       </Row>
       {s.last_error && (
         <Row word="last_error">
-          {utc(s.last_error_utime_us)} {s.last_error}
+          {utc(s.last_error_utime_us)} {inWords(s.last_error)}
         </Row>
       )}
     </dl>
@@ -77,14 +78,14 @@ function Facts({ station: s }: { station: Station }) {
 }
 
 function Details(props: StationProps) {
-  const { station: s, link } = props;
+  const { station: s, link, onAcknowledge } = props;
   const quarantine = link.site.fusion?.stations?.find((one) => one.id === s.id)?.quarantine;
   return (
     <div class="details">
-      <Alarms alarms={s.alarms} />
+      <Alarms alarms={s.alarms} station={s.id} link={link} onAcknowledge={onAcknowledge} />
       {quarantine && (
         <p class="quarantine">
-          {t("quarantine")}: {quarantine}
+          {t("quarantine")}: {inWords(quarantine)}
         </p>
       )}
       <Commands {...props} />
@@ -110,7 +111,7 @@ export function Stations({ link, selected, onSelect, ...rest }: StationsProps) {
         {fusionAlarms.length > 0 && (
           <div class="fusion-alarms">
             <h3>{t("fusion")}</h3>
-            <Alarms alarms={fusionAlarms} />
+            <Alarms alarms={fusionAlarms} station="" link={link} onAcknowledge={rest.onAcknowledge} />
           </div>
         )}
         {stations.map((s) => {
@@ -129,7 +130,7 @@ export function Stations({ link, selected, onSelect, ...rest }: StationsProps) {
                     <meter min={0} max={1} value={s.belief ?? 0} aria-label={t("belief")} />
                   </span>
                   {s.alarms?.length > 0 && <span class="badge">{s.alarms.length}</span>}
-                  {s.control && <span class="hand">{s.control.viewer === link.viewer ? "●" : s.control.by}</span>}
+                  {s.control && <span class="hand">{s.control.viewer === link.viewer ? "●" : inWords(s.control.by)}</span>}
                 </button>
               </h3>
               {isOpen && <Details link={link} station={s} {...rest} />}

@@ -1,6 +1,6 @@
 // What the bundler makes of files that are not TypeScript.
-declare module "advice.json" {
-  const rows: unknown;
-  export default rows;
+declare module "conditions.json" {
+  const tables: unknown;
+  export default tables;
 }
 declare module "*.css";

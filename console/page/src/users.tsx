@@ -2,6 +2,7 @@
 
 import { h } from "preact";
 import { useEffect, useRef, useState } from "preact/hooks";
+import { inWords } from "./conditions";
 import { Sure } from "./sure";
 import { t, Word } from "./words";
 
@@ -22,12 +23,12 @@ function useUsers() {
   const look = async () => {
     const answer = await ask("/api/users", "GET");
     setUsers(answer.users ?? []);
-    if (answer.error) setSaid(answer.error);
+    if (answer.error) setSaid(inWords(answer.error));
   };
   // True when it was done.
   const change: Change = async (path, method, body) => {
     const answer = await ask(path, method, body);
-    setSaid(answer.error ?? t("done"));
+    setSaid(answer.error ? inWords(answer.error) : t("done"));
     await look();
     return !answer.error;
   };

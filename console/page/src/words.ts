@@ -127,6 +127,7 @@ const WORDS = {
   o_release: ["release", "freigeben"],
   o_home: ["home", "Referenzfahrt"],
   o_rearm: ["rearm", "scharf stellen"],
+  o_rate: ["drive", "fahren"],
   o_reference_ok: ["reference ok", "Referenz ok"],
   o_record: ["record", "aufnehmen"],
   done: ["done", "erledigt"],
@@ -171,6 +172,17 @@ const WORDS = {
   k_end: ["target ends", "Ziel endet"],
   k_error: ["error", "Fehler"],
   k_alarm: ["alarm", "Alarm"],
+  g_urgent: ["urgent", "dringend"],
+  g_warning: ["warning", "Warnung"],
+  g_notice: ["notice", "Meldung"],
+  acknowledge: ["Acknowledge", "Quittieren"],
+  acknowledged_by: ["acknowledged by", "quittiert von"],
+  holds: ["still holds", "besteht"],
+  until: ["until", "bis"],
+  answers: ["answers", "antwortet"],
+  hand_stop: ["has stopped", "hat angehalten:"],
+  hand_take: ["has taken control of", "hat die Steuerung übernommen von"],
+  hand_other: ["Another program, or the emergency stop,", "Ein anderes Programm, oder der Not-Halt,"],
   k_alarm_over: ["alarm over", "Alarm vorbei"],
   k_command: ["command", "Befehl"],
   k_site: ["site", "Standort"],
@@ -243,8 +255,14 @@ export function t(word: Word): string {
   return WORDS[word][LANGUAGES.indexOf(language)];
 }
 
+export const isEnglish = () => language === "en";
+
+export function inLanguage<T>(both: [T, T]): T {
+  return both[LANGUAGES.indexOf(language)];
+}
+
 // A word for a value that comes from the server; itself if there is none.
-export function named(prefix: "s" | "k" | "v" | "c" | "p" | "o", value: string): string {
+export function named(prefix: "s" | "k" | "v" | "c" | "p" | "o" | "g", value: string): string {
   const word = `${prefix}_${value}` as Word;
   return word in WORDS ? t(word) : value;
 }

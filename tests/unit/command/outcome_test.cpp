@@ -19,8 +19,9 @@ TEST(Outcome, AGrownCountOfItsKindIsAcceptance) {
 
 TEST(Outcome, ARefusalIsInTheStationsWords) {
   const Reply before{};
-  const Reply now{.counters = {{"refused_stale", 1}}, .last_error = "DESIGNATE refused: old"};
-  EXPECT_EQ(outcome(before, now, Kind::kDesignate)->why, "refused: stale (DESIGNATE refused: old)");
+  const Reply now{.counters = {{"refused_recorder", 1}}, .last_error = "RECORD refused: disk full"};
+  EXPECT_EQ(outcome(before, now, Kind::kRecord)->why,
+            "refused: recorder (RECORD refused: disk full)");
   const Reply stopped{.counters = {{"refused_just_stopped", 1}}};
   EXPECT_EQ(outcome(before, stopped, Kind::kPoint)->why,
             "refused: it was stopped less than a second ago; try again");
@@ -29,10 +30,17 @@ TEST(Outcome, ARefusalIsInTheStationsWords) {
             "refused: that picture is too old; try again on the one of now");
 }
 
+TEST(Outcome, AStationsLastErrorIsASentence) {
+  EXPECT_EQ(error_in_words("SLEW refused: precedence"),
+            "slew refused: an operator has the station, or it is stopped; release it first");
+  EXPECT_EQ(error_in_words("RECORD refused: disk full"), "RECORD refused: disk full");
+  EXPECT_EQ(error_in_words("ptu: no reply"), "ptu: no reply");
+}
+
 TEST(Outcome, WithoutAnswerALostMessageIsTheReasonIfOneWasCounted) {
   EXPECT_EQ(without_answer({}, {}).why, "no answer");
   const Reply now{.counters = {{"messages_refused_schema", 1}}};
-  EXPECT_EQ(without_answer({}, now).why, "refused: schema");
+  EXPECT_EQ(without_answer({}, now).why, "refused: the message is of another version");
   EXPECT_FALSE(without_answer({}, now).accepted);
 }
 

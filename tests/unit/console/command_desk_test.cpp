@@ -35,7 +35,8 @@ TEST(CommandDesk, ARefusalComesInTheStationsWords) {
   static_cast<void>(desk.begin(order(Kind::kPoint), {}, 0.0));
   static_cast<void>(desk.due(0.0));
   desk.hear("alfa", Reply{.counters = {{"refused_emergency", 1}}});
-  EXPECT_EQ(desk.finished(0.1).at(0).outcome.why, "refused: emergency");
+  EXPECT_EQ(desk.finished(0.1).at(0).outcome.why,
+            "refused: the emergency stop holds; release it and re-arm first");
 }
 
 TEST(CommandDesk, WithoutAnAnswerItEndsWithTheLease) {

@@ -155,11 +155,79 @@ TEST(Console, OneHolderAStationUntilAnotherTakesOver) {
   EXPECT_TRUE(console.state({0.3, 0}).at("stations")[0].at("control").is_null());
 }
 
+std::vector<Json> told_of_hands(Console& console, std::uint64_t viewer, const Now& now) {
+  auto messages = received(console, viewer, now);
+  std::erase_if(messages, [](const Json& m) { return !m.is_object() || m.at("kind") != "hand"; });
+  return messages;
+}
+
+TEST(Console, TwoBrowsersOfOneNameAreToldApart) {
+  Listening console;
+  const auto first = console.open("operator", Role::kOperator);
+  const auto second = console.open("operator", Role::kOperator);
+  EXPECT_EQ(received(console, second, {0.0, 0})[0].at("name"), "operator 2");
+  EXPECT_EQ(console.person("operator", second).name, "operator 2");
+  EXPECT_EQ(console.person("ana", second).name, "ana") << "not one of hers";
+  console.close(first);
+  const auto third = console.open("operator", Role::kOperator);
+  EXPECT_EQ(received(console, third, {0.0, 0})[0].at("name"), "operator");
+}
+
+TEST(Console, WhoHoldsAStationIsToldWhenAnotherStopsItOrTakesItOver) {
+  Listening console;
+  console.hear(station("bravo"), {0.0, 0});
+  const auto ana = console.open("ana", Role::kOperator), ben = console.open("ben", Role::kOperator);
+  for (const char* id : {"alfa", "bravo"}) {
+    console.take(ana, R"({"do":"take","station":")" + std::string(id) + "\"}", {0.0, 0});
+  }
+  console.take(ben, R"({"do":"stop_all"})", {0.1, 0});
+  static_cast<void>(console.stop_all(console.person("ben", ben), {}, {0.1, 0}));
+  console.take(ben, R"({"do":"take","station":"alfa"})", {0.2, 0});
+  const auto told = told_of_hands(console, ana, {0.2, 0});
+  ASSERT_EQ(told.size(), 2U) << "a stop of all is told once, though it came twice";
+  EXPECT_EQ(told[0].at("by"), "ben");
+  EXPECT_EQ(told[0].at("stations"), Json::parse(R"(["alfa","bravo"])"));
+  EXPECT_EQ(told[1].at("what"), "take");
+  EXPECT_TRUE(told_of_hands(console, ben, {0.2, 0}).empty());
+}
+
+TEST(Console, WhoHoldsAStationIsToldThatAnotherProgramStoppedItButNotOfTheirOwnStop) {
+  Listening console;
+  const auto ana = console.open("ana", Role::kOperator);
+  console.take(ana, R"({"do":"take","station":"alfa"})", {0.0, 0});
+  console.take(ana, R"({"do":"command","station":"alfa","command":"stop"})", {0.1, 0});
+  console.hear(station("alfa", 1, true), {0.2, 0});
+  EXPECT_TRUE(told_of_hands(console, ana, {0.2, 0}).empty());
+  static_cast<void>(console.turn({0.2, 0}));
+  static_cast<void>(console.turn({0.3, 0}));
+  console.hear(station("alfa", 1, false), {0.4, 0});
+  console.hear(station("alfa", 2, true), {0.5, 0});
+  const auto told = told_of_hands(console, ana, {0.5, 0});
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_EQ(told[0].at("by"), "");
+}
+
+TEST(Console, AnAcknowledgementIsSeenByAllAndGivenByOperatorsOnly) {
+  Console console(60.0);
+  StationHeard ailing = station("alfa");
+  ailing.alarms = {"camera: does not answer"};
+  console.hear(ailing, {0.0, 0});
+  const auto ana = console.open("ana", Role::kOperator), vera = console.open("vera", Role::kViewer);
+  const std::string text = R"({"do":"acknowledge","number":1,"event":1})";
+  console.take(vera, text, {0.1, 0});
+  EXPECT_FALSE(answer_in(received(console, vera, {0.1, 0})).at("accepted"));
+  EXPECT_EQ(console.state({0.1, 0}).at("events")[0].at("acknowledged"), "");
+  console.take(ana, text, {0.2, 0});
+  EXPECT_EQ(console.state({0.2, 0}).at("events")[0].at("acknowledged"), "ana");
+  console.take(ana, R"({"do":"acknowledge","number":2,"event":7})", {0.3, 0});
+  static_cast<void>(received(console, vera, {0.3, 0}));
+}
+
 TEST(Console, StopAllStopsEachStationUntilItStandsAndThoseHeardSoonAfter) {
   Console console(60.0);
   console.hear(station("alfa", 2), {0.0, 0});
   console.hear(station("bravo", 0), {0.0, 0});
-  EXPECT_EQ(console.stop_all("ana", {}, {1.0, 0}), (std::vector<std::string>{"alfa", "bravo"}));
+  EXPECT_EQ(console.stop_all({"ana"}, {}, {1.0, 0}), (std::vector<std::string>{"alfa", "bravo"}));
   EXPECT_EQ(console.turn({1.0, 0}).size(), 2U);
   console.hear(station("alfa", 3, true), {1.1, 0});
   console.hear(station("charlie", 0), {1.1, 0});
@@ -173,7 +241,7 @@ TEST(Console, AStopOfAllThatIsNotConfirmedIsToldToEverybody) {
   Listening console;
   console.hear(station("bravo"), {0.0, 0});
   const auto ana = console.open("ana", Role::kOperator), ben = console.open("ben", Role::kViewer);
-  static_cast<void>(console.stop_all("ana", {}, {1.0, 0}));
+  static_cast<void>(console.stop_all({"ana"}, {}, {1.0, 0}));
   console.take(ana, R"({"do":"stop_all","number":3})", {1.0, 0});
   EXPECT_EQ(console.turn({1.0, 0}).size(), 2U);
   EXPECT_EQ(console.state({1.0, 0}).at("events").size(), 2U) << "one person's stop is one event";

@@ -39,18 +39,75 @@ TEST(EventList, AnAlarmThatComesBackIsTheNewest) {
   EventList events;
   Revision revision = 0;
   events.add({1, "alarm", "alfa", "", "no frames", ""}, revision);
-  events.add({2, "alarm_over", "alfa", "", "no frames", ""}, revision);
+  events.add({2, "error", "bravo", "", "no reply", ""}, revision);
+  events.end("alfa", "no frames", 2, revision);
+  EXPECT_EQ(events.since(0).front().at("over_us"), 2);
   events.add({3, "alarm", "alfa", "", "no frames", ""}, revision);
   ASSERT_EQ(events.since(0).size(), 2U);
   EXPECT_EQ(events.since(0).back().at("kind"), "alarm");
   EXPECT_EQ(events.since(0).back().at("utime_us"), 3);
+  EXPECT_EQ(events.since(0).back().at("times"), 2);
+  EXPECT_TRUE(events.since(0).back().at("over_us").is_null());
+}
+
+TEST(EventList, AnAlarmIsOneRowWhateverItsNumbersAndWhateverErrorExplainsIt) {
+  EventList events;
+  Revision revision = 0;
+  events.add({1, "alarm", "alfa", "", "camera: no frames for 3 s", ""}, revision);
+  EXPECT_EQ(events.add({1, "error", "alfa", "", "camera: no frames for 3 s", ""}, revision), 0U);
+  EXPECT_EQ(events.add({2, "error", "alfa", "", "camera x does not answer: no", ""}, revision), 0U);
+  events.end("alfa", "camera: no frames for 9 s", 5, revision);
+  ASSERT_EQ(events.since(0).size(), 1U);
+  EXPECT_EQ(events.since(0)[0].at("over_us"), 5);
+  EXPECT_NE(events.add({6, "error", "alfa", "", "camera x does not answer: no", ""}, revision), 0U);
+}
+
+TEST(EventList, TheAlarmsOfTwoStationsAreTwo) {
+  EventList events;
+  Revision revision = 0;
+  events.add({1, "alarm", "", "", "station s1: not used, late by 3 s", ""}, revision);
+  events.add({1, "alarm", "", "", "station s2: not used, late by 3 s", ""}, revision);
+  events.end("", "station s1: not used, late by 4 s", 2, revision);
+  EXPECT_EQ(events.since(0)[0].at("over_us"), 2);
+  EXPECT_TRUE(events.since(0)[1].at("over_us").is_null());
+}
+
+TEST(EventList, ARefusedCommandIsItsOwnRowOnly) {
+  EventList events;
+  Revision revision = 0;
+  events.add({1, "command", "alfa", "ana", "designate", ""}, revision);
+  EXPECT_EQ(events.add({2, "error", "alfa", "", "designate refused: no_frame", ""}, revision), 0U);
+  EXPECT_NE(events.add({2, "error", "bravo", "", "designate refused: no_frame", ""}, revision), 0U);
+}
+
+TEST(EventList, AnAcknowledgementNamesWhoGaveIt) {
+  EventList events;
+  Revision revision = 0;
+  const auto alarm = events.add({1, "alarm", "alfa", "", "no frames", ""}, revision);
+  const auto command = events.add({1, "command", "alfa", "ana", "stop", ""}, revision);
+  const Revision before = revision;
+  EXPECT_FALSE(events.acknowledge(command, "ben", revision));
+  EXPECT_FALSE(events.acknowledge(99, "ben", revision));
+  EXPECT_TRUE(events.acknowledge(alarm, "ben", revision));
+  ASSERT_EQ(events.since(before).size(), 1U);
+  EXPECT_EQ(events.since(before)[0].at("acknowledged"), "ben");
+}
+
+TEST(EventList, AnAlarmThatHoldsIsNotPushedOut) {
+  EventList events;
+  Revision revision = 0;
+  events.add({0, "alarm", "alfa", "", "no frames", ""}, revision);
+  for (std::size_t i = 0; i < EventList::kMost; ++i) {
+    events.add({0, "command", "", "", std::to_string(i), ""}, revision);
+  }
+  EXPECT_EQ(events.since(0).front().at("text"), "no frames");
 }
 
 TEST(EventList, KeepsTheNewest) {
   EventList events;
   Revision revision = 0;
   for (std::size_t i = 0; i < EventList::kMost + 10; ++i) {
-    events.add({0, "error", "", "", std::to_string(i), ""}, revision);
+    events.add({0, "command", "", "", std::to_string(i), ""}, revision);
   }
   EXPECT_EQ(events.since(0).size(), EventList::kMost);
   EXPECT_EQ(events.since(0).front().at("text"), "10");

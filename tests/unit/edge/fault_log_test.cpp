@@ -17,10 +17,10 @@ TEST(FaultLog, KeepsTheNewestWithItsTime) {
   log.note("camera", "gone", 1, 10 * kSecond);
   log.note("ptu", "silent", 1, 20 * kSecond);
   log.note("camera", "gone", 1, 30 * kSecond);  // the same one, still there
-  EXPECT_EQ(log.text(), "silent");
+  EXPECT_EQ(log.text(), "ptu: silent");
   EXPECT_EQ(log.utime_us(), 20 * kSecond);
   log.note("ptu", "", 0, 40 * kSecond);
-  EXPECT_EQ(log.text(), "silent") << "it stays when it is over";
+  EXPECT_EQ(log.text(), "ptu: silent") << "it stays when it is over";
 }
 
 TEST(FaultLog, ARetryInTheSameWordsHidesNothing) {
@@ -30,7 +30,7 @@ TEST(FaultLog, ARetryInTheSameWordsHidesNothing) {
   for (int i = 2; i < 50; ++i) log.note("ptu", "cannot be opened", i, (1 + i) * kSecond);
   EXPECT_EQ(log.text(), "slew refused: stale");
   log.note("ptu", "cannot be opened", 60, 200 * kSecond);
-  EXPECT_EQ(log.text(), "cannot be opened") << "after a while it is another one";
+  EXPECT_EQ(log.text(), "ptu: cannot be opened") << "after a while it is another one";
 }
 
 TEST(FaultLog, EachRefusedCommandCounts) {
@@ -47,9 +47,9 @@ TEST(FaultLog, AnAlarmIsATroubleWhenItBegins) {
   log.note_alarms({"gnss: silent for 5 s"}, kSecond);
   log.note("ptu", "reset", 1, 2 * kSecond);
   log.note_alarms({"gnss: silent for 6 s"}, 3 * kSecond);
-  EXPECT_EQ(log.text(), "reset") << "the same alarm, a second older";
+  EXPECT_EQ(log.text(), "ptu: reset") << "the same alarm, a second older";
   log.note_alarms({}, 4 * kSecond);
-  EXPECT_EQ(log.text(), "reset");
+  EXPECT_EQ(log.text(), "ptu: reset");
   log.note_alarms({"gnss: silent for 5 s"}, 5 * kSecond);
   EXPECT_EQ(log.text(), "gnss: silent for 5 s");
 }

@@ -18,6 +18,7 @@ constexpr clock::ClockPair at(std::int64_t utime_us) {
 
 device::DeviceReport failed(const char* name, const char* error, std::uint64_t errors) {
   device::DeviceReport report;
+  report.state = device::DeviceState::kFault;
   report.name = name;
   report.last_error = error;
   report.errors = errors;
@@ -44,11 +45,11 @@ TEST_F(StationJournalTest, NothingWrongIsNoError) { EXPECT_EQ(noted(1'000'000), 
 
 TEST_F(StationJournalTest, TheNewestErrorOfADeviceIsTheStations) {
   report_.devices = {failed("gnss", "", 0), failed("ptu", "no answer", 1)};
-  EXPECT_EQ(noted(1'000'000), "no answer");
+  EXPECT_EQ(noted(1'000'000), "ptu: no answer");
   EXPECT_EQ(last_utime_us_, 1'000'000);
   report_.devices[0].last_error = "gpsd has closed the connection";
   report_.devices[0].errors = 1;
-  EXPECT_EQ(noted(2'000'000), "gpsd has closed the connection");
+  EXPECT_EQ(noted(2'000'000), "gnss: gpsd has closed the connection");
   EXPECT_EQ(last_utime_us_, 2'000'000);
 }
 
@@ -63,6 +64,31 @@ TEST_F(StationJournalTest, AnErrorIsOfTheTimeWhenItHappened) {
   report_.devices[0].errors = 3;
   noted(70'000'000);
   EXPECT_EQ(last_utime_us_, 70'000'000) << "the same after a quiet minute";
+}
+
+TEST_F(StationJournalTest, ADeviceThatIsComingUpIsNoAlarmYet) {
+  report_.devices = {failed("camera", "camera x does not answer: no", 1), failed("gpio", "", 0)};
+  for (auto& device : report_.devices) {
+    device.state = device::DeviceState::kAbsent;
+    device.alarms = {device.name + ": does not answer"};
+  }
+  const auto alarms = [this](std::int64_t utime_us) {
+    StationReport report = report_;
+    journal_.note(at(utime_us), bus_, report);
+    return all_alarms(report);
+  };
+  EXPECT_EQ(alarms(1'000'000), std::vector<std::string>{"gpio: does not answer"});
+  EXPECT_EQ(noted(2'000'000), "gpio: does not answer") << "a stop that is not read is one at once";
+  EXPECT_EQ(alarms(10'000'000).size(), 2U) << "by then it should have answered";
+  report_.devices[0].last_good_s = 10.5;
+  EXPECT_EQ(alarms(11'000'000).size(), 2U);
+}
+
+TEST_F(StationJournalTest, ADeviceThatWasThereIsAnAlarmAtOnce) {
+  report_.devices = {failed("camera", "camera lost: no frame arrives", 1)};
+  report_.devices[0].state = device::DeviceState::kAbsent;
+  report_.devices[0].last_good_s = 0.5;
+  EXPECT_EQ(noted(1'000'000), "camera lost: no frame arrives");
 }
 
 TEST_F(StationJournalTest, WhatHappensHasItsKindAndItsStation) {

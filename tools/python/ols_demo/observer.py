@@ -1,5 +1,7 @@
 """The newest message of each kind from the running site."""
 
+import time
+from collections import deque
 from typing import Any
 
 import numpy as np
@@ -23,6 +25,7 @@ class Observer:
     def __init__(self) -> None:
         self.status: dict[str, Any] = {}
         self.view: dict[str, Any] = {}
+        self._views: dict[str, deque[Any]] = {}
         self.turning_rad_s: dict[str, float] = {}  # rate of the camera between the newest views
         self.truth: Any = None
         self.target: dict[str, Any] = {}  # by channel
@@ -36,6 +39,7 @@ class Observer:
         elif channel.startswith("OLS_SIM_VIEW_"):
             self._notice_turning(message)
             self.view[message.station] = message
+            self._views.setdefault(message.station, deque(maxlen=60)).append(message)
         elif channel == "OLS_SIM_TRUTH":
             self.truth = message
         elif channel == "OLS_FUSION_STATUS":
@@ -51,6 +55,12 @@ class Observer:
         if before is not None and view.utime > before.utime:
             turned = np.hypot(view.pan_rad - before.pan_rad, view.tilt_rad - before.tilt_rad)
             self.turning_rad_s[view.station] = turned / ((view.utime - before.utime) * 1e-6)
+
+    def view_before(self, station: str, age_s: float) -> Any:
+        """The newest view that is at least so old; None: there is none."""
+        latest = time.time() - age_s
+        views = reversed(self._views.get(station, deque()))
+        return next((view for view in views if view.utime * 1e-6 <= latest), None)
 
     def state(self, station: str) -> str:
         status = self.status.get(station)

@@ -20,7 +20,8 @@ AT_REST_RAD_S = np.radians(0.3)
 PATIENCE_S = 2.0  # after a designation, before the next attempt
 MARGIN = 0.12  # of the picture: no designation so near to its edge
 LEASE_S = 2.0
-FRESH_S = 0.4
+FRESH_S = 0.8
+PICTURE_S = 0.25  # until a picture that was exposed is before a person, and at its station
 
 
 class Operator:
@@ -67,7 +68,7 @@ class Operator:
             self._pointed[station] = now
 
     def _sees_target(self, station: str) -> bool:
-        view = self._observer.view.get(station)
+        view = self._observer.view_before(station, PICTURE_S)
         status = self._observer.status[station]
         if view is None or not view.visible or status.image_width_px == 0:
             return False
@@ -90,7 +91,7 @@ class Operator:
         return message
 
     def _designate(self, station: str) -> None:
-        view = self._observer.view[station]
+        view = self._observer.view_before(station, PICTURE_S)
         x, y, width, height = view.box_px
         message = self._address(ols_msg.designate_t(), station)
         message.frame_utime = view.stamp_utime

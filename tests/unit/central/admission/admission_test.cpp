@@ -32,6 +32,17 @@ class AdmissionTest : public testing::Test {
   Admitted last_;
 };
 
+TEST_F(AdmissionTest, UntimelyBearingsInARowAreCounted) {
+  const double stale_s = AdmissionConfig{}.stale_s;
+  for (int i = 0; i <= 20; ++i) admit("a", 0.1 * i);
+  for (int i = 1; i <= 2; ++i) {
+    EXPECT_EQ(admit("a", 2.0 - stale_s - 0.05 + 0.01 * i), BearingRefusal::kStale);
+    EXPECT_EQ(last_.station->untimely, i);
+  }
+  EXPECT_EQ(admit("a", 2.1), BearingRefusal::kNone);
+  EXPECT_EQ(last_.station->untimely, 0);
+}
+
 TEST_F(AdmissionTest, AGoodBearingIsAdmittedWithItsStation) {
   EXPECT_EQ(admit("a", 0.0), BearingRefusal::kNone);
   ASSERT_NE(last_.station, nullptr);

@@ -1,0 +1,62 @@
+// What programs say, in the page's language: how grave an alarm is, what it means, what to do. The words
+// come with the build, from docs/troubleshooting.md and conditions.toml.
+
+import tables from "conditions.json";
+import type { SiteEvent } from "./site";
+import { inLanguage, isEnglish } from "./words";
+
+export type Severity = "urgent" | "warning" | "notice";
+export type Condition = { severity: Severity; meaning: string; action: string };
+type Pair = [english: string, german: string];
+type Row = { severity: Severity; text: Record<string, string>; meaning: Pair; action: Pair };
+type Sentence = { english: RegExp; german: string; goesOn: boolean; length: number; begin: number; row?: Row };
+
+// "camera: no frames for … s" -> what the program can print. What it says behind that belongs to it too.
+function sentence(english: string, german: string, row?: Row): Sentence {
+  const parts = english.split("…").map((part) => part.replace(/[.*+?^${}()|[\]\\]/g, "\\$&"));
+  const isOpen = english.endsWith("…");
+  const pattern = isOpen ? `${parts.slice(0, -1).join("(.*?)")}(.*)` : parts.join("(.*?)") + (row ? "(.*)" : "");
+  return { english: new RegExp(`^${pattern}$`, "s"), german, goesOn: !!row && !isOpen, length: english.replace(/…/g, "").length, begin: parts[0].length, row };
+}
+
+const { alarms, phrases } = tables as { alarms: Row[]; phrases: Record<string, string> };
+const ALARMS = alarms.flatMap((row) => Object.entries(row.text).map(([english, german]) => sentence(english, german, row)));
+const SENTENCES = [...ALARMS, ...Object.entries(phrases).map(([english, german]) => sentence(english, german))];
+for (const list of [ALARMS, SENTENCES]) list.sort((a, b) => b.length - a.length || b.begin - a.begin);
+
+export function conditionOf(alarm: string): Condition {
+  const row = ALARMS.find((one) => one.english.test(alarm))?.row;
+  if (!row) return { severity: "warning", meaning: "", action: "" };
+  return { severity: row.severity, meaning: inLanguage(row.meaning), action: inLanguage(row.action) };
+}
+
+function germanOf(text: string): string {
+  const known = SENTENCES.find((one) => one.english.test(text));
+  if (!known) return text;
+  const said = known.english.exec(text)!.slice(1);
+  const rest = known.goesOn ? said.pop()! : "";
+  // A single word is a name or a number, but for the one who has none.
+  const parts = said.map((part) => (/\s/.test(part) || part === "operator" ? germanOf(part) : part));
+  const [first, ...more] = known.german.split("…");
+  return first + more.map((after, i) => (parts[i] ?? "") + after).join("") + (rest && germanOf(rest));
+}
+
+// A sentence of a program, in the page's language.
+export function inWords(text: string): string {
+  return isEnglish() || !text ? text : germanOf(text);
+}
+
+// Which alarm a text is, whatever its numbers: as base/alarm_changes.cpp has it.
+function alarmKey(alarm: string): string {
+  const colon = alarm.indexOf(": ");
+  const begin = colon < 0 ? 0 : colon;
+  return alarm.slice(0, begin) + alarm.slice(begin).split(";")[0].replace(/\d/g, "");
+}
+
+// The event of a station's alarm that holds; the site's and the fusion's have no station.
+export function eventOf(events: SiteEvent[], station: string, alarm: string): SiteEvent | undefined {
+  const key = alarmKey(alarm);
+  return events.find((event) => holds(event) && event.station === station && alarmKey(event.text) === key);
+}
+
+export const holds = (event: SiteEvent) => event.kind === "alarm" && event.over_us == null;
