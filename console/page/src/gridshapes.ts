@@ -6,7 +6,7 @@ import Point from "ol/geom/Point";
 import { fromLonLat } from "ol/proj";
 import { Stroke, Style } from "ol/style";
 import type { Coordinate } from "ol/coordinate";
-import { distance } from "./format";
+import { distance, gridName } from "./format";
 import type { Link } from "./link";
 import { Colours, label, offset, shape, SMALL_FONT, stretch } from "./mapfeatures";
 
@@ -43,9 +43,8 @@ export function gridShapes(grid: Grid | null, c: Colours): Feature[] {
   for (const line of grid.lines) {
     const path = line.path.map((place) => fromLonLat(place));
     out.push(shape(new LineString(path), new Style({ stroke: new Stroke({ color: c.grid, width: 1 }) })));
-    const km = line.at_m / 1000;
     if (path.length < 3) continue;
-    const text = (grid.step_m >= 1000 ? km.toFixed(0) : km.toFixed(grid.step_m >= 100 ? 1 : 2)) + (line.is_easting ? " E" : " N");
+    const text = gridName(line.at_m, grid.step_m) + (line.is_easting ? " E" : " N");
     out.push(shape(new Point(path[1]), new Style({ text: label(text, c["rule-text"], c.halo, 3, -6, SMALL_FONT) })));
   }
   for (const { name, at } of grid.squares) out.push(shape(new Point(fromLonLat(at)), new Style({ text: label(name, c["rule-text"], c.halo, 0, 0) })));

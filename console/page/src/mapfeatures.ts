@@ -6,6 +6,7 @@ import Point from "ol/geom/Point";
 import Polygon from "ol/geom/Polygon";
 import { Fill, Stroke, Style, Text } from "ol/style";
 import type { Coordinate } from "ol/coordinate";
+import { OFFSETS, type Side } from "./labels";
 
 export type Colours = Record<string, string>;
 const COLOUR_NAMES = ["land", "sea", "rule", "rule-text", "grid", "text", "halo", "station", "station-quiet", "ray", "wedge", "target", "born", "coasted", "trail", "ring", "accent", "alarm", "keep-out"];
@@ -33,5 +34,15 @@ export function shape(geometry: Point | LineString | Polygon, style: Style | Sty
   return feature;
 }
 
+const words = (text: string, colour: string, halo: string, font: string) => ({ text, font, fill: new Fill({ color: colour }), stroke: new Stroke({ color: halo, width: 3 }) });
+
+// A name beside its point; none where there is no room.
+export function nameAt(side: Side | null | undefined, text: string, colour: string, halo: string): Text | undefined {
+  if (!side) return undefined;
+  const [dx, dy] = OFFSETS[side];
+  const textAlign = side === "right" ? "left" : side === "left" ? "right" : "center";
+  return new Text({ ...words(text, colour, halo, FONT), offsetX: dx, offsetY: dy, textAlign, declutterMode: "obstacle" });
+}
+
 export const label = (text: string, colour: string, halo: string, dx: number, dy: number, font = FONT) =>
-  new Text({ text, font, fill: new Fill({ color: colour }), stroke: new Stroke({ color: halo, width: 3 }), offsetX: dx, offsetY: dy, textAlign: dx >= 0 ? "left" : "right" });
+  new Text({ ...words(text, colour, halo, font), offsetX: dx, offsetY: dy, textAlign: dx >= 0 ? "left" : "right" });

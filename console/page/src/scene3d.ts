@@ -2,6 +2,7 @@
 // is projected and drawn: a few hundred lines, which need no graphics processor.
 
 import { distance, fixed } from "./format";
+import { OFFSETS, type Side, sidesOf } from "./labels";
 import { fineOutline } from "./marks";
 import { ecef } from "./projection";
 import { followed, type Line, type Site, type Station, type Target } from "./site";
@@ -11,7 +12,8 @@ export type Layers = { grid: boolean; rings: boolean; trails: boolean; views: bo
 export type Vector = [number, number, number];
 export type View = { away_m: number; at: Vector }; // looks at `at`
 export type Eye = View & { azimuth: number; elevation: number }; // from that direction
-type Stroke = { points: Vector[]; colour: string; width: number; dash?: number[] };
+// `fill`: how much of its colour is within it.
+type Stroke = { points: Vector[]; colour: string; width: number; dash?: number[]; fill?: number };
 type Name = { id: string; at: Vector; text: string; colour: string; isPlain?: boolean };
 
 const RAY_M = 3000;
@@ -20,6 +22,9 @@ export const LARGER = [1, 10, 100];
 const FOCAL = 1.2; // of the width of the canvas
 const NEAR_PX = 14; // a click so near to a thing is on it
 const RINGS = 4;
+// Of the whole site's view: how far fields of view and borders are drawn, so that they do not run into one another.
+const VIEW_PART = 0.15;
+const BORDER_PART = 0.06;
 
 // Places in the frame of the site's middle.
 class Frame {
@@ -89,9 +94,21 @@ export function groundStrokes(eye: Eye, colour: string): Stroke[] {
   return strokes;
 }
 
+type Placed = { target: Target; at: Vector | null }[];
+
+// Which target a station helps to place, and where that is.
+function followedBy(targets: Placed): Map<string, Vector> {
+  const of = new Map<string, Vector>();
+  for (const { target, at } of targets) {
+    for (const station of target.stations ?? []) if (at && station.used && !target.stale) of.set(station.id, at);
+  }
+  return of;
+}
+
 export class Scene {
   strokes: Stroke[] = [];
   names: Name[] = [];
+  sides = new Map<string, Side | null>(); // of the names, as they were drawn
 
   constructor(
     private frame: Frame,
@@ -106,26 +123,29 @@ export class Scene {
     const places = placed.map((s) => this.frame.place(s.latitude_deg!, s.longitude_deg!, s.height_m!));
     const whole = around([...places, ...targets.flatMap(({ at }) => (at ? [at] : []))]);
     const reach_m = Math.max(RAY_M, whole.away_m);
-    for (const station of placed) this.addStation(station, reach_m, layers, selected === `station:${station.id}`);
+    const of = followedBy(targets);
+    for (const station of placed) this.addStation(station, whole.away_m, layers, selected === `station:${station.id}`, of.get(station.id));
     for (const line of site.lines.values()) this.addLine(line, site.stations.get(line.id), reach_m);
     return { whole, followed: targets.find(({ target }) => target === followed(site, selected))?.at };
   }
 
-  private addStation(s: Station, reach_m: number, layers: Layers, isSelected: boolean) {
+  // `target`: where what it follows is; its ray ends there, and only one to what has no place goes on.
+  private addStation(s: Station, away_m: number, layers: Layers, isSelected: boolean, target: Vector | undefined) {
     if (s.latitude_deg == null || s.longitude_deg == null || s.height_m == null) return;
     const at = this.frame.place(s.latitude_deg, s.longitude_deg, s.height_m);
     const colour = this.colour(s.stale ? "--map-station-quiet" : isSelected ? "--map-accent" : "--map-station");
     this.names.push({ id: `station:${s.id}`, at, text: s.id, colour });
-    if (layers.limits) this.addBorders(s, at, 0.15 * reach_m);
+    if (layers.limits) this.addBorders(s, at, BORDER_PART * away_m);
     if (s.stale) return;
-    if (layers.views) this.addView(s, at, 0.3 * reach_m);
+    if (layers.views) this.addView(s, at, VIEW_PART * away_m, isSelected);
     if (s.state !== "tracking" || !s.bearing) return;
-    const far = plus(at, along(s.bearing.azimuth_deg, s.bearing.elevation_deg, reach_m));
-    this.strokes.push({ points: [at, far], colour: this.colour("--map-ray"), width: isSelected ? 2 : 1.2 });
+    const far_m = target ? Math.hypot(...target.map((v, i) => v - at[i])) : Math.max(RAY_M, away_m);
+    const far = plus(at, along(s.bearing.azimuth_deg, s.bearing.elevation_deg, far_m));
+    this.strokes.push({ points: [at, far], colour: this.colour(isSelected ? "--map-accent" : "--map-station"), width: isSelected ? 2.5 : 1.5 });
   }
 
-  // The four edges of what the camera sees, and the picture's frame at their ends.
-  private addView(s: Station, at: Vector, reach_m: number) {
+  // What the camera sees, as a body: its four faces faintly, and the picture's frame at their ends.
+  private addView(s: Station, at: Vector, reach_m: number, isSelected: boolean) {
     const [wide, high] = s.field_of_view_deg ?? [];
     if (s.azimuth_deg == null || s.elevation_deg == null || !wide || !high) return;
     const forward = along(s.azimuth_deg, s.elevation_deg, 1);
@@ -134,16 +154,16 @@ export class Scene {
     const [x, y] = [Math.tan((wide * Math.PI) / 360), Math.tan((high * Math.PI) / 360)];
     const corner = (i: number, j: number) => at.map((v, k) => v + reach_m * (forward[k] + i * x * right[k] + j * y * up[k])) as Vector;
     const frame = [corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1)];
-    const colour = this.colour("--map-ring");
-    this.strokes.push({ points: [...frame, frame[0]], colour, width: 1 });
-    for (const one of frame) this.strokes.push({ points: [at, one], colour, width: 1 });
+    const colour = this.colour("--map-station");
+    frame.forEach((one, i) => this.strokes.push({ points: [at, one, frame[(i + 1) % 4]], colour, width: 0, fill: isSelected ? 0.14 : 0.06 }));
+    this.strokes.push({ points: [...frame, frame[0]], colour, width: isSelected ? 1.5 : 0.7 });
   }
 
   // Where the axis may not point, and where the travel ends: on a sphere about the station.
   private addBorders(s: Station, at: Vector, radius_m: number) {
     for (const border of s.borders ?? []) {
       const round = fineOutline(border).map(([azimuth, elevation]) => plus(at, along(azimuth, elevation, radius_m)));
-      const stroke = border.keep_out ? { colour: this.colour("--map-alarm"), width: 1.5, dash: [7, 4] } : { colour: this.colour("--map-rule-text"), width: 1, dash: [2, 5] };
+      const stroke = border.keep_out ? { colour: this.colour("--map-alarm"), width: 1.5, dash: [7, 4], fill: 0.15 } : { colour: this.colour("--map-rule-text"), width: 1, dash: [2, 5] };
       this.strokes.push({ points: [...round, round[0]], ...stroke });
     }
   }
@@ -161,9 +181,9 @@ export class Scene {
     const colour = this.colour(target.stale ? "--map-coasted" : "--map-target");
     const trail = (target.trail ?? []).map(([longitude, latitude, height]) => this.frame.place(latitude, longitude, height));
     if (trails) this.strokes.push({ points: [...trail, at], colour: this.colour("--map-trail"), width: isSelected ? 2.5 : 1.5 });
-    this.strokes.push({ points: [at, [at[0], at[1], 0]], colour, width: 1, dash: [3, 4] });
+    this.strokes.push({ points: [at, [at[0], at[1], 0]], colour: this.colour("--map-rule-text"), width: 1, dash: [3, 4] });
     for (const ring of ellipsoid(target.covariance_enu_m2, this.larger)) {
-      this.strokes.push({ points: ring.map((point) => plus(at, point)), colour, width: isSelected ? 2 : 1.2 });
+      this.strokes.push({ points: ring.map((point) => plus(at, point)), colour, width: isSelected ? 2 : 1.2, fill: 0.08 });
     }
     this.names.push({ id: `target:${target.id}`, at, text: `${target.id}  ${fixed(target.height_m, 0, " m")}`, colour: isSelected ? this.colour("--map-accent") : colour });
     return at;
@@ -218,6 +238,53 @@ function projector(eye: Eye, width: number, height: number): (place: Vector) => 
   };
 }
 
+const NAME_FONT = "600 12px Inter, system-ui, 'DejaVu Sans', sans-serif";
+const rank = (id: string) => (id.startsWith("target:") ? 0 : id.startsWith("station:") ? 1 : 2);
+
+type Written = Omit<Name, "at"> & { at: [number, number] };
+
+function write(g: CanvasRenderingContext2D, name: Written, side: Side | null, colour: (name: string) => string) {
+  if (!name.isPlain) {
+    g.fillStyle = name.colour;
+    g.beginPath();
+    g.arc(...name.at, 4.5, 0, 2 * Math.PI);
+    g.fill();
+  }
+  if (!side) return;
+  const [x, y] = name.at.map((v, i) => v + OFFSETS[side][i]);
+  g.font = NAME_FONT;
+  g.textAlign = side === "right" ? "left" : side === "left" ? "right" : "center";
+  g.textBaseline = "middle";
+  g.lineWidth = 3;
+  g.setLineDash([]);
+  g.strokeStyle = colour("--map-halo");
+  g.strokeText(name.text, x, y);
+  g.fillStyle = name.isPlain ? name.colour : colour("--map-text");
+  g.fillText(name.text, x, y);
+}
+
+function paint(g: CanvasRenderingContext2D, stroke: Stroke, project: (place: Vector) => Pixel) {
+  g.beginPath();
+  let before: Pixel = null;
+  for (const point of stroke.points) {
+    const at = project(point);
+    if (at && before) g.lineTo(...at);
+    else if (at) g.moveTo(...at);
+    before = at;
+  }
+  if (stroke.fill) {
+    g.globalAlpha = stroke.fill;
+    g.fillStyle = stroke.colour;
+    g.fill();
+    g.globalAlpha = 1;
+  }
+  if (!stroke.width) return;
+  g.strokeStyle = stroke.colour;
+  g.lineWidth = stroke.width;
+  g.setLineDash(stroke.dash ?? []);
+  g.stroke();
+}
+
 export function draw(canvas: HTMLCanvasElement, scene: Scene, ground: Stroke[], eye: Eye, colour: (name: string) => string) {
   const [width, height] = [canvas.clientWidth, canvas.clientHeight];
   canvas.width = Math.round(width * devicePixelRatio);
@@ -227,39 +294,18 @@ export function draw(canvas: HTMLCanvasElement, scene: Scene, ground: Stroke[], 
   g.fillStyle = colour("--map-sea");
   g.fillRect(0, 0, width, height);
   const project = projector(eye, width, height);
-  for (const stroke of [...ground, ...scene.strokes]) {
-    g.beginPath();
-    let before: Pixel = null;
-    for (const point of stroke.points) {
-      const at = project(point);
-      if (at && before) g.lineTo(...at);
-      else if (at) g.moveTo(...at);
-      before = at;
-    }
-    g.strokeStyle = stroke.colour;
-    g.lineWidth = stroke.width;
-    g.setLineDash(stroke.dash ?? []);
-    g.stroke();
-  }
-  for (const name of scene.names) {
-    g.font = `${name.isPlain ? 400 : 600} 12px Inter, system-ui, 'DejaVu Sans', sans-serif`;
+  for (const stroke of [...ground, ...scene.strokes]) paint(g, stroke, project);
+  const names = scene.names.flatMap((name) => {
     const at = project(name.at);
-    if (!at) continue;
-    if (!name.isPlain) {
-      g.fillStyle = name.colour;
-      g.beginPath();
-      g.arc(...at, 4.5, 0, 2 * Math.PI);
-      g.fill();
-    }
-    g.lineWidth = 3;
-    g.setLineDash([]);
-    g.strokeStyle = colour("--map-halo");
-    g.strokeText(name.text, at[0] + 8, at[1] - 6);
-    g.fillStyle = name.isPlain ? name.colour : colour("--map-text");
-    g.fillText(name.text, at[0] + 8, at[1] - 6);
-  }
+    return at ? [{ ...name, at }] : [];
+  });
+  g.font = NAME_FONT;
+  // What moves chooses first; names without a thing are rings.
+  const placed = names.map(({ id, text, at }, i) => ({ id: `${id} ${i}`, at, width: g.measureText(text).width }));
+  const sides = sidesOf([...placed].sort((a, b) => rank(a.id) - rank(b.id)), scene.sides);
+  names.forEach((name, i) => write(g, name, sides.get(placed[i].id) ?? null, colour));
+  scene.sides = sides;
 }
-
 // Where the line of sight through a pixel meets the ground, at the height of the site's middle; null: nowhere.
 export function groundAt([x, y]: [number, number], eye: Eye, [width, height]: [number, number]): Vector | null {
   const [sa, ca, se, ce] = [Math.sin(eye.azimuth), Math.cos(eye.azimuth), Math.sin(eye.elevation), Math.cos(eye.elevation)];

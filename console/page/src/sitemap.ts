@@ -10,7 +10,6 @@ import TopoJSON from "ol/format/TopoJSON";
 import LineString from "ol/geom/LineString";
 import Point from "ol/geom/Point";
 import Attribution from "ol/control/Attribution";
-import ScaleLine from "ol/control/ScaleLine";
 import DoubleClickZoom from "ol/interaction/DoubleClickZoom";
 import { defaults as defaultInteractions } from "ol/interaction/defaults";
 import { createEmpty, extend, intersects, isEmpty } from "ol/extent";
@@ -18,14 +17,17 @@ import { fromLonLat, toLonLat, transformExtent } from "ol/proj";
 import { Circle, Fill, Stroke, Style, Text } from "ol/style";
 import type { Coordinate } from "ol/coordinate";
 import { bearing, distance } from "./format";
+import { type Named, type Side, sidesOf } from "./labels";
 import { Grid, gridShapes, ringShapes } from "./gridshapes";
 import type { Link } from "./link";
-import { Colours, readColours, shape, SMALL_FONT, stretch } from "./mapfeatures";
+import { Colours, FONT, readColours, shape, SMALL_FONT, stretch } from "./mapfeatures";
 import { AccuracyChoice, AccuracyLayer, UserMap, UserMapLayers } from "./maplayers";
+import { ScaleInMetres } from "./scale";
 import { followed } from "./site";
 import { lineShapes, stationShapes } from "./stationshapes";
-import { cueShapes, targetShapes } from "./targetshapes";
+import { cueShapes, cueWords, targetShapes, targetWords } from "./targetshapes";
 
+const LABELS = "labels"; // of two that would cover each other, that of the upper layer is drawn
 const BORDER_PART = 0.17; // of the view: how far borders are drawn from their station
 
 export class SiteMap {
@@ -45,6 +47,8 @@ export class SiteMap {
   private accuracy: AccuracyLayer;
   private userLayers: UserMapLayers;
   private accuracyShown: AccuracyChoice | null = null;
+  private sides = new Map<string, Side | null>();
+  private pen = document.createElement("canvas").getContext("2d")!;
   options = { rings: true, grid: true, trails: true, views: true, limits: true, follow: false, measuring: false };
   selected = "";
   onPick: (pick: string) => void = () => {};
@@ -58,8 +62,8 @@ export class SiteMap {
     this.land = new VectorLayer({ source: new VectorSource(), declutter: false });
     this.map = new OlMap({
       target: element,
-      layers: [this.land, new VectorLayer({ source: this.still }), new VectorLayer({ source: this.moving, updateWhileInteracting: true, updateWhileAnimating: true }), new VectorLayer({ source: this.measured })],
-      controls: [new ScaleLine({ minWidth: 90 }), new Attribution({ collapsible: false })],
+      layers: [this.land, new VectorLayer({ source: this.still, declutter: LABELS }), new VectorLayer({ source: this.moving, declutter: LABELS, updateWhileInteracting: true, updateWhileAnimating: true }), new VectorLayer({ source: this.measured })],
+      controls: [new ScaleInMetres({ minWidth: 90 }), new Attribution({ collapsible: false })],
       interactions: defaultInteractions({ altShiftDragRotate: false, pinchRotate: false, doubleClickZoom: false }).extend([this.doubleClick]),
       view: new View({ center: fromLonLat([15, 50]), zoom: 4, maxZoom: 24, enableRotation: false }),
     });
@@ -189,14 +193,31 @@ export class SiteMap {
     this.map.renderSync();
   }
 
+  // What moves has its name on the side where there is room; what is selected, and targets, choose first.
+  private placeNames() {
+    const { site } = this.link;
+    const names: Named[] = [];
+    const add = (id: string, words: string, longitude?: number | null, latitude?: number | null) => {
+      const at = longitude != null && latitude != null && this.map.getPixelFromCoordinate(fromLonLat([longitude, latitude]));
+      if (at) names.push({ id, at: at as [number, number], width: this.pen.measureText(words).width });
+    };
+    this.pen.font = FONT;
+    for (const one of site.targets.values()) add(`target:${one.id}`, targetWords(one), one.longitude_deg, one.latitude_deg);
+    for (const one of site.stations.values()) add(`station:${one.id}`, one.id, one.longitude_deg, one.latitude_deg);
+    for (const one of site.fusion?.cues ?? []) add(`cue:${one.id}`, cueWords(one), one.longitude_deg, one.latitude_deg);
+    names.sort((a, b) => Number(b.id === this.selected) - Number(a.id === this.selected));
+    this.sides = sidesOf(names, this.sides);
+  }
+
   draw() {
     const { site } = this.link;
+    this.placeNames();
     const features: Feature[] = [];
     const border_m = this.options.limits ? BORDER_PART * this.view_m() : null;
-    for (const s of site.stations.values()) features.push(...stationShapes(s, this.colours, this.selected === `station:${s.id}`, this.options.views, border_m));
+    for (const s of site.stations.values()) features.push(...stationShapes(s, this.colours, this.selected === `station:${s.id}`, this.options.views, border_m, this.sides.get(`station:${s.id}`)));
     features.push(...lineShapes(this.link, this.colours));
-    features.push(...cueShapes(this.link, this.colours));
-    [...site.targets.values()].forEach((target, i) => features.push(...targetShapes(target, this.colours, this.selected === `target:${target.id}`, this.options.trails, i % 2 === 1)));
+    features.push(...cueShapes(this.link, this.colours, this.sides));
+    for (const target of site.targets.values()) features.push(...targetShapes(target, this.colours, this.selected === `target:${target.id}`, this.options.trails, this.sides.get(`target:${target.id}`)));
     this.moving.clear(true);
     this.moving.addFeatures(features);
     this.newest_us = Math.max(0, ...[...site.targets.values()].map((target) => target.utime_us));

@@ -8,7 +8,8 @@ import { fromLonLat } from "ol/proj";
 import { Circle, Fill, Stroke, Style } from "ol/style";
 import type { Coordinate } from "ol/coordinate";
 import type { Link } from "./link";
-import { Colours, label, offset, shape, stretch } from "./mapfeatures";
+import type { Side } from "./labels";
+import { Colours, nameAt, offset, shape, stretch } from "./mapfeatures";
 import { fineOutline } from "./marks";
 import type { Border, Station } from "./site";
 
@@ -34,7 +35,7 @@ function borderShapes(at: Coordinate, borders: Border[], c: Colours, radius_m: n
   return out;
 }
 
-export function stationShapes(s: Station, c: Colours, selected: boolean, views: boolean, border_m: number | null): Feature[] {
+export function stationShapes(s: Station, c: Colours, selected: boolean, views: boolean, border_m: number | null, side?: Side | null): Feature[] {
   if (s.latitude_deg == null || s.longitude_deg == null) return [];
   const at = fromLonLat([s.longitude_deg, s.latitude_deg]);
   const scale = stretch(s.latitude_deg);
@@ -58,8 +59,8 @@ export function stationShapes(s: Station, c: Colours, selected: boolean, views: 
     shape(
       new Point(at),
       [
-        new Style({ image: new Circle({ radius: selected ? 11 : 8, stroke: new Stroke({ color: selected ? c.accent : "transparent", width: 2 }) }) }),
-        new Style({ image: new Circle({ radius: 6, fill: new Fill({ color: colour }), stroke: new Stroke({ color: c.halo, width: 2 }) }), text: label(s.id, c.text, c.halo, 13, 0) }),
+        new Style({ image: new Circle({ declutterMode: "obstacle", radius: selected ? 11 : 8, stroke: new Stroke({ color: selected ? c.accent : "transparent", width: 2 }) }) }),
+        new Style({ image: new Circle({ declutterMode: "obstacle", radius: 6, fill: new Fill({ color: colour }), stroke: new Stroke({ color: c.halo, width: 2 }) }), text: nameAt(side, s.id, c.text, c.halo) }),
       ],
       `station:${s.id}`,
     ),

@@ -9,8 +9,9 @@ import { Circle, Fill, Stroke, Style } from "ol/style";
 import type { Coordinate } from "ol/coordinate";
 import { fixed } from "./format";
 import type { Link } from "./link";
-import { Colours, label, offset, shape, SMALL_FONT, stretch } from "./mapfeatures";
-import type { Target } from "./site";
+import type { Side } from "./labels";
+import { Colours, nameAt, offset, shape, stretch } from "./mapfeatures";
+import type { Cue, Target } from "./site";
 import { named } from "./words";
 
 const VELOCITY_S = 5;
@@ -32,8 +33,10 @@ function ellipseRing(target: Target, at: Coordinate, scale: number): Coordinate[
 const targetColour = (target: Target, c: Colours) =>
   target.stale || target.state === "coasted" ? c.coasted : target.state === "born" ? c.born : c.target;
 
-// `below`: where its words are, so that those of two that are near each other can both be read.
-export function targetShapes(target: Target, c: Colours, selected: boolean, trails: boolean, below: boolean): Feature[] {
+export const targetWords = (target: Target) => `${target.id}   ${fixed(target.height_m, 0, " m")}   ${fixed(target.speed_m_s, 0, " m/s")}`;
+export const cueWords = (cue: Cue) => `${cue.label || cue.id}   ${named("s", cue.state)}`;
+
+export function targetShapes(target: Target, c: Colours, selected: boolean, trails: boolean, side?: Side | null): Feature[] {
   if (target.latitude_deg == null) return [];
   const at = fromLonLat([target.longitude_deg, target.latitude_deg]);
   const scale = stretch(target.latitude_deg);
@@ -50,13 +53,12 @@ export function targetShapes(target: Target, c: Colours, selected: boolean, trai
     const ahead = [at[0] + east * VELOCITY_S * scale, at[1] + north * VELOCITY_S * scale];
     out.push(shape(new LineString([at, ahead]), new Style({ stroke: new Stroke({ color: colour, width: 2 }) })));
   }
-  const text = `${target.id}   ${fixed(target.height_m, 0, " m")}   ${fixed(target.speed_m_s, 0, " m/s")}`;
   out.push(
     shape(
       new Point(at),
       [
-        new Style({ image: new Circle({ radius: selected ? 12 : 8, stroke: new Stroke({ color: selected ? c.accent : colour, width: 2 }) }) }),
-        new Style({ image: new Circle({ radius: 3.5, fill: new Fill({ color: colour }) }), text: label(text, c.text, c.halo, 16, below ? 14 : -12) }),
+        new Style({ image: new Circle({ declutterMode: "obstacle", radius: selected ? 12 : 8, stroke: new Stroke({ color: selected ? c.accent : colour, width: 2 }) }) }),
+        new Style({ image: new Circle({ declutterMode: "obstacle", radius: 3.5, fill: new Fill({ color: colour }) }), text: nameAt(side, targetWords(target), c.text, c.halo) }),
       ],
       `target:${target.id}`,
     ),
@@ -65,7 +67,7 @@ export function targetShapes(target: Target, c: Colours, selected: boolean, trai
 }
 
 // A ring of one deviation, dashed: nothing that this site has measured.
-export function cueShapes(link: Link, c: Colours): Feature[] {
+export function cueShapes(link: Link, c: Colours, sides: Map<string, Side | null>): Feature[] {
   const out: Feature[] = [];
   if (link.site.fusion?.stale) return out;
   for (const cue of link.site.fusion?.cues ?? []) {
@@ -75,8 +77,7 @@ export function cueShapes(link: Link, c: Colours): Feature[] {
     const ring: Coordinate[] = [];
     for (let k = 0; k <= 48; k++) ring.push(offset(at, (360 * k) / 48, cue.horizontal_sd_m ?? 0, stretch(cue.latitude_deg)));
     out.push(shape(new LineString(ring), new Style({ stroke: new Stroke({ color: colour, width: 1.5, lineDash: [4, 4] }) })));
-    const text = `${cue.label || cue.id}   ${named("s", cue.state)}`;
-    out.push(shape(new Point(at), new Style({ image: new Circle({ radius: 5, stroke: new Stroke({ color: colour, width: 1.5, lineDash: [2, 2] }) }), text: label(text, c["rule-text"], c.halo, 10, 12, SMALL_FONT) })));
+    out.push(shape(new Point(at), new Style({ image: new Circle({ declutterMode: "obstacle", radius: 5, stroke: new Stroke({ color: colour, width: 1.5, lineDash: [2, 2] }) }), text: nameAt(sides.get(`cue:${cue.id}`), cueWords(cue), c["rule-text"], c.halo) })));
   }
   return out;
 }

@@ -55,6 +55,7 @@ export function View3d({ link, version, theme, selected, options, onPick, onMeas
     const style = getComputedStyle(document.documentElement);
     const colour = (name: string) => style.getPropertyValue(name).trim();
     const scene = new Scene(frame, colour, larger);
+    if (drawn.current) scene.sides = drawn.current.sides;
     const { whole, followed } = scene.addSite(link.site, selected, options);
     orbit.look(whole, options.follow ? followed : null);
     if (options.rings) scene.addRings(2 * orbit.step_m());
