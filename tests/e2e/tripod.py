@@ -27,7 +27,7 @@ SIGNS = ("spire", "mast", "gable", "chimney")  # enough for a short test
 CHRONY = "50505300,PPS,1,{now:.9f},0.0,0.0,1e-7,-1.8,0.0,0.016,1e-9,1e-5,16.0,Normal"
 
 
-def references(path, names=SIGNS, exchanged=(), scenario=SCENARIO):
+def references(path, names=SIGNS, scenario=SCENARIO):
     """Where a surveyor has measured the signs."""
     scenario = tomllib.loads(scenario.read_text())
     site = scenario["site"]
@@ -38,9 +38,6 @@ def references(path, names=SIGNS, exchanged=(), scenario=SCENARIO):
         )
         for mark in scenario["mark"]
     }
-    if exchanged:
-        one, other = exchanged
-        place_of[one], place_of[other] = place_of[other], place_of[one]
     rows = ["landmark,latitude_deg,longitude_deg,height_m,sd_m"]
     rows += [
         f"{name},{np.degrees(place_of[name].latitude_rad):.10f},"
