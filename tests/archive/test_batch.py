@@ -6,8 +6,6 @@ import math
 import os
 import shutil
 import signal
-import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
@@ -27,9 +25,9 @@ from ols_bench.uncut import compare, uncut_fixes
 
 pytest_plugins = ["batch_fixtures"]
 pytestmark = pytest.mark.usefixtures("loopback")
-# Dask asks /proc for its workers; in a PID namespace it may be that of the processes outside.
+# Dask asks /proc for its workers.
 HAS_PROC = os.readlink("/proc/self") == str(os.getpid())
-with_workers = pytest.mark.skipif(not HAS_PROC, reason="run below, where /proc is ours")
+with_workers = pytest.mark.skipif(not HAS_PROC, reason="/proc is another namespace's: tools/test")
 HOUR_US = 3_600_000_000
 
 
@@ -310,20 +308,3 @@ def test_two_runs_do_not_write_into_one_result(done, capsys):
 def test_times_are_utc_unless_they_say_otherwise():
     assert instant_us("2026-06-01") == flights.START_US
     assert instant_us("2026-06-01T02:00+02:00") == flights.START_US
-
-
-@pytest.mark.skipif(HAS_PROC, reason="run above")
-def test_with_workers_where_proc_is_ours():
-    names = [name for name, mark in globals().items() if with_workers.mark in marks_of(mark)]
-    inside = 'mount -t proc proc /proc && exec "$@"'
-    tests = [f"{__file__}::{name}" for name in names]
-    command = ["unshare", "--mount", "sh", "-c", inside, "sh", sys.executable, "-m", "pytest"]
-    done = subprocess.run(
-        [*command, "-q", "--show-capture=no", *tests], capture_output=True, text=True, check=False
-    )
-    assert done.returncode == 0, done.stdout
-    assert f"{len(names)} passed" in done.stdout
-
-
-def marks_of(test) -> list:
-    return getattr(test, "pytestmark", []) if callable(test) else []
