@@ -79,7 +79,7 @@ def test_bytes_pass_unchanged_both_ways(net):
     for channel, data in sent.items():
         wait(lambda c=channel, d=data: d in talk.region.on(c), f"{channel} as it was")
     said = talk.slew()
-    wait(lambda: said in talk.site.on("OLS_SLEW_alfa"), "the slew as it was", 5.0)
+    wait(lambda: said in talk.site.on("OLS_SLEW_alfa"), "the slew as it was")
     # The signature is whole: 96 bytes at the end, and the fusion's key made it.
     assert said.endswith(b"OLST") and len(said) > 96
     assert net.region.status()["missing"] == 0
@@ -187,7 +187,7 @@ def test_a_wrong_key_is_said_until_the_server_knows_it(net, tmp_path):
         text = net.leaf.config.read_text()
         net.leaf.config.write_text(text.replace("users: [", f"users: [{{nkey: {key}}}\n"))
         net.leaf.signal(signal.SIGHUP)
-        wait(lambda: bridge.status()["link"]["open"], "the key is known", 10.0)
+        wait(lambda: bridge.status()["link"]["open"], "the key is known")
     finally:
         bridge.stop()
 

@@ -36,7 +36,7 @@ def test_a_box_drawn_in_the_browser_makes_the_station_track(site):
     with browser() as chromium:
         page = chromium.new_page(viewport={"width": 1280, "height": 800})
         page.goto(site)
-        expect(page.get_by_role("img", name=STATION, exact=True)).to_be_visible(timeout=20_000)
+        expect(page.get_by_role("img", name=STATION, exact=True)).to_be_visible(timeout=60_000)
         hand = Hand(page, views, bus, Pointer(bus, views, 1))
         end = time.monotonic() + PATIENCE_S
         while hand.state(STATION) != "tracking":

@@ -195,7 +195,7 @@ def test_a_folder_that_is_missing_is_said_and_tried_again(tmp_path):
     with Exporter(tmp_path, outputs) as exporter:
         publisher.until(lambda: exporter.output("map").get("trouble"), "the folder is missing")
         folder.mkdir()
-        publisher.until(lambda: (folder / "site.geojson").exists(), "the file", 5.0)
+        publisher.until(lambda: (folder / "site.geojson").exists(), "the file")
 
 
 @pytest.mark.parametrize("kind", CHECKS)

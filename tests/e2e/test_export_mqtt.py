@@ -186,7 +186,7 @@ def test_a_wrong_password_is_refused_and_said(tmp_path):
                 "the refusal",
             )
             password.write_text("right\n")
-            publisher.until(lambda: exporter.output("home").get("sent"), "a log-in", 5.0)
+            publisher.until(lambda: exporter.output("home").get("sent"), "a log-in")
     finally:
         broker.kill()
 

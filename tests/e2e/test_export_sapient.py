@@ -126,7 +126,7 @@ def test_a_refusal_is_said_and_asked_again(tmp_path):
         assert "refuses the registration: the area is taken" in exporter.output("hub")["trouble"]
         assert {heard.message.WhichOneof("content") for heard in receiver.heard} == {"registration"}
         receiver.answer = True
-        publisher.until(lambda: receiver.of("detection_report"), "it is accepted", 5.0)
+        publisher.until(lambda: receiver.of("detection_report"), "it is accepted")
     assert "output hub: 127.0.0.1" in exporter.said()
 
 
@@ -181,7 +181,7 @@ def test_a_receiver_that_dies_is_found_again(tmp_path):
         publisher.until(lambda: receiver.of("detection_report"), "a detection")
         receiver.end_connections()
         receiver.heard.clear()
-        publisher.until(lambda: receiver.of("detection_report"), "detections again", 5.0)
+        publisher.until(lambda: receiver.of("detection_report"), "detections again")
         publisher.until(lambda: exporter.output("hub")["failures"] == 1, "it is counted")
     kinds = [heard.message.WhichOneof("content") for heard in receiver.heard]
     assert kinds[0] == "registration" and kinds.count("registration") == 1
@@ -194,7 +194,7 @@ def test_rubbish_is_named_and_harms_nothing(tmp_path):
         receiver.connections[-1].sendall(b"HTTP/1.1 400 Bad Request\r\n\r\n")
         publisher.until(lambda: exporter.output("hub").get("failures") == 1, "it is counted")
         receiver.heard.clear()
-        publisher.until(lambda: receiver.of("detection_report"), "detections again", 5.0)
+        publisher.until(lambda: receiver.of("detection_report"), "detections again")
 
 
 def test_a_flood_of_tasks_ends_the_connection_for_a_moment(tmp_path):
@@ -208,4 +208,4 @@ def test_a_flood_of_tasks_ends_the_connection_for_a_moment(tmp_path):
         receiver.connections[-1].sendall(framed(task) * 20)
         publisher.until(lambda: exporter.output("hub").get("failures") == 1, "it is counted")
         receiver.heard.clear()
-        publisher.until(lambda: receiver.of("detection_report"), "detections again", 5.0)
+        publisher.until(lambda: receiver.of("detection_report"), "detections again")

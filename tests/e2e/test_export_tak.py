@@ -130,7 +130,7 @@ def test_a_stream_is_made_again(tmp_path):
         check_proto(takproto.parse_proto(bytearray(first)))
         server.end_connections()
         server.heard = b""
-        publisher.until(lambda: server.heard, "something again", 5.0)
+        publisher.until(lambda: server.heard, "something again")
 
 
 def tls_server(folder):
@@ -177,7 +177,8 @@ def test_a_receiver_that_stops_reading_costs_nobody_else(tmp_path):
             publisher.publish(*[target(number) for number in range(1, 200)])
             if received(receiver):
                 heard_s = time.monotonic()
-            assert time.monotonic() - heard_s < 2.0, "the other receiver heard nothing"
+            # One that waited for the deaf one would be silent for three seconds.
+            assert time.monotonic() - heard_s < 2.8, "the other receiver heard nothing"
             return "does not read" in exporter.output("deaf").get("trouble", "")
 
         wait(fills, "the receiver that does not read is given up", 120.0)

@@ -118,7 +118,13 @@ class Problem:
         return found.x * scale, covariance
 
 
-@pytest.mark.parametrize("build", [cases.rtk_landmarks, cases.cadastral_landmarks])
+@pytest.mark.parametrize(
+    "build",
+    [
+        cases.rtk_landmarks,
+        pytest.param(cases.cadastral_landmarks, marks=pytest.mark.night),  # the same path
+    ],
+)
 def test_estimate_and_covariance_are_scipys(tmp_path, build):
     print(f"seed {SEED}")
     site = build(np.random.default_rng(SEED))

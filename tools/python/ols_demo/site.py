@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 READY_S = 60.0
-END_S = 10.0
+END_S = 30.0
 
 
 class SiteError(RuntimeError):
