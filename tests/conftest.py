@@ -1,8 +1,10 @@
 """Shared by all Python tests: where the built programs are, and the network they may use."""
 
 import ctypes
+import fcntl
 import os
 import re
+import shutil
 import subprocess
 from collections.abc import Iterator
 from pathlib import Path
@@ -85,16 +87,28 @@ def network(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
     all programs require signatures, by throw-away keys."""
     if os.environ.get("OLS_NAMESPACE") != "1":
         pytest.skip("needs a network namespace of its own: run tools/test")
-    from ols_demo.keys import make_keys
     from ols_demo.site import bring_up_loopback
 
     bring_up_loopback([f"127.0.0.{n}" for n in range(11, 15)])
+    keys = tmp_path_factory.mktemp("keys") / "site"
+    shutil.copytree(keys_of_this_run(tmp_path_factory.getbasetemp()), keys)
     with pytest.MonkeyPatch.context() as patch:
-        for name, value in make_keys(
-            BIN, tmp_path_factory.mktemp("keys") / "site", STATIONS
-        ).items():
-            patch.setenv(name, value)
+        patch.setenv("OLS_TRUST", "require")
+        patch.setenv("OLS_KEYS", str(keys))
         yield
+
+
+def keys_of_this_run(own: Path) -> Path:
+    """Made by the worker that is first; two dozen programs run for them."""
+    from ols_demo.keys import make_keys
+
+    folder = (own.parent if "PYTEST_XDIST_WORKER" in os.environ else own) / "keys-of-all"
+    with open(folder.with_suffix(".lock"), "w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        if not folder.exists():
+            make_keys(BIN, folder.with_suffix(".new"), STATIONS)
+            folder.with_suffix(".new").rename(folder)
+    return folder
 
 
 @pytest.fixture(scope="module")
