@@ -268,7 +268,7 @@ std::optional<std::pair<std::string, Json>> bearing_from(const BusMessage& messa
 std::optional<TargetHeard> target_from(const BusMessage& message) {
   using What = TargetHeard::What;
   Target t;
-  if (!decode_of_schema(message, t)) return std::nullopt;
+  if (message.channel != kTargetChannel || !decode_of_schema(message, t)) return std::nullopt;
   TargetHeard heard{.what = What::kNothing,
                     .boot_id = t.boot_id,
                     .id = number_text(t.target_id),
@@ -304,7 +304,7 @@ std::optional<TargetHeard> target_from(const BusMessage& message) {
 
 std::optional<FusionHeard> fusion_from(const BusMessage& message) {
   ols_msg::fusion_status_t f;
-  if (!decode_of_schema(message, f)) return std::nullopt;
+  if (message.channel != kFusionStatusChannel || !decode_of_schema(message, f)) return std::nullopt;
   Json fields{{"boot", number_text(f.boot_id)},
               {"utime_us", f.utime},
               {"stations", fusion_stations(f)},

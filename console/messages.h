@@ -14,6 +14,7 @@ namespace ols::console {
 std::optional<StationHeard> station_from(const BusMessage& message);
 // The station and the bearing.
 std::optional<std::pair<std::string, Json>> bearing_from(const BusMessage& message);
+// Nothing if it is of another channel: the paper's estimate is no target.
 std::optional<TargetHeard> target_from(const BusMessage& message);
 std::optional<FusionHeard> fusion_from(const BusMessage& message);
 

@@ -64,7 +64,8 @@ inline std::string logged_stop(std::int64_t utime_us) {
 }
 
 inline std::string logged_target(std::int64_t utime_us, double latitude_deg,
-                                 bool is_dropped = false) {
+                                 bool is_dropped = false,
+                                 const std::string& channel = "OLS_TARGET") {
   ols_msg::target_t target{};
   target.schema_version = ols_msg::target_t::SCHEMA_VERSION;
   target.utime = utime_us;
@@ -74,7 +75,7 @@ inline std::string logged_target(std::int64_t utime_us, double latitude_deg,
   target.position_covariance_enu_m2[0] = target.position_covariance_enu_m2[3] = 1.0;
   target.track_state =
       is_dropped ? ols_msg::target_t::TRACK_DROPPED : ols_msg::target_t::TRACK_CONFIRMED;
-  return log_record(utime_us, "OLS_TARGET", payload_of(target));
+  return log_record(utime_us, channel, payload_of(target));
 }
 
 // A file that is there as long as this object.

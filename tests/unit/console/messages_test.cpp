@@ -80,6 +80,11 @@ TEST(ConsoleMessages, WhatIsNoPositionIsNoPosition) {
   EXPECT_EQ(target_from(on("OLS_TARGET", message))->id, "alfa");
 }
 
+TEST(ConsoleMessages, OfOtherChannelsThereIsNoTargetAndNoFusion) {
+  EXPECT_FALSE(target_from(on("OLS_TARGET_PAPER", target())));
+  EXPECT_FALSE(fusion_from(on("OLS_FUSION_STATUS_2", made<ols_msg::fusion_status_t>())));
+}
+
 TEST(ConsoleMessages, ABearingIsOfTheStationOfItsChannel) {
   auto bearing = made<ols_msg::bearing_t>();
   bearing.station = "alfa";

@@ -9,8 +9,8 @@
 namespace ols::console {
 namespace {
 
-// Two minutes: a target that goes north by a degree a minute, an alarm from 30 s to 31 s, a stop at
-// 60 s.
+// Two minutes: a target that goes north by a degree a minute, the paper's estimate of it half a
+// degree away, an alarm from 30 s to 31 s, a stop at 60 s.
 std::string two_minutes() {
   std::string log;
   for (std::int64_t tenth = 0; tenth <= 1200; ++tenth) {
@@ -19,7 +19,9 @@ std::string two_minutes() {
     if (tenth % 5 == 0) {
       log += logged_status(utime_us, tenth > 600 ? 1.0 : 0.0, has_alarm ? "ptu: hot" : "");
     }
-    log += logged_target(utime_us, static_cast<double>(tenth) / 600.0);
+    const double latitude_deg = static_cast<double>(tenth) / 600.0;
+    log += logged_target(utime_us, latitude_deg);
+    log += logged_target(utime_us, latitude_deg + 0.5, false, "OLS_TARGET_PAPER");
     if (tenth == 600) log += logged_stop(utime_us);
   }
   return log + logged_target(kStart_us + 120'050'000, 2.0, true);
