@@ -82,9 +82,11 @@ bool SiteState::is_of_fusion(std::int64_t boot_id, const Now& now) {
 void SiteState::add_to_trail(const TargetHeard& target, double now_s) {
   Trail& trail = trails_[target.id];
   if (now_s < trail.added_s + kTrailPeriod_s) return;
+  const bool was_unseen = now_s > trail.added_s + kTargetStale_s;
+  if (was_unseen && !trail.points.empty()) trail.points.emplace_back(nullptr);
   trail.added_s = now_s;
   trail.points.push_back({target.longitude_deg, target.latitude_deg, target.height_m});
-  if (trail.points.size() > kMostTrailPoints) trail.points.pop_front();
+  while (trail.points.size() > kMostTrailPoints) trail.points.pop_front();
 }
 
 void SiteState::hear(const TargetHeard& target, const Now& now) {
@@ -104,6 +106,7 @@ void SiteState::hear(const TargetHeard& target, const Now& now) {
     case What::kNoPosition:
       if (!targets_.find(target.id)) return;
       for (const auto& [field, value] : target.fields.items()) {
+        if (field == "utime_us") continue;  // it is that of the position
         targets_.mark(target.id, field, value, revision_);
       }
       return;

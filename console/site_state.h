@@ -74,7 +74,8 @@ class SiteState {
     std::int64_t last_error_utime_us = -1;
   };
   struct Trail {
-    std::deque<Json> points;  // [longitude_deg, latitude_deg, height_m, utime_us]
+    // [longitude_deg, latitude_deg, height_m]; null: the target was not seen meanwhile
+    std::deque<Json> points;
     double added_s = -1e9;
   };
 

@@ -2,7 +2,7 @@
 
 import pytest
 from console_page import two_consoles, watched_page
-from console_site import browser, paper_site
+from console_site import Api, browser, paper_site, wait_for
 
 
 @pytest.fixture(scope="module")
@@ -25,7 +25,10 @@ def chromium():
 
 
 @pytest.fixture
-def page(chromium, consoles):
-    """The open console's."""
+def page(chromium, consoles, paper):
+    """The open console's; its stations are idle."""
+    paper.begin_anew()
+    stations = Api(consoles[0])
+    wait_for(lambda: {s["state"] for s in stations.state()["stations"]} == {"idle"}, "the stations")
     with watched_page(chromium, consoles[0]) as opened:
         yield opened

@@ -84,7 +84,7 @@ class PaperSite(threading.Thread):
         self._signing = members_of_environment()
         self._sequences = itertools.count(1)
         self.counters = {name: {} for name in PLACES}
-        self.states = dict.fromkeys(PLACES, STATUS.STATE_IDLE)
+        self.begin_anew()
         self.refusing: dict[str, str] = {}  # station -> reason of its refusals
         self.alarms: dict[str, list[str]] = {}
         self.readings: dict[str, dict[str, float]] = {}
@@ -132,6 +132,7 @@ class PaperSite(threading.Thread):
         self.designations.append(message)
         if self._judge(message.station, "designate"):
             self.states[message.station] = STATUS.STATE_TRACKING
+            self.track_ids[message.station] += 1
 
     def _commanded(self, _channel: str, data: bytes) -> None:
         message = PTU.decode(data)
@@ -141,8 +142,18 @@ class PaperSite(threading.Thread):
         self.commands.append((message.station, name))
         self.ptu_commands.append(message)
         if self._judge(message.station, name):
-            stopped = name == "stop"
-            self.states[message.station] = STATUS.STATE_STOPPED if stopped else STATUS.STATE_IDLE
+            self.states[message.station] = self._state_after(message.station, name)
+
+    def _state_after(self, station: str, name: str) -> int:
+        if name in ("rate", "centre", "point"):
+            return STATUS.STATE_MANUAL
+        followed = STATUS.STATE_LOST if self.track_ids[station] else STATUS.STATE_IDLE
+        return STATUS.STATE_STOPPED if name == "stop" else followed
+
+    def begin_anew(self) -> None:
+        """No station follows anything, or has."""
+        self.states = dict.fromkeys(PLACES, STATUS.STATE_IDLE)
+        self.track_ids = dict.fromkeys(PLACES, 0)
 
     def _lens_moved(self, _channel: str, data: bytes) -> None:
         message = ols_msg.lens_command_t.decode(data)
@@ -163,6 +174,7 @@ class PaperSite(threading.Thread):
         m.utime = self.utime_us()
         m.schema_version = m.SCHEMA_VERSION
         m.station, m.boot_id, m.state, m.belief = station, 5, self.states[station], 0.9
+        m.track_id = self.track_ids[station]
         m.latitude_deg, m.longitude_deg = PLACES[station]
         m.height_m = 300.0
         m.calibration_sd_rad = math.nan

@@ -227,7 +227,7 @@ def test_look_here_by_keys(page, overview):
     canvas = picture(page, "charlie")
     canvas.click()
     expect(page.get_by_text("charlie centre: done")).to_have_count(0)
-    for by in ("Shift", "L"):
+    for by in ("L", "Shift"):
         overview.designations.clear()
         if by == "L":
             canvas.focus()

@@ -186,6 +186,7 @@ def test_a_command_that_a_cut_link_delivers_late_is_refused(page, cable, paper, 
 def test_a_stop_of_all_ends_what_is_held(page, overview, name):
     """Also after somebody has released the station: who still holds must press anew."""
     station, _, hand = held(page, overview, name)
+    page.keyboard.press("Escape")  # of a joystick it lets go
     page.keyboard.press("Escape")
     wait_for(lambda: (station, "stop") in overview.commands[-9:], "the stop")
     expect(page.get_by_text("stopping: ")).to_be_visible()

@@ -107,7 +107,7 @@ def test_a_question_holds_up_neither_the_stop_nor_its_own_answer(page, paper):
     stations.get_by_role("button", name="charlie").click()
     stations.get_by_role("button", name="Home", exact=True).click()
     question = stations.get_by_role("group", name="Is the way clear?")
-    page.keyboard.press("Escape")
+    page.get_by_role("button", name="Stop all").click()
     wait_for(lambda: ("charlie", "stop") in paper.commands[-9:], "the stop of all")
     page.wait_for_timeout(3500)  # longer than a command may be late: a person looks first
     paper.ptu_commands.clear()

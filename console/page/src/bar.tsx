@@ -5,6 +5,7 @@ import { h, Fragment } from "preact";
 import { conditionOf, holds, inWords } from "./conditions";
 import { utc } from "./format";
 import type { Link, Session } from "./link";
+import { Sure } from "./sure";
 import { Language, LANGUAGES, t, type Word } from "./words";
 
 const THEMES = ["night", "day", "sunlight"] as const;
@@ -88,9 +89,10 @@ function LoggedIn({ session, name, onLogOut, onUsers }: LoggedInProps) {
   );
 }
 
-type BarProps = Omit<LoggedInProps, "name"> & { link: Link; look: Look; onStop: () => void };
+type BarProps = Omit<LoggedInProps, "name"> & { link: Link; look: Look; stopped: string[]; onStop: () => void; onRelease: (stations: string[]) => void };
 
-export function Bar({ link, look, onStop, ...person }: BarProps) {
+// `stopped`: the stations that this person may release.
+export function Bar({ link, look, stopped, onStop, onRelease, ...person }: BarProps) {
   return (
     <header class="bar">
       <h1>OLS</h1>
@@ -101,6 +103,7 @@ export function Bar({ link, look, onStop, ...person }: BarProps) {
         <LookChoice {...look} />
         <LoggedIn name={link.name} {...person} />
       </div>
+      {stopped.length > 0 && <Sure word={t("release_all")} question={t("release_all_sure")} onSure={() => onRelease(stopped)} />}
       {link.replay ? (
         <strong class="replay-tag">{t("replay")}</strong>
       ) : (

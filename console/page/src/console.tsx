@@ -4,6 +4,8 @@ import { h } from "preact";
 import { useEffect, useMemo, useState } from "preact/hooks";
 import { AlarmSpoken } from "./alarms";
 import { Bar, type Look } from "./bar";
+import { stopped } from "./byhand";
+import { useEscapeKey } from "./escape";
 import { History } from "./history";
 import { Link, type Session } from "./link";
 import { MapView } from "./map";
@@ -41,17 +43,6 @@ function useNews(link: Link, orders: Orders, onLoggedOut: () => void): number {
   return version;
 }
 
-// Wherever on the page it is pressed.
-function useStopKey(onStop: () => void) {
-  useEffect(() => {
-    const key = (event: KeyboardEvent) => {
-      if (event.key === "Escape" && !event.repeat) onStop();
-    };
-    window.addEventListener("keydown", key, { capture: true });
-    return () => window.removeEventListener("keydown", key, { capture: true });
-  });
-}
-
 type SideProps = { link: Link; version: number; station: string; mayCommand: boolean; orders: Orders; onSelect: (station: string) => void };
 
 // Beside the map: the stations, in pictures and in words.
@@ -67,6 +58,8 @@ function Side({ link, version, station, mayCommand, orders, onSelect }: SideProp
         onSelect={onSelect}
         onPoint={(id, what, frame_utime_us, point_px) => orders.command(id, what, { frame_utime_us, point_px })}
         onDesignate={(id, frame_utime_us, box_px) => orders.command(id, "designate", { frame_utime_us, box_px })}
+        onWithheld={(id) => orders.withheld(id)}
+        onRelease={(id) => orders.command(id, "release")}
       />
       <Stations
         link={link}
@@ -92,12 +85,21 @@ export function Console({ session, look, onLoggedOut }: Props) {
   const orders = useMemo(() => new Orders(link, notices), []);
   const version = useNews(link, orders, onLoggedOut);
   const stopAll = () => void orders.stopAll();
-  useStopKey(stopAll);
+  useEscapeKey(stopAll, () => notices.say(t(link.replay ? "closed" : "escape_closed"), false));
   const mayCommand = session.role !== "viewer" && !link.replay;
   const pick = (what: string) => (what.startsWith("station:") ? setStation(what.slice(8)) : setTarget(what));
   return (
     <div class={`console ${link.replay ? "of-replay" : ""}`}>
-      <Bar link={link} session={session} look={look} onStop={stopAll} onLogOut={onLoggedOut} onUsers={() => setUsersOpen(true)} />
+      <Bar
+        link={link}
+        session={session}
+        look={look}
+        stopped={mayCommand ? stopped(link.site) : []}
+        onStop={stopAll}
+        onRelease={(stations) => orders.releaseAll(stations)}
+        onLogOut={onLoggedOut}
+        onUsers={() => setUsersOpen(true)}
+      />
       <AlarmSpoken link={link} />
       {!link.isUp && <p class="lost" role="alert">{t("link_lost")}</p>}
       {link.replay && <ReplayBar link={link} />}

@@ -2,6 +2,7 @@
 
 import { h } from "preact";
 import { useEffect, useLayoutEffect } from "preact/hooks";
+import { canGoBack } from "./byhand";
 import { fixed } from "./format";
 import { steerByGamepad } from "./gamepad";
 import type { Link } from "./link";
@@ -10,6 +11,7 @@ import { useOnPicture, type OnPicture, type PictureProps } from "./onpicture";
 import { drawPicture } from "./overlay";
 import { pressKey } from "./picturekeys";
 import { usePointer } from "./picturepointer";
+import { stationState } from "./site";
 import { named, t } from "./words";
 
 const OLD_S = 5;
@@ -21,7 +23,7 @@ function Caption({ link, on, isThin }: { link: Link; on: OnPicture; isThin: bool
   const { station, shown, large, looks, setLooks } = on;
   const { region } = on.part;
   const age_s = shown ? (link.now_us() - shown.utime_us) / 1e6 : NaN;
-  const state = station.stale ? "silent" : station.state;
+  const state = stationState(station);
   const exposure_us = station.readings?.camera_exposure_us;
   return (
     <figcaption>
@@ -42,20 +44,42 @@ function Caption({ link, on, isThin }: { link: Link; on: OnPicture; isThin: bool
   );
 }
 
+// Who turns the station of the large picture, and how that is changed: before a hand can, and back.
+function InHand({ on }: { on: OnPicture }) {
+  const { station, byHand, setByHand, isWithheld, onRelease } = on;
+  const hasFinger = matchMedia("(any-pointer: coarse)").matches;
+  return (
+    <div class="in-hand">
+      {canGoBack(station) && (
+        <button type="button" onClick={onRelease}>
+          {t("back_to_tracking")}
+        </button>
+      )}
+      {(byHand || isWithheld || hasFinger) && (
+        <button type="button" aria-pressed={byHand} aria-keyshortcuts="M" onClick={() => setByHand(!byHand)}>
+          {t("by_hand")}
+        </button>
+      )}
+      {byHand && <span>{t("by_hand_next")}</span>}
+    </div>
+  );
+}
+
 export function Eye({ isThin, ...rest }: PictureProps & { isThin: boolean }) {
   const { link, station, large, mayCommand, onSelect } = rest;
   const on = useOnPicture(rest);
   const { canvas, shown, hand } = on;
   const { box, held } = on.drawn;
   const { region } = on.part;
+  const isTracking = station.state === "tracking" && !station.stale;
   // At once, and with the attributes that say which picture it is.
   useLayoutEffect(() => {
-    if (canvas.current && shown) drawPicture(canvas.current, link.site, shown, region, box, station.state === "tracking");
-  }, [shown, region, box, station.state === "tracking", large]);
+    if (canvas.current && shown) drawPicture(canvas.current, link.site, shown, region, box, isTracking);
+  }, [shown, region, box, isTracking, large]);
   const pointer = usePointer(on);
   useEffect(() => (large && mayCommand ? steerByGamepad(hand) : undefined), [large, mayCommand]);
   return (
-    <figure class={`eye ${large ? "large" : ""} ${held.current ? "held" : ""}`}>
+    <figure class={["eye", large && "large", held.current && "held", on.byHand && "by-hand", station.stale && "stale"].filter(Boolean).join(" ")}>
       <canvas
         ref={canvas}
         role="img"
@@ -72,6 +96,7 @@ export function Eye({ isThin, ...rest }: PictureProps & { isThin: boolean }) {
         onKeyDown={(event: KeyboardEvent) => pressKey(on, event)}
       />
       <Caption link={link} on={on} isThin={isThin} />
+      {large && mayCommand && <InHand on={on} />}
     </figure>
   );
 }

@@ -15,6 +15,9 @@ const felt = (deflection: number) => {
   return Math.sign(d) * d * d;
 };
 
+// What a station that is at work does to a hand: it withholds itself, and that is said once a push.
+export type Withheld = { is: () => boolean; say: () => void };
+
 // A press drives as long as it lasts, but not beyond a cut of the link or a stop: whatever is still held
 // then needs a new press.
 export class Hand {
@@ -24,10 +27,12 @@ export class Hand {
   private era = -1; // of the link, in which it was pressed; -1: nothing is
   private wanted: number | null = null; // of the zoom, until the lens has been told
   private tellTimer = 0;
+  private isSaid = false; // that the station is withheld
 
   constructor(
     private link: Link,
     private station: () => Station,
+    private withheld: Withheld,
   ) {}
 
   // A new press. What is pushed without one moves nothing.
@@ -37,7 +42,10 @@ export class Hand {
 
   push(right: number, up: number) {
     const moved = this.pushes;
-    this.push_ = [felt(right), felt(up)];
+    const isWithheld = (right !== 0 || up !== 0) && this.withheld.is();
+    if (isWithheld && !this.isSaid) this.withheld.say();
+    this.isSaid ||= isWithheld;
+    this.push_ = isWithheld ? [0, 0] : [felt(right), felt(up)];
     this.drive(!moved);
     if (moved && !this.pushes && this.timer) this.tellRates();
   }
@@ -54,6 +62,7 @@ export class Hand {
   release() {
     const [moved, zoomed] = [this.timer && this.pushes, this.timer && this.zoom_];
     this.end();
+    this.isSaid = false;
     if (moved) this.tellRates();
     if (zoomed) this.tellZoom();
   }
@@ -99,7 +108,7 @@ export class Hand {
   private again() {
     const { state, control } = this.station();
     const isOthers = control != null && control.viewer !== this.link.viewer;
-    if (isOthers || (this.pushes && REFUSING.includes(state))) return this.end();
+    if (isOthers || (this.pushes && (REFUSING.includes(state) || this.withheld.is()))) return this.end();
     if (!this.mayGoOn()) return this.release();
     this.tell();
   }

@@ -1,7 +1,8 @@
 // A motorised lens of a station: where it stands, and where it is to go.
 
 import { h } from "preact";
-import { useState } from "preact/hooks";
+import { useRef, useState } from "preact/hooks";
+import { useEscape } from "./escape";
 import type { Station } from "./site";
 import { fixed } from "./format";
 import { t } from "./words";
@@ -15,6 +16,12 @@ type Move = ((axis: Axis, position: number) => void) | null; // null: it is not 
 // At null the lens has not said where it is.
 function AxisSlider({ axis, at, onMove }: { axis: Axis; at: number | null; onMove: Move }) {
   const [wanted, setWanted] = useState<number | null>(null); // while it is dragged
+  const isLeft = useRef(false); // the drag was cancelled
+  const leave = () => {
+    isLeft.current = true;
+    setWanted(null);
+  };
+  useEscape(wanted !== null, leave);
   return (
     <label>
       {t(axis)} {at == null ? t("v_unknown") : `${Math.round(100 * at)} %`}
@@ -25,10 +32,12 @@ function AxisSlider({ axis, at, onMove }: { axis: Axis; at: number | null; onMov
         step={STEP}
         value={wanted ?? at ?? 0}
         disabled={!onMove || at == null}
-        onInput={(event) => setWanted(Number(event.currentTarget.value))}
+        onPointerDown={() => (isLeft.current = false)}
+        onInput={(event) => !isLeft.current && setWanted(Number(event.currentTarget.value))}
         onChange={(event) => {
           setWanted(null);
-          onMove?.(axis, Number(event.currentTarget.value));
+          if (!isLeft.current) onMove?.(axis, Number(event.currentTarget.value));
+          isLeft.current = false;
         }}
       />
     </label>

@@ -3,7 +3,7 @@
 import { H264Stream, type Unit } from "./h264";
 import type { Camera } from "./projection";
 import type { ReplayState } from "./replay";
-import { apply, emptySite, Site } from "./site";
+import { apply, emptySite, silence, Site } from "./site";
 
 export type Picture = {
   station: string;
@@ -109,6 +109,7 @@ export class Link implements PictureSource {
     this.socket = null;
     this.isUp = false;
     this.era++;
+    silence(this.site);
     this.onChange();
     setTimeout(async () => {
       if (this.isOver) return;
@@ -120,6 +121,7 @@ export class Link implements PictureSource {
   }
 
   private look() {
+    if (!this.isUp) this.onChange(); // ages go on
     if (!this.socket || performance.now() - this.heard_ms < SILENT_MS) return;
     const socket = this.socket;
     socket.onclose = null;

@@ -2,6 +2,7 @@
 
 import { h, type RefObject } from "preact";
 import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
+import { useEscape } from "./escape";
 import type { Link } from "./link";
 import { Legend, OwnMaps } from "./ownmaps";
 import { SiteMap } from "./sitemap";
@@ -39,6 +40,8 @@ function useSiteMap(element: RefObject<HTMLDivElement>, { link, version, theme, 
 type ToolsProps = { map: SiteMap | null; options: Options; isSolid: boolean; onToggle: (name: keyof Options) => void; onSolid: () => void; onAccuracy: (isShown: boolean) => void };
 
 function Tools({ map, options, isSolid, onToggle, onSolid, onAccuracy }: ToolsProps) {
+  const [isOpen, setOpen] = useState(false); // the menu of layers
+  useEscape(isOpen, () => setOpen(false));
   const button = (name: keyof Options, text: string) => (
     <button type="button" aria-pressed={options[name]} onClick={() => onToggle(name)}>
       {text}
@@ -56,7 +59,7 @@ function Tools({ map, options, isSolid, onToggle, onSolid, onAccuracy }: ToolsPr
         {t("view_3d")}
       </button>
       {button("measuring", t("measure"))}
-      <details class="layers">
+      <details class="layers" open={isOpen} onToggle={(event) => setOpen(event.currentTarget.open)}>
         <summary>{t("layers")}</summary>
         <div>
           {button("grid", t("grid"))}
@@ -89,6 +92,7 @@ export function MapView(props: Props) {
     if (name === "measuring") setMeasured("");
     map?.setOption(name, value);
   };
+  useEscape(options.measuring, () => toggle("measuring"));
   // What was measured belongs to the view in which it was.
   const showSolid = () => {
     setSolid(!isSolid);

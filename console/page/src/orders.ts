@@ -7,8 +7,12 @@ import type { ProcedureAnswer } from "./procedure";
 import type { SiteEvent } from "./site";
 import { named, t } from "./words";
 
+// Of all stopped stations, while it is under way.
+type Release = { waits: Set<number>; done: string[]; refused: string[] };
+
 export class Orders {
   private asked = new Map<number, string>(); // in which words, until it is answered
+  private release: Release | null = null;
 
   constructor(
     private link: Link,
@@ -17,6 +21,23 @@ export class Orders {
 
   command(station: string, what: string, more: object = {}) {
     this.give({ do: "command", command: what, station, ...more }, `${station} ${named("o", what)}`);
+  }
+
+  // Each by itself; what came of it is said when the last has answered.
+  releaseAll(stations: string[]) {
+    const outcome: Release = { waits: new Set(), done: [], refused: [] };
+    for (const station of stations) {
+      const number = this.link.order({ do: "command", command: "release", station });
+      if (!number) return this.notices.say(`${t("release_all")}: ${t("not_sent")}`, true);
+      outcome.waits.add(number);
+    }
+    this.release = outcome;
+    this.notices.say(`${t("release_all")}: ${t("sent")} …`, false);
+  }
+
+  // A station that is at work was touched.
+  withheld(station: string) {
+    this.notices.say(`${station} ${t("by_hand_first")}`, true);
   }
 
   control(station: string, take: boolean) {
@@ -43,6 +64,7 @@ export class Orders {
     const { link, notices } = this;
     if (link.replay) return notices.say(t("replay_no_stop"), true);
     this.asked.clear();
+    this.release = null;
     const answer = await link.stopAll();
     if (!answer) return notices.sayOfStop(t("stop_failed"), true);
     if (answer === "log_in") return notices.sayOfStop(t("stop_log_in"), true);
@@ -52,10 +74,20 @@ export class Orders {
   }
 
   answered(answer: Answer) {
+    if (this.release?.waits.delete(answer.number)) return this.released(this.release, answer);
     const words = this.asked.get(answer.number);
     this.asked.delete(answer.number);
     const tell = words ? this.notices.say : this.notices.sayLate;
     tell(`${words ?? answer.station}: ${answer.accepted ? t("done") : inWords(answer.why)}`, !answer.accepted);
+  }
+
+  private released({ waits, done, refused }: Release, { station, accepted, why }: Answer) {
+    if (accepted) done.push(station);
+    else refused.push(`${station}: ${inWords(why)}`);
+    if (waits.size > 0) return;
+    this.release = null;
+    const words = [...(done.length ? [`${t("released")}: ${done.sort().join(", ")}`] : []), ...refused.sort()];
+    this.notices.say(words.join("; "), refused.length > 0);
   }
 
   // By these stations, of a stop of all.

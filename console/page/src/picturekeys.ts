@@ -1,5 +1,5 @@
-// The keyboard on a station's picture: arrows steer and plus and minus zoom; Enter begins and ends a
-// box, which the arrows move.
+// The keyboard on a station's picture: arrows steer, M takes a station that tracks in hand, plus and
+// minus zoom; Enter begins and ends a box, which the arrows move.
 
 import type { Picture } from "./link";
 import type { OnPicture } from "./onpicture";
@@ -30,6 +30,7 @@ function steerBy(on: OnPicture, picture: Picture, event: KeyboardEvent): boolean
   const slow = event.shiftKey ? 0.4 : 0.8;
   if (push) drive(on, event, () => on.hand.push(push[0] * slow, push[1] * slow));
   else if (event.key === "l" || event.key === "L") on.lookAtMiddle(picture);
+  else if (event.key === "m" || event.key === "M") on.setByHand(!on.byHand);
   else return false;
   return true;
 }

@@ -1,9 +1,10 @@
 // The pointer on a station's picture: a drag draws a box, a press that is held is a joystick, a click
-// points, a wheel and two fingers zoom.
+// points, a wheel and two fingers zoom. One finger scrolls the page, unless the station is in hand.
 
-import { useEffect, useRef } from "preact/hooks";
+import { useEffect, useRef, useState } from "preact/hooks";
+import { useEscape } from "./escape";
 import type { OnPicture } from "./onpicture";
-import { Pinch, Press } from "./pointer";
+import { DoubleClick, Pinch, Press } from "./pointer";
 
 // By the lens, where there is one and this person may; else of the picture that is there.
 function magnify({ shown, mayCommand, hand, part }: OnPicture, event: MouseEvent, factor: number) {
@@ -11,33 +12,52 @@ function magnify({ shown, mayCommand, hand, part }: OnPicture, event: MouseEvent
   part.magnify(shown, part.place(event), factor);
 }
 
-// The canvas's handlers of events.
-export function usePointer(on: OnPicture) {
-  const { canvas, picture, hand, drawn, part } = on;
+const choice = new DoubleClick(); // of the picture that is large, on whichever it was made
+
+// The press under way, which Escape cancels as it does a box of the keyboard.
+function usePress({ hand, drawn }: OnPicture) {
   const pressed = useRef<Press | null>(null);
-  const pinch = useRef(new Pinch());
+  const [isHeld, setHeld] = useState(false);
+  const take = (press: Press | null) => {
+    pressed.current = press;
+    setHeld(press !== null);
+  };
   const letGo = () => {
-    pressed.current = null;
+    take(null);
     hand.release();
     drawn.send(null);
   };
   useEffect(() => () => letGo(), []);
-  // A press on a small picture makes it large, and no more: a drag would begin in one layout and end in
-  // another, with a box that nobody has drawn.
+  useEscape(isHeld || drawn.box !== null, letGo);
+  return { pressed, take, letGo };
+}
+
+// The canvas's handlers of events.
+export function usePointer(on: OnPicture) {
+  const { canvas, picture, hand, drawn, part } = on;
+  const { pressed, take, letGo } = usePress(on);
+  const pinch = useRef(new Pinch());
+  // A click on a small picture makes it large, and no more: what began in one layout would end in
+  // another.
+  const onClick = (event: MouseEvent) => {
+    if (on.large) return;
+    choice.first(event);
+    on.onSelect();
+  };
   const onPointerDown = (event: PointerEvent) => {
-    if (!on.large) return on.onSelect();
-    if (!picture || event.button !== 0) return;
+    if (!on.large || !picture || event.button !== 0 || choice.isSecond(event)) return;
     canvas.current!.setPointerCapture(event.pointerId);
     pinch.current.down(event);
     if (pinch.current.isTwo) return letGo();
     if (!on.mayCommand) return;
     hand.press();
     drawn.begin(picture, part.place(event));
-    pressed.current = new Press(event);
+    take(new Press(event));
   };
   const onPointerMove = (event: PointerEvent) => {
     if (pinch.current.isTwo) return magnify(on, event, pinch.current.move(event));
     const press = pressed.current;
+    if (event.pointerType === "touch" && !on.byHand && press?.hasMoved(event)) return letGo();
     if (press?.becomesJoystick(event)) drawn.send(null);
     if (press?.isJoystick) {
       const full = canvas.current!.clientWidth / 3;
@@ -49,7 +69,7 @@ export function usePointer(on: OnPicture) {
   const onPointerUp = (event: PointerEvent) => {
     const press = pressed.current;
     pinch.current.up(event);
-    pressed.current = null;
+    take(null);
     if (press?.isJoystick) return hand.release();
     const held = drawn.held.current;
     if (!held) return;
@@ -66,5 +86,7 @@ export function usePointer(on: OnPicture) {
     event.preventDefault();
     magnify(on, event, Math.exp(-event.deltaY / 400));
   };
-  return { onPointerDown, onPointerMove, onPointerUp, onPointerCancel, onWheel };
+  // The browser scrolls by two fingers as by one, unless it is told before they move.
+  const onTouchStart = (event: TouchEvent) => event.touches.length > 1 && event.preventDefault();
+  return { onClick, onTouchStart, onPointerDown, onPointerMove, onPointerUp, onPointerCancel, onWheel };
 }

@@ -1,4 +1,5 @@
-// The pointer on a picture: what a press means, and by how much two fingers pinch.
+// The pointer on a picture: what a press means, which is the second of two, and by how much two
+// fingers pinch.
 
 const HOLD_MS = 500; // pressed for so long before it moves: a joystick, not a box or a click
 export const STILL_PX = 6;
@@ -20,9 +21,13 @@ export class Press {
 
   // With each move; true with the one that makes it a joystick.
   becomesJoystick(event: PointerEvent): boolean {
-    if (this.meant || Math.hypot(...this.way(event)) <= STILL_PX) return false;
+    if (this.meant || !this.hasMoved(event)) return false;
     this.meant = this.isLong(event) ? "joystick" : "box";
     return this.isJoystick;
+  }
+
+  hasMoved(event: PointerEvent): boolean {
+    return this.meant !== "" || Math.hypot(...this.way(event)) > STILL_PX;
   }
 
   isClick(event: PointerEvent): boolean {
@@ -36,6 +41,19 @@ export class Press {
 
   private isLong(event: PointerEvent): boolean {
     return event.timeStamp - this.stamp_ms >= HOLD_MS;
+  }
+}
+
+// The second press of a double click, which lands on whatever the first click has put there.
+export class DoubleClick {
+  private at = { clientX: 0, clientY: 0, timeStamp: -Infinity };
+
+  first({ clientX, clientY, timeStamp }: MouseEvent) {
+    this.at = { clientX, clientY, timeStamp };
+  }
+
+  isSecond({ clientX, clientY, timeStamp }: MouseEvent): boolean {
+    return timeStamp - this.at.timeStamp < HOLD_MS && Math.hypot(clientX - this.at.clientX, clientY - this.at.clientY) <= STILL_PX;
   }
 }
 

@@ -5,7 +5,7 @@ import { distance, fixed } from "./format";
 import { OFFSETS, type Side, sidesOf } from "./labels";
 import { fineOutline } from "./marks";
 import { ecef } from "./projection";
-import { followed, type Line, type Site, type Station, type Target } from "./site";
+import { followed, stretches, type Line, type Site, type Station, type Target } from "./site";
 
 export type Layers = { grid: boolean; rings: boolean; trails: boolean; views: boolean; limits: boolean };
 
@@ -179,8 +179,10 @@ export class Scene {
     if (target.latitude_deg == null) return null;
     const at = this.frame.place(target.latitude_deg, target.longitude_deg, target.height_m);
     const colour = this.colour(target.stale ? "--map-coasted" : "--map-target");
-    const trail = (target.trail ?? []).map(([longitude, latitude, height]) => this.frame.place(latitude, longitude, height));
-    if (trails) this.strokes.push({ points: [...trail, at], colour: this.colour("--map-trail"), width: isSelected ? 2.5 : 1.5 });
+    for (const stretch of trails ? stretches(target) : []) {
+      const points = stretch.map(([longitude, latitude, height]) => this.frame.place(latitude, longitude, height));
+      this.strokes.push({ points, colour: this.colour("--map-trail"), width: isSelected ? 2.5 : 1.5 });
+    }
     this.strokes.push({ points: [at, [at[0], at[1], 0]], colour: this.colour("--map-rule-text"), width: 1, dash: [3, 4] });
     for (const ring of ellipsoid(target.covariance_enu_m2, this.larger)) {
       this.strokes.push({ points: ring.map((point) => plus(at, point)), colour, width: isSelected ? 2 : 1.2, fill: 0.08 });

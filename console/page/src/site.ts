@@ -24,6 +24,7 @@ export type Station = {
   stale: boolean;
   utime_us: number;
   state: string;
+  track_id?: string; // "0": it has not followed anything yet
   belief: number | null;
   latitude_deg: number | null;
   longitude_deg: number | null;
@@ -85,8 +86,9 @@ export type Target = {
   crossing_angle_deg: number | null;
   residual: number | null;
   stations: { id: string; used: boolean; weight: number | null; age_s: number | null }[];
-  trail: [number, number, number][]; // longitude, latitude [deg], height [m]
+  trail: (TrailPoint | null)[]; // null: it was not seen meanwhile
 };
+export type TrailPoint = [number, number, number]; // longitude, latitude [deg], height [m]
 export type Line = { id: string; stale: boolean; target: string; azimuth_deg: number; elevation_deg: number; sd_deg: number };
 // What others know of a target; stations are led there when an operator allows it.
 export type Cue = {
@@ -135,6 +137,7 @@ export type Site = {
 const MOST_EVENTS = 500;
 const MOST_TRAIL_POINTS = 600;
 const TRAIL_PERIOD_US = 400_000;
+const TRAIL_GAP_US = 1_500_000; // kTargetStale_s of console/site_state.h
 
 export function emptySite(): Site {
   return { stations: new Map(), targets: new Map(), lines: new Map(), fusion: null, events: [] };
@@ -166,9 +169,33 @@ function extendTrails(site: Site, changed: Partial<Target>[] | undefined, before
     const last = before.get(id!) ?? 0;
     if (target.utime_us - last < TRAIL_PERIOD_US) continue;
     before.set(id!, target.utime_us);
+    if (target.utime_us - last > TRAIL_GAP_US && target.trail.length > 0) target.trail.push(null);
     target.trail.push([target.longitude_deg, target.latitude_deg, target.height_m]);
-    if (target.trail.length > MOST_TRAIL_POINTS) target.trail.shift();
+    while (target.trail.length > MOST_TRAIL_POINTS) target.trail.shift();
   }
+}
+
+// The trail's stretches in which the target was seen all along; the last goes on to where it is.
+export function stretches({ trail, longitude_deg, latitude_deg, height_m }: Target): TrailPoint[][] {
+  const all: TrailPoint[][] = [[]];
+  for (const point of trail ?? []) {
+    if (point) all[all.length - 1].push(point);
+    else all.push([]);
+  }
+  all[all.length - 1].push([longitude_deg, latitude_deg, height_m]);
+  return all.filter((one) => one.length > 1);
+}
+
+// What a target's row and its label say of it: what has not been heard of is nothing any more.
+export const targetState = (target: Target) => (target.stale ? "stale" : target.state);
+export const stationState = (station: Station) => (station.stale ? "silent" : station.state);
+
+// Nothing is heard of the site any more.
+export function silence(site: Site): void {
+  for (const things of [site.stations, site.targets, site.lines] as Map<string, { stale: boolean }>[]) {
+    for (const [id, one] of things) things.set(id, { ...one, stale: true });
+  }
+  if (site.fusion) site.fusion = { ...site.fusion, stale: true };
 }
 
 function addEvents(site: Site, events: SiteEvent[] | undefined) {
@@ -200,6 +227,7 @@ export function apply(site: Site, message: any): void {
   merge(site.targets, message.targets, gone.targets);
   merge(site.lines, message.lines, gone.lines);
   for (const id of gone.targets ?? []) trailTimes.delete(id);
+  if (message.kind === "snapshot") for (const { id, utime_us } of site.targets.values()) trailTimes.set(id, utime_us);
   if (message.kind === "delta") extendTrails(site, message.targets, trailTimes);
   if (message.fusion) site.fusion = { ...(site.fusion ?? {}), ...message.fusion };
   addEvents(site, message.events);

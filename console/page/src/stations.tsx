@@ -2,11 +2,12 @@
 
 import { h, Fragment } from "preact";
 import { Alarms } from "./alarms";
+import { lostForAll } from "./byhand";
 import { calibrationText } from "./calibration";
 import { inWords } from "./conditions";
 import { Fleet } from "./fleet";
 import { bearing, clockError, DASH, fixed, utc } from "./format";
-import type { Station } from "./site";
+import { stationState, type Station } from "./site";
 import { Commands, type StationProps } from "./stationcommands";
 import { named, t, Word } from "./words";
 
@@ -101,6 +102,7 @@ type StationsProps = Omit<StationProps, "station"> & { selected: string; onSelec
 export function Stations({ link, selected, onSelect, ...rest }: StationsProps) {
   const stations = [...link.site.stations.values()].sort((a, b) => a.id.localeCompare(b.id));
   const fusionAlarms = link.site.fusion?.alarms ?? [];
+  const lost = lostForAll(link.site);
   return (
     <section class="stations" aria-label={t("stations")}>
       <header>
@@ -108,6 +110,11 @@ export function Stations({ link, selected, onSelect, ...rest }: StationsProps) {
       </header>
       <div class="scroll" tabIndex={0} role="group" aria-label={t("stations")}>
         {stations.length === 0 && <p class="nothing">{t("no_station")}</p>}
+        {lost.length > 0 && rest.mayCommand && (
+          <p class="lost-for-all">
+            {lost.join(", ")}: {t("lost_for_all")}
+          </p>
+        )}
         {fusionAlarms.length > 0 && (
           <div class="fusion-alarms">
             <h3>{t("fusion")}</h3>
@@ -116,9 +123,9 @@ export function Stations({ link, selected, onSelect, ...rest }: StationsProps) {
         )}
         {stations.map((s) => {
           const isOpen = selected === s.id;
-          const state = s.stale ? "silent" : s.state;
+          const state = stationState(s);
           return (
-            <article key={s.id} class={isOpen ? "open" : ""}>
+            <article key={s.id} class={[isOpen && "open", s.stale && "stale"].filter(Boolean).join(" ")}>
               <h3>
                 <button type="button" aria-expanded={isOpen} onClick={() => onSelect(isOpen ? "" : s.id)}>
                   <span class="who">{s.id}</span>
@@ -127,7 +134,7 @@ export function Stations({ link, selected, onSelect, ...rest }: StationsProps) {
                     {bearing(s.azimuth_deg)} {fixed(s.elevation_deg, 1, "°")}
                   </span>
                   <span class="belief">
-                    <meter min={0} max={1} value={s.belief ?? 0} aria-label={t("belief")} />
+                    <meter min={0} max={1} value={s.stale ? 0 : (s.belief ?? 0)} aria-label={t("belief")} />
                   </span>
                   {s.alarms?.length > 0 && <span class="badge">{s.alarms.length}</span>}
                   {s.control && <span class="hand">{s.control.viewer === link.viewer ? "●" : inWords(s.control.by)}</span>}

@@ -3,12 +3,14 @@
 
 import { h } from "preact";
 import { useEffect, useRef, useState } from "preact/hooks";
+import { useEscape } from "./escape";
 import { t } from "./words";
 
 type Props = { word: string; question: string; label?: string; isDangerous?: boolean; onSure: () => void };
 
 export function Sure({ word, question, label, isDangerous, onSure }: Props) {
   const [asks, setAsks] = useState(false);
+  useEscape(asks, () => setAsks(false));
   const no = useRef<HTMLButtonElement>(null);
   const button = useRef<HTMLButtonElement>(null);
   const wasAsked = useRef(false);

@@ -4,7 +4,7 @@ import { h } from "preact";
 import { useState } from "preact/hooks";
 import { bearing, DASH, fixed, spacedMgrs } from "./format";
 import type { Link } from "./link";
-import type { Cue, Line, Target } from "./site";
+import { targetState, type Cue, type Line, type Target } from "./site";
 import { named, t, Word } from "./words";
 
 type Column = { word: Word; of: (target: Target) => string | number | null; text: (target: Target, link: Link) => string };
@@ -14,7 +14,7 @@ const used = (target: Target) => target.stations?.filter((s) => s.used).length ?
 
 const COLUMNS: Column[] = [
   { word: "name", of: (x) => Number(x.id), text: (x) => x.id },
-  { word: "state", of: (x) => x.state, text: (x) => named("s", x.state) },
+  { word: "state", of: targetState, text: (x) => named("s", targetState(x)) },
   { word: "height", of: (x) => x.height_m, text: (x) => fixed(x.height_m, 1, " m") },
   { word: "speed", of: (x) => x.speed_m_s, text: (x) => fixed(x.speed_m_s, 1, " m/s") },
   { word: "course", of: (x) => x.course_deg, text: (x) => bearing(x.course_deg, 0) },
@@ -24,7 +24,7 @@ const COLUMNS: Column[] = [
   { word: "position", of: (x) => x.latitude_deg, text: (x) => `${fixed(x.latitude_deg, 6)}° ${fixed(x.longitude_deg, 6)}°` },
   { word: "mgrs", of: (x) => x.mgrs ?? null, text: (x) => spacedMgrs(x.mgrs) },
 ];
-const STATES = ["confirmed", "born", "coasted"];
+const STATES = ["confirmed", "born", "coasted", "stale"];
 
 type TargetsProps = { link: Link; selected: string; mayCommand: boolean; onSelect: (pick: string) => void; onCue: (cue: string, allow: boolean) => void };
 
@@ -61,7 +61,7 @@ function TargetRow({ target, link, isSelected, onSelect }: TargetRowProps) {
   return (
     <tr aria-selected={isSelected} class={target.stale ? "stale" : ""} onClick={onSelect}>
       <td>
-        <button type="button" class={`tag ${target.state}`} aria-pressed={isSelected}>
+        <button type="button" class={`tag ${targetState(target)}`} aria-pressed={isSelected}>
           {COLUMNS[0].text(target, link)}
         </button>
       </td>
@@ -102,7 +102,7 @@ function Heads({ sort, onSort }: { sort: Sort; onSort: (sort: Sort) => void }) {
 export function Targets({ link, selected, mayCommand, onSelect, onCue }: TargetsProps) {
   const [sort, setSort] = useState<Sort>({ column: 0, down: false });
   const [state, setState] = useState("");
-  const targets = sorted([...link.site.targets.values()].filter((one) => !state || one.state === state), sort);
+  const targets = sorted([...link.site.targets.values()].filter((one) => !state || targetState(one) === state), sort);
   const lines = [...link.site.lines.values()].filter((line) => !line.stale);
   const cues = link.site.fusion?.stale ? [] : (link.site.fusion?.cues ?? []);
   return (

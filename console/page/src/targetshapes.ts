@@ -11,7 +11,7 @@ import { fixed } from "./format";
 import type { Link } from "./link";
 import type { Side } from "./labels";
 import { Colours, nameAt, offset, shape, stretch } from "./mapfeatures";
-import type { Cue, Target } from "./site";
+import { stretches, targetState, type Cue, type Target } from "./site";
 import { named } from "./words";
 
 const VELOCITY_S = 5;
@@ -33,7 +33,10 @@ function ellipseRing(target: Target, at: Coordinate, scale: number): Coordinate[
 const targetColour = (target: Target, c: Colours) =>
   target.stale || target.state === "coasted" ? c.coasted : target.state === "born" ? c.born : c.target;
 
-export const targetWords = (target: Target) => `${target.id}   ${fixed(target.height_m, 0, " m")}   ${fixed(target.speed_m_s, 0, " m/s")}`;
+export function targetWords(target: Target): string {
+  const moves = target.stale ? named("s", targetState(target)) : fixed(target.speed_m_s, 0, " m/s");
+  return `${target.id}   ${fixed(target.height_m, 0, " m")}   ${moves}`;
+}
 export const cueWords = (cue: Cue) => `${cue.label || cue.id}   ${named("s", cue.state)}`;
 
 export function targetShapes(target: Target, c: Colours, selected: boolean, trails: boolean, side?: Side | null): Feature[] {
@@ -42,14 +45,14 @@ export function targetShapes(target: Target, c: Colours, selected: boolean, trai
   const scale = stretch(target.latitude_deg);
   const colour = targetColour(target, c);
   const out: Feature[] = [];
-  if (trails && target.trail?.length > 1) {
-    const path = target.trail.map(([longitude, latitude]) => fromLonLat([longitude, latitude]));
-    out.push(shape(new LineString([...path, at]), new Style({ stroke: new Stroke({ color: c.trail, width: selected ? 2.5 : 1.5 }) })));
+  for (const stretch of trails ? stretches(target) : []) {
+    const path = stretch.map(([longitude, latitude]) => fromLonLat([longitude, latitude]));
+    out.push(shape(new LineString(path), new Style({ stroke: new Stroke({ color: c.trail, width: selected ? 2.5 : 1.5 }) })));
   }
   const ring = ellipseRing(target, at, scale);
   if (ring) out.push(shape(new Polygon([ring]), new Style({ stroke: new Stroke({ color: colour, width: 1.5 }), fill: new Fill({ color: c.trail.replace(/[\d.]+\)$/, "0.12)") }) })));
   const [east, north] = target.velocity_enu_m_s ?? [];
-  if (east != null && north != null) {
+  if (east != null && north != null && !target.stale) {
     const ahead = [at[0] + east * VELOCITY_S * scale, at[1] + north * VELOCITY_S * scale];
     out.push(shape(new LineString([at, ahead]), new Style({ stroke: new Stroke({ color: colour, width: 2 }) })));
   }

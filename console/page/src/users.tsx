@@ -3,6 +3,7 @@
 import { h } from "preact";
 import { useEffect, useRef, useState } from "preact/hooks";
 import { inWords } from "./conditions";
+import { useEscape } from "./escape";
 import { Sure } from "./sure";
 import { t, Word } from "./words";
 
@@ -92,6 +93,7 @@ function EnterUser({ change }: { change: Change }) {
 export function Users({ self, onClose }: { self: string; onClose: () => void }) {
   const dialog = useRef<HTMLDialogElement>(null);
   const { users, said, look, change } = useUsers();
+  useEscape(true, onClose);
   useEffect(() => {
     dialog.current!.show();
     void look();

@@ -26,9 +26,11 @@ type Props = {
   onSelect: (station: string) => void;
   onDesignate: Designate;
   onPoint: Point;
+  onWithheld: (station: string) => void;
+  onRelease: (station: string) => void;
 };
 
-export function VideoView({ link, selected, mayCommand, onSelect, onDesignate, onPoint }: Props) {
+export function VideoView({ link, selected, mayCommand, onSelect, onDesignate, onPoint, onWithheld, onRelease }: Props) {
   const thin = useThinLink(link);
   const stations = [...link.site.stations.values()].sort((a, b) => a.id.localeCompare(b.id));
   const ids = stations.map((s) => s.id);
@@ -51,6 +53,8 @@ export function VideoView({ link, selected, mayCommand, onSelect, onDesignate, o
             onSelect={() => onSelect(station.id)}
             onDesignate={onDesignate}
             onPoint={onPoint}
+            onWithheld={() => onWithheld(station.id)}
+            onRelease={() => onRelease(station.id)}
           />
         ))}
       </div>

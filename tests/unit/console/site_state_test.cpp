@@ -85,6 +85,29 @@ TEST(SiteState, ATargetHasATrailThatIsThinnedAndBounded) {
               1.1e-6);
 }
 
+TEST(SiteState, ATrailIsBrokenWhereTheTargetWasNotSeen) {
+  SiteState site;
+  double now_s = 0.0;
+  for (int i = 0; i < 4; ++i) site.hear(target("1"), {now_s += 0.5, 0});
+  for (int i = 0; i < 3; ++i) site.hear(target("1"), {now_s += i == 0 ? 3.0 : 0.5, 0});
+  const Json trail = site.snapshot().at("targets")[0].at("trail");
+  ASSERT_EQ(trail.size(), 8U);
+  EXPECT_TRUE(trail[4].is_null());
+}
+
+TEST(SiteState, APositionGetsNoYoungerByWordsWithoutOne) {
+  SiteState site;
+  TargetHeard heard = target("1");
+  heard.fields["utime_us"] = 1;
+  site.hear(heard, {0.0, 0});
+  heard.what = TargetHeard::What::kNoPosition;
+  heard.fields = {{"utime_us", 2}, {"state", "coasted"}};
+  site.hear(heard, {0.1, 0});
+  const Json shown = site.snapshot().at("targets")[0];
+  EXPECT_EQ(shown.at("utime_us"), 1);
+  EXPECT_EQ(shown.at("state"), "coasted");
+}
+
 TEST(SiteState, ADroppedTargetIsGone) {
   SiteState site;
   site.hear(target("1"), {0.0, 0});

@@ -1,0 +1,285 @@
+"""Keys, clicks and fingers on the console's page that were not meant for a station: nothing stops,
+moves or changes hands. And the ways that are meant: into the operator's hand and back to tracking,
+the stop, and the release of what it has stopped."""
+
+import re
+
+import pytest
+from console_page import picture, region
+from console_site import DEADLINE_S, STATUS, wait_for
+from playwright.sync_api import expect
+
+pytest_plugins = ["console_fixtures"]
+
+HOLD_MS = 600  # longer than the half second after which a press is a joystick
+# What the page says to the console, but for what it looks at.
+SPY = """
+  window.said = [];
+  const send = WebSocket.prototype.send;
+  WebSocket.prototype.send = function (text) {
+    if (!["watch", "taken"].includes(JSON.parse(text).do)) window.said.push(text);
+    return send.call(this, text);
+  };
+  window.pad = { connected: true, mapping: "standard", axes: [0, 0, 0, 0],
+                 buttons: Array.from({ length: 17 }, () => ({ value: 0 })) };
+  window.looks = 0;
+  navigator.getGamepads = () => (window.looks++, [window.pad]);
+"""
+
+
+class Person:
+    """At the page; alfa's picture is the large one."""
+
+    def __init__(self, page):
+        self.page = page
+        self.canvas = picture(page, "alfa")
+        self.figure = self.canvas.locator("xpath=..")
+
+    def at(self, across=0.3, down=0.4, station="alfa"):
+        box = picture(self.page, station).bounding_box()
+        return box["x"] + across * box["width"], box["y"] + down * box["height"]
+
+    def press(self, key):
+        self.canvas.focus()
+        self.page.keyboard.press(key)
+
+    def escape(self):
+        self.page.keyboard.press("Escape")
+
+    def hold_escape(self):
+        """A key that is held repeats: the first press closes the menu."""
+        self.open_layers()
+        for _ in range(3):
+            self.page.keyboard.down("Escape")
+        self.page.keyboard.up("Escape")
+        expect(region(self.page, "Map").get_by_role("button", name="Rings")).to_be_hidden()
+
+    def open_layers(self):
+        region(self.page, "Map").locator("summary").click()
+        expect(region(self.page, "Map").get_by_role("button", name="Rings")).to_be_visible()
+
+    def measure(self):
+        region(self.page, "Map").get_by_role("button", name="Measure").click()
+        self.escape()
+        expect(self.page.get_by_text("Click two points")).to_be_hidden()
+
+    def be_asked(self):
+        button = region(self.page, "Stations").get_by_role("button", name="Home", exact=True)
+        button.click()
+        self.escape()
+        expect(button).to_be_focused()
+
+    def drag_and_leave(self):
+        self.page.mouse.move(*self.at(0.3, 0.3))
+        self.page.mouse.down()
+        self.page.mouse.move(*self.at(0.6, 0.6), steps=4)
+        self.escape()
+        self.page.mouse.move(*self.at(0.7, 0.7))
+        self.page.mouse.up()
+
+    def draw_by_key_and_leave(self):
+        self.press("Enter")
+        self.escape()
+
+    def write(self):
+        field = region(self.page, "Stations").get_by_label("Pan °")
+        field.focus()
+        self.escape()
+        expect(field).not_to_be_focused()
+
+    def choose(self):
+        region(self.page, "Targets").get_by_label("Filter").focus()
+        self.escape()
+
+    def take_in_hand_and_leave(self):
+        button = self.figure.get_by_role("button", name="By hand")
+        button.click()
+        expect(button).to_have_attribute("aria-pressed", "true")
+        self.escape()
+        expect(button).to_have_attribute("aria-pressed", "false")
+
+    def push_by_mouse(self):
+        self.page.mouse.move(*self.at(0.5, 0.5))
+        self.page.mouse.down()
+        self.page.wait_for_timeout(HOLD_MS)  # what the hand does
+        self.page.mouse.move(*self.at(0.8, 0.5), steps=3)
+        self.page.mouse.up()
+
+    def push_by_pad(self):
+        for axis in (0.6, 0):
+            looks = self.page.evaluate(f"(window.pad.axes = [{axis}, 0, 0, 0], window.looks)")
+            self.page.wait_for_function("(before) => window.looks > before + 2", arg=looks)
+
+    def slip_and_come_back(self):
+        self.page.mouse.move(*self.at(0.3, 0.3))
+        self.page.mouse.down()
+        self.page.mouse.move(*self.at(0.5, 0.5))
+        self.page.mouse.move(*self.at(0.3, 0.3))
+        self.page.mouse.up()
+
+    def choose_by_double_click(self):
+        """The second click is on what the first has changed."""
+        self.page.mouse.dblclick(*self.at(0.5, 0.5, "bravo"))
+        self.page.mouse.click(*self.at(0.5, 0.5, "alfa"))
+        expect(self.figure).to_have_class(re.compile("large"))
+
+    def look_at_the_map(self):
+        chart = region(self.page, "Map").get_by_role("application")
+        chart.click()
+        chart.press("ArrowRight")
+
+    def ways(self):
+        page = self.page
+        return {
+            "Escape closes the menu of layers": lambda: (self.open_layers(), self.escape()),
+            "Escape is held on the menu of layers": self.hold_escape,
+            "Escape ends measuring": self.measure,
+            "Escape answers a question": self.be_asked,
+            "Escape cancels a drag": self.drag_and_leave,
+            "Escape cancels a box of the keyboard": self.draw_by_key_and_leave,
+            "Escape leaves a field": self.write,
+            "Escape leaves a choice": self.choose,
+            "Escape with Shift is the browser's": lambda: page.keyboard.press("Shift+Escape"),
+            "Escape takes the hand away": self.take_in_hand_and_leave,
+            "a click": lambda: page.mouse.click(*self.at()),
+            "a double click": lambda: page.mouse.dblclick(*self.at()),
+            "a double click that chooses": self.choose_by_double_click,
+            "the right button": lambda: page.mouse.click(*self.at(), button="right"),
+            "a slip": self.slip_and_come_back,
+            "a held press": self.push_by_mouse,
+            "an arrow": lambda: self.press("ArrowRight"),
+            "an arrow with Shift": lambda: self.press("Shift+ArrowUp"),
+            "the letter L": lambda: self.press("l"),
+            "a gamepad that is lifted": self.push_by_pad,
+            "a wheel": lambda: (page.mouse.move(*self.at()), page.mouse.wheel(0, 300)),
+            "the map": self.look_at_the_map,
+        }
+
+
+def track(paper, page, *stations):
+    for station in stations:
+        paper.states[station], paper.track_ids[station] = STATUS.STATE_TRACKING, 3
+        row = region(page, "Stations").get_by_role("button", name=station)
+        expect(row).to_contain_text("tracking")
+
+
+def forget(paper):
+    for what in (paper.commands, paper.ptu_commands, paper.designations, paper.lens_commands):
+        what.clear()
+
+
+def release_charlie(page, paper):
+    """Once it is heard on the bus, so is whatever the page has sent before."""
+    page.evaluate("window.said.length = 0")
+    region(page, "Stations").get_by_role("button", name="charlie").click()
+    region(page, "Stations").get_by_role("button", name="Release", exact=True).click()
+    wait_for(lambda: paper.commands, "a command that is meant")
+    assert paper.commands == [("charlie", "release")]
+    assert paper.designations == [] and paper.lens_commands == []
+
+
+@pytest.fixture
+def spied(page):
+    page.add_init_script(SPY)
+    page.reload()
+    return page
+
+
+def test_what_is_not_meant_for_a_tracking_station_does_nothing(spied, paper):
+    region(spied, "Stations").get_by_role("button", name="alfa").click()
+    person = Person(spied)
+    track(paper, spied, "alfa", "bravo")
+    forget(paper)
+    said = {}
+    for way, do in person.ways().items():
+        do()
+        if sent := spied.evaluate("window.said.splice(0)"):
+            said[way] = sent
+    assert said == {}
+    assert len(person.ways()) > 20
+    release_charlie(spied, paper)
+
+
+def test_a_tracking_station_is_taken_in_hand_and_given_back(spied, paper):
+    person = Person(spied)
+    track(paper, spied, "alfa")
+    forget(paper)
+    spied.mouse.click(*person.at())
+    expect(spied.get_by_text("alfa follows an object by itself")).to_be_visible()
+    person.figure.get_by_role("button", name="By hand").click()
+    expect(person.figure).to_contain_text("end tracking")
+    spied.mouse.click(*person.at())
+    wait_for(lambda: paper.commands, "the command")
+    person.figure.get_by_role("button", name="Back to tracking").click()
+    wait_for(lambda: len(paper.commands) > 1, "the release")
+    assert paper.commands == [("alfa", "centre"), ("alfa", "release")]
+    track(paper, spied, "alfa")
+    expect(person.figure.get_by_role("button", name="Back to tracking")).to_be_hidden()
+    forget(paper)
+    person.press("m")
+    spied.keyboard.down("ArrowRight")
+    wait_for(lambda: paper.ptu_commands, "rates")
+    spied.keyboard.up("ArrowRight")
+    wait_for(lambda: paper.ptu_commands[-1].pan_rate_rad_s == 0, "the halt")
+
+
+def test_what_was_stopped_is_released_by_one_button(page, paper):
+    picture(page, "alfa")
+    track(paper, page, "alfa", "bravo")
+    paper.targets.clear()
+    page.keyboard.press("Escape")
+    expect(page.get_by_text("stopping: alfa, bravo, charlie")).to_be_visible()
+    expect(region(page, "Stations").get_by_text("stopped")).to_have_count(3)
+    forget(paper)
+    page.get_by_role("button", name="Release all").click()
+    page.get_by_role("button", name="Release all").click()
+    expect(page.get_by_text("released: alfa, bravo, charlie")).to_be_visible()
+    assert set(paper.commands) == {(s, "release") for s in ("alfa", "bravo", "charlie")}
+    expect(page.get_by_role("button", name="Release all")).to_be_hidden()
+    advice = region(page, "Stations").get_by_text("alfa, bravo: No station knows where")
+    expect(advice).to_be_visible(timeout=2 * DEADLINE_S * 1000)
+
+
+@pytest.fixture
+def phone(chromium, consoles, page):
+    context = chromium.new_context(viewport={"width": 390, "height": 844}, has_touch=True)
+    context.add_init_script(SPY)
+    opened = context.new_page()
+    opened.set_default_timeout(DEADLINE_S * 1000)
+    opened.goto(consoles[0])
+    yield opened
+    context.close()
+
+
+def swipe(page, canvas):
+    """Upwards by a finger, from the picture's middle."""
+    canvas.scroll_into_view_if_needed()
+    box = canvas.bounding_box()
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    screen = page.context.new_cdp_session(page)
+    for k in range(11):
+        event = {"type": "touchMove" if k else "touchStart", "touchPoints": [{"x": x, "y": y}]}
+        screen.send("Input.dispatchTouchEvent", event)
+        x, y = x - 3, y - 8
+    screen.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
+
+
+def test_a_swipe_over_a_picture_scrolls_unless_the_station_is_in_hand(phone, paper):
+    alfa = picture(phone, "alfa")
+    forget(paper)
+    for canvas in (alfa, picture(phone, "bravo")):  # the large one, and a small one, which stays so
+        phone.evaluate("scrollTo(0, 0)")
+        swipe(phone, canvas)
+        wait_for(lambda: phone.evaluate("scrollY") > 20, "the scroll")
+    assert phone.evaluate("window.said") == []
+    expect(alfa.locator("xpath=..")).to_have_class(re.compile("large"))
+    alfa.tap()
+    wait_for(lambda: paper.commands, "what a tap does")
+    assert paper.commands == [("alfa", "centre")]
+    phone.get_by_role("button", name="By hand").tap()
+
+    def drawn():
+        swipe(phone, alfa)
+        return paper.designations
+
+    wait_for(drawn, "a box by a finger")
