@@ -23,6 +23,11 @@ class FaultLog {
   // The same for the result of an operator's action: each one is a new fault.
   void note_event(const std::string& source, const std::string& what, std::uint64_t number,
                   std::int64_t utime_us);
+  // An error that is none: the device is only coming up.
+  void pass_over(const std::string& source, const std::string& what, std::uint64_t number,
+                 std::int64_t utime_us) {
+    noted_[source] = {what, number, utime_us};
+  }
   // The alarms that hold now. A new alarm is a fault. A changed number ("silent for 5 s") does not
   // make it a new one.
   void note_alarms(const std::vector<std::string>& alarms, std::int64_t utime_us);

@@ -5,8 +5,7 @@
 namespace ols::station {
 namespace {
 
-constexpr double kStart_s =
-    8.0;  // devices answer within; from then on that they do not is an alarm
+constexpr double kStart_s = 8.0;  // devices answer within: later it is an alarm that they do not
 
 FaultLog::State state_of(StationState state) {
   const bool emergency = state == StationState::kEmergency;
@@ -23,26 +22,32 @@ FaultLog::State state_of(const device::DeviceReport& device) {
   return state;
 }
 
+// A stop that cannot be read is no device that comes up, and a unit that answers has its emergency
+// stop and its reference.
+bool is_only_starting(const device::DeviceReport& device) {
+  if (device.last_good_s || device.name == "gpio") return false;
+  const bool starts = device.state == device::DeviceState::kStarting && device.name != "ptu";
+  return starts || device.state == device::DeviceState::kAbsent;
+}
+
 }  // namespace
 
 StationJournal::StationJournal(std::string station, Write write)
     : station_(std::move(station)), write_(std::move(write)) {}
 
-// A stop that cannot be read is no device that comes up.
-void StationJournal::hush_what_starts(StationReport& report, double now_s) {
-  if (!begun_s_) begun_s_ = now_s;
-  if (now_s - *begun_s_ > kStart_s) return;
+void StationJournal::hush_what_starts(const clock::ClockPair& now, StationReport& report) {
+  if (!begun_s_) begun_s_ = now.monotonic_s;
+  if (now.monotonic_s - *begun_s_ > kStart_s) return;
   for (device::DeviceReport& device : report.devices) {
-    const bool starts = device.state == device::DeviceState::kAbsent ||
-                        device.state == device::DeviceState::kStarting;
-    if (!starts || device.last_good_s || device.name == "gpio") continue;
+    if (!is_only_starting(device)) continue;
+    troubles_.pass_over(device.name, device.last_error, device.errors, now.utime_us);
     device.alarms.clear();
     device.last_error.clear();
   }
 }
 
 void StationJournal::note(const clock::ClockPair& now, const Bus& bus, StationReport& report) {
-  hush_what_starts(report, now.monotonic_s);
+  hush_what_starts(now, report);
   note_devices(report, now.utime_us);
   troubles_.note_alarms(all_alarms(report), now.utime_us);
   note_bus(bus, now.utime_us);

@@ -29,7 +29,7 @@ class StationJournal {
   void note(const clock::ClockPair& now, const Bus& bus, StationReport& report);
 
  private:
-  void hush_what_starts(StationReport& report, double now_s);
+  void hush_what_starts(const clock::ClockPair& now, StationReport& report);
   void note_devices(const StationReport& report, std::int64_t utime_us);
   void note_bus(const Bus& bus, std::int64_t utime_us);
 

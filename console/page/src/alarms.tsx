@@ -21,7 +21,7 @@ export function WhatToDo({ alarm }: { alarm: string }) {
   if (!meaning && !action) return null;
   return (
     <p class="advice">
-      {meaning && <Coded text={`${meaning}. `} />}
+      {meaning && <Coded text={`${meaning[0].toUpperCase()}${meaning.slice(1)}. `} />}
       {action && (
         <em>
           {t("what_to_do")}: <Coded text={action} />

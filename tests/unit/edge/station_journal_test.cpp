@@ -80,8 +80,23 @@ TEST_F(StationJournalTest, ADeviceThatIsComingUpIsNoAlarmYet) {
   EXPECT_EQ(alarms(1'000'000), std::vector<std::string>{"gpio: does not answer"});
   EXPECT_EQ(noted(2'000'000), "gpio: does not answer") << "a stop that is not read is one at once";
   EXPECT_EQ(alarms(10'000'000).size(), 2U) << "by then it should have answered";
-  report_.devices[0].last_good_s = 10.5;
-  EXPECT_EQ(alarms(11'000'000).size(), 2U);
+}
+
+TEST_F(StationJournalTest, WhatADeviceSaidWhileItCameUpIsNoErrorLaterEither) {
+  report_.devices = {failed("camera", "camera x does not answer: no", 1)};
+  report_.devices[0].state = device::DeviceState::kAbsent;
+  EXPECT_EQ(noted(1'000'000), "");
+  report_.devices[0].state = device::DeviceState::kOk;
+  report_.devices[0].last_good_s = 2.0;
+  EXPECT_EQ(noted(3'000'000), "");
+  EXPECT_EQ(noted(30'000'000), "");
+}
+
+TEST_F(StationJournalTest, AUnitThatStartsHasItsEmergencyStop) {
+  report_.devices = {failed("ptu", "", 0)};
+  report_.devices[0].state = device::DeviceState::kStarting;
+  report_.devices[0].alarms = {"ptu: emergency stop"};
+  EXPECT_EQ(noted(1'000'000), "ptu: emergency stop");
 }
 
 TEST_F(StationJournalTest, ADeviceThatWasThereIsAnAlarmAtOnce) {
