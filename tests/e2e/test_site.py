@@ -13,6 +13,7 @@ import lcm
 import numpy as np
 import pytest
 from conftest import BIN, ROOT
+from console_site import Api, address_of, wait_for
 from ols_demo import recording
 from ols_demo.bus import decode
 from ols_demo.site import Site
@@ -63,6 +64,20 @@ def test_report_and_plot_are_whole(run, report):
         assert key in report
     assert (run / "r.png").read_bytes().startswith(b"\x89PNG")
     assert (run / "run.lcmlog").stat().st_size > 0
+
+
+def test_a_run_without_faults_is_no_news(run, tmp_path):
+    """What comes up is no alarm, and what people are told has no words of programs."""
+    command = [str(BIN / "ols-console"), "--port", "0", "--users", str(tmp_path / "nobody")]
+    with Site(tmp_path / "logs") as site:
+        site.start_and_wait("console", [*command, "--replay", str(run / "run.lcmlog")], "ready")
+        api = Api(address_of(site, "console"))
+        wait_for(lambda: api.state()["replay"]["read"] >= 1, "the whole log")
+        _, timeline, _ = api.ask("/api/replay")
+    news = [m for m in timeline["marks"] if m["kind"] in ("alarm", "error")]
+    said = [mark["text"] for mark in news]
+    assert not [text for text in said if "_" in text or " " not in text], said
+    assert not [text for text in said if "does not answer" in text], said
 
 
 def positions_of(log):
