@@ -36,6 +36,10 @@ Finding at_most(const std::string& name, double value, double limit, const char*
   return finding;
 }
 
+std::string label_of(const Group& group) {
+  return std::string(name(group.kind)) + " '" + group.name + "'";
+}
+
 // What the sightings of a station tell of a calibration.
 class Judge {
  public:
@@ -97,7 +101,7 @@ class Judge {
   void reference(std::size_t g) {
     const Group& group = adjustment_.groups()[g];
     if (!group.is_absolute() || group.kind == Kind::kStar || !is_own(group)) return;
-    const std::string label = std::string(name(group.kind)) + " '" + group.name + "'";
+    const std::string label = label_of(group);
     const GroupTest& test = found_.tests[g];
     if (test.rejected) {
       add({"rejected " + group.name, Judgement::kBad, test.w, test.critical,
@@ -141,6 +145,7 @@ class Judge {
   // First and last sighting of one reference: what has moved meanwhile.
   void closing() {
     double worst_rad = -1.0;
+    std::string worst;
     for (const Group& group : adjustment_.groups()) {
       if (group.kind != Kind::kLandmark && group.kind != Kind::kStation) continue;
       std::vector<std::size_t> own;
@@ -149,11 +154,14 @@ class Judge {
       });
       if (own.size() < 2) continue;
       const Eigen::Vector2d apart = *found_.residuals[own.back()] - *found_.residuals[own.front()];
-      worst_rad = std::max(worst_rad, apart.norm() / model_.geometry.camera.fx_px);
+      const double apart_rad = apart.norm() / model_.geometry.camera.fx_px;
+      if (apart_rad <= worst_rad) continue;
+      worst_rad = apart_rad;
+      worst = label_of(group);
     }
     if (worst_rad < 0.0) return;
     add(at_most("closing", arcsec(worst_rad), limits_.closing_arcsec, "″",
-                "first and last sighting of a reference"));
+                worst + ", first and last sighting"));
   }
 
   void residuals(const std::string& name, Kind kind, double limit_px) {

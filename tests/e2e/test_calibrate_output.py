@@ -42,13 +42,13 @@ def test_the_same_input_has_the_same_id_and_another_one_another(run):
             lines = run.lines("observations.jsonl")
             lines[1] = json.dumps(line)
             (run.folder / "observations.jsonl").write_text("\n".join(lines) + "\n")
-        assert run.adjust().returncode == 0
+        run.adjusted()
         ids.append(run.report()["stations"][0]["calibration_id"])
     assert ids[0] == ids[1] != ids[2]
 
 
 def test_a_calibration_is_never_overwritten(run):
-    assert run.adjust().returncode == 0
+    run.adjusted()
     before = {path.name: path.read_bytes() for path in run.output.iterdir()}
     error = run.refused()
     assert "is not empty: a calibration is never overwritten" in error

@@ -35,7 +35,7 @@ PLAIN_NAMES = {*PLAIN, "east_m", "north_m", "up_m", "refraction_k"}
 def adjust(folder, *arguments):
     command = [BIN / "ols-calibrate", "adjust", *arguments, "--output", folder / "out"]
     done = subprocess.run(list(map(str, command)), capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stderr
+    assert done.returncode in (0, 1), done.stderr  # 1: a finding is beyond its limit
     return json.loads((folder / "out/report.json").read_text())
 
 

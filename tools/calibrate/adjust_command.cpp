@@ -154,6 +154,17 @@ Adjusted adjust_into(const CaseOptions& options, const std::filesystem::path& fo
   return adjusted;
 }
 
+std::vector<std::string> bad_findings(const Adjusted& adjusted) {
+  std::vector<std::string> bad;
+  for (const StationResult& station : adjusted.results) {
+    const std::string whose = adjusted.results.size() > 1 ? "station " + station.id + ": " : "";
+    for (const Finding& one : station.acceptance.findings) {
+      if (is_limit(one)) bad.push_back(whose + one.sentence);
+    }
+  }
+  return bad;
+}
+
 AdjustedResult result_for_person(const Adjusted& adjusted) {
   if (!adjusted.found.headings_known) return instrument_for_person(adjusted);
   AdjustedResult result;

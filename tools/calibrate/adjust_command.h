@@ -14,6 +14,9 @@
 
 namespace ols::calibration {
 
+// Of `adjust`: the results are written, and at least one finding is bad.
+inline constexpr int kExitNotWithinLimits = 1;
+
 // An adjustment and its station's results.
 struct Adjusted {
   Case what;
@@ -29,6 +32,9 @@ struct Adjusted {
 // `tell`: as calibrate().
 Adjusted adjust_into(const CaseOptions& options, const std::filesystem::path& folder,
                      const TellAdjusted& tell = {});
+
+// What is not within the limits, of all stations, as sentences; empty: all is good.
+std::vector<std::string> bad_findings(const Adjusted& adjusted);
 
 // One screen for a person: what is left, what was rejected, what is worst.
 AdjustedResult result_for_person(const Adjusted& adjusted);

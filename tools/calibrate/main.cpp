@@ -110,7 +110,8 @@ fs::path output_folder(const calibration::CaseOptions& o) {
   return calibration::checked_folder(o.output);
 }
 
-void adjust(const calibration::CaseOptions& options) {
+// The results are there all the same: what to do about a limit is for a person to decide.
+int adjust(const calibration::CaseOptions& options) {
   ols::Progress progress("ols-calibrate", "adjustments");
   std::size_t done = 0;
   const auto tell = [&] { progress(++done, 0); };
@@ -118,6 +119,12 @@ void adjust(const calibration::CaseOptions& options) {
   for (const std::string& line : adjusted.notes) {
     std::cerr << "ols-calibrate: " << line << '\n';
   }
+  const std::vector<std::string> bad = calibration::bad_findings(adjusted);
+  for (const std::string& line : bad) std::cerr << "ols-calibrate: BAD  " << line << '\n';
+  if (bad.empty()) return 0;
+  std::cerr << "ols-calibrate: not within the limits; the results are in " << options.output
+            << '\n';
+  return calibration::kExitNotWithinLimits;
 }
 
 }  // namespace
@@ -159,7 +166,7 @@ int main(int argc, char** argv) {
     } else if (boards->parsed()) {
       remarks = calibration::write_camera(camera);
     } else {
-      adjust(options);
+      return adjust(options);
     }
     for (const std::string& line : remarks) std::cerr << "ols-calibrate: " << line << '\n';
   } catch (const std::bad_alloc&) {

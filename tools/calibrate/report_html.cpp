@@ -231,15 +231,24 @@ void write_summary(std::ostream& out, const StationResult& result, const Calibra
       << ".</p>\n";
 }
 
+// Each finding under the heading that is true of it, the bad ones first.
 void write_acceptance(std::ostream& out, const Acceptance& acceptance) {
-  out << "<h2>" << (acceptance.acceptable() ? "Within the limits" : "Not within the limits")
-      << "</h2>\n<table><tr><th>finding</th><th></th></tr>\n";
-  for (const Finding& one : acceptance.findings) {
-    const bool bad = one.judgement == Finding::Judgement::kBad;
-    out << (bad ? "<tr class=\"bad\"><td>" : "<tr><td>") << escaped(one.sentence) << "</td><td>"
-        << to_string(one.judgement) << "</td></tr>\n";
+  using Judgement = Finding::Judgement;
+  constexpr std::array<std::pair<Judgement, const char*>, 3> kHeadings{
+      {{Judgement::kBad, "Not within the limits"},
+       {Judgement::kUnchecked, "Unchecked"},
+       {Judgement::kGood, "Within the limits"}}};
+  for (const auto& [judgement, heading] : kHeadings) {
+    std::vector<std::string> sentences;
+    for (const Finding& one : acceptance.findings) {
+      if (one.judgement == judgement) sentences.push_back(one.sentence);
+    }
+    if (sentences.empty()) continue;
+    out << "<h2>" << heading << "</h2>\n<table>\n";
+    const char* const row = judgement == Judgement::kBad ? "<tr class=\"bad\"><td>" : "<tr><td>";
+    for (const std::string& one : sentences) out << row << escaped(one) << "</td></tr>\n";
+    out << "</table>\n";
   }
-  out << "</table>\n";
 }
 
 }  // namespace

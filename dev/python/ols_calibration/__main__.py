@@ -20,6 +20,7 @@ from .cases import CASES
 from .model import ARCSEC, azimuth_elevation
 
 ROOT = Path(__file__).resolve().parents[3]
+NOT_WITHIN_LIMITS = 1  # of ols-calibrate: there are results, and a finding is bad
 HORIZON_COUNTS = 3 / 360 * 112000
 COLUMNS = "pan_counts,tilt_counts,approach_pan,approach_tilt,x_px,y_px,utime_us,station"
 
@@ -124,7 +125,8 @@ def adjusted(program, site, folder, rows):
     arguments = site.write(folder, predict_text(rows or volume(site, site.rng)))
     command = [program, "adjust", *arguments, "--output", folder / "out"]
     done = subprocess.run(list(map(str, command)), capture_output=True, text=True, check=False)
-    return done.stderr.strip().splitlines()[-1] if done.returncode != 0 else None
+    has_results = done.returncode in (0, NOT_WITHIN_LIMITS)
+    return None if has_results else done.stderr.strip().splitlines()[-1]
 
 
 def run(program, build, figure, seed):
