@@ -162,7 +162,9 @@ config::Section bridge_section(BridgeConfig& c) {
            "Commands that pass from a region to a site: slew, ptu, lens, designate, record."),
        config::flag("targets", c.targets, "Whether the targets of the fusion on this bus go out."),
        config::number("command_age_s", c.command_age_s, {0.05, 10.0}, "s",
-                      "An older command is refused.")},
+                      "An older command is refused."),
+       config::number("live_age_s", c.live_age_s, {0.5, 60.0}, "s",
+                      "An older bearing, status or target is not taken in.")},
       {nats_section(c.nats), archive_section(c.archive), ownership_section(c.ownership)},
       [&c](ConfigTable& root) { check(c, root); }};
 }
@@ -180,6 +182,7 @@ PassageConfig passage_of(const BridgeConfig& config) {
   passage.commands = config.commands;
   passage.targets = config.targets;
   passage.command_age_s = config.command_age_s;
+  passage.live_age_s = config.live_age_s;
   return passage;
 }
 

@@ -46,7 +46,7 @@ struct BridgeConfig {
   std::vector<std::string> stations, takes;
   std::vector<std::string> commands{"slew"};
   bool targets = false;
-  double command_age_s = 1.0;
+  double command_age_s = 1.0, live_age_s = 5.0;
   NatsConfig nats;
   ArchiveConfig archive;
   OwnershipConfig ownership;

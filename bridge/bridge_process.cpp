@@ -85,12 +85,16 @@ BridgeProcess::Remote::Remote(BridgeProcess& bridge, const BridgeConfig& config)
 // this fusion owns, and every count.
 void BridgeProcess::renew_link(double now_s) {
   const LinkReport link = remote_->link.report();
+  if (link.is_open) tried_anew_.clear();
   if (!link.has_ended || now_s - remote_->begun_s < kShortest_s) return;
-  write_to_journal({.text = "the server is tried anew: " + link.trouble,
-                    .bad = true,
-                    .id = event::kLineFails,
-                    .device = "server",
-                    .reason = link.trouble});
+  if (tried_anew_ != link.trouble) {
+    write_to_journal({.text = "the server is tried anew: " + link.trouble,
+                      .bad = true,
+                      .id = event::kLineFails,
+                      .device = "server",
+                      .reason = link.trouble});
+  }
+  tried_anew_ = link.trouble;
   before_ = sum(before_, link);
   remote_.reset();
   if (ownership_) {
@@ -145,10 +149,11 @@ Owned BridgeProcess::owned() {
 }
 
 // What another owner publishes: by it is known where its target is, and since when it owns it.
-void BridgeProcess::hear_owner(const Headers& headers, Bytes bytes) {
+void BridgeProcess::hear_owner(std::string_view subject, const Headers& headers, Bytes bytes) {
   const auto sighting = sighting_from(headers, trust::without_trailer(bytes));
   if (!ownership_ || !sighting) return;
   const std::lock_guard lock(mutex_);
+  if (!passage_.hears_target(subject, bytes, now())) return;
   ownership_->hear(*sighting, now());
 }
 
@@ -173,7 +178,7 @@ void BridgeProcess::send_out(const std::string& channel, Bytes bytes) {
 
 void BridgeProcess::take_in(std::string_view subject, const Headers& headers, Bytes bytes) {
   if (subject.ends_with(".target")) {
-    hear_owner(headers, bytes);
+    hear_owner(subject, headers, bytes);
     return;
   }
   std::optional<std::string> channel;
@@ -229,6 +234,7 @@ BridgeStatus BridgeProcess::status() {
     status.missing = passage_.gaps().missing();
     status.repeated = passage_.gaps().repeated();
     status.gap = passage_.gaps().alarm(at.monotonic_s);
+    status.late = passage_.late(at.monotonic_s);
     status.obeyed_epoch = passage_.greatest_epoch();
     heard = passage_.sites_ago_s(at.monotonic_s);
     if (ownership_) {

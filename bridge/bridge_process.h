@@ -42,7 +42,7 @@ class BridgeProcess {
   void renew_link(double now_s);
   OwnerStore::Ears ears();
   Owned owned();
-  void hear_owner(const Headers& headers, Bytes bytes);
+  void hear_owner(std::string_view subject, const Headers& headers, Bytes bytes);
   void step_ownership();
   void send_out(const std::string& channel, Bytes bytes);
   void take_in(std::string_view subject, const Headers& headers, Bytes bytes);
@@ -62,6 +62,7 @@ class BridgeProcess {
   AlarmJournal alarms_;
   std::map<std::string, double> live_since_s_;  // of sites
   LinkReport before_;                           // of connections that have ended: their counts
+  std::string tried_anew_;                      // why, as it was logged; empty: not
   std::unique_ptr<Remote> remote_;  // last of those that its threads use, so that they end first
 };
 

@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::string_view kSlew = "slew";  // the only command that concerns a target
 constexpr double kFuture_s = 1.0;
+constexpr double kRecent_s = 10.0;
 constexpr double kMostOfOne_Hz = 400.0;
 constexpr std::size_t kLongestWord = 100;
 constexpr std::size_t kLargestStatus = 32'000, kLargest = 8'000;
@@ -130,7 +131,10 @@ Passage::Judged Passage::judge_out(std::string_view channel, Bytes bytes, const 
   trust::MessageHead head;
   if (const Judged refusal = judge_form(*content, channel, bytes, head)) return refusal;
   if (!settles(subject, now)) return Refusal::kName;
-  if (const Judged refusal = judge_time(*content, channel, head, now)) return refusal;
+  if (const Judged refusal = judge_rate(*content, channel, now)) return refusal;
+  // What is live may be late on its way out: the server's stream keeps all of it.
+  const bool is_command = content->kind == Kind::kCommand;
+  if (const Judged refusal = is_command ? judge_age(*content, head, now) : Judged()) return refusal;
   const bool is_owned = content->kind == Kind::kTarget || content->command == kSlew;
   if (is_owned && owned) {
     const auto grant = owned(content->kind, trust::without_trailer(bytes));
@@ -138,7 +142,7 @@ Passage::Judged Passage::judge_out(std::string_view channel, Bytes bytes, const 
     put(*grant, outgoing.headers);
   }
   // A command is never stored, so it needs no number by which it were stored once.
-  if (content->kind != Kind::kCommand) outgoing.headers[kIdHeader] = id_of(*content, head);
+  if (!is_command) outgoing.headers[kIdHeader] = id_of(*content, head);
   outgoing.subject = to_text(subject);
   return std::nullopt;
 }
@@ -187,20 +191,40 @@ bool Passage::settles(const Subject& subject, const Now& now) {
   return places_.settle(subject.station, subject.region, subject.site, now.monotonic_s);
 }
 
-Passage::Judged Passage::judge_time(const Content& content, std::string_view channel,
-                                    const trust::MessageHead& head, const Now& now) {
+Passage::Judged Passage::judge_rate(const Content& content, std::string_view channel,
+                                    const Now& now) {
   const double most_hz = trust::rule_of(channel)->rule->rate_hz;
-  const bool is_command = content.kind == Kind::kCommand;
-  RateBook& rates = is_command ? command_rates_ : rates_;
-  if (!rates.passes(channel, content.station.empty() ? most_hz : std::min(most_hz, kMostOfOne_Hz),
-                    now.monotonic_s)) {
-    return Refusal::kRate;
-  }
+  RateBook& rates = content.kind == Kind::kCommand ? command_rates_ : rates_;
+  const double limit_hz = content.station.empty() ? most_hz : std::min(most_hz, kMostOfOne_Hz);
+  return rates.passes(channel, limit_hz, now.monotonic_s) ? Judged() : Refusal::kRate;
+}
+
+// Whatever buffer has held it: of a link, a server or a system. A stamp ahead of this host's clock
+// matters in a command only; the fusion judges that of a bearing.
+Passage::Judged Passage::judge_age(const Content& content, const trust::MessageHead& head,
+                                   const Now& now) {
   // In floating point: a hostile stamp must not overflow.
   const double age_s =
       1e-6 * (static_cast<double>(now.utime_us) - static_cast<double>(head.utime_us));
-  const bool is_fresh = age_s <= config_.command_age_s && age_s >= -kFuture_s;
-  return is_command && !is_fresh ? Refusal::kStale : Judged();
+  if (content.kind == Kind::kCommand) {
+    return age_s <= config_.command_age_s && age_s >= -kFuture_s ? Judged() : Refusal::kStale;
+  }
+  if (age_s <= config_.live_age_s) return std::nullopt;
+  late_ = content.kind == Kind::kTarget ? "a target" : content.station;
+  late_.append(", ").append(std::to_string(std::llround(age_s))).append(" s");
+  late_s_ = now.monotonic_s;
+  return Refusal::kStale;
+}
+
+std::string Passage::late(double now_s) const { return now_s - late_s_ <= kRecent_s ? late_ : ""; }
+
+bool Passage::hears_target(std::string_view subject, Bytes bytes, const Now& now) {
+  const Content content{Kind::kTarget, {}, {}};
+  trust::MessageHead head;
+  Judged refusal = judge_form(content, channel_of({Kind::kTarget, {}}), bytes, head);
+  if (!refusal) refusal = judge_age(content, head, now);
+  if (refusal) count(in_, refusal, subject);
+  return !refusal;
 }
 
 Passage::Judged Passage::judge_in(std::string_view text, const Headers& headers, Bytes bytes,
@@ -213,11 +237,14 @@ Passage::Judged Passage::judge_in(std::string_view text, const Headers& headers,
   trust::MessageHead head;
   if (const Judged refusal = judge_form(content, channel, bytes, head)) return refusal;
   if (!settles(*subject, now)) return Refusal::kName;
-  if (const Judged refusal = judge_time(content, channel, head, now)) return refusal;
-  if (subject->kind == Kind::kCommand) return obey(*subject, headers, now);
+  if (const Judged refusal = judge_rate(content, channel, now)) return refusal;
+  if (subject->kind == Kind::kCommand) {
+    const Judged refusal = judge_age(content, head, now);
+    return refusal ? refusal : obey(*subject, headers, now);
+  }
   const char* const kind = subject->kind == Kind::kBearing ? "" : " (status)";
   gaps_.hear(subject->station + kind, head.boot_id, head.sequence, now.monotonic_s);
-  return std::nullopt;
+  return judge_age(content, head, now);
 }
 
 // Whether it may come in.

@@ -45,7 +45,7 @@ enum class Refusal {
   kMalformed,  // no head of such a message
   kName,       // a station of another place, or one that the message does not name itself
   kRate,
-  kStale,   // a command too old by this host's clock, or from its future
+  kStale,   // too old by this host's clock; of a command also: from its future
   kOwn,     // it came in over the bridge: it never goes out again
   kEpoch,   // a command of an owner that has been replaced
   kNobody,  // a command to a station that has not been heard
@@ -61,7 +61,7 @@ struct PassageConfig {
   std::vector<Selection> takes{};       // others' stations that come in
   std::vector<std::string> commands{};  // that cross
   bool targets = false;                 // of the fusion on this bus go out
-  double command_age_s = 1.0;
+  double command_age_s = 1.0, live_age_s = 5.0;
 };
 
 struct Now {
@@ -103,6 +103,8 @@ class Passage {
   // The channel on which the same bytes go on.
   std::optional<std::string> in(std::string_view subject, const Headers& headers, Bytes bytes,
                                 const Now& now);
+  // Whether another owner's target comes in time to say where it is.
+  bool hears_target(std::string_view subject, Bytes bytes, const Now& now);
 
   // What to subscribe to on either side.
   std::string channels() const;
@@ -113,6 +115,8 @@ class Passage {
   // With which a command came in; 0: none with an owner.
   std::uint64_t greatest_epoch() const { return epochs_.greatest(); }
   const SequenceWatch& gaps() const { return gaps_; }
+  // The last of the live messages that came late, "alfa, 12 s", while that is recent; else empty.
+  std::string late(double now_s) const;
   std::size_t stations() const { return places_.size(); }
   // Of each site: how long ago a station of it was heard.
   std::map<std::string, double> sites_ago_s(double now_s) const {
@@ -133,8 +137,8 @@ class Passage {
   Judged address(const Content& content, const Now& now, Subject& subject);
   static Judged judge_form(const Content& content, std::string_view channel, Bytes bytes,
                            trust::MessageHead& head);
-  Judged judge_time(const Content& content, std::string_view channel,
-                    const trust::MessageHead& head, const Now& now);
+  Judged judge_rate(const Content& content, std::string_view channel, const Now& now);
+  Judged judge_age(const Content& content, const trust::MessageHead& head, const Now& now);
   Judged take(const Subject& subject, const Now& now);
   Judged obey(const Subject& subject, const Headers& headers, const Now& now);
   bool settles(const Subject& subject, const Now& now);
@@ -145,6 +149,8 @@ class Passage {
   RateBook rates_{kMostChannels}, command_rates_{kMostCommands};
   EpochBook epochs_;
   SequenceWatch gaps_;
+  std::string late_;
+  double late_s_ = -1e9;
   Counts out_, in_;
 };
 

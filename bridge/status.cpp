@@ -44,6 +44,7 @@ std::vector<std::string> alarms(const BridgeStatus& status) {
     all.push_back("bridge: the server refuses: " + status.link.refusal);
   }
   if (!status.gap.empty()) all.push_back("bridge: messages are missing: " + status.gap);
+  if (!status.late.empty()) all.push_back("bridge: what comes late is dropped: " + status.late);
   if (status.archive.is_wanted && !status.archive.is_kept) {
     all.push_back("bridge: the archive does not work: " + status.archive.trouble);
   }

@@ -45,6 +45,7 @@ struct BridgeStatus {
   std::uint64_t missing = 0, repeated = 0, unsent_to_bus = 0;
   std::uint64_t obeyed_epoch = 0;  // the greatest with which a command came in
   std::string gap;                 // the stream with the last gap, while that is recent
+  std::string late;                // the last live message that came late, likewise
 };
 
 // One condition each; empty if all is well.

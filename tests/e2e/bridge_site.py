@@ -269,7 +269,10 @@ class Other:
         config.write_text(
             f'lcm_url = "{bus_url(7670)}"\nstatus_file = "{self.status_file}"\n[nats]\n{nats}\n'
         )
-        self._process = subprocess.Popen([str(BIN / "ols-bridge"), "--config", str(config)])
+        self.log = folder / f"{name}.log"
+        command = [str(BIN / "ols-bridge"), "--config", str(config)]
+        with self.log.open("wb") as out:
+            self._process = subprocess.Popen(command, stderr=out)
 
     def status(self):
         return json.loads(self.status_file.read_text()) if self.status_file.exists() else None

@@ -2,6 +2,7 @@
 the shipped examples: bytes unchanged, no command late, no loop, a link that is cut and returns."""
 
 import itertools
+import re
 import signal
 import subprocess
 import time
@@ -43,13 +44,13 @@ class Talk:
         self.numbers = itertools.count(1)
         self.members = members_of_environment()
 
-    def station(self, name="alfa"):
+    def station(self, name="alfa", age_s=0.0):
         """A signed bearing and a signed status; what was sent is returned."""
         number = next(self.numbers)
         sent = {}
         for channel, data in (
             (f"OLS_STATUS_{name}", status(name, number)),
-            (f"OLS_BEARING_{name}", bearing(name, number)),
+            (f"OLS_BEARING_{name}", bearing(name, number, age_s=age_s)),
         ):
             sent[channel] = self.members.sign(channel, data)
             self.members.hear(channel, sent[channel])
@@ -139,6 +140,13 @@ def test_a_stale_command_is_refused_and_none_is_kept(net):
     wait(lambda: talk.slew() and talk.site.on("OLS_SLEW_alfa"), "fresh ones")
     assert old not in talk.site.on("OLS_SLEW_alfa")
     net.region.until(lambda s: s["out"]["refused"]["stale"] >= 1, "it is counted")
+    # So is what is live and was held for long, by whatever buffer.
+    held = talk.station(age_s=20.0)["OLS_BEARING_alfa"]
+    net.region.until(lambda s: s["in"]["refused"]["stale"] == 1, "the bearing is counted")
+    net.region.until(
+        lambda s: "bridge: what comes late is dropped: alfa, 20 s" in s["alarms"], "it is said"
+    )
+    assert held not in talk.region.on("OLS_BEARING_alfa")
     # The link is gone: slews of that time are nobody's, also when it is back.
     net.leaf.signal(signal.SIGSTOP)
     held = [talk.slew() for _ in range(20)]
@@ -183,7 +191,9 @@ def test_a_wrong_key_is_said_until_the_server_knows_it(net, tmp_path):
     try:
         wait(lambda: bridge.says("no server: "), "the refusal is said")
         log = net.leaf.log
-        wait(lambda: log.read_text().count("authentication error") >= 3, "it is tried anew")
+        wait(lambda: log.read_text().count("authentication error") >= 5, "it is tried anew")
+        why = re.findall("tried anew: (.*)", bridge.log.read_text())
+        assert why and all(one != next_one for one, next_one in itertools.pairwise(why)), why
         text = net.leaf.config.read_text()
         net.leaf.config.write_text(text.replace("users: [", f"users: [{{nkey: {key}}}\n"))
         net.leaf.signal(signal.SIGHUP)

@@ -143,6 +143,29 @@ TEST(Passage, ACommandIsObeyedWhileItIsFresh) {
   EXPECT_FALSE(passage.in("ols.v1.r.other.alfa.cmd.slew", {}, slew("alfa"), kNow));
 }
 
+TEST(Passage, WhatIsLiveComesInTimeOrNotAtAll) {
+  Passage passage(region());
+  const auto come = [&passage](double later_s, std::int64_t sequence) {
+    const auto later_us = static_cast<std::int64_t>(later_s * 1e6);
+    return passage.in("ols.v1.r.hill.alfa.bearing", {}, bearing("alfa", sequence),
+                      {kNow_us + later_us, kNow.monotonic_s + later_s});
+  };
+  EXPECT_TRUE(come(4.9, 1));
+  EXPECT_EQ(passage.late(104.9), "");
+  EXPECT_FALSE(come(20.0, 2));
+  EXPECT_EQ(refused(passage.in_counts(), Refusal::kStale), 1U);
+  EXPECT_EQ(passage.late(120.0), "alfa, 20 s");
+  EXPECT_EQ(passage.late(131.0), "");
+  EXPECT_TRUE(come(-60.0, 3)) << "a clock that is ahead is the fusion's matter";
+  EXPECT_EQ(passage.gaps().missing(), 0U) << "what is late is not missing";
+  const Now late{kNow_us + 6'000'000, 106.0};
+  EXPECT_TRUE(passage.hears_target("ols.v1.q.target", target(1), kNow));
+  EXPECT_FALSE(passage.hears_target("ols.v1.q.target", target(1), late));
+  EXPECT_EQ(refused(passage.in_counts(), Refusal::kStale), 2U);
+  Passage out(site());
+  EXPECT_TRUE(out.out("OLS_BEARING_alfa", bearing("alfa"), late)) << "the archive wants it";
+}
+
 TEST(Passage, AHostileStampDoesNotOverflow) {
   Passage passage(site());
   ols_msg::slew_t message{};

@@ -32,6 +32,7 @@ TEST(BridgeStatus, EachConditionIsAnAlarm) {
   status.link.trouble = std::string("gone");
   status.link.refusal = std::string("Permissions Violation");
   status.gap = std::string("alfa");
+  status.late = std::string("bravo, 20 s");
   status.archive.is_kept = false;
   status.archive.trouble = std::string("full");
   status.archive.standing = {"airfield"};
@@ -39,11 +40,12 @@ TEST(BridgeStatus, EachConditionIsAnAlarm) {
   status.ownership.delay_s = 1.0;
   EXPECT_THAT(
       alarms(status),
-      ElementsAre("bridge: no server: gone", "bridge: the server refuses: Permissions Violation",
-                  "bridge: messages are missing: alfa", "bridge: the archive does not work: full",
-                  "bridge: the archive of airfield stands still",
-                  "bridge: the store of owners does not answer, no target changes its owner",
-                  "bridge: the store of owners is too slow for so many targets"));
+      ElementsAre(
+          "bridge: no server: gone", "bridge: the server refuses: Permissions Violation",
+          "bridge: messages are missing: alfa", "bridge: what comes late is dropped: bravo, 20 s",
+          "bridge: the archive does not work: full", "bridge: the archive of airfield stands still",
+          "bridge: the store of owners does not answer, no target changes its owner",
+          "bridge: the store of owners is too slow for so many targets"));
   EXPECT_THAT(in_one_line(status), HasSubstr("not connected"));
 }
 
