@@ -102,9 +102,13 @@ def test_a_tripod_reads_the_trust_list_that_its_station_has_kept(alone):
     assert alone["kept list"].of("signatures")[0]["verdict"] == "ok"
 
 
-def test_a_wrong_configuration_is_named(alone):
+def test_a_wrong_configuration_is_named(alone, tmp_path):
     assert alone["wrong"].status == FAILURES
     assert "heigth_m: unknown key" in alone["wrong"].of("configuration")[0]["what"]
+    assert "correct that line" in alone["wrong"].of("configuration")[0]["advice"]
+    missing = Diagnosis("--config", tmp_path / "none.toml")
+    assert missing.status == FAILURES
+    assert "there is no such file" in missing.of("configuration")[0]["advice"]
 
 
 def test_devices_are_asked_where_no_station_runs(devices):

@@ -193,6 +193,15 @@ def test_says_why_there_is_no_position(folder, estimator, azimuth_deg, why):
     assert list(csv.DictReader((folder / "fixes.csv").open())) == []
     said = r"ols-fuse: target 1: no position at .*60 instants \((" + why + r")\)"
     assert re.search(said, result.stderr), result.stderr
+    assert re.search(rf"ols-fuse: ({why}): .*(two stations|too close)", result.stderr)
+
+
+def test_stations_that_are_exchanged_are_suspected(folder):
+    lines = STATIONS.replace("west", "x").replace("east", "west").replace("x", "east")
+    (folder / "stations.csv").write_text(lines)
+    result = fuse_in(folder)
+    assert result.returncode == 1
+    assert "ols-fuse: behind-camera: the lines of sight meet behind a station: is" in result.stderr
 
 
 @pytest.mark.parametrize("sigma_deg", [0.01, 0.0001745])

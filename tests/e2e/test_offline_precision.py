@@ -2,6 +2,7 @@
 
 import csv
 import json
+import re
 import subprocess
 from pathlib import Path
 
@@ -157,6 +158,26 @@ def test_advice_says_what_a_lone_station_leaves_open(stations, tmp_path):
     )
     assert result.returncode == 0 and len(rows(output)) == 1
     assert "undetermined" in result.stdout and "e+" not in result.stdout
+
+
+def test_latitude_and_longitude_that_are_exchanged_are_named(stations, tmp_path):
+    """In the area, in one station, at one place: each is on another continent."""
+    area, output = tmp_path / "area.geojson", tmp_path / "out.csv"
+    ring = circle(300, 24)[:, ::-1].tolist()
+    area.write_text(json.dumps({"type": "Polygon", "coordinates": [ring + ring[:1]]}))
+    one = tmp_path / "one.csv"
+    one.write_text(STATIONS + "south,16.6,49.197,250\n")
+    advise = ("advise", "--places", stations, "--area", area, "--stations", 2, "--ground", 250)
+    budget = ("budget", "--stations", stations, "--at", "16.6,49.2,300")
+    for arguments, who in (
+        ((*advise, "--spacing", 60), f"{stations}: west is 4558 km from the area"),
+        (("map", "--stations", one), f"{one}: south is 4558 km from station west"),
+        (budget, "--at is 4558 km from the stations"),
+    ):
+        result = precision(*arguments, "--output", output)
+        assert result.returncode == 2 and not output.exists()
+        said = re.sub(r"is 455\d km", "is 4558 km", result.stderr)
+        assert f"{who}: are latitude and longitude exchanged?" in said
 
 
 @pytest.mark.parametrize(

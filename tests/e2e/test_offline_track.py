@@ -273,6 +273,22 @@ def test_every_later_picture_of_another_size(folder, tmp_path, pictures):
     refused(track(folder, output), output, str(folder), "another size")
 
 
+def test_a_target_that_is_lost_is_said(tmp_path, pictures):
+    """Nothing is seen any more, for longer than it coasts: 30 frames a second."""
+    emptied = tmp_path / "emptied"
+    emptied.mkdir()
+    for frame in range(FRAMES + 60):
+        picture = pictures[min(frame, FRAMES - 1)]
+        seen = picture if frame < 5 else np.full_like(picture, 128)
+        write_pgm(emptied / f"{frame}.pgm", seen)
+    output = tmp_path / "boxes.csv"
+    result = track(emptied, output)
+    assert result.returncode == 1, result.stderr
+    lost = sum(row["state"] == "lost" for row in csv.DictReader(output.open()))
+    assert lost > 10
+    assert f"the target was lost in {lost} frames; it was last seen in frame " in result.stderr
+
+
 def test_colour_deep_and_black_pictures(tmp_path, pictures):
     """Colour and 16 bits are read as grey; a black or a saturated picture is no target."""
     kinds = tmp_path / "kinds"

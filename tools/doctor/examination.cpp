@@ -1,5 +1,7 @@
 #include "tools/doctor/examination.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <filesystem>
 
@@ -30,9 +32,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Finding refused(const ConfigError& error) {
-  return fail(std::string("configuration: ") + error.what(),
-              "correct that line; docs/configuration.md lists every key");
+// Of the file at `path`.
+Finding refused(const std::string& path, const ConfigError& error) {
+  const std::string what = std::string("configuration: ") + error.what();
+  if (::access(path.c_str(), F_OK) != 0) {
+    return fail(what, "there is no such file: is its name right? ols-setup writes these files");
+  }
+  if (::access(path.c_str(), R_OK) != 0) return fail(what, "run ols-doctor with sudo");
+  return fail(what, "correct that line; docs/configuration.md lists every key");
 }
 
 Findings examine_inclinometer(const sensors::InclinometerConfig& config, double patience_s) {
@@ -127,7 +134,7 @@ Findings examine_station(const std::string& path, const Request& request,
   try {
     settings = station::load_station_settings(path);
   } catch (const ConfigError& error) {
-    return {refused(error)};
+    return {refused(path, error)};
   }
   Findings findings{ok("configuration: " + path + ", station " + settings.id)};
   const BusHeard bus = listen(settings.lcm_url, own_trust(settings), request.listen_s, settings.id);
@@ -150,7 +157,7 @@ Findings examine_fusion(const std::string& path, const Request& request,
     if (bus.trouble.empty()) append(findings, judge_company(bus, ""));
     return findings;
   } catch (const ConfigError& error) {
-    return {refused(error)};
+    return {refused(path, error)};
   }
 }
 
@@ -160,7 +167,7 @@ Findings examine_logger(const std::string& path) {
     return {ok("configuration: " + path),
             judge(look_at_folder("logs", config.folder, config.disk_reserve_bytes))};
   } catch (const ConfigError& error) {
-    return {refused(error)};
+    return {refused(path, error)};
   }
 }
 
@@ -177,7 +184,7 @@ Findings examine_console(const std::string& path) {
             ok("console: " + (users.empty() ? "for this host alone, without log-in"
                                             : std::to_string(users.size()) + " users may log in"))};
   } catch (const ConfigError& error) {
-    return {refused(error)};
+    return {refused(path, error)};
   } catch (const std::exception& error) {
     return {fail(std::string("console: ") + error.what(),
                  "correct that file, or let the user ols read it; docs/console.md")};
@@ -194,7 +201,7 @@ Findings examine_export(const std::string& path) {
             outputs > 0 ? ok("export: " + std::to_string(outputs) + " outputs")
                         : warn("export: no output", "add an [[output]]; docs/exports.md")};
   } catch (const ConfigError& error) {
-    return {refused(error)};
+    return {refused(path, error)};
   } catch (const std::exception& error) {
     return {fail(std::string("export: ") + error.what(), "see docs/exports.md")};
   }
@@ -208,7 +215,7 @@ Findings examine_cue(const std::string& path) {
             inputs > 0 ? ok("cues: " + std::to_string(inputs) + " inputs")
                        : warn("cues: no input", "add an [[input]]; docs/cues.md")};
   } catch (const ConfigError& error) {
-    return {refused(error)};
+    return {refused(path, error)};
   } catch (const std::exception& error) {
     return {fail(std::string("cues: ") + error.what(), "see docs/cues.md")};
   }
@@ -230,7 +237,7 @@ Findings examine_bridge(const std::string& path) {
     append(findings, judge_bridge(text_of_status(config.status_file), clock_utime_us()));
     return findings;
   } catch (const ConfigError& error) {
-    return {refused(error)};
+    return {refused(path, error)};
   }
 }
 

@@ -88,7 +88,33 @@ void tell_unused(const Unused& unused, std::size_t bearings) {
   std::cerr << '\n';
 }
 
-// The states in which there is no position, and at how many of the instants.
+// What may be wrong where there is no position; empty: the word says it.
+const char* cause_of(ols::fusion::Solution solution) {
+  using ols::fusion::Solution;
+  switch (solution) {
+    case Solution::kTooFewRays:
+    case Solution::kBearingOnly:
+      return "fewer than two stations see the target at that time";
+    case Solution::kParallelRays:
+      return "the lines of sight are almost parallel: the stations stand too close together";
+    case Solution::kBehindCamera:
+      return "the lines of sight meet behind a station: is one station's place or north wrong, or "
+             "latitude exchanged with longitude?";
+    case Solution::kTooFar:
+      return "the lines of sight meet beyond 500 km: is one station's place or north wrong, or "
+             "latitude exchanged with longitude?";
+    case Solution::kRaysMiss:
+      return "the lines of sight do not meet: is one station's place or north wrong, or do they "
+             "see different objects?";
+    case Solution::kNotConverged:
+      return "the lines of sight contradict each other";
+    case Solution::kOk:
+      break;
+  }
+  return "";
+}
+
+// The states in which there is no position, at how many of the instants, and why.
 void tell_unlocated(const ols::fusion::Unlocated& unlocated, std::size_t fixes,
                     const std::string& id) {
   if (unlocated.empty()) return;
@@ -102,6 +128,9 @@ void tell_unlocated(const ols::fusion::Unlocated& unlocated, std::size_t fixes,
     separator = ", ";
   }
   std::cerr << '\n';
+  for (const auto& [solution, count] : unlocated) {
+    std::cerr << "ols-fuse: " << to_string(solution) << ": " << cause_of(solution) << '\n';
+  }
 }
 
 ols::fusion::OfflineConfig config_of(const Options& options) {

@@ -75,10 +75,23 @@ std::vector<StationRow> read_places(const AdviceOptions& o) {
   return rows;
 }
 
+void require_all_near(const std::string& file, const std::vector<StationRow>& rows,
+                      const GeoShapes& area) {
+  std::vector<Geodetic> corners;
+  for (const GeoPolygon& polygon : area.polygons) {
+    for (const GeoPosition& p : polygon.front()) {
+      corners.push_back({radians(p.latitude_deg), radians(p.longitude_deg), 0.0});
+    }
+  }
+  for (const StationRow& row : rows) {
+    require_near(file + ": " + row.station,
+                 {radians(row.latitude_deg), radians(row.longitude_deg), row.height_m}, corners,
+                 "the area");
+  }
+}
+
 // The area at each height: a grid inside and the corners of its outline.
-std::vector<PlannedTarget> read_area(const AdviceOptions& o) {
-  const GeoShapes shapes = read_geojson(o.area);
-  if (shapes.polygons.empty()) throw std::invalid_argument(o.area + ": has no polygon");
+std::vector<PlannedTarget> area_of(const AdviceOptions& o, const GeoShapes& shapes) {
   std::vector<PlannedTarget> area;
   for (const double above_m : o.heights_m) {
     const double height_m = o.ground_m + above_m;
@@ -100,10 +113,17 @@ void write_advice(const AdviceOptions& o) {
   check_outputs({{"--places", o.places}, {"--area", o.area}, {"--kept", o.kept}},
                 {{"--output", o.output}});
   const auto rows = read_places(o);
+  const GeoShapes area = read_geojson(o.area);
+  if (area.polygons.empty()) throw std::invalid_argument(o.area + ": has no polygon");
+  require_all_near(o.places, rows, area);
   PlacementProblem problem;
   problem.places = planned_stations(rows, o.measurement);
-  if (!o.kept.empty()) problem.kept = planned_stations(read_stations(o.kept), o.measurement);
-  problem.area = read_area(o);
+  if (!o.kept.empty()) {
+    const auto kept = read_stations(o.kept);
+    require_all_near(o.kept, kept, area);
+    problem.kept = planned_stations(kept, o.measurement);
+  }
+  problem.area = area_of(o, area);
   problem.stations = o.stations;
   problem.goal = o.mean ? PlacementGoal::kMean : PlacementGoal::kWorst;
   problem.exposures = o.measurement.exposures;

@@ -192,9 +192,22 @@ void require_determined(const std::vector<Cell>& cells, const MapOptions& o, dou
   throw std::invalid_argument(what.str());
 }
 
+std::vector<Geodetic> places_of(const std::vector<StationRow>& rows) {
+  std::vector<Geodetic> places;
+  for (const StationRow& row : rows) {
+    places.push_back({radians(row.latitude_deg), radians(row.longitude_deg), row.height_m});
+  }
+  return places;
+}
+
 void write_map(const MapOptions& o) {
   check_outputs({{"--stations", o.stations}}, {{"--output", o.output}, {"--geojson", o.geojson}});
   const auto rows = read_stations(o.stations);
+  const auto places = places_of(rows);
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    require_near(o.stations + ": " + rows[i].station, places[i], {places.front()},
+                 "station " + rows.front().station);
+  }
   const auto stations = planned_stations(rows, o.measurement);
   const Grid grid = grid_about(rows, o);
   json features = json::array();
@@ -240,9 +253,11 @@ void require_place(const std::vector<double>& at) {
 
 void write_budget(const BudgetOptions& o) {
   check_outputs({{"--stations", o.stations}}, {{"--output", o.output}});
-  const auto stations = planned_stations(read_stations(o.stations), o.measurement);
+  const auto rows = read_stations(o.stations);
+  const auto stations = planned_stations(rows, o.measurement);
   require_place(o.at);
   const Geodetic place{radians(o.at[0]), radians(o.at[1]), o.at[2]};
+  require_near("--at", place, places_of(rows), "the stations");
   const auto precision =
       position_precision(stations, planned_target(place, o.measurement), o.measurement.exposures);
   if (!precision) throw std::invalid_argument("--at: the stations do not determine this place");

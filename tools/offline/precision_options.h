@@ -33,6 +33,12 @@ std::vector<PlannedStation> planned_stations(const std::vector<StationRow>& rows
                                              const MeasurementOptions& options);
 PlannedStation planned_station(const Geodetic& place, const MeasurementOptions& options);
 
+// Whoever exchanges latitude and longitude has a site on another continent.
+// Throws std::invalid_argument if the place is beyond the range of any camera from each of `near`,
+// which are `of`.
+void require_near(const std::string& name, const Geodetic& place, const std::vector<Geodetic>& near,
+                  const std::string& of);
+
 // A target that flies at the options' speed in any direction.
 PlannedTarget planned_target(const Geodetic& place, const MeasurementOptions& options);
 

@@ -21,6 +21,8 @@
 
 namespace {
 
+constexpr int kExitLost = 1;
+
 struct Arguments {
   std::string input;
   std::vector<double> init;
@@ -64,27 +66,48 @@ void declare(CLI::App& app, Arguments& arguments) {
 // best estimate even then; its low belief says so.
 class State {
  public:
-  explicit State(double start_s) : believed_s_(start_s) {}
+  State(long frame, double start_s) : believed_s_(start_s), believed_frame_(frame) {}
 
   ols::offline::BoxRow row(long frame, double time_s, const ols::tracker::TrackerOutput& output) {
-    if (output.belief >= kBelieved) believed_s_ = time_s;
+    if (output.belief >= kBelieved) {
+      believed_s_ = time_s;
+      believed_frame_ = frame;
+      is_lost_ = false;
+    }
     ols::offline::BoxRow row{frame, output.box, output.belief, "tracking"};
     if (output.belief < kBelieved) row.state = coasting_or_lost(time_s);
     return row;
   }
   // Of a frame that the tracker could not use.
-  ols::offline::BoxRow row(long frame, double time_s) const {
+  ols::offline::BoxRow row(long frame, double time_s) {
     return {frame, std::nullopt, 0.0, coasting_or_lost(time_s)};
+  }
+
+  bool ends_lost() const { return is_lost_; }
+  void tell(std::ostream& out) const {
+    if (lost_frames_ == 0) return;
+    out << "ols-track: the target was lost in " << lost_frames_
+        << (lost_frames_ == 1 ? " frame" : " frames");
+    if (is_lost_) {
+      out << "; it was last seen in frame " << believed_frame_ << " and not found again\n";
+    } else {
+      out << ", and found again\n";
+    }
   }
 
  private:
   static constexpr double kBelieved = 0.5;
   static constexpr double kCoast_s = 1.0;
 
-  bool lost(double time_s) const { return time_s - believed_s_ > kCoast_s; }
-  const char* coasting_or_lost(double time_s) const { return lost(time_s) ? "lost" : "coasting"; }
+  const char* coasting_or_lost(double time_s) {
+    is_lost_ = time_s - believed_s_ > kCoast_s;
+    if (is_lost_) ++lost_frames_;
+    return is_lost_ ? "lost" : "coasting";
+  }
 
   double believed_s_;
+  long believed_frame_, lost_frames_ = 0;
+  bool is_lost_ = false;  // in the newest frame
 };
 
 // Frames that the tracker refused: they get no box, and are reported.
@@ -140,8 +163,8 @@ class Run {
     if (timing_) timing_->write(frame, taken_s, tracker_.stage_times());
   }
 
-  // Throws when no frame at all could be tracked.
-  void commit() {
+  // Throws when no frame at all could be tracked. False: the target is lost at the end.
+  bool commit() {
     if (tracked_ == 0 && skipped_.any()) {
       throw std::runtime_error(arguments_.input + ": no frame after the first can be used: " +
                                to_string(*skipped_.any()));
@@ -149,6 +172,8 @@ class Run {
     skipped_.tell(std::cerr);
     file_.commit();
     if (timing_) timing_->commit();
+    state_->tell(std::cerr);
+    return !state_->ends_lost();
   }
 
  private:
@@ -161,7 +186,7 @@ class Run {
              << " pixels: " << to_string(*error);
       throw std::runtime_error(reason.str());
     }
-    state_.emplace(input.time_s);
+    state_.emplace(frame, input.time_s);
     ols::offline::write_box(file_.stream(), {frame, box, 1.0, "tracking"});
   }
 
@@ -180,7 +205,8 @@ void check_files(const Arguments& arguments, const ols::offline::FrameSource& so
   ols::check_outputs(inputs, {{"--output", arguments.output}, {"--timing", arguments.timing}});
 }
 
-void run(const Arguments& arguments) {
+// False: the target is lost at the end.
+bool run(const Arguments& arguments) {
   ols::offline::FrameSource source(arguments.input);
   check_files(arguments, source);
   Run following(arguments);
@@ -195,7 +221,7 @@ void run(const Arguments& arguments) {
     throw std::runtime_error(arguments.input + ": has " + std::to_string(frame) +
                              " frames, --start-frame is " + std::to_string(arguments.start_frame));
   }
-  following.commit();
+  return following.commit();
 }
 
 }  // namespace
@@ -212,7 +238,7 @@ int main(int argc, char** argv) {
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   cv::setNumThreads(1);
   try {
-    run(arguments);
+    if (!run(arguments)) return kExitLost;
   } catch (const std::exception& error) {
     std::cerr << "ols-track: " << error.what() << '\n';
     return ols::kExitBadInput;
