@@ -8,9 +8,14 @@ namespace ols {
 
 TroubleLog::TroubleLog(std::string kind) : kind_(std::move(kind)) {}
 
-void TroubleLog::look(const std::string& name, const std::string& trouble) {
-  std::string& last = last_[name];
-  if (trouble == last) return;
+void TroubleLog::look(const std::string& name, const std::string& trouble, double now_s) {
+  Known& known = known_[name];
+  if (trouble != known.seen) {
+    known.seen = trouble;
+    known.since_s = now_s;
+  }
+  if (trouble == known.logged) return;
+  if (!known.logged.empty() && now_s - known.since_s < kSettled_s) return;
   if (trouble.empty()) {
     write_to_journal(
         {.text = kind_ + " " + name + ": works again", .id = event::kLineWorks, .device = name});
@@ -21,7 +26,7 @@ void TroubleLog::look(const std::string& name, const std::string& trouble) {
                       .device = name,
                       .reason = trouble});
   }
-  last = trouble;
+  known.logged = trouble;
 }
 
 }  // namespace ols

@@ -132,7 +132,9 @@ int run(const cues::CueConfig& config) {
   };
   const auto report = [&] {
     const cues::CueStatus status = status_of(inputs, bus, desk.live(ols::clock_utime_us()).size());
-    for (const cues::InputStatus& input : status.inputs) troubles.look(input.name, input.trouble);
+    for (const cues::InputStatus& input : status.inputs) {
+      troubles.look(input.name, input.trouble, ols::clock_monotonic_s());
+    }
     status_file.write(to_json(status));
     return in_one_line(status);
   };

@@ -89,7 +89,9 @@ int run(const exports::ExportConfig& config) {
   };
   const auto report = [&] {
     const exports::ExportStatus status = status_of(exporter, bus);
-    for (const auto& [name, output] : status.outputs) troubles.look(name, output.trouble);
+    for (const auto& [name, output] : status.outputs) {
+      troubles.look(name, output.trouble, ols::clock_monotonic_s());
+    }
     status_file.write(to_json(status));
     return in_one_line(status);
   };

@@ -16,6 +16,14 @@ std::string file_name(const std::string& path, const std::string& where) {
   return path.substr(0, end) + where + path.substr(end);
 }
 
+void FileLink::open() {
+  try {
+    const AtomicFile attempt(path_);
+  } catch (const std::exception& failure) {
+    throw LinkError(failure.what());
+  }
+}
+
 void FileLink::send(const Packet& packet) {
   try {
     AtomicFile file(file_name(path_, packet.where));

@@ -12,7 +12,8 @@ class FileLink : public Link {
  public:
   explicit FileLink(std::string path) : path_(std::move(path)) {}
 
-  void open() override {}
+  // That it can be written, so that what cannot is not open.
+  void open() override;
   void send(const Packet& packet) override;
   void wait(int wake_fd, double seconds) override;
   void close() override {}

@@ -5,9 +5,17 @@
 #include <boost/asio/ip/multicast.hpp>
 #include <utility>
 
+#include "base/clocks.h"
+
 namespace ols::exports {
 
 namespace ip = boost::asio::ip;
+
+namespace {
+
+constexpr double kRefusal_s = 3.0;  // for so long it means that nobody listens
+
+}  // namespace
 
 UdpOutlet::UdpOutlet(const Address& address) : address_(address) {}
 
@@ -47,18 +55,25 @@ void UdpOutlet::put(Packets packets) {
   for (const Packet& packet : packets) {
     if (!open()) continue;
     boost::system::error_code bad;
-    const std::size_t bytes = socket_->send(boost::asio::buffer(packet.bytes), 0, bad);
+    const auto send = [&] { return socket_->send(boost::asio::buffer(packet.bytes), 0, bad); };
+    std::size_t bytes = send();
+    // That an earlier datagram was refused; this one has not been sent yet.
+    if (bad == boost::asio::error::connection_refused) {
+      refused_s_ = clock_monotonic_s();
+      ++report_.failures;
+      bytes = send();
+    }
     if (bad == boost::asio::error::would_block || bad == boost::asio::error::no_buffer_space) {
       ++report_.displaced;
     } else if (bad && bad != boost::asio::error::connection_refused) {
       fail(bad);
     } else {
-      // "Refused" is what came back for an earlier datagram: nobody listens there just now.
       report_.is_open = true;
-      report_.trouble = bad ? "nobody listens there" : "";
+      // A system reports only some of the datagrams that it refuses.
+      const bool is_heard = clock_monotonic_s() - refused_s_ > kRefusal_s;
+      report_.trouble = is_heard ? "" : "nobody listens there";
       report_.sent += bad ? 0 : 1;
       report_.bytes += bad ? 0 : bytes;
-      report_.failures += bad ? 1 : 0;
     }
   }
 }

@@ -26,6 +26,7 @@ class UdpOutlet : public Outlet {
   boost::asio::io_context context_;
   std::optional<boost::asio::ip::udp::socket> socket_;
   OutletReport report_;
+  double refused_s_ = -1e9;  // when a datagram was last reported as refused
 };
 
 }  // namespace ols::exports

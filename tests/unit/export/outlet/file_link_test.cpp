@@ -21,10 +21,13 @@ TEST(FileLink, WritesWholeFilesAndSaysWhyItCannot) {
       ("ols_file_link_" + std::to_string(::testing::UnitTest::GetInstance()->random_seed()));
   std::filesystem::create_directories(folder);
   FileLink link((folder / "a.txt").string());
+  link.open();
+  EXPECT_TRUE(std::filesystem::is_empty(folder));
   link.send({"document", "text", "-live"});
   EXPECT_EQ(read_small_file((folder / "a-live.txt").string(), 100), "text");
   std::filesystem::remove_all(folder);
   EXPECT_THROW(link.send({"document", "text"}), LinkError);
+  EXPECT_THROW(link.open(), LinkError) << "it must not seem to work again";
 }
 
 }  // namespace
