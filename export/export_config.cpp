@@ -193,7 +193,7 @@ config::Section export_section(ExportConfig& c) {
            config::number("max_age_s", c.max_age_s, {0.1, 3600.0}, "s",
                           "Older data, by this host's clock, are not sent."),
            config::number("history_min", c.history_min, {0.0, 1440.0}, "min",
-                          "Length of the tracks in a file.")},
+                          "How far back the tracks in a file go.")},
           {outputs_section(c), cot_section(c.cot), mqtt_section(c.home), asterix_section(c.asterix),
            sapient_section(c.sapient), trust::trust_section(c.trust)},
           [&c](ConfigTable& root) {

@@ -22,8 +22,8 @@
 namespace ols::exports {
 namespace {
 
-// So that a live file of hundreds of tracks stays small.
-constexpr std::size_t kMostLivePoints = 60;
+// So that a live file of hundreds of tracks stays at some megabytes.
+constexpr std::int64_t kMostLivePoints = 30'000;
 constexpr const char* kLive = "-live";
 
 DocumentEncoder::Writer writer_of(Format format, const ExportConfig& config) {

@@ -40,8 +40,9 @@ std::int64_t Picture::history_us() const {
 }
 
 std::int64_t Picture::spacing_us() const {
-  if (history_us() == kEver_us || limits_.most_points < 2) return 0;
-  return history_us() / static_cast<std::int64_t>(limits_.most_points);
+  if (history_us() == kEver_us) return 0;
+  const auto sharers = static_cast<std::int64_t>(tracks_.size() + lines_.size());
+  return history_us() / std::max<std::int64_t>(limits_.most_points / sharers, 1);
 }
 
 bool Picture::fits(const Place& place) const {
@@ -63,7 +64,9 @@ void Picture::take(const Target& target) {
 }
 
 void Picture::take(const Line& line) {
-  if (fits(line.camera)) add(lines_[line.uid].points, line, spacing_us());
+  if (!fits(line.camera)) return;
+  std::deque<Line>& points = lines_[line.uid].points;
+  add(points, line, spacing_us());
 }
 
 void Picture::forget(std::int64_t utime_us) {

@@ -13,8 +13,8 @@ namespace ols::exports {
 
 struct PictureLimits {
   double history_s = std::numeric_limits<double>::infinity();
-  // Of a track or of a station's lines; a longer one is thinned evenly in time.
-  std::size_t most_points = std::numeric_limits<std::size_t>::max();
+  // Of all tracks and lines together; where there would be more, each is thinned evenly in time.
+  std::int64_t most_points = std::numeric_limits<std::int64_t>::max();
   // What has no height above the sea is left out: the format has no other height.
   bool needs_sea = false;
 };

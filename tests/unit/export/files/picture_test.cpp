@@ -60,13 +60,26 @@ TEST(Picture, WhatHasNoHeightAboveTheSeaIsLeftOutWhereItIsNeeded) {
   EXPECT_EQ(picture.tracks().size(), 1U);
 }
 
-TEST(Picture, ThinsALongTrackButForItsNewestPoint) {
-  Picture picture({.history_s = 60.0, .most_points = 60});
-  for (int i = 0; i < 600; ++i) picture.take(made_target(7, i * kSecond_us / 10));
-  const auto& points = picture.tracks().begin()->second.points;
-  EXPECT_LE(points.size(), 62U);
-  EXPECT_GE(points.size(), 50U);
-  EXPECT_EQ(points.back().utime_us, kNow_us + 599 * kSecond_us / 10);
+TEST(Picture, KeepsEveryPointOfItsHistoryWhileThereIsRoom) {
+  Picture picture({.history_s = 60.0, .most_points = 2000});
+  for (int i = 0; i < 600; ++i) {
+    picture.take(made_target(7, i * kSecond_us / 10));
+    picture.take(made_target(8, i * kSecond_us / 10));
+  }
+  for (const auto& [uid, track] : picture.tracks()) EXPECT_EQ(track.points.size(), 600U);
+}
+
+TEST(Picture, ManyTracksShareTheRoomAndKeepTheirNewestPoints) {
+  constexpr int kTracks = 10;
+  Picture picture({.history_s = 60.0, .most_points = 60 * kTracks});
+  for (int i = 0; i < 600; ++i) {
+    for (int id = 1; id <= kTracks; ++id) picture.take(made_target(id, i * kSecond_us / 10));
+  }
+  for (const auto& [uid, track] : picture.tracks()) {
+    EXPECT_LE(track.points.size(), 62U);
+    EXPECT_GE(track.points.size(), 50U);
+    EXPECT_EQ(track.points.back().utime_us, kNow_us + 599 * kSecond_us / 10);
+  }
 }
 
 TEST(Picture, ALineEndsWhereItPoints) {
