@@ -112,6 +112,7 @@ void MqttLink::open() {
           "TLS");
   }
   check(mosquitto_connect(session, address_.host.c_str(), address_.port, kKeepAlive_s), "connect");
+  keep_unsent_short(mosquitto_socket(session));
   log_in();
 }
 

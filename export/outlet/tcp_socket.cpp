@@ -17,6 +17,8 @@
 namespace ols::exports {
 namespace {
 
+constexpr int kMostUnsentBytes = 16'384;
+
 using Addresses = std::unique_ptr<addrinfo, void (*)(addrinfo*)>;
 
 Addresses look_up(const std::string& host, int port) {
@@ -29,6 +31,11 @@ Addresses look_up(const std::string& host, int port) {
 }
 
 }  // namespace
+
+void keep_unsent_short(int descriptor) {
+  ::setsockopt(descriptor, IPPROTO_TCP, TCP_NOTSENT_LOWAT, &kMostUnsentBytes,
+               sizeof kMostUnsentBytes);
+}
 
 // A name may have several addresses, of which only some are reachable from here.
 TcpSocket::TcpSocket(const std::string& host, int port, double patience_s) {
@@ -48,6 +55,7 @@ int TcpSocket::connect(const addrinfo& to, double patience_s) {
   if (fd_ < 0) return errno;
   const int yes = 1;
   ::setsockopt(fd_, IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
+  keep_unsent_short(fd_);
   int error = ::connect(fd_, to.ai_addr, to.ai_addrlen) == 0 ? 0 : errno;
   if (error == EINPROGRESS) {
     socklen_t size = sizeof error;

@@ -7,6 +7,10 @@ struct addrinfo;
 
 namespace ols::exports {
 
+// Of any TCP connection: what the receiver has no room for waits here, where a newer message
+// displaces it, and not in the system's buffer of megabytes.
+void keep_unsent_short(int descriptor);
+
 class TcpSocket {
  public:
   // Connects to the first of the name's addresses that answers. The look-up is the system's and
