@@ -76,7 +76,8 @@ def draw_plan(axes: Axes, recording: Recording, window: tuple[int, int]) -> None
         label=f"95 % ellipses, {ENLARGED:.0f} times enlarged",
     )
     axes.set(xlabel="east, m", ylabel="north, m", title="Plan", aspect="equal")
-    axes.legend(loc="lower center", fontsize=8)
+    axes.margins(0.12)  # for the names
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.1), ncols=3, fontsize=8)
     axes.grid(alpha=0.3)
 
 
