@@ -7,6 +7,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "base/plain_text.h"
 #include "geometry/angles.h"
 #include "geometry/slew_limits.h"
 
@@ -105,6 +106,14 @@ void read_point(const Json& message, command::Order& order) {
   if (message.contains("frame_utime_us")) order.frame_utime_us = whole(message, "frame_utime_us");
 }
 
+Geodetic read_place(const Json& message) {
+  constexpr double kLowest_m = -1e3, kHighest_m = 1e5;
+  refuse_others(message, {"latitude_deg", "longitude_deg", "height_m"});
+  return {radians(number(message, "latitude_deg", -90.0, 90.0)),
+          radians(number(message, "longitude_deg", -180.0, 180.0)),
+          number(message, "height_m", kLowest_m, kHighest_m)};
+}
+
 void read_angles(const Json& message, command::Order& order) {
   refuse_others(message, {"pan_deg", "tilt_deg"});
   const double pan = degrees(kPointPanLimit_rad), tilt = degrees(kPointTiltLimit_rad);
@@ -143,7 +152,7 @@ void read_record(const Json& message, command::Order& order) {
 }
 
 CommandRequest read_command(const Json& message, std::int64_t number) {
-  CommandRequest request{number, {}, {}};
+  CommandRequest request{.number = number};
   request.order.station = text(message, "station");
   const auto kind = command::kind_named(text(message, "command"));
   if (!kind) throw Wrong("unknown command");
@@ -153,7 +162,11 @@ CommandRequest read_command(const Json& message, std::int64_t number) {
       read_box(message, request.order);
       break;
     case Kind::kPoint:
-      read_angles(message, request.order);
+      if (message.contains("latitude_deg")) {
+        request.place = read_place(message);
+      } else {
+        read_angles(message, request.order);
+      }
       break;
     case Kind::kCentre:
     case Kind::kLook:
@@ -242,6 +255,22 @@ AnswerRequest read_answer(const Json& message, std::int64_t of_browser) {
   return request;
 }
 
+// Of people: any text; where it is shown it cannot do harm.
+std::string words_of(const Json& message, const char* key, std::size_t most) {
+  const Json& value = field(message, key);
+  if (!value.is_string() || value.get_ref<const std::string&>().size() > most) {
+    throw Wrong(std::string(key) + " must be a text of at most " + std::to_string(most) +
+                " characters");
+  }
+  return plain_text(value.get_ref<const std::string&>());
+}
+
+NameRequest read_name(const Json& message, std::int64_t number) {
+  constexpr std::size_t kMostBytes = 40;
+  refuse_unknown(message, {"do", "number", "target", "name", "heard_us"});
+  return {number, text(message, "target"), words_of(message, "name", kMostBytes)};
+}
+
 // Cues have the names that others give them: any text without control characters.
 CueRequest read_cue(const Json& message, std::int64_t number) {
   refuse_unknown(message, {"do", "number", "cue", "allow", "heard_us"});
@@ -263,6 +292,7 @@ ClientMessage read(const Json& message, std::int64_t number) {
   if (what == "replay") return read_replay(message, number);
   if (what == "answer") return read_answer(message, number);
   if (what == "cue") return read_cue(message, number);
+  if (what == "name") return read_name(message, number);
   if (what == "stop_all") {
     refuse_unknown(message, {"do", "number"});
     return StopAllRequest{number};
@@ -276,7 +306,7 @@ ClientMessage read(const Json& message, std::int64_t number) {
     return ControlRequest{number, text(message, "station"), what == "take", heard(message)};
   }
   throw Wrong(
-      "do must be command, stop_all, take, give_up, watch, taken, answer, cue, acknowledge or "
+      "do must be command, stop_all, take, give_up, watch, taken, answer, cue, name, acknowledge or "
       "replay");
 }
 

@@ -13,6 +13,7 @@
 #include "console/cue_orders.h"
 #include "console/heard.h"
 #include "console/procedures.h"
+#include "geometry/wgs84.h"
 
 namespace ols::console {
 
@@ -23,6 +24,7 @@ struct CommandRequest {
   // The console's time that the browser heard last [us UTC]: its own clock may be wrong. Rates have
   // it, others if it is given.
   std::optional<std::int64_t> heard_utime_us;
+  std::optional<Geodetic> place = {};  // of kPoint: where to, instead of angles
 };
 struct StopAllRequest {
   std::int64_t number = 0;
@@ -67,6 +69,12 @@ struct AcknowledgeRequest {
   std::int64_t number = 0;
   std::uint64_t event = 0;
 };
+// What operators call a target; empty: as the fusion does.
+struct NameRequest {
+  std::int64_t number = 0;
+  std::string target;
+  std::string name;
+};
 struct Refused {
   std::int64_t number = 0;
   std::string why;
@@ -74,7 +82,8 @@ struct Refused {
 
 using ClientMessage =
     std::variant<CommandRequest, StopAllRequest, ControlRequest, WatchRequest, TakenRequest,
-                 ReplayRequest, AnswerRequest, CueRequest, AcknowledgeRequest, Refused>;
+                 ReplayRequest, AnswerRequest, CueRequest, NameRequest, AcknowledgeRequest,
+                 Refused>;
 
 inline constexpr std::size_t kMostMessageBytes = 8192;
 inline constexpr std::size_t kMostWatched = 64;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "console/aiming.h"
+
 namespace ols::console {
 namespace {
 
@@ -13,6 +15,8 @@ constexpr std::int64_t kLateRate_us = 1'500'000;
 constexpr std::int64_t kLateCommand_us = 3'000'000;
 constexpr const char* kAll = "all";
 constexpr const char* kTooLate = "refused: it came too late";
+constexpr const char* kOutOfReach =
+    "refused: out of the reach of its unit, or it does not know where it looks";
 constexpr const char* kReplay = "this is a replay: commands are not sent";
 constexpr std::size_t kMostReplayRequests = 64;  // of one turn
 
@@ -187,6 +191,23 @@ void Console::act(std::uint64_t id, const AcknowledgeRequest& request, const Now
   answer(id, request.number, "", is_there ? "" : "refused: there is no such alarm any more");
 }
 
+void Console::act(std::uint64_t id, const NameRequest& request, const Now& now) {
+  const Viewer& viewer = viewers_.at(id);
+  const auto& [number, target, name] = request;
+  std::string refusal;
+  if (is_replay()) {
+    refusal = kReplay;
+  } else if (viewer.role == Role::kViewer) {
+    refusal = "refused: a viewer may only look and stop";
+  } else if (!site_.name_target(target, name)) {
+    refusal = "refused: there is no such target any more";
+  } else {
+    const std::string what = "calls target " + target + " " + (name.empty() ? target : name);
+    site_.note({now.utime_us, "command", "", viewer.name, what, "done"});
+  }
+  answer(id, number, "", refusal);
+}
+
 void Console::act(std::uint64_t id, const WatchRequest& request, const Now&) {
   PictureDesk::View& view = viewers_.at(id).view;
   view.watched = {request.stations.begin(), request.stations.end()};
@@ -227,7 +248,7 @@ void Console::act(std::uint64_t id, const ControlRequest& request, const Now& no
 
 void Console::act(std::uint64_t id, const CommandRequest& request, const Now& now) {
   const Viewer& viewer = viewers_.at(id);
-  const command::Order& order = request.order;
+  command::Order order = request.order;
   if (is_replay()) return answer(id, request.number, order.station, kReplay);
   if (order.kind == command::Kind::kStop) {
     if (!site_.knows(order.station)) {
@@ -246,6 +267,12 @@ void Console::act(std::uint64_t id, const CommandRequest& request, const Now& no
   const std::int64_t late_us = command::is_joystick(order) ? kLateRate_us : kLateCommand_us;
   if (is_late(request.heard_utime_us, now, late_us)) {
     return answer(id, request.number, order.station, kTooLate);
+  }
+  if (request.place) {
+    const auto angles = aim_at_place(*site_.fields_of(order.station), *request.place);
+    if (!angles) return answer(id, request.number, order.station, kOutOfReach);
+    order.pan_rad = angles->pan_rad;
+    order.tilt_rad = angles->tilt_rad;
   }
   auto refusal = control_.use(order.station, id, viewer.name, now.monotonic_s);
   // A hold is one event, however often it is renewed.

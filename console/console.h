@@ -141,6 +141,7 @@ class Console {
   void act(std::uint64_t id, const AnswerRequest& request, const Now& now);
   void act(std::uint64_t id, const CueRequest& request, const Now& now);
   void act(std::uint64_t id, const AcknowledgeRequest& request, const Now& now);
+  void act(std::uint64_t id, const NameRequest& request, const Now& now);
   void act(std::uint64_t id, const Refused& refused, const Now& now);
   void answer(std::uint64_t id, std::int64_t number, const std::string& station,
               const std::string& refusal);

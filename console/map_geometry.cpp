@@ -143,7 +143,9 @@ std::optional<Json> measure(const std::string& query) {
   const auto from = numbers_of(query, "from="), to = numbers_of(query, "to=");
   if (!is_place(from) || !is_place(to)) return std::nullopt;
   const Geodesic line = geodesic_between(geodetic(from[0], from[1]), geodetic(to[0], to[1]));
-  return Json{{"distance_m", line.distance_m}, {"azimuth_deg", degrees(line.azimuth_rad)}};
+  return Json{{"distance_m", line.distance_m},
+              {"azimuth_deg", degrees(line.azimuth_rad)},
+              {"mgrs", mgrs(geodetic(to[0], to[1]), 5)}};
 }
 
 std::optional<Json> utm_grid(const std::string& query) {

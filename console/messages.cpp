@@ -69,10 +69,22 @@ std::vector<std::string> plain(std::vector<std::string> texts) {
   return texts;
 }
 
+// Null for what is no place: a station's, while it does not know its own.
+Json mgrs_of(double latitude_deg, double longitude_deg, double height_m) {
+  try {
+    return mgrs(Geodetic{radians(latitude_deg), radians(longitude_deg), height_m}, kMgrsDigits);
+  } catch (const std::invalid_argument&) {
+    return nullptr;
+  }
+}
+
 void add_pose(const Status& s, Json& fields) {
   fields["latitude_deg"] = rounded(s.latitude_deg, 8);
   fields["longitude_deg"] = rounded(s.longitude_deg, 8);
   fields["height_m"] = rounded(s.height_m, 2);
+  fields["mgrs"] = mgrs_of(s.latitude_deg, s.longitude_deg, s.height_m);
+  fields["camera_ecef_m"] = {rounded(s.camera_ecef_m[0], 3), rounded(s.camera_ecef_m[1], 3),
+                             rounded(s.camera_ecef_m[2], 3)};
   fields["position_sd_m"] = {rounded(s.position_sd_m[0], 3), rounded(s.position_sd_m[1], 3),
                              rounded(s.position_sd_m[2], 3)};
   fields["position_source"] = source_name(s.position_source);
@@ -177,8 +189,7 @@ void add_position(const Target& t, Json& fields) {
   fields["latitude_deg"] = rounded(t.latitude_deg, 8);
   fields["longitude_deg"] = rounded(t.longitude_deg, 8);
   fields["height_m"] = rounded(t.height_m, 2);
-  fields["mgrs"] =
-      mgrs(Geodetic{radians(t.latitude_deg), radians(t.longitude_deg), t.height_m}, kMgrsDigits);
+  fields["mgrs"] = mgrs_of(t.latitude_deg, t.longitude_deg, t.height_m);
   fields["sd_enu_m"] = {rounded(std::sqrt(covariance[0]), 3), rounded(std::sqrt(covariance[3]), 3),
                         rounded(std::sqrt(covariance[5]), 3)};
   fields["covariance_enu_m2"] = rounded_all(t.position_covariance_enu_m2, 4);

@@ -56,6 +56,12 @@ void SiteState::hear_own(const std::vector<std::string>& alarms, const Now& now)
   note_alarms(own_, "", alarms, now.utime_us);
 }
 
+bool SiteState::name_target(const std::string& id, const std::string& name) {
+  if (!targets_.find(id)) return false;
+  targets_.mark(id, "name", name, revision_);
+  return true;
+}
+
 void SiteState::set_holder(const std::string& station, const Json& holder) {
   stations_.mark(station, "control", holder, revision_);
 }

@@ -44,6 +44,8 @@ class SiteState {
   bool acknowledge(std::uint64_t event, const std::string& who) {
     return events_.acknowledge(event, who, revision_);
   }
+  // What operators call a target, for as long as it lasts. False: there is no such target.
+  bool name_target(const std::string& id, const std::string& name);
   // Who holds control of a station: {"by": NAME, "viewer": N}, or null.
   void set_holder(const std::string& station, const Json& holder);
 
@@ -57,7 +59,9 @@ class SiteState {
   // Numbers of stations, silent ones, targets; whether there is a fusion.
   Json counts() const;
   std::vector<std::string> station_ids() const { return stations_.ids(); }
-  bool knows(const std::string& station) const { return stations_.find(station) != nullptr; }
+  bool knows(const std::string& station) const { return fields_of(station) != nullptr; }
+  // As it says it last; null: unknown.
+  const Json* fields_of(const std::string& station) const { return stations_.find(station); }
   std::uint64_t refused() const { return refused_; }  // names for which there was no room
 
   static constexpr double kStationStale_s = 2.5;  // five status intervals

@@ -34,6 +34,33 @@ TEST(ClientMessage, AnglesAreDegreesAsThePtuCountsThem) {
   EXPECT_NEAR(order.tilt_rad, radians(-10), 1e-12);
 }
 
+TEST(ClientMessage, AStationIsPointedAtAPlaceToo) {
+  const std::string point = R"({"do":"command","station":"alfa","command":"point",)";
+  const auto message =
+      parse_client_message(point + R"("latitude_deg":49.2,"longitude_deg":-16.6,"height_m":380})");
+  const auto& place = std::get<CommandRequest>(message).place;
+  ASSERT_TRUE(place);
+  EXPECT_NEAR(place->latitude_rad, radians(49.2), 1e-12);
+  EXPECT_NEAR(place->longitude_rad, radians(-16.6), 1e-12);
+  EXPECT_EQ(place->height_m, 380.0);
+  for (const char* wrong : {R"("latitude_deg":91,"longitude_deg":0,"height_m":0})",
+                            R"("latitude_deg":49,"longitude_deg":0})",
+                            R"("latitude_deg":49,"longitude_deg":0,"height_m":0,"pan_deg":1})"}) {
+    EXPECT_NE(refusal(point + wrong), "taken") << wrong;
+  }
+}
+
+TEST(ClientMessage, ATargetIsGivenANameThatIsSafeToShow) {
+  const auto message =
+      parse_client_message(R"({"do":"name","number":3,"target":"7","name":"gr\u00fcne\n Drohne"})");
+  const auto& request = std::get<NameRequest>(message);
+  EXPECT_EQ(request.target, "7");
+  EXPECT_EQ(request.name, "gr\u00fcne? Drohne");
+  EXPECT_NE(refusal(R"({"do":"name","target":"7"})"), "taken");
+  EXPECT_NE(refusal(R"({"do":"name","target":"7","name":")" + std::string(41, 'x') + "\"}"),
+            "taken");
+}
+
 TEST(ClientMessage, ARateSaysWhatTheBrowserHeardLast) {
   const std::string rate =
       R"({"do":"command","station":"alfa","command":"rate","pan_deg_s":10,"tilt_deg_s":-1)";
@@ -119,10 +146,10 @@ TEST(ClientMessage, WhatIsWrongIsSaid) {
   EXPECT_EQ(refusal("{"), "not JSON");
   EXPECT_EQ(refusal("[]"), "not a JSON object");
   EXPECT_EQ(refusal("{}"), "do is missing");
-  EXPECT_EQ(
-      refusal(R"({"do":"dance"})"),
-      "do must be command, stop_all, take, give_up, watch, taken, answer, cue, acknowledge or "
-      "replay");
+  EXPECT_EQ(refusal(R"({"do":"dance"})"),
+            "do must be command, stop_all, take, give_up, watch, taken, answer, cue, name, "
+            "acknowledge or "
+            "replay");
   EXPECT_EQ(refusal(R"({"do":"stop_all","station":"a"})"), "unknown key \"station\"");
   EXPECT_EQ(refusal(R"({"do":"command","station":"a","command":"fly"})"), "unknown command");
   EXPECT_EQ(refusal(R"({"do":"command","station":"a b","command":"stop"})"),

@@ -453,5 +453,48 @@ TEST(Console, AnAnswerNeedsControlUnlessItEndsTheProcedure) {
   EXPECT_EQ(console.take_answers().size(), 1U);
 }
 
+TargetHeard target(const std::string& id) {
+  TargetHeard heard;
+  heard.what = TargetHeard::What::kPosition;
+  heard.boot_id = 9;
+  heard.id = id;
+  heard.fields = {{"state", "confirmed"}};
+  return heard;
+}
+
+TEST(Console, ANameOfATargetIsForAllAndLastsAsLongAsTheTarget) {
+  Listening console;
+  const auto ana = console.open("ana", Role::kOperator), eva = console.open("eva", Role::kViewer);
+  console.hear(target("7"), {0.0, 0});
+  static_cast<void>(received(console, ana, {0.0, 0}));
+  console.take(eva, R"({"do":"name","number":1,"target":"7","name":"mine"})", {0.1, 0});
+  EXPECT_FALSE(answer_in(received(console, eva, {0.1, 0})).at("accepted")) << "may only look";
+  console.take(ana, R"({"do":"name","number":2,"target":"8","name":"drone"})", {0.1, 0});
+  EXPECT_FALSE(answer_in(received(console, ana, {0.1, 0})).at("accepted")) << "no such target";
+  console.take(ana, R"({"do":"name","number":3,"target":"7","name":"drone"})", {0.2, 0});
+  EXPECT_TRUE(answer_in(received(console, ana, {0.2, 0})).at("accepted"));
+  console.hear(target("7"), {0.3, 0});
+  EXPECT_EQ(console.state({0.3, 0}).at("targets")[0].at("name"), "drone");
+  TargetHeard gone = target("7");
+  gone.what = TargetHeard::What::kDropped;
+  console.hear(gone, {0.4, 0});
+  console.hear(target("7"), {0.5, 0});
+  EXPECT_FALSE(console.state({0.5, 0}).at("targets")[0].contains("name"));
+}
+
+TEST(Console, WhatCannotBePointedAtIsRefusedInWords) {
+  Listening console;
+  const auto ana = console.open("ana", Role::kOperator);
+  static_cast<void>(received(console, ana, {0.0, 0}));
+  console.take(ana,
+               R"({"do":"command","number":1,"station":"alfa","command":"point",)"
+               R"("latitude_deg":49,"longitude_deg":16,"height_m":300})",
+               {0.1, 0});
+  EXPECT_TRUE(console.turn({0.1, 0}).empty());
+  const Json answer = answer_in(received(console, ana, {0.1, 0}));
+  EXPECT_EQ(answer.at("why"),
+            "refused: out of the reach of its unit, or it does not know where it looks");
+}
+
 }  // namespace
 }  // namespace ols::console

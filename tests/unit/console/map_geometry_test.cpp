@@ -31,6 +31,7 @@ TEST(MapGeometry, MeasuresAlongTheEllipsoid) {
   ASSERT_TRUE(line);
   EXPECT_NEAR(line->at("distance_m"), 111319.49, 0.01);
   EXPECT_NEAR(line->at("azimuth_deg"), 90.0, 1e-9);
+  EXPECT_EQ(line->at("mgrs"), "31NBA7740400000") << "of where it ends";
   for (const char* wrong : {"", "?from=1,2", "?from=1,2&to=3", "?from=91,0&to=0,0",
                             "?from=a,b&to=1,2", "?from=nan,0&to=0,0"}) {
     EXPECT_FALSE(measure(wrong)) << wrong;
