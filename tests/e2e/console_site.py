@@ -177,6 +177,9 @@ class PaperSite(threading.Thread):
         m.track_id = self.track_ids[station]
         m.latitude_deg, m.longitude_deg = PLACES[station]
         m.height_m = 300.0
+        at = geodetic(m.latitude_deg, m.longitude_deg, m.height_m)
+        m.camera_ecef_m = list(ols.ecef_from_geodetic(at))
+        m.pan_limits_rad, m.tilt_limits_rad = [-math.pi, math.pi], [-1.0, 1.5]
         m.calibration_sd_rad = math.nan
         if station == "alfa":
             m.calibration_state, m.calibration_id = m.CALIBRATION_IN_USE, 1 << 60

@@ -97,13 +97,26 @@ def switch_off_and_on(page, chart, layer):
 
 
 def moving(time_s):
-    """To and fro, fast."""
-    return geodetic(49.2265, 16.597 + 0.003 * np.sin(time_s / 2), 420.0)
+    """To and fro, fast, and higher to the east."""
+    east = np.sin(time_s / 2)
+    return geodetic(49.2265, 16.597 + 0.003 * east, 420.0 + 60.0 * east)
 
 
-def test_a_target_leaves_a_trail(page, paper, chart):
+def is_low(r, g, b):  # the first of --map-heights
+    return (b > r + 60) & (b > g + 60) & (r > 90)
+
+
+def is_high(r, g, b):  # the last
+    return (r > 200) & (g > 180) & (b < 130)
+
+
+def test_a_target_leaves_a_trail_in_the_colours_of_its_height(page, paper, chart):
     with paper.another_target(PaperTarget(moving)):
-        expect(region(page, "Targets")).to_contain_text("420.0 m")
+        expect(region(page, "Targets").locator("tbody tr")).to_have_count(2)
+        wait_for(lambda: len(pixels(page, is_low)) > 30, "the low part of the trail")
+        wait_for(lambda: len(pixels(page, is_high)) > 30, "the high part of the trail")
+        low, high = pixels(page, is_low)[:, 1], pixels(page, is_high)[:, 1]
+        assert np.median(low) < np.median(high), "the west is low"
         trail = wait_for(
             lambda: (n := len(pixels(page, is_target))) > 500 and n, "a trail that is long enough"
         )

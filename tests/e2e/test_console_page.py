@@ -4,10 +4,10 @@ whom, and that it goes on."""
 import re
 import time
 
-import pytest
+import ols_msg
 from conftest import BIN
 from console_page import axe_finds, picture, region
-from console_site import DEADLINE_S, FULL_PX, PASSWORD, Api, wait_for
+from console_site import DEADLINE_S, FULL_PX, PASSWORD, Api, PaperTarget, wait_for
 from playwright.sync_api import expect
 
 pytest_plugins = ["console_fixtures"]
@@ -119,15 +119,22 @@ def test_a_session_that_has_ended_shows_nothing_more(chromium, consoles):
     context.close()
 
 
-@pytest.mark.parametrize("theme", ["dark", "light"])
-def test_axe_finds_nothing(chromium, consoles, theme):
-    context = chromium.new_context(viewport={"width": 1280, "height": 800}, color_scheme=theme)
-    page = context.new_page()
-    page.goto(consoles[0])
-    region(page, "Stations").get_by_role("button", name="alfa").click()
-    picture(page, "alfa")
-    assert axe_finds(page) == []
-    context.close()
+def test_axe_finds_nothing_in_any_theme(page, paper):
+    """Contrast among it, of every state of a station and of every kind of event."""
+    state = ols_msg.station_status_t
+    paper.states |= {"alfa": state.STATE_LOST, "bravo": state.STATE_EMERGENCY}
+    paper.fusion_alarms = ["another fusion is on the bus: stop one of them"]
+    with paper.another_target(PaperTarget(state=ols_msg.target_t.TRACK_BORN)):
+        region(page, "Stations").get_by_role("button", name="alfa").click()
+        region(page, "Targets").get_by_role("row").nth(1).click()
+        picture(page, "alfa")
+        for lost in region(page, "Video"), region(page, "Stations"):
+            expect(lost).to_contain_text("lost")
+        for theme in ("night", "day", "sunlight"):
+            page.get_by_label("Theme").select_option(theme)
+            assert axe_finds(page) == [], theme
+    paper.states |= dict.fromkeys(paper.states, state.STATE_IDLE)
+    paper.fusion_alarms = []
 
 
 def test_two_languages(page, paper):

@@ -91,7 +91,7 @@ def fixture_panel(procedure, tmp_path):
     with Site(tmp_path / "logs") as site, browser() as chromium:
         site.start_and_wait("open", console_command(tmp_path / "nobody", "--port", "0"), "ready")
         address = address_of(site, "open")
-        page = chromium.new_page(viewport={"width": 1280, "height": 900}, locale="en-GB")
+        page = chromium.new_page(viewport={"width": 1280, "height": 720}, locale="en-GB")
         page.set_default_timeout(DEADLINE_S * 1000)
         page.goto(address)
         yield page.get_by_role("region", name="Calibration", exact=True)
@@ -107,6 +107,9 @@ def test_a_person_points_confirms_turns_and_aborts(procedure, panel):
     expect(panel).to_contain_text("Or turn the unit.")
     image = panel.get_by_role("img", name="spire: where is it?")
     wait_for(lambda: image.evaluate("image => image.naturalWidth") == 320, "its picture")
+    for answer in ("Abort", "Skip", "Exactly here", "Turn by"):
+        button = panel.get_by_role("button", name=answer)
+        expect(button, "without scrolling").to_be_in_viewport(ratio=1)
     box = image.bounding_box()
     image.click(position={"x": box["width"] / 2, "y": box["height"] / 4})
     pointed = answer_after(procedure, 0)

@@ -3,6 +3,7 @@
 import { h } from "preact";
 import { useEffect, useMemo, useState } from "preact/hooks";
 import { AlarmSpoken } from "./alarms";
+import { useArrangement, type Arrangement } from "./arrangement";
 import { Bar, type Look } from "./bar";
 import { stopped } from "./byhand";
 import { useEscapeKey } from "./escape";
@@ -11,9 +12,12 @@ import { Link, type Session } from "./link";
 import { MapView } from "./map";
 import { Notice, useNotice } from "./notice";
 import { Orders } from "./orders";
+import type { Place } from "./panel";
+import { PlacePanel, placeOf } from "./placepanel";
 import { Procedures } from "./procedure";
 import { ReplayBar } from "./replay";
 import { Stations } from "./stations";
+import { TargetPanel } from "./targetpanel";
 import { Targets } from "./targets";
 import { Users } from "./users";
 import { VideoView } from "./video";
@@ -43,24 +47,27 @@ function useNews(link: Link, orders: Orders, onLoggedOut: () => void): number {
   return version;
 }
 
-type SideProps = { link: Link; version: number; station: string; mayCommand: boolean; orders: Orders; onSelect: (station: string) => void };
+type SideProps = { link: Link; version: number; station: string; mayCommand: boolean; orders: Orders; arrangement: Arrangement; onSelect: (station: string) => void };
 
-// Beside the map: the stations, in pictures and in words.
-function Side({ link, version, station, mayCommand, orders, onSelect }: SideProps) {
+// The stations, in pictures and in words.
+function Side({ link, version, station, mayCommand, orders, arrangement, onSelect }: SideProps) {
   return (
     <div class="side">
-      <Procedures link={link} mayCommand={mayCommand} onAnswer={(answer) => orders.answer(answer)} />
-      <VideoView
-        link={link}
-        version={version}
-        selected={station}
-        mayCommand={mayCommand}
-        onSelect={onSelect}
-        onPoint={(id, what, frame_utime_us, point_px) => orders.command(id, what, { frame_utime_us, point_px })}
-        onDesignate={(id, frame_utime_us, box_px) => orders.command(id, "designate", { frame_utime_us, box_px })}
-        onWithheld={(id) => orders.withheld(id)}
-        onRelease={(id) => orders.command(id, "release")}
-      />
+      <div class="watch">
+        <Procedures link={link} mayCommand={mayCommand} onAnswer={(answer) => orders.answer(answer)} />
+        <VideoView
+          link={link}
+          version={version}
+          selected={station}
+          mayCommand={mayCommand}
+          arrangement={arrangement}
+          onSelect={onSelect}
+          onPoint={(id, what, frame_utime_us, point_px) => orders.command(id, what, { frame_utime_us, point_px })}
+          onDesignate={(id, frame_utime_us, box_px) => orders.command(id, "designate", { frame_utime_us, box_px })}
+          onWithheld={(id) => orders.withheld(id)}
+          onRelease={(id) => orders.command(id, "release")}
+        />
+      </div>
       <Stations
         link={link}
         selected={station}
@@ -74,12 +81,23 @@ function Side({ link, version, station, mayCommand, orders, onSelect }: SideProp
   );
 }
 
+type PanelProps = { link: Link; selected: string; mayCommand: boolean; orders: Orders; onClose: () => void };
+
+// On the map: what is known of the selected target or place.
+function Panel({ link, selected, mayCommand, orders, onClose }: PanelProps) {
+  const target = link.site.targets.get(selected.replace("target:", ""));
+  const rest = { link, mayCommand, onPoint: (station: string, place: Place) => orders.command(station, "point", place), onClose };
+  if (target) return <TargetPanel key={selected} target={target} onName={(name) => orders.nameTarget(target.id, name)} {...rest} />;
+  return placeOf(selected) && <PlacePanel key={selected} selected={selected} {...rest} />;
+}
+
 type Props = { session: Session; look: Look; onLoggedOut: () => void };
 
 export function Console({ session, look, onLoggedOut }: Props) {
   const [station, setStation] = useState("");
   const [target, setTarget] = useState("");
   const [isUsersOpen, setUsersOpen] = useState(false);
+  const arrangement = useArrangement();
   const [notice, notices] = useNotice();
   const link = useMemo(() => new Link(), []);
   const orders = useMemo(() => new Orders(link, notices), []);
@@ -89,7 +107,7 @@ export function Console({ session, look, onLoggedOut }: Props) {
   const mayCommand = session.role !== "viewer" && !link.replay;
   const pick = (what: string) => (what.startsWith("station:") ? setStation(what.slice(8)) : setTarget(what));
   return (
-    <div class={`console ${link.replay ? "of-replay" : ""}`}>
+    <div class={`page ${link.replay ? "of-replay" : ""}`}>
       <Bar
         link={link}
         session={session}
@@ -101,12 +119,13 @@ export function Console({ session, look, onLoggedOut }: Props) {
         onUsers={() => setUsersOpen(true)}
       />
       <AlarmSpoken link={link} />
-      {!link.isUp && <p class="lost" role="alert">{t("link_lost")}</p>}
+      {!link.isUp && <p class="link-lost" role="alert">{t("link_lost")}</p>}
       {link.replay && <ReplayBar link={link} />}
       {isUsersOpen && <Users self={session.name} onClose={() => setUsersOpen(false)} />}
-      <main class="views">
+      <main class={`views ${arrangement.isAlone ? "alone" : arrangement.large}`}>
         <MapView link={link} version={version} theme={look.theme} selected={target || `station:${station}`} onPick={pick} />
-        <Side link={link} version={version} station={station} mayCommand={mayCommand} orders={orders} onSelect={setStation} />
+        <Panel link={link} selected={target} mayCommand={mayCommand} orders={orders} onClose={() => setTarget("")} />
+        <Side link={link} version={version} station={station} mayCommand={mayCommand} orders={orders} arrangement={arrangement} onSelect={setStation} />
         <Targets
           link={link}
           selected={target}

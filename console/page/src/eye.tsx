@@ -79,7 +79,11 @@ export function Eye({ isThin, ...rest }: PictureProps & { isThin: boolean }) {
   const pointer = usePointer(on);
   useEffect(() => (large && mayCommand ? steerByGamepad(hand) : undefined), [large, mayCommand]);
   return (
-    <figure class={["eye", large && "large", held.current && "held", on.byHand && "by-hand", station.stale && "stale"].filter(Boolean).join(" ")}>
+    <figure
+      class={["eye", large && "large", held.current && "held", on.byHand && "by-hand", station.stale && "stale"].filter(Boolean).join(" ")}
+      style={shown && { "--ratio": shown.full_px[0] / shown.full_px[1] }}
+    >
+      <Caption link={link} on={on} isThin={isThin} />
       <canvas
         ref={canvas}
         role="img"
@@ -95,7 +99,6 @@ export function Eye({ isThin, ...rest }: PictureProps & { isThin: boolean }) {
         onFocus={(event: FocusEvent) => (event.currentTarget as Element).matches(":focus-visible") && onSelect()}
         onKeyDown={(event: KeyboardEvent) => pressKey(on, event)}
       />
-      <Caption link={link} on={on} isThin={isThin} />
       {large && mayCommand && <InHand on={on} />}
     </figure>
   );

@@ -6,10 +6,6 @@ export function fixed(value: number | null | undefined, decimals: number, unit =
   return value == null || !isFinite(value) ? DASH : value.toFixed(decimals) + unit;
 }
 
-export function distance(m: number): string {
-  return m < 1000 ? `${m.toFixed(m < 10 ? 1 : 0)} m` : `${(m / 1000).toFixed(m < 10_000 ? 2 : 1)} km`;
-}
-
 // Of "1000 mm".
 export const inMetres = (mm: string) => `${parseFloat(mm) / 1000} m`;
 

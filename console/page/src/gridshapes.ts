@@ -6,9 +6,10 @@ import Point from "ol/geom/Point";
 import { fromLonLat } from "ol/proj";
 import { Stroke, Style } from "ol/style";
 import type { Coordinate } from "ol/coordinate";
-import { distance, gridName } from "./format";
+import { gridName } from "./format";
 import type { Link } from "./link";
 import { Colours, label, offset, shape, SMALL_FONT, stretch } from "./mapfeatures";
+import { distance } from "./measures";
 
 function siteMiddle(link: Link): { at: Coordinate; latitude: number } | null {
   const placed = [...link.site.stations.values()].filter((s) => s.latitude_deg != null && s.longitude_deg != null);

@@ -4,6 +4,7 @@ import { h, type RefObject } from "preact";
 import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
 import { useEscape } from "./escape";
 import type { Link } from "./link";
+import { measures } from "./measures";
 import { Legend, OwnMaps } from "./ownmaps";
 import { SiteMap } from "./sitemap";
 import { View3d } from "./view3d";
@@ -12,7 +13,7 @@ import { t } from "./words";
 type Options = SiteMap["options"];
 type Props = { link: Link; version: number; theme: string; selected: string; onPick: (pick: string) => void };
 
-const OPTIONS: Options = { rings: true, grid: true, trails: true, views: true, limits: true, follow: false, measuring: false };
+const OPTIONS: Options = { rings: true, grid: true, trails: true, views: true, limits: true, follow: false, measuring: false, placing: false };
 
 // The map in its element, which follows what the page shows; null until it is made.
 function useSiteMap(element: RefObject<HTMLDivElement>, { link, version, theme, selected, onPick }: Props, onMeasured: (text: string) => void): SiteMap | null {
@@ -26,6 +27,7 @@ function useSiteMap(element: RefObject<HTMLDivElement>, { link, version, theme, 
     return () => one.map.setTarget(undefined);
   }, []);
   useEffect(() => map.current?.restyle(), [theme]);
+  useEffect(() => map.current?.remeasure(), [measures.units]);
   useEffect(() => {
     if (!map.current) return;
     map.current.onPick = onPick;
@@ -59,6 +61,7 @@ function Tools({ map, options, isSolid, onToggle, onSolid, onAccuracy }: ToolsPr
         {t("view_3d")}
       </button>
       {button("measuring", t("measure"))}
+      {!isSolid && button("placing", t("place"))}
       <details class="layers" open={isOpen} onToggle={(event) => setOpen(event.currentTarget.open)}>
         <summary>{t("layers")}</summary>
         <div>
@@ -86,13 +89,19 @@ export function MapView(props: Props) {
   const [isSolid, setSolid] = useState(false);
   const [hasAccuracy, setAccuracy] = useState(false);
   const map = useSiteMap(element, props, setMeasured);
-  const toggle = (name: keyof Options) => {
-    const value = !options[name];
-    setOptions({ ...options, [name]: value });
-    if (name === "measuring") setMeasured("");
-    map?.setOption(name, value);
+  const set = (changed: Partial<Options>) => {
+    setOptions((before) => ({ ...before, ...changed }));
+    for (const [name, value] of Object.entries(changed)) map?.setOption(name as keyof Options, value);
   };
+  const toggle = (name: keyof Options) => {
+    setMeasured(name === "measuring" ? "" : measured);
+    // A click means one thing at a time.
+    const other = name === "measuring" ? { placing: false } : name === "placing" ? { measuring: false } : {};
+    set({ ...other, [name]: !options[name] });
+  };
+  if (map) map.onPlaced = () => set({ placing: false });
   useEscape(options.measuring, () => toggle("measuring"));
+  useEscape(options.placing, () => toggle("placing"));
   // What was measured belongs to the view in which it was.
   const showSolid = () => {
     setSolid(!isSolid);
@@ -110,6 +119,7 @@ export function MapView(props: Props) {
           <span>N</span>
         </div>
       )}
+      {options.placing && !isSolid && <output class="map-measure">{t("place_hint")}</output>}
       {options.measuring && (
         <output class="map-measure">{measured || t(isSolid ? "measure_hint_3d" : "measure_hint")}</output>
       )}

@@ -2,6 +2,7 @@
 
 import Feature from "ol/Feature";
 import LineString from "ol/geom/LineString";
+import MultiLineString from "ol/geom/MultiLineString";
 import Point from "ol/geom/Point";
 import Polygon from "ol/geom/Polygon";
 import { Fill, Stroke, Style, Text } from "ol/style";
@@ -16,6 +17,11 @@ export function readColours(): Colours {
   return Object.fromEntries(COLOUR_NAMES.map((name) => [name, style.getPropertyValue(`--map-${name}`).trim()]));
 }
 
+// Of the lowest to the highest.
+export function heightColours(): string[] {
+  return getComputedStyle(document.documentElement).getPropertyValue("--map-heights").trim().split(/\s+/);
+}
+
 export const FONT = "600 12px Inter, system-ui, 'DejaVu Sans', sans-serif";
 export const SMALL_FONT = "11px Inter, system-ui, 'DejaVu Sans', sans-serif";
 
@@ -27,7 +33,7 @@ export function offset(from: Coordinate, azimuth_deg: number, metres: number, sc
   return [from[0] + Math.sin(a) * metres * scale, from[1] + Math.cos(a) * metres * scale];
 }
 
-export function shape(geometry: Point | LineString | Polygon, style: Style | Style[], id = ""): Feature {
+export function shape(geometry: Point | LineString | MultiLineString | Polygon, style: Style | Style[], id = ""): Feature {
   const feature = new Feature(geometry);
   feature.setStyle(style);
   if (id) feature.set("pick", id);

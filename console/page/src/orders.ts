@@ -55,6 +55,10 @@ export class Orders {
     this.asked.set(number, words);
   }
 
+  nameTarget(target: string, name: string) {
+    this.give({ do: "name", target, name }, `${t("target")} ${target}: ${name || target}`);
+  }
+
   // Of a procedure's question.
   answer(answer: ProcedureAnswer) {
     this.give({ do: "answer", ...answer }, `${answer.station} ${named("c", answer.choice)}`);

@@ -9,6 +9,7 @@ import { named, t } from "./words";
 
 const SILENT_US = 6_000_000; // it says something each second
 const RESULT_US = 120_000_000; // how long its end is shown
+const HIGHEST_VH = 34; // of its picture: the answers are below it
 
 export type ProcedureAnswer = { station: string; question: number; choice: string; pixel_px?: [number, number]; turn_deg?: [number, number] };
 type Say = (answer: ProcedureAnswer) => void;
@@ -58,7 +59,7 @@ function ProcedurePicture({ station, procedure, onPoint }: PictureProps) {
     onPoint([((event.clientX - box.left) / box.width) * width - 0.5, ((event.clientY - box.top) / box.height) * height - 0.5]);
   };
   return (
-    <div class={`procedure-picture ${onPoint ? "to-point" : ""}`} onClick={click}>
+    <div class={`procedure-picture ${onPoint ? "to-point" : ""}`} style={{ width: `min(100%, ${(HIGHEST_VH * width) / height}vh)` }} onClick={click}>
       <img src={`/api/procedures/${encodeURIComponent(station)}?picture=${procedure.picture}`} alt={procedure.step} draggable={false} />
       {cross && (
         <i
@@ -97,16 +98,18 @@ function One({ station, procedure, mayCommand, onAnswer }: { station: Station; p
   const point = (pixel_px: [number, number]) => onAnswer({ station: station.id, question: procedure.question, choice: "point", pixel_px });
   return (
     <article class="open procedure">
-      <h3>
-        <span class="who">{station.id}</span> {procedure.procedure}: {procedure.step || named("p", procedure.state)}
-      </h3>
+      <div class="procedure-head">
+        <h3>
+          <b>{station.id}</b> {procedure.procedure}: {procedure.step || named("p", procedure.state)}
+        </h3>
+        {mayCommand && isAtWork(procedure) && (
+          <Sure word={named("c", "abort")} question={`${station.id}: ${t("abort_sure")}`} isDangerous onSure={abort} />
+        )}
+      </div>
       <progress max={1} value={procedure.progress ?? 0} aria-label={t("procedure")} />
       {procedure.lines.length > 0 && <p class="procedure-text">{procedure.lines.join("\n")}</p>}
       {procedure.picture > 0 && <ProcedurePicture station={station.id} procedure={procedure} onPoint={isAsking && procedure.choices.includes("point") ? point : null} />}
       {isAsking && <Question station={station.id} procedure={procedure} onAnswer={onAnswer} />}
-      {mayCommand && isAtWork(procedure) && (
-        <Sure word={named("c", "abort")} question={`${station.id}: ${t("abort_sure")}`} isDangerous onSure={abort} />
-      )}
     </article>
   );
 }

@@ -1,7 +1,8 @@
 // What is measured in three dimensions: the straight line between two things or places.
 
 import { useEffect, useState } from "preact/hooks";
-import { bearing, distance, fixed } from "./format";
+import { bearing, fixed } from "./format";
+import { distance } from "./measures";
 import type { Scene, Vector } from "./scene3d";
 import { t } from "./words";
 

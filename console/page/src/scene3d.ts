@@ -1,11 +1,11 @@
 // What there is to see in three dimensions, in the east-north-up frame of the site's middle, and how it
 // is projected and drawn: a few hundred lines, which need no graphics processor.
 
-import { distance, fixed } from "./format";
 import { OFFSETS, type Side, sidesOf } from "./labels";
 import { fineOutline } from "./marks";
+import { distance, length } from "./measures";
 import { ecef } from "./projection";
-import { followed, stretches, type Line, type Site, type Station, type Target } from "./site";
+import { followed, nameOf, stretches, type Line, type Site, type Station, type Target } from "./site";
 
 export type Layers = { grid: boolean; rings: boolean; trails: boolean; views: boolean; limits: boolean };
 
@@ -187,7 +187,7 @@ export class Scene {
     for (const ring of ellipsoid(target.covariance_enu_m2, this.larger)) {
       this.strokes.push({ points: ring.map((point) => plus(at, point)), colour, width: isSelected ? 2 : 1.2, fill: 0.08 });
     }
-    this.names.push({ id: `target:${target.id}`, at, text: `${target.id}  ${fixed(target.height_m, 0, " m")}`, colour: isSelected ? this.colour("--map-accent") : colour });
+    this.names.push({ id: `target:${target.id}`, at, text: `${nameOf(target)}  ${length(target.height_m)}`, colour: isSelected ? this.colour("--map-accent") : colour });
     return at;
   }
 

@@ -29,6 +29,7 @@ export type Station = {
   latitude_deg: number | null;
   longitude_deg: number | null;
   height_m: number | null;
+  mgrs?: string;
   position_sd_m: (number | null)[];
   position_source: string;
   heading_deg: number | null;
@@ -68,6 +69,7 @@ export type StationCalibration = { state: string; id: string; utime_us: number |
 export type Ellipse = { semi_major_m: number; semi_minor_m: number; azimuth_deg: number };
 export type Target = {
   id: string;
+  name?: string; // that operators have given it
   stale: boolean;
   utime_us: number;
   state: string;
@@ -133,6 +135,8 @@ export type Site = {
   fusion: Fusion | null;
   events: SiteEvent[]; // newest first
 };
+
+export const nameOf = (target: Target) => target.name || target.id;
 
 const MOST_EVENTS = 500;
 const MOST_TRAIL_POINTS = 600;

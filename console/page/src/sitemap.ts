@@ -14,18 +14,21 @@ import DoubleClickZoom from "ol/interaction/DoubleClickZoom";
 import { defaults as defaultInteractions } from "ol/interaction/defaults";
 import { createEmpty, extend, intersects, isEmpty } from "ol/extent";
 import { fromLonLat, toLonLat, transformExtent } from "ol/proj";
-import { Circle, Fill, Stroke, Style, Text } from "ol/style";
+import { Circle, Fill, RegularShape, Stroke, Style, Text } from "ol/style";
 import type { Coordinate } from "ol/coordinate";
-import { bearing, distance } from "./format";
+import { bearing } from "./format";
 import { type Named, type Side, sidesOf } from "./labels";
 import { Grid, gridShapes, ringShapes } from "./gridshapes";
 import type { Link } from "./link";
-import { Colours, FONT, readColours, shape, SMALL_FONT, stretch } from "./mapfeatures";
+import { Colours, FONT, heightColours, readColours, shape, SMALL_FONT, stretch } from "./mapfeatures";
 import { AccuracyChoice, AccuracyLayer, UserMap, UserMapLayers } from "./maplayers";
+import { distance, measures } from "./measures";
+import { placeOf } from "./placepanel";
 import { ScaleInMetres } from "./scale";
 import { followed } from "./site";
 import { lineShapes, stationShapes } from "./stationshapes";
 import { cueShapes, cueWords, targetShapes, targetWords } from "./targetshapes";
+import { trailShapes } from "./trailshapes";
 
 const LABELS = "labels"; // of two that would cover each other, that of the upper layer is drawn
 const BORDER_PART = 0.17; // of the view: how far borders are drawn from their station
@@ -36,10 +39,12 @@ export class SiteMap {
   private still = new VectorSource();
   private measured = new VectorSource();
   private doubleClick = new DoubleClickZoom();
+  private scale = new ScaleInMetres({ minWidth: 90 });
   private land: VectorLayer<any>;
   private graticule: Graticule | null = null;
   private grid: Grid | null = null;
   private colours: Colours = readColours();
+  private heightColours = heightColours();
   private newest_us = 0; // of the targets that are drawn
   private stationsFitted = 0;
   private hasMoved = false;
@@ -49,10 +54,11 @@ export class SiteMap {
   private accuracyShown: AccuracyChoice | null = null;
   private sides = new Map<string, Side | null>();
   private pen = document.createElement("canvas").getContext("2d")!;
-  options = { rings: true, grid: true, trails: true, views: true, limits: true, follow: false, measuring: false };
+  options = { rings: true, grid: true, trails: true, views: true, limits: true, follow: false, measuring: false, placing: false };
   selected = "";
   onPick: (pick: string) => void = () => {};
   onMeasured: (text: string) => void = () => {};
+  onPlaced: () => void = () => {};
   onMapTrouble: () => void = () => {};
 
   constructor(
@@ -63,7 +69,7 @@ export class SiteMap {
     this.map = new OlMap({
       target: element,
       layers: [this.land, new VectorLayer({ source: this.still, declutter: LABELS }), new VectorLayer({ source: this.moving, declutter: LABELS, updateWhileInteracting: true, updateWhileAnimating: true }), new VectorLayer({ source: this.measured })],
-      controls: [new ScaleInMetres({ minWidth: 90 }), new Attribution({ collapsible: false })],
+      controls: [this.scale, new Attribution({ collapsible: false })],
       interactions: defaultInteractions({ altShiftDragRotate: false, pinchRotate: false, doubleClickZoom: false }).extend([this.doubleClick]),
       view: new View({ center: fromLonLat([15, 50]), zoom: 4, maxZoom: 24, enableRotation: false }),
     });
@@ -74,7 +80,11 @@ export class SiteMap {
     this.map.on("postrender", () => (element.dataset.newestUs = String(this.newest_us)));
     this.map.on("pointerdrag", () => (this.hasMoved = true));
     element.addEventListener("wheel", () => (this.hasMoved = true), { passive: true });
-    this.map.on("click", (event) => (this.options.measuring ? this.measure(event.coordinate) : this.pick(event.pixel)));
+    this.map.on("click", (event) => {
+      if (this.options.measuring) void this.measure(event.coordinate);
+      else if (this.options.placing) this.place(event.coordinate);
+      else this.pick(event.pixel);
+    });
     this.restyle();
     void this.loadLand();
   }
@@ -89,6 +99,7 @@ export class SiteMap {
 
   restyle() {
     const c = (this.colours = readColours());
+    this.heightColours = heightColours();
     this.land.setStyle(new Style({ fill: new Fill({ color: c.land }), stroke: new Stroke({ color: c.rule, width: 1 }) }));
     const visible = this.graticule?.getVisible() ?? true;
     if (this.graticule) this.map.removeLayer(this.graticule);
@@ -104,6 +115,19 @@ export class SiteMap {
     this.map.forEachFeatureAtPixel(pixel, (feature) => void (feature.get("pick") && picks.push(feature.get("pick"))), { hitTolerance: 8 });
     const best = picks.find((one) => one.startsWith("target:")) ?? picks[0];
     if (best) this.onPick(best);
+  }
+
+  private place(at: Coordinate) {
+    const [longitude, latitude] = toLonLat(at);
+    this.onPick(`place:${latitude.toFixed(7)},${longitude.toFixed(7)}`);
+    this.onPlaced();
+  }
+
+  private placeShapes(): Feature[] {
+    const place = placeOf(this.selected);
+    if (!place) return [];
+    const cross = new RegularShape({ points: 4, radius: 12, radius2: 0, stroke: new Stroke({ color: this.colours.accent, width: 2 }) });
+    return [shape(new Point(fromLonLat([place.longitude_deg, place.latitude_deg])), new Style({ image: cross }))];
   }
 
   private async measure(at: Coordinate) {
@@ -171,6 +195,12 @@ export class SiteMap {
     this.drawStill();
   }
 
+  // In the units that were chosen.
+  remeasure() {
+    this.scale.setUnits(measures.units === "nautical" ? "nautical" : "metric");
+    this.drawStill();
+  }
+
   drawStill() {
     this.still.clear(true);
     if (this.options.grid) this.still.addFeatures(gridShapes(this.grid, this.colours));
@@ -217,7 +247,10 @@ export class SiteMap {
     for (const s of site.stations.values()) features.push(...stationShapes(s, this.colours, this.selected === `station:${s.id}`, this.options.views, border_m, this.sides.get(`station:${s.id}`)));
     features.push(...lineShapes(this.link, this.colours));
     features.push(...cueShapes(this.link, this.colours, this.sides));
-    for (const target of site.targets.values()) features.push(...targetShapes(target, this.colours, this.selected === `target:${target.id}`, this.options.trails, this.sides.get(`target:${target.id}`)));
+    features.push(...this.placeShapes());
+    const targets = [...site.targets.values()];
+    if (this.options.trails) features.push(...trailShapes(targets, this.heightColours, this.selected));
+    for (const target of targets) features.push(...targetShapes(target, this.colours, this.selected === `target:${target.id}`, this.sides.get(`target:${target.id}`)));
     this.moving.clear(true);
     this.moving.addFeatures(features);
     this.newest_us = Math.max(0, ...[...site.targets.values()].map((target) => target.utime_us));

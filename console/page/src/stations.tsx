@@ -7,6 +7,7 @@ import { calibrationText } from "./calibration";
 import { inWords } from "./conditions";
 import { Fleet } from "./fleet";
 import { bearing, clockError, DASH, fixed, utc } from "./format";
+import { length, measures, position } from "./measures";
 import { stationState, type Station } from "./site";
 import { Commands, type StationProps } from "./stationcommands";
 import { named, t, Word } from "./words";
@@ -45,7 +46,7 @@ function Facts({ station: s }: { station: Station }) {
         {t("azimuth")} {bearing(s.azimuth_deg, 2)} {t("elevation")} {fixed(s.elevation_deg, 2, "°")} · {t("pan")} {fixed(s.pan_deg, 2)} {t("tilt_angle")} {fixed(s.tilt_deg, 2)}
       </Row>
       <Row word="position">
-        {fixed(s.latitude_deg, 7)}° {fixed(s.longitude_deg, 7)}° {fixed(s.height_m, 1, " m")}, ±{fixed(s.position_sd_m?.[0], 2, " m")} ({named("v", s.position_source)})
+        {position(s, measures.position, 7)} {length(s.height_m, 1)}, ±{length(s.position_sd_m?.[0], 2)} ({named("v", s.position_source)})
       </Row>
       <Row word="heading">
         {fixed(s.heading_deg, 3, "°")} ±{fixed(s.heading_sd_deg, 4, "°")}

@@ -2,9 +2,11 @@
 
 import { h } from "preact";
 import { useState } from "preact/hooks";
-import { bearing, DASH, fixed, spacedMgrs } from "./format";
+import { bearing, DASH, fixed } from "./format";
 import type { Link } from "./link";
-import { targetState, type Cue, type Line, type Target } from "./site";
+import { length, position, speed } from "./measures";
+import { MeasuresChoice } from "./measureschoice";
+import { nameOf, targetState, type Cue, type Line, type Target } from "./site";
 import { named, t, Word } from "./words";
 
 type Column = { word: Word; of: (target: Target) => string | number | null; text: (target: Target, link: Link) => string };
@@ -12,17 +14,22 @@ type Column = { word: Word; of: (target: Target) => string | number | null; text
 const age_s = (utime_us: number, link: Link) => Math.max(0, (link.now_us() - utime_us) / 1e6);
 const used = (target: Target) => target.stations?.filter((s) => s.used).length ?? 0;
 
+// Of east, north and up, with their unit once.
+function sigmas({ sd_enu_m }: Target): string {
+  const texts = (sd_enu_m ?? []).map((v) => length(v, 2));
+  return texts.map((text, i) => (i < texts.length - 1 ? text.replace(/ .*/, "") : text)).join(" ");
+}
+
 const COLUMNS: Column[] = [
-  { word: "name", of: (x) => Number(x.id), text: (x) => x.id },
+  { word: "name", of: (x) => Number(x.id), text: nameOf },
   { word: "state", of: targetState, text: (x) => named("s", targetState(x)) },
-  { word: "height", of: (x) => x.height_m, text: (x) => fixed(x.height_m, 1, " m") },
-  { word: "speed", of: (x) => x.speed_m_s, text: (x) => fixed(x.speed_m_s, 1, " m/s") },
+  { word: "height", of: (x) => x.height_m, text: (x) => length(x.height_m, 1) },
+  { word: "speed", of: (x) => x.speed_m_s, text: (x) => speed(x.speed_m_s, 1) },
   { word: "course", of: (x) => x.course_deg, text: (x) => bearing(x.course_deg, 0) },
-  { word: "sigma", of: (x) => x.sd_enu_m?.[0] ?? null, text: (x) => (x.sd_enu_m ?? []).map((v) => fixed(v, 2)).join("  ") + " m" },
+  { word: "sigma", of: (x) => x.sd_enu_m?.[0] ?? null, text: sigmas },
   { word: "seen_by", of: used, text: (x) => `${used(x)} ${t("of")} ${x.stations?.length ?? 0}` },
   { word: "age", of: (x) => -x.utime_us, text: (x, link) => fixed(age_s(x.utime_us, link), 1, " s") },
-  { word: "position", of: (x) => x.latitude_deg, text: (x) => `${fixed(x.latitude_deg, 6)}° ${fixed(x.longitude_deg, 6)}°` },
-  { word: "mgrs", of: (x) => x.mgrs ?? null, text: (x) => spacedMgrs(x.mgrs) },
+  { word: "position", of: (x) => x.latitude_deg, text: (x) => position(x) },
 ];
 const STATES = ["confirmed", "born", "coasted", "stale"];
 
@@ -35,7 +42,7 @@ function CueRow({ cue, mayCommand, onCue }: { cue: Cue; mayCommand: boolean; onC
     <tr class="line">
       <td>{cue.target || DASH}</td>
       <td colSpan={COLUMNS.length - 1}>
-        {t("cue")} {cue.id} {cue.label}: {named("s", cue.state)}, {fixed(cue.height_m, 0, " m")} ±{fixed(cue.horizontal_sd_m, 0, " m")}{" "}
+        {t("cue")} {cue.id} {cue.label}: {named("s", cue.state)}, {length(cue.height_m)} ±{length(cue.horizontal_sd_m)}{" "}
         <button type="button" disabled={!mayCommand} onClick={() => onCue(cue.id, !isAllowed)}>
           {t(isAllowed ? "cue_forbid" : "cue_allow")}
         </button>
@@ -66,7 +73,7 @@ function TargetRow({ target, link, isSelected, onSelect }: TargetRowProps) {
         </button>
       </td>
       {COLUMNS.slice(1).map((column) => (
-        <td>{column.text(target, link)}</td>
+        <td class={`of-${column.word}`}>{column.text(target, link)}</td>
       ))}
     </tr>
   );
@@ -88,7 +95,7 @@ function Heads({ sort, onSort }: { sort: Sort; onSort: (sort: Sort) => void }) {
   return (
     <tr>
       {COLUMNS.map((column, i) => (
-        <th aria-sort={sort.column !== i ? "none" : sort.down ? "descending" : "ascending"}>
+        <th class={`of-${column.word}`} aria-sort={sort.column !== i ? "none" : sort.down ? "descending" : "ascending"}>
           <button type="button" onClick={() => onSort({ column: i, down: sort.column === i && !sort.down })}>
             {t(column.word)}
             <span aria-hidden="true">{sort.column === i ? (sort.down ? " ▾" : " ▴") : ""}</span>
@@ -109,6 +116,8 @@ export function Targets({ link, selected, mayCommand, onSelect, onCue }: Targets
     <section class="targets" aria-label={t("targets")}>
       <header>
         <h2>{t("targets")}</h2>
+        <span class="gap" />
+        <MeasuresChoice />
         <label>
           {t("filter")}
           <select value={state} onChange={(e) => setState(e.currentTarget.value)}>

@@ -7,11 +7,11 @@ import Polygon from "ol/geom/Polygon";
 import { fromLonLat } from "ol/proj";
 import { Circle, Fill, Stroke, Style } from "ol/style";
 import type { Coordinate } from "ol/coordinate";
-import { fixed } from "./format";
 import type { Link } from "./link";
 import type { Side } from "./labels";
 import { Colours, nameAt, offset, shape, stretch } from "./mapfeatures";
-import { stretches, targetState, type Cue, type Target } from "./site";
+import { length, speed } from "./measures";
+import { nameOf, targetState, type Cue, type Target } from "./site";
 import { named } from "./words";
 
 const VELOCITY_S = 5;
@@ -34,21 +34,17 @@ const targetColour = (target: Target, c: Colours) =>
   target.stale || target.state === "coasted" ? c.coasted : target.state === "born" ? c.born : c.target;
 
 export function targetWords(target: Target): string {
-  const moves = target.stale ? named("s", targetState(target)) : fixed(target.speed_m_s, 0, " m/s");
-  return `${target.id}   ${fixed(target.height_m, 0, " m")}   ${moves}`;
+  const moves = target.stale ? named("s", targetState(target)) : speed(target.speed_m_s);
+  return `${nameOf(target)}   ${length(target.height_m)}   ${moves}`;
 }
 export const cueWords = (cue: Cue) => `${cue.label || cue.id}   ${named("s", cue.state)}`;
 
-export function targetShapes(target: Target, c: Colours, selected: boolean, trails: boolean, side?: Side | null): Feature[] {
+export function targetShapes(target: Target, c: Colours, selected: boolean, side?: Side | null): Feature[] {
   if (target.latitude_deg == null) return [];
   const at = fromLonLat([target.longitude_deg, target.latitude_deg]);
   const scale = stretch(target.latitude_deg);
   const colour = targetColour(target, c);
   const out: Feature[] = [];
-  for (const stretch of trails ? stretches(target) : []) {
-    const path = stretch.map(([longitude, latitude]) => fromLonLat([longitude, latitude]));
-    out.push(shape(new LineString(path), new Style({ stroke: new Stroke({ color: c.trail, width: selected ? 2.5 : 1.5 }) })));
-  }
   const ring = ellipseRing(target, at, scale);
   if (ring) out.push(shape(new Polygon([ring]), new Style({ stroke: new Stroke({ color: colour, width: 1.5 }), fill: new Fill({ color: c.trail.replace(/[\d.]+\)$/, "0.12)") }) })));
   const [east, north] = target.velocity_enu_m_s ?? [];

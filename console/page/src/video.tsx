@@ -1,6 +1,7 @@
 // The stations' pictures: the selected one large, the others small.
 
 import { h } from "preact";
+import { ArrangementChoice, type Arrangement } from "./arrangement";
 import { Eye } from "./eye";
 import type { Link } from "./link";
 import type { Designate, Point } from "./onpicture";
@@ -23,6 +24,7 @@ type Props = {
   version: number;
   selected: string;
   mayCommand: boolean;
+  arrangement: Arrangement;
   onSelect: (station: string) => void;
   onDesignate: Designate;
   onPoint: Point;
@@ -30,7 +32,7 @@ type Props = {
   onRelease: (station: string) => void;
 };
 
-export function VideoView({ link, selected, mayCommand, onSelect, onDesignate, onPoint, onWithheld, onRelease }: Props) {
+export function VideoView({ link, selected, mayCommand, arrangement, onSelect, onDesignate, onPoint, onWithheld, onRelease }: Props) {
   const thin = useThinLink(link);
   const stations = [...link.site.stations.values()].sort((a, b) => a.id.localeCompare(b.id));
   const ids = stations.map((s) => s.id);
@@ -58,7 +60,12 @@ export function VideoView({ link, selected, mayCommand, onSelect, onDesignate, o
           />
         ))}
       </div>
-      {stations.length > 0 && !link.replay && <ThinLinkChoice {...thin} />}
+      {stations.length > 0 && (
+        <div class="video-tools">
+          <ArrangementChoice {...arrangement} />
+          {!link.replay && <ThinLinkChoice {...thin} />}
+        </div>
+      )}
       {mayCommand && stations.length > 0 && <p class="hint">{`${t("designate_hint")} ${t("hand_hint")}`}</p>}
     </section>
   );

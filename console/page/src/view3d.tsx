@@ -3,8 +3,8 @@
 
 import { h } from "preact";
 import { useLayoutEffect, useRef, useState } from "preact/hooks";
-import { distance } from "./format";
 import type { Link } from "./link";
+import { distance } from "./measures";
 import { useOrbit, useTurning } from "./orbit";
 import { useRuler } from "./ruler3d";
 import { draw, frameOf, groundAt, groundStrokes, LARGER, type Layers, Scene } from "./scene3d";

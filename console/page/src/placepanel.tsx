@@ -1,0 +1,66 @@
+// A place that a person has chosen on the map: where it is, and stations that are to look there.
+
+import { h } from "preact";
+import { useEffect, useState } from "preact/hooks";
+import { numberOf } from "./format";
+import type { Link } from "./link";
+import { length, position } from "./measures";
+import { Copied, PanelRow, PointThere, type OnPoint } from "./panel";
+import { t } from "./words";
+
+const ABOVE_M = 100; // the stations: where most things fly that are looked for
+
+// "place:LATITUDE,LONGITUDE" [deg]; null for what else is selected.
+export function placeOf(selected: string): { latitude_deg: number; longitude_deg: number } | null {
+  if (!selected.startsWith("place:")) return null;
+  const [latitude_deg, longitude_deg] = selected.slice(6).split(",").map(Number);
+  return { latitude_deg, longitude_deg };
+}
+
+function useMgrs(at: string): string | undefined {
+  const [mgrs, setMgrs] = useState<string>();
+  useEffect(() => {
+    let isOver = false;
+    void fetch(`/api/measure?from=${at}&to=${at}`)
+      .then((response) => (response.ok ? response.json() : null))
+      .then((answer) => !isOver && setMgrs(answer?.mgrs))
+      .catch(() => null);
+    return () => void (isOver = true);
+  }, [at]);
+  return mgrs;
+}
+
+function meanHeight(link: Link): number {
+  const heights = [...link.site.stations.values()].flatMap((one) => (one.height_m == null ? [] : [one.height_m]));
+  return heights.reduce((sum, one) => sum + one, 0) / Math.max(1, heights.length);
+}
+
+type Props = { selected: string; link: Link; mayCommand: boolean; onPoint: OnPoint; onClose: () => void };
+
+export function PlacePanel({ selected, link, mayCommand, onPoint, onClose }: Props) {
+  const place = { ...placeOf(selected)!, mgrs: useMgrs(selected.slice(6)) };
+  const [height, setHeight] = useState(() => String(Math.round(meanHeight(link) + ABOVE_M)));
+  const height_m = numberOf(height);
+  return (
+    <aside class="map-panel" aria-label={t("place")}>
+      <header>
+        <h2>{t("place")}</h2>
+        <button type="button" onClick={onClose}>
+          {t("close")}
+        </button>
+      </header>
+      <dl>
+        <PanelRow word="position">
+          <Copied text={position(place)} />
+        </PanelRow>
+        <PanelRow word="mgrs">{position(place, "mgrs")}</PanelRow>
+        <PanelRow word="height">
+          <label>
+            <input aria-label={`${t("height")} m`} inputMode="decimal" value={height} onInput={(e) => setHeight(e.currentTarget.value)} /> m ({t("height_of")}, {t("stations")} {length(meanHeight(link))})
+          </label>
+        </PanelRow>
+      </dl>
+      {mayCommand && height_m != null && <PointThere link={link} place={{ latitude_deg: place.latitude_deg, longitude_deg: place.longitude_deg, height_m }} onPoint={onPoint} />}
+    </aside>
+  );
+}

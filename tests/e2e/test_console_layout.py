@@ -1,0 +1,132 @@
+"""The console's page at the sizes of screens, tablets and telephones, in each language: nothing on
+it is cut or covered; what is large is a choice, and so are units and positions."""
+
+import math
+from pathlib import Path
+
+import ols_msg
+import pytest
+from console_page import picture, region, watched_page
+from console_site import wait_for
+from playwright.sync_api import expect
+
+pytest_plugins = ["console_fixtures"]
+
+CUT_TEXT = Path(__file__).with_name("cut_text.js").read_text()
+SIZES = [(1500, 900), (1280, 720), (1024, 768), (768, 1024), (390, 844)]
+STATUS = ols_msg.station_status_t
+
+
+@pytest.fixture
+def busy(page, paper):
+    """The page with what takes the most room: a station and a target open, an alarm."""
+    paper.states |= {"alfa": STATUS.STATE_TRACKING, "bravo": STATUS.STATE_STOPPED}
+    paper.alarms["charlie"] = ["ptu: supply voltage low (11.2 V)"]
+    region(page, "Stations").get_by_role("button", name="charlie").click()
+    region(page, "Targets").get_by_role("row").nth(1).click()
+    picture(page, "bravo")
+    expect(region(page, "History")).to_contain_text("supply voltage low")
+    yield page
+    paper.states |= dict.fromkeys(paper.states, STATUS.STATE_IDLE)
+    paper.alarms.clear()
+
+
+def found_at_each_size(page):
+    found = {}
+    for width, height in SIZES:
+        page.set_viewport_size({"width": width, "height": height})
+        found[width, height] = page.evaluate(CUT_TEXT)
+    return {size: texts for size, texts in found.items() if texts}
+
+
+def test_no_text_is_cut_or_covered(busy):
+    languages = busy.get_by_label("Language")
+    assert found_at_each_size(busy) == {}
+    languages.select_option("de")
+    expect(busy.get_by_role("complementary", name="Ziel 7")).to_be_visible()
+    assert found_at_each_size(busy) == {}
+
+
+def test_what_is_large_is_a_choice_and_is_remembered(busy):
+    def width_of(one):
+        return one.bounding_box()["width"]
+
+    busy.set_viewport_size({"width": 1500, "height": 900})
+    small = width_of(picture(busy, "charlie"))
+    busy.get_by_role("button", name="Pictures large").click()
+    assert width_of(picture(busy, "charlie")) > 1.3 * small
+    assert width_of(region(busy, "Map")) < width_of(region(busy, "Targets"))
+    assert found_at_each_size(busy) == {}
+    busy.set_viewport_size({"width": 1500, "height": 900})
+    busy.get_by_role("button", name="Only this picture").click()
+    assert width_of(picture(busy, "charlie")) > 2 * small
+    expect(busy.get_by_role("button", name="Stop all")).to_be_in_viewport()
+    assert found_at_each_size(busy) == {}
+    busy.reload()
+    expect(region(busy, "Map")).to_be_hidden()
+    busy.get_by_role("button", name="Only this picture").click()
+    busy.get_by_role("button", name="Map large").click()
+    expect(region(busy, "Map")).to_be_visible()
+
+
+def test_units_and_positions_are_a_choice_and_are_remembered(page):
+    row = region(page, "Targets").get_by_role("row").nth(1)
+    expect(row).to_contain_text("49.226500° 16.597000°")
+    page.get_by_label("Units").select_option("nautical")
+    expect(row).to_contain_text("1247 ft")
+    expect(row).to_contain_text("9.7 kn")
+    for name, wanted in (
+        ("minutes", "49°13.5900'N 16°35.8200'E"),
+        ("seconds", "49°13'35.40\"N 16°35'49.20\"E"),
+        ("mgrs", "33U XQ 16275 53862"),
+    ):
+        page.get_by_label("Positions").select_option(name)
+        expect(row).to_contain_text(wanted)
+    page.reload()
+    expect(row).to_contain_text("33U XQ")
+    expect(row).to_contain_text("9.7 kn")
+
+
+def test_a_selected_target_shows_what_is_known_of_it(page, paper, chromium, consoles):
+    page.context.grant_permissions(["clipboard-read", "clipboard-write"])
+    region(page, "Targets").get_by_role("row").nth(1).click()
+    panel = page.get_by_role("complementary", name="Target 7")
+    for part in ("380.0 m", "5.0 m/s, 037°", "2.00 m · 1.00 m · 1.41 m", "alfa 0.0 s"):
+        expect(panel).to_contain_text(part)
+    panel.get_by_text("2.00 m ·").click()
+    expect(panel.get_by_role("table", name="Covariance").get_by_role("cell")).to_have_text(
+        ["4", "1", "0", "1", "1", "0", "0", "0", "2"]
+    )
+    panel.get_by_role("button", name="Copy").click()
+    expect(panel.get_by_role("button", name="Copied")).to_be_visible()
+    assert page.evaluate("navigator.clipboard.readText()") == "49.226500° 16.597000°"
+    panel.get_by_role("button", name="Name it").click()
+    page.keyboard.type("Drohne grün")
+    page.keyboard.press("Enter")
+    with watched_page(chromium, consoles[0]) as other:
+        expect(region(other, "Targets")).to_contain_text("Drohne grün")
+    panel.get_by_role("button", name="Close").click()
+    expect(panel).to_have_count(0)
+
+
+def test_a_station_is_pointed_at_a_target_and_at_a_place_on_the_map(page, paper):
+    paper.states["alfa"] = STATUS.STATE_TRACKING
+    paper.ptu_commands.clear()
+    region(page, "Targets").get_by_role("row").nth(1).click()
+    there = page.get_by_role("group", name="Point there")
+    expect(there.get_by_role("button", name="alfa")).to_be_disabled()
+    there.get_by_role("button", name="bravo").click()
+    (first,) = wait_for(lambda: paper.ptu_commands, "the station that is pointed")
+    assert (first.station, first.command) == ("bravo", first.COMMAND_POINT)
+    # It counts pan to the left and looks to 1 rad at zero; the target is at 307.3 degrees.
+    assert first.pan_rad == pytest.approx(1.0 - math.radians(307.3 - 360.0), abs=0.01)
+    assert first.tilt_rad == pytest.approx(math.atan2(80.0, 275.0) - 0.2, abs=0.01)
+    page.get_by_role("button", name="Place").click()
+    box = region(page, "Map").bounding_box()
+    page.mouse.click(box["x"] + 0.3 * box["width"], box["y"] + 0.5 * box["height"])
+    place = page.get_by_role("complementary", name="Place")
+    expect(place).to_contain_text("33U XQ")
+    place.get_by_role("button", name="charlie").click()
+    wait_for(lambda: paper.ptu_commands[1:], "the other station that is pointed")
+    assert paper.ptu_commands[1].station == "charlie"
+    paper.states["alfa"] = STATUS.STATE_IDLE
