@@ -59,7 +59,7 @@ class Recording {
   void end_silent(std::int64_t utime_us) {
     for (const Target& end : book_.end_silent(utime_us)) give(end);
   }
-  const ConversionReport& report() const { return report_; }
+  ConversionReport& report() { return report_; }
 
  private:
   void give(const Target& target) {
@@ -87,7 +87,23 @@ void read_log(const std::string& path, const SiteContext& site, Recording& recor
       recording.take(*station);
     } else if (const auto line = line_from(*message, site)) {
       recording.take(*line);
+    } else if (is_read(message->channel) && !is_understood(*message)) {
+      log.reject(*message);
     }
+  }
+  recording.report().damage = log.damage();
+}
+
+// An empty or a shortened file is not to be taken for what happened.
+void check(const ConversionReport& report, const Conversion& conversion) {
+  const std::string& input = conversion.log.empty() ? conversion.fixes : conversion.log;
+  if (!report.damage.empty() && !conversion.skips_damage) {
+    throw std::runtime_error(input + ": " + report.damage + ": " + conversion.output +
+                             " is not written; --skip-damage leaves out what is damaged");
+  }
+  if (report.targets + report.stations + report.lines == 0) {
+    throw std::runtime_error(input + ": has no position to write" +
+                             (report.damage.empty() ? "" : ": " + report.damage));
   }
 }
 
@@ -105,6 +121,7 @@ ConversionReport convert(const Conversion& conversion, const ExportConfig& confi
   } else {
     for (const Target& target : read_fixes(conversion.fixes, site)) recording.take(target);
   }
+  check(recording.report(), conversion);
   const Packets document = encoder->turn(0);
   if (document.empty()) throw std::runtime_error("nothing in the recording is of this format");
   AtomicFile file(conversion.output);

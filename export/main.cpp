@@ -110,6 +110,9 @@ int convert(const Arguments& arguments, const exports::ExportConfig& config) {
         arguments.conversion, config, gate, ols::Progress("ols-export", "bytes of the log"));
     std::fprintf(stderr, "ols-export: %zu positions, %zu places of stations, %zu lines\n",
                  report.targets, report.stations, report.lines);
+    if (!report.damage.empty()) {
+      std::fprintf(stderr, "ols-export: left out: %s\n", report.damage.c_str());
+    }
     return 0;
   } catch (const std::exception& error) {
     throw std::invalid_argument(error.what());
@@ -133,6 +136,8 @@ void add_conversion(CLI::App& app, Arguments& arguments) {
       ->capture_default_str();
   app.add_flag("--lines", arguments.lines, "with --log: what stations saw, too");
   app.add_flag("--tentative", arguments.tentative, "with --log: unconfirmed targets, too");
+  app.add_flag("--skip-damage", arguments.conversion.skips_damage,
+               "with --log: write what is left of a damaged or cut-off log");
   app.add_flag("!--no-stations", arguments.stations, "with --log: no stations");
 }
 

@@ -168,4 +168,9 @@ bool is_understood(const BusMessage& message) {
   return message.channel.starts_with(kBearingChannel) && decoded<Bearing>(message).has_value();
 }
 
+bool is_read(const std::string& channel) {
+  return channel == kTargetChannel || channel.starts_with(kStatusChannel) ||
+         channel.starts_with(kBearingChannel);
+}
+
 }  // namespace ols::exports

@@ -27,5 +27,7 @@ std::optional<Line> line_from(const BusMessage& message, const SiteContext& site
 
 // Whether the message is of its channel and schema; the others are refused, and counted.
 bool is_understood(const BusMessage& message);
+// Whether messages of such a channel are read here.
+bool is_read(const std::string& channel);
 
 }  // namespace ols::exports

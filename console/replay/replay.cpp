@@ -4,7 +4,6 @@
 #include <array>
 #include <cstdio>
 #include <filesystem>
-#include <stdexcept>
 #include <utility>
 
 #include "base/channel_names.h"
@@ -69,10 +68,7 @@ Replay::Replay(const std::string& log, RecordedFrames frames, Console& console)
       player_(log),
       frames_(std::move(frames)),
       scanned_(std::make_unique<Console>(kControlTimeout_s)) {
-  waiting_ = player_.next();
-  if (!waiting_) {
-    throw std::invalid_argument(log + ": has no message of a site (is it an LCM log?)");
-  }
+  waiting_ = player_.next();  // there is one, else it throws
   playback_.at_us = static_cast<double>(waiting_->received_utime_us);
   tell();
 }
@@ -85,7 +81,9 @@ void Replay::scan() {
       is_scanned_ = true;
       return timeline_.end(*scanned_);
     }
-    if (!hear(*scanned_, *message, &timeline_) && is_shown(message->channel)) ++not_understood_;
+    if (!hear(*scanned_, *message, &timeline_) && is_shown(message->channel)) {
+      scanner_.reject(*message);
+    }
     turn_if_due(*scanned_, timeline_.last_us(), message->received_utime_us);
     timeline_.reach(message->received_utime_us, scanner_.offset(), *scanned_);
   }
@@ -163,15 +161,7 @@ void Replay::show_frames() {
 }
 
 std::string Replay::problem() const {
-  std::string text;
-  if (scanner_.garbage_bytes() > 0) {
-    text = std::to_string(scanner_.garbage_bytes()) + " bytes of the log are damaged and left out";
-  }
-  if (scanner_.is_cut_off()) text += (text.empty() ? "" : "; ") + std::string("its end is cut off");
-  if (not_understood_ > 0) {
-    text += (text.empty() ? "" : "; ") + std::to_string(not_understood_) +
-            " messages are damaged or of another version of OLS";
-  }
+  std::string text = scanner_.damage();
   for (const std::string& of_frames : frames_.problems()) {
     text += (text.empty() ? "" : "; ") + of_frames;
   }

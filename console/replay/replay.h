@@ -57,7 +57,6 @@ class Replay {
   std::unique_ptr<Console> ahead_;     // the state that a jump rebuilds; null: none is under way
   std::optional<BusMessage> waiting_;  // the player's next
   bool is_scanned_ = false;
-  std::uint64_t not_understood_ = 0;  // of the scanner's messages
   double turned_s_ = -1.0;
   Playback playback_;
   Told told_;

@@ -168,7 +168,9 @@ def test_damage_in_a_log_is_named_and_counted_and_hides_nothing(tmp_path):
     whole = log.read_bytes()
     second = whole.index(b"OLS_BEARING_zulu") - 28
     log.write_bytes(whole[:second] + b"garbage" + whole[second:] + whole[:50])
-    told = run(tmp_path, log, tmp_path / "no.lcmlog", code=1)
+    other = tmp_path / "passwd"
+    other.write_text("root:x:0:0:root\n")
+    told = run(tmp_path, log, tmp_path / "no.lcmlog", other, code=1)
     assert told["counts"] == {
         "added": 3,
         "repeated": 0,
@@ -178,11 +180,13 @@ def test_damage_in_a_log_is_named_and_counted_and_hides_nothing(tmp_path):
         "not_archived": 1,
         "garbage_bytes": 57,
         "cut_off": 1,
-        "unreadable": 1,
+        "unreadable": 2,
     }
     assert told["named"]["other_station"][0].endswith("OLS_BEARING_zulu")
-    assert str(log) in told["named"]["cut_off"][0]
+    damage = f"57 bytes of the log are damaged, the first is byte {second}; the end is cut off"
+    assert told["named"]["cut_off"] == [f"{log}: {damage}"]
     assert "no.lcmlog" in told["named"]["unreadable"][0]
+    assert "passwd: is no LCM log" in told["named"]["unreadable"][1]
     assert [row["utime"] for row in rows(tmp_path)] == [m.utime for m in good[:3]]
 
 

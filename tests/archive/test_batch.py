@@ -16,9 +16,10 @@ from batch_site import ALL, fixes, here, hour, results
 from ols_archive.partitions import Hour, file_of, hours_of, locked, metadata, read
 from ols_batch import plan as planner
 from ols_batch import run as runner
-from ols_batch.__main__ import instant_us
+from ols_batch.__main__ import exit_code, instant_us
 from ols_batch.__main__ import main as ols_batch
 from ols_batch.plan import Settings, plan
+from ols_batch.run import Report
 from ols_batch.task import FIXES, estimate, stretches
 from ols_bench import flights
 from ols_bench.uncut import compare, uncut_fixes
@@ -303,6 +304,14 @@ def test_two_runs_do_not_write_into_one_result(done, capsys):
     with locked(done.output):
         assert ols_batch([str(done.archive), str(done.output), "--no-plots"]) == 2
     assert f"{done.output}: another process writes there" in capsys.readouterr().err
+
+
+def test_nothing_found_is_no_success(done, tmp_path, capsys):
+    words = [str(done.archive), str(tmp_path / "out"), "--region", "elsewhere", "--no-plots"]
+    assert ols_batch(words) == 2
+    assert f"{done.archive}: no hour with bearings is chosen" in capsys.readouterr().err
+    assert exit_code(Report(done=3)) == 1
+    assert exit_code(Report(done=3, fixes=1)) == 0
 
 
 def test_times_are_utc_unless_they_say_otherwise():

@@ -161,7 +161,7 @@ def test_a_damaged_log_is_said_and_the_rest_shown(network, tmp_path):
         site.start_and_wait("damaged", command(tmp_path / "damaged.lcmlog"), "ready")
         api = Api(address_of(site, "damaged"))
         state = wait_for(lambda: (s := api.state())["replay"]["read"] == 1 and s, "all of it")
-        assert "damaged and left out; its end is cut off" in state["replay"]["problem"]
+        assert "damaged, the first is byte 0; the end is cut off" in state["replay"]["problem"]
         wait_for(lambda: len(api.state()["stations"]) == 3, "the stations")
 
 

@@ -68,19 +68,20 @@ class Reader {
          const std::vector<StationPrior>& stations)
       : least_belief_(least_belief), names_(names), stations_(stations) {}
 
-  void take(const BusMessage& received) {
-    if (!received.channel.starts_with(kSightingChannel)) return;
+  // False if the message is damaged or of another version.
+  bool take(const BusMessage& received) {
+    if (!received.channel.starts_with(kSightingChannel)) return true;
     Message message{};
     if (!decode_of_schema(received, message) ||
         received.channel != station_channel(kSightingChannel, message.station) ||
         !is_possible(message)) {
       ++log.unusable;
-      return;
+      return false;
     }
     const auto found = std::ranges::find(names_, message.station);
     if (found == names_.end()) {
       ++log.of_others;
-      return;
+      return true;
     }
     const auto station = static_cast<std::size_t>(found - names_.begin());
     check_count(message, stations_[station].model);
@@ -91,6 +92,7 @@ class Reader {
     } else {
       log.sightings.push_back(sighting_of(message, station));
     }
+    return true;
   }
 
   SightingLog log;
@@ -112,10 +114,11 @@ SightingLog read_sightings(const SightingLogOptions& options, const std::vector<
     try {
       LogReader log(path, LogTimes::kAsRecorded);
       while (const auto message = log.next()) {
-        reader.take(*message);
+        if (!reader.take(*message)) log.reject(*message);
         if (tell) tell(before + log.offset(), all);
       }
       before += log.size();
+      if (!log.damage().empty()) reader.log.damage.push_back(path + ": " + log.damage());
     } catch (const std::exception& error) {
       const std::string text = error.what();
       throw std::runtime_error(text.find(path) == std::string::npos ? path + ": " + text : text);

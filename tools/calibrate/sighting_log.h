@@ -15,6 +15,7 @@ struct SightingLog {
   std::size_t unsynchronised = 0;           // the station did not know the time
   std::size_t disbelieved = 0;              // the tracker hardly believed it
   std::size_t of_others = 0;                // of stations that were not asked for
+  std::vector<std::string> damage;  // of each damaged recording, with its places; it is left out
 };
 
 struct SightingLogOptions {

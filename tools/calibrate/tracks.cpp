@@ -26,7 +26,7 @@ void note(std::vector<std::string>& remarks, std::size_t count, const char* what
 }
 
 std::vector<std::string> remarks_of(const SightingLog& log, const Instants& instants) {
-  std::vector<std::string> remarks;
+  std::vector<std::string> remarks = log.damage;
   note(remarks, log.unusable, "cannot be read: left out");
   note(remarks, log.of_others, "are of stations that --station does not name");
   note(remarks, log.unsynchronised, "are of a station that did not know the time: left out");

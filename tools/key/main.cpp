@@ -1,18 +1,16 @@
 // ols-key: the keys and the trust list of a site. Parses, reads, writes.
-#include <lcm/eventlog.h>
 #include <sys/stat.h>
 
-#include <cerrno>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
-#include <memory>
 #include <stdexcept>
 #include <string>
-#include <system_error>
+#include <vector>
 
 #include "base/command_line.h"
 #include "base/config_section.h"
+#include "base/log_reader.h"
 #include "base/small_file.h"
 #include "base/toml_config.h"
 #include "base/trust/key_file.h"
@@ -158,29 +156,16 @@ ols::key::Lists lists_in(const fs::path& folder, const Words& words) {
   return lists;
 }
 
-struct CloseLog {
-  void operator()(lcm_eventlog_t* log) const { lcm_eventlog_destroy(log); }
-};
-struct FreeEvent {
-  void operator()(lcm_eventlog_event_t* event) const { lcm_eventlog_free_event(event); }
-};
-
-// Until `look` has seen enough.
+// Until `look` has seen enough; what is damaged up to there, in words.
 template <class Look>
-void read_log(const std::string& path, Look look) {
-  errno = 0;
-  const std::unique_ptr<lcm_eventlog_t, CloseLog> log(lcm_eventlog_create(path.c_str(), "r"));
-  if (!log) throw std::system_error(errno, std::generic_category(), path);
-  bool goes_on = true;
-  while (goes_on) {
-    const std::unique_ptr<lcm_eventlog_event_t, FreeEvent> event(
-        lcm_eventlog_read_next_event(log.get()));
-    if (!event) return;
-    goes_on = look(std::string_view(event->channel, static_cast<std::size_t>(event->channellen)),
-                   trust::Bytes(static_cast<const std::uint8_t*>(event->data),
-                                static_cast<std::size_t>(event->datalen)),
-                   event->timestamp);
+std::string read_log(const std::string& path, Look look) {
+  ols::LogReader log(path, ols::LogTimes::kAsRecorded);
+  while (const auto message = log.next()) {
+    std::vector<std::uint8_t> recorded = message->payload;
+    recorded.insert(recorded.end(), message->trailer.begin(), message->trailer.end());
+    if (!look(message->channel, trust::Bytes(recorded), message->received_utime_us)) break;
   }
+  return log.damage();
 }
 
 // The list under which the log begins: ols-logger writes it at the head of each.
@@ -202,18 +187,22 @@ int verify(const Words& words) {
       words.lists.empty() ? fs::absolute(words.log).parent_path() : fs::path(words.lists);
   const ols::key::Lists lists = lists_in(folder, words);
   ols::key::LogCheck check(lists, first_list(words.log, lists));
-  read_log(words.log, [&](std::string_view channel, trust::Bytes message, std::int64_t utime_us) {
+  const auto add = [&](std::string_view channel, trust::Bytes message, std::int64_t utime_us) {
     check.add(channel, message, utime_us);
     return true;
-  });
+  };
+  const std::string damage = read_log(words.log, add);
   std::fputs(check.text().c_str(), stdout);
+  if (!damage.empty()) {
+    std::printf("not verified, as it cannot be read: %s\n", damage.c_str());
+  }
   std::string numbers;
   for (const std::int64_t number : check.in_force()) numbers += " " + std::to_string(number);
   std::printf("trust lists in force, in their order:%s\n", numbers.c_str());
   if (words.root_public.empty()) {
     std::printf("verified against the root that the lists name; --root-public KEY proves which\n");
   }
-  return check.bad() == 0 ? 0 : kExitNotVerified;
+  return check.bad() == 0 && damage.empty() ? 0 : kExitNotVerified;
 }
 
 void add_root_and_list(CLI::App& command, Words& words) {

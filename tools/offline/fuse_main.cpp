@@ -209,7 +209,7 @@ class Output {
   std::size_t commit() {
     std::ranges::stable_sort(fixes_, {}, &ols::FixRow::utime_us);
     for (const ols::FixRow& fix : fixes_) writer_.add(fix);
-    writer_.commit();
+    if (count_ > 0) writer_.commit();  // else the file of an earlier run stays
     return count_;
   }
 
@@ -315,9 +315,8 @@ int main(int argc, char** argv) {
   add_choices(app, options);
   if (const auto status = ols::parse_command_line(app, argc, argv, "ols-fuse")) return *status;
   try {
-    // An empty file replaces that of an earlier run, but the run has failed.
     if (run(options) == 0) {
-      std::cerr << "ols-fuse: no position at all: " << options.output << " has no row\n";
+      std::cerr << "ols-fuse: no position at all: " << options.output << " is not written\n";
       return kExitNoPosition;
     }
   } catch (const std::exception& error) {

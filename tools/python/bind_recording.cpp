@@ -76,14 +76,26 @@ void bind_recording(py::module_& m) {
   py::class_<LogReader>(m, "LogReader",
                         "The messages of an LCM log in the order of the file, each as (recorded "
                         "utime [us], channel, message, its signature). What is no record is "
-                        "skipped and counted.")
+                        "skipped and counted. ValueError, at the end, if the file is no log of a "
+                        "site.")
       .def(py::init([](const std::string& path) {
              return std::make_unique<LogReader>(path, LogTimes::kAsRecorded);
            }),
-           arg("path"), "ValueError that names the file if it cannot be read or is empty.")
+           arg("path"),
+           "ValueError that names the file if it cannot be read, is empty or compressed.")
       .def("__iter__", [](const py::object& self) { return self; })
       .def("__next__", &next_of)
       .def_property_readonly("offset", &LogReader::offset, "Where the next record begins [byte].")
+      .def_property_readonly("message_offset", &LogReader::message_offset,
+                             "Where the record of the last message begins [byte].")
+      .def(
+          "reject",
+          [](LogReader& reader, const std::string& channel) {
+            reader.reject({channel, {}, 0});
+          },
+          arg("channel"), "The last message, of this channel, is damaged: see damage.")
+      .def_property_readonly("damage", &LogReader::damage,
+                             "What is damaged so far and where, in words; empty: nothing.")
       .def_property_readonly("garbage_bytes", &LogReader::garbage_bytes)
       .def_property_readonly("is_cut_off", &LogReader::is_cut_off,
                              "Whether the last record is not whole.");

@@ -49,6 +49,7 @@ TEST(LogReader, GoesOnBehindGarbageAndCountsIt) {
   LogReader reader(log.path());
   EXPECT_EQ(times(reader), (std::vector<std::int64_t>{1, 2}));
   EXPECT_EQ(reader.garbage_bytes(), 6U);
+  EXPECT_EQ(reader.damage(), "6 bytes of the log are damaged, the first is byte 0");
 }
 
 TEST(LogReader, SaysThatTheEndIsCutOff) {
@@ -57,6 +58,10 @@ TEST(LogReader, SaysThatTheEndIsCutOff) {
   LogReader reader(log.path());
   EXPECT_EQ(times(reader), (std::vector<std::int64_t>{1}));
   EXPECT_TRUE(reader.is_cut_off());
+  const std::size_t lost = target(2).size() - 2;
+  EXPECT_EQ(reader.damage(), std::to_string(lost) + " bytes of the log are damaged, the first is " +
+                                 "byte " + std::to_string(target(1).size()) +
+                                 "; the end is cut off");
 }
 
 TEST(LogReader, ARecordThatClaimsMoreThanThereIsHidesNoOthers) {
@@ -65,6 +70,41 @@ TEST(LogReader, ARecordThatClaimsMoreThanThereIsHidesNoOthers) {
   const LogFile log(liar + target(2) + target(3));
   LogReader reader(log.path());
   EXPECT_EQ(times(reader), (std::vector<std::int64_t>{2, 3}));
+  EXPECT_FALSE(reader.is_cut_off());
+}
+
+TEST(LogReader, SaysWhereItsReaderDidNotUnderstandAMessage) {
+  const LogFile log(target(1) + target(2) + target(3));
+  LogReader reader(log.path());
+  static_cast<void>(reader.next());
+  EXPECT_EQ(reader.damage(), "");
+  reader.reject(reader.next().value());
+  reader.reject(reader.next().value());
+  EXPECT_EQ(reader.damage(),
+            "2 messages are damaged or of another version of OLS, the first, of OLS_TARGET, is at "
+            "byte " +
+                std::to_string(target(1).size()));
+}
+
+std::string refusal_of(const std::string& bytes) {
+  const LogFile log(bytes);
+  try {
+    LogReader reader(log.path());
+    static_cast<void>(times(reader));
+  } catch (const std::invalid_argument& error) {
+    const std::string text = error.what();
+    EXPECT_TRUE(text.starts_with(log.path() + ": ")) << text;
+    return text.substr(log.path().size() + 2);
+  }
+  return "";
+}
+
+TEST(LogReader, AnotherFileIsNoLogInWhichNothingHappened) {
+  EXPECT_EQ(refusal_of("root:x:0:0\n"), "is no LCM log: from byte 0 to byte 11 there is no record");
+  EXPECT_EQ(refusal_of("\x1F\x8B\x08 and more"), "is compressed (gzip): decompress it first");
+  EXPECT_EQ(refusal_of("\x28\xB5\x2F\xFD and more"), "is compressed (zstd): decompress it first");
+  EXPECT_EQ(refusal_of(log_record(kStart_us, "OTHER", "x")),
+            "is an LCM log, but has no message of a site (OLS_*)");
 }
 
 TEST(LogReader, TimeNeverGoesBackAndDoesNotLeapBeyondADay) {
@@ -101,6 +141,7 @@ TEST(LogReader, RecordsLargerThanItsBuffer) {
 
 TEST(LogReader, NamesAFileThatCannotBeRead) {
   EXPECT_THROW(LogReader("/nowhere/a.lcmlog"), std::invalid_argument);
+  EXPECT_THROW(LogReader("/").next(), std::invalid_argument);
   const LogFile empty("");
   try {
     const LogReader reader(empty.path());

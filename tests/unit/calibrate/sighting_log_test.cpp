@@ -68,6 +68,11 @@ TEST(SightingLog, CountsWhatItDoesNotUse) {
   EXPECT_EQ(log.unsynchronised, 1U);
   EXPECT_EQ(log.disbelieved, 1U);
   EXPECT_EQ(log.of_others, 1U);
+  ASSERT_EQ(log.damage.size(), 1U);
+  EXPECT_NE(log.damage[0].find(": 4 messages are damaged or of another version of OLS, the first, "
+                               "of OLS_SIGHTING_alfa, is at byte 0"),
+            std::string::npos)
+      << log.damage[0];
 }
 
 TEST(SightingLog, TellsHowFarItIsInAllRecordings) {

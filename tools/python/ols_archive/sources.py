@@ -22,14 +22,17 @@ def archive_log(path: Path, archiver: Archiver) -> None:
     except ValueError as error:
         tally.count("unreadable", str(error))
         return
-    for recorded_us, channel, payload, signature in reader:
-        # The offset is that of the end of its record.
-        where = f"{path}: before byte {reader.offset}"
-        archiver.take(recorded_us, channel, payload, signature, where)
+    try:
+        for recorded_us, channel, payload, signature in reader:
+            where = f"{path}: byte {reader.message_offset}"
+            archiver.take(recorded_us, channel, payload, signature, where)
+    except ValueError as error:  # another file, or a disk that fails
+        tally.count("unreadable", str(error))
+        return
     if reader.garbage_bytes:
-        tally.count("garbage_bytes", f"{path}: {reader.garbage_bytes}", reader.garbage_bytes)
+        tally.count("garbage_bytes", f"{path}: {reader.damage}", reader.garbage_bytes)
     if reader.is_cut_off:
-        tally.count("cut_off", str(path))
+        tally.count("cut_off", f"{path}: {reader.damage}")
 
 
 class LiveSource:

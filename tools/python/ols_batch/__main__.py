@@ -1,7 +1,8 @@
 """ols-batch: from an archive to fixes, targets and plots, hour by hour on all processors.
 
 What is done already, from the same bearings with the same options, is skipped. Exit code: 0; 1 if
-an hour failed or a file was damaged (it is named, the rest is done); 2 if it could not work at all.
+an hour failed, a file was damaged (it is named, the rest is done) or there is no fix at all; 2 if
+it could not work at all.
 """
 
 import argparse
@@ -85,12 +86,22 @@ def tell(report, path: Path) -> None:
         print(f"ols-batch: {hour} failed: {why}", file=sys.stderr)
     for path in sorted(report.damaged):
         print(f"ols-batch: damaged: {path}", file=sys.stderr)
+    if not report.fixes:
+        print("ols-batch: no position at all", file=sys.stderr)
+
+
+def exit_code(report) -> int:
+    return FAILED if report.failed or report.damaged or not report.fixes else 0
 
 
 def main(words: list[str] | None = None) -> int:
     arguments = parse_arguments(words)
-    from ols_batch.plan import Settings
-    from ols_batch.run import run
+    try:
+        from ols_batch.plan import Settings
+        from ols_batch.run import run
+    except ModuleNotFoundError as missing:
+        print(f"ols-batch: {missing}: install ols[archive]", file=sys.stderr)
+        return UNUSABLE
 
     settings = Settings(
         arguments.archive.resolve(),
@@ -112,8 +123,11 @@ def main(words: list[str] | None = None) -> int:
     except OSError as error:
         print(f"ols-batch: {error}", file=sys.stderr)
         return UNUSABLE
+    if not report.done + report.skipped + len(report.failed):
+        print(f"ols-batch: {arguments.archive}: no hour with bearings is chosen", file=sys.stderr)
+        return UNUSABLE
     tell(report, arguments.report or settings.output / "report.json")
-    return FAILED if report.failed or report.damaged else 0
+    return exit_code(report)
 
 
 if __name__ == "__main__":

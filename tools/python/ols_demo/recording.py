@@ -2,12 +2,13 @@
 
 import bisect
 import struct
+import sys
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-import lcm
 import numpy as np
+import ols
 
 from ols_demo.bus import counters, decode
 
@@ -76,15 +77,19 @@ class Recording:
 
 
 def read(path: Path) -> Recording:
-    """The recording in an LCM log. Messages that cannot be decoded are left out."""
+    """The recording in an LCM log. What is damaged is left out, and said on the terminal."""
     recording = Recording()
-    for event in lcm.EventLog(str(path), "r"):
+    reader = ols.LogReader(str(path))
+    for arrival_us, channel, payload, _ in reader:
         try:
-            message = decode(event.channel, event.data)
+            message = decode(channel, payload)
         except (ValueError, struct.error):
+            reader.reject(channel)
             continue
         if message is not None:
-            recording.receive(event.channel, message, event.timestamp)
+            recording.receive(channel, message, arrival_us)
+    if reader.damage:
+        print(f"{path}: left out: {reader.damage}", file=sys.stderr)
     if recording.truth:
         recording.start_us = recording.truth[0].utime
     return recording

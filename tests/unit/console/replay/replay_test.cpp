@@ -150,8 +150,8 @@ TEST_F(ReplayTest, DamageIsSaidAndTheRestShown) {
   Replay replay(log.path(), {}, console_);
   turn(replay, 10);
   const std::string problem = state().at("replay").at("problem");
-  EXPECT_NE(problem.find("bytes of the log are damaged and left out"), std::string::npos);
-  EXPECT_NE(problem.find("its end is cut off"), std::string::npos);
+  EXPECT_NE(problem.find("bytes of the log are damaged, the first is byte 0; "), std::string::npos);
+  EXPECT_NE(problem.find("the end is cut off"), std::string::npos);
   EXPECT_EQ(state().at("stations").size(), 1U);
 }
 
