@@ -70,7 +70,11 @@ origin = ols.LocalFrame(ols.geodetic_from_ecef(fixes["position_ecef_m"].iloc[0])
 stations = sorted(bearings["station"].unique())
 moved = {}
 for left_out in stations:
-    others = frames.locate(bearings[bearings["station"] != left_out], config)
+    try:
+        others = frames.locate(bearings[bearings["station"] != left_out], config)
+    except ValueError as why:
+        print(f"without {left_out}: {why}")
+        continue
     both = fixes.merge(others, on=["utime", "object"], suffixes=("", "_without"))
     if both.empty:
         print(f"without {left_out}: no position")

@@ -178,6 +178,12 @@ fusion::BearingRefusal refusal_of(const fusion::BearingMeasurement& row, double 
   return row.belief < min_belief ? fusion::BearingRefusal::kLowBelief : why;
 }
 
+Integers check_bearings(const Bearings& bearings) {
+  std::vector<std::int64_t> found;
+  for (const auto& row : bearings.rows) found.push_back(-static_cast<std::int64_t>(check(row)));
+  return integers(found);
+}
+
 // Above 0: the object; 0: none; below 0: refused, for the reason of that number.
 std::vector<std::int64_t> objects_of(Bearings& bearings, const fusion::FusionConfig& config) {
   std::vector<std::int64_t> objects(bearings.rows.size(), 0);
@@ -305,6 +311,9 @@ void bind_offline(py::module_& m) {
         "Two files as ols-fuse reads them -> (Bearings, the names in the column `target`, one a "
         "bearing, or none). What the stations' clocks are off by is guessed from the noise. "
         "CsvError, a ValueError, names file, line and column.");
+  m.def("check_bearings", &check_bearings, arg("bearings"),
+        "Bearings -> (n,) int64: 0 for what can be used, below 0 why not, see REFUSALS: as far as "
+        "each bearing alone shows.");
   m.def("separate_objects", &separate, arg("bearings"), arg("config") = fusion::FusionConfig{},
         "Bearings -> (n,) int64: the object that each belongs to, by the live tracks' association "
         "looked at afterwards; 0: none; below 0: refused, see REFUSALS.");
