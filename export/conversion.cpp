@@ -95,11 +95,18 @@ void read_log(const std::string& path, const SiteContext& site, Recording& recor
 }
 
 // An empty or a shortened file is not to be taken for what happened.
-void check(const ConversionReport& report, const Conversion& conversion) {
+void check(const ConversionReport& report, const Conversion& conversion,
+           const ExportConfig& config) {
   const std::string& input = conversion.log.empty() ? conversion.fixes : conversion.log;
   if (!report.damage.empty() && !conversion.skips_damage) {
     throw std::runtime_error(input + ": " + report.damage + ": " + conversion.output +
                              " is not written; --skip-damage leaves out what is damaged");
+  }
+  if (conversion.format == Format::kCourageous && report.stations + report.lines == 0 &&
+      !config.courageous.has_place()) {
+    throw std::runtime_error(input +
+                             ": names no station, and courageous demands the place of the "
+                             "system: state it in [courageous] of the configuration");
   }
   if (report.targets + report.stations + report.lines == 0) {
     throw std::runtime_error(input + ": has no position to write" +
@@ -121,7 +128,7 @@ ConversionReport convert(const Conversion& conversion, const ExportConfig& confi
   } else {
     for (const Target& target : read_fixes(conversion.fixes, site)) recording.take(target);
   }
-  check(recording.report(), conversion);
+  check(recording.report(), conversion, config);
   const Packets document = encoder->turn(0);
   if (document.empty()) throw std::runtime_error("nothing in the recording is of this format");
   AtomicFile file(conversion.output);

@@ -91,7 +91,8 @@ config::Section mqtt_section(HomeSettings& h) {
   return {
       "mqtt",
       "MQTT with Home Assistant's discovery.",
-      {config::text("prefix", h.prefix, "Prefix of the topics.", check_topic),
+      {config::text("prefix", h.prefix, "Prefix of the topics, before the name of the site.",
+                    check_topic),
        config::text("discovery_prefix", h.discovery_prefix,
                     "Home Assistant's own prefix of discovery.", check_topic),
        config::number(
@@ -115,6 +116,41 @@ config::Section asterix_section(AsterixSettings& a) {
               throw table.error("stations", "more than there are identification codes after sic");
             }
           }};
+}
+
+config::Section courageous_section(CourageousSettings& c) {
+  constexpr const char* kOfStation = "that of a station";
+  return {
+      "courageous",
+      "COURAGEOUS: the place of the system, which the format demands.",
+      {config::number("latitude_deg", c.latitude_deg, {-90.0, 90.0}, "deg", "Latitude, WGS84.")
+           .default_is(kOfStation),
+       config::number("longitude_deg", c.longitude_deg, {-180.0, 180.0}, "deg", "Longitude, WGS84.")
+           .default_is(kOfStation),
+       config::number("height_above_sea_m", c.height_above_sea_m, {-1000.0, 10000.0}, "m",
+                      "Height above the sea.")
+           .default_is(kOfStation)},
+      {},
+      [&c](ConfigTable& table) {
+        const bool any = table.has("latitude_deg") || table.has("longitude_deg") ||
+                         table.has("height_above_sea_m");
+        if (any && !c.has_place()) {
+          throw table.error("latitude_deg",
+                            "this, longitude_deg and height_above_sea_m belong "
+                            "together");
+        }
+      }};
+}
+
+// A file of which the format demands a place that nobody states is never written.
+void check_places(const ExportConfig& config, ConfigTable& root) {
+  for (const OutputConfig& output : config.outputs) {
+    if (output.format != Format::kCourageous || config.courageous.has_place()) continue;
+    if (output.gate.stations || output.gate.lines) continue;
+    throw root.error("output", "\"" + output.name +
+                                   "\": courageous demands the place of the system: send stations, "
+                                   "or state it in [courageous]");
+  }
 }
 
 void check_node(const std::string& id) {
@@ -180,26 +216,28 @@ config::Section output_section(ExportConfig& config) {
 }
 
 config::Section export_section(ExportConfig& c) {
-  return {"",
-          "",
-          {config::bus_url(c.lcm_url),
-           config::text("site", c.site, "Name of the site; the names of objects begin with it.",
-                        config::word_up_to(40)),
-           config::text("geoid", c.geoid,
-                        "Grid of the geoid, by its name in PROJ's folders or by its path; needed "
-                        "for formats with heights above sea level.",
-                        config::not_empty),
-           config::status_file(c.status_file),
-           config::number("max_age_s", c.max_age_s, {0.1, 3600.0}, "s",
-                          "Older data, by this host's clock, are not sent."),
-           config::number("history_min", c.history_min, {0.0, 1440.0}, "min",
-                          "How far back the tracks in a file go.")},
-          {outputs_section(c), cot_section(c.cot), mqtt_section(c.home), asterix_section(c.asterix),
-           sapient_section(c.sapient), trust::trust_section(c.trust)},
-          [&c](ConfigTable& root) {
-            c.has_own_geoid = root.has("geoid");
-            check_names(c, root);
-          }};
+  return {
+      "",
+      "",
+      {config::bus_url(c.lcm_url),
+       config::text("site", c.site, "Name of the site; the names of objects begin with it.",
+                    config::word_up_to(40)),
+       config::text("geoid", c.geoid,
+                    "Grid of the geoid, by its name in PROJ's folders or by its path; needed "
+                    "for formats with heights above sea level.",
+                    config::not_empty),
+       config::status_file(c.status_file),
+       config::number("max_age_s", c.max_age_s, {0.1, 3600.0}, "s",
+                      "Older data, by this host's clock, are not sent."),
+       config::number("history_min", c.history_min, {0.0, 1440.0}, "min",
+                      "How far back the tracks in a file go.")},
+      {outputs_section(c), cot_section(c.cot), mqtt_section(c.home), asterix_section(c.asterix),
+       courageous_section(c.courageous), sapient_section(c.sapient), trust::trust_section(c.trust)},
+      [&c](ConfigTable& root) {
+        c.has_own_geoid = root.has("geoid");
+        check_names(c, root);
+        check_places(c, root);
+      }};
 }
 
 ExportConfig load_export_config(const std::string& path) {

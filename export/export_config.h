@@ -7,6 +7,7 @@
 #include "base/trust/trust_config.h"
 #include "export/address.h"
 #include "export/asterix/categories.h"
+#include "export/files/courageous.h"
 #include "export/gate.h"
 #include "export/home/home_settings.h"
 #include "export/sapient/sapient_node.h"
@@ -51,6 +52,7 @@ struct ExportConfig {
   CotSettings cot;
   HomeSettings home;
   AsterixSettings asterix;
+  CourageousSettings courageous;
   SapientSettings sapient;  // without the site, which is above
   trust::TrustConfig trust;
 };

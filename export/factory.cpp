@@ -36,7 +36,9 @@ DocumentEncoder::Writer writer_of(Format format, const ExportConfig& config) {
     case Format::kGpx:
       return gpx;
     case Format::kCourageous:
-      return [site = config.site](const Picture& picture) { return courageous(picture, site); };
+      return [site = config.site, settings = config.courageous](const Picture& picture) {
+        return courageous(picture, site, settings);
+      };
     default:
       throw std::invalid_argument(std::string("the format ") + to_string(format) +
                                   " makes no file");

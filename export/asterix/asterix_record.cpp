@@ -51,6 +51,10 @@ std::string asterix_unsigned(double value, double lsb, int octets) {
   return scaled(value, lsb, octets, 0.0, std::exp2(8 * octets) - 1.0);
 }
 
+std::string asterix_deviation(double value, double lsb, int octets) {
+  return asterix_unsigned(std::ceil(value / lsb), 1.0, octets);
+}
+
 std::string asterix_signed(double value, double lsb, int octets) {
   const double limit = std::exp2(8 * octets - 1);
   return scaled(value, lsb, octets, -limit, limit - 1.0);

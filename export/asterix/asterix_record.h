@@ -23,6 +23,8 @@ class AsterixRecord {
 // A value in units of `lsb`, most significant octet first; what does not fit becomes the nearest
 // that does.
 std::string asterix_unsigned(double value, double lsb, int octets);
+// The same of a standard deviation: the next greater value, so that no small one becomes 0.
+std::string asterix_deviation(double value, double lsb, int octets);
 std::string asterix_signed(double value, double lsb, int octets);
 // Time since midnight UTC in 1/128 s.
 std::string asterix_time(std::int64_t utime_us);

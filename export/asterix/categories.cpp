@@ -55,15 +55,15 @@ std::string accuracies(const Target& target) {
   const Covariance& c = target.covariance_m2;
   std::map<int, std::string> fields;
   if (std::isfinite(sd(c[0]) + sd(c[3]))) {
-    fields[0] = asterix_unsigned(sd(c[0]), kAccuracyUnit_m, 2) +
-                asterix_unsigned(sd(c[3]), kAccuracyUnit_m, 2);
+    fields[0] = asterix_deviation(sd(c[0]), kAccuracyUnit_m, 2) +
+                asterix_deviation(sd(c[3]), kAccuracyUnit_m, 2);
     fields[1] = asterix_signed(std::copysign(std::sqrt(std::abs(c[1])), c[1]), kAccuracyUnit_m, 2);
   }
-  if (std::isfinite(sd(c[5]))) fields[3] = asterix_unsigned(sd(c[5]), kHeightUnit_m, 1);
+  if (std::isfinite(sd(c[5]))) fields[3] = asterix_deviation(sd(c[5]), kHeightUnit_m, 1);
   const Covariance& v = target.velocity_covariance_m2_s2;
   if (has_velocity(target) && std::isfinite(sd(v[0]) + sd(v[3]))) {
-    fields[5] = asterix_unsigned(sd(v[0]), kSpeedUnit_m_s, 1) +
-                asterix_unsigned(sd(v[3]), kSpeedUnit_m_s, 1);
+    fields[5] = asterix_deviation(sd(v[0]), kSpeedUnit_m_s, 1) +
+                asterix_deviation(sd(v[3]), kSpeedUnit_m_s, 1);
   }
   return fields.empty() ? std::string() : asterix_compound(fields);
 }
@@ -123,9 +123,9 @@ std::string cat015(const Line& line, int sensor, const AsterixSettings& settings
   Subfields elevation{{0, asterix_signed(line.elevation_deg, kElevationUnit_deg, 2)}};
   // One that is not known is left out: 0 would claim that there is no error.
   if (std::isfinite(azimuth_sd_deg))
-    azimuth[2] = asterix_unsigned(azimuth_sd_deg, kDeviationUnit_deg, 2);
+    azimuth[2] = asterix_deviation(azimuth_sd_deg, kDeviationUnit_deg, 2);
   if (std::isfinite(line.elevation_sd_deg))
-    elevation[2] = asterix_unsigned(line.elevation_sd_deg, kDeviationUnit_deg, 2);
+    elevation[2] = asterix_deviation(line.elevation_sd_deg, kDeviationUnit_deg, 2);
   AsterixRecord record;
   record.with(1, source(settings.sac, sensor))
       .with(2, octet(kMeasurementTrack | kEvent))

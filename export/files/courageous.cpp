@@ -11,10 +11,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+Json position(double latitude_deg, double longitude_deg, double above_sea_m) {
+  return {{"lat", latitude_deg},
+          {"lon", longitude_deg},
+          {"height_amsl", std::round(100.0 * above_sea_m) / 100.0}};
+}
+
 Json position(const Place& place) {
-  return {{"lat", place.latitude_deg},
-          {"lon", place.longitude_deg},
-          {"height_amsl", std::round(100.0 * place.above_sea_m()) / 100.0}};
+  return position(place.latitude_deg, place.longitude_deg, place.above_sea_m());
 }
 
 Json location(const Place& place) {
@@ -58,27 +62,37 @@ Json detection_record(const Line& line, std::uint64_t number) {
           {"time", milliseconds(line.utime_us)}};
 }
 
-const Place* place_of_system(const Picture& picture) {
-  if (!picture.stations().empty()) return &picture.stations().begin()->second.place;
-  if (!picture.lines().empty()) return &picture.lines().begin()->second.points.front().camera;
-  if (!picture.tracks().empty()) return &picture.tracks().begin()->second.last.place;
-  return nullptr;
+// Null: not known.
+Json place_of_system(const Picture& picture, const CourageousSettings& settings) {
+  if (settings.has_place()) {
+    return position(settings.latitude_deg, settings.longitude_deg, settings.height_above_sea_m);
+  }
+  if (!picture.stations().empty()) return position(picture.stations().begin()->second.place);
+  if (picture.lines().empty()) return nullptr;
+  return position(picture.lines().begin()->second.points.front().camera);
+}
+
+// A number that another target, of another run of the fusion, does not have, and that stays the
+// same in each file (FNV-1a). No longer than readers with floating-point numbers can tell apart.
+std::uint64_t uas_id(const std::string& uid) {
+  constexpr std::uint64_t kMost = (std::uint64_t{1} << 53U) - 1U;
+  std::uint64_t hash = 0xcbf29ce484222325U;
+  for (const char c : uid) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
+  return hash & kMost;
 }
 
 }  // namespace
 
-std::string courageous(const Picture& picture, const std::string& site) {
-  const Place* const place = place_of_system(picture);
-  if (place == nullptr) return {};
+std::string courageous(const Picture& picture, const std::string& site,
+                       const CourageousSettings& settings) {
+  const Json here = place_of_system(picture, settings);
+  if (here.is_null() || picture.is_empty()) return {};
   std::uint64_t number = 0;
   Json tracks = Json::array(), detections = Json::array();
   for (const auto& [uid, track] : picture.tracks()) {
     Json records = Json::array();
     for (const Target& point : track.points) records.push_back(track_record(point, number++));
-    tracks.push_back(
-        {{"uas_id", static_cast<std::uint64_t>(std::max<std::int64_t>(track.last.id, 0))},
-         {"name", uid},
-         {"records", std::move(records)}});
+    tracks.push_back({{"uas_id", uas_id(uid)}, {"name", uid}, {"records", std::move(records)}});
   }
   for (const auto& [uid, seen] : picture.lines()) {
     Json records = Json::array();
@@ -86,7 +100,7 @@ std::string courageous(const Picture& picture, const std::string& site) {
     detections.push_back({{"name", seen.points.front().station}, {"records", std::move(records)}});
   }
   const Json document{{"version", "0.4.1"},      {"vendor_name", "OLS"},
-                      {"system_name", site},     {"static_cuas_location", position(*place)},
+                      {"system_name", site},     {"static_cuas_location", here},
                       {"detection", detections}, {"tracks", tracks}};
   return document.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }

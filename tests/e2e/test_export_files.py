@@ -180,6 +180,7 @@ def test_live_files_are_whole_and_right(tmp_path):
         publisher.until(
             lambda: (
                 all(f.exists() and "OLS 7" in f.read_text() for f in list(files.values())[:3])
+                and files["courageous"].exists()  # not before a station is heard
                 and "brno.target" in files["courageous"].read_text()
             ),
             "the target in each file",
@@ -202,7 +203,12 @@ def test_a_folder_that_is_missing_is_said_and_tried_again(tmp_path):
 def test_positions_of_ols_fuse(tmp_path, kind):
     fixes, made = tmp_path / "fixes.csv", tmp_path / f"made.{kind}"
     fixes.write_text(FIXES)
-    done = export("--fixes", fixes, "--format", kind, "--output", made)
+    config = tmp_path / "export.toml"
+    config.write_text(
+        "[courageous]\nlatitude_deg = 49.0\nlongitude_deg = 16.0\nheight_above_sea_m = 230\n"
+    )
+    arguments = ("--config", config, "--fixes", fixes, "--format", kind, "--output", made)
+    done = export(*arguments)
     assert done.returncode == 0, done.stderr
     assert "2 positions" in done.stderr
     CHECKS[kind](made)

@@ -98,6 +98,22 @@ INSTANTIATE_TEST_SUITE_P(
         std::pair{of_another_version(), "is at byte 0"},
         std::pair{log_record(kStart_us, "OLS_FUSION_STATUS", "x"), "has no position to write"}));
 
+TEST(Convert, ATargetsPlaceIsNotWrittenAsTheSystems) {
+  const LogFile log(targets(2));
+  const std::string output = log.path() + ".json";
+  ExportConfig config;
+  config.geoid = "egm96_15.gtx";
+  const auto to_courageous = [&] {
+    convert({log.path(), "", Format::kCourageous, output}, config, {});
+  };
+  EXPECT_THAT(error_text<std::runtime_error>(to_courageous, ""),
+              testing::HasSubstr("courageous demands the place of the system"));
+  EXPECT_FALSE(std::filesystem::exists(output));
+  config.courageous = {47.0, 13.0, 500.0};
+  to_courageous();
+  EXPECT_TRUE(std::filesystem::remove(output));
+}
+
 TEST(Convert, ALogThatIsCutOffAnywhereIsRefused) {
   const std::string whole = targets(2);
   for (std::size_t left = kRecord + 1; left < whole.size(); ++left) {

@@ -52,6 +52,14 @@ TEST(ExportConfig, SaysWhatIsWrongWhere) {
   EXPECT_THAT(complaint(output("format = \"sapient\"\nto = \"udp://1.1.1.1:1\"\n")),
               HasSubstr("the format sapient cannot be sent to udp://"));
   EXPECT_THAT(complaint("[sapient]\nnode_id = \"brno\"\n"), HasSubstr("not a UUID of version 4"));
+  const std::string courageous =
+      output("format = \"courageous\"\nto = \"file:///a\"\nstations = false\n");
+  EXPECT_THAT(complaint(courageous), HasSubstr("courageous demands the place"));
+  EXPECT_THAT(complaint(courageous + "[courageous]\nlatitude_deg = 49.0\n"),
+              HasSubstr("belong together"));
+  EXPECT_EQ(complaint(courageous + "[courageous]\nlatitude_deg = 49.0\nlongitude_deg = 16.0\n"
+                                   "height_above_sea_m = 230.0\n"),
+            "none");
   EXPECT_THAT(complaint("[mqtt]\nprefix = \"a/#\"\n"), HasSubstr("prefix"));
   EXPECT_THAT(complaint("[cot]\ntarget_type = \"a\\\"b\"\n"), HasSubstr("target_type"));
 }

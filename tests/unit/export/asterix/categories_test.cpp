@@ -43,6 +43,20 @@ TEST(AsterixCategories, ASystemTrack) {
             "0202");
 }
 
+TEST(AsterixCategories, AccuraciesAreNeverBetterThanTheyAre) {
+  Target target = made_target();
+  target.covariance_m2 = {0.0025, 0.0, 0.0, 0.36, 0.0, 1e-8};
+  target.velocity_covariance_m2_s2 = {1e-4, 0.0, 0.0, 0.0676, 0.0, 0.0};
+  const std::string bytes = hex(cat062(target, 7, kSettings));
+  // 0.05 and 0.6 m in units of 0.5 m, no covariance, a height's in 1.9 m, 0.01 and 0.26 m/s in
+  // 0.25.
+  EXPECT_EQ(bytes.substr(bytes.size() - 18),
+            "00010002"
+            "0000"
+            "01"
+            "0102");
+}
+
 TEST(AsterixCategories, StatesOfATrack) {
   Target target = made_target();
   const auto status = [&target](TrackState state) {
@@ -73,7 +87,7 @@ TEST(AsterixCategories, ALineIsAMeasurementTrack) {
             "0003"
             "00"
             "a04000000f"
-            "a002d8001d");
+            "a002d8001e");
 }
 
 }  // namespace
