@@ -88,7 +88,7 @@ std::unique_ptr<Link> make_link(const Address& address, const OutputConfig& outp
     case Scheme::kMqtt:
     case Scheme::kMqtts: {
       const MqttLogin login{"ols-export-" + config.site + "-" + output.name, output.user,
-                            output.password_file, status_topic(config.home)};
+                            output.password_file, status_topic(config.home, config.site)};
       return std::make_unique<MqttLink>(address, files, login);
     }
     case Scheme::kFile:

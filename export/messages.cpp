@@ -72,10 +72,9 @@ std::vector<std::string> used_stations(const TargetMessage& t) {
 }
 
 const char* state_name(std::int8_t state) {
-  static constexpr std::array kNames{"idle", "manual", "tracking", "coasting",
-                                     "lost", "slewed", "stopped",  "emergency"};
   const auto index = static_cast<std::size_t>(state);
-  return state >= 0 && index < kNames.size() ? kNames[index] : "unknown";
+  return state >= 0 && index < kStationStates.size() ? kStationStates[index]
+                                                     : kStationStates.back();
 }
 
 }  // namespace

@@ -39,6 +39,10 @@ struct Target {
   std::vector<std::string> stations;  // whose bearings are used
 };
 
+// In the order of the bus's numbers; then that of a number that is not known.
+inline constexpr std::array kStationStates{"idle",   "manual",  "tracking",  "coasting", "lost",
+                                           "slewed", "stopped", "emergency", "unknown"};
+
 struct Station {
   std::int64_t utime_us = 0;
   std::string uid;
@@ -48,7 +52,7 @@ struct Station {
   double azimuth_deg = kUnknown;              // of the optical axis, clockwise from true north
   double elevation_deg = kUnknown;            // above the horizon
   std::array<double, 2> field_of_view_deg{};  // horizontal, vertical; 0: unknown
-  std::string state;                          // "tracking"
+  std::string state;                          // of kStationStates
   bool is_well = true;                        // without an alarm
   bool clock_is_good = true;
   std::size_t alarms = 0;

@@ -2,8 +2,10 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 #include "export/home/home_encoder.h"
+#include "export/text.h"
 
 namespace ols::exports {
 namespace {
@@ -13,6 +15,7 @@ using Json = nlohmann::ordered_json;
 // What the entities of one device have in common.
 struct Device {
   const HomeSettings& settings;
+  const std::string& site;
   std::string id, name, topic;
 };
 
@@ -22,8 +25,8 @@ Packet entity(const Device& device, const std::string& component, const std::str
   Json config{
       {"name", name.empty() ? Json(nullptr) : Json(name)},
       {"unique_id", id},
-      {"object_id", id},
-      {"availability_topic", status_topic(device.settings)},
+      {"default_entity_id", component + "." + id},
+      {"availability_topic", status_topic(device.settings, device.site)},
       {"device", {{"identifiers", {device.id}}, {"name", device.name}, {"manufacturer", "OLS"}}}};
   config.update(more);
   // Home Assistant knows no such thing of places on the map.
@@ -35,46 +38,64 @@ Packet entity(const Device& device, const std::string& component, const std::str
   return {topic, config.dump(-1, ' ', false, Json::error_handler_t::replace), topic, true};
 }
 
+Json reading(const Device& device, const std::string& field) {
+  return {{"state_topic", device.topic},
+          {"value_template", "{{ value_json." + field + " | default(none) }}"}};
+}
+
+// `device_class`: of Home Assistant, which has none for angles: empty.
 Packet sensor(const Device& device, const std::string& field, const std::string& name,
-              const std::string& unit) {
-  Json config{{"state_topic", device.topic},
-              {"value_template", "{{ value_json." + field + " | default(none) }}"}};
-  if (!unit.empty()) {
-    config["unit_of_measurement"] = unit;
-    config["state_class"] = "measurement";
-  }
+              const std::string& unit, const std::string& device_class) {
+  Json config = reading(device, field);
+  config["unit_of_measurement"] = unit;
+  config["state_class"] = "measurement";
+  if (!device_class.empty()) config["device_class"] = device_class;
   return entity(device, "sensor", field, name, std::move(config));
+}
+
+Packet state(const Device& device, const std::vector<std::string>& states) {
+  Json config = reading(device, "state");
+  config["device_class"] = "enum";
+  config["options"] = states;
+  return entity(device, "sensor", "state", "State", std::move(config));
+}
+
+// Of a slot; "none" while it is free.
+std::vector<std::string> states_of_targets() {
+  return {"none", to_string(TrackState::kTentative), to_string(TrackState::kConfirmed),
+          to_string(TrackState::kCoasted)};
 }
 
 }  // namespace
 
-std::string slot_topic(const HomeSettings& settings, std::size_t slot) {
-  return settings.prefix + "/target/" + std::to_string(slot + 1);
+std::string slot_topic(const std::string& prefix, std::size_t slot) {
+  return prefix + "/target/" + std::to_string(slot + 1);
 }
 
 Packets discover_slot(const HomeSettings& settings, const std::string& site, std::size_t slot) {
   const std::string number = std::to_string(slot + 1);
-  const Device device{settings, site + "_target_" + number, site + " target " + number,
-                      slot_topic(settings, slot)};
+  const Device device{settings, site, topic_word(site) + "_target_" + number,
+                      site + " target " + number, slot_topic(site_prefix(settings, site), slot)};
   return {
       entity(device, "device_tracker", "", "",
              {{"json_attributes_topic", device.topic},
               {"state_topic", device.topic},
               {"value_template", "{{ 'not_home' if value_json.latitude is defined else 'None' }}"},
               {"source_type", "gps"}}),
-      sensor(device, "state", "State", ""),
-      sensor(device, "height_above_sea_m", "Height above the sea", "m"),
-      sensor(device, "height_ellipsoid_m", "Height above the ellipsoid", "m"),
-      sensor(device, "speed_m_s", "Speed", "m/s"),
-      sensor(device, "gps_accuracy", "Accuracy", "m")};
+      state(device, states_of_targets()),
+      sensor(device, "height_above_sea_m", "Height above the sea", "m", "distance"),
+      sensor(device, "height_ellipsoid_m", "Height above the ellipsoid", "m", "distance"),
+      sensor(device, "speed_m_s", "Speed", "m/s", "speed"),
+      sensor(device, "gps_accuracy", "Accuracy", "m", "distance")};
 }
 
 Packets discover_station(const HomeSettings& settings, const std::string& site,
                          const std::string& word, const std::string& name) {
-  const Device device{settings, site + "_station_" + word, site + " " + name,
-                      settings.prefix + "/station/" + word};
-  return {sensor(device, "state", "State", ""), sensor(device, "azimuth_deg", "Azimuth", "°"),
-          sensor(device, "elevation_deg", "Elevation", "°"),
+  const Device device{settings, site, topic_word(site) + "_station_" + word, site + " " + name,
+                      site_prefix(settings, site) + "/station/" + word};
+  return {state(device, {kStationStates.begin(), kStationStates.end()}),
+          sensor(device, "azimuth_deg", "Azimuth", "°", ""),
+          sensor(device, "elevation_deg", "Elevation", "°", ""),
           entity(device, "binary_sensor", "problem", "Alarm",
                  {{"state_topic", device.topic},
                   {"value_template", "{{ value_json.problem }}"},

@@ -9,7 +9,8 @@
 
 namespace ols::exports {
 
-std::string slot_topic(const HomeSettings& settings, std::size_t slot);
+// `prefix`: site_prefix().
+std::string slot_topic(const std::string& prefix, std::size_t slot);
 
 // A place on the map, and height, speed and state as sensors.
 Packets discover_slot(const HomeSettings& settings, const std::string& site, std::size_t slot);

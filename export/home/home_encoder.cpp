@@ -93,7 +93,13 @@ Packet free_slot(const std::string& topic) { return retained(topic, {{"state", "
 
 }  // namespace
 
-std::string status_topic(const HomeSettings& settings) { return settings.prefix + "/status"; }
+std::string site_prefix(const HomeSettings& settings, const std::string& site) {
+  return settings.prefix + "/" + topic_word(site);
+}
+
+std::string status_topic(const HomeSettings& settings, const std::string& site) {
+  return site_prefix(settings, site) + "/status";
+}
 
 std::string topic_word(const std::string& name) {
   std::string word = name;
@@ -107,16 +113,17 @@ std::string topic_word(const std::string& name) {
 HomeEncoder::HomeEncoder(HomeSettings settings, std::string site)
     : settings_(std::move(settings)),
       site_(std::move(site)),
+      prefix_(site_prefix(settings_, site_)),
       slots_(static_cast<std::size_t>(settings_.slots)) {}
 
 Packets HomeEncoder::encode(const Target& target) {
   const bool has_ended = target.state == TrackState::kEnded;
   const Json fields = json_of(target);
-  const std::string all = settings_.prefix + "/targets";
+  const std::string all = prefix_ + "/targets";
   Packets packets{{all + "/" + target.uid, text_of(fields), all}};
   const auto slot = has_ended ? slots_.release(target.uid) : slots_.take(target.uid);
   if (!slot) return packets;
-  const std::string topic = slot_topic(settings_, *slot);
+  const std::string topic = slot_topic(prefix_, *slot);
   packets.push_back(has_ended ? free_slot(topic) : retained(topic, fields));
   return packets;
 }
@@ -127,12 +134,12 @@ Packets HomeEncoder::encode(const Station& station) {
   if (told_stations_.size() < kMostStations && told_stations_.insert(word).second) {
     packets = discover_station(settings_, site_, word, station.name);
   }
-  packets.push_back(retained(settings_.prefix + "/station/" + word, json_of(station)));
+  packets.push_back(retained(prefix_ + "/station/" + word, json_of(station)));
   return packets;
 }
 
 Packets HomeEncoder::encode(const Line& line) {
-  const std::string topic = settings_.prefix + "/line/" + topic_word(line.station);
+  const std::string topic = prefix_ + "/line/" + topic_word(line.station);
   return {{topic, text_of(json_of(line)), topic}};
 }
 
@@ -155,7 +162,7 @@ Packets HomeEncoder::turn(std::int64_t utime_us) {
         packets.push_back(std::move(packet));
       }
     }
-    if (slots_.is_free(slot)) packets.push_back(free_slot(slot_topic(settings_, slot)));
+    if (slots_.is_free(slot)) packets.push_back(free_slot(slot_topic(prefix_, slot)));
   }
   return packets;
 }

@@ -1,6 +1,8 @@
 // MQTT: flat JSON of targets, stations and lines, and what Home Assistant needs to find them by
 // itself (its MQTT discovery). Pure.
 //
+// PREFIX is [mqtt] prefix and the name of the site: several sites may have one broker.
+//
 //   PREFIX/status           "online" or "offline" (the last will)
 //   PREFIX/targets          every target
 //   PREFIX/target/SLOT      the target in this slot, retained; {"state": "none"} while it is free,
@@ -33,15 +35,17 @@ class HomeEncoder : public Encoder {
   bool is_free_slot_due(std::int64_t utime_us) const;
 
   HomeSettings settings_;
-  std::string site_;
+  std::string site_, prefix_;
   TargetSlots slots_;
   bool slots_are_told_ = false;
   std::int64_t free_due_us_ = 0;  // when it is said again which slots are free
   std::set<std::string> told_stations_;
 };
 
+// What the site's topics begin with.
+std::string site_prefix(const HomeSettings& settings, const std::string& site);
 // The topic of its availability: that of the last will.
-std::string status_topic(const HomeSettings& settings);
+std::string status_topic(const HomeSettings& settings, const std::string& site);
 // A name as a level of a topic: what is no letter, digit, - or _ becomes "_".
 std::string topic_word(const std::string& name);
 

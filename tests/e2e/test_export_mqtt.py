@@ -48,7 +48,9 @@ TARGET = {
 }
 DISCOVERY = {
     "type": "object",
-    "required": ["name", "unique_id", "object_id", "state_topic", "availability_topic", "device"],
+    "required": [
+        *("name", "unique_id", "default_entity_id", "state_topic", "availability_topic", "device")
+    ],
     "properties": {"unique_id": {"type": "string", "pattern": "^[a-zA-Z0-9_-]+$"}},
 }
 
@@ -126,13 +128,13 @@ def test_a_target_and_its_entities(tmp_path, subscriber):
     with Exporter(tmp_path, mqtt()):
         publisher.until(
             lambda: (
-                (subscriber.json("ols/target/1") or {}).get("state") == "confirmed"
-                and subscriber.json("ols/station/alfa")
-                and subscriber.json("ols/targets")
+                (subscriber.json("ols/brno/target/1") or {}).get("state") == "confirmed"
+                and subscriber.json("ols/brno/station/alfa")
+                and subscriber.json("ols/brno/targets")
             ),
             "target and station",
         )
-        for topic in ("ols/target/1", "ols/targets"):
+        for topic in ("ols/brno/target/1", "ols/brno/targets"):
             found = subscriber.json(topic)
             jsonschema.validate(found, TARGET)
             assert found["latitude"] == LATITUDE_DEG and found["gps_accuracy"] == CE_M
@@ -145,24 +147,24 @@ def test_a_target_and_its_entities(tmp_path, subscriber):
             jsonschema.validate(config, DISCOVERY)
             assert config.get("expire_after") == (None if "device_tracker" in topic else 30)
             assert config["state_topic"] in subscriber.topics, "an entity without a state"
-        assert subscriber.topics["ols/status"] == "online"
+        assert subscriber.topics["ols/brno/status"] == "online"
         dropped = target(track_state=target_t.TRACK_DROPPED)
         publisher.send("OLS_TARGET", dropped)
-        wait(lambda: subscriber.json("ols/target/1") == {"state": "none"}, "a free slot")
-    wait(lambda: subscriber.topics["ols/status"] == "offline", "the last will")
+        wait(lambda: subscriber.json("ols/brno/target/1") == {"state": "none"}, "a free slot")
+    wait(lambda: subscriber.topics["ols/brno/status"] == "offline", "the last will")
 
 
 def test_a_broker_that_dies_and_returns_is_told_everything_again(tmp_path, broker, subscriber):
     publisher = Publisher()
     with Exporter(tmp_path, mqtt()) as exporter:
-        publisher.until(lambda: "ols/target/1" in subscriber.topics, "a target")
+        publisher.until(lambda: "ols/brno/target/1" in subscriber.topics, "a target")
         broker.kill()
         publisher.until(lambda: exporter.output("home").get("trouble"), "the trouble is said")
         broker.start()
         again = Subscriber()
         publisher.until(
             lambda: (
-                (again.json("ols/target/1") or {}).get("state") == "confirmed"
+                (again.json("ols/brno/target/1") or {}).get("state") == "confirmed"
                 and "homeassistant/sensor/brno_station_alfa_state/config" in again.topics
             ),
             "everything again",
@@ -227,9 +229,9 @@ def beside(babblers):
 
 
 def others_go_on(publisher, subscriber):
-    publisher.until(lambda: subscriber.json("ols/target/1") is not None, "the target")
-    seen = subscriber.json("ols/target/1")["time"]
-    publisher.until(lambda: subscriber.json("ols/target/1")["time"] != seen, "others go on")
+    publisher.until(lambda: subscriber.json("ols/brno/target/1") is not None, "the target")
+    seen = subscriber.json("ols/brno/target/1")["time"]
+    publisher.until(lambda: subscriber.json("ols/brno/target/1")["time"] != seen, "others go on")
 
 
 def test_a_broker_that_sends_rubbish_is_named_and_stops_nothing(tmp_path, broker, subscriber):

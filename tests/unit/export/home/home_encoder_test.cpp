@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "tests/unit/export/made_records.h"
 
@@ -15,9 +17,9 @@ TEST(HomeEncoder, ATargetHasASlotAsLongAsItIsThere) {
   HomeEncoder encoder({.slots = 1}, "brno");
   const Packets first = encoder.encode(made_target(1));
   ASSERT_EQ(first.size(), 2U);
-  EXPECT_EQ(first[0].where, "ols/targets");
+  EXPECT_EQ(first[0].where, "ols/brno/targets");
   EXPECT_FALSE(first[0].is_retained);
-  EXPECT_EQ(first[1].where, "ols/target/1");
+  EXPECT_EQ(first[1].where, "ols/brno/target/1");
   EXPECT_TRUE(first[1].is_retained);
   EXPECT_EQ(json_of(first[1]).at("height_above_sea_m"), 54.0);
   EXPECT_EQ(json_of(first[1]).at("height_ellipsoid_m"), 100.0);
@@ -33,7 +35,7 @@ TEST(HomeEncoder, EntitiesAreToldOnceAndAgainToANewBroker) {
   const Packets told = encoder.turn(0);
   ASSERT_EQ(told.size(), 14U);  // six entities and the free slot, twice
   EXPECT_EQ(told[0].where, "homeassistant/device_tracker/brno_target_1/config");
-  EXPECT_EQ(json_of(told[0]).at("availability_topic"), "ols/status");
+  EXPECT_EQ(json_of(told[0]).at("availability_topic"), "ols/brno/status");
   EXPECT_TRUE(encoder.turn(0).empty());
   EXPECT_EQ(encoder.encode(made_station()).size(), 5U);
   EXPECT_EQ(encoder.encode(made_station()).size(), 1U);
@@ -67,10 +69,58 @@ TEST(HomeEncoder, AFreeSlotIsSaidAgainBeforeItIsOldNews) {
   EXPECT_TRUE(encoder.turn(3'900'000).empty());
   const Packets again = encoder.turn(4'000'000);
   ASSERT_EQ(again.size(), 1U) << "the other one is taken";
-  EXPECT_EQ(again[0].where, "ols/target/2");
+  EXPECT_EQ(again[0].where, "ols/brno/target/2");
   EXPECT_EQ(json_of(again[0]).at("state"), "none");
   EXPECT_TRUE(encoder.turn(5'000'000).empty());
   EXPECT_EQ(encoder.turn(-3'600'000'000).size(), 1U) << "the clock was set back";
+}
+
+TEST(HomeEncoder, TwoSitesOnOneBrokerShareNoTopic) {
+  std::set<std::string> of_one, of_both;
+  for (const char* site : {"brno", "wien"}) {
+    HomeEncoder encoder({}, site);
+    Packets told = encoder.turn(0);
+    for (const auto& packets :
+         {encoder.encode(made_target()), encoder.encode(made_station()),
+          encoder.encode(made_line()), Packets{{"", "", status_topic({}, site)}}}) {
+      told.insert(told.end(), packets.begin(), packets.end());
+    }
+    for (const Packet& packet : told) of_both.insert(packet.where);
+    if (of_one.empty()) of_one = of_both;
+  }
+  EXPECT_EQ(of_both.size(), 2 * of_one.size());
+}
+
+TEST(HomeEncoder, EntitiesSayWhatTheyMeasureAndKeepTheirNames) {
+  HomeEncoder encoder({.slots = 1}, "Brno.1");
+  Packets told = encoder.turn(0);
+  for (Packet& packet : encoder.encode(made_station())) told.push_back(std::move(packet));
+  std::map<std::string, std::string> classes;
+  for (const Packet& packet : told) {
+    if (!packet.where.ends_with("/config")) continue;
+    const auto config = json_of(packet);
+    const std::string id = config.at("unique_id");
+    const std::string component = packet.where.substr(14, packet.where.find('/', 14) - 14);
+    EXPECT_EQ(config.at("default_entity_id"), component + "." + id);
+    EXPECT_FALSE(config.contains("object_id"));
+    classes[id] = config.value("device_class", "");
+    if (classes[id] != "enum") continue;
+    const std::string now =
+        component == "sensor" && id.ends_with("alfa_state") ? "tracking" : "none";
+    EXPECT_NE(config.at("options").dump().find('"' + now + '"'), std::string::npos) << id;
+    EXPECT_FALSE(config.contains("state_class"));
+  }
+  EXPECT_EQ(classes,
+            (std::map<std::string, std::string>{{"Brno_1_target_1", ""},
+                                                {"Brno_1_target_1_state", "enum"},
+                                                {"Brno_1_target_1_height_above_sea_m", "distance"},
+                                                {"Brno_1_target_1_height_ellipsoid_m", "distance"},
+                                                {"Brno_1_target_1_speed_m_s", "speed"},
+                                                {"Brno_1_target_1_gps_accuracy", "distance"},
+                                                {"Brno_1_station_alfa_state", "enum"},
+                                                {"Brno_1_station_alfa_azimuth_deg", ""},
+                                                {"Brno_1_station_alfa_elevation_deg", ""},
+                                                {"Brno_1_station_alfa_problem", "problem"}}));
 }
 
 TEST(HomeEncoder, NamesAreMadeFitForTopics) {
@@ -78,7 +128,7 @@ TEST(HomeEncoder, NamesAreMadeFitForTopics) {
   Station station = made_station();
   station.name = "a/b";
   HomeEncoder encoder({}, "brno");
-  EXPECT_EQ(encoder.encode(station).back().where, "ols/station/a_b");
+  EXPECT_EQ(encoder.encode(station).back().where, "ols/brno/station/a_b");
 }
 
 TEST(HomeEncoder, JsonIsFlat) {
