@@ -9,29 +9,30 @@
 #include "export/factory.h"
 #include "export/fixes.h"
 #include "export/readiness.h"
-#include "export/tak/cot_encoder.h"
+#include "export/tak/cot_text.h"
 #include "export/target_book.h"
 
 namespace ols::exports {
 namespace {
 
-// Events of Cursor on Target, one behind the other, are a file too.
+// All events of Cursor on Target in one document.
 class EventFile : public Encoder {
  public:
-  explicit EventFile(const CotSettings& settings) : events_(settings, std::nullopt) {}
-  Packets encode(const Target& target) override { return keep(events_.encode(target)); }
-  Packets encode(const Station& station) override { return keep(events_.encode(station)); }
-  Packets encode(const Line& line) override { return keep(events_.encode(line)); }
-  Packets turn(std::int64_t) override { return {{"document", text_}}; }
+  explicit EventFile(const CotSettings& settings) : settings_(settings) {}
+  Packets encode(const Target& target) override { return keep(target); }
+  Packets encode(const Station& station) override { return keep(station); }
+  Packets encode(const Line& line) override { return keep(line); }
+  Packets turn(std::int64_t) override { return {{"document", cot_document(elements_)}}; }
 
  private:
-  Packets keep(const Packets& packets) {
-    for (const Packet& packet : packets) text_ += packet.bytes;
+  template <class Record>
+  Packets keep(const Record& record) {
+    elements_ += cot_element(cot_event(record, settings_)) + "\n";
     return {};
   }
 
-  CotEncoder events_;
-  std::string text_;
+  CotSettings settings_;
+  std::string elements_;
 };
 
 std::unique_ptr<Encoder> encoder_of(Format format, const ExportConfig& config) {

@@ -32,7 +32,7 @@ Json feature(const std::string& id, const char* type, Json coordinates, Json pro
 
 Json covariance(const Covariance& values) {
   Json numbers = Json::array();
-  for (const double value : values) numbers.push_back(number(value, 4));
+  for (const double value : values) numbers.push_back(number(value, 6));
   return numbers;
 }
 
@@ -83,10 +83,15 @@ std::string geojson(const Picture& picture, double line_m) {
     features.push_back(
         feature(uid, "Point", position(track.last.place), target_properties(track.last)));
     if (track.points.size() < 2) continue;
-    Json path = Json::array();
-    for (const Target& point : track.points) path.push_back(position(point.place));
-    features.push_back(feature(uid + ".track", "LineString", std::move(path),
-                               {{"kind", "track"}, {"name", callsign(track.last)}}));
+    Json path = Json::array(), times = Json::array();
+    for (const Target& point : track.points) {
+      path.push_back(position(point.place));
+      times.push_back(iso_time(point.utime_us));
+    }
+    // The name by which converters of GPX and players of tracks know the points' times.
+    features.push_back(feature(
+        uid + ".track", "LineString", std::move(path),
+        {{"kind", "track"}, {"name", callsign(track.last)}, {"coordTimes", std::move(times)}}));
   }
   for (const auto& [uid, station] : picture.stations()) {
     features.push_back(feature(uid, "Point", position(station.place), station_properties(station)));

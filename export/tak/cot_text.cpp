@@ -9,6 +9,8 @@
 namespace ols::exports {
 namespace {
 
+constexpr const char* kDeclaration =
+    "<?xml version=\"1.0\" encoding=\"UTF-8\" standalone=\"yes\"?>\n";
 constexpr char kMagic = '\xbf';
 
 double or_unknown(double value_m) { return std::isfinite(value_m) ? value_m : kCotUnknown_m; }
@@ -67,13 +69,19 @@ tak::TakMessage message_of(const CotEvent& event) {
 
 }  // namespace
 
-std::string cot_xml(const CotEvent& event) {
-  std::string text("<?xml version=\"1.0\" encoding=\"UTF-8\" standalone=\"yes\"?>\n");
-  text.append("<event version=\"2.0\" type=\"").append(xml(event.type)).append("\" uid=\"");
+std::string cot_xml(const CotEvent& event) { return kDeclaration + cot_element(event); }
+
+std::string cot_element(const CotEvent& event) {
+  std::string text("<event version=\"2.0\" type=\"");
+  text.append(xml(event.type)).append("\" uid=\"");
   text.append(xml(event.uid)).append("\" how=\"").append(event.how).append("\" time=\"");
   text.append(iso_time(event.utime_us)).append("\" start=\"").append(iso_time(event.utime_us));
   text.append("\" stale=\"").append(iso_time(event.stale_us)).append("\">");
   return text.append(point_of(event)).append(detail_of(event)).append("</event>");
+}
+
+std::string cot_document(const std::string& elements) {
+  return std::string(kDeclaration) + "<events>\n" + elements + "</events>\n";
 }
 
 std::string cot_protobuf(const CotEvent& event, TakFraming framing) {

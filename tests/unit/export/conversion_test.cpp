@@ -98,6 +98,19 @@ INSTANTIATE_TEST_SUITE_P(
         std::pair{of_another_version(), "is at byte 0"},
         std::pair{log_record(kStart_us, "OLS_FUSION_STATUS", "x"), "has no position to write"}));
 
+TEST(Convert, EventsOfCursorOnTargetAreOneDocument) {
+  const LogFile log(targets(2));
+  const std::string output = log.path() + ".xml";
+  convert({log.path(), "", Format::kCot, output}, {}, {});
+  const std::string text = read_small_file(output, 1'000'000);
+  std::filesystem::remove(output);
+  EXPECT_TRUE(
+      text.starts_with("<?xml version=\"1.0\" encoding=\"UTF-8\" standalone=\"yes\"?>\n"
+                       "<events>\n<event version=\"2.0\""));
+  EXPECT_TRUE(text.ends_with("</event>\n</events>\n"));
+  EXPECT_EQ(text.find("<?xml", 1), std::string::npos);
+}
+
 TEST(Convert, ATargetsPlaceIsNotWrittenAsTheSystems) {
   const LogFile log(targets(2));
   const std::string output = log.path() + ".json";

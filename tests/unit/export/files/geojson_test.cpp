@@ -24,6 +24,8 @@ TEST(ExportGeoJson, HeightsAreAboveTheEllipsoid) {
   EXPECT_EQ(features[0].at("properties").at("covariance_enu_m2"),
             nlohmann::json::parse("[4.0, 1.0, 0.0, 9.0, 0.0, 25.0]"));
   EXPECT_EQ(features[1].at("geometry").at("type"), "LineString");
+  EXPECT_EQ(features[1].at("properties").at("coordTimes"),
+            nlohmann::json::parse(R"(["2023-11-14T22:13:20.123Z", "2023-11-14T22:13:21.123Z"])"));
   EXPECT_EQ(features[2].at("properties").at("kind"), "station");
   EXPECT_EQ(features[3].at("properties").at("kind"), "line");
 }
