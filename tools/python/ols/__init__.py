@@ -7,5 +7,9 @@ classes can be given by keyword; those left out keep the product's defaults. An 
 read as a copy and replaced as a whole.
 """
 
+from ols import _core
 from ols._core import *  # noqa: F403
-from ols._core import __version__ as __version__
+from ols._core import __version__
+
+__all__ = ["__version__"]
+__all__ += _core.__all__

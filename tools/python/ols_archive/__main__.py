@@ -12,8 +12,6 @@ import sys
 import time
 from pathlib import Path
 
-from ols_archive.kinds import KINDS, columns_of
-
 DAMAGED, UNUSABLE = 1, 2
 
 
@@ -79,6 +77,8 @@ def check(parser: argparse.ArgumentParser, arguments: argparse.Namespace) -> Non
 
 
 def print_schema() -> None:
+    from ols_archive.kinds import KINDS, columns_of
+
     for kind in KINDS:
         print(f"### `{kind.name}`\n\nChannel `{kind.channel}{'<station>' * kind.of_station}`.\n")
         print("| column | type | meaning |\n|---|---|---|")
@@ -137,6 +137,14 @@ def tell(arguments: argparse.Namespace, archiver) -> None:
 
 
 def main(words: list[str] | None = None) -> int:
+    try:
+        return work(words)
+    except ModuleNotFoundError as missing:
+        print(f"ols-archive: {missing}: install ols[archive]", file=sys.stderr)
+        return UNUSABLE
+
+
+def work(words: list[str] | None) -> int:
     arguments = parse_arguments(words)
     if arguments.schema:
         print_schema()

@@ -95,13 +95,17 @@ def exit_code(report) -> int:
 
 
 def main(words: list[str] | None = None) -> int:
-    arguments = parse_arguments(words)
     try:
-        from ols_batch.plan import Settings
-        from ols_batch.run import run
+        return work(words)
     except ModuleNotFoundError as missing:
         print(f"ols-batch: {missing}: install ols[archive]", file=sys.stderr)
         return UNUSABLE
+
+
+def work(words: list[str] | None) -> int:
+    arguments = parse_arguments(words)
+    from ols_batch.plan import Settings
+    from ols_batch.run import run
 
     settings = Settings(
         arguments.archive.resolve(),
