@@ -57,15 +57,38 @@ function(ols_library name)
   target_link_libraries(${name} PUBLIC ols_options ${ARG_LINK})
   set_source_files_properties(${ARG_ALONE} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   if(NOT ARG_HOT)
-    ols_compile_quickly(${name})
+    ols_compile_quickly(${name} ols_common_headers)
   endif()
 endfunction()
 
-# ols_compile_quickly(TARGET): for what waits for people, disks and networks.
-function(ols_compile_quickly target)
+# ols_precompile(NAME HEADERS...): reads long headers once in a quick build. The inline functions that they bring with
+# them are compiled once, too, and optimised: the targets of ols_compile_quickly only call them.
+function(ols_precompile name)
+  file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp CONTENT "") # untouched where it is there
+  add_library(${name} STATIC ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp)
+  target_link_libraries(${name} PRIVATE ols_options ols_opencv Eigen3::Eigen)
+  target_compile_options(${name} PRIVATE -O0 "SHELL:-Xclang -fmodules-codegen")
+  target_precompile_headers(${name} PRIVATE ${ARGN})
+
+  set(folder ${CMAKE_CURRENT_BINARY_DIR}/CMakeFiles/${name}.dir)
+  add_custom_command(
+    OUTPUT ${folder}/inline_functions.o
+    DEPENDS ${folder}/cmake_pch.hxx.pch
+    COMMAND ${CMAKE_CXX_COMPILER} -std=c++20 -O1 -fPIC -pthread -ffp-contract=off -ffunction-sections -w
+            -c ${folder}/cmake_pch.hxx.pch -o ${folder}/inline_functions.o)
+  add_library(${name}_code STATIC ${folder}/inline_functions.o)
+  set_target_properties(${name}_code PROPERTIES LINKER_LANGUAGE CXX)
+  # Functions that a program does not call need none of the libraries that they call.
+  target_link_options(${name}_code INTERFACE -Wl,--gc-sections)
+endfunction()
+
+# ols_compile_quickly(TARGET HEADERS): for what waits for people, disks and networks. It is not optimised in a quick
+# build.
+function(ols_compile_quickly target headers)
   if(OLS_QUICK_BUILD)
-    target_compile_options(${target} PRIVATE -O1)
-    target_precompile_headers(${target} REUSE_FROM ols_common_headers)
+    target_compile_options(${target} PRIVATE -O0)
+    target_precompile_headers(${target} REUSE_FROM ${headers})
+    target_link_libraries(${target} PRIVATE ${headers}_code)
   endif()
 endfunction()
 
@@ -96,11 +119,7 @@ if(OLS_QUICK_BUILD)
       <unordered_map>
       <variant>
       <vector>)
-  file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/common_headers.cpp CONTENT "") # untouched where it is there
-  add_library(ols_common_headers STATIC ${CMAKE_BINARY_DIR}/common_headers.cpp)
-  target_link_libraries(ols_common_headers PRIVATE ols_options ols_opencv Eigen3::Eigen)
-  target_compile_options(ols_common_headers PRIVATE -O1)
-  target_precompile_headers(ols_common_headers PRIVATE ${ols_long_headers})
+  ols_precompile(ols_common_headers ${ols_long_headers})
 endif()
 
 # ols_program(NAME SOURCES ... LINK ... [ALONE ...]): one executable of the product.
@@ -110,7 +129,7 @@ function(ols_program name)
   set_source_files_properties(${ARG_ALONE} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   target_link_libraries(${name} PRIVATE ols_options ${ARG_LINK})
   target_compile_definitions(${name} PRIVATE OLS_VERSION="${PROJECT_VERSION}")
-  ols_compile_quickly(${name})
+  ols_compile_quickly(${name} ols_common_headers)
 endfunction()
 
 # ols_test(NAME [HOT] SOURCES ... LINK ... [ALONE ...]): a GoogleTest program, one process and one ctest entry.
@@ -123,8 +142,7 @@ function(ols_test name)
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE ols_options ${ARG_LINK} ols_test_main)
   if(OLS_QUICK_BUILD AND NOT ARG_HOT)
-    target_compile_options(${name} PRIVATE -O0)
-    target_precompile_headers(${name} REUSE_FROM ols_test_main)
+    ols_compile_quickly(${name} ols_test_headers)
   else()
     target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
   endif()
@@ -133,4 +151,7 @@ function(ols_test name)
   set_source_files_properties(${ARG_ALONE} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   add_test(NAME ${name} COMMAND ${name} --gtest_brief=1)
   set_tests_properties(${name} PROPERTIES TIMEOUT 600)
+  if(ARG_HOT) # the longest begin first
+    set_tests_properties(${name} PROPERTIES COST 1)
+  endif()
 endfunction()

@@ -122,7 +122,7 @@ def channels_in(log):
 def test_a_replay_gives_the_targets_of_the_live_run_and_moves_nothing(run):
     """To the last bit, until two packets of the same instant reached the logger and the live fusion
     in different order: then one target was made a bearing earlier or later, and what is known of
-    the stations' poses differs by rounding for minutes. The goldens are equal to the last bit."""
+    the stations' poses differs by rounding for minutes."""
     out, slews = replay(run / "run.lcmlog", run / "replayed")
     live, again = positions_of(run / "run.lcmlog"), positions_of(out)
     assert len(again) > 10
