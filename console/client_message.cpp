@@ -306,7 +306,8 @@ ClientMessage read(const Json& message, std::int64_t number) {
     return ControlRequest{number, text(message, "station"), what == "take", heard(message)};
   }
   throw Wrong(
-      "do must be command, stop_all, take, give_up, watch, taken, answer, cue, name, acknowledge or "
+      "do must be command, stop_all, take, give_up, watch, taken, answer, cue, name, acknowledge "
+      "or "
       "replay");
 }
 

@@ -80,10 +80,9 @@ struct Refused {
   std::string why;
 };
 
-using ClientMessage =
-    std::variant<CommandRequest, StopAllRequest, ControlRequest, WatchRequest, TakenRequest,
-                 ReplayRequest, AnswerRequest, CueRequest, NameRequest, AcknowledgeRequest,
-                 Refused>;
+using ClientMessage = std::variant<CommandRequest, StopAllRequest, ControlRequest, WatchRequest,
+                                   TakenRequest, ReplayRequest, AnswerRequest, CueRequest,
+                                   NameRequest, AcknowledgeRequest, Refused>;
 
 inline constexpr std::size_t kMostMessageBytes = 8192;
 inline constexpr std::size_t kMostWatched = 64;
