@@ -85,6 +85,7 @@ def test_a_command_runs_in_the_network_of_the_demo(tmp_path):
     network, keys, path = done.stdout.splitlines()
     assert (network, keys) == (os.readlink("/proc/self/ns/net"), "some keys")
     assert path.split(":")[0] == str(tmp_path)
-    script.write_text(script.read_text().replace(os.readlink("/proc/self"), "4194305"))
+    running = f"process=/proc/{os.readlink('/proc/self')}"
+    script.write_text(script.read_text().replace(running, "process=/proc/4194305"))
     done = subprocess.run([script, *look], capture_output=True, text=True, check=False)
     assert done.returncode == 1 and done.stderr.endswith("the demo has ended\n")

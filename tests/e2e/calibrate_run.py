@@ -2,6 +2,7 @@
 
 import json
 import subprocess
+from pathlib import Path
 
 import numpy as np
 from conftest import BIN
@@ -59,7 +60,7 @@ class Run:
         return done.stderr
 
     def report(self):
-        return json.loads((self.output / "report.json").read_text())
+        return json.loads((Path(self.output) / "report.json").read_text())
 
     def rejected(self):
         return [group["name"] for group in self.report()["groups"] if group.get("rejected")]

@@ -144,7 +144,7 @@ def test_nothing_is_overwritten_and_a_bad_recording_is_named(site, tmp_path):
         *("--recording", tmp_path / "no.log", "--output", tmp_path / "new.jsonl"),
     )
     assert done.returncode == 2
-    assert "--recording: nothing that two stations" in done.stderr
+    assert "no.log: is no LCM log: from byte 0" in done.stderr
     assert not (tmp_path / "new.jsonl").exists()
 
 

@@ -192,7 +192,7 @@ def test_nobody_rearms_it_from_afar(station):
     station.wait_for_counter("tool", "refused_rearm_needs_a_hand", before + 5)
     station.wait_for_counter("tool", "refused_emergency", points + 10)
     assert station.state() == status.STATE_EMERGENCY
-    assert "rearm_needs_a_hand" in ctl("tool", "rearm").stdout
+    assert "it can be re-armed at the station only" in ctl("tool", "rearm").stdout
     os.kill(station.pid(), signal.SIGUSR1)  # who is logged in on its computer
     station.wait_for_state(status.STATE_STOPPED)
     assert ctl("tool", "release").returncode == 0
