@@ -20,7 +20,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 FOLDER = Path(__file__).resolve().parent
 BUILD = Path(os.environ.get("OLS_BUILD", ROOT / "build/release"))
-LOG = FOLDER / "two_drones.json"
+LOG = FOLDER / "replay"
 TOLERANCE = 1e-5
 DEGREES_OF_A_MILLIMETRE = 1e-8
 # One row in so many is kept of a file; the counters have how many there are.

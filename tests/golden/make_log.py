@@ -1,6 +1,6 @@
 """Made the recorded bearing logs of the goldens, once; kept so that they can be understood.
 
-two_drones.json is what a fusion hears, offline/*.csv the clean bearings of the drones for ols-fuse.
+replay/*.csv are what a fusion hears, offline/*.csv the clean bearings of the drones for ols-fuse.
 
 Seven stations around a field follow two drones that cross 8 m apart, and the log has what a real
 site has: bearings out of order, doubled, stale, ahead of time, of low belief and not finite; a
@@ -9,7 +9,6 @@ station whose clock is 0.8 s off; one that reboots; one that follows a bird; a d
     python tests/golden/make_log.py FOLDER        (with the module `ols` on PYTHONPATH)
 """
 
-import json
 import math
 import sys
 from pathlib import Path
@@ -84,10 +83,22 @@ def spoil(rows, random):
         if number % 97 == 50:
             arrivals.append((time_s + 0.03, {**row, "utime": row["utime"] + 2_000_000}))
         if number % 97 == 60:
-            arrivals.append((time_s + 0.03, {**row, "elevation_rad": None}))
+            arrivals.append((time_s + 0.03, {**row, "elevation_rad": math.nan}))
         if number % 97 == 70:
             arrivals.append((time_s + 0.03, {**row, "azimuth_rad": 7.5}))
     return [row for _, row in sorted(arrivals, key=lambda arrival: arrival[0])]
+
+
+def write_replay(folder: Path, rows) -> None:
+    folder.mkdir(exist_ok=True)
+    stations = ["station,x_ecef_m,y_ecef_m,z_ecef_m"]
+    for station, (position, _) in STATIONS.items():
+        x, y, z = FRAME.to_ecef(np.array(position))
+        stations.append(f"{station},{x:.4f},{y:.4f},{z:.4f}")
+    bearings = [",".join(rows[0]).replace("utime", "utime_us")]
+    bearings += [",".join(map(str, row.values())) for row in rows]
+    (folder / "stations.csv").write_text("\n".join(stations) + "\n")
+    (folder / "bearings.csv").write_text("\n".join(bearings) + "\n")
 
 
 def write_offline(folder: Path, rows) -> None:
@@ -124,24 +135,11 @@ def main() -> None:
             noise_rad = PIXEL_RAD * random.standard_normal(2)
             if seen(STATIONS[station][1], time_s) and random.random() > 0.02:
                 rows.append((time_s, bearing_row(station, time_s, noise_rad, headings[station])))
-    log = {
-        "stations": {
-            station: {
-                "camera_ecef_m": [round(x, 4) for x in FRAME.to_ecef(np.array(position))],
-                "covariance_white_rad2": [PIXEL_RAD**2, 0.0, PIXEL_RAD**2],
-                "covariance_systematic_rad2": [HEADING_RAD**2, 0.0, (HEADING_RAD / 3) ** 2],
-                "camera_position_sd_m": [0.02, 0.02, 0.03],
-                "clock_error_s": 5e-4,
-            }
-            for station, (position, _) in STATIONS.items()
-        },
-        "bearings": [list(row.values()) for row in spoil(rows, random)],
-    }
+    heard = spoil(rows, random)
     folder = Path(sys.argv[1])
     write_offline(folder / "offline", [row for _, row in rows])
-    text = json.dumps(log).replace("], [", "],\n[").replace('"bearings"', '\n"bearings"')
-    (folder / "two_drones.json").write_text(text + "\n")
-    print(f"seed {SEED}: {len(log['bearings'])} bearings")
+    write_replay(folder / "replay", heard)
+    print(f"seed {SEED}: {len(heard)} bearings")
 
 
 if __name__ == "__main__":

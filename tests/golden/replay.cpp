@@ -1,12 +1,17 @@
-// ols-golden-replay LOG.json FOLDER: a recorded bearing log through the messages and the fusion, as
+// ols-golden-replay LOG FOLDER: a recorded bearing log through the messages and the fusion, as
 // ols-fusion takes it but in the log's own time. Writes targets.csv, slews.csv and counters.csv.
+#define CSV_IO_NO_THREAD
+#include <libfccp/csv.h>
+
+#include <algorithm>
+#include <array>
 #include <exception>
 #include <filesystem>
 #include <fstream>
 #include <iomanip>
 #include <iostream>
-#include <limits>
-#include <nlohmann/json.hpp>
+#include <map>
+#include <string>
 #include <vector>
 
 #include "central/app/messages.h"
@@ -16,34 +21,35 @@
 namespace ols::golden {
 namespace {
 
-using nlohmann::json;
+// Of every station; as tests/golden/make_log.py drew its noise.
+constexpr double kWhite_rad2 = 5.624999999999999e-09;
+constexpr double kAlongHeading_rad2 = 8.999999999999999e-08, kUp_rad2 = 9.999999999999999e-09;
 
-void copy(const json& from, double* to) {
-  for (const json& value : from) *to++ = value.get<double>();
+using Places = std::map<std::string, std::array<double, 3>>;  // of cameras, by station [m] ECEF
+
+Places read_places(const std::string& path) {
+  io::CSVReader<4> rows(path);
+  rows.read_header(io::ignore_no_column, "station", "x_ecef_m", "y_ecef_m", "z_ecef_m");
+  Places places;
+  // CSVReader's own numbers are off by their last digit.
+  std::string station, x, y, z;
+  while (rows.read_row(station, x, y, z)) {
+    places[station] = {std::stod(x), std::stod(y), std::stod(z)};
+  }
+  return places;
 }
 
-// A row is utime, station, boot_id, track_id, belief, azimuth and elevation; null is NaN.
-ols_msg::bearing_t message_of(const json& row, const json& stations, std::int64_t sequence) {
-  const auto number = [](const json& value) {
-    return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
-  };
+// What is the same in all bearings of a station.
+ols_msg::bearing_t message_at(const std::array<double, 3>& camera_ecef_m) {
   ols_msg::bearing_t message{};
-  message.utime = row[0];
   message.schema_version = ols_msg::bearing_t::SCHEMA_VERSION;
-  message.station = row[1];
-  message.boot_id = row[2];
-  message.sequence = sequence;
-  message.track_id = row[3];
-  message.belief = row[4];
-  message.azimuth_rad = number(row[5]);
-  message.elevation_rad = number(row[6]);
-  const json& station = stations.at(message.station);
-  copy(station.at("camera_ecef_m"), message.camera_ecef_m);
-  copy(station.at("covariance_white_rad2"), message.covariance_white_rad2);
-  copy(station.at("covariance_systematic_rad2"), message.covariance_systematic_rad2);
-  copy(station.at("camera_position_sd_m"), message.camera_position_sd_m);
+  std::ranges::copy(camera_ecef_m, message.camera_ecef_m);
+  message.covariance_white_rad2[0] = message.covariance_white_rad2[2] = kWhite_rad2;
+  message.covariance_systematic_rad2[0] = kAlongHeading_rad2;
+  message.covariance_systematic_rad2[2] = kUp_rad2;
+  std::ranges::copy(std::array{0.02, 0.02, 0.03}, message.camera_position_sd_m);
   message.clock_state = ols_msg::bearing_t::CLOCK_SYNCHRONISED;
-  message.clock_error_s = station.at("clock_error_s");
+  message.clock_error_s = 5e-4;
   return message;
 }
 
@@ -112,15 +118,27 @@ class Output {
   std::ofstream targets_, slews_, counters_;
 };
 
-void run(const std::string& log_path, const std::filesystem::path& folder) {
-  std::ifstream file(log_path);
-  const json log = json::parse(file);
+void run(const std::string& log, const std::filesystem::path& folder) {
+  const Places places = read_places(log + "/stations.csv");
+  io::CSVReader<7> rows(log + "/bearings.csv");
+  rows.read_header(io::ignore_no_column, "utime_us", "station", "boot_id", "track_id", "belief",
+                   "azimuth_rad", "elevation_rad");
   std::filesystem::create_directories(folder);
   Output output(folder);
   fusion::Fusion fusion(fusion::FusionConfig{});
-  std::int64_t sequence = 0;
-  for (const json& row : log.at("bearings")) {
-    output.add(fusion.add(decoded(message_of(row, log.at("stations"), ++sequence))));
+  std::int64_t utime_us = 0, boot_id = 0, track_id = 0, sequence = 0;
+  std::string station, belief, azimuth_rad, elevation_rad;
+  while (rows.read_row(utime_us, station, boot_id, track_id, belief, azimuth_rad, elevation_rad)) {
+    ols_msg::bearing_t message = message_at(places.at(station));
+    message.utime = utime_us;
+    message.station = station;
+    message.boot_id = boot_id;
+    message.sequence = ++sequence;
+    message.track_id = track_id;
+    message.belief = std::stod(belief);
+    message.azimuth_rad = std::stod(azimuth_rad);
+    message.elevation_rad = std::stod(elevation_rad);
+    output.add(fusion.add(decoded(message)));
   }
   output.end(fusion.health());
 }
@@ -130,7 +148,7 @@ void run(const std::string& log_path, const std::filesystem::path& folder) {
 
 int main(int argc, char** argv) {
   if (argc != 3) {
-    std::cerr << "usage: ols-golden-replay LOG.json FOLDER\n";
+    std::cerr << "usage: ols-golden-replay LOG FOLDER\n";
     return 2;
   }
   try {
