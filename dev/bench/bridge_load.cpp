@@ -21,8 +21,8 @@
 
 #include "base/bus_datagram.h"
 #include "base/clocks.h"
-#include "base/command_line.h"
 #include "base/multicast_socket.h"
+#include "dev/bench/program.h"
 #include "ols_msg/bearing_t.hpp"
 
 namespace {
@@ -174,14 +174,5 @@ int main(int argc, char** argv) {
   CLI::App app("Bearings onto one bus, and when they reach another.", "ols-bench-bridge-load");
   Arguments arguments;
   declare(app, arguments);
-  const char* const name = "ols-bench-bridge-load";
-  if (const auto status = ols::parse_command_line(app, argc, argv, name)) return *status;
-  try {
-    run(arguments);
-    ols::flush_output();
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s: %s\n", name, error.what());
-    return ols::kExitBadInput;
-  }
-  return 0;
+  return ols::bench::run_program(app, argc, argv, [&] { run(arguments); });
 }

@@ -23,10 +23,10 @@
 #include "base/atomic_file.h"
 #include "base/channel_names.h"
 #include "base/clocks.h"
-#include "base/command_line.h"
 #include "base/lcm_bus.h"
 #include "base/message_stamp.h"
 #include "base/trust/bus_trust.h"
+#include "dev/bench/program.h"
 #include "ols_msg/bearing_t.hpp"
 
 namespace {
@@ -266,14 +266,5 @@ int main(int argc, char** argv) {
   CLI::App app("Signed bearings in a flood of unsigned ones.", "ols-bench-bus-flood");
   Arguments arguments;
   declare(app, arguments);
-  const char* const name = "ols-bench-bus-flood";
-  if (const auto status = ols::parse_command_line(app, argc, argv, name)) return *status;
-  try {
-    run(arguments);
-    ols::flush_output();
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s: %s\n", name, error.what());
-    return ols::kExitBadInput;
-  }
-  return 0;
+  return ols::bench::run_program(app, argc, argv, [&] { run(arguments); });
 }

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "base/command_line.h"
 #include "calibration/procedure/star_stage.h"
 #include "calibration/procedure/sweep_plan.h"
+#include "dev/bench/program.h"
 #include "geometry/angles.h"
 
 namespace {
@@ -47,19 +47,11 @@ int main(int argc, char** argv) {
   app.add_option("--pan", arguments.pan_deg, "[deg] to both sides");
   app.add_option("--lowest", arguments.lowest_deg, "[deg] of stars");
   app.add_option("--highest", arguments.highest_deg, "[deg] of stars");
-  if (const auto status = ols::parse_command_line(app, argc, argv, "ols-bench-plans")) {
-    return *status;
-  }
-  try {
+  return ols::bench::run_program(app, argc, argv, [&] {
     std::puts("pan_deg,tilt_deg,approach_pan,approach_tilt");
     for (const ols::calibration::Shot& shot : shots(arguments)) {
       std::printf("%.9f,%.9f,%d,%d\n", ols::degrees(shot.angles.pan_rad),
                   ols::degrees(shot.angles.tilt_rad), shot.approach_pan, shot.approach_tilt);
     }
-    ols::flush_output();
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "ols-bench-plans: %s\n", error.what());
-    return ols::kExitBadInput;
-  }
-  return 0;
+  });
 }

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "base/command_line.h"
+#include "dev/bench/program.h"
 #include "sim/outside_cue.h"
 #include "sim/overview_click.h"
 
@@ -109,14 +109,6 @@ int main(int argc, char** argv) {
                "ols-bench-lead-times");
   Arguments arguments;
   declare(app, arguments);
-  if (const auto status = ols::parse_command_line(app, argc, argv, "ols-bench-lead-times"))
-    return *status;
-  try {
-    run(arguments, app.got_subcommand("look"));
-    ols::flush_output();
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "ols-bench-lead-times: %s\n", error.what());
-    return ols::kExitBadInput;
-  }
-  return 0;
+  return ols::bench::run_program(app, argc, argv,
+                                 [&] { run(arguments, app.got_subcommand("look")); });
 }

@@ -11,7 +11,7 @@
 #include <sstream>
 
 #include "base/atomic_file.h"
-#include "base/command_line.h"
+#include "dev/bench/program.h"
 #include "dev/bench/synthetic_cases.h"
 #include "edge/tracker/tracker.h"
 #include "tools/offline/tracker_setup.h"
@@ -229,16 +229,6 @@ int main(int argc, char** argv) {
   CLI::App app("Runs the tracker on synthetic images with exact truth.", "ols-bench-tracker");
   Arguments arguments;
   declare(app, arguments);
-  if (const auto status = ols::parse_command_line(app, argc, argv, "ols-bench-tracker")) {
-    return *status;
-  }
   cv::setNumThreads(1);
-  try {
-    run(arguments);
-    ols::flush_output();
-  } catch (const std::exception& error) {
-    std::cerr << "ols-bench-tracker: " << error.what() << '\n';
-    return ols::kExitBadInput;
-  }
-  return 0;
+  return ols::bench::run_program(app, argc, argv, [&] { run(arguments); });
 }
