@@ -27,8 +27,7 @@ GONE_S = 3.0
 def do_recover(session: Session, evidence: Evidence, station: str) -> None:
     evidence["station"] = station
     session.wait_for_tracking(station, evidence["ended_us"], 30.0)
-    session.run(1.0)
-    evidence["judged_us"] = session.now_us()
+    evidence["judged_us"] = session.run(1.0)[1]
 
 
 def judge_recovery(evidence: Evidence, outcome: Outcome) -> None:
@@ -52,8 +51,7 @@ def camera_gone(session: Session, evidence: Evidence) -> None:
     station = session.stations[0]
     session.fresh_status(station)
     evidence["at_us"] = session.fault("camera-gone", station, 5.0)
-    session.run(5.0)
-    evidence["ended_us"] = session.now_us()
+    evidence["ended_us"] = session.run(5.0)[1]
     do_recover(session, evidence, station)
     session.run(0.6)  # the next status counts it
     evidence["judged_us"] = session.now_us()
@@ -83,8 +81,7 @@ def camera_packet_loss(session: Session, evidence: Evidence) -> None:
     session.fresh_status(station)
     evidence["at_us"] = session.fault("camera-no-resend", station, 10.0)
     session.fault("camera-packet-loss", station, 10.0, LOSS)
-    session.run(10.0)
-    evidence["ended_us"] = session.now_us()
+    evidence["ended_us"] = session.run(10.0)[1]
     do_recover(session, evidence, station)
 
 
@@ -109,10 +106,8 @@ def camera_wrong_format(session: Session, evidence: Evidence) -> None:
     at_us = session.fault("camera-wrong-format", station, WRONG_S)
     session.fault("camera-gone", station, GONE_S)
     evidence["back_us"] = at_us + round(GONE_S * 1e6)
-    session.run(WRONG_S)
-    evidence["wrong_until_us"] = session.now_us()
+    evidence["wrong_until_us"] = session.run(WRONG_S)[1]
     # The camera forgets the wrong format with the next connection.
     session.fault("camera-gone", station, 1.0)
-    session.run(1.0)
-    evidence["ended_us"] = session.now_us()
+    evidence["ended_us"] = session.run(1.0)[1]
     do_recover(session, evidence, station)

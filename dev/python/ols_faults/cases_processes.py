@@ -40,8 +40,7 @@ def kill(session: Session, evidence: Evidence, station: str) -> None:
     evidence["station"] = station
     evidence["boot"] = session.status(station).boot_id
     evidence["at_us"] = session.kill(session.process(station))
-    session.run(REST_S + 3 * measure.REST_S)
-    evidence["dead_until_us"] = session.now_us()
+    evidence["dead_until_us"] = session.run(REST_S + 3 * measure.REST_S)[1]
 
 
 def back(session: Session, evidence: Evidence, held: bool = False) -> None:

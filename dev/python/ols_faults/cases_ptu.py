@@ -64,8 +64,7 @@ def judge_well_again(
 
 
 def settle(session: Session, evidence: Evidence) -> None:
-    session.run(2.0)
-    evidence["judged_us"] = session.now_us()
+    evidence["judged_us"] = session.run(2.0)[1]
 
 
 def judge_whole(evidence: Evidence, outcome: Outcome, since_us: int, tracked_s: float) -> None:
@@ -90,8 +89,7 @@ def do_line(session: Session, evidence: Evidence, kind: str, number: int) -> Non
     session.wait_until_turning(station, 1.0, 30.0)
     session.fresh_status(station)
     evidence["at_us"] = session.fault(kind, station, seconds)
-    session.run(seconds)
-    evidence["ended_us"] = session.now_us()
+    evidence["ended_us"] = session.run(seconds)[1]
     wait_until_well(session, station, evidence["ended_us"], 10.0)
     session.wait_for_tracking(station, evidence["ended_us"], 20.0)
     settle(session, evidence)
@@ -151,8 +149,7 @@ def ride_through(
     station = evidence["station"] = session.stations[number]
     session.fresh_status(station)
     evidence["at_us"] = session.fault(kind, station, seconds, value)
-    session.run(seconds + 1.0)
-    evidence["ended_us"] = session.now_us()
+    evidence["ended_us"] = session.run(seconds + 1.0)[1]
     session.wait_for_tracking(station, evidence["ended_us"], 10.0)
 
 
@@ -204,8 +201,7 @@ def home_and_back(session: Session, evidence: Evidence) -> None:
     """The operator homes it."""
     station = evidence["station"]
     session.command(station, HOME)
-    session.run(2.0)
-    evidence["homed_us"] = session.now_us()
+    evidence["homed_us"] = session.run(2.0)[1]
     come_back(session, evidence)
 
 

@@ -103,8 +103,7 @@ def do(session: Session, evidence: Evidence, kind: str, word: str, value: float)
     session.wait(lambda: not alarm_of(session.status(station), word), 10.0)
     session.fresh_status(station)
     evidence["at_us"] = session.fault(kind, station, HELD_S, value)
-    session.run(HELD_S)
-    evidence["ended_us"] = session.now_us()
+    evidence["ended_us"] = session.run(HELD_S)[1]
     session.wait(lambda: not alarm_of(session.status(station), word), 20.0)
 
 

@@ -100,8 +100,7 @@ def emergency_stop(session: Session, evidence: Evidence) -> None:
     swing(session, station, -side * WAY_DEG / 2)
     session.wait_until_turning(station, FAST_DEG_S, 3.0)
     evidence["at_us"] = session.fault("emergency-stop", station, 1e6)
-    session.run(2.5)
-    evidence["braked_us"] = session.now_us()
+    evidence["braked_us"] = session.run(2.5)[1]
     evidence["pressed"] = provoke(session, station, side)
     session.fault("emergency-stop", station, 0.0)
     session.run(1.0)
