@@ -1,5 +1,6 @@
 #include "base/append_line.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -22,12 +23,8 @@ TEST(AppendLine, LinesFollowEachOther) {
 
 TEST(AppendLine, AFileThatCannotBeWrittenIsNamed) {
   for (const char* const path : {"/nowhere/at/all", "/dev/full"}) {
-    try {
-      append_line(path, "one");
-      FAIL() << path;
-    } catch (const std::system_error& error) {
-      EXPECT_NE(std::string(error.what()).find(path), std::string::npos) << error.what();
-    }
+    EXPECT_THAT([&] { append_line(path, "one"); },
+                testing::ThrowsMessage<std::system_error>(testing::HasSubstr(path)));
   }
 }
 

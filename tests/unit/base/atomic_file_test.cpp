@@ -1,5 +1,6 @@
 #include "base/atomic_file.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
@@ -49,12 +50,9 @@ TEST_F(AtomicFileTest, LeavesTheOldFileWithoutCommit) {
 }
 
 TEST_F(AtomicFileTest, NamesAPathThatCannotBeOpened) {
-  try {
-    AtomicFile file("/nonexistent/out.csv");
-    FAIL();
-  } catch (const std::system_error& error) {
-    EXPECT_NE(std::string(error.what()).find("/nonexistent/out.csv"), std::string::npos);
-  }
+  EXPECT_THAT(
+      [&] { AtomicFile file("/nonexistent/out.csv"); },
+      testing::ThrowsMessage<std::system_error>(testing::HasSubstr("/nonexistent/out.csv")));
 }
 
 TEST_F(AtomicFileTest, DoesNotReplaceWhatIsNoFile) {

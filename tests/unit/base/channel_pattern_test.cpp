@@ -1,5 +1,6 @@
 #include "base/channel_pattern.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <stdexcept>
@@ -32,13 +33,9 @@ TEST(ChannelPattern, KnowsLookaheads) {
 }
 
 TEST(ChannelPattern, SaysWhatIsWrong) {
-  try {
-    ChannelPattern pattern("OLS_(");
-    FAIL();
-  } catch (const std::invalid_argument& problem) {
-    EXPECT_NE(std::string(problem.what()).find("\"OLS_(\" is not a regular expression"),
-              std::string::npos);
-  }
+  EXPECT_THAT([&] { ChannelPattern pattern("OLS_("); },
+              testing::ThrowsMessage<std::invalid_argument>(
+                  testing::HasSubstr("\"OLS_(\" is not a regular expression")));
 }
 
 }  // namespace

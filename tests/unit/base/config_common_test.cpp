@@ -67,12 +67,11 @@ TEST(ConfigCommon, AnAreaHasItsSouthInTheSouthAndNoMoreThanTheEarth) {
 TEST(ConfigCommon, TwoOfOneNameAreRefused) {
   ConfigFile file("[[input]]\n", "f");
   EXPECT_NO_THROW(check_distinct({"a", "b"}, "input", file.root()));
-  try {
-    check_distinct({"a", "b", "a"}, "input", file.root());
-    FAIL() << "accepted";
-  } catch (const ConfigError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("input: two have the name \"a\""));
-  }
+  EXPECT_THAT(
+      [&] {
+        check_distinct({"a", "b", "a"}, "input", file.root());
+      },
+      testing::ThrowsMessage<ConfigError>(HasSubstr("input: two have the name \"a\"")));
 }
 
 }  // namespace

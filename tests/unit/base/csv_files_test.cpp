@@ -7,12 +7,11 @@
 #include <fstream>
 
 #include "base/csv_rows.h"
+#include "tests/unit/error_text.h"
 #include "tests/unit/folder_test.h"
 
 namespace ols {
 namespace {
-
-namespace fs = std::filesystem;
 
 const char* const kStations = "station,latitude_deg,longitude_deg,height_m\n";
 const char* const kBearings = "utime_us,station,azimuth_deg,elevation_deg,sigma_deg\n";
@@ -24,22 +23,16 @@ class CsvFilesTest : public FolderTest<std::filesystem::path> {
     return folder_ / name;
   }
   // The error's text without the folder.
+  std::string error_of(const auto& read) const {
+    const std::string folder = folder_.string() + "/";
+    return error_text<CsvError>(read, folder + "none").substr(folder.size());
+  }
   std::string error_of_stations(const std::string& text) const {
-    try {
-      read_stations(write("s.csv", text));
-    } catch (const CsvError& error) {
-      return std::string(error.what()).substr(folder_.string().size() + 1);
-    }
-    return "none";
+    return error_of([&] { read_stations(write("s.csv", text)); });
   }
   std::string error_of_bearings(const std::string& text) const {
     const auto stations = read_stations(write("s.csv", std::string(kStations) + "a,1,2,3\n"));
-    try {
-      read_bearings(write("b.csv", text), stations);
-    } catch (const CsvError& error) {
-      return std::string(error.what()).substr(folder_.string().size() + 1);
-    }
-    return "none";
+    return error_of([&] { read_bearings(write("b.csv", text), stations); });
   }
 };
 
@@ -164,13 +157,8 @@ TEST_F(CsvFilesTest, NamesTheBadBearing) {
 }
 
 TEST_F(CsvFilesTest, NamesTheBadRowOfAFlight) {
-  const auto error_of = [this](const std::string& text) -> std::string {
-    try {
-      read_flight(write("f.csv", text));
-    } catch (const CsvError& error) {
-      return std::string(error.what()).substr(folder_.string().size() + 1);
-    }
-    return "none";
+  const auto error_of = [this](const std::string& text) {
+    return CsvFilesTest::error_of([&] { read_flight(write("f.csv", text)); });
   };
   const std::string head = "utime_us,lat,lon,h\n1,49,16,350\n";
   EXPECT_EQ(error_of(head + "2,49,16,350\n"), "none");

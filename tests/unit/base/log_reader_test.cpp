@@ -1,5 +1,6 @@
 #include "base/log_reader.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <stdexcept>
@@ -143,12 +144,8 @@ TEST(LogReader, NamesAFileThatCannotBeRead) {
   EXPECT_THROW(LogReader("/nowhere/a.lcmlog"), std::invalid_argument);
   EXPECT_THROW(LogReader("/").next(), std::invalid_argument);
   const LogFile empty("");
-  try {
-    const LogReader reader(empty.path());
-    FAIL();
-  } catch (const std::invalid_argument& error) {
-    EXPECT_EQ(std::string(error.what()), empty.path() + ": is empty");
-  }
+  EXPECT_THAT([&] { const LogReader reader(empty.path()); },
+              testing::ThrowsMessage<std::invalid_argument>(empty.path() + ": is empty"));
 }
 
 }  // namespace

@@ -99,12 +99,8 @@ TEST(ConfigFile, NamesTheLineOfASyntaxError) {
 }
 
 TEST(ConfigFile, NamesAFileThatCannotBeRead) {
-  try {
-    ConfigFile file("/nonexistent/station.toml");
-    FAIL();
-  } catch (const ConfigError& error) {
-    EXPECT_STREQ(error.what(), "/nonexistent/station.toml: cannot be read");
-  }
+  EXPECT_THAT([&] { ConfigFile file("/nonexistent/station.toml"); },
+              testing::ThrowsMessage<ConfigError>("/nonexistent/station.toml: cannot be read"));
 }
 
 TEST(ConfigFile, AnEmptyFileIsAConfigurationAndAFolderIsNone) {

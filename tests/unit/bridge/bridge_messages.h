@@ -9,17 +9,11 @@
 #include "ols_msg/slew_t.hpp"
 #include "ols_msg/station_status_t.hpp"
 #include "ols_msg/target_t.hpp"
+#include "tests/unit/on_the_bus.h"
 
 namespace ols::bridge {
 
 inline constexpr std::int64_t kNow_us = 1'700'000'000'000'000;
-
-template <class Message>
-std::vector<std::uint8_t> encoded(const Message& message) {
-  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
-  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
-  return bytes;
-}
 
 inline std::vector<std::uint8_t> bearing(const std::string& station, std::int64_t sequence = 1,
                                          std::int64_t boot_id = 7) {

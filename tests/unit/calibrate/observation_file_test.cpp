@@ -1,5 +1,6 @@
 #include "tools/calibrate/observation_file.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <sstream>
@@ -57,12 +58,8 @@ TEST(ObservationFile, ALargeNumberOfAScenePointStaysItself) {
 TEST(ObservationFile, AReadErrorIsNotTheEndOfTheFile) {
   FailingDisk disk(kLevel + kLevel);
   std::istream file(&disk);
-  try {
-    read_observations(file, "site.jsonl", {"alfa"});
-    FAIL();
-  } catch (const std::runtime_error& error) {
-    EXPECT_STREQ(error.what(), "site.jsonl: cannot be read to its end");
-  }
+  EXPECT_THAT([&] { read_observations(file, "site.jsonl", {"alfa"}); },
+              testing::ThrowsMessage<std::runtime_error>("site.jsonl: cannot be read to its end"));
 }
 
 TEST(ObservationFile, WhatATargetNeedsIsNamed) {

@@ -1,5 +1,6 @@
 #include "tools/calibrate/person.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -92,12 +93,8 @@ TEST(Person, ABadScriptIsNamedWithItsLine) {
   const TemporaryFolder folder;
   const std::string path = folder.path() + "/script";
   std::ofstream(path) << "confirm\nperhaps\n";
-  try {
-    Person person(path);
-    FAIL();
-  } catch (const std::runtime_error& error) {
-    EXPECT_NE(std::string(error.what()).find("script:2: 'perhaps'"), std::string::npos);
-  }
+  EXPECT_THAT([&] { Person person(path); }, testing::ThrowsMessage<std::runtime_error>(
+                                                testing::HasSubstr("script:2: 'perhaps'")));
   EXPECT_THROW(Person("/nonexistent/script"), std::runtime_error);
 }
 

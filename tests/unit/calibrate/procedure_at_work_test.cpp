@@ -1,6 +1,7 @@
 // A procedure from its first picture to its end, with its folder: sides, the sun, stops,
 // resumption.
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -186,13 +187,9 @@ TEST_F(ProcedureAtWork, AStopEndsItWithWhatItHasAndTheOldCalibrationStands) {
   EXPECT_EQ(commands(), before) << "nothing moves afterwards, nothing ends the stop";
   EXPECT_FALSE(link_.release());
   EXPECT_EQ(commands(), before);
-  try {
-    fail(StationStopped("the station was stopped"), *session_, store_);
-    FAIL();
-  } catch (const std::runtime_error& error) {
-    EXPECT_NE(std::string(error.what()).find("the old calibration stays in use"),
-              std::string::npos);
-  }
+  EXPECT_THAT([&] { fail(StationStopped("the station was stopped"), *session_, store_); },
+              testing::ThrowsMessage<std::runtime_error>(
+                  testing::HasSubstr("the old calibration stays in use")));
   EXPECT_EQ(store_.current(), "11");
   ASSERT_EQ(store_.interrupted().size(), 1U);
   const auto kept = store_.interrupted()[0];
@@ -269,12 +266,8 @@ TEST_F(ProcedureAtWork, AJournalOfAnotherProcedureIsRefused) {
   session_->note({JournalEntry::Kind::kNotTaken, "elsewhere", 0, "", {}});
   begin(session_->folder());
   session_->resume();
-  try {
-    run("confirm\naccept\n");
-    FAIL();
-  } catch (const std::runtime_error& error) {
-    EXPECT_NE(std::string(error.what()).find("'elsewhere'"), std::string::npos);
-  }
+  EXPECT_THAT([&] { run("confirm\naccept\n"); },
+              testing::ThrowsMessage<std::runtime_error>(testing::HasSubstr("'elsewhere'")));
   EXPECT_TRUE(station_.ways.empty());
 }
 

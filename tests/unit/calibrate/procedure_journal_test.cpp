@@ -1,5 +1,6 @@
 #include "tools/calibrate/procedure_journal.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace ols::calibration {
@@ -37,12 +38,8 @@ TEST(ProcedureJournal, WhatIsWrittenIsRead) {
 TEST(ProcedureJournal, ALastLineThatWasCutIsLeftOutAndAnotherIsNamed) {
   const std::string good = journal_line({Event::kTaken, "a", 1, "", {}}) + "\n";
   EXPECT_EQ(journal_entries(good + R"({"step": "b", "ta)", "j").size(), 1U);
-  try {
-    journal_entries(good + "{\"step\": \"b\"}\n", "j");
-    FAIL();
-  } catch (const std::runtime_error& error) {
-    EXPECT_EQ(std::string(error.what()).find("j:2: "), 0U) << error.what();
-  }
+  EXPECT_THAT([&] { journal_entries(good + "{\"step\": \"b\"}\n", "j"); },
+              testing::ThrowsMessage<std::runtime_error>(testing::StartsWith("j:2: ")));
 }
 
 TEST(ProcedureJournal, AnEntryBelongsToTheSameOrderWhateverItsFigures) {

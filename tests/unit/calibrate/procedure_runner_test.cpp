@@ -194,12 +194,8 @@ class OtherPicturesTest : public LiveQuestionTest {
 };
 
 TEST_F(OtherPicturesTest, ACameraThatCameBackWithOtherPicturesEndsIt) {
-  try {
-    run_live();
-    FAIL() << "not ended";
-  } catch (const std::runtime_error& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("pictures of 2 x 3 px now, before of 4 x 3"));
-  }
+  EXPECT_THAT([&] { run_live(); }, testing::ThrowsMessage<std::runtime_error>(testing::HasSubstr(
+                                       "pictures of 2 x 3 px now, before of 4 x 3")));
 }
 
 class SunTest : public LiveQuestionTest {

@@ -1,5 +1,6 @@
 #include "tools/calibrate/sighting_log.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -34,9 +35,7 @@ Message sighting(const std::string& station = "alfa") {
 }
 
 std::string record(const Message& message, const std::string& channel = "OLS_SIGHTING_alfa") {
-  std::string payload(static_cast<std::size_t>(message.getEncodedSize()), '\0');
-  message.encode(payload.data(), 0, static_cast<int>(payload.size()));
-  return log_record(kStart_us, channel, payload);
+  return log_record(kStart_us, channel, payload_of(message));
 }
 
 SightingLog told(const std::string& bytes) {
@@ -89,13 +88,9 @@ TEST(SightingLog, TellsHowFarItIsInAllRecordings) {
 TEST(SightingLog, OfAUnitThatCountsOtherwiseNothingIsUsed) {
   Message message = sighting();
   message.pan_count_rad *= 2.0;
-  try {
-    told(record(message));
-    FAIL();
-  } catch (const std::runtime_error& error) {
-    EXPECT_NE(std::string(error.what()).find("'alfa': its unit counts otherwise"),
-              std::string::npos);
-  }
+  EXPECT_THAT([&] { told(record(message)); },
+              testing::ThrowsMessage<std::runtime_error>(
+                  testing::HasSubstr("'alfa': its unit counts otherwise")));
 }
 
 }  // namespace

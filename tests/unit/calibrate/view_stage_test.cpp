@@ -1,5 +1,6 @@
 #include "tools/calibrate/view_stage.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -126,23 +127,15 @@ TEST(ViewsOf, ACalibrationByStarsAloneHasNone) {
   const logger::TemporaryFolder folder;
   std::ofstream(folder.path() + "/frames.jsonl")
       << R"({"file": "a.png", "pan_rad": 0, "tilt_rad": 0, "is_view": false})" << '\n';
-  try {
-    views_of(folder.path());
-    FAIL();
-  } catch (const std::runtime_error& error) {
-    EXPECT_NE(std::string(error.what()).find("no pictures of scenery"), std::string::npos);
-  }
+  EXPECT_THAT([&] { views_of(folder.path()); }, testing::ThrowsMessage<std::runtime_error>(
+                                                    testing::HasSubstr("no pictures of scenery")));
 }
 
 TEST(ViewsOf, ADamagedListIsNamedWithItsLine) {
   const logger::TemporaryFolder folder;
   std::ofstream(folder.path() + "/frames.jsonl") << "{\"file\": \"a.png\"}\n";
-  try {
-    views_of(folder.path());
-    FAIL();
-  } catch (const std::runtime_error& error) {
-    EXPECT_NE(std::string(error.what()).find("frames.jsonl:1:"), std::string::npos);
-  }
+  EXPECT_THAT([&] { views_of(folder.path()); },
+              testing::ThrowsMessage<std::runtime_error>(testing::HasSubstr("frames.jsonl:1:")));
 }
 
 }  // namespace

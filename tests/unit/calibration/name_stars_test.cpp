@@ -1,5 +1,6 @@
 #include "calibration/name_stars.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -77,14 +78,9 @@ TEST(NameStars, SaysWhyTheyStayUnknown) {
   NightSky sky = night_sky(1002);
   sky.station.model.geometry.position.latitude_rad *= -1.0;
   Problem problem = nameless(sky);
-  try {
-    name_stars(problem);
-    FAIL();
-  } catch (const StarsUnidentified& unidentified) {
-    EXPECT_NE(std::string(unidentified.what()).find("the stars are those of latitude 49.20"),
-              std::string::npos)
-        << unidentified.what();
-  }
+  EXPECT_THAT([&] { name_stars(problem); },
+              testing::ThrowsMessage<StarsUnidentified>(
+                  testing::HasSubstr("the stars are those of latitude 49.20")));
 }
 
 // A star of the table needs no row of its own.

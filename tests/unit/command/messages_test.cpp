@@ -9,24 +9,15 @@
 #include "ols_msg/fusion_status_t.hpp"
 #include "ols_msg/ptu_command_t.hpp"
 #include "ols_msg/record_t.hpp"
+#include "tests/unit/on_the_bus.h"
 
 namespace ols::command {
 namespace {
 
 ols_msg::station_status_t of_alfa() {
-  ols_msg::station_status_t status{};
-  status.schema_version = ols_msg::station_status_t::SCHEMA_VERSION;
+  auto status = made<ols_msg::station_status_t>();
   status.station = "alfa";
   return status;
-}
-
-template <class Message>
-BusMessage on(const std::string& channel, const Message& status) {
-  BusMessage message;
-  message.channel = channel;
-  message.payload.resize(static_cast<std::size_t>(status.getEncodedSize()));
-  status.encode(message.payload.data(), 0, static_cast<int>(message.payload.size()));
-  return message;
 }
 
 TEST(HeardStatus, IsOfTheStationWhoseChannelItIsOn) {
@@ -45,8 +36,7 @@ TEST(HeardStatus, IsOfThisSchemaAndWhole) {
 
 TEST(HeardCues, AreThoseOfTheFusionsStatus) {
   using M = ols_msg::fusion_status_t;
-  M status{};
-  status.schema_version = M::SCHEMA_VERSION;
+  auto status = made<M>();
   status.cues = 1;
   status.cue_id = {"tak.\x1b[2J"};
   status.cue_label = {"Anna"};
@@ -87,8 +77,7 @@ TEST(HeardStatus, MovesNoCursor) {
 
 template <class Message>
 Message for_alfa() {
-  Message message{};
-  message.schema_version = Message::SCHEMA_VERSION;
+  auto message = made<Message>();
   message.station = "alfa";
   return message;
 }

@@ -6,13 +6,10 @@
 
 #include "console/messages.h"
 #include "geometry/angles.h"
-#include "tests/unit/console/on_the_bus.h"
+#include "tests/unit/on_the_bus.h"
 
 namespace ols::console {
 namespace {
-
-using test::made;
-using test::on;
 
 TEST(ConsoleCalibration, OfAStation) {
   auto status = made<ols_msg::station_status_t>();

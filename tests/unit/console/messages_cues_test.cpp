@@ -3,22 +3,14 @@
 #include <gtest/gtest.h>
 
 #include "ols_msg/fusion_status_t.hpp"
+#include "tests/unit/on_the_bus.h"
 
 namespace ols::console {
 namespace {
 
-BusMessage encoded(const ols_msg::fusion_status_t& status) {
-  BusMessage message;
-  message.channel = "OLS_FUSION_STATUS";
-  message.payload.resize(static_cast<std::size_t>(status.getEncodedSize()));
-  status.encode(message.payload.data(), 0, static_cast<int>(message.payload.size()));
-  return message;
-}
-
 TEST(MessagesCues, AreWhatTheFusionSays) {
   using M = ols_msg::fusion_status_t;
-  M status{};
-  status.schema_version = M::SCHEMA_VERSION;
+  auto status = made<M>();
   status.cues = 2;
   status.cue_id = {"adsb.3c6444", "tak.\x1b[2J"};
   status.cue_label = {"DLH9LF", ""};
@@ -30,7 +22,7 @@ TEST(MessagesCues, AreWhatTheFusionSays) {
   status.cue_height_m = {400.04, 1.0};
   status.cue_horizontal_sd_m = {5.0, 6.0};
   status.cue_vertical_sd_m = {9.0, 6.0};
-  const Json cues = cues_of(encoded(status));
+  const Json cues = cues_of(on("OLS_FUSION_STATUS", status));
   ASSERT_EQ(cues.size(), 2U);
   EXPECT_EQ(cues[0]["id"], "adsb.3c6444");
   EXPECT_EQ(cues[0]["label"], "DLH9LF");
@@ -49,7 +41,7 @@ TEST(MessagesCues, OfSomethingElseThereAreNone) {
   EXPECT_TRUE(cues_of({}).empty());
   ols_msg::fusion_status_t status{};
   status.schema_version = 1;
-  EXPECT_TRUE(cues_of(encoded(status)).empty());
+  EXPECT_TRUE(cues_of(on("OLS_FUSION_STATUS", status)).empty());
 }
 
 }  // namespace

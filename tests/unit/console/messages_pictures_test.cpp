@@ -8,13 +8,10 @@
 #include "ols_msg/video_frame_t.hpp"
 #include "ols_msg/video_request_t.hpp"
 #include "ols_msg/video_stream_request_t.hpp"
-#include "tests/unit/console/on_the_bus.h"
+#include "tests/unit/on_the_bus.h"
 
 namespace ols::console {
 namespace {
-
-using test::made;
-using test::on;
 
 TEST(ConsolePictures, APictureKeepsItsFramesTimeAndBox) {
   auto preview = made<ols_msg::preview_t>();

@@ -6,23 +6,15 @@
 
 #include "ols_msg/procedure_answer_t.hpp"
 #include "ols_msg/procedure_t.hpp"
+#include "tests/unit/on_the_bus.h"
 
 namespace ols::console {
 namespace {
 
 using M = ols_msg::procedure_t;
 
-BusMessage on(const std::string& channel, const M& content) {
-  BusMessage message;
-  message.channel = channel;
-  message.payload.resize(static_cast<std::size_t>(content.getEncodedSize()));
-  content.encode(message.payload.data(), 0, static_cast<int>(message.payload.size()));
-  return message;
-}
-
 M asking() {
-  M message{};
-  message.schema_version = M::SCHEMA_VERSION;
+  auto message = made<M>();
   message.station = "alfa";
   message.procedure = "field";
   message.state = M::STATE_ASKING;

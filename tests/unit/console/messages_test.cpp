@@ -8,13 +8,10 @@
 #include "ols_msg/fusion_status_t.hpp"
 #include "ols_msg/station_status_t.hpp"
 #include "ols_msg/target_t.hpp"
-#include "tests/unit/console/on_the_bus.h"
+#include "tests/unit/on_the_bus.h"
 
 namespace ols::console {
 namespace {
-
-using test::made;
-using test::on;
 
 TEST(ConsoleMessages, AStatusInDegreesWithNullForTheUnknown) {
   auto status = made<ols_msg::station_status_t>();

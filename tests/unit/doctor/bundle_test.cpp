@@ -64,12 +64,8 @@ TEST_F(Bundle, HoldsFindingsAndStatuses) {
 
 TEST_F(Bundle, SaysWhereItCannotBeWritten) {
   const std::string file = (folder_ / "none" / "b.tar.gz").string();
-  try {
-    write_bundle(file, contents());
-    FAIL();
-  } catch (const std::runtime_error& error) {
-    EXPECT_EQ(error.what(), file + ": cannot be written");
-  }
+  EXPECT_THAT([&] { write_bundle(file, contents()); },
+              testing::ThrowsMessage<std::runtime_error>(file + ": cannot be written"));
 }
 
 }  // namespace

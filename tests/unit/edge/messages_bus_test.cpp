@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/unit/on_the_bus.h"
+
 namespace ols::station {
 namespace {
 
@@ -55,9 +57,7 @@ class StationBusTest : public testing::Test {
   }
   template <class Message>
   void publish(const std::string& channel, const Message& message) {
-    std::vector<char> bytes(static_cast<std::size_t>(message.getEncodedSize()));
-    message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
-    bus->take({channel, {bytes.begin(), bytes.end()}, kNow_us, {}, addressed});
+    bus->take({channel, encoded(message), kNow_us, {}, addressed});
   }
   void designate(double x_px) {
     ols_msg::designate_t message{};
@@ -197,8 +197,7 @@ TEST_F(StationBusTest, ReleaseWithAForeignSchemaOrStationIsRefused) {
 }
 
 TEST_F(StationBusTest, CommandsThatKeepBeingRefusedAreAnAlarm) {
-  Ptu message{};
-  message.schema_version = Ptu::SCHEMA_VERSION;
+  auto message = made<Ptu>();
   message.station = "a";
   message.command = Ptu::COMMAND_RELEASE;
   message.utime = kNow_us;

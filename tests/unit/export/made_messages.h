@@ -11,22 +11,13 @@
 #include "ols_msg/station_status_t.hpp"
 #include "ols_msg/target_t.hpp"
 #include "tests/unit/export/made_records.h"
+#include "tests/unit/on_the_bus.h"
 
 namespace ols::exports {
 
-template <class Message>
-BusMessage on(const std::string& channel, const Message& content) {
-  BusMessage message;
-  message.channel = channel;
-  message.payload.resize(static_cast<std::size_t>(content.getEncodedSize()));
-  content.encode(message.payload.data(), 0, static_cast<int>(message.payload.size()));
-  return message;
-}
-
 inline ols_msg::target_t target_message() {
-  ols_msg::target_t message{};
+  auto message = made<ols_msg::target_t>();
   message.utime = kNow_us;
-  message.schema_version = ols_msg::target_t::SCHEMA_VERSION;
   message.boot_id = 3;
   message.target_id = 7;
   message.track_state = ols_msg::target_t::TRACK_CONFIRMED;
@@ -41,9 +32,8 @@ inline ols_msg::target_t target_message() {
 }
 
 inline ols_msg::station_status_t status_message() {
-  ols_msg::station_status_t message{};
+  auto message = made<ols_msg::station_status_t>();
   message.utime = kNow_us;
-  message.schema_version = ols_msg::station_status_t::SCHEMA_VERSION;
   message.station = "alfa";
   message.state = ols_msg::station_status_t::STATE_TRACKING;
   message.latitude_deg = 47.4;
@@ -56,9 +46,8 @@ inline ols_msg::station_status_t status_message() {
 }
 
 inline ols_msg::bearing_t bearing_message() {
-  ols_msg::bearing_t message{};
+  auto message = made<ols_msg::bearing_t>();
   message.utime = kNow_us;
-  message.schema_version = ols_msg::bearing_t::SCHEMA_VERSION;
   message.station = "alfa";
   message.belief = 0.9;
   const Eigen::Vector3d camera = ecef_from_geodetic({radians(47.4), radians(13.2), 601.0});

@@ -1,5 +1,6 @@
 #include "export/readiness.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -24,13 +25,8 @@ TEST(ExportReadiness, AFileThatCannotBeReadIsNamed) {
   output.name = "tak";
   EXPECT_NO_THROW(check_files(config));
   output.ca = "/no/such/ca.pem";
-  try {
-    check_files(config);
-    FAIL();
-  } catch (const std::invalid_argument& bad) {
-    EXPECT_NE(std::string(bad.what()).find("output tak: /no/such/ca.pem"), std::string::npos)
-        << bad.what();
-  }
+  EXPECT_THAT([&] { check_files(config); }, testing::ThrowsMessage<std::invalid_argument>(
+                                                testing::HasSubstr("output tak: /no/such/ca.pem")));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include "base/trust/messages_trust.h"
 #include "tests/unit/base/trust/site_fixture.h"
+#include "tests/unit/on_the_bus.h"
 
 namespace ols::key {
 namespace {
@@ -22,9 +23,7 @@ Message bearing(const trust::SigningKey& key, std::int64_t sequence) {
 
 Message telling(const trust::TrustList& list, const trust::SigningKey& key = kSite.fusion) {
   const auto message = trust::to_message(sign_list(list, kSite.root), 1, list.number, kThen_us);
-  Message bytes(static_cast<std::size_t>(message.getEncodedSize()));
-  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
-  return with_trailer(key, kSite.secret, "OLS_TRUST", bytes, 0);
+  return with_trailer(key, kSite.secret, "OLS_TRUST", encoded(message), 0);
 }
 
 TEST(LogCheck, CountsGoodAndBadByChannelAndReason) {

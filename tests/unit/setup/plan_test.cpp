@@ -34,12 +34,8 @@ TEST(Plan, AStationHasItsConfigurationTheRouteOfTheBusAndItsUnits) {
 
 TEST(Plan, WithoutADeviceTheErrorNamesTheKey) {
   const Answers answers = read_answers(station_answers(), "a");
-  try {
-    plan_station(answers);
-    FAIL();
-  } catch (const ConfigError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("camera.device: is missing"));
-  }
+  EXPECT_THAT([&] { plan_station(answers); },
+              testing::ThrowsMessage<ConfigError>(HasSubstr("camera.device: is missing")));
 }
 
 TEST(Plan, AReceiverGoesToGpsdAndItsTimeToChrony) {

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "ols_msg/slew_t.hpp"
+#include "tests/unit/on_the_bus.h"
 
 namespace ols::sim {
 namespace {
@@ -28,16 +29,14 @@ TEST(Flood, ComesByForeignAndOwnChannelsOfABoundedNumberOfNames) {
 
 TEST(Flood, SomeHaveTheRightFingerprintSomeNot) {
   Flood flood({"alfa"}, 50, 1);
-  const ols_msg::slew_t slew{};
-  std::vector<std::uint8_t> encoded(static_cast<std::size_t>(slew.getEncodedSize()));
-  slew.encode(encoded.data(), 0, slew.getEncodedSize());
-  encoded.resize(8);
+  auto fingerprint = encoded(ols_msg::slew_t{});
+  fingerprint.resize(8);
   int right = 0, wrong = 0;
   for (int i = 0; i < 20000; ++i) {
     const Packet packet = flood.next();
     if (packet.channel != "OLS_SLEW_alfa") continue;
-    const bool same =
-        packet.data.size() >= 8 && std::equal(encoded.begin(), encoded.end(), packet.data.begin());
+    const bool same = packet.data.size() >= 8 &&
+                      std::equal(fingerprint.begin(), fingerprint.end(), packet.data.begin());
     ++(same ? right : wrong);
   }
   EXPECT_GT(right, 100);

@@ -52,9 +52,7 @@ TEST_P(WrongDesignation, TheStationAcquiresWhatItIsSlewedOnto) {
   constexpr double kAcquired_s = 9.0;  // measured: 5.7 to 6.8 s
   const Wrong& wrong = GetParam();
   const World world(scenario(wrong.before_sky), wrong.seed);
-  Fidelity fidelity;
-  fidelity.misdesignated = {wrong.designation};
-  Lockstep lockstep(world, fidelity);
+  Lockstep lockstep(world, Fidelity{.misdesignated = {wrong.designation}});
   lockstep.run(14.0);
   const auto frames = frames_of(lockstep, world, wrong.designation.station);
   ASSERT_FALSE(frames.empty()) << "it was never designated";
@@ -81,9 +79,7 @@ class RecoveredOrNamed : public testing::TestWithParam<Wrong> {};
 TEST_P(RecoveredOrNamed, AWrongDesignationIsNeverQuietlyHeld) {
   const Wrong& wrong = GetParam();
   const World world(scenario(wrong.before_sky), wrong.seed);
-  Fidelity fidelity;
-  fidelity.misdesignated = {wrong.designation};
-  Lockstep lockstep(world, fidelity);
+  Lockstep lockstep(world, Fidelity{.misdesignated = {wrong.designation}});
   lockstep.run(16.0);
   const auto frames = frames_of(lockstep, world, wrong.designation.station);
   ASSERT_FALSE(frames.empty()) << "it was never designated";
@@ -108,9 +104,7 @@ INSTANTIATE_TEST_SUITE_P(
 // One that is held.
 TEST(WrongDesignations, TheFusionNamesWhoFollowsTheBackground) {
   const World world(scenario(false), 1);
-  Fidelity fidelity;
-  fidelity.misdesignated = {{"bravo", 0, {120.0, -80.0}}};
-  Lockstep lockstep(world, fidelity);
+  Lockstep lockstep(world, Fidelity{.misdesignated = {{"bravo", 0, {120.0, -80.0}}}});
   lockstep.run(16.0);
   const LockstepResult result = lockstep.result();
   EXPECT_EQ(result.stations[1].frames.back().state, station::StationState::kTracking);

@@ -12,9 +12,7 @@ Scenario demo() { return load_scenario(std::string(OLS_SCENARIOS) + "/overview.t
 
 // By function: docs/cues.md has how long it takes.
 TEST(OutsideCue, BringsTheStationsOntoItsTarget) {
-  OutsideCueConfig config;
-  config.elapsed_s = 11.0;
-  const LeadTimes times = cue_from_outside(demo(), 2, config);
+  const LeadTimes times = cue_from_outside(demo(), 2, OutsideCueConfig{.elapsed_s = 11.0});
   EXPECT_EQ(times.stations, 4U);
   EXPECT_TRUE(times.complete()) << times.follows.size() << " follow it";
   EXPECT_TRUE(times.located);

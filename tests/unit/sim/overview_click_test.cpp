@@ -32,9 +32,7 @@ void aim(const World& world, Lockstep& lockstep, double time_s) {
 
 // By function: docs/overview.md has how long it takes.
 TEST(OverviewClick, EveryTrackingStationFollowsTheTarget) {
-  ClickConfig config;
-  config.elapsed_s = 33.0;
-  const LeadTimes times = click_in_overview(overview(), 4, config);
+  const LeadTimes times = click_in_overview(overview(), 4, ClickConfig{.elapsed_s = 33.0});
   EXPECT_EQ(times.stations, 4U);
   EXPECT_TRUE(times.complete()) << times.follows.size() << " follow it";
   EXPECT_TRUE(times.located);

@@ -6,16 +6,16 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <thread>
 
 #include "base/clocks.h"
 #include "edge/ptu/driver.h"
-#include "edge/serial/serial_port.h"
 #include "sim/ptu_line.h"
 #include "sim/ptu_tap_watch.h"
+#include "tests/unit/eventually.h"
+#include "tests/unit/sim/line_master.h"
 #include "tests/unit/sim/ptu_master.h"
 #include "tests/unit/temp_dir.h"
 
@@ -23,19 +23,6 @@ namespace ols::sim {
 namespace {
 
 constexpr double kStep_rad = 11.5714 / 3600.0 * kPi / 180.0;
-constexpr double kByte_s = 10.0 / 9600.0;
-
-// The reply to PP never comes: TP's is taken for it until the next one shows the mistake.
-constexpr std::chrono::seconds kDeadline(15);
-
-bool soon(const auto& condition) {
-  const auto end = std::chrono::steady_clock::now() + kDeadline;
-  while (!condition()) {
-    if (std::chrono::steady_clock::now() > end) return false;
-    std::this_thread::yield();
-  }
-  return true;
-}
 
 std::string path(const std::string& name) {
   return temp_dir() + "ols_tap_" + name + std::to_string(::getpid());
@@ -45,20 +32,11 @@ bool exists(const std::string& link) {
   return std::filesystem::exists(std::filesystem::symlink_status(link));
 }
 
-bool answers(serial::SerialPort& port, const std::string& request, const std::string& reply) {
-  port.write(request);
-  std::string heard;
-  return soon([&] {
-    heard += port.read(0.01);
-    return heard.ends_with(reply);
-  });
-}
-
 // One question at a time: both replies have come when this is over.
 void ask_angles(serial::SerialPort& port) {
   port.write("PP TP ");
   std::string heard;
-  soon([&] {
+  eventually([&] {
     heard += port.read(0.01);
     return std::ranges::count(heard, '\n') == 2;
   });
@@ -67,7 +45,7 @@ void ask_angles(serial::SerialPort& port) {
 TEST(PtuTap, PassesBytesOnAndSeesWhereTheUnitPoints) {
   PtuLine unit(ready_unit(), 1, path("unit"));
   PtuTap tap({path("unit"), 9600, kStep_rad}, 2, path("station"));
-  ASSERT_TRUE(soon([&] { return exists(path("station")); }));
+  ASSERT_TRUE(eventually([&] { return exists(path("station")); }));
   serial::SerialPort port(path("station"), 9600);
   EXPECT_TRUE(answers(port, " PA20000 TA20000 PP500 TP300 A ", "*\r\n*\r\n*\r\n*\r\n*\r\n"));
   EXPECT_TRUE(answers(port, "PP TP ", "* 500\r\n* 300\r\n"));
@@ -81,7 +59,7 @@ TEST(PtuTap, WaitsForTheReadingBehindAnInstant) {
   PtuLine unit(ready_unit(), 1, path("unit"));
   PtuTap tap({path("unit"), 9600, kStep_rad}, 2, path("station"));
   tap.await(clock_monotonic_s());  // of a unit that has said nothing it expects nothing
-  ASSERT_TRUE(soon([&] { return exists(path("station")); }));
+  ASSERT_TRUE(eventually([&] { return exists(path("station")); }));
   serial::SerialPort port(path("station"), 9600);
   // Half a minute of motion, so that an angle that was guessed is another one later. The answer to
   // PX cannot be mistaken for the end of what the unit says at power-up.
@@ -89,15 +67,15 @@ TEST(PtuTap, WaitsForTheReadingBehindAnInstant) {
   std::jthread asking([&](const std::stop_token& stop) {
     while (!stop.stop_requested()) ask_angles(port);
   });
-  EXPECT_TRUE(soon([&] { return tap.angles_at(clock_monotonic_s()).pan_rad > 0.01; }));
+  EXPECT_TRUE(eventually([&] { return tap.angles_at(clock_monotonic_s()).pan_rad > 0.01; }));
   int unchanged = 0;
   // It does not wait for ever: on a busy machine a reading may come too late for that.
-  EXPECT_TRUE(soon([&] {
+  EXPECT_TRUE(eventually([&] {
     const double at_s = clock_monotonic_s();
     tap.await(at_s);
     const double known_rad = tap.angles_at(at_s).pan_rad;
     const auto readings = tap.counters().readings;
-    EXPECT_TRUE(soon([&] { return tap.counters().readings >= readings + 4; }));
+    EXPECT_TRUE(eventually([&] { return tap.counters().readings >= readings + 4; }));
     unchanged += std::abs(tap.angles_at(at_s).pan_rad - known_rad) < 1e-9 ? 1 : 0;
     return unchanged == 5;
   }));
@@ -106,7 +84,7 @@ TEST(PtuTap, WaitsForTheReadingBehindAnInstant) {
 TEST(PtuTap, FollowsTheStationToAnotherRate) {
   PtuLine unit(ready_unit(), 1, path("unit"));
   PtuTap tap({path("unit"), 9600, kStep_rad}, 2, path("station"));
-  ASSERT_TRUE(soon([&] { return exists(path("station")); }));
+  ASSERT_TRUE(eventually([&] { return exists(path("station")); }));
   {
     serial::SerialPort port(path("station"), 9600);
     EXPECT_TRUE(answers(port, " @(38400,0,F) ", "*\r\n"));
@@ -118,15 +96,15 @@ TEST(PtuTap, FollowsTheStationToAnotherRate) {
 TEST(PtuTap, OutlivesTheUnitBeingUnplugged) {
   auto unit = std::make_unique<PtuLine>(ready_unit(), 1, path("unit"));
   PtuTap tap({path("unit"), 9600, kStep_rad}, 2, path("station"));
-  ASSERT_TRUE(soon([&] { return exists(path("station")); }));
+  ASSERT_TRUE(eventually([&] { return exists(path("station")); }));
   PtuFaults gone;
   gone.line_gone = true;
   unit->set_faults(gone);
   // The station's device goes with the unit's, and comes back with it.
-  EXPECT_TRUE(soon([&] { return !exists(path("station")); }));
-  EXPECT_TRUE(soon([&] { return tap.counters().failures > 1; }));
+  EXPECT_TRUE(eventually([&] { return !exists(path("station")); }));
+  EXPECT_TRUE(eventually([&] { return tap.counters().failures > 1; }));
   unit->set_faults({});
-  ASSERT_TRUE(soon([&] { return exists(path("station")); }));
+  ASSERT_TRUE(eventually([&] { return exists(path("station")); }));
   serial::SerialPort port(path("station"), 9600);
   EXPECT_TRUE(answers(port, " PX ", "* 49467\r\n"));
 }
@@ -134,20 +112,20 @@ TEST(PtuTap, OutlivesTheUnitBeingUnplugged) {
 TEST(PtuTap, HasTheFaultsOfALineOnly) {
   PtuLine unit(ready_unit(), 1, path("unit"));
   PtuTap tap({path("unit"), 9600, kStep_rad}, 2, path("station"));
-  ASSERT_TRUE(soon([&] { return exists(path("station")); }));
+  ASSERT_TRUE(eventually([&] { return exists(path("station")); }));
   PtuFaults faults;
   faults.line_gone = true;
   tap.set_faults(faults);
-  EXPECT_TRUE(soon([&] { return !exists(path("station")); }));
+  EXPECT_TRUE(eventually([&] { return !exists(path("station")); }));
   EXPECT_TRUE(exists(path("unit")));
   faults.line_gone = false;
   faults.garble_share = 1.0;
   tap.set_faults(faults);
-  ASSERT_TRUE(soon([&] { return exists(path("station")); }));
+  ASSERT_TRUE(eventually([&] { return exists(path("station")); }));
   serial::SerialPort port(path("station"), 9600);
   port.write(" PX PX PX PX ");
   std::string heard;
-  EXPECT_TRUE(soon([&] {
+  EXPECT_TRUE(eventually([&] {
     heard += port.read(0.01);
     return heard.size() > 24;
   }));

@@ -17,9 +17,7 @@ constexpr double kTwoPiOver112000 = 2.0 * kPi / 112000.0;
 UnitTruth drawn(UnitErrors size, std::uint64_t seed) {
   ChainParameters chain;
   CameraIntrinsics camera;
-  UnitErrorsScenario scenario;
-  scenario.size = size;
-  return draw_unit(scenario, seed, chain, camera);
+  return draw_unit(UnitErrorsScenario{.size = size}, seed, chain, camera);
 }
 
 // Two programs that share no line agree on what eq. (1) is.
@@ -101,9 +99,7 @@ TEST(UnitTruth, JitterBelongsToACount) {
 TEST(UnitTruth, AnHonestConfigurationStatesTheMounting) {
   const UnitErrorsScenario plain;
   EXPECT_EQ(stated_mount(plain, {}).across_rad, 0.0);
-  UnitErrorsScenario fresh;
-  fresh.size = UnitErrors::kNew;
-  const MountSize size = stated_mount(fresh, {});
+  const MountSize size = stated_mount(UnitErrorsScenario{.size = UnitErrors::kNew}, {});
   EXPECT_GT(size.across_rad / kArcsec, 360.0);
   EXPECT_NEAR(size.roll_rad / kArcsec, 720.0, 1e-6);
 }

@@ -13,6 +13,7 @@
 #include "tests/unit/base/trust/site_fixture.h"
 #include "tests/unit/eventually.h"
 #include "tests/unit/folder_test.h"
+#include "tests/unit/on_the_bus.h"
 
 namespace ols::trust {
 namespace {
@@ -59,17 +60,13 @@ class BusTrustTest : public FolderTest<> {
   static void tell(BusTrust& hearer, BusTrust& teller, const std::string& list,
                    std::int64_t sequence) {
     const auto message = to_message(list, 12, sequence, kNow_us);
-    std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
-    message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
-    EXPECT_TRUE(hear(hearer, "OLS_TRUST", teller.sign("OLS_TRUST", bytes)).passes);
+    EXPECT_TRUE(hear(hearer, "OLS_TRUST", teller.sign("OLS_TRUST", encoded(message))).passes);
   }
 
   // By who has the site's secret.
   static std::vector<std::uint8_t> told_by_stranger(const TrustList& list, const SigningKey& root) {
     const auto message = to_message(sign_list(list, root), 12, 1, kNow_us);
-    std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
-    message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
-    return with_trailer(kSite.stranger, kSite.secret, "OLS_TRUST", bytes, 0);
+    return with_trailer(kSite.stranger, kSite.secret, "OLS_TRUST", encoded(message), 0);
   }
 };
 
@@ -201,9 +198,7 @@ TEST_F(BusTrustTest, ANewMemberLearnsItsFirstListFromTheBus) {
 TEST_F(BusTrustTest, NobodyButTheSiteTellsANewMemberItsFirstList) {
   std::filesystem::remove(folder_ + "/trust.toml");
   const auto station = alfa();
-  const auto message = to_message(sign_list(kSite.list(3), kSite.root), 12, 1, kNow_us);
-  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
-  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+  const auto bytes = encoded(to_message(sign_list(kSite.list(3), kSite.root), 12, 1, kNow_us));
   const auto other_site = with_trailer(kSite.fusion, seed_of(8), "OLS_TRUST", bytes, 0);
   EXPECT_FALSE(hear(*station, "OLS_TRUST", other_site).passes) << "without the site's secret";
   EXPECT_FALSE(hear(*station, "OLS_TRUST", bytes).passes) << "unsigned";
@@ -294,9 +289,7 @@ TEST_F(BusTrustTest, SettingsThatTheCentreTellsAreTakenByAStation) {
   std::optional<std::string> told;
   EXPECT_TRUE(eventually([&] { return (told = centre->settings_to_tell(100.0)).has_value(); }));
   EXPECT_FALSE(station->settings_to_tell(100.0)) << "a station tells nobody";
-  const auto message = to_settings_message(*told, 12, 1, kNow_us);
-  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
-  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+  const auto bytes = encoded(to_settings_message(*told, 12, 1, kNow_us));
   EXPECT_FALSE(hear(*station, "OLS_SITE", bytes).passes) << "unsigned";
   EXPECT_TRUE(hear(*station, "OLS_SITE", centre->sign("OLS_SITE", bytes)).passes);
   EXPECT_EQ(station->site_settings_number(), 7);

@@ -19,6 +19,7 @@
 #include "ols_msg/target_t.hpp"
 #include "ols_msg/trust_list_t.hpp"
 #include "tests/unit/base/trust/site_fixture.h"
+#include "tests/unit/on_the_bus.h"
 
 namespace ols::trust {
 namespace {
@@ -32,8 +33,7 @@ void expect_head(HeadForm form) {
   if constexpr (requires { message.station.empty(); }) {
     if constexpr (std::is_same_v<decltype(message.station), std::string>) message.station = "alfa";
   }
-  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
-  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+  const auto bytes = encoded(message);
   const auto head = read_head(bytes, form);
   ASSERT_TRUE(head) << Message::getTypeName();
   EXPECT_EQ(head->utime_us, -5) << Message::getTypeName();

@@ -5,16 +5,10 @@
 #include <vector>
 
 #include "ols_msg/ptu_command_t.hpp"
+#include "tests/unit/on_the_bus.h"
 
 namespace ols::trust {
 namespace {
-
-template <class Message>
-std::vector<std::uint8_t> encoded(const Message& message) {
-  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
-  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
-  return bytes;
-}
 
 TEST(MessagesTrust, TheTextIsReadBack) {
   const auto bytes = encoded(to_message("a = 1\n", 2, 3, 4));

@@ -8,6 +8,7 @@
 #include "base/trust/messages_trust.h"
 #include "ols_msg/ptu_command_t.hpp"
 #include "tests/unit/base/trust/site_fixture.h"
+#include "tests/unit/on_the_bus.h"
 
 namespace ols::trust {
 namespace {
@@ -36,9 +37,7 @@ class VerifierTest : public testing::Test {
     ols_msg::ptu_command_t command{};
     command.utime = utime_us, command.boot_id = boot, command.sequence = sequence;
     command.command = what;
-    Message bytes(static_cast<std::size_t>(command.getEncodedSize()));
-    command.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
-    return sign(kSite.anna, "OLS_PTU_alfa", bytes, kBoot);
+    return sign(kSite.anna, "OLS_PTU_alfa", encoded(command), kBoot);
   }
   Message bearing(std::int64_t sequence, const SigningKey& key = kSite.bravo) const {
     return sign(key, "OLS_BEARING_bravo", payload(kNow_us, kSender, sequence, "bravo"));

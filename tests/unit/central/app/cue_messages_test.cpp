@@ -4,17 +4,15 @@
 #include "geometry/angles.h"
 #include "ols_msg/cue_order_t.hpp"
 #include "ols_msg/cue_t.hpp"
-#include "tests/unit/central/app/encoded.h"
+#include "tests/unit/on_the_bus.h"
 
 namespace ols::fusion {
 namespace {
 
-using test::Bytes;
-using test::encoded;
+using Bytes = std::vector<std::uint8_t>;
 
 TEST(CueMessages, ACueIsRead) {
-  ols_msg::cue_t cue{};
-  cue.schema_version = ols_msg::cue_t::SCHEMA_VERSION;
+  auto cue = made<ols_msg::cue_t>();
   cue.utime = 5;
   cue.state_utime = 4;
   cue.id = "tak.a\n";
@@ -47,8 +45,7 @@ TEST(CueMessages, ACueIsRead) {
 }
 
 TEST(CueMessages, AnOperatorsWordOnACueIsRead) {
-  ols_msg::cue_order_t order{};
-  order.schema_version = ols_msg::cue_order_t::SCHEMA_VERSION;
+  auto order = made<ols_msg::cue_order_t>();
   order.cue = "tak.a";
   order.allow = 1;
   order.utime = 9;

@@ -9,12 +9,10 @@
 #include "central/app/messages.h"
 #include "geometry/angles.h"
 #include "ols_msg/fusion_status_t.hpp"
-#include "tests/unit/central/app/encoded.h"
+#include "tests/unit/on_the_bus.h"
 
 namespace ols::fusion {
 namespace {
-
-using test::encoded;
 
 TEST(StatusMessage, TheFusionsStatusNamesWhoIsQuarantined) {
   FusionHealth health;

@@ -10,18 +10,16 @@
 #include "geometry/wgs84.h"
 #include "ols_msg/bearing_t.hpp"
 #include "ols_msg/station_status_t.hpp"
-#include "tests/unit/central/app/encoded.h"
+#include "tests/unit/on_the_bus.h"
 
 namespace ols::fusion {
 namespace {
 
-using test::Bytes;
-using test::encoded;
+using Bytes = std::vector<std::uint8_t>;
 
 ols_msg::bearing_t bearing() {
-  ols_msg::bearing_t message{};
+  auto message = made<ols_msg::bearing_t>();
   message.utime = 1'700'000'000'123'456;
-  message.schema_version = ols_msg::bearing_t::SCHEMA_VERSION;
   message.station = "north";
   message.boot_id = 77;
   message.track_id = 3;
@@ -42,8 +40,7 @@ ols_msg::bearing_t bearing() {
 }
 
 ols_msg::station_status_t status() {
-  ols_msg::station_status_t message{};
-  message.schema_version = ols_msg::station_status_t::SCHEMA_VERSION;
+  auto message = made<ols_msg::station_status_t>();
   message.station = "north";
   const Eigen::Vector3d camera = ecef_from_geodetic({radians(49.2), radians(16.6), 251.6});
   Eigen::Vector3d::Map(message.camera_ecef_m) = camera;

@@ -1,5 +1,6 @@
 #include "edge/calibration/covariance_file.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "base/csv_files.h"
@@ -22,14 +23,9 @@ TEST(CovarianceFile, AMatrixThatIsNoneIsNamed) {
   std::string text = station::test::covariance_text(1e-8);
   text.replace(text.find("1e-08,"), 5, "-1e-8");
   files.put("covariance.csv", text);
-  try {
-    read_station_covariance(files.path + "/covariance.csv");
-    FAIL();
-  } catch (const CsvError& error) {
-    EXPECT_NE(std::string(error.what()).find(":2: focal_px: the variance is negative"),
-              std::string::npos)
-        << error.what();
-  }
+  EXPECT_THAT([&] { read_station_covariance(files.path + "/covariance.csv"); },
+              testing::ThrowsMessage<CsvError>(
+                  testing::HasSubstr(":2: focal_px: the variance is negative")));
 }
 
 }  // namespace

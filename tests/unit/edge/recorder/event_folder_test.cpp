@@ -64,12 +64,8 @@ TEST(EventFolder, TwoFramesOfTheSameTimeAreBothKept) {
 TEST(EventFolder, AFolderThatIsNoneIsNamed) {
   const TemporaryFolder store;
   std::ofstream(store / "file") << "x";
-  try {
-    EventFolder(store.path() + "/file", "e");
-    FAIL();
-  } catch (const std::system_error& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("file/e.partial"));
-  }
+  EXPECT_THAT([&] { EventFolder(store.path() + "/file", "e"); },
+              testing::ThrowsMessage<std::system_error>(testing::HasSubstr("file/e.partial")));
 }
 
 TEST(EventFolder, WithoutAFrameNothingStays) {

@@ -9,22 +9,20 @@
 #include "ols_msg/video_frame_t.hpp"
 #include "ols_msg/video_request_t.hpp"
 #include "ols_msg/video_stream_request_t.hpp"
+#include "tests/unit/on_the_bus.h"
 
 namespace ols::video {
 namespace {
 
 ols_msg::video_request_t request_message() {
-  ols_msg::video_request_t message{};
-  message.schema_version = ols_msg::video_request_t::SCHEMA_VERSION;
+  auto message = made<ols_msg::video_request_t>();
   message.max_width_px = 640;
   message.quality = 90;
   return message;
 }
 
 std::optional<VideoRequest> decoded(const ols_msg::video_request_t& message) {
-  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
-  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
-  return decode_request(bytes);
+  return decode_request(encoded(message));
 }
 
 ols_msg::video_frame_t answer(const VideoFrame& frame, const VideoRequest& request) {
@@ -58,16 +56,11 @@ TEST(VideoRequestMessage, OneThatFitsTheLimitsIsTaken) {
 }
 
 TEST(VideoRequestMessage, OneForAStream) {
-  ols_msg::video_stream_request_t message{};
-  message.schema_version = ols_msg::video_stream_request_t::SCHEMA_VERSION;
+  auto message = made<ols_msg::video_stream_request_t>();
   message.max_width_px = 640;
   message.quality = 60;
   message.key_frame = 1;
-  const auto decoded_one = [&message] {
-    std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
-    message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
-    return decode_request(bytes);
-  };
+  const auto decoded_one = [&message] { return decode_request(encoded(message)); };
   ASSERT_TRUE(decoded_one());
   EXPECT_EQ(decoded_one()->codec, VideoCodec::kH264);
   EXPECT_TRUE(decoded_one()->key_frame);

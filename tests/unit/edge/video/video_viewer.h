@@ -14,6 +14,7 @@
 #include "base/length_prefix.h"
 #include "ols_msg/video_frame_t.hpp"
 #include "ols_msg/video_request_t.hpp"
+#include "tests/unit/on_the_bus.h"
 
 namespace ols::video {
 
@@ -35,13 +36,11 @@ class Viewer {
   bool connected() const { return connected_; }
 
   void ask(std::int64_t after_utime = 0, int max_width_px = 640) {
-    ols_msg::video_request_t message{};
-    message.schema_version = ols_msg::video_request_t::SCHEMA_VERSION;
+    auto message = made<ols_msg::video_request_t>();
     message.after_utime = after_utime;
     message.max_width_px = max_width_px;
     message.quality = 80;
-    std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
-    message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+    const auto bytes = encoded(message);
     send(length_prefix(static_cast<std::uint32_t>(bytes.size())));
     send(bytes);
   }
