@@ -6,8 +6,10 @@ import os
 import re
 import shutil
 import subprocess
-from collections.abc import Iterator
+import time
+from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -138,6 +140,38 @@ def shared() -> Path:
     if not folder:
         pytest.skip("OLS_SHARED names no folder with evaluation data")
     return Path(folder)
+
+
+def wait(
+    condition: Callable,
+    what: str,
+    deadline_s: float = 60.0,
+    turn: Callable = lambda: time.sleep(0.02),
+) -> Any:
+    """The condition's first true result; `turn` is what goes on meanwhile."""
+    end = time.monotonic() + deadline_s
+    while not (found := condition()):
+        assert time.monotonic() < end, f"not within {deadline_s:.0f} s: {what}"
+        turn()
+    return found
+
+
+def finished(*command: object, timeout: float = 600.0, **more: Any) -> subprocess.CompletedProcess:
+    """A program after its end, with what it wrote as text, whatever its status is."""
+    words = [str(word) for word in command]
+    return subprocess.run(  # noqa: PLW1510 (`check` may be among the others)
+        words, capture_output=True, text=True, timeout=timeout, **more
+    )
+
+
+def made(kind: type, age_s: float = 0.0, **fields: Any) -> Any:
+    """A message of this schema and age, with these fields."""
+    message = kind()
+    message.utime = time.time_ns() // 1000 - int(age_s * 1e6)
+    message.schema_version = message.SCHEMA_VERSION
+    for name, value in fields.items():
+        setattr(message, name, value)
+    return message
 
 
 def lines_said(stderr: str) -> list[str]:

@@ -11,6 +11,7 @@ import lcm
 import ols_msg
 import pytest
 from archive_site import REGION, event, write_log
+from conftest import finished, made, wait
 from ols_archive.archiver import Archiver as Collected
 from ols_archive.partitions import Damaged, file_of, hours_of, read
 from ols_archive.sources import LiveSource
@@ -21,11 +22,7 @@ DEADLINE_S = 60.0
 
 
 def bearing(sequence: int) -> "ols_msg.bearing_t":
-    message = ols_msg.bearing_t()
-    message.schema_version = ols_msg.bearing_t.SCHEMA_VERSION
-    message.station, message.boot_id, message.sequence = "alfa", 77, sequence
-    message.utime = time.time_ns() // 1000
-    return message
+    return made(ols_msg.bearing_t, station="alfa", boot_id=77, sequence=sequence)
 
 
 class Archiver:
@@ -38,11 +35,8 @@ class Archiver:
         self.wait(lambda: "ready" in self.errors.read_text(), "it is ready")
 
     def wait(self, condition, what):
-        end = time.monotonic() + DEADLINE_S
-        while not condition():
-            assert self.process.poll() is None, self.errors.read_text()
-            assert time.monotonic() < end, f"not within {DEADLINE_S:.0f} s: {what}"
-            time.sleep(0.02)
+        wait(lambda: condition() or self.process.poll() is not None, what)
+        assert self.process.poll() is None, self.errors.read_text()
 
     def rows(self) -> list[dict]:
         return [
@@ -76,9 +70,8 @@ def test_what_is_published_is_archived_once(archiver, tmp_path):
     assert "20 added, 20 repeated, 1 undecodable" in told
     # Its log adds nothing: the same messages.
     log = write_log(tmp_path / "a.lcmlog", map(event, messages))
-    words = [str(archiver.archive), "--region", REGION, str(log)]
-    again = subprocess.run(
-        [sys.executable, "-m", "ols_archive", *words], capture_output=True, text=True, check=True
+    again = finished(
+        sys.executable, "-m", "ols_archive", archiver.archive, "--region", REGION, log, check=True
     )
     assert "0 added, 20 repeated" in again.stderr
 

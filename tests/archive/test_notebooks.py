@@ -2,25 +2,20 @@
 
 import importlib.util
 import os
-import subprocess
 import sys
 
 import numpy as np
 import ols
 import pandas as pd
 from archive_site import ROOT
+from conftest import finished
 
 NOTEBOOKS = ROOT / "docs/notebooks"
 
 
 def run(name, *arguments):
-    return subprocess.run(
-        [sys.executable, NOTEBOOKS / f"{name}.py", *map(str, arguments)],
-        capture_output=True,
-        text=True,
-        check=False,
-        env={**os.environ, "MPLBACKEND": "Agg"},
-    )
+    environment = {**os.environ, "MPLBACKEND": "Agg"}
+    return finished(sys.executable, NOTEBOOKS / f"{name}.py", *arguments, env=environment)
 
 
 def flown():

@@ -13,15 +13,14 @@ import ols
 import ols_msg
 import pytest
 from archive_site import REGION, ROOT, event, flown, write_log
+from conftest import finished
 
 BUILT = Path(ols.__file__).parents[1]
 
 
 def run(*command, **options) -> subprocess.CompletedProcess:
     clean = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
-    return subprocess.run(
-        list(map(str, command)), env=clean | options, capture_output=True, text=True, check=False
-    )
+    return finished(*command, env=clean | options)
 
 
 @pytest.fixture(scope="module", name="wheel")

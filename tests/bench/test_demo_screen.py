@@ -3,9 +3,9 @@ its network for other programs."""
 
 import math
 import os
-import subprocess
 
 import ols_msg
+from conftest import finished
 from ols_demo.inside import write_in_site
 from ols_demo.live import Screen, at_work, station_lines, target_lines
 from ols_demo.observer import Observer
@@ -80,12 +80,12 @@ def test_a_command_runs_in_the_network_of_the_demo(tmp_path):
     """Here it is our own; afterwards that of a process that has ended."""
     script = write_in_site(tmp_path, tmp_path, {"OLS_KEYS": "some keys"})
     look = ["sh", "-c", 'readlink /proc/self/ns/net; echo "$OLS_KEYS"; echo "$PATH"']
-    done = subprocess.run([script, *look], capture_output=True, text=True, check=False)
+    done = finished(script, *look)
     assert done.returncode == 0, done.stderr
     network, keys, path = done.stdout.splitlines()
     assert (network, keys) == (os.readlink("/proc/self/ns/net"), "some keys")
     assert path.split(":")[0] == str(tmp_path)
     running = f"process=/proc/{os.readlink('/proc/self')}"
     script.write_text(script.read_text().replace(running, "process=/proc/4194305"))
-    done = subprocess.run([script, *look], capture_output=True, text=True, check=False)
+    done = finished(script, *look)
     assert done.returncode == 1 and done.stderr.endswith("the demo has ended\n")

@@ -17,7 +17,7 @@ from pathlib import Path
 import lcm
 import ols_msg
 import pytest
-from conftest import BIN, ROOT
+from conftest import BIN, ROOT, finished, made, wait
 
 DEADLINE_S = 60.0
 SERVER = Path(os.environ.get("OLS_NATS_SERVER", ROOT / "build/nats/nats-server"))
@@ -33,23 +33,9 @@ def bus_url(port):
     return f"udpm://239.255.76.67:{port}?ttl=0"
 
 
-def wait(condition, what, deadline_s=DEADLINE_S):
-    end = time.monotonic() + deadline_s
-    while not (found := condition()):
-        assert time.monotonic() < end, f"not within {deadline_s:.0f} s: {what}"
-        time.sleep(0.02)
-    return found
-
-
 def key(path):
     """A user's seed in this file; the public key is returned."""
-    done = subprocess.run(
-        [str(BIN / "ols-bridge"), "--make-key", str(path)],
-        capture_output=True,
-        text=True,
-        check=True,
-        timeout=DEADLINE_S,
-    )
+    done = finished(BIN / "ols-bridge", "--make-key", path, check=True)
     return done.stdout.strip()
 
 
@@ -359,33 +345,19 @@ class Listener:
 
 
 def bearing(station="alfa", sequence=1, boot_id=7, age_s=0.0):
-    message = ols_msg.bearing_t()
-    message.utime = time.time_ns() // 1000 - int(age_s * 1e6)
-    message.schema_version = message.SCHEMA_VERSION
-    message.station, message.boot_id, message.sequence = station, boot_id, sequence
-    return message.encode()
+    sender = {"station": station, "boot_id": boot_id, "sequence": sequence}
+    return made(ols_msg.bearing_t, age_s, **sender).encode()
 
 
 def status(station="alfa", sequence=1, boot_id=7):
-    message = ols_msg.station_status_t()
-    message.utime = time.time_ns() // 1000
-    message.schema_version = message.SCHEMA_VERSION
-    message.station, message.boot_id, message.sequence = station, boot_id, sequence
-    return message.encode()
+    sender = {"station": station, "boot_id": boot_id, "sequence": sequence}
+    return made(ols_msg.station_status_t, **sender).encode()
 
 
 def slew(station="alfa", sequence=1, age_s=0.0, target_id=0):
-    message = ols_msg.slew_t()
-    message.utime = time.time_ns() // 1000 - int(age_s * 1e6)
-    message.schema_version = message.SCHEMA_VERSION
-    message.station, message.boot_id, message.sequence = station, 9, sequence
-    message.lease_s, message.target_id = 1.0, target_id
-    return message.encode()
+    sender = {"station": station, "boot_id": 9, "sequence": sequence}
+    return made(ols_msg.slew_t, age_s, **sender, lease_s=1.0, target_id=target_id).encode()
 
 
 def target(sequence):
-    message = ols_msg.target_t()
-    message.utime = time.time_ns() // 1000
-    message.schema_version = message.SCHEMA_VERSION
-    message.boot_id, message.sequence, message.target_id = 3, sequence, 1
-    return message.encode()
+    return made(ols_msg.target_t, boot_id=3, sequence=sequence, target_id=1).encode()

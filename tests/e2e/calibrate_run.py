@@ -1,11 +1,11 @@
 """A simulated site's files, and ols-calibrate on them."""
 
 import json
-import subprocess
+import os
 from pathlib import Path
 
 import numpy as np
-from conftest import BIN
+from conftest import BIN, finished
 from ols_calibration import cases
 
 SEED = 20260120
@@ -32,10 +32,16 @@ class Run:
         lines[line - 1] = lines[line - 1].replace(old, new, 1)
         (self.folder / name).write_text("\n".join(lines) + "\n")
 
+    def observations(self):
+        return [json.loads(line) for line in self.lines("observations.jsonl")]
+
+    def observe(self, observations):
+        lines = (json.dumps(one) + "\n" for one in observations)
+        (self.folder / "observations.jsonl").write_text("".join(lines))
+
     def adjust(self, *more):
-        command = [BIN / "ols-calibrate", "adjust", *self.arguments, "--output", self.output, *more]
-        return subprocess.run(
-            [str(part) for part in command], capture_output=True, text=True, check=False
+        return finished(
+            BIN / "ols-calibrate", "adjust", *self.arguments, "--output", self.output, *more
         )
 
     def adjusted(self, *more):
@@ -54,13 +60,15 @@ class Run:
         return done
 
     def refused(self, *more):
-        """What is said of it."""
+        """What is said of it; nothing is written."""
+        existed = os.path.exists(self.output)
         done = self.adjust(*more)
         assert done.returncode == 2
+        assert os.path.exists(self.output) == existed
         return done.stderr
 
     def report(self):
-        return json.loads((Path(self.output) / "report.json").read_text())
+        return json.loads(Path(self.output, "report.json").read_text())
 
     def rejected(self):
         return [group["name"] for group in self.report()["groups"] if group.get("rejected")]

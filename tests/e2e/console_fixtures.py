@@ -1,8 +1,9 @@
 """Fixtures of the console's tests: `pytest_plugins = ["console_fixtures"]`."""
 
 import pytest
+from conftest import wait
 from console_page import two_consoles, watched_page
-from console_site import Api, browser, paper_site, wait_for
+from console_site import Api, browser, paper_site
 
 
 @pytest.fixture(scope="module")
@@ -29,6 +30,6 @@ def page(chromium, consoles, paper):
     """The open console's; its stations are idle."""
     paper.begin_anew()
     stations = Api(consoles[0])
-    wait_for(lambda: {s["state"] for s in stations.state()["stations"]} == {"idle"}, "the stations")
+    wait(lambda: {s["state"] for s in stations.state()["stations"]} == {"idle"}, "the stations")
     with watched_page(chromium, consoles[0]) as opened:
         yield opened

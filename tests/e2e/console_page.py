@@ -4,8 +4,8 @@ whether everybody can use it."""
 import contextlib
 import re
 
-from conftest import ROOT
-from console_site import DEADLINE_S, PASSWORD, add_user, address_of, console_command, wait_for
+from conftest import ROOT, wait
+from console_site import DEADLINE_S, PASSWORD, add_user, address_of, console_command
 from ols_demo.site import Site
 from playwright.sync_api import expect
 
@@ -59,7 +59,7 @@ def leave_unanswered(page, path):
     page.route(f"**{path}", lambda _route: None)
     page.route(lambda url: url.endswith("/?caught"), lambda route: route.fulfill(body="caught"))
     ask = "fetch('/?caught').then((answer) => answer.text())"
-    wait_for(lambda: page.evaluate(ask) == "caught", "requests to be caught")
+    wait(lambda: page.evaluate(ask) == "caught", "requests to be caught")
 
 
 def axe_finds(page):
@@ -67,3 +67,19 @@ def axe_finds(page):
     page.evaluate(AXE.read_text())
     found = page.evaluate("axe.run({resultTypes: ['violations']})")["violations"]
     return [(v["id"], [n["html"][:120] for n in v["nodes"]][:3]) for v in found]
+
+
+def place(canvas, across, down):
+    """On the page [px], of a picture as it lies there now."""
+    canvas.scroll_into_view_if_needed()
+    box = canvas.bounding_box()
+    return box["x"] + across * box["width"], box["y"] + down * box["height"]
+
+
+def drag(page, canvas, begin=0.3, end=0.5):
+    """Between these parts of a picture's width and height, at once: a long press is a joystick."""
+    pressed, released = place(canvas, begin, begin), place(canvas, end, end)
+    page.mouse.move(*pressed)
+    page.mouse.down()
+    page.mouse.move(*released, steps=4)
+    page.mouse.up()

@@ -7,7 +7,6 @@ import itertools
 import json
 import math
 import re
-import subprocess
 import threading
 import time
 import types
@@ -22,7 +21,7 @@ import lcm
 import numpy as np
 import ols
 import ols_msg
-from conftest import BIN
+from conftest import BIN, finished
 from ols_demo.bus import LIVE_URL
 from ols_demo.keys import members_of_environment
 from ols_demo.places import geodetic
@@ -46,17 +45,6 @@ COMMANDS = {
     PTU.COMMAND_RATE: "rate",
     PTU.COMMAND_CENTRE: "centre",
 }
-
-
-def wait_for(condition, what: str):
-    """Its first true result; every wait has a deadline."""
-    end = time.monotonic() + DEADLINE_S
-    while True:
-        result = condition()
-        if result:
-            return result
-        assert time.monotonic() < end, f"not within {DEADLINE_S:.0f} s: {what}"
-        threading.Event().wait(0.05)
 
 
 def jpeg() -> bytes:
@@ -336,8 +324,8 @@ def paper_site():
 
 
 def add_user(users: Path, name: str, password: str, role: str) -> None:
-    command = [str(BIN / "ols-console"), "--users", str(users), "--add-user", name, "--role", role]
-    subprocess.run(command, input=password + "\n", text=True, check=True, capture_output=True)
+    command = [BIN / "ols-console", "--users", users, "--add-user", name, "--role", role]
+    finished(*command, input=password + "\n", check=True)
 
 
 def console_command(users: Path, *options: str) -> list[str]:

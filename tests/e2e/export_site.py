@@ -6,12 +6,11 @@ import signal
 import socket
 import struct
 import subprocess
-import time
 from pathlib import Path
 
 import lcm
 import ols_msg
-from conftest import BIN
+from conftest import BIN, made, wait
 from ols_demo.bus import LIVE_URL
 from ols_demo.keys import members_of_environment
 
@@ -20,14 +19,6 @@ HEIGHT_M = 100.0  # of the target above the ellipsoid
 LATITUDE_DEG, LONGITUDE_DEG = 47.5, 13.25
 COVARIANCE = [4.0, 1.0, 0.5, 9.0, -0.5, 25.0]
 CE_M, LE_M = 3.03, 5.0  # of that covariance: the ellipse's larger semi-axis, and the height
-
-
-def wait(condition, what, deadline_s=DEADLINE_S):
-    end = time.monotonic() + deadline_s
-    while not (found := condition()):
-        assert time.monotonic() < end, f"not within {deadline_s:.0f} s: {what}"
-        time.sleep(0.02)
-    return found
 
 
 def geoid_m(latitude_deg, longitude_deg):
@@ -52,10 +43,8 @@ GEOID_M = geoid_m(LATITUDE_DEG, LONGITUDE_DEG)
 
 
 def target(target_id=7, utime=None, **fields):
-    message = ols_msg.target_t()
-    message.utime = utime or time.time_ns() // 1000
-    message.schema_version = ols_msg.target_t.SCHEMA_VERSION
-    message.boot_id, message.target_id = 77, target_id
+    message = made(ols_msg.target_t, boot_id=77, target_id=target_id)
+    message.utime = utime or message.utime
     message.track_state = ols_msg.target_t.TRACK_CONFIRMED
     message.latitude_deg, message.longitude_deg = LATITUDE_DEG, LONGITUDE_DEG
     message.height_m = HEIGHT_M
@@ -69,10 +58,8 @@ def target(target_id=7, utime=None, **fields):
 
 
 def status(station="alfa", utime=None):
-    message = ols_msg.station_status_t()
-    message.utime = utime or time.time_ns() // 1000
-    message.schema_version = ols_msg.station_status_t.SCHEMA_VERSION
-    message.station = station
+    message = made(ols_msg.station_status_t, station=station)
+    message.utime = utime or message.utime
     message.state = ols_msg.station_status_t.STATE_TRACKING
     message.latitude_deg, message.longitude_deg, message.height_m = 47.4, 13.2, 600.0
     message.azimuth_rad, message.elevation_rad = 1.0, 0.1

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import ols_msg
+from conftest import wait
 from ols_demo.bus import LIVE_URL, Bus, counters
 from ols_demo.keys import members_of_environment
 from ols_demo.observer import Observer
@@ -131,10 +132,7 @@ class Listener:
         self.bus = Bus(url, self.observer.receive, members_of_environment())
 
     def wait(self, condition: Any, what: str, deadline_s: float = DEADLINE_S) -> None:
-        end = time.monotonic() + deadline_s
-        while not condition():
-            assert time.monotonic() < end, f"not within {deadline_s:.0f} s: {what}"
-            self.bus.handle(0.02)
+        wait(condition, what, deadline_s, lambda: self.bus.handle(0.02))
 
     def wait_for_status(self, station: str) -> Any:
         """A status that was sent after this call."""

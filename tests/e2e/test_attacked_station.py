@@ -8,7 +8,7 @@ import lcm
 import ols
 import ols_msg
 import pytest
-from conftest import BIN
+from conftest import BIN, finished
 from helpers import Listener, addressed, slew, station_without_devices
 from ols_demo.bus import LIVE_URL, counters
 from ols_demo.keys import make_keys
@@ -117,8 +117,7 @@ def test_a_member_is_obeyed_once_and_a_revoked_one_no_more(attacked, tmp_path):
     a.wait(lambda: a.observer.state("alfa") == "idle", "the release")
     # By hand, as a person does: it finds its key, hears the boot, and is obeyed.
     environment = {**os.environ, "OLS_TRUST": "require", "OLS_KEYS": str(tmp_path / "keys")}
-    stop = [str(BIN / "ols-ctl"), "alfa", "stop"]
-    done = subprocess.run(stop, env=environment, capture_output=True, text=True, timeout=60)
+    done = finished(BIN / "ols-ctl", "alfa", "stop", env=environment)
     assert done.returncode == 0, done.stdout + done.stderr
     a.wait(lambda: a.observer.state("alfa") == "stopped", "the stop")
     before = a.distrusted("replayed")

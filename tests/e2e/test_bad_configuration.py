@@ -3,7 +3,7 @@
 import subprocess
 
 import pytest
-from conftest import BIN, SCENARIO, lines_said
+from conftest import BIN, SCENARIO, finished, lines_said
 
 GOOD = """\
 id = "s1"
@@ -26,9 +26,7 @@ mount_deg = 0.1
 
 
 def run(program: str, *arguments: str) -> subprocess.CompletedProcess:
-    return subprocess.run(
-        [str(BIN / program), *arguments], capture_output=True, text=True, timeout=30, check=False
-    )
+    return finished(BIN / program, *arguments)
 
 
 def refused(result: subprocess.CompletedProcess, *parts: str) -> None:

@@ -4,12 +4,10 @@ the shipped examples: bytes unchanged, no command late, no loop, a link that is 
 import itertools
 import re
 import signal
-import subprocess
 import time
 
 import pytest
 from bridge_site import (
-    DEADLINE_S,
     Listener,
     Network,
     Other,
@@ -22,7 +20,7 @@ from bridge_site import (
     target,
     wait,
 )
-from conftest import BIN
+from conftest import BIN, finished
 from helpers import Babbler
 from ols_demo.keys import members_of_environment
 
@@ -247,7 +245,6 @@ def test_a_server_that_sends_rubbish_is_said(network, tmp_path):
 def test_a_bad_configuration_is_named(tmp_path):
     config = tmp_path / "bridge.toml"
     config.write_text('region = "a.b"\n')
-    command = [str(BIN / "ols-bridge"), "--config", str(config), "--check-config"]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=DEADLINE_S)
+    done = finished(BIN / "ols-bridge", "--config", config, "--check-config")
     assert done.returncode == 2
     assert "bridge.toml:1: region" in done.stderr

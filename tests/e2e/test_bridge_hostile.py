@@ -4,12 +4,12 @@ that speak as much of its protocol as each test needs."""
 import itertools
 import json
 import socket
-import subprocess
 import sys
 import threading
 
 import pytest
-from bridge_site import DEADLINE_S, Listener, Other, bearing, bus_url, wait
+from bridge_site import Listener, Other, bearing, bus_url, wait
+from conftest import finished
 
 INFO = {
     **{"server_id": "x", "server_name": "x", "version": "2.15.2", "go": "x", "proto": 1},
@@ -88,9 +88,7 @@ def test_an_archiver_does_not_log_in_without_tls_either(network, tmp_path, autho
     server = PlainServer()
     command = [sys.executable, "-m", "ols_archive", str(tmp_path / "archive"), "--region", "r"]
     command += ["--stream", "OLS_r", "--server", f"tls://127.0.0.1:{server.port}"]
-    done = subprocess.run(
-        [*command, "--authority", authority], capture_output=True, text=True, timeout=DEADLINE_S
-    )
+    done = finished(*command, "--authority", authority)
     assert done.returncode == 2
     assert "without TLS" in done.stderr and "Traceback" not in done.stderr
     assert server.heard and b"CONNECT" not in b"".join(server.heard)

@@ -19,6 +19,7 @@ from bridge_site import (
     slew,
     wait,
 )
+from conftest import made
 from ols_demo.places import geodetic
 
 pytestmark = needs_server
@@ -32,10 +33,7 @@ GAP_S = 2.0 + 1.0
 
 
 def target(target_id, east_m, sequence):
-    message = ols_msg.target_t()
-    message.utime = time.time_ns() // 1000
-    message.schema_version = message.SCHEMA_VERSION
-    message.boot_id, message.sequence, message.target_id = target_id, sequence, target_id
+    message = made(ols_msg.target_t, boot_id=target_id, sequence=sequence, target_id=target_id)
     message.track_state = message.TRACK_CONFIRMED
     message.latitude_deg = LATITUDE_DEG
     message.longitude_deg = BORDER_DEG + east_m / METRES_PER_DEGREE

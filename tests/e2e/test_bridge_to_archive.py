@@ -2,13 +2,13 @@
 each message once, on from where it was, and the same as from a log."""
 
 import json
-import subprocess
 import sys
 
 import lcm
 import ols_msg
 import pytest
 from bridge_site import Listener, Network, Watcher, bearing, needs_server, status, wait
+from conftest import finished
 from ols_archive.partitions import file_of, hours_of, read
 from ols_demo.keys import members_of_environment
 
@@ -48,7 +48,7 @@ class Archived:
         if not any(word.endswith(".lcmlog") for word in words):
             command += ["--server", "nats://127.0.0.1:4222", "--domain", "hub"]
             command += ["--seed", str(self.net.seeds[seed])]
-        done = subprocess.run(command, capture_output=True, text=True, timeout=120)
+        done = finished(*command)
         assert done.returncode == code, done.stderr
         self.said = done.stderr
         return json.loads((self.folder / "report.json").read_text())["counts"]

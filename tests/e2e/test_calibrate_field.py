@@ -5,14 +5,13 @@ import io
 import json
 import os
 import signal
-import subprocess
 import tomllib
 
 import numpy as np
 import ols
 import ols_msg
 import pytest
-from conftest import BIN
+from conftest import BIN, finished
 from helpers import VideoViewer
 from ols_demo.places import geodetic
 from ols_demo.site import Site
@@ -111,8 +110,7 @@ def restart(tripod, site, config):
 
 
 def point(tripod, pan_deg, tilt_deg):
-    command = [BIN / "ols-ctl", "alfa", "manual", f"{pan_deg:.4f}", f"{tilt_deg:.4f}"]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=30, check=False)
+    done = finished(BIN / "ols-ctl", "alfa", "manual", f"{pan_deg:.4f}", f"{tilt_deg:.4f}")
     assert done.returncode == 0, done.stdout + done.stderr
 
     def there():
@@ -325,7 +323,7 @@ def test_wrong_serial_numbers_are_refused_before_anything_moves(tripod, accepted
         "field", *("--references", tripod.folder / "references.csv", "--instrument", instrument)
     )
     command[command.index(str(tripod.config))] = str(config)
-    done = subprocess.run(command, capture_output=True, text=True, timeout=30, check=False)
+    done = finished(*command)
     assert done.returncode == 2
     assert "serials.lens" in done.stderr
 

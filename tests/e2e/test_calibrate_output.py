@@ -2,13 +2,12 @@
 
 import json
 import resource
-import subprocess
 import tomllib
 
 import numpy as np
 import pytest
 from calibrate_run import SEED, Run
-from conftest import BIN
+from conftest import BIN, finished
 
 
 @pytest.fixture(name="run")
@@ -82,12 +81,8 @@ def test_what_an_interrupted_run_has_left_is_not_overwritten(run):
 def test_a_disk_that_is_full_leaves_nothing(run):
     """The instrument still fits below the limit, the covariance does not."""
     before = sorted(run.folder.iterdir())
-    command = [BIN / "ols-calibrate", "adjust", *run.arguments, "--output", run.output]
-    done = subprocess.run(
-        [str(part) for part in command],
-        capture_output=True,
-        text=True,
-        check=False,
+    done = finished(
+        *(BIN / "ols-calibrate", "adjust", *run.arguments, "--output", run.output),
         restore_signals=False,  # of a file that grows too large: an error, not the end
         preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (6000, 6000)),
     )

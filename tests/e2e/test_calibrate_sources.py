@@ -10,7 +10,7 @@ import tomllib
 from datetime import UTC, datetime
 
 import pytest
-from conftest import BIN
+from conftest import BIN, finished
 
 
 def aircraft(*arguments, **options):
@@ -142,7 +142,7 @@ def test_a_camera_from_chessboards(shared, tmp_path, camera):
     ]
     command = [BIN / "ols-calibrate", "camera", "--columns", "9", "--rows", "6", "--pictures"]
     command += [*sorted(data.glob(f"{camera}*.jpg")), "--output", tmp_path / "camera"]
-    done = subprocess.run(list(map(str, command)), capture_output=True, text=True, check=False)
+    done = finished(*command)
     assert done.returncode == 0, done.stderr
     found = tomllib.loads((tmp_path / "camera/instrument.toml").read_text())
     values, sds = found["values"], found["sd"]

@@ -3,11 +3,10 @@ a simulated flight, ols-calibrate tracks, ols-calibrate adjust."""
 
 import csv
 import json
-import subprocess
 
 import numpy as np
 import pytest
-from conftest import BIN, ROOT
+from conftest import BIN, ROOT, finished
 
 SEED = 3
 SECONDS = 80  # once along the target's path
@@ -21,7 +20,7 @@ CALIBRATE = BIN / "ols-calibrate"
 
 def run(*command):
     command = [str(part) for part in command]
-    return subprocess.run(command, capture_output=True, text=True, check=False)
+    return finished(*command)
 
 
 def good(*command):

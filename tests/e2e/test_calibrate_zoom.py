@@ -1,10 +1,9 @@
 """The table of the overview station's zoom lens, measured live, against the lens as it is."""
 
-import subprocess
 import tomllib
 
 import pytest
-from conftest import BIN, ROOT
+from conftest import BIN, ROOT, finished
 from helpers import Listener, at_frame_rate
 from ols_demo.bus import LIVE_URL
 from ols_demo.site import Site, bring_up_loopback
@@ -43,7 +42,7 @@ def test_the_table_is_that_of_the_lens(config, tmp_path):
     table = tmp_path / "zoom.toml"
     command = [BIN / "ols-calibrate", "zoom", "--station", config, "--lcm-url", LIVE_URL]
     command += ["--positions", "3", "--output", table]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=240, check=False)
+    done = finished(*command)
     print(done.stdout, done.stderr)
     points = tomllib.loads(table.read_text())["lens_motor"]["point"]
     assert [round(point["position"], 2) for point in points][:2] == [0.0, 0.5]

@@ -1,10 +1,9 @@
 """New units on a site, calibrated: what ols-calibrate makes of the fusion's positions."""
 
 import json
-import subprocess
 
 import pytest
-from conftest import BIN, ROOT
+from conftest import BIN, ROOT, finished
 
 SEED = 2
 SECONDS = 20
@@ -13,9 +12,7 @@ STATIONS = ("alfa", "bravo", "charlie", "delta")
 
 
 def run(*command, code=0):
-    done = subprocess.run(
-        [str(part) for part in command], capture_output=True, text=True, check=False
-    )
+    done = finished(*command)
     assert done.returncode == code, done.stderr
     return done
 
@@ -61,30 +58,17 @@ def test_positions_become_better_by_more_than_five(site):
 
 def test_a_calibration_of_another_station_is_refused(site, tmp_path):
     (tmp_path / "bravo").symlink_to(site / "calibrations" / "alfa")
-    done = subprocess.run(
-        [
-            str(part)
-            for part in (
-                *(BIN / "ols-sim", "--scenario", SCENARIO, "--seed", SEED, "--lockstep"),
-                *("--pixels", "--seconds", 1, "--output", tmp_path / "out"),
-                *("--calibrations", tmp_path),
-            )
-        ],
-        capture_output=True,
-        text=True,
-        check=False,
+    done = finished(
+        *(BIN / "ols-sim", "--scenario", SCENARIO, "--seed", SEED, "--lockstep"),
+        *("--pixels", "--seconds", 1, "--output", tmp_path / "out"),
+        *("--calibrations", tmp_path),
     )
     assert done.returncode == 2
     assert "setup.toml:3: station: is 'alfa', this is 'bravo'" in done.stderr
 
 
 def check_config(config):
-    return subprocess.run(
-        [BIN / "ols-station", "--config", config, "--check-config"],
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+    return finished(BIN / "ols-station", "--config", config, "--check-config")
 
 
 def test_a_station_adopts_its_folder(site, tmp_path):

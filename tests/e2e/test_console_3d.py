@@ -9,8 +9,9 @@ import re
 import numpy as np
 import ols
 import pytest
+from conftest import wait
 from console_page import axe_finds, region
-from console_site import PLACES, PaperTarget, wait_for
+from console_site import PLACES, PaperTarget
 from ols_demo.places import geodetic
 from PIL import Image
 from playwright.sync_api import expect
@@ -31,7 +32,7 @@ def view(page):
     chart.get_by_role("button", name="3-D").click()
     solid = chart.get_by_role("img", name="3-D")
     expect(solid).to_be_visible()
-    wait_for(lambda: len(dots(page)) == len(PLACES), "each station in the view")
+    wait(lambda: len(dots(page)) == len(PLACES), "each station in the view")
     return chart
 
 
@@ -65,9 +66,9 @@ def test_layers_are_switched_off_and_on(page, paper, view):
         button.click()
     del buttons["Trails"]
     for layer, button in buttons.items():
-        (without,) = wait_for(lambda: still(page), "the view to stand still")
+        (without,) = wait(lambda: still(page), "the view to stand still")
         button.click()
-        wait_for(
+        wait(
             lambda bare=without: (image(page) != bare).any(axis=2).sum() > 60,
             f"{layer} in three dimensions",
         )
@@ -87,10 +88,10 @@ def trail_px(page):
 
 def test_a_trail_is_switched_off(page, paper, view):
     with paper.another_target(PaperTarget(moving)):
-        with_it = wait_for(lambda: (n := trail_px(page)) > 350 and n, "a trail")
+        with_it = wait(lambda: (n := trail_px(page)) > 350 and n, "a trail")
         view.get_by_text("Layers", exact=True).click()
         view.get_by_role("button", name="Trails", exact=True).click()
-        wait_for(lambda: trail_px(page) < 0.7 * with_it, "the view without trails")
+        wait(lambda: trail_px(page) < 0.7 * with_it, "the view without trails")
 
 
 def still(page):
@@ -126,7 +127,7 @@ def test_a_drag_turns_and_selects_nothing(page, view):
     page.mouse.down()
     page.mouse.move(before[0][0] + 80, before[0][1], steps=4)
     page.mouse.up()
-    wait_for(lambda: dots(page) != before, "another view")
+    wait(lambda: dots(page) != before, "another view")
     expect(region(page, "Stations").locator("article.open")).to_have_count(0)
 
 

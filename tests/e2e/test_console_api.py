@@ -6,12 +6,11 @@ import json
 import math
 import socket
 import ssl
-import subprocess
 from urllib.parse import urlsplit
 
 import pytest
-from conftest import BIN, ROOT
-from console_site import PASSWORD, Api, add_user, address_of, console_command, wait_for
+from conftest import BIN, ROOT, finished, wait
+from console_site import PASSWORD, Api, add_user, address_of, console_command
 from ols_demo.site import Site
 
 pytest_plugins = ["console_fixtures"]
@@ -24,7 +23,7 @@ def api(paper, tmp_path_factory):
         command = console_command(folder / "users", "--port", "0")
         site.start_and_wait("ols-console", command, "ready")
         client = Api(address_of(site, "ols-console"))
-        wait_for(lambda: len(client.state()["stations"]) == 3, "three stations")
+        wait(lambda: len(client.state()["stations"]) == 3, "three stations")
         yield client
         site.check()
         assert site.stop("ols-console") == 0
@@ -34,8 +33,9 @@ def api(paper, tmp_path_factory):
 def closed(paper, tmp_path_factory):
     """With TLS and users, on every interface."""
     folder = tmp_path_factory.mktemp("closed")
-    make = [str(ROOT / "systemd/ols-console-certificate"), str(folder / "tls"), "localhost"]
-    done = subprocess.run(make, capture_output=True, text=True, check=True)
+    done = finished(
+        ROOT / "systemd/ols-console-certificate", folder / "tls", "localhost", check=True
+    )
     config = folder / "console.toml"
     config.write_text('address = "0.0.0.0"\nport = 0\n' + done.stdout)
     add_user(folder / "users", "ana", PASSWORD, "operator")
@@ -53,7 +53,7 @@ def closed(paper, tmp_path_factory):
 
 
 def test_the_state_is_that_of_the_bus(api):
-    state = wait_for(
+    state = wait(
         lambda: (s := api.state())["targets"] and s["fusion"] and s, "a target and the fusion"
     )
     assert [s["id"] for s in state["stations"]] == ["alfa", "bravo", "charlie"]
@@ -67,7 +67,7 @@ def test_the_state_is_that_of_the_bus(api):
 
 
 def test_which_stations_are_calibrated_since_when_and_how_well(api):
-    state = wait_for(lambda: (s := api.state())["fusion"] and s, "the fusion")
+    state = wait(lambda: (s := api.state())["fusion"] and s, "the fusion")
     alfa, bravo, _ = (one["calibration"] for one in state["stations"])
     assert alfa.pop("sd_deg") == pytest.approx(math.degrees(5e-5), abs=1e-6)
     assert alfa == {"state": "in use", "id": str(1 << 60), "utime_us": 1_780_000_000_000_000}
@@ -83,9 +83,9 @@ def test_a_silent_station_is_marked(api, paper):
         return next(s for s in api.state()["stations"] if s["id"] == "charlie")
 
     paper.silent.add("charlie")
-    wait_for(lambda: of_charlie()["stale"], "charlie to be silent")
+    wait(lambda: of_charlie()["stale"], "charlie to be silent")
     paper.silent.clear()
-    wait_for(lambda: not of_charlie()["stale"], "charlie to be back")
+    wait(lambda: not of_charlie()["stale"], "charlie to be back")
     assert any(e["text"] == "no status any more" for e in api.state()["events"])
 
 
@@ -93,8 +93,8 @@ def test_stop_needs_one_request(api, paper):
     status, said, _ = api.ask("/api/stop", {})
     assert (status, said["stopping"]) == (200, ["alfa", "bravo", "charlie"])
     stopped = {(name, "stop") for name in ("alfa", "bravo", "charlie")}
-    wait_for(lambda: stopped <= set(paper.commands), "all to be stopped")
-    wait_for(
+    wait(lambda: stopped <= set(paper.commands), "all to be stopped")
+    wait(
         lambda: (
             sum(e["text"] == "stop" and e["outcome"] == "done" for e in api.state()["events"]) >= 3
         ),
@@ -184,9 +184,7 @@ def test_a_log_in_over_tls(closed):
     ],
 )
 def test_what_is_not_safe_is_refused_in_one_line(network, tmp_path, options, complaint):
-    done = subprocess.run(
-        console_command(tmp_path / "users", *options), capture_output=True, text=True, timeout=30
-    )
+    done = finished(*console_command(tmp_path / "users", *options))
     assert done.returncode == 2
     assert complaint in done.stderr and done.stderr.count("\n") == 1
 
@@ -200,21 +198,18 @@ def test_a_bad_configuration_is_refused_with_its_line(tmp_path):
         ("", ""),
     ):
         config.write_text(text)
-        done = subprocess.run(check, capture_output=True, text=True, timeout=30, check=False)
+        done = finished(*check)
         assert done.returncode == (2 if complaint else 0)
         assert complaint in done.stderr
 
 
 def test_a_certificate_that_cannot_be_made_says_why(tmp_path):
-    make = [str(ROOT / "systemd/ols-console-certificate"), str(tmp_path), "999.1.1.1"]
-    done = subprocess.run(make, capture_output=True, text=True, check=False)
+    done = finished(ROOT / "systemd/ols-console-certificate", tmp_path, "999.1.1.1")
     assert done.returncode != 0 and "999.1.1.1" in done.stderr
 
 
 def test_a_file_of_users_that_cannot_be_read_is_bad_input(network, tmp_path):
-    done = subprocess.run(
-        console_command(tmp_path, "--port", "0"), capture_output=True, text=True, timeout=30
-    )
+    done = finished(*console_command(tmp_path, "--port", "0"))
     assert done.returncode == 2 and str(tmp_path) in done.stderr
 
 
@@ -225,6 +220,5 @@ def test_a_password_of_a_file_of_users_is_no_plain_text(tmp_path):
     assert PASSWORD not in users.read_text()
     assert users.read_text().count("$argon2id$") == 2
     assert users.stat().st_mode & 0o077 == 0
-    short = [str(BIN / "ols-console"), "--users", str(users), "--add-user", "eve"]
-    done = subprocess.run(short, input="short\n", text=True, capture_output=True, check=False)
+    done = finished(BIN / "ols-console", "--users", users, "--add-user", "eve", input="short\n")
     assert done.returncode == 2 and "8 to 200" in done.stderr

@@ -5,29 +5,15 @@ import math
 import time
 
 import pytest
-from console_page import axe_finds, picture, region
-from console_site import (
-    DEADLINE_S,
-    FULL_PX,
-    PASSWORD,
-    add_user,
-    address_of,
-    console_command,
-    wait_for,
-)
+from conftest import wait
+from console_page import axe_finds, picture, place, region
+from console_site import DEADLINE_S, FULL_PX, PASSWORD, add_user, address_of, console_command
 from ols_demo.site import Site
 from playwright.sync_api import expect
 
 pytest_plugins = ["console_fixtures"]
 
 HOLD_MS = 600  # longer than the half second after which a press is a joystick
-
-
-def place(canvas, across, down):
-    """On the page [px], of a picture as it lies there now."""
-    canvas.scroll_into_view_if_needed()
-    box = canvas.bounding_box()
-    return box["x"] + across * box["width"], box["y"] + down * box["height"]
 
 
 @pytest.fixture
@@ -50,9 +36,9 @@ def test_a_press_that_is_held_is_a_joystick(page, paper):
     page.mouse.down()
     page.wait_for_timeout(HOLD_MS)  # what the hand does
     page.mouse.move(*place(canvas, 0.7, 0.4), steps=3)
-    wait_for(lambda: len(paper.ptu_commands) > 2, "rates that are renewed")
+    wait(lambda: len(paper.ptu_commands) > 2, "rates that are renewed")
     page.mouse.up()
-    wait_for(lambda: paper.ptu_commands[-1].pan_rate_rad_s == 0, "the halt")
+    wait(lambda: paper.ptu_commands[-1].pan_rate_rad_s == 0, "the halt")
     assert {m.command for m in paper.ptu_commands} == {paper.ptu_commands[0].COMMAND_RATE}
     assert paper.designations == [] or paper.designations[-1].station != "alfa"
     pushed = paper.ptu_commands[1]
@@ -85,7 +71,7 @@ def test_a_hand_that_never_rests_is_told_ten_times_a_second(page, paper):
     rates = [m for m in paper.ptu_commands if m.command == m.COMMAND_RATE]
     assert 10 < len(rates) <= most
     page.mouse.up()
-    wait_for(lambda: paper.ptu_commands[-1].pan_rate_rad_s == 0, "the halt")
+    wait(lambda: paper.ptu_commands[-1].pan_rate_rad_s == 0, "the halt")
 
 
 def test_a_box_of_the_keyboard_is_on_the_picture_of_its_end(page, paper):
@@ -94,12 +80,12 @@ def test_a_box_of_the_keyboard_is_on_the_picture_of_its_end(page, paper):
     canvas.focus()
     page.keyboard.press("Enter")
     begun_us = int(canvas.get_attribute("data-utime-us"))
-    wait_for(
+    wait(
         lambda: int(canvas.get_attribute("data-utime-us")) > begun_us + 1_500_000, "later pictures"
     )
     page.keyboard.press("ArrowRight")
     page.keyboard.press("Enter")
-    (sent,) = wait_for(lambda: paper.designations, "the designation")
+    (sent,) = wait(lambda: paper.designations, "the designation")
     assert sent.station == "alfa" and sent.frame_utime > begun_us + 1_500_000
     assert sent.x_px == pytest.approx(0.48 * FULL_PX[0], abs=1)
 
@@ -109,7 +95,7 @@ def test_a_hold_over_a_network_that_is_cut_moves_nothing_late(page, paper):
     canvas.focus()
     paper.ptu_commands.clear()
     page.keyboard.down("ArrowRight")
-    wait_for(lambda: len(paper.ptu_commands) > 2, "rates that are renewed")
+    wait(lambda: len(paper.ptu_commands) > 2, "rates that are renewed")
     page.context.set_offline(True)
     expect(page.get_by_text("No connection to the console")).to_be_visible()
     page.keyboard.up("ArrowRight")
@@ -117,7 +103,7 @@ def test_a_hold_over_a_network_that_is_cut_moves_nothing_late(page, paper):
     page.context.set_offline(False)
     expect(page.get_by_text("No connection to the console")).to_be_hidden()
     page.keyboard.press("Escape")
-    wait_for(lambda: ("alfa", "stop") in paper.commands[-9:], "the stop that comes after")
+    wait(lambda: ("alfa", "stop") in paper.commands[-9:], "the stop that comes after")
     late = [m for m in paper.ptu_commands[sent:] if m.command == m.COMMAND_RATE]
     assert all(m.pan_rate_rad_s == 0 for m in late)
     page.troubles.clear()  # what the browser says of its missing network
@@ -138,7 +124,7 @@ def test_a_wheel_magnifies_the_picture_and_a_box_on_it_is_where_it_was_drawn(pag
         page.wait_for_timeout(500)
         return paper.designations
 
-    sent = wait_for(drawn, "the designation")[-1]
+    sent = wait(drawn, "the designation")[-1]
     assert sent.x_px == pytest.approx(0.45 * FULL_PX[0], abs=8)
     assert sent.y_px == pytest.approx(0.45 * FULL_PX[1], abs=8)
     assert sent.width_px == pytest.approx(0.10 * FULL_PX[0], abs=8)
@@ -169,7 +155,7 @@ def test_who_may_only_look_may_magnify(chromium, tmp_path, paper):
         stations.get_by_role("button", name="alfa").click()
         expect(stations.get_by_role("button", name="Release")).to_have_count(0)
         stations.get_by_role("button", name="Stop", exact=True).click()
-        wait_for(lambda: paper.ptu_commands, "the stop, which anybody may")
+        wait(lambda: paper.ptu_commands, "the stop, which anybody may")
         assert {m.command for m in paper.ptu_commands} == {paper.ptu_commands[0].COMMAND_STOP}
         page.context.close()
 
@@ -180,7 +166,7 @@ def test_the_wheel_moves_a_motorised_lens(page, overview):
     expect(caption(canvas)).to_contain_text("30 %")
     page.mouse.move(*place(canvas, 0.5, 0.5))
     page.mouse.wheel(0, -160)
-    (sent,) = wait_for(lambda: overview.lens_commands, "the lens command")
+    (sent,) = wait(lambda: overview.lens_commands, "the lens command")
     assert (sent.station, sent.command) == ("charlie", sent.COMMAND_POSITION)
     assert sent.zoom == pytest.approx(0.3 + 0.4 / 4, abs=0.01)
     assert math.isnan(sent.focus) and math.isnan(sent.iris)
@@ -192,9 +178,9 @@ def test_plus_zooms_the_lens_while_it_is_held(page, overview):
     canvas = picture(page, "charlie")
     canvas.focus()
     page.keyboard.down("+")
-    wait_for(lambda: len(overview.lens_commands) > 2, "rates that are renewed")
+    wait(lambda: len(overview.lens_commands) > 2, "rates that are renewed")
     page.keyboard.up("+")
-    wait_for(lambda: overview.lens_commands[-1].zoom == 0, "the halt")
+    wait(lambda: overview.lens_commands[-1].zoom == 0, "the halt")
     sent = overview.lens_commands
     assert all(m.command == m.COMMAND_RATE and m.lease_s <= 0.3 for m in sent)
     assert sent[0].zoom == 1
@@ -205,7 +191,7 @@ def test_each_axis_of_the_lens_goes_where_it_is_told(page, overview):
     stations.get_by_role("button", name="charlie").click()
     for index, axis in enumerate(("Zoom", "Focus", "Iris")):
         stations.get_by_label(axis).fill("0.9")
-        wait_for(lambda at=index: overview.lenses["charlie"][at] == 0.9, f"{axis} at 90 %")
+        wait(lambda at=index: overview.lenses["charlie"][at] == 0.9, f"{axis} at 90 %")
         expect(stations.get_by_text(f"{axis} 90 %")).to_be_visible()
     assert axe_finds(page) == []
 
@@ -216,7 +202,7 @@ def test_look_here_is_a_click_on_what_is_to_be_followed(page, overview):
     overview.designations.clear()
     caption(canvas).get_by_role("button", name="Look here").click()
     page.mouse.click(*place(canvas, 0.25, 0.75))
-    (sent,) = wait_for(lambda: overview.designations, "what is to be looked at")
+    (sent,) = wait(lambda: overview.designations, "what is to be looked at")
     assert sent.station == "charlie" and (sent.width_px, sent.height_px) == (0, 0)
     assert sent.x_px == pytest.approx(0.25 * FULL_PX[0], abs=8)
     assert sent.y_px == pytest.approx(0.75 * FULL_PX[1], abs=8)
@@ -236,7 +222,7 @@ def test_look_here_by_keys(page, overview):
             page.keyboard.down("Shift")
             page.mouse.click(*place(canvas, 0.5, 0.5))
             page.keyboard.up("Shift")
-        (sent,) = wait_for(lambda: overview.designations, "what is to be looked at")
+        (sent,) = wait(lambda: overview.designations, "what is to be looked at")
         assert sent.x_px == pytest.approx(0.5 * FULL_PX[0], abs=8)
 
 
@@ -273,7 +259,7 @@ def test_two_fingers_magnify_and_one_centres(chromium, consoles, paper):
     expect(caption(canvas)).to_contain_text("3.0×")
     assert paper.ptu_commands == [], "two fingers turn nothing"
     tablet.touchscreen.tap(*place(canvas, 0.5, 0.5))
-    (sent,) = wait_for(lambda: paper.ptu_commands, "the command")
+    (sent,) = wait(lambda: paper.ptu_commands, "the command")
     assert sent.command == sent.COMMAND_CENTRE
     assert sent.x_px == pytest.approx(0.5 * FULL_PX[0], abs=20)
     context.close()

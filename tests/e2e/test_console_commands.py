@@ -3,8 +3,9 @@
 import re
 
 import pytest
-from console_page import leave_unanswered, picture, region
-from console_site import DEADLINE_S, FULL_PX, Api, wait_for
+from conftest import wait
+from console_page import drag, leave_unanswered, picture, place, region
+from console_site import DEADLINE_S, FULL_PX, Api
 from playwright.sync_api import expect
 
 pytest_plugins = ["console_fixtures"]
@@ -12,14 +13,8 @@ pytest_plugins = ["console_fixtures"]
 
 def test_a_dragged_box_designates_in_the_frame_that_is_seen(page, paper):
     paper.designations.clear()
-    canvas = picture(page, "alfa")
-    canvas.scroll_into_view_if_needed()
-    box = canvas.bounding_box()
-    page.mouse.move(box["x"] + 0.40 * box["width"], box["y"] + 0.40 * box["height"])
-    page.mouse.down()
-    page.mouse.move(box["x"] + 0.60 * box["width"], box["y"] + 0.60 * box["height"], steps=4)
-    page.mouse.up()
-    (sent,) = wait_for(lambda: paper.designations, "the designation")
+    drag(page, picture(page, "alfa"), 0.4, 0.6)
+    (sent,) = wait(lambda: paper.designations, "the designation")
     assert sent.station == "alfa"
     assert paper.pictures[sent.frame_utime] == "alfa"
     assert sent.x_px == pytest.approx(0.40 * FULL_PX[0], abs=8)
@@ -31,11 +26,8 @@ def test_a_dragged_box_designates_in_the_frame_that_is_seen(page, paper):
 
 def test_a_click_centres_what_is_there(page, paper):
     paper.ptu_commands.clear()
-    canvas = picture(page, "alfa")
-    canvas.scroll_into_view_if_needed()
-    box = canvas.bounding_box()
-    page.mouse.click(box["x"] + 0.25 * box["width"], box["y"] + 0.75 * box["height"])
-    (sent,) = wait_for(lambda: paper.ptu_commands, "the command")
+    page.mouse.click(*place(picture(page, "alfa"), 0.25, 0.75))
+    (sent,) = wait(lambda: paper.ptu_commands, "the command")
     assert (sent.station, sent.command) == ("alfa", sent.COMMAND_CENTRE)
     assert paper.pictures[sent.frame_utime] == "alfa"
     assert sent.x_px == pytest.approx(0.25 * FULL_PX[0], abs=8)
@@ -48,9 +40,9 @@ def test_arrows_turn_while_they_are_held_and_letting_go_halts(page, paper):
     canvas.focus()
     paper.ptu_commands.clear()
     page.keyboard.down("ArrowRight")
-    wait_for(lambda: len(paper.ptu_commands) > 2, "rates that are renewed")
+    wait(lambda: len(paper.ptu_commands) > 2, "rates that are renewed")
     page.keyboard.up("ArrowRight")
-    wait_for(lambda: paper.ptu_commands[-1].pan_rate_rad_s == 0, "the halt")
+    wait(lambda: paper.ptu_commands[-1].pan_rate_rad_s == 0, "the halt")
     sent = list(paper.ptu_commands)
     assert {m.command for m in sent} == {sent[0].COMMAND_RATE}
     assert all(m.lease_s <= 0.3 for m in sent)
@@ -66,19 +58,19 @@ def test_a_browser_that_ends_in_a_hold_turns_nothing_more(page, chromium, consol
     picture(closing, "charlie").focus()
     paper.ptu_commands.clear()
     closing.keyboard.down("ArrowRight")
-    wait_for(lambda: len(paper.ptu_commands) > 2, "rates that are renewed")
+    wait(lambda: len(paper.ptu_commands) > 2, "rates that are renewed")
     context.close()
 
     def is_held():
         stations = Api(consoles[0]).state()["stations"]
         return any(s["id"] == "charlie" and s.get("control") for s in stations)
 
-    wait_for(lambda: not is_held(), "the control to be given up")
+    wait(lambda: not is_held(), "the control to be given up")
     sent = len(paper.ptu_commands)
     paper.commands.clear()
     region(page, "Stations").get_by_role("button", name="charlie").click()
     region(page, "Stations").get_by_role("button", name="Release").click()
-    wait_for(lambda: ("charlie", "release") in paper.commands, "another's command")
+    wait(lambda: ("charlie", "release") in paper.commands, "another's command")
     rates = [m for m in paper.ptu_commands[sent:] if m.command == m.COMMAND_RATE]
     assert rates == []
 
@@ -104,20 +96,10 @@ def test_a_tablets_wrong_clock_changes_neither_ages_nor_rates(chromium, consoles
     picture(tablet, "alfa").focus()
     paper.ptu_commands.clear()
     tablet.keyboard.down("ArrowRight")
-    wait_for(lambda: len(paper.ptu_commands) > 2, "rates: the console refuses those held up")
+    wait(lambda: len(paper.ptu_commands) > 2, "rates: the console refuses those held up")
     tablet.keyboard.up("ArrowRight")
-    wait_for(lambda: paper.ptu_commands[-1].pan_rate_rad_s == 0, "the halt")
+    wait(lambda: paper.ptu_commands[-1].pan_rate_rad_s == 0, "the halt")
     context.close()
-
-
-def drag(page, canvas):
-    """From 0.3 to 0.5 of a picture's width and height, as it lies there now."""
-    canvas.scroll_into_view_if_needed()
-    box = canvas.bounding_box()
-    page.mouse.move(box["x"] + 0.30 * box["width"], box["y"] + 0.30 * box["height"])
-    page.mouse.down()
-    page.mouse.move(box["x"] + 0.50 * box["width"], box["y"] + 0.50 * box["height"], steps=4)
-    page.mouse.up()
 
 
 def test_pressing_on_a_small_picture_selects_and_never_designates(page, paper):
@@ -131,7 +113,7 @@ def test_pressing_on_a_small_picture_selects_and_never_designates(page, paper):
     bravo.click()
     expect(bravo.locator("xpath=..")).to_have_class(re.compile("large"))
     drag(page, bravo)
-    (sent,) = wait_for(lambda: paper.designations, "the designation")
+    (sent,) = wait(lambda: paper.designations, "the designation")
     assert sent.station == "bravo"
     assert sent.x_px == pytest.approx(0.30 * FULL_PX[0], abs=8)
     assert sent.width_px == pytest.approx(0.20 * FULL_PX[0], abs=8)
@@ -151,7 +133,7 @@ def test_one_key_stops_all(page, paper):
     paper.commands.clear()
     page.keyboard.press("Escape")
     every = {(name, "stop") for name in ("alfa", "bravo", "charlie")}
-    wait_for(lambda: every <= set(paper.commands), "a stop for each")
+    wait(lambda: every <= set(paper.commands), "a stop for each")
     expect(region(page, "Stations").get_by_text("stopped")).to_have_count(3)
 
 
@@ -172,8 +154,8 @@ def test_a_stop_does_not_hang_on_its_request(page, paper):
     leave_unanswered(page, "/api/stop")
     page.keyboard.press("Escape")
     every = {(name, "stop") for name in ("alfa", "bravo", "charlie")}
-    wait_for(lambda: every <= set(paper.commands), "a stop for each")
-    wait_for(
+    wait(lambda: every <= set(paper.commands), "a stop for each")
+    wait(
         lambda: "The console cannot be reached" in " ".join(page.evaluate("window.notices")),
         "the notice",
     )

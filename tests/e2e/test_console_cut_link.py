@@ -2,9 +2,10 @@
 anything afterwards, however it is held, and what the network delivers late does nothing."""
 
 import pytest
+from conftest import wait
 from console_cable import Cable
-from console_page import picture, region, watched_page
-from console_site import STATUS, Api, wait_for
+from console_page import picture, place, region, watched_page
+from console_site import STATUS, Api
 from playwright.sync_api import expect
 
 pytest_plugins = ["console_fixtures"]
@@ -61,9 +62,7 @@ class Mouse:
         self._page = page
 
     def press(self, canvas):
-        canvas.scroll_into_view_if_needed()
-        box = canvas.bounding_box()
-        self._at = [box["x"] + 0.5 * box["width"], box["y"] + 0.5 * box["height"]]
+        self._at = list(place(canvas, 0.5, 0.5))
         self._page.mouse.move(*self._at)
         self._page.mouse.down()
         self._page.wait_for_timeout(HOLD_MS)  # what the hand does
@@ -115,7 +114,7 @@ def moves(paper, name):
 def seconds_pass(page, paper, count):
     """The site's: each status comes five times in one."""
     before = len(paper.pictures)
-    wait_for(lambda: len(paper.pictures) > before + 5 * 3 * count, "the site to go on")
+    wait(lambda: len(paper.pictures) > before + 5 * 3 * count, "the site to go on")
 
 
 def held(page, overview, name):
@@ -126,7 +125,7 @@ def held(page, overview, name):
     hand = HANDS[name](page)
     overview.ptu_commands.clear(), overview.lens_commands.clear()
     hand.press(canvas)
-    wait_for(lambda: len(moves(overview, name)) > 2, "rates that are renewed")
+    wait(lambda: len(moves(overview, name)) > 2, "rates that are renewed")
     return station, canvas, hand
 
 
@@ -149,13 +148,13 @@ def see_that_it_needs_a_new_press(page, cable, overview, name, is_long):
     cable.mend()
     expect(page.get_by_text(NO_CONNECTION)).to_be_hidden()
     first = page.locator(".utc").inner_text()
-    wait_for(lambda: page.locator(".utc").inner_text() != first, "the page to go on")
+    wait(lambda: page.locator(".utc").inner_text() != first, "the page to go on")
     hand.keep_on()
     seconds_pass(page, overview, 1)
     assert moves(overview, name)[before:] == [], f"{name}: what was held drives again"
     hand.let_go()
     hand.press(canvas)
-    wait_for(lambda: len(moves(overview, name)) > before + 2, "rates of the new press")
+    wait(lambda: len(moves(overview, name)) > before + 2, "rates of the new press")
     hand.let_go()
     page.troubles.clear()  # what the browser says of its missing network
 
@@ -178,7 +177,7 @@ def test_a_command_that_a_cut_link_delivers_late_is_refused(page, cable, paper, 
     assert paper.commands == []
     assert len(Api(consoles[0]).state()["events"]) == events
     release.click()
-    wait_for(lambda: ("alfa", "release") in paper.commands, "the one that is given now")
+    wait(lambda: ("alfa", "release") in paper.commands, "the one that is given now")
     page.troubles.clear()  # what the browser says of its missing network
 
 
@@ -188,7 +187,7 @@ def test_a_stop_of_all_ends_what_is_held(page, overview, name):
     station, _, hand = held(page, overview, name)
     page.keyboard.press("Escape")  # of a joystick it lets go
     page.keyboard.press("Escape")
-    wait_for(lambda: (station, "stop") in overview.commands[-9:], "the stop")
+    wait(lambda: (station, "stop") in overview.commands[-9:], "the stop")
     expect(page.get_by_text("stopping: ")).to_be_visible()
     before = len(moves(overview, name))
     overview.states[station] = STATUS.STATE_IDLE  # somebody has released it

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import ols_msg
 import pytest
+from conftest import wait
 from console_page import picture, region, watched_page
-from console_site import wait_for
 from playwright.sync_api import expect
 
 pytest_plugins = ["console_fixtures"]
@@ -116,7 +116,7 @@ def test_a_station_is_pointed_at_a_target_and_at_a_place_on_the_map(page, paper)
     there = page.get_by_role("group", name="Point there")
     expect(there.get_by_role("button", name="alfa")).to_be_disabled()
     there.get_by_role("button", name="bravo").click()
-    (first,) = wait_for(lambda: paper.ptu_commands, "the station that is pointed")
+    (first,) = wait(lambda: paper.ptu_commands, "the station that is pointed")
     assert (first.station, first.command) == ("bravo", first.COMMAND_POINT)
     # It counts pan to the left and looks to 1 rad at zero; the target is at 307.3 degrees.
     assert first.pan_rad == pytest.approx(1.0 - math.radians(307.3 - 360.0), abs=0.01)
@@ -127,6 +127,6 @@ def test_a_station_is_pointed_at_a_target_and_at_a_place_on_the_map(page, paper)
     place = page.get_by_role("complementary", name="Place")
     expect(place).to_contain_text("33U XQ")
     place.get_by_role("button", name="charlie").click()
-    wait_for(lambda: paper.ptu_commands[1:], "the other station that is pointed")
+    wait(lambda: paper.ptu_commands[1:], "the other station that is pointed")
     assert paper.ptu_commands[1].station == "charlie"
     paper.states["alfa"] = STATUS.STATE_IDLE

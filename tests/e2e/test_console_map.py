@@ -9,8 +9,9 @@ import numpy as np
 import ols
 import ols_msg
 import pytest
+from conftest import wait
 from console_page import region
-from console_site import PaperTarget, wait_for
+from console_site import PaperTarget
 from ols_demo.places import geodetic
 from PIL import Image
 from playwright.sync_api import expect
@@ -25,7 +26,7 @@ def chart(page):
     """The map, once it shows the site."""
     expect(region(page, "Targets").get_by_role("row").nth(1)).to_contain_text("380.0 m")
     region(page, "Map").get_by_role("button", name="Whole site").click()
-    wait_for(lambda: pixels(page, is_target).size, "the target on the map")
+    wait(lambda: pixels(page, is_target).size, "the target on the map")
     return region(page, "Map")
 
 
@@ -70,7 +71,7 @@ def wait_until_still(page):
         images.append(image(page))
         return np.array_equal(images[-1], images[-2])
 
-    wait_for(is_still, "the map to stand still")
+    wait(is_still, "the map to stand still")
     return images[-1]
 
 
@@ -86,14 +87,12 @@ def switch_off_and_on(page, chart, layer):
     expect(button).to_have_attribute("aria-pressed", "true")
     button.click()
     expect(button).to_have_attribute("aria-pressed", "false")
-    changed = wait_for(
+    changed = wait(
         lambda: (n := int((image(page) != with_it).any(axis=2).sum())) > 200 and n,
         f"the map without {layer}",
     )
     button.click()
-    wait_for(
-        lambda: (image(page) != with_it).any(axis=2).sum() < changed / 10, f"{layer} to be back"
-    )
+    wait(lambda: (image(page) != with_it).any(axis=2).sum() < changed / 10, f"{layer} to be back")
 
 
 def moving(time_s):
@@ -113,16 +112,16 @@ def is_high(r, g, b):  # the last
 def test_a_target_leaves_a_trail_in_the_colours_of_its_height(page, paper, chart):
     with paper.another_target(PaperTarget(moving)):
         expect(region(page, "Targets").locator("tbody tr")).to_have_count(2)
-        wait_for(lambda: len(pixels(page, is_low)) > 30, "the low part of the trail")
-        wait_for(lambda: len(pixels(page, is_high)) > 30, "the high part of the trail")
+        wait(lambda: len(pixels(page, is_low)) > 30, "the low part of the trail")
+        wait(lambda: len(pixels(page, is_high)) > 30, "the high part of the trail")
         low, high = pixels(page, is_low)[:, 1], pixels(page, is_high)[:, 1]
         assert np.median(low) < np.median(high), "the west is low"
-        trail = wait_for(
+        trail = wait(
             lambda: (n := len(pixels(page, is_target))) > 500 and n, "a trail that is long enough"
         )
         chart.get_by_text("Layers").click()
         chart.get_by_role("button", name="Trails").click()
-        wait_for(lambda: len(pixels(page, is_target)) < 0.8 * trail, "the map without trails")
+        wait(lambda: len(pixels(page, is_target)) < 0.8 * trail, "the map without trails")
 
 
 def test_the_ellipse_is_true_to_the_covariance_and_to_scale(page, paper, chart):
@@ -135,7 +134,7 @@ def test_the_ellipse_is_true_to_the_covariance_and_to_scale(page, paper, chart):
         rows, columns = pixels(page, is_target).T
         return np.array([np.ptp(columns), np.ptp(rows)], float)
 
-    wait_for(lambda: size_px()[0] > 100, "the large ellipse")
+    wait(lambda: size_px()[0] > 100, "the large ellipse")
     metres_px = measured_m(page, chart, 200) / 200
     chart.get_by_role("button", name="Measure").click()
     wanted_px = 2 * SQRT_95 * np.array([sd_east_m, sd_north_m]) / metres_px
@@ -171,15 +170,15 @@ def test_a_station_alone_has_a_line(page, paper, chart):
     before = len(pixels(page, is_line))
     paper.lines["charlie"] = (1.2, 0.1)
     expect(region(page, "Targets")).to_contain_text("charlie: line of sight only, az 068.75°")
-    wait_for(lambda: len(pixels(page, is_line)) > before + 50, "the line on the map")
+    wait(lambda: len(pixels(page, is_line)) > before + 50, "the line on the map")
     paper.lines.clear()
-    wait_for(lambda: len(pixels(page, is_line)) < before + 20, "the line to be gone")
+    wait(lambda: len(pixels(page, is_line)) < before + 20, "the line to be gone")
 
 
 def test_a_station_that_tracks_has_a_ray(page, paper, chart):
     before = len(pixels(page, is_ray))
     paper.states["alfa"] = ols_msg.station_status_t.STATE_TRACKING
-    wait_for(lambda: len(pixels(page, is_ray)) > before + 50, "the ray on the map")
+    wait(lambda: len(pixels(page, is_ray)) > before + 50, "the ray on the map")
     paper.states["alfa"] = ols_msg.station_status_t.STATE_IDLE
 
 
@@ -196,11 +195,11 @@ def test_a_target_is_followed(page, chart, is_selected):
     chart.locator(".map-canvas").focus()
     for _ in range(3):
         page.keyboard.press("ArrowRight")
-    wait_for(lambda: off_middle_px(page)[0] > 100, "the map to be moved")
+    wait(lambda: off_middle_px(page)[0] > 100, "the map to be moved")
     if is_selected:
         region(page, "Targets").get_by_role("row").nth(1).click()
     chart.get_by_role("button", name="Follow").click()
-    wait_for(lambda: max(off_middle_px(page)) < 25, "the target in the middle")
+    wait(lambda: max(off_middle_px(page)) < 25, "the target in the middle")
 
 
 def test_a_click_on_the_map_selects(page, chart):

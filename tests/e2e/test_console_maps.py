@@ -5,7 +5,7 @@ import math
 import subprocess
 
 import pytest
-from conftest import BIN
+from conftest import BIN, wait
 from console_page import axe_finds
 from console_site import (
     CHROMIUM,
@@ -18,7 +18,6 @@ from console_site import (
     address_of,
     console_command,
     paper_site,
-    wait_for,
 )
 from ols_demo.site import Site
 from own_maps import write_folder, write_mbtiles, write_pmtiles
@@ -117,7 +116,7 @@ def settled(page):
         looks.append(len(colours(page, ".map-canvas canvas")))
         return len(looks) >= 10 and len(set(looks[-10:])) == 1
 
-    wait_for(is_still, "a map that stands still")
+    wait(is_still, "a map that stands still")
     return looks[-1]
 
 
@@ -149,12 +148,12 @@ def show_and_hide(page, name):
         button = map_of(page).get_by_role("button", name=other)
         if (button.get_attribute("aria-pressed") == "true") != (other == name):
             button.click()
-    wait_for(lambda: covered() > 10_000, "the map's tiles")
+    wait(lambda: covered() > 10_000, "the map's tiles")
     has_painter = name == "Magenta"
     expect(map_of(page).get_by_text("© the painter")).to_be_visible(visible=has_painter)
     assert map_of(page).locator(".ol-attribution :is(b, img)").count() == 0
     map_of(page).get_by_role("button", name=name).click()
-    wait_for(lambda: covered() == 0, "the map to be hidden")
+    wait(lambda: covered() == 0, "the map to be hidden")
 
 
 def test_a_damaged_map_is_said(page):
@@ -169,10 +168,10 @@ def test_the_accuracy_of_the_site_is_a_layer(page):
     choice = map_of(page).get_by_role("combobox", name="Accuracy")
     choice.select_option(label="at + 100 m")
     expect(map_of(page).get_by_role("list", name="Accuracy")).to_contain_text("≤ 10 m")
-    wait_for(lambda: len(colours(page, ".map-canvas canvas")) > before, "colours")
+    wait(lambda: len(colours(page, ".map-canvas canvas")) > before, "colours")
     shown = settled(page)
     choice.select_option(label="off")
-    wait_for(lambda: len(colours(page, ".map-canvas canvas")) < (before + shown) / 2, "no colours")
+    wait(lambda: len(colours(page, ".map-canvas canvas")) < (before + shown) / 2, "no colours")
 
 
 def test_the_accuracy_of_a_plan_is_a_layer(page):
@@ -183,13 +182,13 @@ def test_the_accuracy_of_a_plan_is_a_layer(page):
     choice = map_of(page).get_by_role("combobox", name="Accuracy")
     choice.select_option(label="plan.geojson, at + 30 m")
     expect(map_of(page).get_by_role("list", name="Accuracy")).to_contain_text("≤ 0.1 m")
-    wait_for(lambda: len(colours(page, ".map-canvas canvas")) > before, "colours")
+    wait(lambda: len(colours(page, ".map-canvas canvas")) > before, "colours")
     choice.select_option(label="plan.geojson, at + 100 m")
-    wait_for(lambda: len(colours(page, ".map-canvas canvas")) > before, "another height's colours")
+    wait(lambda: len(colours(page, ".map-canvas canvas")) > before, "another height's colours")
     expect(map_of(page)).not_to_contain_text("No accuracy for this view")
     shown = settled(page)
     choice.select_option(label="off")
-    wait_for(lambda: len(colours(page, ".map-canvas canvas")) < (before + shown) / 2, "no colours")
+    wait(lambda: len(colours(page, ".map-canvas canvas")) < (before + shown) / 2, "no colours")
 
 
 def test_keep_outs_are_on_the_map(page, address):
@@ -205,9 +204,9 @@ def test_keep_outs_are_on_the_map(page, address):
         )
 
     map_of(page).get_by_role("button", name="Whole site").click()
-    shown = wait_for(red, "the keep-out's colour")
+    shown = wait(red, "the keep-out's colour")
     button.click()
-    wait_for(lambda: red() < shown / 2, "the keep-out to be hidden")
+    wait(lambda: red() < shown / 2, "the keep-out to be hidden")
     button.click()
 
 
@@ -215,12 +214,12 @@ def test_three_dimensions_need_no_webgl(page):
     map_of(page).get_by_role("button", name="3-D").click()
     view = map_of(page).get_by_role("img", name="3-D")
     expect(view).to_be_visible()
-    wait_for(lambda: len(colours(page, ".view-3d canvas")) > 20, "the site")
+    wait(lambda: len(colours(page, ".view-3d canvas")) > 20, "the site")
     before = colours(page, ".view-3d canvas")
     view.focus()
     page.keyboard.press("ArrowLeft")
     page.keyboard.press("+")
-    wait_for(lambda: colours(page, ".view-3d canvas") != before, "another view")
+    wait(lambda: colours(page, ".view-3d canvas") != before, "another view")
     map_of(page).get_by_label("95 % ellipsoids").select_option("100")
     assert axe_finds(page) == []
     map_of(page).get_by_role("button", name="3-D").click()

@@ -5,9 +5,9 @@ import re
 import time
 
 import ols_msg
-from conftest import BIN
+from conftest import BIN, wait
 from console_page import axe_finds, picture, region
-from console_site import DEADLINE_S, FULL_PX, PASSWORD, Api, PaperTarget, wait_for
+from console_site import DEADLINE_S, FULL_PX, PASSWORD, Api, PaperTarget
 from playwright.sync_api import expect
 
 pytest_plugins = ["console_fixtures"]
@@ -87,12 +87,12 @@ def test_a_keyboard_is_enough(chromium, consoles, paper):
     tab_to("bravo")
     for key in ("Enter", "ArrowRight", "Shift+ArrowDown", "Enter"):
         page.keyboard.press(key)
-    (sent,) = wait_for(lambda: paper.designations, "the designation")
+    (sent,) = wait(lambda: paper.designations, "the designation")
     assert sent.station == "bravo"
     assert sent.x_px > 0.47 * FULL_PX[0] and sent.height_px > 0.06 * FULL_PX[1]
     paper.commands.clear()
     page.keyboard.press("Escape")
-    wait_for(lambda: ("bravo", "stop") in paper.commands, "the stop")
+    wait(lambda: ("bravo", "stop") in paper.commands, "the stop")
     context.close()
 
 
@@ -114,7 +114,7 @@ def test_a_session_that_has_ended_shows_nothing_more(chromium, consoles):
     (cookie,) = context.cookies()
     headers = {"Cookie": f"{cookie['name']}={cookie['value']}"}
     assert api.ask("/api/session", method="DELETE", headers=headers)[0] == 200
-    wait_for(lambda: api.ask("/api/health")[1]["viewers"] == before - 1, "the connection to end")
+    wait(lambda: api.ask("/api/health")[1]["viewers"] == before - 1, "the connection to end")
     expect(page.get_by_label("Password")).to_be_visible()
     context.close()
 
@@ -174,7 +174,7 @@ def test_a_browser_that_does_not_read_costs_nobody(page, chromium, consoles, pap
         assert api.ask("/api/health")[0] == 200
     assert time.monotonic() - asked < DEADLINE_S
     first = page.locator(".utc").inner_text()
-    wait_for(lambda: page.locator(".utc").inner_text() != first, "the other browser to go on")
+    wait(lambda: page.locator(".utc").inner_text() != first, "the other browser to go on")
     assert api.ask("/api/health")[1]["viewers"] == before
     context.close()
 
@@ -205,13 +205,13 @@ def test_nonsense_is_answered_counted_and_costs_nobody(page, consoles):
     json, an_object, unknown, angle = page.evaluate(NONSENSE)
     assert (json, an_object) == ("refused: not JSON", "refused: not a JSON object")
     assert "do must be" in unknown and "pan_deg" in angle
-    after = wait_for(
+    after = wait(
         lambda: (h := api.ask("/api/health")[1])["viewers"] == before["viewers"] and h,
         "the oversize message to end its connection",
     )
     assert after["messages_refused"] == before["messages_refused"] + 4
     first = page.locator(".utc").inner_text()
-    wait_for(lambda: page.locator(".utc").inner_text() != first, "the page to go on")
+    wait(lambda: page.locator(".utc").inner_text() != first, "the page to go on")
 
 
 TEN = """() => Promise.all(Array.from({ length: 10 }, () => new Promise((done) => {
@@ -234,7 +234,7 @@ def test_ten_browsers_see_every_station(page, paper):
     picture(page, "alfa")
     assert page.evaluate(TEN) == [True] * 10
     first = page.locator(".utc").inner_text()
-    wait_for(lambda: page.locator(".utc").inner_text() != first, "the page to go on")
+    wait(lambda: page.locator(".utc").inner_text() != first, "the page to go on")
     assert page.get_by_text("No connection to the console").count() == 0
 
 

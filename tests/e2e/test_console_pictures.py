@@ -7,8 +7,9 @@ from dataclasses import replace
 import numpy as np
 import ols
 import pytest
+from conftest import wait
 from console_page import picture, two_consoles, watched_page
-from console_site import FULL_PX, PLACES, TARGET, browser, paper_site, wait_for
+from console_site import FULL_PX, PLACES, TARGET, browser, paper_site
 from ols_bench.paper_video import PaperCamera, PaperVideo
 from ols_demo.places import geodetic
 from playwright.sync_api import expect
@@ -97,7 +98,7 @@ def test_the_horizon_is_where_a_level_camera_sees_it(page):
         found = columns.argmax() * 2 * reach / len(columns) - reach
         return columns.max() > np.median(columns) + 10 and abs(found) < 4
 
-    wait_for(brightest, "a bright line at the horizon")
+    wait(brightest, "a bright line at the horizon")
 
 
 def test_targets_and_stations_are_where_the_camera_sees_them(page):
@@ -115,7 +116,7 @@ def test_targets_and_stations_are_where_the_camera_sees_them(page):
         return r > 200 and 120 < g < 210 and b < 140
 
     below = FULL_PX[1] / 2 + FOCAL_LENGTH_PX * np.tan(ELEVATION_RAD)
-    wait_for(
+    wait(
         lambda: (
             has("alfa", is_station, middle[0], below)
             and not has("alfa", is_target, middle[0], below)
@@ -123,7 +124,7 @@ def test_targets_and_stations_are_where_the_camera_sees_them(page):
         "bravo in alfa's picture, and no target there",
     )
     picture(page, "charlie").click()
-    wait_for(lambda: has("charlie", is_target, *middle), "the target in charlie's picture")
+    wait(lambda: has("charlie", is_target, *middle), "the target in charlie's picture")
 
 
 def test_the_caption_says_where_the_axis_of_this_picture_pointed(page):
@@ -140,7 +141,7 @@ def test_the_cross_is_where_the_axis_meets_the_picture(page):
         return (around - np.median(around)).max() > 25
 
     middle = [v / 2 for v in FULL_PX]
-    wait_for(lambda: is_cross(*PRINCIPAL_PX) and not is_cross(*middle), "the cross at the axis")
+    wait(lambda: is_cross(*PRINCIPAL_PX) and not is_cross(*middle), "the cross at the axis")
 
 
 def test_the_exposure_is_in_milliseconds(page, paper):
@@ -166,13 +167,13 @@ PAD = """
 def test_a_gamepads_stick_turns_the_unit_and_letting_go_halts(page, paper):
     page.evaluate(PAD)
     picture(page, "alfa").click()
-    wait_for(lambda: paper.commands, "the click's own command")
+    wait(lambda: paper.commands, "the click's own command")
     paper.ptu_commands.clear()
     page.evaluate("window.pad.axes = [0.05, -0.05, 0, 0]")  # at rest, worn
     page.evaluate("window.pad.axes = [0.6, 0, 0, 0]")
-    wait_for(lambda: len(paper.ptu_commands) > 2, "rates that are renewed")
+    wait(lambda: len(paper.ptu_commands) > 2, "rates that are renewed")
     page.evaluate("window.pad.axes = [0, 0, 0, 0]")
-    wait_for(lambda: is_halted(paper), "the halt")
+    wait(lambda: is_halted(paper), "the halt")
     sent = list(paper.ptu_commands)
     assert {m.command for m in sent} == {sent[0].COMMAND_RATE}
     assert all(m.station == "alfa" and m.lease_s <= 0.3 for m in sent)
@@ -189,11 +190,11 @@ def is_halted(paper):
 def test_a_worn_stick_and_a_pad_that_vanishes_turn_nothing(page, paper):
     page.evaluate(PAD)
     picture(page, "alfa").click()
-    wait_for(lambda: paper.commands, "the click's own command")
+    wait(lambda: paper.commands, "the click's own command")
     page.evaluate("window.pad.axes = [0.6, 0, 0, 0]")
-    wait_for(lambda: any(m.pan_rate_rad_s for m in paper.ptu_commands), "a rate")
+    wait(lambda: any(m.pan_rate_rad_s for m in paper.ptu_commands), "a rate")
     page.evaluate("window.pad.connected = false")
-    wait_for(lambda: is_halted(paper), "the halt")
+    wait(lambda: is_halted(paper), "the halt")
     sent = len(paper.ptu_commands)
     page.evaluate("Object.assign(window.pad, { connected: true, axes: [0.1, -0.1, 0, 0] })")
     looks = page.evaluate("window.looks")

@@ -8,16 +8,8 @@ import time
 import lcm
 import ols_msg
 import pytest
-from console_site import (
-    DEADLINE_S,
-    FULL_PX,
-    address_of,
-    browser,
-    console_command,
-    jpeg,
-    paper_site,
-    wait_for,
-)
+from conftest import wait
+from console_site import DEADLINE_S, FULL_PX, address_of, browser, console_command, jpeg, paper_site
 from ols_demo.bus import LIVE_URL
 from ols_demo.keys import members_of_environment
 from ols_demo.site import Site
@@ -98,7 +90,7 @@ def fixture_panel(procedure, tmp_path):
 
 
 def answer_after(procedure, count):
-    wait_for(lambda: len(procedure.answers) > count, "an answer")
+    wait(lambda: len(procedure.answers) > count, "an answer")
     return procedure.answers[count]
 
 
@@ -106,7 +98,7 @@ def test_a_person_points_confirms_turns_and_aborts(procedure, panel):
     expect(panel).to_contain_text("field: spire: where is it?")
     expect(panel).to_contain_text("Or turn the unit.")
     image = panel.get_by_role("img", name="spire: where is it?")
-    wait_for(lambda: image.evaluate("image => image.naturalWidth") == 320, "its picture")
+    wait(lambda: image.evaluate("image => image.naturalWidth") == 320, "its picture")
     for answer in ("Abort", "Skip", "Exactly here", "Turn by"):
         button = panel.get_by_role("button", name=answer)
         expect(button, "without scrolling").to_be_in_viewport(ratio=1)
@@ -129,7 +121,7 @@ def test_a_person_points_confirms_turns_and_aborts(procedure, panel):
     form.get_by_label("Pan °").fill("-3.5")
     form.get_by_label("Tilt °").fill("0.5")
     # Not before the third question stands on the page: an answer to the second is refused.
-    wait_for(
+    wait(
         lambda: (
             form.get_by_role("button").click() or any(a.question == 3 for a in procedure.answers)
         ),
@@ -140,6 +132,6 @@ def test_a_person_points_confirms_turns_and_aborts(procedure, panel):
 
     panel.get_by_role("button", name="Abort").click()
     panel.get_by_role("group", name="Abort?").get_by_role("button", name="Abort").click()
-    wait_for(lambda: any(a.choice == "abort" for a in procedure.answers), "the abort")
+    wait(lambda: any(a.choice == "abort" for a in procedure.answers), "the abort")
     procedure.state, procedure.question, procedure.choices = M.STATE_ABORTED, 0, []
     expect(panel.get_by_role("button", name="Confirm", exact=True)).to_have_count(0)

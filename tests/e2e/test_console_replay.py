@@ -7,9 +7,9 @@ import sys
 
 import numpy as np
 import pytest
-from conftest import BIN
+from conftest import BIN, finished, wait
 from console_page import axe_finds
-from console_site import DEADLINE_S, Api, PaperSite, address_of, wait_for
+from console_site import DEADLINE_S, Api, PaperSite, address_of
 from ols_demo.site import Site
 from PIL import Image
 from playwright.sync_api import expect
@@ -101,11 +101,11 @@ def test_scrubbing_shows_the_state_of_the_instant(page, replay):
     pause(page)
     stations = page.get_by_role("region", name="Stations", exact=True)
     go(page, 50)
-    wait_for(lambda: abs(shown_s(replay) - 50) < 0.2, "50 s")
+    wait(lambda: abs(shown_s(replay) - 50) < 0.2, "50 s")
     expect(stations.get_by_role("button", name="alfa")).to_contain_text("stopped")
     expect(page.get_by_role("region", name="History")).to_contain_text("stop → done")
     go(page, 10)
-    wait_for(lambda: abs(shown_s(replay) - 10) < 0.2, "10 s")
+    wait(lambda: abs(shown_s(replay) - 10) < 0.2, "10 s")
     expect(stations.get_by_role("button", name="alfa")).to_contain_text("idle")
     expect(page.get_by_role("region", name="History")).not_to_contain_text("stop")
     expect(page.get_by_role("region", name="Targets")).to_contain_text("380.0 m")
@@ -114,10 +114,10 @@ def test_scrubbing_shows_the_state_of_the_instant(page, replay):
 def test_it_plays_and_pauses_at_a_speed(page, replay):
     pause(page)
     go(page, 5)
-    wait_for(lambda: abs(shown_s(replay) - 5) < 0.2, "5 s")
+    wait(lambda: abs(shown_s(replay) - 5) < 0.2, "5 s")
     bar(page).get_by_label("Speed").select_option("30")
     bar(page).get_by_role("button", name="Play").click()
-    wait_for(lambda: shown_s(replay) > 30, "30 s of the recording")
+    wait(lambda: shown_s(replay) > 30, "30 s of the recording")
     pause(page)
     at = shown_s(replay)
     assert shown_s(replay) == at
@@ -132,7 +132,7 @@ def test_the_timeline_leads_to_events(page, replay):
     expect(choice.locator("option", has_text="target begins")).to_have_count(1)
     expect(bar(page).locator(".marks .command")).to_have_count(1)
     bar(page).get_by_role("button", name="Next event").click()
-    wait_for(lambda: abs(shown_s(replay) - SECONDS / 2) < 0.3, "the alarm")
+    wait(lambda: abs(shown_s(replay) - SECONDS / 2) < 0.3, "the alarm")
     expect(page.locator(".stations .badge")).to_have_count(1)
 
 
@@ -140,7 +140,7 @@ def test_recorded_frames_are_shown(page, replay):
     pause(page)
     choice = bar(page).get_by_label("Go to")
     choice.select_option(choice.locator("option", has_text="bird").get_attribute("value"))
-    wait_for(lambda: abs(shown_s(replay) - 40) < 0.2, "the recorded event")
+    wait(lambda: abs(shown_s(replay) - 40) < 0.2, "the recorded event")
     page.wait_for_function(
         """() => {
           const c = document.querySelector('[aria-label=alfa][role=img]');
@@ -160,9 +160,9 @@ def test_a_damaged_log_is_said_and_the_rest_shown(network, tmp_path):
     with Site(tmp_path / "logs") as site:
         site.start_and_wait("damaged", command(tmp_path / "damaged.lcmlog"), "ready")
         api = Api(address_of(site, "damaged"))
-        state = wait_for(lambda: (s := api.state())["replay"]["read"] == 1 and s, "all of it")
+        state = wait(lambda: (s := api.state())["replay"]["read"] == 1 and s, "all of it")
         assert "damaged, the first is byte 0; the end is cut off" in state["replay"]["problem"]
-        wait_for(lambda: len(api.state()["stations"]) == 3, "the stations")
+        wait(lambda: len(api.state()["stations"]) == 3, "the stations")
 
 
 @pytest.mark.parametrize("content", [None, b"", b"a letter"])
@@ -170,7 +170,7 @@ def test_what_is_no_log_is_named(tmp_path, content):
     log = tmp_path / "run.lcmlog"
     if content is not None:
         log.write_bytes(content)
-    done = subprocess.run(command(log), capture_output=True, text=True, check=False, timeout=60)
+    done = finished(*command(log))
     assert done.returncode == 2
     assert f"ols-console: {log}: " in done.stderr
 

@@ -3,9 +3,9 @@
 import time
 
 import pytest
-from conftest import BIN, ROOT
+from conftest import BIN, ROOT, wait
 from console_hand import Hand, Pointer, Views
-from console_site import browser, wait_for
+from console_site import browser
 from ols_demo.bus import LIVE_URL, Bus
 from ols_demo.keys import members_of_environment
 from ols_demo.site import Site, bring_up_loopback
@@ -51,4 +51,4 @@ def test_a_box_drawn_in_the_browser_makes_the_station_track(site):
         expect(row).to_contain_text("tracking")
         # And the same hand stops it.
         page.keyboard.press("Escape")
-        wait_for(lambda: hand.state(STATION) == "stopped", "the station to stop")
+        wait(lambda: hand.state(STATION) == "stopped", "the station to stop")

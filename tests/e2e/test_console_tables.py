@@ -5,8 +5,9 @@ import re
 
 import ols_msg
 import pytest
-from console_page import axe_finds, picture, region, watched_page
-from console_site import PaperTarget, wait_for
+from conftest import wait
+from console_page import axe_finds, drag, picture, region, watched_page
+from console_site import PaperTarget
 from ols_demo.places import geodetic
 from playwright.sync_api import expect
 
@@ -80,7 +81,7 @@ def test_each_command_of_a_station(page, paper):
         stations.get_by_role("button", name=button, exact=True).click()
         if command in (PTU.COMMAND_HOME, PTU.COMMAND_REFERENCE_OK):
             stations.get_by_role("group", name="?").get_by_role("button", name=button).click()
-        (first, *_) = wait_for(lambda: paper.ptu_commands, f"{button} on the bus")
+        (first, *_) = wait(lambda: paper.ptu_commands, f"{button} on the bus")
         assert (first.station, first.command) == ("charlie", command)
         expect(page.locator("output.notice")).to_contain_text("done")
 
@@ -97,7 +98,7 @@ def test_what_may_be_dangerous_is_asked_about_first(page, paper):
     expect(question).to_be_hidden()
     expect(stations.get_by_role("button", name="Home", exact=True)).to_be_focused()
     stations.get_by_role("button", name="Release", exact=True).click()
-    wait_for(lambda: paper.ptu_commands, "the release")
+    wait(lambda: paper.ptu_commands, "the release")
     assert [m.command for m in paper.ptu_commands] == [PTU.COMMAND_RELEASE]
 
 
@@ -108,11 +109,11 @@ def test_a_question_holds_up_neither_the_stop_nor_its_own_answer(page, paper):
     stations.get_by_role("button", name="Home", exact=True).click()
     question = stations.get_by_role("group", name="Is the way clear?")
     page.get_by_role("button", name="Stop all").click()
-    wait_for(lambda: ("charlie", "stop") in paper.commands[-9:], "the stop of all")
+    wait(lambda: ("charlie", "stop") in paper.commands[-9:], "the stop of all")
     page.wait_for_timeout(3500)  # longer than a command may be late: a person looks first
     paper.ptu_commands.clear()
     question.get_by_role("button", name="Home").click()
-    wait_for(lambda: [m for m in paper.ptu_commands if m.command == PTU.COMMAND_HOME], "home")
+    wait(lambda: [m for m in paper.ptu_commands if m.command == PTU.COMMAND_HOME], "home")
     expect(page.locator("output.notice")).to_contain_text("charlie home: done")
 
 
@@ -127,13 +128,13 @@ def test_a_station_is_pointed_and_records(page, paper):
     stations.get_by_label("Pan °").fill("-12.5")
     stations.get_by_label("Tilt °").fill("4")
     stations.get_by_role("button", name="Point", exact=True).click()
-    (pointed,) = wait_for(lambda: paper.ptu_commands, "the angles")
+    (pointed,) = wait(lambda: paper.ptu_commands, "the angles")
     assert (pointed.station, pointed.command) == ("bravo", PTU.COMMAND_POINT)
     assert pointed.pan_rad == pytest.approx(-0.218166, abs=1e-6)
     assert pointed.tilt_rad == pytest.approx(0.069813, abs=1e-6)
     stations.get_by_label("Label").fill("bird")
     stations.get_by_role("button", name="Record").click()
-    (recorded,) = wait_for(lambda: paper.records, "the recording")
+    (recorded,) = wait(lambda: paper.records, "the recording")
     assert (recorded.station, recorded.label) == ("bravo", "bird")
     assert (recorded.before_s, recorded.after_s) == (5.0, 5.0)
     paper.devices.clear()
@@ -156,7 +157,7 @@ def test_one_browser_has_control_until_another_takes_it_over(page, paper, chromi
         told = page.locator("output.notice")
         expect(told).to_have_text("operator 2 has taken control of alfa")
         theirs.get_by_role("button", name="Release").click()
-        wait_for(lambda: paper.ptu_commands, "the command of who took over")
+        wait(lambda: paper.ptu_commands, "the command of who took over")
         expect(ours.get_by_role("button", name="Take over")).to_be_visible()
         theirs.get_by_role("button", name="Give up").click()
         expect(ours).to_contain_text("nobody has control")
@@ -185,12 +186,6 @@ def test_a_fusion_that_falls_silent_and_restarts(page, paper):
 
 def test_a_designation_of_a_frame_that_is_too_old_is_refused_in_words(page, paper):
     paper.refusing["alfa"] = "no_frame"
-    canvas = picture(page, "alfa")
-    canvas.scroll_into_view_if_needed()
-    box = canvas.bounding_box()
-    page.mouse.move(box["x"] + 0.4 * box["width"], box["y"] + 0.4 * box["height"])
-    page.mouse.down()
-    page.mouse.move(box["x"] + 0.6 * box["width"], box["y"] + 0.6 * box["height"], steps=3)
-    page.mouse.up()
+    drag(page, picture(page, "alfa"), 0.4, 0.6)
     expect(page.get_by_text("alfa designate: refused: that picture is too old")).to_be_visible()
     paper.refusing.clear()

@@ -5,8 +5,9 @@ the stop, and the release of what it has stopped."""
 import re
 
 import pytest
-from console_page import picture, region
-from console_site import DEADLINE_S, STATUS, wait_for
+from conftest import wait
+from console_page import picture, place, region
+from console_site import DEADLINE_S, STATUS
 from playwright.sync_api import expect
 
 pytest_plugins = ["console_fixtures"]
@@ -173,7 +174,7 @@ def release_charlie(page, paper):
     page.evaluate("window.said.length = 0")
     region(page, "Stations").get_by_role("button", name="charlie").click()
     region(page, "Stations").get_by_role("button", name="Release", exact=True).click()
-    wait_for(lambda: paper.commands, "a command that is meant")
+    wait(lambda: paper.commands, "a command that is meant")
     assert paper.commands == [("charlie", "release")]
     assert paper.designations == [] and paper.lens_commands == []
 
@@ -209,18 +210,18 @@ def test_a_tracking_station_is_taken_in_hand_and_given_back(spied, paper):
     person.figure.get_by_role("button", name="By hand").click()
     expect(person.figure).to_contain_text("end tracking")
     spied.mouse.click(*person.at())
-    wait_for(lambda: paper.commands, "the command")
+    wait(lambda: paper.commands, "the command")
     person.figure.get_by_role("button", name="Back to tracking").click()
-    wait_for(lambda: len(paper.commands) > 1, "the release")
+    wait(lambda: len(paper.commands) > 1, "the release")
     assert paper.commands == [("alfa", "centre"), ("alfa", "release")]
     track(paper, spied, "alfa")
     expect(person.figure.get_by_role("button", name="Back to tracking")).to_be_hidden()
     forget(paper)
     person.press("m")
     spied.keyboard.down("ArrowRight")
-    wait_for(lambda: paper.ptu_commands, "rates")
+    wait(lambda: paper.ptu_commands, "rates")
     spied.keyboard.up("ArrowRight")
-    wait_for(lambda: paper.ptu_commands[-1].pan_rate_rad_s == 0, "the halt")
+    wait(lambda: paper.ptu_commands[-1].pan_rate_rad_s == 0, "the halt")
 
 
 def test_what_was_stopped_is_released_by_one_button(page, paper):
@@ -253,9 +254,7 @@ def phone(chromium, consoles, page):
 
 def swipe(page, canvas):
     """Upwards by a finger, from the picture's middle."""
-    canvas.scroll_into_view_if_needed()
-    box = canvas.bounding_box()
-    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    x, y = place(canvas, 0.5, 0.5)
     screen = page.context.new_cdp_session(page)
     for k in range(11):
         event = {"type": "touchMove" if k else "touchStart", "touchPoints": [{"x": x, "y": y}]}
@@ -270,11 +269,11 @@ def test_a_swipe_over_a_picture_scrolls_unless_the_station_is_in_hand(phone, pap
     for canvas in (alfa, picture(phone, "bravo")):  # the large one, and a small one, which stays so
         phone.evaluate("scrollTo(0, 0)")
         swipe(phone, canvas)
-        wait_for(lambda: phone.evaluate("scrollY") > 20, "the scroll")
+        wait(lambda: phone.evaluate("scrollY") > 20, "the scroll")
     assert phone.evaluate("window.said") == []
     expect(alfa.locator("xpath=..")).to_have_class(re.compile("large"))
     alfa.tap()
-    wait_for(lambda: paper.commands, "what a tap does")
+    wait(lambda: paper.commands, "what a tap does")
     assert paper.commands == [("alfa", "centre")]
     phone.get_by_role("button", name="By hand").tap()
 
@@ -282,4 +281,4 @@ def test_a_swipe_over_a_picture_scrolls_unless_the_station_is_in_hand(phone, pap
         swipe(phone, alfa)
         return paper.designations
 
-    wait_for(drawn, "a box by a finger")
+    wait(drawn, "a box by a finger")

@@ -17,7 +17,7 @@ import ols
 import ols_msg
 import pytest
 import takproto
-from conftest import BIN
+from conftest import BIN, finished, made
 from ols_demo.bus import LIVE_URL, counters, decode
 from ols_demo.keys import members_of_environment
 from ols_demo.places import geodetic
@@ -187,10 +187,7 @@ class Rig:
         self.slews.append(ols_msg.slew_t.decode(data))
 
     def station(self):
-        message = ols_msg.station_status_t()
-        message.utime = time.time_ns() // 1000
-        message.schema_version = message.SCHEMA_VERSION
-        message.station, message.boot_id = "alfa", 1
+        message = made(ols_msg.station_status_t, station="alfa", boot_id=1)
         message.sequence = next(self.sequences)
         message.state = message.STATE_IDLE
         message.position_source = message.POSE_SURVEYED
@@ -384,7 +381,6 @@ def test_a_server_that_dies_is_found_again(rig):
 def test_a_bad_configuration_is_named(tmp_path):
     config = tmp_path / "cue.toml"
     config.write_text('[[input]]\nname = "a"\nformat = "sbs"\nfrom = "udp://0.0.0.0:1"\n')
-    command = [str(BIN / "ols-cue"), "--config", str(config), "--check-config"]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=DEADLINE_S)
+    done = finished(BIN / "ols-cue", "--config", config, "--check-config")
     assert done.returncode == 2
     assert "cue.toml:4: input[0].from" in done.stderr

@@ -10,7 +10,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
-from conftest import BIN, SCENARIO
+from conftest import BIN, SCENARIO, finished
 from helpers import Listener, at_frame_rate
 from ols_demo.bus import LIVE_URL
 from ols_demo.site import Site
@@ -20,15 +20,7 @@ OK, WARNINGS, FAILURES = 0, 1, 2
 
 class Diagnosis:
     def __init__(self, *arguments, **environment):
-        command = [str(BIN / "ols-doctor"), "--json", *map(str, arguments)]
-        done = subprocess.run(
-            command,
-            capture_output=True,
-            text=True,
-            check=False,
-            timeout=120,
-            env={**os.environ, **environment},
-        )
+        done = finished(BIN / "ols-doctor", "--json", *arguments, env={**os.environ, **environment})
         self.status, self.stderr = done.returncode, done.stderr
         answer = json.loads(done.stdout)
         self.verdict, self.findings = answer["verdict"], answer["findings"]
@@ -156,12 +148,6 @@ def test_a_running_station_is_asked_and_left_alone(devices):
 
 
 def test_without_a_configuration_it_says_what_to_do():
-    done = subprocess.run(
-        [str(BIN / "ols-doctor"), "--config", "/nonexistent.toml"],
-        capture_output=True,
-        text=True,
-        check=False,
-        timeout=60,
-    )
+    done = finished(BIN / "ols-doctor", "--config", "/nonexistent.toml")
     assert done.returncode == FAILURES
     assert done.stdout.startswith("FAIL  configuration: /nonexistent.toml")

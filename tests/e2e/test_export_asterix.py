@@ -7,6 +7,7 @@ import subprocess
 import asterix
 import ols_msg
 import pytest
+from conftest import finished
 from export_site import (
     HEIGHT_M,
     LATITUDE_DEG,
@@ -144,8 +145,7 @@ def test_tshark_agrees_field_by_field(records, tmp_path):
     capture = tmp_path / "capture.pcap"
     ports = ["-u", "40000,8600", "-4", "10.0.0.1,10.0.0.2"]
     subprocess.run(["text2pcap", "-q", *ports, dump, capture], check=True, capture_output=True)
-    command = ["tshark", "-r", capture, "-d", "udp.port==8600,asterix", "-V"]
-    done = subprocess.run(command, check=True, capture_output=True, text=True)
+    done = finished("tshark", "-r", capture, "-d", "udp.port==8600,asterix", "-V", check=True)
     for complaint in ("Malformed", "Expert Info", "Unknown"):
         assert complaint not in done.stdout.replace("Scanning Direction: Unknown", "")
     packets = re.split(r"^ASTERIX packet, Category (\d+)", done.stdout, flags=re.M)[1:]

@@ -9,7 +9,7 @@ import gpxpy
 import jsonschema
 import lcm
 import pytest
-from conftest import BIN
+from conftest import BIN, finished
 from export_site import (
     GEOID_M,
     HEIGHT_M,
@@ -91,8 +91,7 @@ def check_xml(path):
 
 def place_by_gdal(path, place, *layer):
     """What stands in the groups of `place` in what ogrinfo says; it complains about nothing."""
-    command = ["ogrinfo", "-ro", "-al" if not layer else "-q", path, *layer]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=60, check=False)
+    done = finished("ogrinfo", "-ro", "-al" if not layer else "-q", path, *layer)
     assert (done.returncode, done.stderr) == (0, "")
     assert "Warning" not in done.stdout and "ERROR" not in done.stdout
     found = re.search(place, done.stdout, re.DOTALL)
@@ -152,13 +151,7 @@ CHECKS = {
 
 
 def export(*arguments):
-    return subprocess.run(
-        [str(BIN / "ols-export"), *map(str, arguments)],
-        capture_output=True,
-        text=True,
-        timeout=60,
-        check=False,
-    )
+    return finished(BIN / "ols-export", *arguments)
 
 
 def test_the_geoid_is_far_from_the_ellipsoid():
@@ -273,14 +266,7 @@ def test_without_a_geoid_no_height_above_the_sea_is_written(tmp_path):
     ],
 )
 def test_bad_input_is_one_line(tmp_path, arguments, said):
-    done = subprocess.run(
-        [str(BIN / "ols-export"), *arguments],
-        capture_output=True,
-        text=True,
-        timeout=60,
-        check=False,
-        cwd=tmp_path,
-    )
+    done = finished(BIN / "ols-export", *arguments, cwd=tmp_path)
     assert done.returncode == 2, done.stderr
     assert said in done.stderr and len(done.stderr.splitlines()) == 1
     assert list(tmp_path.iterdir()) == []

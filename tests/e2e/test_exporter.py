@@ -6,7 +6,7 @@ import urllib.request
 import lcm
 import ols_msg
 import pytest
-from conftest import BIN
+from conftest import BIN, made
 from helpers import Listener, station_without_devices
 from ols_demo.bus import LIVE_URL
 from ols_demo.site import Site
@@ -62,9 +62,7 @@ def test_the_statuses_of_the_site_are_told(exporter, tmp_path):
 
 def test_strangers_are_counted_and_not_told(exporter):
     address, _ = exporter
-    status = ols_msg.station_status_t()
-    status.schema_version = status.SCHEMA_VERSION
-    status.station = "bravo"
+    status = made(ols_msg.station_status_t, station="bravo")
     wire, listener = lcm.LCM(LIVE_URL), Listener()
     for _ in range(20):
         wire.publish("OLS_STATUS_bravo", status.encode())

@@ -5,13 +5,12 @@ test_fault_mutations.py.
 """
 
 import json
-import subprocess
 import sys
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from conftest import BIN, ROOT
+from conftest import BIN, ROOT, finished
 from ols_demo.recording import Recording
 from ols_faults import cases_stop, measure
 from ols_faults.case import Outcome
@@ -93,9 +92,7 @@ def cases(network, tmp_path_factory):
     folder = tmp_path_factory.mktemp("faults")
     command = [sys.executable, "-m", "ols_faults", "--output", str(folder), "--bin", str(BIN)]
     command += [argument for name in CASES for argument in ("--only", name)]
-    done = subprocess.run(
-        command, capture_output=True, text=True, timeout=DEADLINE_S, check=False, cwd=ROOT
-    )
+    done = finished(*command, cwd=ROOT)
     assert (folder / "faults.json").exists(), done.stdout + done.stderr
     assert "| fusion-killed |" in (folder / "faults.md").read_text()
     return json.loads((folder / "faults.json").read_text())["cases"]
@@ -148,11 +145,6 @@ def test_forged_fragments_end_nobody_and_are_counted(cases):
 
 
 def test_an_unknown_case_is_refused():
-    done = subprocess.run(
-        [sys.executable, "-m", "ols_faults", "--only", "nothing"],
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+    done = finished(sys.executable, "-m", "ols_faults", "--only", "nothing")
     assert done.returncode == 2
     assert "no such case: nothing" in done.stderr

@@ -8,7 +8,7 @@ import time
 import numpy as np
 import ols_msg
 import pytest
-from conftest import BIN, SCENARIO
+from conftest import BIN, SCENARIO, finished
 from helpers import Listener, at_frame_rate
 from ols_demo.site import Site
 
@@ -81,8 +81,7 @@ def ptu_is(loop, state):
 
 
 def slew(loop, pan_deg, tilt_deg):
-    command = [BIN / "ols-ctl", STATION, "manual", str(pan_deg), str(tilt_deg)]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=30, check=False)
+    done = finished(BIN / "ols-ctl", STATION, "manual", pan_deg, tilt_deg)
     assert done.returncode == 0, done.stdout + done.stderr
 
 

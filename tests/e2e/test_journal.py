@@ -10,7 +10,7 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from conftest import BIN, ROOT
+from conftest import BIN, ROOT, finished
 from helpers import station_without_devices
 
 JOURNALD = Path("/lib/systemd/systemd-journald")
@@ -67,14 +67,7 @@ def fixture_journal(unsigned, tmp_path_factory):
         "ALARM": IDS["kStationAlarmBegins"],
         "OUT": str(folder),
     }
-    done = subprocess.run(
-        ["unshare", "--mount", "bash", "-c", RUN],
-        env=environment,
-        capture_output=True,
-        text=True,
-        timeout=120,
-        check=False,
-    )
+    done = finished("unshare", "--mount", "bash", "-c", RUN, env=environment)
     assert done.returncode == 0, done.stderr
     entries = [json.loads(line) for line in (folder / "entries.json").read_text().splitlines()]
     return entries, (folder / "explained.txt").read_text()

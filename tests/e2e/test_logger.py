@@ -12,7 +12,7 @@ from pathlib import Path
 
 import lcm
 import pytest
-from conftest import BIN
+from conftest import BIN, finished, wait
 from ols_demo.bus import LIVE_URL
 from ols_demo.keys import members_of_environment
 
@@ -20,13 +20,6 @@ FLOOD = "OLS_SIM_FLOOD"  # of the simulator, which may send much and anything
 DEADLINE_S = 60.0
 SPLIT_BYTES = 50_000
 QUOTA_BYTES = 300_000
-
-
-def wait(condition, what):
-    end = time.monotonic() + DEADLINE_S
-    while not condition():
-        assert time.monotonic() < end, f"not within {DEADLINE_S:.0f} s: {what}"
-        time.sleep(0.01)
 
 
 class Flood:
@@ -272,7 +265,7 @@ def test_records_a_flight_into_one_file(flight):
     process.send_signal(signal.SIGTERM)
     assert process.wait(DEADLINE_S) == 0
     assert [data[16] for data in messages(log, FLOOD)] == list(range(100))
-    again = subprocess.run(program, capture_output=True, text=True, timeout=DEADLINE_S)
+    again = finished(*program)
     assert again.returncode == 2
     assert str(log) in again.stderr
     assert len(messages(log, FLOOD)) == 100  # it is not overwritten
@@ -303,13 +296,7 @@ def test_a_log_is_verified_after_a_later_revocation(flight, tmp_path):
 
 
 def ols_key(*words, folder):
-    return subprocess.run(
-        [str(BIN / "ols-key"), *map(str, words)],
-        cwd=folder,
-        capture_output=True,
-        text=True,
-        timeout=DEADLINE_S,
-    )
+    return finished(BIN / "ols-key", *words, cwd=folder)
 
 
 def test_ends_though_messages_do_not(start):
@@ -350,9 +337,7 @@ def test_tells_the_service_manager(start, tmp_path, monkeypatch):
     ],
 )
 def test_bad_input_is_one_line_and_status_2(arguments, text):
-    done = subprocess.run(
-        [str(BIN / "ols-logger"), *arguments], capture_output=True, text=True, timeout=30
-    )
+    done = finished(BIN / "ols-logger", *arguments)
     assert done.returncode == 2
     assert done.stderr.startswith("ols-logger: ")
     assert text in done.stderr

@@ -10,7 +10,7 @@ import sys
 import numpy as np
 import ols
 import pytest
-from conftest import BIN, lines_said
+from conftest import BIN, finished, lines_said
 
 STATIONS = """\
 station,latitude_deg,longitude_deg,height_m
@@ -32,10 +32,8 @@ def folder(tmp_path):
 
 
 def fuse(stations, bearings, output, *options):
-    command = [BIN / "ols-fuse", "--stations", stations, "--bearings", bearings, "--output", output]
-    return subprocess.run(
-        [*map(str, command), *options], capture_output=True, text=True, timeout=300, check=False
-    )
+    files = ("--stations", stations, "--bearings", bearings, "--output", output)
+    return finished(BIN / "ols-fuse", *files, *options)
 
 
 def fuse_in(folder, *options):

@@ -3,12 +3,11 @@
 import csv
 import json
 import re
-import subprocess
 from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import BIN, lines_said
+from conftest import BIN, finished, lines_said
 
 ROOT = Path(__file__).resolve().parents[2]
 TABLE1 = ROOT / "dev/python/ols_accuracy/table1.csv"
@@ -29,7 +28,7 @@ def stations(tmp_path):
 
 def precision(*arguments):
     command = [str(part) for part in (BIN / "ols-precision", *arguments)]
-    return subprocess.run(command, capture_output=True, text=True, timeout=300, check=False)
+    return finished(*command)
 
 
 def rows(path):

@@ -7,7 +7,7 @@ import tomllib
 import numpy as np
 import ols
 import pytest
-from conftest import BIN, lines_said
+from conftest import BIN, finished, lines_said
 
 CONFIG = """\
 id = "s1"
@@ -88,7 +88,7 @@ def run(folder, *more):
     command = [BIN / "ols-stationing", "--station", folder / "station.toml"]
     command += ["--landmarks", folder / "landmarks.csv", "--sightings", folder / "sightings.csv"]
     command = [str(part) for part in (*command, *more)]
-    return subprocess.run(command, capture_output=True, text=True, timeout=60, check=False)
+    return finished(*command)
 
 
 def change(path, old, new):
@@ -121,8 +121,7 @@ def test_is_what_a_station_reads(survey):
     assert abs(pose["height_m"] - 300.0) < 1e-3
     others = CONFIG[CONFIG.index("[camera]") :]
     (survey / "new.toml").write_text(f'id = "s1"\n{output.read_text()}\n{others}')
-    command = [str(BIN / "ols-station"), "--check-config", "--config", str(survey / "new.toml")]
-    checked = subprocess.run(command, capture_output=True, text=True, timeout=30, check=False)
+    checked = finished(BIN / "ols-station", "--check-config", "--config", survey / "new.toml")
     assert checked.returncode == 0, checked.stderr
     assert f"heading {pose['heading_deg']:.3f} deg" in checked.stdout
 

@@ -7,7 +7,7 @@ import subprocess
 
 import numpy as np
 import pytest
-from conftest import BIN, lines_said
+from conftest import BIN, finished, lines_said
 
 FRAMES = 24
 SIDE = 12  # [px]
@@ -58,9 +58,8 @@ def init(frame: int) -> str:
 
 
 def track(source, output, *options, box: str = init(0)) -> subprocess.CompletedProcess:
-    command = [BIN / "ols-track", "--input", source, "--output", output, "--init", box]
-    return subprocess.run(
-        [*map(str, command), *options], capture_output=True, text=True, timeout=120, check=False
+    return finished(
+        BIN / "ols-track", "--input", source, "--output", output, "--init", box, *options
     )
 
 

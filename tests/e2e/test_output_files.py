@@ -5,7 +5,7 @@ import signal
 import subprocess
 
 import pytest
-from conftest import BIN
+from conftest import BIN, finished
 
 STATIONS = "station,latitude_deg,longitude_deg,height_m\na,49.2,16.598,250\nb,49.2,16.602,250\n"
 BEARINGS = "utime_us,station,azimuth_deg,elevation_deg,sigma_deg\n1600000000000000,a,45,10,0.01\n"
@@ -40,9 +40,7 @@ ADVISE = "ols-precision advise --places link.csv --area area.json --stations 1 -
 def test_an_output_that_is_an_input_is_refused(folder, command):
     before = {path: path.read_bytes() for path in folder.iterdir()}
     program, *words = command.split()
-    result = subprocess.run(
-        [BIN / program, *words], cwd=folder, capture_output=True, text=True, timeout=60, check=False
-    )
+    result = finished(BIN / program, *words, cwd=folder)
     assert result.returncode == 2 and " is the same file as --" in result.stderr, result.stderr
     assert {path: path.read_bytes() for path in folder.iterdir()} == before
 

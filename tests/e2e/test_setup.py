@@ -1,11 +1,10 @@
 """ols-setup from answers: a centre and a station that joins it by one command on each side, with a
 simulated PTU on its line; what a person has changed outlasts the next run."""
 
-import subprocess
 import time
 
 import pytest
-from conftest import BIN, ROOT
+from conftest import BIN, ROOT, finished
 from helpers import Listener
 from ols_demo.bus import LIVE_URL
 from ols_demo.site import Site
@@ -40,8 +39,7 @@ fy_px = 13333.3
 
 
 def run(program, *words, status=0):
-    command = [str(BIN / program), *map(str, words)]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=120)
+    done = finished(BIN / program, *words)
     assert done.returncode == status, done.stdout + done.stderr
     return done.stdout + done.stderr
 

@@ -12,8 +12,8 @@ import time
 import lcm
 import numpy as np
 import pytest
-from conftest import BIN, ROOT
-from console_site import Api, address_of, wait_for
+from conftest import BIN, ROOT, finished, wait
+from console_site import Api, address_of
 from ols_demo import recording
 from ols_demo.bus import decode
 from ols_demo.site import Site
@@ -32,9 +32,7 @@ def run(network, tmp_path_factory):
     # Small pictures: two ordinary processors have other tests to run as well.
     command += ["--scenario", str(ROOT / "sim/scenarios/faults.toml")]
     command += ["--report", str(report), "--output", str(folder), "--bin", str(BIN)]
-    done = subprocess.run(
-        command, capture_output=True, text=True, timeout=DEADLINE_S, check=False, cwd=ROOT
-    )
+    done = finished(*command, cwd=ROOT)
     assert done.returncode == 0, done.stdout + done.stderr
     return folder
 
@@ -72,7 +70,7 @@ def test_a_run_without_faults_is_no_news(run, tmp_path):
     with Site(tmp_path / "logs") as site:
         site.start_and_wait("console", [*command, "--replay", str(run / "run.lcmlog")], "ready")
         api = Api(address_of(site, "console"))
-        wait_for(lambda: api.state()["replay"]["read"] >= 1, "the whole log")
+        wait(lambda: api.state()["replay"]["read"] >= 1, "the whole log")
         _, timeline, _ = api.ask("/api/replay")
     news = [m for m in timeline["marks"] if m["kind"] in ("alarm", "error")]
     said = [mark["text"] for mark in news]

@@ -1,13 +1,12 @@
 """A site's settings, signed at the centre, reach a station by the bus: it keeps them, works with
 them from its next start on, and refuses what is older or nobody's."""
 
-import subprocess
 import time
 
 import ols
 import ols_msg
 import pytest
-from conftest import BIN
+from conftest import BIN, finished
 from helpers import Listener, station_without_devices
 from ols_demo.bus import LIVE_URL
 from ols_demo.keys import make_keys
@@ -15,9 +14,7 @@ from ols_demo.site import Site
 
 
 def run(*words, status=0):
-    done = subprocess.run(
-        [str(BIN / "ols-key"), *map(str, words)], capture_output=True, text=True, timeout=60
-    )
+    done = finished(BIN / "ols-key", *words)
     assert done.returncode == status, done.stdout + done.stderr
     return done.stdout + done.stderr
 

@@ -11,7 +11,7 @@ import time
 
 import ols_msg
 import pytest
-from conftest import BIN
+from conftest import BIN, finished
 from helpers import Listener, addressed, point, slew, station_without_devices
 from ols_demo.site import Site
 
@@ -163,9 +163,7 @@ def test_a_stop_needs_neither_age_nor_order(station):
 
 
 def ctl(*arguments: str) -> subprocess.CompletedProcess:
-    return subprocess.run(
-        [str(BIN / "ols-ctl"), *arguments], capture_output=True, text=True, timeout=30, check=False
-    )
+    return finished(BIN / "ols-ctl", *arguments)
 
 
 def test_the_operators_hand(station):

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import ols_msg
 import pytest
-from conftest import BIN
+from conftest import BIN, finished
 from helpers import DEADLINE_S, Listener, StopSwitch, addressed, point, station_without_devices
 from ols_demo.site import Site
 
@@ -110,9 +110,7 @@ def station(network, tmp_path_factory):
 
 
 def ctl(*arguments):
-    return subprocess.run(
-        [str(BIN / "ols-ctl"), *arguments], capture_output=True, text=True, timeout=30, check=False
-    )
+    return finished(BIN / "ols-ctl", *arguments)
 
 
 def stop(pid):

@@ -6,7 +6,7 @@ import shutil
 import subprocess
 
 import pytest
-from conftest import ROOT
+from conftest import ROOT, finished
 from ols_demo.site import Site
 
 PATH = os.environ["PATH"] + ":/usr/sbin:/sbin"
@@ -42,7 +42,6 @@ def test_ptp4l_tells_the_time_and_takes_none(network, tmp_path):
 
 def test_chrony_reads_the_example_for_a_receiver(tmp_path):
     shutil.copy(EXAMPLES / "chrony-gnss.conf", tmp_path)
-    command = [program("chronyd"), "-p", "-f", str(tmp_path / "chrony-gnss.conf")]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=60)
+    done = finished(program("chronyd"), "-p", "-f", tmp_path / "chrony-gnss.conf")
     assert done.returncode == 0, done.stderr
     assert "refclock SHM 0" in done.stdout

@@ -12,7 +12,7 @@ import tomllib
 import numpy as np
 import ols
 import ols_msg
-from conftest import BIN, ROOT
+from conftest import BIN, ROOT, finished
 from helpers import Listener, addressed, at_frame_rate
 from ols_calibration.model import rx, ry, rz
 from ols_demo.places import geodetic
@@ -135,24 +135,11 @@ class Tripod:
         ]
 
     def run(self, name, *options, deadline_s=DEADLINE_S):
-        return subprocess.run(
-            self.command(name, *options),
-            capture_output=True,
-            text=True,
-            timeout=deadline_s,
-            stdin=subprocess.DEVNULL,
-            check=False,
-        )
+        return finished(*self.command(name, *options), timeout=deadline_s, stdin=subprocess.DEVNULL)
 
     def release(self):
         """What a procedure that was killed has left under manual operation."""
-        done = subprocess.run(
-            [str(BIN / "ols-ctl"), self.station, "release"],
-            capture_output=True,
-            text=True,
-            timeout=DEADLINE_S,
-            check=False,
-        )
+        done = finished(BIN / "ols-ctl", self.station, "release")
         assert done.returncode == 0, done.stdout + done.stderr
 
     def begin(self, name, *options):

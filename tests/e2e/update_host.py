@@ -2,9 +2,8 @@
 are scripts of these tests, and its time passes when they sleep."""
 
 import os
-import subprocess
 
-from conftest import ROOT
+from conftest import ROOT, finished
 
 RESTART = ROOT / "systemd/ols-station-restart"
 KEEP = ROOT / "systemd/ols-keep-packages"
@@ -129,15 +128,7 @@ class Host:
             (self.folder / name).write_text(text + "\n")
 
     def run(self, *command, **options):
-        return subprocess.run(
-            [str(part) for part in command],
-            env=self.environment,
-            capture_output=True,
-            text=True,
-            timeout=60,
-            check=False,
-            **options,
-        )
+        return finished(*command, env=self.environment, **options)
 
     def install(self, version):
         """As apt announces what it is about to install, and then does."""

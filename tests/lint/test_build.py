@@ -6,6 +6,7 @@ import subprocess
 from pathlib import Path
 
 import pytest
+from conftest import finished
 
 ROOT = Path(__file__).resolve().parents[2]
 PROJECT = """\
@@ -30,8 +31,7 @@ def write_presets(checkout: Path, variables: dict[str, str]) -> None:
 
 
 def build(checkout: Path) -> str:
-    command = [checkout / "tools/build", "release"]
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    done = finished(checkout / "tools/build", "release")
     assert done.returncode == 0, done.stdout + done.stderr
     return (checkout / "build/release/said").read_text().strip()
 

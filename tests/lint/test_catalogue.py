@@ -2,10 +2,10 @@
 
 import re
 import shutil
-import subprocess
 from pathlib import Path
 
 import pytest
+from conftest import finished
 
 ROOT = Path(__file__).resolve().parents[2]
 CATALOGUE = ROOT / "systemd/ols.catalog"
@@ -62,9 +62,7 @@ def test_systemd_reads_the_catalogue(tmp_path):
     shutil.copy(CATALOGUE, folder)
 
     def journalctl(word):
-        done = subprocess.run(
-            ["journalctl", f"--root={tmp_path}", word], capture_output=True, text=True, check=False
-        )
+        done = finished("journalctl", f"--root={tmp_path}", word)
         assert done.returncode == 0, done.stderr
         return done
 

@@ -4,10 +4,10 @@ import fnmatch
 import functools
 import re
 import shutil
-import subprocess
 from pathlib import Path
 
 import pytest
+from conftest import finished
 
 ROOT = Path(__file__).resolve().parents[2]
 TROUBLESHOOTING = ROOT / "docs/troubleshooting.md"
@@ -110,7 +110,7 @@ def fixture_installed(tmp_path_factory) -> Path:
         + re.sub(r"(install\(TARGETS|add_dependencies\()[^)]*\)", "", rules)
     )
     for step in (("-S", tree, "-B", tree / "b"), ("--install", tree / "b", "--prefix", usr)):
-        done = subprocess.run(["cmake", *step], capture_output=True, text=True, check=False)
+        done = finished("cmake", *step)
         assert done.returncode == 0, done.stderr
     return usr / "share/doc/ols"
 

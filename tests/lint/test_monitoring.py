@@ -3,10 +3,10 @@
 import json
 import re
 import shutil
-import subprocess
 from pathlib import Path
 
 import pytest
+from conftest import finished
 
 ROOT = Path(__file__).resolve().parents[2]
 EXPORTER = ROOT / "tools/exporter"
@@ -26,7 +26,7 @@ def expressions():
 
 
 def promtool(folder, *words):
-    return subprocess.run(["promtool", *words], cwd=folder, capture_output=True, text=True)
+    return finished("promtool", *words, cwd=folder)
 
 
 @needs_promtool

@@ -9,6 +9,7 @@ import subprocess
 from pathlib import Path
 
 import pytest
+from conftest import finished
 from test_docs import listed
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -21,7 +22,7 @@ pytestmark = pytest.mark.skipif(
 
 
 def node(*arguments: str | Path) -> str:
-    done = subprocess.run(["node", *arguments], capture_output=True, text=True, check=False)
+    done = finished("node", *arguments)
     assert done.returncode == 0, done.stdout + done.stderr
     return done.stdout
 

@@ -2,11 +2,10 @@
 
 import re
 import shutil
-import subprocess
 from pathlib import Path
 
 import pytest
-from conftest import BIN
+from conftest import BIN, finished
 
 ROOT = Path(__file__).resolve().parents[2]
 FOLDER = ROOT / "systemd"
@@ -19,12 +18,6 @@ CONFINED = [service for service in SERVICES if service.name not in UNCONFINED]
 needs_analyze = pytest.mark.skipif(
     shutil.which("systemd-analyze") is None, reason="systemd-analyze is not installed"
 )
-
-
-def run(*command, **options):
-    return subprocess.run(
-        [str(part) for part in command], capture_output=True, text=True, check=False, **options
-    )
 
 
 def instance(name: str) -> str:
@@ -47,7 +40,7 @@ def test_systemd_understands_the_units(units):
     targets = [units / instance(unit.name) for unit in UNITS]
     for unit, target in zip(UNITS, targets, strict=True):
         (units / unit.name).rename(target)
-    done = run("systemd-analyze", "verify", "--man=no", "--recursive-errors=no", *targets)
+    done = finished("systemd-analyze", "verify", "--man=no", "--recursive-errors=no", *targets)
     assert [line for line in done.stderr.splitlines() if "ols-" in line] == []
 
 
@@ -64,7 +57,7 @@ def test_the_bridges_queues_fit_into_its_memory():
 def test_a_wrong_unit_is_found(units):
     unit = units / "ols-fusion.service"
     unit.write_text(unit.read_text() + "\nWatchdogSeconds=5\n")
-    done = run("systemd-analyze", "verify", "--man=no", "--recursive-errors=no", unit)
+    done = finished("systemd-analyze", "verify", "--man=no", "--recursive-errors=no", unit)
     assert "WatchdogSeconds" in done.stderr
 
 
@@ -72,7 +65,9 @@ def test_a_wrong_unit_is_found(units):
 def test_a_service_exposes_little():
     for service in CONFINED:
         limit = int(EXPOSURE_LIMIT * 10)
-        done = run("systemd-analyze", "security", "--offline=yes", f"--threshold={limit}", service)
+        done = finished(
+            "systemd-analyze", "security", "--offline=yes", f"--threshold={limit}", service
+        )
         assert done.returncode == 0, done.stdout + done.stderr
         assert "Overall exposure level" in done.stdout, service
 
@@ -149,7 +144,7 @@ def test_a_stop_ends_the_retries_too():
 def test_users_groups_and_folders_can_be_made(tmp_path):
     etc = tmp_path / "etc"
     etc.mkdir()
-    done = run("systemd-sysusers", f"--root={tmp_path}", FOLDER / "sysusers.d/ols.conf")
+    done = finished("systemd-sysusers", f"--root={tmp_path}", FOLDER / "sysusers.d/ols.conf")
     assert done.returncode == 0, done.stderr
     groups = dict(line.split(":", 1) for line in (etc / "group").read_text().splitlines())
     assert groups["dialout"].endswith("ols") and groups["gpio"].endswith("ols")
@@ -163,7 +158,7 @@ def test_the_installed_tree_is_complete(tmp_path):
     build = BIN.parent
     if not (BIN / "ols-station").exists():
         pytest.skip(f"nothing is built in {build}")
-    done = run(
+    done = finished(
         *("cmake", "--install", build, "--prefix", "/usr"),
         env={"DESTDIR": str(tmp_path), "PATH": "/usr/bin:/bin"},
     )
@@ -187,5 +182,5 @@ def test_the_installed_tree_is_complete(tmp_path):
     assert sorted(path.name for path in (usr / "bin").glob("ols-sim*")) == []
     for program in ("station", "fusion", "logger", "console", "export", "exporter", "bridge"):
         config = usr / "share/ols/examples" / f"{program}.toml"
-        done = run(usr / "bin" / f"ols-{program}", "--config", config, "--check-config")
+        done = finished(usr / "bin" / f"ols-{program}", "--config", config, "--check-config")
         assert done.returncode == 0, done.stderr

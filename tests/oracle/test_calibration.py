@@ -3,12 +3,12 @@
 import csv
 import json
 import os
-import subprocess
 from pathlib import Path
 
 import erfa
 import numpy as np
 import pytest
+from conftest import finished
 from ols_calibration import cases
 from ols_calibration.model import (
     ANGLE_SD,
@@ -33,8 +33,7 @@ PLAIN_NAMES = {*PLAIN, "east_m", "north_m", "up_m", "refraction_k"}
 
 
 def adjust(folder, *arguments):
-    command = [BIN / "ols-calibrate", "adjust", *arguments, "--output", folder / "out"]
-    done = subprocess.run(list(map(str, command)), capture_output=True, text=True, check=False)
+    done = finished(BIN / "ols-calibrate", "adjust", *arguments, "--output", folder / "out")
     assert done.returncode in (0, 1), done.stderr  # 1: a finding is beyond its limit
     return json.loads((folder / "out/report.json").read_text())
 
