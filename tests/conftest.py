@@ -11,12 +11,14 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
 BIN = Path(os.environ.get("OLS_BIN", ROOT / "build/release/bin"))
 SCENARIO = ROOT / "sim/scenarios/fig7.toml"
 CLONE_NEWNET = 0x40000000  # linux/sched.h
+SEED = 20240229
 
 
 # Every station that a test runs or plays.
@@ -81,6 +83,15 @@ def pytest_configure(config: pytest.Config) -> None:
         return
     if ctypes.CDLL(None, use_errno=True).unshare(CLONE_NEWNET) != 0:
         raise OSError(ctypes.get_errno(), "unshare: no network namespace for this worker")
+
+
+def pytest_report_header():
+    return f"oracle: random stations from seed {SEED}"
+
+
+@pytest.fixture
+def rng():
+    return np.random.default_rng(SEED)
 
 
 @pytest.fixture(scope="session")

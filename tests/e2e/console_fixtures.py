@@ -28,8 +28,12 @@ def chromium():
 @pytest.fixture
 def page(chromium, consoles, paper):
     """The open console's; its stations are idle."""
-    paper.begin_anew()
     stations = Api(consoles[0])
-    wait(lambda: {s["state"] for s in stations.state()["stations"]} == {"idle"}, "the stations")
+
+    def idle():
+        paper.begin_anew()  # again: a command of the page before may still come
+        return {s["state"] for s in stations.state()["stations"]} == {"idle"}
+
+    wait(idle, "the stations")
     with watched_page(chromium, consoles[0]) as opened:
         yield opened
