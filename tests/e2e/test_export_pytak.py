@@ -2,6 +2,7 @@
 
 import asyncio
 import configparser
+import contextlib
 import socket
 import threading
 import xml.etree.ElementTree as ET
@@ -40,10 +41,11 @@ class TakServer:
             threading.Thread(target=self._pass_on, args=(client,), daemon=True).start()
 
     def _pass_on(self, speaker):
-        while data := speaker.recv(65536):
-            for client in self._clients:
-                if client is not speaker:
-                    client.sendall(data)
+        with contextlib.suppress(ConnectionError):  # its end, however it comes
+            while data := speaker.recv(65536):
+                for client in self._clients:
+                    if client is not speaker:
+                        client.sendall(data)
 
 
 def free_port():
