@@ -49,8 +49,8 @@ if(OLS_SANITIZE)
 endif()
 
 # ols_library(NAME [HOT] SOURCES ... LINK ... [ALONE ...]): one library of the product. HOT: it computes for each
-# frame, bearing or simulated picture, or with large matrices: the linker may take its compilation of Eigen for all. ALONE are those of the sources that share local names with
-# others: they are never compiled together with those.
+# frame, bearing or simulated picture, or with large matrices: the linker may take its compilation of Eigen for all.
+# ALONE are those of the sources that share local names with others: they are never compiled together with those.
 function(ols_library name)
   cmake_parse_arguments(ARG "HOT" "" "SOURCES;LINK;ALONE" ${ARGN})
   add_library(${name} ${OLS_LIBRARY_TYPE} ${ARG_SOURCES})

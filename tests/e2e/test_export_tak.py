@@ -35,6 +35,8 @@ class Server:
         self.heard, self.connections, self.reads = b"", [], reads
         self._context = context
         self._socket = socket.create_server(("0.0.0.0", 0))
+        if not reads:  # what its own system takes for it is bounded, else by megabytes
+            self._socket.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 65536)
         self.port = self._socket.getsockname()[1]
         threading.Thread(target=self._serve, daemon=True).start()
 
