@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "base/config_section.h"
+#include "base/fnv1a.h"
 #include "base/small_file.h"
 #include "calibration/systematic.h"
 #include "edge/calibration/covariance_file.h"
@@ -93,13 +94,7 @@ ModelParameters setup_change(const StationGeometry& from, const Setup& to) {
 
 std::int64_t calibration_id_of(std::string_view instrument, std::string_view setup,
                                std::string_view covariance) {
-  std::uint64_t hash = 0xcbf29ce484222325;
-  for (const std::string_view part : {instrument, setup, covariance}) {
-    for (const char byte : part) {
-      hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3;
-    }
-  }
-  return static_cast<std::int64_t>(hash >> 1);
+  return static_cast<std::int64_t>(fnv1a(covariance, fnv1a(setup, fnv1a(instrument))) >> 1);
 }
 
 CalibrationFiles read_calibration(const std::string& folder, const StationSettings& settings) {

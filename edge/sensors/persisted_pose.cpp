@@ -5,6 +5,7 @@
 #include <locale>
 #include <sstream>
 
+#include "base/fnv1a.h"
 #include "geometry/angles.h"
 
 namespace ols::sensors {
@@ -13,12 +14,9 @@ namespace {
 constexpr std::string_view kHead = "ols-pose 1\n";
 constexpr std::string_view kSum = "sum ";
 
-// Fowler, Noll, Vo: FNV-1a.
 std::string checksum_of(std::string_view text) {
-  std::uint64_t hash = 0xcbf29ce484222325U;
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
   char digits[20];
-  std::snprintf(digits, sizeof digits, "%016" PRIx64, hash);
+  std::snprintf(digits, sizeof digits, "%016" PRIx64, fnv1a(text));
   return digits;
 }
 

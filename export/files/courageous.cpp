@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/fnv1a.h"
 #include "export/text.h"
 
 namespace ols::exports {
@@ -73,12 +74,10 @@ Json place_of_system(const Picture& picture, const CourageousSettings& settings)
 }
 
 // A number that another target, of another run of the fusion, does not have, and that stays the
-// same in each file (FNV-1a). No longer than readers with floating-point numbers can tell apart.
+// same in each file. No longer than readers with floating-point numbers can tell apart.
 std::uint64_t uas_id(const std::string& uid) {
   constexpr std::uint64_t kMost = (std::uint64_t{1} << 53U) - 1U;
-  std::uint64_t hash = 0xcbf29ce484222325U;
-  for (const char c : uid) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
-  return hash & kMost;
+  return fnv1a(uid) & kMost;
 }
 
 }  // namespace

@@ -4,8 +4,8 @@ import { h } from "preact";
 import { useEffect, useState } from "preact/hooks";
 import { numberOf } from "./format";
 import type { Link } from "./link";
-import { length, position } from "./measures";
-import { Copied, PanelRow, PointThere, type OnPoint } from "./panel";
+import { length } from "./measures";
+import { PanelFrame, PanelRow, PointThere, PositionRows, type OnPoint } from "./panel";
 import { t } from "./words";
 
 const ABOVE_M = 100; // the stations: where most things fly that are looked for
@@ -42,18 +42,9 @@ export function PlacePanel({ selected, link, mayCommand, onPoint, onClose }: Pro
   const [height, setHeight] = useState(() => String(Math.round(meanHeight(link) + ABOVE_M)));
   const height_m = numberOf(height);
   return (
-    <aside class="map-panel" aria-label={t("place")}>
-      <header>
-        <h2>{t("place")}</h2>
-        <button type="button" onClick={onClose}>
-          {t("close")}
-        </button>
-      </header>
+    <PanelFrame label={t("place")} head={<h2>{t("place")}</h2>} onClose={onClose}>
       <dl>
-        <PanelRow word="position">
-          <Copied text={position(place)} />
-        </PanelRow>
-        <PanelRow word="mgrs">{position(place, "mgrs")}</PanelRow>
+        <PositionRows of={place} />
         <PanelRow word="height">
           <label>
             <input aria-label={`${t("height")} m`} inputMode="decimal" value={height} onInput={(e) => setHeight(e.currentTarget.value)} /> m ({t("height_of")}, {t("stations")} {length(meanHeight(link))})
@@ -61,6 +52,6 @@ export function PlacePanel({ selected, link, mayCommand, onPoint, onClose }: Pro
         </PanelRow>
       </dl>
       {mayCommand && height_m != null && <PointThere link={link} place={{ latitude_deg: place.latitude_deg, longitude_deg: place.longitude_deg, height_m }} onPoint={onPoint} />}
-    </aside>
+    </PanelFrame>
   );
 }

@@ -1,12 +1,12 @@
 // Everything that is known of the selected target, beside it on the map.
 
-import { h } from "preact";
+import { h, Fragment } from "preact";
 import { useState } from "preact/hooks";
 import { bearing, DASH, fixed } from "./format";
 import type { Link } from "./link";
 import { heightColours } from "./mapfeatures";
-import { length, position, speed } from "./measures";
-import { Copied, PanelRow, PointThere, type OnPoint } from "./panel";
+import { length, speed } from "./measures";
+import { PanelFrame, PanelRow, PointThere, PositionRows, type OnPoint } from "./panel";
 import { nameOf, stretches, targetState, type Target } from "./site";
 import { heightRange, stepOf } from "./trailshapes";
 import { named, t } from "./words";
@@ -118,19 +118,18 @@ export function TargetPanel({ target, link, mayCommand, onPoint, onName, onClose
   const age_s = Math.max(0, (link.now_us() - target.utime_us) / 1e6);
   const { latitude_deg, longitude_deg, height_m } = target;
   return (
-    <aside class="map-panel" aria-label={`${t("target")} ${target.id}`}>
-      <header>
-        <Name target={target} onName={mayCommand ? onName : null} />
-        <span>{named("s", targetState(target))}</span>
-        <button type="button" onClick={onClose}>
-          {t("close")}
-        </button>
-      </header>
+    <PanelFrame
+      label={`${t("target")} ${target.id}`}
+      head={
+        <Fragment>
+          <Name target={target} onName={mayCommand ? onName : null} />
+          <span>{named("s", targetState(target))}</span>
+        </Fragment>
+      }
+      onClose={onClose}
+    >
       <dl>
-        <PanelRow word="position">
-          <Copied text={position(target)} />
-        </PanelRow>
-        <PanelRow word="mgrs">{position(target, "mgrs")}</PanelRow>
+        <PositionRows of={target} />
         <PanelRow word="height">{length(height_m, 1)}</PanelRow>
         <PanelRow word="speed">
           {speed(target.speed_m_s, 1)}, {bearing(target.course_deg, 0)}, {t("climb")} {speed(target.velocity_enu_m_s?.[2], 1)}
@@ -148,6 +147,6 @@ export function TargetPanel({ target, link, mayCommand, onPoint, onName, onClose
         </PanelRow>
       </dl>
       {mayCommand && latitude_deg != null && <PointThere link={link} place={{ latitude_deg, longitude_deg, height_m }} onPoint={onPoint} />}
-    </aside>
+    </PanelFrame>
   );
 }

@@ -34,6 +34,19 @@ std::string quarantined(const Fusion& fusion) {
   return names;
 }
 
+// Nine in a row come with any start or stall of a network; ten are said.
+TEST(FusionClocks, AFewUntimelyBearingsAreCountedAndManyAreAnError) {
+  for (const int late : {9, 10}) {
+    int number = 0;
+    Fusion fusion{FusionConfig{}};
+    targets_of(fusion, changed(flight(4.0), "b", 3.0, [&](BearingMeasurement& measurement) {
+                 if (number++ < late) measurement.utime_us -= 5'000'000;
+               }));
+    EXPECT_EQ(fusion.health().counters.at("refused_stale"), late);
+    EXPECT_EQ(fusion.health().last_error.find("come too late") != std::string::npos, late == 10);
+  }
+}
+
 TEST(FusionClocks, AMarkedStepQuarantinesThatStationAloneAndTheOthersGoOn) {
   for (const std::int64_t step_us : {2'000'000, -2'000'000}) {
     const auto measurements = changed(flight(6.0), "b", 3.0, [&](BearingMeasurement& measurement) {

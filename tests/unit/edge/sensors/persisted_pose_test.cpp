@@ -7,6 +7,7 @@
 #include <string>
 #include <variant>
 
+#include "base/fnv1a.h"
 #include "geometry/angles.h"
 
 namespace ols::sensors {
@@ -28,11 +29,9 @@ std::string error_of(const std::string& text) {
 
 // With the sum that belongs to it: a writer's mistake, not a damaged disk.
 std::string summed(const std::string& lines) {
-  std::uint64_t hash = 0xcbf29ce484222325U;
   const std::string text = "ols-pose 1\n" + lines;
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
   char sum[32];
-  std::snprintf(sum, sizeof sum, "sum %016lx\n", static_cast<unsigned long>(hash));
+  std::snprintf(sum, sizeof sum, "sum %016lx\n", static_cast<unsigned long>(fnv1a(text)));
   return text + sum;
 }
 

@@ -1,0 +1,19 @@
+// FNV-1a (Fowler, Noll, Vo), 64 bits: a number for a text that is the same on every machine. It
+// finds accidents, and is no protection against a forger.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+namespace ols {
+
+// `before`: of the text that this one goes on.
+constexpr std::uint64_t fnv1a(std::string_view text, std::uint64_t before = 0xcbf29ce484222325U) {
+  for (const char byte : text)
+    before = (before ^ static_cast<unsigned char>(byte)) * 0x100000001b3U;
+  return before;
+}
+
+static_assert(fnv1a("a") == 0xaf63dc4c8601ec8cU);  // RFC 9923
+
+}  // namespace ols
