@@ -20,9 +20,10 @@ struct AdmissionConfig {
   double future_s = 0.5;                // max lead over "now"
   double flood_hz = 1000.0;             // max rate of bearings of one station
   std::vector<std::string> stations{};  // only these are admitted; empty: all are
-  // One more replaces the station that is silent longest, but never one that still delivers.
+  // At this number of stations, a new one replaces the station that is silent longest, but never
+  // one that still delivers.
   int max_stations = 1024;
-  // A station silent for longer does not count in the median "now".
+  // A station that is silent for longer does not count in the median "now".
   double silence_s = Activity::kDeliversS;
   ClockMonitorConfig clocks{};
 };
@@ -32,7 +33,7 @@ struct Admitted {
   BearingRefusal refusal = BearingRefusal::kNone;
   KnownStation* station = nullptr;       // the sender of an admitted bearing
   std::optional<std::string> evicted{};  // the station that was replaced
-  bool recalibrated = false;             // the station has new systematic errors
+  bool recalibrated = false;             // the station has a new calibration_id
   bool restarted = false;                // its process numbers its tracks from the start again
 };
 
@@ -45,7 +46,7 @@ class Admission {
   std::optional<std::string> know_station(const std::string& station, const StationTraits& traits,
                                           FusionLog& log);
   void allow_slews(const std::string& station, bool allowed);
-  // Message time was reset: forgets what was judged by the old one.
+  // Message time was reset: forgets every judgement made by the old time.
   void begin_time_line();
 
   // More than future_s ahead of "now".

@@ -1,4 +1,4 @@
-// Whether a bearing is fit for use, as far as the bearing alone shows. Pure.
+// Checks of a bearing that need nothing but the bearing itself. Pure.
 #pragma once
 
 #include "central/measurement/bearing_measurement.h"
@@ -19,7 +19,7 @@ enum class BearingRefusal {
   kTooMany,     // more stations than max_stations
   kFlood,       // more bearings of one station than flood_hz allows
   kLowBelief,
-  kCount,  // not a reason: how many there are
+  kCount,  // not a reason: the number of reasons
 };
 const char* to_string(BearingRefusal refusal);
 // For people: what is wrong and where to look.
@@ -29,7 +29,6 @@ const char* in_words(BearingRefusal refusal);
 // deviation.
 bool is_a_stations_place(const Eigen::Vector3d& p_ecef, const Eigen::Vector3d& sd_enu_m);
 
-// The checks that need only the bearing itself.
 BearingRefusal check(const BearingMeasurement& measurement);
 
 }  // namespace ols::fusion

@@ -1,5 +1,5 @@
-// What the stations say of their calibrations, and whether the residuals agree: the second witness
-// beside a station's own reference views. Pure.
+// Compares what a station states of its calibration with its residuals: a second check besides the
+// station's own reference views. Pure.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,17 +15,17 @@ enum class CalibrationState { kNone, kInUse, kRefused, kDoubted };
 struct StatedCalibration {
   CalibrationState state = CalibrationState::kNone;
   std::int64_t observed_utime_us = 0;  // of its last observation; 0: not stated
-  double sd_rad = std::numeric_limits<double>::quiet_NaN();  // of an axis of a direction
+  double sd_rad = std::numeric_limits<double>::quiet_NaN();  // 1-sigma of a direction, each axis
 };
 
-// The filter's estimate of a station's bias (cross-elevation, elevation) and what the station had
-// stated of it; NaN where it is not observable.
+// The filter's estimate of a station's bias (cross-elevation, elevation), and the sigma that the
+// station stated; NaN where the bias is not observable.
 struct FoundBias {
   Eigen::Vector2d bias_rad, stated_sd_rad;
 };
 
-// The finding about a station that works with a calibration, as text; empty: none. A bias that the
-// station's own statement explains once in 16 000 times is more than its calibration.
+// The alarm for a station that works with a calibration, as text; empty: none. It is raised when
+// the stated sigma explains the bias with a probability below 1 in 16 000.
 std::string calibration_alarm(const std::string& station, const StatedCalibration& stated,
                               const FoundBias& found);
 

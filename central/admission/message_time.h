@@ -1,5 +1,5 @@
-// The fusion's "now": the median of the stations' newest stamps. It uses no other clock, so a
-// replay gives the same results as the live run, and one wrong clock affects only its own station.
+// The fusion's "now": the median of the stations' newest stamps. It uses no other clock. A replay
+// therefore gives the same results as the live run, and a wrong clock affects only its own station.
 #pragma once
 
 #include <cstdint>
@@ -13,30 +13,29 @@ namespace ols::fusion {
 
 class MessageTime {
  public:
-  // A station counts while the others' stamps have advanced by less than this since its last
+  // A station delivers while the others' stamps have advanced by less than silence_s since its last
   // message.
   explicit MessageTime(double silence_s = Activity::kDeliversS) : silence_s_(silence_s) {}
 
-  // Every message's stamp, in order of arrival. Returns true when the station's clock has stepped
-  // back: three stamps in a row more than a second older than its newest.
+  // Takes every message's stamp, in order of arrival. Returns true when the station's clock has
+  // stepped back: three stamps in a row are more than a second older than its newest.
   bool hear(const std::string& station, std::int64_t utime_us);
-  // The median of the newest stamps of the delivering stations, 0 before the first. For an even
-  // number it is the lower of the two middle stamps, so that targets are seldom due before most
-  // stations' bearings. Untrusted stations do not count while there is a trusted one. With more
-  // than kMany stations it is recomputed only after a share of them has sent.
+  // The median of the newest stamps of the delivering stations; 0 before the first. For an even
+  // number it is the lower of the two middle stamps: a target is then seldom due before most
+  // stations' bearings have come. Untrusted stations count only while no station is trusted. With
+  // more than kMany stations it is recomputed only after a share of them has sent.
   std::int64_t now_us() const { return now_us_; }
-  // The same over all stations, trusted or not.
+  // The same median over all stations, trusted or not.
   std::int64_t middle_us() const { return middle_us_; }
-  // Sets whether a station's clock is trusted.
   void trust(const std::string& station, bool trusted);
   // The station's newest stamp, 0 before the first.
   std::int64_t newest_us(const std::string& station) const;
-  // How far the others' stamps have advanced since the station's last message, 0 before the first.
+  // How far the others' stamps have advanced since the station's last message; 0 before the first.
   double silent_s(const std::string& station) const;
   // The delivering stations, and their number.
   std::vector<std::string> delivering() const;
   std::size_t delivering_count() const { return delivering_; }
-  // Elapsed time without a clock: the largest progress of any station's stamps, steps clipped.
+  // Elapsed time: the largest progress of any station's stamps, with steps clipped.
   double elapsed_s() const { return elapsed_s_; }
   void forget(const std::string& station);
 
@@ -55,7 +54,7 @@ class MessageTime {
   double elapsed_s_ = 0.0;
   std::int64_t now_us_ = 0, middle_us_ = 0;
   std::size_t delivering_ = 0;
-  std::size_t heard_ = 0;  // messages since the medians were computed
+  std::size_t heard_ = 0;  // messages since the last computation of the medians
   std::map<std::string, Station> stations_;
 };
 

@@ -1,11 +1,12 @@
-// Stations whose bearings agree with no target: a heading that is some degrees off. Pure.
+// Finds stations whose bearings agree with no target, for example because the heading is some
+// degrees off. Pure.
 //
-// One unexplained bearing proves nothing. A station has a wrong pose if for seconds hardly any of
-// its bearings is explained and all are off the nearest target by the same angle. It is then
-// quarantined: it is named, and it initiates no tracks (its rays would intersect the others' in
-// ghosts). Its explained bearings are still used, and end the quarantine once they are the
-// majority. Without any target the quarantine lapses: the station may have been fixed, and no
-// target might be initiated without it.
+// One unexplained bearing proves nothing. The pose is taken as wrong if, for seconds, hardly any
+// bearing is explained and all miss the nearest target by the same angle. The station is then
+// quarantined: it raises an alarm and initiates no tracks, because its rays would intersect the
+// others' in ghosts. Its explained bearings are still used. The quarantine ends when they are the
+// majority. It also lapses when there is no target: the station may have been corrected, and may be
+// needed to initiate one.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,12 +18,12 @@
 namespace ols::fusion {
 
 struct PointingConfig {
-  double memory_s = 3.0;          // time constant of the judgement
+  double memory_s = 3.0;          // time constant of the averages
   int least_bearings = 30;        // min number for a judgement
   double explained_share = 0.1;   // max share of explained bearings for a quarantine
   double released_share = 0.5;    // min share of explained bearings to end it
   double least_off_rad = 0.0035;  // 0.2 deg; the filter estimates smaller errors as biases
-  double most_off_rad = 0.5;      // if it is further off, it follows another object
+  double most_off_rad = 0.5;      // beyond it, the station follows another object
   double spread = 0.25;           // max RMS about the mean angle, over that angle
   double lapse_s = 5.0;           // without a target for this long, all is forgotten
 };
@@ -31,7 +32,8 @@ class PointingMonitor {
  public:
   explicit PointingMonitor(const PointingConfig& config = {}) : config_(config) {}
 
-  // off_rad: from the nearest confirmed target (cross-elevation, elevation); nullopt without one.
+  // off_rad: the offset from the nearest confirmed target (cross-elevation, elevation); nullopt
+  // without a target.
   void hear(const std::string& station, std::int64_t utime_us, bool explained,
             const std::optional<Eigen::Vector2d>& off_rad);
   // Why a station is quarantined, as text; empty when it is not.
@@ -43,7 +45,7 @@ class PointingMonitor {
   struct Station {
     std::int64_t first_us = 0, newest_us = 0;
     double bearings = 0.0, explained = 0.0;  // decaying
-    double judged = 0.0;                     // of the unexplained ones, near a target
+    double judged = 0.0;                     // unexplained ones that are near a target
     Eigen::Vector2d sum = Eigen::Vector2d::Zero();
     double squared = 0.0;
     std::string quarantine;

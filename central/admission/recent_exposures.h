@@ -10,14 +10,14 @@ namespace ols::fusion {
 
 class RecentExposures {
  public:
-  // Is it a duplicate: the same exposure, and the same object or the same direction?
+  // Whether it is a duplicate: the same exposure, and the same object or the same direction.
   bool has(const BearingMeasurement& measurement) const;
-  // Forgets what is a second older than the newest bearing, including this one. Refused bearings
-  // advance the time too; otherwise a flood would lock its station out permanently.
+  // Advances the time to this bearing, and forgets what is a second older than the newest. Refused
+  // bearings count too: otherwise a flood would lock its station out permanently.
   void go_on_to(std::int64_t utime_us);
   void add(const BearingMeasurement& measurement);
   void clear() { exposures_.clear(); }
-  // This many bearings in the kept span.
+  // Whether the kept second holds more bearings than this rate allows.
   bool is_flood(double flood_hz) const;
   double rate_hz() const { return rate_hz_; }
 

@@ -1,5 +1,5 @@
-// The stations that the fusion knows: which belong to the site, and which is replaced when there
-// are too many. Pure.
+// The stations that the fusion knows: which ones belong to the site, and which one is replaced when
+// there are too many. Pure.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,13 +16,13 @@
 
 namespace ols::fusion {
 
-// What must be known of a station to slew it.
+// What the fusion must know of a station before it can slew it.
 struct StationTraits {
   Eigen::Vector3d camera_ecef = Eigen::Vector3d::Zero();
   Eigen::Vector3d camera_sd_enu_m = Eigen::Vector3d::Zero();
   double latency_s = 0.05;                 // mid-exposure to bearing
   double field_of_view_rad = 0.05;         // the narrower of the two
-  std::optional<AzimuthElevation> axis{};  // where it looked when it last said so
+  std::optional<AzimuthElevation> axis{};  // the last direction that it reported
   bool commandable = true;                 // not under operator control, and not stopped
   StatedCalibration calibration{};
 };
@@ -32,7 +32,7 @@ struct KnownStation {
   RecentExposures exposures;
   std::int64_t bearings = 0;  // admitted
   bool delivered = false;     // it has sent a bearing, even if a refused one
-  std::int64_t heard = 0;     // index of its last message among all
+  std::int64_t heard = 0;     // number of its last message, among all messages
   std::int64_t calibration_id = 0;
   std::int64_t boot_id = 0;
   int untimely = 0;            // bearings in a row that were too old or from the future
@@ -43,7 +43,7 @@ struct KnownStation {
     traits.camera_ecef = sight.origin_ecef;
     traits.camera_sd_enu_m = sight.origin_sd_enu_m;
   }
-  // The target that it follows or followed until a moment ago; 0: none.
+  // The target that it follows, or followed until a moment ago; 0: none.
   std::int64_t follows(std::int64_t now_us) const {
     return saw_target.age_s(now_us) < Activity::kFollowsS ? target_id : 0;
   }
@@ -51,13 +51,13 @@ struct KnownStation {
 
 class StationRegistry {
  public:
-  // names: the stations of the site; empty: all. most: one more station replaces the one that is
-  // silent longest, but never one that has delivered and still does.
+  // names: the stations of the site; empty: all. most: at this number a new station replaces the
+  // one that is silent longest, but never one that has delivered and still does.
   StationRegistry(const std::vector<std::string>& names, int most) : names_(names), most_(most) {}
 
   bool belongs(const std::string& station) const;
   struct Place {
-    KnownStation* station = nullptr;       // null: there are too many
+    KnownStation* station = nullptr;       // null: too many stations
     std::optional<std::string> evicted{};  // the station that was replaced
   };
   // For a station that sends a bearing.

@@ -1,6 +1,7 @@
-// Stations that follow, under their own track id, an object that no target explains although there
-// is a target: an object that no other station has seen, or a wrong designation. Bearings cannot
-// distinguish the two, so the station's bearing-only track continues; a person should check. Pure.
+// Finds stations that follow an object under their own track id while no target explains it,
+// although there is a target. Either no other station has seen the object, or the operator
+// designated the wrong one. Bearings cannot distinguish the two: the bearing-only track continues,
+// and an alarm asks a person to check. Pure.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +22,7 @@ class UnassociatedMonitor {
   void unassociated(const std::string& station, std::int64_t utime_us);
   // A bearing that a target explains, or that cannot be compared because there is no target.
   void agrees(const std::string& station) { stations_.erase(station); }
-  // The finding about a station, as text; empty: none. now_us: the fusion's time.
+  // The alarm for a station, as text; empty: none. now_us: the fusion's time.
   std::string alarm(const std::string& station, std::int64_t now_us) const;
   void forget(const std::string& station) { stations_.erase(station); }
   void clear() { stations_.clear(); }

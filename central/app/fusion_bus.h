@@ -1,5 +1,5 @@
-// The fusion's connections: the bus, and the bus for slews. Retries while there is no network.
-// Numbers the messages of each channel, and counts those that could not be sent.
+// The fusion's connections: the bus, and the bus for slews. Reconnects by itself. Numbers the
+// messages of each channel, and counts those that could not be sent.
 #pragma once
 
 #include <cstdint>
@@ -22,15 +22,15 @@ class FusionBus {
   struct Urls {
     std::string bus, slews;  // may be equal
   };
-  // subscribe: called on each new connection. trust: null: nothing is signed or verified.
+  // subscribe: called on each new connection. trust: null if nothing is signed or verified.
   FusionBus(Urls urls, std::int64_t boot_id, std::shared_ptr<trust::BusTrust> trust,
             Subscribe subscribe);
 
-  // If there is no network, waits this long for one.
+  // Waits up to this long for a network.
   void connect(double wait_s);
   // Handles the messages that have arrived; waits briefly for the first.
   void handle();
-  // Closes a connection that cannot send or receives nothing, so that it is opened again.
+  // Closes a connection that cannot send or receives nothing; connect() opens it again.
   void end_if_broken();
   template <class Message>
   void send(std::string_view channel, const Message& message) {
@@ -45,7 +45,7 @@ class FusionBus {
 
   bool is_connected() const { return bus_ != nullptr; }
   const std::string& trouble() const { return trouble_; }
-  // What is wrong with the traffic.
+  // Alarms about the traffic.
   std::vector<std::string> alarms() const;
   void count(std::map<std::string, double>& counters) const;
 
@@ -59,13 +59,13 @@ class FusionBus {
   Subscribe subscribe_;
   BusConnector connector_;
   std::unique_ptr<LcmBus> bus_;       // null: no network
-  std::unique_ptr<LcmBus> slew_bus_;  // null: slews go on the same bus
+  std::unique_ptr<LcmBus> slew_bus_;  // null: slews use bus_
   BusMonitor monitor_;
   std::string trouble_;  // of the network
   bool send_failed_ = false;
   std::int64_t not_sent_ = 0;
   std::map<std::string, std::int64_t, std::less<>> sequences_;
-  std::int64_t forgotten_sequence_ = 0;  // the largest of a forgotten channel
+  std::int64_t forgotten_sequence_ = 0;  // the largest sequence number of a forgotten channel
 };
 
 }  // namespace ols::fusion

@@ -1,4 +1,4 @@
-// Another fusion on the same bus: the two would send conflicting slews. Pure.
+// Detects another fusion on the same bus: the two would send conflicting slews. Pure.
 #pragma once
 
 #include <cstdint>
@@ -11,8 +11,8 @@ class FusionConflictMonitor {
  public:
   explicit FusionConflictMonitor(std::int64_t own_boot_id) : own_boot_id_(own_boot_id) {}
 
-  // A fusion status has arrived, possibly our own; now_s: the host's monotonic clock. Returns true
-  // for another fusion's.
+  // Takes a fusion status, possibly our own. now_s: the host's monotonic clock. Returns true if it
+  // is another fusion's.
   bool hear(std::int64_t boot_id, double now_s);
   // The alarm, while another fusion was heard within the last seconds; empty otherwise.
   std::string alarm(double now_s) const;

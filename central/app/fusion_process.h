@@ -1,5 +1,5 @@
-// The fusion on the bus: bearings and station status in; targets, slews and its own status out.
-// Counts every refused message. Retries while there is no network.
+// The fusion on the bus: bearings and station statuses in; targets, slews and its own status out.
+// Counts every refused message. Reconnects by itself.
 #pragma once
 
 #include <cstdint>
@@ -18,8 +18,8 @@
 namespace ols::fusion {
 
 struct FusionProcessOptions {
-  std::string slew_url;  // where slews go
-  bool replay = false;   // the messages' time need not be the present
+  std::string slew_url;  // the LCM URL for slews
+  bool replay = false;   // a replay: message time need not be the present
   std::int64_t boot_id = 0;
 };
 
@@ -51,7 +51,7 @@ class FusionProcess {
   struct Errors {
     std::string last{}, told{}, of_fusion{};
 
-    // Of the two errors, the one that is new since the last status.
+    // The error that is new since the last status.
     const std::string& newest(const std::string& of_fusion_now);
   };
   // From a target's epoch to its publication.
@@ -72,10 +72,9 @@ class FusionProcess {
   Errors errors_;
   AlarmJournal alarms_;
   Latency latency_;
-  std::map<std::int64_t, std::int64_t>
-      cue_orders_;                      // the last one's sequence, by its sender's boot
-  std::int64_t cue_message_us_ = 0;     // the newest cue's time
-  double waited_s_ = 0.0;               // the bearing that is processed, before
+  std::map<std::int64_t, std::int64_t> cue_orders_;  // last sequence, by the sender's boot
+  std::int64_t cue_message_us_ = 0;                  // the newest cue's time
+  double waited_s_ = 0.0;               // how long the current bearing waited before its processing
   std::int64_t status_message_us_ = 0;  // "now" of the last status
   double status_s_ = 0.0;               // this host's monotonic clock at the last status
 };

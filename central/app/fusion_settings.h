@@ -14,7 +14,8 @@ namespace ols::fusion {
 struct FusionSettings {
   std::string lcm_url = "udpm://239.255.76.67:7667?ttl=0";
   double status_interval_s = 1.0;
-  double slew_clock_tolerance_s = 2.0;  // what is further from this host's clock is withheld
+  double slew_clock_tolerance_s = 2.0;  // a slew whose time is further from this host's clock is
+                                        // withheld
   FusionConfig fusion{};
   trust::TrustConfig trust{};
 };

@@ -17,16 +17,16 @@
 namespace ols::fusion {
 
 // Why a datagram is not a valid message of its channel; to_string() names the counter. kNoPosition
-// is no fault: the status of a station that does not know its position yet.
+// is no fault: the station does not know its position yet.
 enum class MessageRefusal { kMalformed, kSchema, kOtherStation, kOutOfRange, kNoPosition };
 const char* to_string(MessageRefusal refusal);
 
-// Never throws, whatever the bytes. check() of central/admission/bearing_check.h judges the values.
+// Never throws, whatever the bytes. check() in central/admission/bearing_check.h judges the values.
 std::variant<BearingMeasurement, MessageRefusal> measurement_from(const std::string& channel,
                                                                   const void* data, int bytes);
 
-// What a station's status states. Until its first bearing, its position stands for the camera
-// centre.
+// The contents of a station's status. Until the first bearing, the station's position serves as the
+// camera centre.
 struct StationPlace {
   std::string station;
   StationTraits traits;
@@ -38,7 +38,7 @@ std::variant<StationPlace, MessageRefusal> station_place_from(const std::string&
 // The boot id of the fusion that sent the status.
 std::variant<std::int64_t, MessageRefusal> fusion_boot_from(const void* data, int bytes);
 
-// An operator's word on a cue.
+// An operator's decision on a cue.
 struct CueOrder {
   std::string cue;
   bool allow = false;
@@ -46,11 +46,11 @@ struct CueOrder {
   double lease_s = 0.0;
   std::int64_t boot_id = 0, sequence = 0;
 };
-// The values of a cue are judged by check() of central/cues/cue_check.h.
+// check() in central/cues/cue_check.h judges the values of a cue.
 std::variant<Cue, MessageRefusal> cue_from(const void* data, int bytes);
 std::variant<CueOrder, MessageRefusal> cue_order_from(const void* data, int bytes);
 
-// The sender, and the message's sequence on its channel in this boot.
+// The sender, and the message's sequence number on its channel in this boot.
 struct MessageStamp {
   std::int64_t boot_id = 0;
   std::int64_t sequence = 0;

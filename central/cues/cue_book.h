@@ -1,4 +1,4 @@
-// The fusion's cues: how long each lives, what was allowed of it, which target is where it is.
+// Cues: their age, whether an operator allowed them, and the target found at each.
 #pragma once
 
 #include <cstdint>
@@ -18,8 +18,8 @@ enum class CueState { kWaiting, kSearched, kFound, kForbidden };
 struct CueHealth {
   std::string id, label;
   CueState state = CueState::kWaiting;
-  std::int64_t target_id = 0;  // the target that is there; 0: none
-  double age_s = 0.0;          // since its source knew its place
+  std::int64_t target_id = 0;  // the target found there; 0: none
+  double age_s = 0.0;          // since its source measured the position
   Geodetic place;              // now
   double horizontal_sd_m = 0.0, vertical_sd_m = 0.0;
 };
@@ -28,16 +28,17 @@ class CueBook {
  public:
   explicit CueBook(const CueConfig& config) : config_(config) {}
 
-  // `present_us`: the host's UTC, or of a recording the message's time.
+  // present_us: the host's UTC; in a replay, the message's time.
   CueRefusal take(const Cue& cue, std::int64_t present_us, const StationRegistry& stations);
-  // Whether there is such a cue, and the configuration leaves it to the operator.
+  // An operator's decision. False if there is no such cue, or if the configuration leaves no choice
+  // to the operator.
   bool order(const std::string& id, bool allow);
-  // Ends what its source has let go of.
+  // Removes cues that their sources no longer send.
   void end_silent(std::int64_t present_us);
-  // Which target each cue is, at most at this rate.
+  // Finds the target of each cue; at a limited rate.
   void settle(std::int64_t now_us, const std::vector<Track>& tracks);
 
-  // Those that stations are to be led to: allowed, and no target is there.
+  // The cues to which stations are to be led: allowed ones at which there is no target.
   std::vector<CueAim> aims(std::int64_t now_us) const;
   std::vector<CueHealth> health(std::int64_t now_us) const;  // in the order of ids
   bool empty() const { return cues_.empty(); }
@@ -45,8 +46,8 @@ class CueBook {
  private:
   struct Live {
     Cue cue;
-    std::int64_t heard_us = 0;    // by the present
-    std::optional<bool> allowed;  // by an operator
+    std::int64_t heard_us = 0;    // in the time of `present_us`
+    std::optional<bool> allowed;  // the operator's decision
     std::int64_t target_id = 0;
   };
   bool is_silent(const Live& live, std::int64_t present_us) const;

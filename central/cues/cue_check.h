@@ -1,4 +1,4 @@
-// Whether a cue is one that stations of this site can be led to. Pure.
+// Whether stations of this site can be led to a cue. Pure.
 #pragma once
 
 #include <cstdint>
@@ -14,21 +14,21 @@ inline constexpr std::int64_t kGreatestUtime = 4'000'000'000'000'000;  // the ye
 enum class CueRefusal {
   kNone,
   kNotFinite,
-  kOutOfRange,  // a latitude, a speed, a deviation, a time that cannot be
-  kPole,        // there east and north mean nothing
+  kOutOfRange,  // impossible latitude, speed, deviation or time
+  kPole,        // east and north are undefined there
   kStale,
   kFuture,
   kVague,
   kOutOfArea,
   kTooMany,
-  kCount,  // not a reason: how many there are
+  kCount,  // not a reason: the number of reasons
 };
 const char* to_string(CueRefusal refusal);
 
-// The checks that need only the cue itself and the present.
+// The checks that need only the cue and the present time.
 CueRefusal check(const Cue& cue, std::int64_t present_us, const CueConfig& config);
 
-// Whether a station stands near enough.
+// Whether any station is within range.
 bool is_in_area(const Cue& cue, const StationRegistry& stations, double range_m);
 
 }  // namespace ols::fusion

@@ -1,11 +1,11 @@
 // Aligns the bearings of stations that do not expose at the same instant to a common time.
 //
-// Each station's directions over a short window are fitted by a least-squares polynomial on the
-// tangent plane (gnomonic) and evaluated at the epoch: by interpolation if there are later
-// bearings, else by extrapolation up to a limit. The quadratic term has a prior of zero mean; its
-// variance is the curvature that the bearings show beyond their noise, plus that of a possible
-// acceleration. A single bearing leaves the rate to its prior. The covariance thus contains the
-// error of the polynomial model.
+// A least-squares polynomial is fitted to each station's directions over a short window, on the
+// tangent plane (gnomonic), and evaluated at the epoch. This interpolates if there are later
+// bearings; otherwise it extrapolates, up to a limit. The quadratic term has a prior of zero mean.
+// Its variance is the curvature that the bearings show beyond their noise, plus that of a possible
+// acceleration. A single bearing leaves the rate at its prior. The covariance therefore contains
+// the error of the polynomial model.
 #pragma once
 
 #include <cstdint>
@@ -19,15 +19,15 @@ namespace ols::fusion {
 
 struct AlignmentConfig {
   double window_s = 0.3;              // span of the fitted bearings
-  double max_age_s = 0.3;             // without a bearing this near to the epoch: no ray
+  double max_age_s = 0.3;             // no ray without a bearing this near to the epoch
   double rate_sd_rad_s = 1.0;         // prior of the angular rate
   double acceleration_sd_m_s2 = 5.0;  // prior of the target's acceleration
-  double range_unknown_m = 50.0;      // assumed range until there is a position
+  double range_unknown_m = 50.0;      // assumed range while there is no position
 };
 
 // One station's bearings, in order of time -> its ray at the epoch; nullopt without a bearing near
-// it. range_m: distance to the target if known, for the prior of its angular acceleration.
-// noise_scale: the variance of the bearings' noise over the stated one.
+// it. range_m: the distance to the target if known, for the prior of its angular acceleration.
+// noise_scale: the noise variance over the stated one.
 std::optional<Ray> align(std::span<const BearingMeasurement> measurements, std::int64_t epoch_us,
                          std::optional<double> range_m, const AlignmentConfig& config = {},
                          double noise_scale = 1.0);

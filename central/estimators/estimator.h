@@ -1,10 +1,10 @@
-// One target's position at an instant, by one of several estimators behind one small interface,
-// chosen by name:
+// One target's position at an instant, by one of several estimators. They share one interface and
+// are chosen by name:
 //   filter         the track's own filter (track_filter.h): over time, with velocity
 //   least-squares  the joint maximum likelihood of all rays at the instant (least_squares.h)
 //   paper          the OLS paper's (paper_triangulation.h), its parts switched by PaperConfig
-// Which bearings belong to the target is decided before (track_manager.h), for all estimators
-// alike.
+// For all of them, the tracks decide beforehand which bearings belong to the target
+// (track_manager.h).
 #pragma once
 
 #include <cstddef>
@@ -50,7 +50,7 @@ struct TrackView {
   const TrackFilter* filter = nullptr;
 };
 
-// One object serves one target: it may keep state from earlier instants.
+// One object serves one target and may keep state from earlier instants.
 class Estimator {
  public:
   virtual ~Estimator() = default;
@@ -61,19 +61,19 @@ class Estimator {
 
 inline constexpr const char* kEstimators[] = {"filter", "least-squares", "paper"};
 
-// Whether an estimator predicts: an instant after a station's last bearing costs it little. The
-// others extrapolate that station's bearings.
+// Whether an estimator predicts. If so, an instant after a station's last bearing costs little
+// accuracy. The others extrapolate that station's bearings.
 inline bool predicts(std::string_view name) { return name == "filter"; }
 
 // Null for an unknown name.
 std::unique_ptr<Estimator> make_estimator(std::string_view name, const EstimatorConfig& config);
 
-// The stations whose bearings a filter has used recently, in the order of their ids.
+// The stations whose bearings the filter used recently, in the order of their ids.
 std::vector<ContributingStation> contributing(const TrackFilter& filter, std::int64_t epoch_us);
 
-// A filter's state as an estimate, after the geometry guard (judge_position), with the systematic
-// part of its covariance. Crossing angle and residual are those of the stations that had a bearing
-// used recently before state.utime_us.
+// Makes an estimate from a filter's state. judge_position() checks the geometry first. The
+// systematic part of the covariance is included. Crossing angle and residual are those of the
+// stations that had a bearing used shortly before state.utime_us.
 Estimate estimate_of(const TrackFilter& filter, const KinematicState& state,
                      const SystematicPart& systematic);
 

@@ -1,9 +1,10 @@
-// One joint maximum-likelihood position from N rays, robust to a bad one.
+// One joint maximum-likelihood position from N rays, robust to a bad ray.
 //
 // Minimises sum_i r_i^T R_i^-1 r_i over the position in ECEF. r_i is the predicted direction on the
-// measured ray's tangent plane (gnomonic), R_i its white covariance plus the systematic one:
-// calibration, clock error along the motion, station position error seen from the target.
-// Directions are exact at each camera centre, so it holds from metres to hundreds of kilometres.
+// measured ray's tangent plane (gnomonic). R_i is its white covariance plus the systematic one:
+// calibration, clock error along the motion, and station position error as seen from the target.
+// Directions are exact at each camera centre, so the result holds from metres to hundreds of
+// kilometres.
 #pragma once
 
 #include <vector>
@@ -15,19 +16,19 @@ namespace ols::fusion {
 struct LeastSquaresConfig {
   double gate_sigma = 3.1;      // rays are consistent up to this chi^2, stated as a normal
                                 // deviate: 3.1 is a probability of 0.999
-  double huber_sigma = 2.0;     // without a consistent subset, rays beyond it are weighted down
+  double huber_sigma = 2.0;     // without a consistent subset, rays beyond this are down-weighted
   double range_sd_limit = 0.3;  // max 1-sigma over range; beyond: "parallel rays"
   double max_range_m = 500e3;
   int max_iterations = 30;
 };
 
-// Rays are rejected only if the others, a majority, then agree: one of three or four, two of five
-// or six. Without a consistent subset (always so for two rays that miss each other), all are kept
-// with robust weights, and the covariance is multiplied by chi^2 over its degrees of freedom.
+// Rays are rejected only if the others are a majority and then agree: one of three or four, two of
+// five or six. Otherwise (always for two rays that miss each other) all rays are kept with robust
+// weights, and the covariance is multiplied by chi^2 over its degrees of freedom.
 Estimate least_squares(const std::vector<Ray>& rays, const LeastSquaresConfig& config = {});
 
-// Joint velocity of the used rays, from their angular rates; sets velocity and its covariance, NaN
-// where the rates do not determine them.
+// Joint velocity of the used rays, from their angular rates. Sets the velocity and its covariance,
+// or NaN where the rates do not determine them.
 void estimate_velocity(const std::vector<Ray>& rays, Estimate& estimate);
 
 }  // namespace ols::fusion

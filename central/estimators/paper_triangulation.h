@@ -1,5 +1,5 @@
-// Triangulation as in the OLS paper, section 6: the mid-plane intersection of two views, Algorithm
-// 1 for N views, the choice of the best baseline (section 4.1), and the moving average.
+// Triangulation as in section 6 of the OLS paper: the mid-plane intersection of two views,
+// Algorithm 1 for N views, the choice of the best baseline (section 4.1), and the moving average.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,17 +18,17 @@ enum class PaperPairs {
   kBestBaseline,  // section 4.1: the pair with the largest t_i . n_i
 };
 
-// The parts of the paper's estimator; each can be switched alone.
+// The parts of the paper's estimator. Each can be switched separately.
 struct PaperConfig {
   PaperPairs pairs = PaperPairs::kAlgorithm1;
   bool by_belief = true;           // false: both views turn by half of the angle
-  int moving_average = 10;         // h estimates; 1: none
+  int moving_average = 10;         // number h of averaged estimates; 1: no averaging
   double min_crossing_rad = 1e-4;  // below it, u' and v' count as parallel
   double max_range_m = 500e3;
-  int max_stations = 0;  // of a target, the first in the order of their ids; 0: all
+  int max_stations = 0;  // per target, the first in the order of ids; 0: all
 };
 
-// One of the two views: camera centre M, direction, and the tracker's belief b.
+// One view: camera centre M, direction, and the tracker's belief b.
 struct PaperView {
   Eigen::Vector3d centre_ecef = Eigen::Vector3d::Zero();  // [m]
   Eigen::Vector3d direction_ecef = Eigen::Vector3d::UnitX();
@@ -40,29 +40,30 @@ struct PaperPoint {
   Eigen::Vector3d position_ecef = nan_vector();  // [m]
 };
 
-// Both vectors are turned about the baseline's axis m into one plane M1 M2 W: by beta1 = alpha b2 /
-// (b1 + b2) and beta2 = alpha - beta1, so that the one with the higher belief turns less; W is
-// their intersection.
+// Turns both vectors about the baseline's axis m into one plane M1 M2 W, by beta1 = alpha b2 / (b1
+// + b2) and beta2 = alpha - beta1. The vector with the higher belief turns less. W is their
+// intersection.
 PaperPoint paper_two_view(const PaperView& first, const PaperView& second,
                           const PaperConfig& config = {});
 
-// Combines all pairs of stations whose rays intersect, as config.pairs says. Algorithm 1: the
-// weighted centroid of the estimates of all pairs. The weights are w_i ~ exp(n_i . unit(T' - bc_i))
-// with bc_i the baseline's centre and n_i its normal towards T'. The paper prints the exponent with
-// the vector T' - bc_i itself; in metres that overflows at a few hundred. By the paper's text the
-// weights are to express the angle, hence the unit vector. Best baseline: the one with the largest
-// t_i . n_i, t_i being the direction from its centre to the target.
+// Combines all pairs of stations whose rays intersect, according to config.pairs.
+//  - Algorithm 1: the weighted centroid of all pairs' estimates, with weights w_i ~ exp(n_i .
+//    unit(T' - bc_i)). bc_i is the baseline's centre and n_i its normal towards T'. The paper
+//    prints the exponent with the vector T' - bc_i itself, which overflows at a few hundred metres.
+//    Its text says that the weights express the angle, hence the unit vector here.
+//  - Best baseline: the pair with the largest t_i . n_i, where t_i is the direction from its centre
+//    to the target.
 PaperPoint paper_n_view(const std::vector<PaperView>& views, const PaperConfig& config = {});
 
-// The same on rays, with its first-order covariance, which the paper does not give
-// (paper_pairing.h). Without the moving average. Its cost grows with the square of the number of
-// rays: about 2 ms for 100 of them.
+// The same from rays, with a first-order covariance (paper_pairing.h), which the paper does not
+// give. Without the moving average. The cost grows with the square of the number of rays: about 2
+// ms for 100.
 Estimate paper_estimate(const std::vector<Ray>& rays, const PaperConfig& config = {});
 
 // The paper's smoothing: the mean of the last h estimates (h = 10). It lags a moving target by half
-// of its span; that lag (the newest estimate minus the mean) is added to the covariance. Estimates
-// are made of the bearings of a window (AlignmentConfig::window_s): where two windows overlap,
-// their noise is correlated, and the mean does not reduce that part.
+// of its span. The lag (the newest estimate minus the mean) is added to the covariance. An estimate
+// uses the bearings of a window (AlignmentConfig::window_s). Where two windows overlap their noise
+// is correlated, and the mean does not reduce that part.
 class MovingAverage {
  public:
   MovingAverage(int h, double window_s) : h_(h), window_s_(window_s) {}

@@ -1,5 +1,5 @@
-// Whether a geometry determines a position. Where it hardly does, the matrices are singular to
-// rounding: an inverse of one is finite and has negative variances. Pure.
+// Whether a geometry determines a position. If it hardly does, the matrices are singular to
+// rounding: the inverse is finite but has negative variances. Pure.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,17 +9,17 @@
 
 namespace ols::fusion {
 
-// The inverse of an information matrix, positive definite; nullopt where its smallest eigenvalue is
-// zero to rounding (below 1e-13 of the largest) or it is not finite: some direction is not
-// observable.
+// The inverse of an information matrix, positive definite. Returns nullopt where some direction is
+// not observable: the matrix is not finite, or its smallest eigenvalue is zero to rounding (below
+// 1e-13 of the largest).
 std::optional<Eigen::Matrix3d> covariance_from(const Eigen::Matrix3d& information);
 
 // Finite, and positive definite by more than rounding.
 bool is_covariance(const Eigen::Matrix3d& covariance);
 
-// The same estimate; "parallel rays" without a position where its covariance is none. Where that of
-// the velocity is none, there is no velocity. The white part, a difference, loses what rounding
-// made negative.
+// The same estimate with impossible parts removed. If the position's covariance is not positive
+// definite: "parallel rays", no position. If the velocity's is not: no velocity. Negative variances
+// that rounding left in the white part, a difference, are cut.
 Estimate checked(Estimate estimate);
 
 }  // namespace ols::fusion

@@ -2,22 +2,25 @@
 // residuals show beyond that. Pure.
 //
 // The filter carries each station's bias (cross-elevation, elevation) as states with a prior of
-// zero mean. The prior variance v is learnt here. A bias that is estimated as b with variance P is
-// observable with the share k = 1 - P / v; its square counts as b^2 - k P with the weight k^2 (one
-// step of Fisher scoring on the marginal likelihood, Harville, 1977): nothing where the geometry
-// does not determine the bias, all where it does. An undeclared systematic error is first assumed
-// to be small; the biases of other undeclared stations, in units of their stated noise, count for
-// it too. The only scale in this is the bias's correlation time, so it holds for a drone and for a
-// meteor. A clock's offset is learnt alike where its error is only guessed.
+// zero mean. The prior variance v is learnt here. A bias estimated as b with variance P is
+// observable with the share k = 1 - P / v. Its square counts as b^2 - k P with the weight k^2:
+// nothing where the geometry does not determine the bias, all where it does. (One step of Fisher
+// scoring on the marginal likelihood: Harville, 1977.)
+//
+// An undeclared systematic error is first assumed to be small. The biases of other undeclared
+// stations, in units of their stated noise, count for it too. The only scale in this is the bias's
+// correlation time, so it holds for a drone and for a meteor. A clock offset is learnt in the same
+// way where its error is only guessed.
 //
 // The noise variance is learnt from the residuals: the expected square of the noise, given the
 // residual, counts as one bearing (expectation maximisation). It may be smaller or larger than
-// stated. What is stated as noise and does not show as such is still there: it is added to the
-// assumed bias of a station that declares none, until estimated biases show less.
+// stated. A station that declares no bias states one sigma for noise and bias together. The part
+// that does not appear as noise is added to its assumed bias. It leaves again when the estimated
+// biases turn out smaller.
 //
 // Noise is rarely white: the error of a tracker, or of a person, is nearly the same in the next
 // frame. The white share is estimated from the second differences of a station's own bearings, in
-// which the target's motion cancels. The rest averages out more slowly, and the weight of each
+// which the target's motion cancels. The rest averages out more slowly, so the weight of each
 // bearing is reduced accordingly.
 #pragma once
 
@@ -33,21 +36,22 @@ namespace ols::fusion {
 
 struct BiasModelConfig {
   double stated_time_s = 1800.0;   // correlation time of a declared pose error
-  double undeclared_time_s = 5.0;  // and of an undeclared one
+  double undeclared_time_s = 5.0;  // correlation time of an undeclared one
   double memory_s = 600.0;         // older evidence counts less than 1/e
   double stated_weight = 20.0;     // weight of a declared bias, in estimated biases
-  double undeclared_weight = 1.0;  // and of the assumed one where none is declared
+  double undeclared_weight = 1.0;  // weight of the assumed bias where none is declared
   // Min sd of any bias, over sd of the noise: assumed where nothing is declared or shown.
   double least_over_noise = 0.2;
-  double noise_weight = 20.0;   // weight of a stated noise, and that it is white, in bearings
+  double noise_weight = 20.0;   // weight of the stated noise and its whiteness, in bearings
   double noise_memory = 500.0;  // over which the noise is averaged [bearings]
   double least_noise = 0.1;     // bounds of the noise over the stated one [variances]
   double greatest_noise = 100.0;
   double clock_time_s = 5.0;  // correlation time of a clock's error
-  // Weight of a clock's stated error, in estimated offsets; 0: what is stated is not learnt.
+  // Weight of a clock's stated error, in estimated offsets; 0: the stated error is not changed.
   double clock_weight = 0.0;
-  double colour_time_s = 0.3;  // and of coloured noise: between a frame and the slow bias
-  // The same where no bias is declared: what is slower is in the bias.
+  double colour_time_s = 0.3;  // correlation time of coloured noise: between a frame and the slow
+                               // bias
+  // The same where no bias is declared: anything slower is in the bias.
   double undeclared_colour_time_s = 0.05;
   double colour_memory = 500.0;  // over which the white share is averaged [second differences]
 };
@@ -58,15 +62,15 @@ struct BiasModelConfig {
 struct BiasPrior {
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  // [rad^2] stationary, tangent plane
   Eigen::Array3d rotation = Eigen::Array3d::Zero();      // [rad^2] stationary variances
-  Eigen::Array3d time_s = Eigen::Array3d::Ones();        // its correlation times
+  Eigen::Array3d time_s = Eigen::Array3d::Ones();        // correlation times of the rotation
   bool position_states = false;                          // false: the rotation contains it
   Eigen::Array3d place_m2 = Eigen::Array3d::Zero();      // stationary variances: east, north, up
-  double place_time_s = 1.0;                             // its correlation time
-  // Empirical share of the rotation's variances: what no station declares.
+  double place_time_s = 1.0;                             // correlation time of the position error
+  // Empirical share of the rotation's variances: the part that no station declares.
   Eigen::Array3d shown = Eigen::Array3d::Zero();
 };
 
-// A station's bias [rad], cross-elevation and elevation, each with its posterior and prior
+// A station's bias [rad] (cross-elevation, elevation), each axis with its posterior and prior
 // variance.
 struct BiasEstimate {
   Eigen::Array2d value = Eigen::Array2d::Zero();
@@ -77,37 +81,38 @@ struct BiasEstimate {
 class BiasModel {
  public:
   explicit BiasModel(const BiasModelConfig& config = {}) : config_(config) {}
-  // Evidence on top of `known`: reads through to `known`, which must outlive it, and stores
+  // Evidence on top of `known`. Reads through to `known`, which must outlive it, and stores
   // separately what bearings show. known.learn() adopts it.
   static BiasModel evidence_on(const BiasModel& known);
   void learn(const BiasModel& evidence);
 
   // Systematic error of the line of sight itself: calibration, and the station's position error
-  // over the range.
+  // divided by the range.
   BiasPrior prior(const std::string& station, const LineOfSight& sight, double range_m,
                   bool position_states = false) const;
-  // The variance to add to what a ray states, for estimators without bias states [rad^2].
+  // The variance to add to a ray's stated one, for estimators without bias states [rad^2].
   Eigen::Matrix2d undeclared(const std::string& station, const LineOfSight& sight) const;
-  // A bias estimated by the filter and its prior, dt_s after its last report.
+  // A bias estimated by the filter, dt_s after its last report, with its prior.
   void observe(const std::string& station, const LineOfSight& sight, const BiasEstimate& bias,
                double dt_s, double range_m);
-  // The noise variance that a bearing's residual shows, over the one with which it was processed.
+  // ratio: the noise variance that a bearing's residual shows, over the one with which it was
+  // processed.
   void observe_residual(const std::string& station, double ratio);
   // The variance of a station's noise over the stated one.
   double noise_scale(const std::string& station) const;
-  // The squared second difference of a station's bearings, over its expectation for white noise of
-  // noise_scale().
+  // squared_ratio: a squared second difference of a station's bearings, over its expectation for
+  // white noise of noise_scale().
   void observe_noise(const std::string& station, double squared_ratio);
   // The share of a station's noise variance that is new in each bearing, above 0 and at most 1.
   double white_share(const std::string& station) const;
   // Its upper confidence limit.
   double greatest_white_share(const std::string& station) const;
-  // By which factor to multiply a bearing's stated variance when bearings come at this interval: 1
-  // if the noise is white. declared: the station declares a bias.
+  // The factor by which to multiply a bearing's stated variance when bearings come at this
+  // interval; 1 if the noise is white. declared: the station declares a bias.
   double inflation(const std::string& station, bool declared, double interval_s) const;
   double clock_time_s() const { return config_.clock_time_s; }
-  // A clock offset estimated by the filter, its variance and its prior, dt_s after the last report,
-  // and the variance that the station states [s^2].
+  // A clock offset estimated by the filter, dt_s after the last report, with its variance, its
+  // prior and the variance that the station states [s^2].
   void observe_clock(const std::string& station, double value_s, double variance_s2,
                      double prior_s2, double stated_s2, double dt_s);
   // The variance of a station's clock offset over the stated one, at least 1.
@@ -117,7 +122,7 @@ class BiasModel {
 
  private:
   struct Seen {
-    // Of earlier biases; the current one counts as one more, however new.
+    // Of earlier biases. The current bias counts as one more, however new.
     Eigen::Array2d weight = Eigen::Array2d::Zero(), weight_now = Eigen::Array2d::Zero();
     Eigen::Array2d squared_rad2 = Eigen::Array2d::Zero(), squared_now_rad2 = Eigen::Array2d::Zero();
     Eigen::Array2d noise_rad2 = Eigen::Array2d::Zero();   // stated, of one recent bearing
@@ -133,9 +138,9 @@ class BiasModel {
                         const Eigen::Array2d& noise_rad2) const;
 
   BiasModelConfig config_;
-  const BiasModel* known_ = nullptr;  // of evidence: the model below it
+  const BiasModel* known_ = nullptr;  // of evidence: the model that it reads through to
   std::map<std::string, Seen, std::less<>> stations_;
-  // Over the stations that declare nothing: weights, and squared biases over the noise's variance.
+  // Over the stations that declare nothing: weights, and squared biases over the noise variance.
   Eigen::Array2d common_weight_ = Eigen::Array2d::Zero();
   Eigen::Array2d common_ratio_ = Eigen::Array2d::Zero();
 };

@@ -1,7 +1,7 @@
-// Whether a station's biases may be estimated from a bearing. With a base that is short for the
-// range, the difference of two headings is not observable, yet a linear filter would estimate it
-// with false certainty: two stations side by side "learn" it, and a wrong range with it. Biases are
-// then considered but not estimated (the Schmidt-Kalman filter, 1966). Pure.
+// Whether a station's biases may be estimated from a bearing. If the baseline is short for the
+// range, the difference of two headings is not observable. A linear filter would estimate it
+// nevertheless, with false certainty: two stations side by side "learn" it, and a wrong range with
+// it. Such biases are considered but not estimated (Schmidt-Kalman filter, 1966). Pure.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,15 +10,15 @@
 
 namespace ols::fusion {
 
-// The product of bias and relative range error, which linearisation omits, is small against the
-// noise. P_position: of the target [m^2]; P: of the whole state.
+// Whether the product of bias and relative range error, which linearisation omits, is small against
+// the noise. P_position: of the target [m^2]. P: of the whole state.
 bool is_linear(const StationPart& part, const RayFrame& frame, double depth_m,
                const Eigen::Matrix3d& P_position, const FilterMatrix& P,
                const Eigen::Matrix2d& white);
 
-// The bearing's information on the station's states exceeds the linearisation error. along: the
-// bearing's direction; G: the gain times the root of the innovation's covariance; off_share: the
-// share of a residual that is the prediction's error, over the depth.
+// Whether the bearing's information on the station's states exceeds the linearisation error. along:
+// the bearing's direction. G: the gain times the root of the innovation's covariance. off_share:
+// the prediction's error as a share of the residual, over the depth.
 bool shows_bias(const FilterMatrix2& G, const FilterMatrix& P, const StationPart& part,
                 const Eigen::Vector3d& along, double off_share);
 

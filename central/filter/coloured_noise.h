@@ -1,5 +1,5 @@
-// How white a station's noise is, from the second differences of its own bearings, in which the
-// target's motion cancels. Pure.
+// Measures how white a station's noise is, from the second differences of its own bearings, in
+// which the target's motion cancels. Pure.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,8 +14,8 @@ namespace ols::fusion {
 
 class ColouredNoise {
  public:
-  // Gives the errors the distance of a bearing from the line between its neighbours, and returns
-  // the factor by which its variance counts more than stated.
+  // Reports to `shown` how far the middle one of three bearings is from the line between its
+  // neighbours. Returns the factor by which the bearing's stated variance is to be multiplied.
   double observe(const BearingMeasurement& measurement, const RayFrame& frame, BiasModel& shown);
 
  private:

@@ -1,8 +1,9 @@
 // The loops over a covariance's columns in which a filter spends most of its time. P is n x n,
-// column by column; only its lower triangle is touched. Pure.
+// column-major; only its lower triangle is touched. Pure.
 //
 // They are compiled twice: a processor with AVX takes twice as many elements at once. Each element
-// is computed by itself, by the same operations in the same order, so both give the same bits.
+// is computed separately, by the same operations in the same order, so both versions give the same
+// bits.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,7 +13,7 @@
 
 namespace ols::fusion::columns {
 
-// P - g0 g0^T - g1 g1^T in the first columns.
+// P - g0 g0^T - g1 g1^T, in the first columns.
 void subtract_square(const double* g0, const double* g1, Eigen::Index columns, Eigen::Index n,
                      double* P);
 
@@ -22,17 +23,17 @@ struct AxisColumns {
 };
 void propagate(const Eigen::Matrix3d& f, Eigen::Index n, const AxisColumns& columns);
 
-// Each row and each column times its own factor.
+// Multiplies each row and each column by its own factor.
 void scale(const double* factors, Eigen::Index n, double* P);
 
-// Of a part of a mixture, from the diagonal on: a column of its covariance, and how far its mean is
-// off the mixture's; its weight, alone and times the first of the latter.
+// One part of a mixture, from the diagonal on: a column of its covariance, and the offset of its
+// mean from the mixture's. Then its weight, alone and times the first element of that offset.
 struct Part {
   const double *covariance, *off;
   double weight, weighted_off;
 };
 using Parts = std::array<Part, kMotions>;
-// n elements of the mixture's column.
+// Writes n elements of the mixture's column.
 void mix(const Parts& parts, Eigen::Index n, double* result);
 
 }  // namespace ols::fusion::columns

@@ -1,5 +1,5 @@
-// Bearings that were rejected one after the other: when they show a manoeuvre that no motion model
-// allows. Pure.
+// Counts consecutive rejected bearings. Many of them show a manoeuvre that no motion model allows.
+// Pure.
 #pragma once
 
 #include <string>
@@ -8,10 +8,10 @@ namespace ols::fusion {
 
 class ConsecutiveRejections {
  public:
-  // A bearing was used: the count restarts.
+  // A bearing was used: restarts the count.
   void clear();
-  // One more of this station was rejected. Returns true when there are so many, of two stations or
-  // more, that the covariance must be inflated; the count then restarts.
+  // One more bearing of this station was rejected. Returns true, and restarts the count, when kMany
+  // are reached from two or more stations: the covariance must then be inflated.
   bool add(const std::string& station);
 
   static constexpr int kMany = 6;

@@ -1,8 +1,8 @@
 // The Gaussian of a filter's state, and the operations on it for every bearing. Pure.
 //
-// First come the target's nine states (motion_model.h), then those of the stations. Only the lower
+// The target's nine states (motion_model.h) come first, then those of the stations. Only the lower
 // triangle of the covariance is stored: half the work, and it cannot become asymmetric. Each
-// function goes through its columns once.
+// function passes through its columns once.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,8 +22,8 @@ inline constexpr int kStationStates = kPoseStates + kPlaceStates;
 inline constexpr int kFilterStates = 9 + kStationStates * kFilterStations;
 
 using FilterVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kFilterStates, 1>;
-// On the heap: for the greatest number of states it takes 70 kB, for a few stations' a tenth, and
-// filters are copied and kept by the thousand.
+// On the heap: filters are copied and kept by the thousand. With the maximum number of states a
+// matrix takes 70 kB; with a few stations, a tenth.
 using FilterMatrix = Eigen::MatrixXd;
 using FilterMatrix2 = Eigen::Matrix<double, Eigen::Dynamic, 2, 0, kFilterStates, 2>;
 
@@ -38,13 +38,13 @@ struct TargetGaussian {
   Matrix9 covariance;  // lower triangle
 };
 
-// A square on the diagonal, with both triangles.
+// A square block on the diagonal, with both triangles.
 template <int K>
 Eigen::Matrix<double, K, K> whole_block(const FilterMatrix& P, Eigen::Index first) {
   return P.block<K, K>(first, first).template selfadjointView<Eigen::Lower>();
 }
 
-// Adds P H^T for an H (2 x states) that has these columns from `first` on and is zero elsewhere.
+// Adds P H^T. H (2 x states) has these columns from `first` on and is zero elsewhere.
 template <int K>
 void add_product(const FilterMatrix& P, Eigen::Index first, const Eigen::Matrix<double, 2, K>& H,
                  FilterMatrix2& result) {
@@ -58,11 +58,10 @@ void add_product(const FilterMatrix& P, Eigen::Index first, const Eigen::Matrix<
 // P - G G^T in the first columns; the others stay as they are.
 void subtract_square(const FilterMatrix2& G, Eigen::Index columns, FilterMatrix& P);
 
-// Propagates the target by a motion.
 void propagate(const Transition& motion, FilterGaussian& state);
 void propagate(const Transition& motion, TargetGaussian& state);
 
-// Each state times its own factor.
+// Multiplies each state by its own factor.
 void scale(const FilterVector& factors, FilterGaussian& state);
 
 // Inserts zero states before the given one, or at the end.
@@ -70,13 +69,14 @@ void insert_states(Eigen::Index before, Eigen::Index more, FilterGaussian& state
 
 // Mean and covariance of a mixture of up to kMotions with these weights; both triangles.
 FilterGaussian mixture(std::span<const FilterGaussian> parts, std::span<const double> weights);
-// Those of the target alone.
+// Mean and covariance of the target alone.
 TargetGaussian target_mixture(std::span<const FilterGaussian> parts,
                               std::span<const double> weights);
 TargetGaussian target_mixture(std::span<const TargetGaussian> parts,
                               std::span<const double> weights);
 
-// Each becomes a mixture of all, with its own weights (Blom and Bar-Shalom's interaction).
+// Replaces each part by a mixture of all parts, with its own weights (Blom and Bar-Shalom's
+// interaction).
 using MixtureWeights = std::array<double, kMotions>;
 void interact(const std::array<MixtureWeights, kMotions>& weights, std::span<FilterGaussian> parts);
 

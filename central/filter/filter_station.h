@@ -1,4 +1,4 @@
-// What a target's filter remembers of a station that contributes to it. Pure.
+// What a target's filter remembers of a contributing station. Pure.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,28 +12,27 @@
 
 namespace ols::fusion {
 
-// A contributing station.
 struct FilterStation {
   std::string station;
   LineOfSight sight;                                         // its last bearing
-  Eigen::Matrix3d R_ecef_enu = Eigen::Matrix3d::Identity();  // at its origin
+  Eigen::Matrix3d R_ecef_enu = Eigen::Matrix3d::Identity();  // at the origin of `sight`
   Activity last_used, last_offered;
   int used = 0;                                   // bearings
   int rejected = 0;                               // consecutively, since the last used one
   std::int64_t calibration_id = 0, track_id = 0;  // a new id means a new bias
-  double weight = 0.0;                            // of the last one, 0: rejected
+  double weight = 0.0;                            // of the last bearing; 0: rejected
   double clock_sd_s = 0.0;                        // as learnt
   double stated_clock_sd_s = 0.0;
   double mean_nis = 2.0;  // recent mean of the used bearings; 2 is ideal
   ColouredNoise noise{};
 
-  // A bearing of it was used, with this weight.
+  // One of its bearings was used, with this weight.
   void note_use(const BearingMeasurement& measurement, double nis, double used_weight);
 };
 
-// Whether the stations' residuals can tell this one's errors from the target's motion: always what
-// it declares; what it does not declare only beside two others that deliver, because the residuals
-// of two stations have one dimension for the six of their biases and clocks.
+// Whether the stations' residuals can distinguish this station's errors from the target's motion.
+// Declared errors: always. Undeclared errors: only beside two other stations that deliver, because
+// the residuals of two stations have one dimension for the six of their biases and clocks.
 bool is_redundant(const std::vector<FilterStation>& stations, const FilterStation& entry);
 
 }  // namespace ols::fusion

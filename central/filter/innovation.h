@@ -22,15 +22,15 @@ struct StationPart {
   Eigen::Matrix3d R_ecef_enu;
 };
 
-// One model's prediction compared with one bearing: H = [J, ahead J, curved J] of the target, and
-// the columns of the station's pose and position.
+// One model's prediction compared with one bearing: H = [J, ahead J, curved J] for the target, and
+// the columns for the station's pose and position.
 struct ModelInnovation {
   double depth_m = 0.0;
   Eigen::Vector2d residual = Eigen::Vector2d::Zero();
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  // of the residual, without noise
   Eigen::Matrix<double, 2, 3> J = Eigen::Matrix<double, 2, 3>::Zero();
   double ahead_s = 0.0, curved_s2 = 0.0;
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // by which a clock error counts
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // couples the clock error into the bearing
   Eigen::Matrix<double, 2, kPoseStates> by_pose;
   Eigen::Matrix<double, 2, kPlaceStates> by_place;
 
@@ -38,18 +38,17 @@ struct ModelInnovation {
   FilterMatrix2 cross(const FilterMatrix& P, const std::optional<StationPart>& part) const;
 };
 
-// The innovation of each model.
 struct Innovation {
   std::array<ModelInnovation, kMotions> models;
   RayFrame frame;
   std::optional<StationPart> part;  // nullopt: the filter has no states of the station
-  // The smallest squared normalised residual (NIS, 2 degrees of freedom); infinite behind the
-  // camera.
+  // The smallest squared normalised residual (NIS, 2 degrees of freedom) of the models; infinite
+  // behind the camera.
   double nis = std::numeric_limits<double>::infinity();
-  std::int64_t state = 0;  // the filter's state for which it was computed
+  std::int64_t state = 0;  // version of the filter's state for which it was computed
 };
 
-// The motion about which to linearise, if not about the current estimate.
+// about: the motion about which to linearise; nullopt: the current estimate.
 ModelInnovation innovation_of(const InteractingModels& models, std::size_t which,
                               const BearingMeasurement& measurement, const RayFrame& frame,
                               const StationPart* station,
@@ -61,7 +60,7 @@ struct JudgedInnovation {
   double noise = 1.0;
 };
 
-// With this noise and that many models: nullopt behind a camera.
+// Judges with this white noise and number of models; nullopt behind the camera.
 std::optional<JudgedInnovation> judge(const Innovation& seen, std::size_t models,
                                       const Eigen::Matrix2d& white, double gate_nis);
 

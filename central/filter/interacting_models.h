@@ -18,7 +18,7 @@ struct KinematicState {
   Matrix9 covariance = Matrix9::Zero();
 };
 
-// At another instant, extrapolated with its acceleration.
+// At another instant, extrapolated with velocity and acceleration.
 Eigen::Vector3d position_at(const KinematicState& state, std::int64_t utime_us);
 
 // Initial position and motion of a target, with large variances.
@@ -42,18 +42,18 @@ class InteractingModels {
   std::vector<FilterGaussian>& each() { return models_; }
   const std::vector<double>& probabilities() const { return probabilities_; }
 
-  // Predicts each model separately; utime_us is not before the state's own instant.
+  // Predicts each model separately. utime_us must not be before the state's own instant.
   void predict(std::int64_t utime_us);
-  // The models' interaction after this time.
+  // Mixes the models after dt_s.
   void interact(double dt_s);
   // Updates each model after a measurement.
   void weigh(std::span<const double> log_likelihood);
-  // Covariance inflation: for this time, any acceleration in these directions that is possible at
-  // this velocity.
+  // Inflates the covariance: adds, for this time, any acceleration along these directions that is
+  // possible at this velocity.
   void inflate(double time_s, const Eigen::Matrix3d& along, const Eigen::Vector3d& v_ecef);
 
-  // Mixed over the models: the kinematics at the state's own instant or at any other, and the whole
-  // state.
+  // Mixed over the models: the kinematics at the state's own instant, at another instant, and the
+  // whole state.
   KinematicState kinematics() const;
   KinematicState at(std::int64_t utime_us) const;
   FilterGaussian mixed() const;

@@ -1,19 +1,19 @@
 // How a target may move: three models on one state, so that they can be mixed. Pure.
 //
 // The state of each axis is (position, velocity, acceleration). The three axes of space share one
-// 3x3 transition f and one 3x3 noise q: F = f (x) I and Q = q (x) D, where D is I unless the target
-// is very fast (see below). The position affects neither velocity nor acceleration, so the first
-// column of f is (1 0 0). (Li and Jilkov, "Survey of
-// maneuvering target tracking, part I: dynamic models", 2003.)
+// 3x3 transition f and one 3x3 noise q: F = f (x) I and Q = q (x) D. D is I unless the target is
+// very fast (see below). The position affects neither velocity nor acceleration, so the first
+// column of f is (1 0 0). (Li and Jilkov, "Survey of maneuvering target tracking, part I: dynamic
+// models", 2003.)
 //  - constant velocity: white noise of the acceleration, which itself is not propagated;
 //  - coordinated turn: the acceleration turns with the velocity, w = |v x a| / |v|^2, in the plane
 //    of the two;
 //  - acceleration: Singer's, exponentially correlated.
 //
 // The assumed manoeuvre grows with the speed: at 10 m/s the velocity changes by a few m/s in a
-// second, at 20 km/s by some km/s (drag). The same numbers thus serve a drone and a meteor. But
-// drag acts along the path, and nothing turns from it by more than some 30 g: what is faster than a
-// kilometre a second flies straighter than it keeps its speed.
+// second, at 20 km/s by some km/s (drag). The same numbers thus serve a drone and a meteor. Drag
+// acts along the path, and nothing turns by more than some 30 g. Beyond a kilometre per second, the
+// acceleration across the path is therefore limited.
 #pragma once
 
 #include <Eigen/Core>
@@ -35,15 +35,16 @@ struct MotionConfig {
   // The models that are mixed: at least one, each once.
   std::vector<Motion> models = {Motion::kConstantVelocity, Motion::kCoordinatedTurn,
                                 Motion::kAcceleration};
-  // 1-sigma of a manoeuvre's acceleration: that of a target at rest, and the increase with speed.
+  // 1-sigma of a manoeuvre's acceleration: at rest, and its increase with speed.
   double acceleration_sd_m_s2 = 3.0;
   double acceleration_per_speed_s = 0.3;  // [1/s]
   double acceleration_time_s = 1.5;       // Singer's correlation time
   double across_limit_m_s2 = 300.0;       // the greatest 1-sigma across the path
-  // The constant-velocity model's disturbance over the root of a second, likewise.
+  // Disturbance of the constant-velocity model per root second: at rest, and its increase with
+  // speed.
   double cruise_sd_m_s2 = 0.2;
   double cruise_per_speed_s = 0.003;  // [1/s]
-  double turn_share = 0.1;            // the turn's disturbance, over the acceleration's sd
+  double turn_share = 0.1;            // disturbance of the turn, over the acceleration's sd
   double turn_limit_rad_s = 2.0;
   std::array<double, kMotions> dwell_s = {8.0, 4.0,
                                           2.0};  // mean time in each model, in the order of Motion
@@ -59,7 +60,7 @@ struct Transition {
 // 1-sigma of the acceleration that is possible at this velocity [m/s^2].
 double manoeuvre_sd(const Eigen::Vector3d& velocity, const MotionConfig& config);
 
-// Over dt_s >= 0 from this state: (position, velocity, acceleration) of three components each.
+// Over dt_s >= 0 from this state: (position, velocity, acceleration), three components each.
 Transition transition(Motion motion, const Vector9& state, double dt_s, const MotionConfig& config);
 
 }  // namespace ols::fusion

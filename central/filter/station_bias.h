@@ -15,15 +15,14 @@ inline Eigen::Index states_of(const BiasPrior& prior) {
   return prior.position_states ? kStationStates : kPoseStates;
 }
 
-// The systematic part of the position's covariance at the state's own instant; and its empirical
-// part: of biases that no station declares and that only the residuals show.
+// The systematic part of the position's covariance at the state's own instant. Its empirical part
+// comes from biases that no station declares and only the residuals show.
 struct SystematicPart {
   Eigen::Matrix3d all_m2 = Eigen::Matrix3d::Zero();
   Eigen::Matrix3d empirical_m2 = Eigen::Matrix3d::Zero();
 };
 
-// Of the covariance of a whole state: position, velocity, acceleration, then states_of() each
-// prior.
+// P: covariance of a whole state: position, velocity, acceleration, then states_of() each prior.
 SystematicPart systematic_part(const Eigen::Ref<const Eigen::MatrixXd>& P,
                                const std::vector<BiasPrior>& priors);
 
@@ -36,7 +35,7 @@ struct StationBias {
   double clock_prior_sd_s = 0.0;
 };
 
-// Mixed over the models: a station's states from `first` on, projected to its last bearing.
+// Mixed over the models: a station's states, which begin at `first`, projected to its last bearing.
 StationBias station_bias(const InteractingModels& models, Eigen::Index first,
                          const BiasPrior& prior, const LineOfSight& sight, double range_m);
 

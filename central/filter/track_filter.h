@@ -1,20 +1,20 @@
 // One target over time: an extended Kalman filter with mixed motion models that processes every
 // bearing at its own instant. Pure.
 //
-// State: position, velocity, acceleration (ECEF components), and for each contributing station the
+// State: position, velocity, acceleration (ECEF components). For each contributing station: the
 // rotation error of its pose (about its east, north, up), its clock's offset and, where relevant,
 // the error of its position. These are constant while the tripod stands; the bias on the tangent
-// plane changes with the direction. They are Gauss-Markov processes with the prior of BiasModel:
-// observable ones are estimated, the others only considered (Schmidt). Either way the position's
-// covariance contains them, so that averaging does not remove them.
+// plane changes with the direction. They are Gauss-Markov processes with the prior of BiasModel.
+// Observable ones are estimated, the others only considered (Schmidt). The position's covariance
+// contains both kinds, so averaging does not remove them.
 //
 // A newer bearing propagates the state. A late one is compared with the target's position at its
 // own instant, extrapolated by velocity and acceleration. A far outlier is rejected, a near one
-// weighted down. Only consecutive rejections of two stations, or of one of the only two, show a
-// manoeuvre that no motion model allows; the covariance is then inflated.
+// down-weighted. Consecutive rejections of two stations, or of one of the only two, show a
+// manoeuvre that no motion model allows. The covariance is then inflated.
 //
-// Data flow one way: the filter reads the priors of the stations' errors and returns what a bearing
-// shows of them. The owner of the priors learns it.
+// Data flow one way: the filter reads the priors of the stations' errors and returns the evidence
+// of a bearing on them. The owner of the priors learns from it.
 #pragma once
 
 #include <Eigen/Core>
@@ -40,45 +40,48 @@ namespace ols::fusion {
 
 struct FilterConfig {
   MotionConfig motion{};
-  double robust_nis = 9.0;      // squared normalised residual beyond which a bearing weighs less
-  double gate_nis = 25.0;       // and beyond which it is rejected
+  double robust_nis = 9.0;      // squared normalised residual beyond which a bearing is
+                                // down-weighted
+  double gate_nis = 25.0;       // squared normalised residual beyond which it is rejected
   double mixing_s = 0.05;       // interval at which models are mixed and biases propagated
   double range_sd_limit = 0.3;  // max 1-sigma of a position, over range
   double max_range_m = 500e3;
-  // Assumed pose and clock error of a station that declares none, for the question whether two rays
-  // cross widely enough to determine a range [rad].
+  // Assumed pose and clock error of a station that declares none [rad]. Decides whether two rays
+  // cross widely enough to determine a range.
   double undeclared_sd_rad = 1e-3;
-  // Two stations alone: max squared correction over the stated bias and noise; beyond it they are
-  // an inconsistent pair.
+  // For two stations alone: max squared correction over the stated bias and noise. Beyond it they
+  // are an inconsistent pair.
   double two_stations_nis = 25.0;
-  // A station's position gets states of its own once it makes at least this share of the stated
-  // bias's variance.
+  // A station's position error gets states of its own when it makes up at least this share of the
+  // stated bias's variance.
   double place_share = 0.005;
-  // Common-mode error of all stations, in variance, over the empirical part of the systematic
-  // variance: it moves the target, and no residual shows it.
+  // Variance of the error common to all stations, over the empirical part of the systematic
+  // variance. It moves the target, and no residual shows it.
   double common_mode = 1.0;
 };
 
 // What became of a bearing.
 enum class BearingUse { kUsed, kRejected, kBehindCamera, kTooLate };
 
-// The result of an update, and what it shows of the stations' errors: evidence on top of the priors
-// that were given.
+// The result of an update. `shown`: the evidence on the stations' errors, on top of the given
+// priors.
 struct FilterUpdate {
   BearingUse use = BearingUse::kTooLate;
-  double nis = std::numeric_limits<double>::infinity();  // if the bearing was compared at all
+  double nis = std::numeric_limits<double>::infinity();  // infinite if the bearing was not compared
   BiasModel shown;
 };
 
 class TrackFilter {
  public:
-  // An initial state for the first bearings. Throws std::invalid_argument without motion models.
+  // start: the initial state, from the first bearings. Throws std::invalid_argument without motion
+  // models.
   TrackFilter(const FilterConfig& config, std::int64_t utime_us, const FilterStart& start);
 
   Innovation innovation(const BearingMeasurement& measurement, const BiasModel& priors) const;
   // `known`: the bearing's innovation() with the same priors, if available. It serves a late
-  // bearing. A newer one moves the state to its instant, with mixing and fading biases, and is
-  // compared there: what innovation() extrapolates is good for a gate, not for a gain.
+  // bearing only. A newer bearing moves the state to its instant, with mixing and fading biases,
+  // and is compared there: the extrapolation of innovation() is good enough for a gate, not for a
+  // gain.
   [[nodiscard]] FilterUpdate update(const BearingMeasurement& measurement, const BiasModel& priors,
                                     const Innovation* known = nullptr);
   // Propagates the state without a bearing; returns the evidence on the biases.
@@ -88,7 +91,7 @@ class TrackFilter {
     refresh();
     return shown;
   }
-  // Linearises the bearings' equations about this motion, not about the current estimate: for
+  // Linearises the bearings' equations about this motion instead of the current estimate, for
   // another iteration over the same bearings while the estimate is vague.
   void linearise_about(const KinematicState& motion) { about_ = motion; }
   void linearise_about_itself() { about_.reset(); }
@@ -97,20 +100,20 @@ class TrackFilter {
   // Mixed over the models, at any instant.
   KinematicState at(std::int64_t utime_us) const { return models_.at(utime_us); }
   SystematicPart systematic() const { return systematic_part(mixed().covariance, priors_); }
-  // at() the state's own instant, without computation.
+  // at() the state's own instant, precomputed.
   const KinematicState& summary() const { return summary_; }
   Eigen::Vector3d position() const { return summary_.mean.head<3>(); }
   Eigen::Vector3d velocity() const { return summary_.mean.segment<3>(3); }
-  // Those with states of their own, in the order of priors().
+  // The stations with states of their own, in the order of priors().
   const std::vector<FilterStation>& stations() const { return stations_; }
-  // All that contribute: those, then the ones for which no states are left.
+  // All contributing stations: those with states, then those without.
   template <class Visitor>
   void each_station(const Visitor& visit) const {
     for (const FilterStation& station : stations_) visit(station);
     for (const auto& [name, station] : without_states_) visit(station);
   }
   const std::vector<BiasPrior>& priors() const { return priors_; }  // of each station
-  // How many other stations had a bearing used since this one's last.
+  // How many other stations had a bearing used since this station's last.
   std::ptrdiff_t agreed_since(const FilterStation& station) const {
     std::ptrdiff_t count = 0;
     each_station([&](const FilterStation& other) {
@@ -139,7 +142,7 @@ class TrackFilter {
   void add_position_states(int station);
   int station_of(const BearingMeasurement& measurement, const BiasModel& priors);
   Innovation compare(const BearingMeasurement& measurement, int station) const;
-  // `along`: the bearing's direction if biases may be estimated from it.
+  // along: the bearing's direction if biases may be estimated from it; otherwise null.
   void correct(const Innovation& seen, const Eigen::Matrix2d& noise, const Eigen::Vector3d* along);
   void take_without_states(const BearingMeasurement& measurement, FilterUpdate& update);
   void take(const BearingMeasurement& measurement, const Innovation* known, FilterUpdate& update);
@@ -160,7 +163,7 @@ class TrackFilter {
   std::int64_t state_ = 1;  // version of the state; an innovation belongs to one
   std::vector<FilterStation> stations_;
   std::vector<BiasPrior> priors_;
-  std::map<std::string, FilterStation> without_states_;  // stations for which none are left
+  std::map<std::string, FilterStation> without_states_;  // by name
   KinematicState summary_;                               // mixed over the models
   std::optional<KinematicState> about_;
   ConsecutiveRejections rejections_;

@@ -1,4 +1,4 @@
-// The bearing-only tracks: lines of sight of stations that follow an object that no track explains.
+// Bearing-only tracks: lines of sight of stations that follow an object that no track explains.
 // Pure.
 #pragma once
 
@@ -14,7 +14,7 @@
 
 namespace ols::fusion {
 
-// A view of the current state; short-lived.
+// A short-lived view of the current state.
 class BearingLines {
  public:
   BearingLines(const TrackManager& tracks, const PointingMonitor& pointing,
@@ -23,8 +23,8 @@ class BearingLines {
 
   // Stations that have recently sent an unassociated bearing.
   std::vector<std::string> stations(std::int64_t epoch_us) const;
-  // The newest bearing of each local track that no target takes; the smallest ids first, which most
-  // trackers gave first.
+  // The newest bearing of each local track that no target takes, smallest ids first: most trackers
+  // assign ids in ascending order.
   std::vector<const BearingMeasurement*> of(const std::string& station,
                                             std::int64_t epoch_us) const;
   // The newest bearing of a station.

@@ -1,12 +1,13 @@
-// The instant for which targets are published: as new as the bearings allow. The filter predicts
-// every target to it, so it need not be one that most stations have passed. Pure.
+// Chooses the epochs: the instants for which targets are published. An epoch is the newest stamp,
+// as recent as the bearings allow. The filter predicts every target to it, so most stations need
+// not have passed it. Pure.
 //
-// It is the newest stamp. A station is delivering if it has sent a bearing lately, and due if its
-// next frame, a frame interval after its newest one, is older than that stamp: it is on its way.
-// Published is as soon as fewer than half of the delivering stations are due. Stations that expose
-// together are thus heard before it, and those that expose in turn keep nobody waiting. One that
-// misses a frame is not waited for until it delivers again, and no epoch waits for longer than 20
-// ms of message time.
+// A station is delivering if it has sent a bearing lately. It is due if its next frame, one frame
+// interval after its newest, is older than the epoch: that bearing is on its way. An epoch is
+// published as soon as fewer than half of the delivering stations are due. Stations that expose
+// together are thus all included, and stations that expose in turn keep nobody waiting. A station
+// that misses a frame is not waited for until it delivers again. No epoch waits longer than 20 ms
+// of message time.
 #pragma once
 
 #include <cstddef>
@@ -19,12 +20,12 @@ namespace ols::fusion {
 
 class EpochRule {
  public:
-  // An admitted bearing, at the time "now": the median of the stations' newest stamps. A stamp that
-  // is ahead of it by more than the station's frame interval is no epoch: that clock is wrong.
+  // Takes an admitted bearing. now_us: the median of the stations' newest stamps. A stamp ahead of
+  // it by more than the station's frame interval is no epoch: that clock is wrong.
   void hear(const std::string& station, std::int64_t utime_us, std::int64_t now_us);
-  // The newest stamp; nullopt before the first, within a period of the last epoch, and while half
-  // of the stations or more are due. Of more than 32 stations, some bearings later: each is not
-  // worth a look at all stations.
+  // The epoch that is to be published now, or nullopt: before the first stamp, within a period of
+  // the last epoch, and while half of the stations or more are due. With more than 32 stations it
+  // is looked up only every few bearings, because a look passes through all stations.
   std::optional<std::int64_t> after(const std::optional<std::int64_t>& last_us, double rate_hz);
   void forget(const std::string& station) {
     stations_.erase(station);
@@ -35,8 +36,8 @@ class EpochRule {
  private:
   struct Station {
     std::int64_t newest_us = 0;
-    // Between its newest frames, the smaller one of two: a lost frame or a step of its clock is
-    // none. 0: it has sent only one frame.
+    // The smaller one of the last two intervals between frames, so that a lost frame or a step of
+    // the clock does not count. 0: only one frame yet.
     std::int64_t interval_us = 0;
     std::int64_t last_interval_us = 0;
 

@@ -14,19 +14,20 @@
 
 namespace ols::fusion {
 
-// A station that alone has a target in view: the line on which the target lies.
+// The line of sight of the only station that sees a target.
 struct BearingOnly {
   std::string station;
-  std::int64_t track_id = 0;  // the station's own
+  std::int64_t track_id = 0;  // the station's own id
   LineOfSight sight;          // at the epoch
   Eigen::Vector2d rate_rad_s = Eigen::Vector2d::Zero();
 };
 
 struct FusedTarget {
   std::int64_t utime_us = 0;   // the epoch
-  std::int64_t target_id = 0;  // 0: no object yet. A bearing-only track's id passes to its target
+  std::int64_t target_id = 0;  // 0: no object yet. A target takes over the id of its bearing-only
+                               // track
   TrackState state = TrackState::kTentative;
-  std::string estimator;  // its name
+  std::string estimator;  // name of the estimator
   Estimate estimate;
   std::vector<ContributingStation> stations;  // in the order of their ids
   std::optional<BearingOnly> bearing_only;    // instead of a position
@@ -34,9 +35,9 @@ struct FusedTarget {
 
 struct FusionOutput {
   BearingRefusal refusal = BearingRefusal::kNone;  // the fate of the bearing
-  // Each confirmed object of one epoch; without any, one target that states why. Also the
-  // bearing-only tracks (kBearingOnly). With many objects, a part; the next bearings bring the rest
-  // of the epoch, in the order of ids, bearing-only tracks last.
+  // All confirmed objects of one epoch, then the bearing-only tracks (kBearingOnly), each in the
+  // order of ids. If there is none: one target that states why. With many objects this is a part of
+  // the epoch; the next bearings bring the rest.
   std::vector<FusedTarget> targets;
   std::vector<FusedTarget> targets_paper;  // the paper's estimate of the same objects
   std::vector<Slew> slews;

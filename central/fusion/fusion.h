@@ -4,8 +4,8 @@
 // delivered (epoch_rule.h). With many targets or stations, the work of a period is spread over
 // several bearings.
 //
-// Admission decides which bearings are used, the tracks which target each belongs to, the schedules
-// what is published when.
+// Admission decides which bearings are used. The tracks decide which target each belongs to. The
+// schedules decide what is published when.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ namespace ols::fusion {
 struct FusionConfig {
   std::string estimator = "filter";  // of the targets; a name of make_estimator()
   double rate_hz = 15.0;             // max targets per second, of each object
-  int paper_targets = 8;  // of this many targets the paper's estimate is made as well; 0: of none
+  int paper_targets = 8;             // max number of targets with a paper estimate too; 0: none
   AdmissionConfig admission{};
   EstimatorConfig estimators{};
   TrackManagerConfig tracks{};
@@ -41,21 +41,21 @@ class Fusion {
   // Throws std::invalid_argument for an unknown estimator.
   explicit Fusion(const FusionConfig& config);
 
-  // Takes a station's status, so that it can be slewed before its first bearing.
+  // Takes a station's status, so that the station can be slewed before its first bearing.
   void know_station(const std::string& station, const StationTraits& traits);
-  // The same for a station without a position: only whether it may be slewed.
+  // For a station without a position: only whether it may be slewed.
   void allow_slews(const std::string& station, bool allowed);
   // Processes one bearing, in order of arrival.
   FusionOutput add(const BearingMeasurement& measurement);
 
-  // Takes what others say of a target: slews may come of it, nothing else. `present_us`: this
-  // host's UTC, or of a recording the message's time.
+  // Takes a target reported from outside. It may cause slews, nothing else. present_us: this host's
+  // UTC; in a replay, the message's time.
   std::vector<Slew> add(const Cue& cue, std::int64_t present_us);
-  // An operator's word on a cue; false: there is none of this name, or the site wants none.
+  // An operator's decision on a cue. False if there is no such cue, or if the site uses none.
   bool allow_cue(const std::string& id, bool allow);
   void end_silent_cues(std::int64_t present_us) { cues_.end_silent(present_us); }
 
-  // `present_us`: for where cues are now.
+  // present_us: the time for which the positions of cues are given.
   FusionHealth health(std::int64_t present_us = 0) const;
   std::int64_t now_us() const { return admission_.time().now_us(); }
   const TrackManager& tracks() const { return tracks_; }

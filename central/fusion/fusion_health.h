@@ -20,7 +20,8 @@ namespace ols::fusion {
 struct StationBiasReport {
   Eigen::Vector2d bias_rad = nan_vector().head<2>();  // cross-elevation, elevation
   Eigen::Vector2d bias_sd_rad = nan_vector().head<2>();
-  Eigen::Vector2d stated_sd_rad = nan_vector().head<2>();  // of the bias, by the station
+  Eigen::Vector2d stated_sd_rad = nan_vector().head<2>();  // 1-sigma of the bias, stated by the
+                                                           // station
   double clock_s = std::numeric_limits<double>::quiet_NaN();
   double clock_sd_s = std::numeric_limits<double>::quiet_NaN();
 };
@@ -32,7 +33,7 @@ struct StationHealth {
   double age_s = 0.0;           // "now" minus its newest stamp
   double residual = 0.0;        // recent, RMS normalised; NaN if none
   double clock_offset_s = 0.0;  // of its stamps from the median; NaN if none
-  std::string quarantine{};     // why it is not used; empty: it is used
+  std::string quarantine{};     // why its bearings are not used; empty: they are
   StationBiasReport finding{};
   StatedCalibration calibration{};
 };

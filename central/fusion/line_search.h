@@ -1,10 +1,11 @@
-// How a station looks along another station's line of sight for a target without a position. Pure.
+// How a station searches along another station's line of sight, for a target without a position.
+// Pure.
 //
-// A target is likeliest where the stations stand to see it: around the foot of their middle on the
-// line. The stations that search share the line: each begins at another place, so that together
-// they begin with equal parts of that probability, and sweeps from there outwards, away from the
-// foot, then to and fro between the ends of the line. A sweep crosses a view in a time in which a
-// target can be recognised, and begins when the unit has had time to come there.
+// The target is most likely where the stations stand to see it: around the foot of their centre on
+// the line. The stations that search share the line. Each begins at another place, so that their
+// parts have equal probability. From there it sweeps outwards, away from the foot, then to and fro
+// between the ends of the line. A sweep crosses the field of view in a time in which a target can
+// be recognised. It begins when the unit has had time to arrive.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,10 +17,10 @@
 
 namespace ols::fusion {
 
-// A ray with a target somewhere on it.
+// A ray on which there is a target at unknown range.
 struct CueRay {
   std::string station;
-  std::int64_t track_id = 0;  // the station's own
+  std::int64_t track_id = 0;  // the station's own id
   std::int64_t utime_us = 0;
   Eigen::Vector3d origin_ecef = Eigen::Vector3d::Zero();
   Eigen::Vector3d direction_ecef = Eigen::Vector3d::UnitX();
@@ -29,13 +30,13 @@ struct CueRay {
   CueRay at(std::int64_t later_us) const;
 };
 
-// Where on the line the target is thought to be.
+// Where on the line the target is expected.
 struct LinePrior {
   double range_m = 300.0;  // most likely, from the line's origin
   double sd_m = 150.0;     // of a logistic distribution
 };
 
-// A searcher's share of the line.
+// The part of the line that one searching station begins with.
 struct LineShare {
   int rank = 0;  // 0 .. of - 1, from the near end to the far one
   int of = 1;    // searchers
@@ -44,12 +45,12 @@ struct LineShare {
 struct LineSearchConfig {
   double near_m = 30.0;  // the ends of the line
   double far_m = 20e3;
-  double view_s = 0.5;  // in which a sweep crosses the narrower field of view
-  // Of the units, as the servo drives them; to foresee when one has come to its beginning.
+  double view_s = 0.5;  // time in which a sweep crosses the narrower field of view
+  // Of the pan-tilt units under the servo, to predict when one has reached its start.
   double acceleration_rad_s2 = 0.8, speed_rad_s = 1.0, settle_s = 0.3;
 };
 
-// Where a sweep begins, and which way it goes first.
+// Where a sweep begins, and its first direction.
 struct SweepStart {
   double range_m = 0.0;
   bool outwards = true;  // towards the far end
@@ -60,25 +61,25 @@ SweepStart sweep_start(const LinePrior& prior, const LineShare& share,
 // How long a unit takes to turn by this angle.
 double turning_s(double angle_rad, const LineSearchConfig& config);
 
-// How far the sweep has come, in shares of 0 .. way_rad, and whether it goes up.
+// How far the sweep has come [rad], 0..way_rad, and whether it moves towards way_rad.
 struct SweepPlace {
   double angle_rad = 0.0;
   bool up = true;
 };
 SweepPlace to_and_fro(double begin_rad, double swept_rad, double way_rad, bool up_first);
 
-// What a station is to do at one instant.
+// Where a station is to look at one instant.
 struct LineLook {
   AzimuthElevation direction;                            // in the horizon at the camera centre
   Eigen::Vector2d rate_rad_s = Eigen::Vector2d::Zero();  // on the tangent plane
-  Eigen::Vector2d line = Eigen::Vector2d::UnitX();       // which way the line runs there
-  double sd_rad = 0.0;                                   // beside the line
+  Eigen::Vector2d line = Eigen::Vector2d::UnitX();       // direction of the line there
+  double sd_rad = 0.0;                                   // across the line
 };
 
-// One station's sweep. The ray moves with its target.
+// One station's sweep along a ray, which moves with its target.
 class LineSweep {
  public:
-  // `axis`: where the camera looks when the search begins, if that is known.
+  // axis: where the camera looks when the search begins, if known.
   LineSweep(const CueRay& ray, const StationTraits& station, const SweepStart& start,
             const LineSearchConfig& config);
   // searched_s after the search has begun.

@@ -6,7 +6,8 @@
 
 namespace ols::fusion {
 
-// A tenth of tolerance, so that frames of the same rate do not miss every other period.
+// The tolerance is a tenth of the period, so that frames of the same rate do not miss every other
+// period.
 inline bool is_due(const std::optional<std::int64_t>& last_us, std::int64_t now_us,
                    double rate_hz) {
   return !last_us || static_cast<double>(now_us - *last_us) >= 0.9e6 / rate_hz;

@@ -1,17 +1,18 @@
-// Where each station must point at the time when it can act. Pure.
+// Decides where each station is to point at the time when it can act. Pure.
 //
 //  - A station that sees a target is led to its predicted position.
-//  - One that sees none is led to the target that the fewest stations see. While the direction is
-//    less certain than its field of view, it searches along a spiral that covers the uncertainty,
-//    nearest first.
-//  - Where no position is known but one station has a target in view, the others search along that
-//    station's ray (line_search.h).
-//  - A cue from outside that is allowed (central/cues/) is one more place for stations that see
-//    nothing: to it goes who would otherwise help where more are already.
+//  - A station that sees none is led to the target that the fewest stations see. While the
+//    direction is less certain than its field of view, it searches along a spiral over the
+//    uncertainty, nearest first.
+//  - If no position is known but one station sees a target, the others search along that station's
+//    ray (line_search.h).
+//  - An allowed cue from outside (central/cues/) is one more place for stations that see nothing. A
+//    station that would otherwise join a crowded target goes there instead.
 //  - A station that cannot be commanded (operator control, or stopped) gets no slew: the operator
-//    has precedence over the fusion. The station itself refuses, too.
-// Commanded rates stay within the rate limit (a new direction may be anywhere: the station turns to
-// it at its own maximum rate); every slew carries its lease.
+//    has precedence over the fusion. The station itself refuses slews then, too.
+//
+// Commanded rates stay within the rate limit. A new direction may be anywhere: the station turns to
+// it at its own maximum rate. Every slew carries its lease.
 #pragma once
 
 #include <Eigen/Core>
@@ -35,10 +36,10 @@ namespace ols::fusion {
 struct SlewConfig {
   double rate_hz = 10.0;
   double act_s = 0.1;         // from the command to its effect: transport, servo cycle
-  double lease_s = 0.5;       // without a newer command the station halts
+  double lease_s = 0.5;       // without a newer command for this long, the station halts
   double coast_s = 2.0;       // a target is predicted for this long after its last bearings
   double view_share = 0.5;    // step of a search, over the field of view
-  double dwell_s = 0.4;       // at each step
+  double dwell_s = 0.4;       // time at each step
   double search_sigma = 2.5;  // radius of the spiral
   LineSearchConfig line{};    // a search along a ray
 };
@@ -47,21 +48,21 @@ struct Slew {
   std::string station;
   std::int64_t utime_us = 0;         // message time at creation
   std::int64_t effect_utime_us = 0;  // the time for which the direction holds
-  std::int64_t target_id = 0;        // 0: none, search along a ray
+  std::int64_t target_id = 0;        // 0: none; search along a ray
   AzimuthElevation direction;        // in the horizon at the camera centre
   double azimuth_rate_rad_s = 0.0;
   double elevation_rate_rad_s = 0.0;
   double direction_sd_rad = 0.0;
-  Eigen::Vector2d line = Eigen::Vector2d::Zero();  // of a search: which way the ray runs there
+  Eigen::Vector2d line = Eigen::Vector2d::Zero();  // in a search: direction of the ray there
   double lease_s = 0.0;
 };
 
-// The direction to a predicted state from a station's camera; its uncertainty follows from those of
+// The direction from a station's camera to a predicted state. Its uncertainty follows from those of
 // both positions. The caller sets station, times and target.
 Slew slew_to(const KinematicState& target, const StationTraits& station, const SlewConfig& config);
 
-// The k-th point (k >= 0) of a search: on an Archimedean spiral from the centre outwards, about a
-// unit from the point before and from the inner turn; a unit area for each.
+// The k-th point (k >= 0) of a search, on an Archimedean spiral from the centre outwards. Each
+// point is about one unit from the one before and from the inner turn, and covers a unit area.
 Eigen::Vector2d spiral_point(int k);
 
 struct SlewStation {
@@ -70,25 +71,25 @@ struct SlewStation {
   std::int64_t follows = 0;  // the target that it sees; 0: none
 };
 
-// The state common to all stations at one instant.
+// What is common to all stations at one instant.
 struct SlewRound {
   std::int64_t now_us = 0;
   std::map<std::int64_t, int> seen_by{};          // number of stations that see each target
   std::set<std::string> bearing_only_stations{};  // stations with a bearing-only track
-  std::optional<CueRay> ray{};                    // one of their rays,
-  LinePrior prior{};                              // where on it the target may be
+  std::optional<CueRay> ray{};                    // the ray that is searched
+  LinePrior prior{};                              // where on it the target is expected
   std::map<std::string, LineShare> shares{};      // of the stations that search along it
-  std::vector<CueAim> cues{};                     // to which stations may be led
-  std::string cue_on_ray{};                       // the id of one that the ray passes
-  std::map<std::string, int> led_to{};            // number of stations led to each
+  std::vector<CueAim> cues{};                     // cues to which stations may be led
+  std::string cue_on_ray{};                       // the id of the cue that the ray passes
+  std::map<std::string, int> led_to{};            // number of stations led to each cue
 };
 
 class SlewPlanner {
  public:
   explicit SlewPlanner(const SlewConfig& config = {}) : config_(config) {}
 
-  // Plans for some stations or all, and counts in the round those sent to each target. Of `tracks`,
-  // confirmed ones count, and coasting ones for coast_s.
+  // Plans for all or some stations, and counts in the round how many are sent to each target. Of
+  // `tracks`, the confirmed ones count, and coasting ones for coast_s.
   std::vector<Slew> plan(SlewRound& round, std::span<const SlewStation> stations,
                          const std::vector<Track>& tracks);
   void forget(const std::string& station) { searches_.erase(station); }
@@ -96,17 +97,17 @@ class SlewPlanner {
 
  private:
   struct Search {
-    std::int64_t target_id = 0;  // to which it is led, or
-    std::string ray;             // the station whose ray it searches, or the cue
+    std::int64_t target_id = 0;  // the target to which it is led
+    std::string ray;             // or the station whose ray it searches, or the cue
     std::int64_t begun_us = 0;
     std::optional<LineSweep> sweep{};  // along that ray
-    std::optional<double> turn_s{};    // until its unit has come to a cue
-    std::string cue{};                 // the id of that
+    std::optional<double> turn_s{};    // time for its unit to reach a cue
+    std::string cue{};                 // the id of that cue
     double searched_s(std::int64_t now_us) const;
   };
   const Track* target_for(const SlewStation& station, const std::vector<const Track*>& targets,
                           std::map<std::int64_t, int>& seen_by);
-  // Null: none that this station is to look at.
+  // Null: no cue for this station.
   const CueAim* cue_for(const SlewRound& round, const SlewStation& station, const Track* target);
   void count_searches(SlewRound& round);
   std::int64_t effect_of(const StationTraits& station, std::int64_t now_us) const;
@@ -117,7 +118,7 @@ class SlewPlanner {
   bool is_wide(const CueAim& cue, const SlewStation& station, std::int64_t now_us) const;
   std::optional<Slew> slew_of(SlewRound& round, const SlewStation& station,
                               const std::vector<const Track*>& targets);
-  // Turns the slew to where its search has come.
+  // Turns the slew to the current point of its search.
   void search_around(Slew& slew, const SlewStation& station, double searched_s) const;
   Search& search_of(const std::string& station, std::int64_t target_id, const std::string& ray,
                     std::int64_t now_us);

@@ -1,5 +1,5 @@
-// The rounds of slews. Each bearing triggers a share of the stations' slews, so that no bearing
-// waits long for those of a thousand stations. Pure.
+// The rounds of slews. Each bearing triggers the slews of a part of the stations, so that no
+// bearing waits long for those of a thousand stations. Pure.
 #pragma once
 
 #include <cstdint>
@@ -20,11 +20,11 @@ class SlewSchedule {
   SlewSchedule(const SlewConfig& config, double give_up_s)
       : config_(config), give_up_s_(give_up_s), planner_(config) {}
 
-  // The slews due with one bearing, or one cue, at the time "now".
+  // The slews that are due with one bearing or cue, at the time "now".
   std::vector<Slew> plan(std::int64_t now_us, const StationRegistry& stations,
                          const BearingLines& lines, const std::vector<Track>& tracks,
                          const CueBook& cues);
-  // Whether a round has not come to its end: more is due at once.
+  // Whether a round is unfinished: its next part is due at once.
   bool is_in_round() const { return next_.has_value(); }
   void forget(const std::string& station) { planner_.forget(station); }
   void clear() { *this = SlewSchedule(config_, give_up_s_); }

@@ -1,6 +1,6 @@
 // The order in which an epoch is published: targets, then bearing-only tracks, then the paper's
-// estimates; a part with each bearing, so that no bearing waits long when there are many targets.
-// Pure.
+// estimates. Each bearing triggers a part, so that no bearing waits long when there are many
+// targets. Pure.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ namespace ols::fusion {
 struct TargetScheduleConfig {
   std::string estimator = "filter";  // a name of make_estimator()
   double rate_hz = 15.0;             // max epochs per second
-  int paper_targets = 8;             // of this many the paper's estimate is made, too; 0: none
+  int paper_targets = 8;             // max number of targets with a paper estimate too; 0: none
   double give_up_s = 2.0;            // older pending outputs are discarded
   EstimatorConfig estimators{};
 };
@@ -32,9 +32,9 @@ class TargetSchedule {
  public:
   explicit TargetSchedule(const TargetScheduleConfig& config) : config_(config) {}
 
-  // An admitted bearing, at the time "now".
+  // Takes an admitted bearing, at the time "now".
   void hear(const BearingMeasurement& measurement, std::int64_t now_us);
-  // The outputs due with one bearing, at the time "now".
+  // Adds the outputs that are due with one bearing, at the time "now".
   void tell(std::int64_t now_us, TrackManager& tracks, const ClockMonitor& clocks,
             const PointingMonitor& pointing, FusionOutput& output, FusionLog& log);
   void forget(const std::string& station) { rule_.forget(station); }

@@ -1,5 +1,5 @@
-// Associates a bearing with its track, and reports pointing errors to their monitor: the same live
-// and offline. Pure.
+// Associates a bearing with its track, and reports its pointing error to the monitor. Live and
+// offline share it. Pure.
 #pragma once
 
 #include <string>

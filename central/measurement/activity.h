@@ -1,4 +1,4 @@
-// Activity of a station: how long after its last bearing it counts, and for what.
+// For how long after its last bearing a station counts, and for what.
 #pragma once
 
 #include <algorithm>
@@ -9,12 +9,12 @@
 namespace ols::fusion {
 
 struct Activity {
-  // The windows, each a default where it can be configured.
+  // The windows. Some are defaults of configured values.
   static constexpr double kDeliversS = 0.3;     // counts for "now", and as seeing a target
   static constexpr double kContributesS = 0.5;  // contributes to the published position
   static constexpr double kFollowsS = 1.0;      // has its target, and its states in a full filter
   static constexpr double kSupportsS = 2.0;     // supports a track
-  static constexpr double kTeachesS = 30.0;     // what it has taught of the others' errors may hold
+  static constexpr double kTeachesS = 30.0;     // its teaching on the others' errors may still hold
 
   std::int64_t last_us = 0;  // the newest bearing; 0: none
 

@@ -8,7 +8,7 @@
 
 namespace ols::fusion {
 
-// How a station's UTC is synchronised, as it states.
+// How a station states that its UTC is synchronised.
 enum class StationClock { kUnknown, kSynchronised, kUnsynchronised };
 
 struct BearingMeasurement {

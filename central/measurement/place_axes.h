@@ -1,5 +1,5 @@
-// The axes of east, north and up at a station's place, kept for its next bearing: a station seldom
-// moves, and they cost as much as ten of its directions. Pure.
+// Caches the east-north-up axes at a station's place. A station seldom moves, and the axes cost as
+// much as ten directions. Pure.
 #pragma once
 
 #include <Eigen/Core>

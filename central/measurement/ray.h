@@ -33,10 +33,11 @@ RayFrame ray_frame(const LineOfSight& sight);
 RayFrame ray_frame(const LineOfSight& sight, const Eigen::Matrix3d& R_ecef_enu);
 
 // The stated systematic error of a line of sight, on its tangent plane [rad^2]: calibration, and
-// the station's position error as seen from a target at this distance.
+// the station's position error as seen from a target at range_m.
 Eigen::Matrix2d stated_covariance(const LineOfSight& sight, double range_m);
 
-// The systematic part of a ray's direction error: the above, and the clock error along the motion.
+// The systematic part of a ray's direction error: stated_covariance(), and the clock error along
+// the motion.
 Eigen::Matrix2d systematic_covariance(const Ray& ray, double range_m);
 
 // Why there is no position. The values are those of target_t.
@@ -48,7 +49,7 @@ enum class Solution {
   kTooFar,
   kNotConverged,
   kBearingOnly,  // one station alone: a direction, no position
-  kRaysMiss,     // rays that do not intersect, or not for long enough to be one object
+  kRaysMiss,     // rays do not intersect, or not for long enough to be one object
 };
 const char* to_string(Solution solution);
 
@@ -60,9 +61,9 @@ struct RayUse {
   // expectation if all covariances are true.
   double squared = 0.0;
   double expected = 0.0;
-  // The same by component (cross-elevation, elevation): the residual, the variance by which it was
-  // weighted, and the share of that variance that a residual shows (0..1; above 1 for a rejected
-  // ray, because the position's own error adds to it).
+  // The same by component (cross-elevation, elevation): the residual, the variance that weighted
+  // it, and the share of that variance that a residual shows (0..1). A rejected ray can have a
+  // share above 1, because the position's own error adds to it.
   Eigen::Vector2d residual_rad = Eigen::Vector2d::Zero();
   Eigen::Vector2d variance_rad2 = Eigen::Vector2d::Zero();
   Eigen::Vector2d redundancy = Eigen::Vector2d::Zero();
@@ -88,9 +89,9 @@ struct Estimate {
   std::vector<RayUse> rays{};                                  // in the order of the input rays
 };
 
-// Largest angle between two of these directions, folded to 0..pi/2; 0 for fewer than two.
+// Largest angle between any two of these directions, folded to 0..pi/2; 0 for fewer than two.
 double crossing_angle(const std::vector<Eigen::Vector3d>& directions);
-// The same of the used rays.
+// The same for the used rays.
 double crossing_angle(const std::vector<Ray>& rays, const std::vector<RayUse>& use);
 
 }  // namespace ols::fusion

@@ -1,4 +1,4 @@
-// Bearings of a recording that is in memory once, and is looked at in several orders.
+// Bearings of a recording, held in memory once and read in several orders.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,5 @@
-// Which object each bearing of a recording belongs to, where the recording does not say it: the
-// live tracks' association (central/tracking/live_tracks.h), looked at afterwards. Pure.
+// Separates the objects of a recording that does not name them, by running the live tracks'
+// association (central/tracking/live_tracks.h) and reading its result afterwards. Pure.
 #pragma once
 
 #include <cstddef>
@@ -18,12 +18,12 @@ bool shows_several_objects(const MutableBearings& measurements);
 struct SeparatedBearings {
   std::map<std::int64_t, MutableBearings> objects{};  // by the tracks' identities
   std::size_t low_belief = 0;
-  std::size_t duplicate = 0;    // the same station, stamp and direction
-  std::size_t unexplained = 0;  // by no track, or by two about equally well
+  std::size_t duplicate = 0;    // same station, stamp and direction
+  std::size_t unexplained = 0;  // explained by no track, or by two about equally well
 };
 
-// A track's bearings include those from which it was initiated, and those of the duplicates that
-// were merged with it. `tell` is called for every bearing.
+// A track's bearings include those from which it was initiated, and those of merged duplicates.
+// `tell` is called for every bearing.
 SeparatedBearings separate_objects(const MutableBearings& measurements, const FusionConfig& config,
                                    const std::function<void()>& tell);
 

@@ -1,9 +1,9 @@
 // Fusion of recorded bearings of one object.
 //
-// Every estimator uses the bearings up to 0.15 s after the instant: the filter is run as far and
-// its state taken back; the other estimators interpolate each station's bearings on both sides, and
-// a run of the filter provides the errors that the stations do not declare. Smoothing uses all
-// later ones (smoother.h).
+// Every estimator uses bearings up to 0.15 s after the instant. The filter runs that far, and its
+// state is propagated back. The other estimators interpolate each station's bearings on both sides;
+// a run of the filter gives them the errors that the stations do not declare. Smoothing uses all
+// later bearings (smoother.h).
 #pragma once
 
 #include <cstddef>
@@ -22,12 +22,12 @@ namespace ols::fusion {
 struct OfflineConfig {
   std::string estimator = "filter";  // a name of make_estimator()
   bool smooth = false;               // only for the filter
-  // Of the filter: the fix at an instant uses the bearings up to this time after it, as the other
-  // estimators do, which interpolate. 0: as live.
+  // For the filter: the fix at an instant uses the bearings up to this time after it, as the
+  // interpolating estimators do. 0: as live.
   double look_ahead_s = 0.15;
-  double rate_hz = 0.0;   // epochs on an even grid; 0: at the instant of every bearing
+  double rate_hz = 0.0;   // epochs on an even grid; 0: one at each bearing
   FusionConfig fusion{};  // shared with the live fusion
-  // Called for every bearing that a filter has processed, with `smooth` by the workers.
+  // Called for every bearing that a filter has processed; with `smooth`, by the workers.
   std::function<void()> tell{};
   Workers workers{};  // for `smooth`
 };
@@ -38,28 +38,27 @@ struct UnusedBearings {
   std::size_t duplicate = 0;  // the same station and stamp: the first is used
 };
 
-// What a run shows besides positions.
 struct OfflineReport {
   UnusedBearings unused{};
   Unlocated unlocated{};  // instants without a position
-  // Stations whose bearings are off the target of the other stations by the same angle for seconds,
-  // with that angle as text.
+  // Stations whose bearings miss the other stations' target by the same angle for seconds, with
+  // that angle as text.
   std::map<std::string, std::string> beside{};
 };
 
-// For a recording without statements on its clocks: sets for each station the offset [s] that would
-// move a bearing by half its noise at the object's usual angular speed, at most 0.02 s (half a
-// video frame). A clock thus counts as much for a meteor as for a drone. With
-// BiasModelConfig::clock_weight the bearings teach more.
+// For a recording that says nothing of its clocks: sets each station's clock error [s] to the
+// offset that would move a bearing by half its noise at the object's usual angular speed, at most
+// 0.02 s (half a video frame). A clock thus counts as much for a meteor as for a drone. With
+// BiasModelConfig::clock_weight the bearings refine it.
 void guess_clocks(const MutableBearings& measurements);
 void guess_clocks(std::vector<BearingMeasurement>& measurements);
 
-// One object's bearings, in any order. Passes on a target for each epoch that has a position, in
-// order of time. Bearings that check() refuses must be left out. Throws std::invalid_argument for a
-// rate that is not finite or makes more than ten million epochs, for an unknown estimator, and for
-// smoothing with an estimator other than the filter.
-// The memory it needs besides the bearings does not grow with their number for the filter, and
-// hardly for smoothing; the other estimators copy the bearings.
+// Takes one object's bearings in any order. Passes on a target for each epoch that has a position,
+// in order of time. The caller leaves out bearings that check() refuses. Throws
+// std::invalid_argument for a rate that is not finite or makes more than ten million epochs, for an
+// unknown estimator, and for smoothing with an estimator other than the filter.
+// For the filter, the memory besides the bearings does not grow with their number; for smoothing it
+// hardly does. The other estimators copy the bearings.
 OfflineReport fuse_offline(const BearingPointers& measurements, const OfflineConfig& config,
                            const std::function<void(FusedTarget)>& take);
 

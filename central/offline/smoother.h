@@ -1,10 +1,10 @@
 // The filter on a recording, using also the bearings after each instant (fixed-interval smoothing).
 //
 // Two filters run forwards and backwards in time (Fraser and Potter, 1969). At each instant the
-// forward state, with the bearings up to it, is combined with the backward prediction, with those
-// after it, both for the biases of the surer one. The undeclared errors of the
-// stations are learnt in a run before; a station that pointed away from the target in that run
-// takes part in no track initiation.
+// forward state, from the bearings up to it, is combined with the backward prediction, from those
+// after it. Both use the biases of the more certain one. A run before learns the undeclared errors
+// of the stations. A station that pointed away from the target in that run takes part in no track
+// initiation.
 #pragma once
 
 #include <cstdint>
@@ -25,23 +25,25 @@ struct Smoothed {
   Located located;
 };
 
-// What a first run has shown of the stations.
+// What the first run has shown of the stations.
 struct KnownStations {
   BiasModel errors{};
   std::set<std::string> beside{};
 };
 
 struct SmootherOutput {
-  std::function<void(Smoothed)> take{};  // in order of time; without a position, with the reason
+  std::function<void(Smoothed)> take{};  // in order of time; where there is no position, with the
+                                         // reason
   // Called for every bearing that a filter has processed, by the workers.
   std::function<void()> tell{};
   Workers workers{};
 };
-// How often each bearing is processed, for so many instants.
+// How many times each bearing is processed, for this number of instants.
 std::size_t smoother_runs(std::size_t epochs);
 
 // One object's bearings and the instants, both in order of time. The backward filter is stored at
-// the ends of blocks, and run again in each: memory grows as the root of the number of instants.
+// the ends of blocks, and run again within each block: memory grows with the root of the number of
+// instants.
 void smooth(const BearingPointers& bearings, const std::vector<std::int64_t>& epochs,
             const TrackManagerConfig& config, const KnownStations& known,
             const SmootherOutput& output);

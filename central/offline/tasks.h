@@ -1,5 +1,5 @@
-// Work in shares that do not depend on each other. Who has threads runs them at the same time; by
-// default they run one after the other.
+// Independent shares of work. A caller with threads runs them at the same time; by default they run
+// one after the other.
 #pragma once
 
 #include <cstddef>

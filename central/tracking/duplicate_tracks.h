@@ -1,12 +1,14 @@
-// Which confirmed tracks are duplicates: only the noise distinguishes their bearings. Pure.
+// Finds confirmed tracks that are duplicates: only noise distinguishes their bearings. Pure.
 //
-// A station that sees two objects has, in most exposures, a bearing for each. Of one object it has
-// one, which both tracks explain, or now the one and now the other. So for each pair of tracks that
-// have explained the same bearing, three numbers are counted by station: exposures with one bearing
-// for the two, how many of those bearings both explain, and exposures with more bearings. Stations
-// that follow one object each never have more than one bearing. Then two real objects differ in
-// that they are not near to each other in every station's view, and that always the same track
-// explains a station's bearings best.
+// A station that sees two objects has a bearing for each in most exposures. If it sees one object,
+// it has one bearing: both tracks explain it, or now the one and now the other. For each pair of
+// tracks that have explained the same bearing, three numbers are therefore counted per station:
+// exposures with one bearing for the two, how many of those bearings both tracks explain, and
+// exposures with more bearings.
+//
+// A station that follows a single object never has more than one bearing. Two real objects then
+// differ from a duplicate in two ways: they are apart in some station's view, and the same track
+// always explains a station's bearings best.
 #pragma once
 
 #include <cstdint>
@@ -24,17 +26,17 @@ struct DuplicatesConfig {
   double long_s = 1.0;         // min duration
   double memory_s = 1.0;       // older exposures count less than 1/e
   double least_single = 15.0;  // min number of exposures with one bearing for the two
-  double most_apart = 0.05;    // max share of exposures with more
-  double both_explain = 0.3;   // min share of each station's bearings that both explain
-  double each_best = 0.15;     // and, of most stations, that either explains best
+  double most_apart = 0.05;    // max share of exposures with more bearings
+  double both_explain = 0.3;   // min share of each station's bearings that both tracks explain
+  double each_best = 0.15;     // min share, for most stations, that either track explains best
 };
 
 class DuplicateTracks {
  public:
   explicit DuplicateTracks(const DuplicatesConfig& config = {}) : config_(config) {}
 
-  // A bearing and the confirmed tracks, best first, that explain it and have no other bearing of
-  // its exposure: it counts for the pairs that contain the first.
+  // A bearing, and the confirmed tracks that explain it and have no other bearing of its exposure,
+  // best first. It counts for the pairs that contain the first.
   void note(const BearingMeasurement& measurement, std::span<const std::int64_t> tracks);
   // Pairs that are duplicates, the older identity first.
   std::vector<std::pair<std::int64_t, std::int64_t>> same() const;
@@ -45,8 +47,8 @@ class DuplicateTracks {
   // The exposures of one station.
   struct Tally {
     std::int64_t utime_us = 0;  // of the newest one,
-    int bearings = 0;           // number of its bearings for the two
-    bool shared = false;        // whether both explain one
+    int bearings = 0;           // bearings of the newest exposure for the two
+    bool shared = false;        // whether both explain one of them
     bool first = false;         // whether the first of the two explains it best
     double single = 0.0, both_explain = 0.0, first_best = 0.0, apart = 0.0;  // of the earlier ones
   };

@@ -1,19 +1,20 @@
-// Live tracks: several targets, and which bearing belongs to which. Pure.
+// Live tracks of several targets, and the association of bearings with them. Pure.
 //
 // The rules (details in docs/fusion.md):
 //  - A bearing is associated with the confirmed track that explains it best, or else with the best
-//    tentative one; within one exposure of one station a track takes one bearing.
-//  - A bearing that two confirmed tracks explain about as well (they cross in that station's view)
-//    is ambiguous and updates neither: the other stations distinguish them.
+//    tentative one. A track takes one bearing per exposure of a station.
+//  - If two confirmed tracks explain a bearing about equally well (they cross in that station's
+//    view), it is ambiguous and updates neither: the other stations distinguish them.
 //  - Unassociated bearings are kept for track initiation (track_initiation.h).
 //  - tentative -> confirmed: three stations have given two bearings each, or two stations five each
 //    for confirm_s; the track explains most of their bearings; and it has a position.
-//  - tentative -> deleted: no two stations have seen it for tentative_delete_s; or it is a
+//  - tentative -> deleted: no two stations have seen it for tentative_delete_s, or it is a
 //    duplicate.
-//  - coasting -> deleted: no two stations for drop_s; or for coast_s, after too many consecutive
-//    rejections of one while no two others agree.
+//  - coasting -> deleted: no two stations have seen it for drop_s; or for coast_s, if one station
+//    has too many consecutive rejections while no two others agree.
 //  - two confirmed ones -> one: they have been duplicates for a second (duplicate_tracks.h).
-//  - A track that is confirmed at the predicted position of a deleted one takes over its identity;
+//  - A track confirmed at the predicted position of a deleted one takes over its identity.
+//    Otherwise it takes over that of the bearing-only track of one of its stations.
 //    otherwise that of the bearing-only track of one of its stations.
 #pragma once
 
@@ -36,8 +37,8 @@ class LiveTracks : public TrackManager {
   Association add(const BearingMeasurement& measurement, bool may_begin) override;
   // Message time was reset: identities are not assigned again.
   void clear();
-  // The identities of duplicates merged since the last call (of the newest 64), the one that stays
-  // first, in the order of their merging.
+  // The duplicates merged since the last call (the newest 64), in the order of merging: pairs of
+  // identities, the one that stays first.
   Merged take_merged() { return std::exchange(merged_, {}); }
 
  private:

@@ -1,6 +1,6 @@
-// The local tracks of each station (a bearing's track_id other than 0), and which objects they are.
-// Keeps the last few of each station, so one that keeps changing ids takes no more memory than any
-// other. Pure.
+// The local tracks of each station (a bearing's track_id other than 0), and the objects that they
+// are. Keeps only the last few of each station, so that a station that keeps changing ids takes no
+// more memory. Pure.
 #pragma once
 
 #include <cstdint>
@@ -14,18 +14,18 @@ namespace ols::fusion {
 class LocalTracks {
  public:
   struct Object {
-    std::int64_t id = 0;         // the target's or the bearing-only track's; 0: none yet
-    std::int64_t since_us = 0;   // when it began to be without one
+    std::int64_t id = 0;         // of the target or the bearing-only track; 0: none yet
+    std::int64_t since_us = 0;   // when it lost its identity or appeared without one
     std::int64_t given_us = 0;   // the last bearing that its track took
     std::int64_t newest_us = 0;  // its last bearing
   };
   static constexpr std::size_t kOfAStation = 16;
 
-  // By a bearing's station and track id; null: unknown.
+  // The object of a bearing's station and track id; null: unknown.
   const Object* find(const BearingMeasurement& measurement) const;
-  // A new entry if unknown; it replaces the one whose last bearing is oldest.
+  // Adds an entry if unknown. It replaces the one whose last bearing is oldest.
   Object& at(const BearingMeasurement& measurement);
-  // Two identities are one object.
+  // The two identities are one object.
   void rename(std::int64_t from, std::int64_t to);
   void forget(const std::string& station) { stations_.erase(station); }
   std::size_t size(const std::string& station) const;

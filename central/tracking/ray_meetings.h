@@ -15,14 +15,14 @@ namespace ols::fusion {
 struct MeetingConfig {
   double pair_s = 0.1;         // max time between the two rays
   double rate_sd_rad_s = 0.5;  // possible angular rate of a target, 1-sigma
-  double miss_sigma = 4.0;     // max miss of two rays
+  double miss_sigma = 4.0;     // max distance of two rays
 };
 
 struct RayMeeting {
   Eigen::Vector3d p_ecef;
   double range_m = 0.0;
   std::string first, second;  // the stations whose rays intersect
-  double miss = 0.0;          // distance of the rays over the max one
+  double miss = 0.0;          // distance of the rays over its maximum
   int support = 0;            // other stations with a bearing in that direction
 };
 
@@ -31,17 +31,17 @@ class RayMeetings {
   RayMeetings(const MeetingConfig& config, double max_range_m)
       : config_(config), max_range_m_(max_range_m) {}
 
-  // Where a ray intersects those of other stations; those with more support first. failure: the
-  // reason for the last ray that it does not intersect.
+  // Where a ray intersects those of other stations, best supported first. failure: the reason for
+  // the last ray that it does not intersect.
   std::vector<RayMeeting> of(const BearingMeasurement& measurement,
                              const UnassociatedBearings& bearings, const BiasModel& errors,
                              Solution& failure) const;
-  // Generous bound of a target's motion in this time.
+  // Generous bound of a target's angular motion in this time.
   double moved_rad(double dt_s) const;
   const MeetingConfig& config() const { return config_; }
 
  private:
-  // A ray, and what a quick check needs.
+  // A ray, with the data for a quick check.
   struct LookedAt {
     const BearingMeasurement& measurement;
     const BearingSummary& look;

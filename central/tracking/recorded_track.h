@@ -1,12 +1,12 @@
 // The one track of a recording of one object: every bearing is offered to it. Pure.
 //
-//  - Two rays begin it, on trial; it is confirmed once it has a position. The trial ends with an
-//    initiation from the same bearings as several objects would need. If a bearing does not fit
-//    before, the track and all that it has taught are undone, and for a second only such an
-//    initiation begins one.
-//  - When at least two stations, and half of all, are rejected most of the time, an initiation on
-//    which more stations agree replaces it under the same identity.
-//  - coasting -> deleted: no two stations for drop_s. Two rays then begin it again.
+//  - Two rays begin it, on trial. It is confirmed once it has a position. The trial ends when the
+//    same bearings give an initiation as live tracks require it. If a bearing does not fit before
+//    that, the track and all that it has taught are undone. For a second, only such an initiation
+//    then begins a track.
+//  - If at least two stations, and half of all, are rejected most of the time, an initiation on
+//    which more stations agree replaces the track under the same identity.
+//  - coasting -> deleted: no two stations have seen it for drop_s. Two rays then begin it again.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,7 @@ class RecordedTrack : public TrackManager {
 
   using TrackManager::add;
   Association add(const BearingMeasurement& measurement, bool may_begin) override;
-  // Has an initiation of several stations confirmed the track?
+  // Whether an initiation of several stations has confirmed the track.
   bool is_initiated() const { return proved_; }
   // The confirmed track; null: none.
   const Track* located() const;
@@ -49,7 +49,7 @@ class RecordedTrack : public TrackManager {
   std::map<std::string, Explains> explains_;
   bool proved_ = false;
   BiasModel errors_before_;                    // before the track on trial
-  std::optional<std::int64_t> taken_back_us_;  // when one was last undone
+  std::optional<std::int64_t> taken_back_us_;  // when a track was last undone
 };
 
 }  // namespace ols::fusion

@@ -27,10 +27,10 @@ struct Track {
   std::int64_t initiated_us = 0;
   std::map<std::string, int> hits;       // bearings used, by station
   int misses = 0;                        // rejected bearings
-  std::int64_t last_two_station_us = 0;  // when two stations had last seen it
+  std::int64_t last_two_station_us = 0;  // when two stations last saw it
   StationBearings bearings;              // of the last second
 
-  // Whether it already has a bearing of this station and exposure.
+  // Whether it already has a bearing of this exposure of the station.
   bool has_taken(const BearingMeasurement& measurement) const;
 };
 

@@ -1,4 +1,4 @@
-// The data of a track for a quick check, stored compactly: whole tracks would fill the cache. Pure.
+// A compact copy of a track's data for a quick check: whole tracks would fill the cache. Pure.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,12 +13,12 @@ struct TrackGlance {
   Eigen::Vector3d p_ecef, v_ecef;
   double position_sd_m = 0.0, velocity_sd_m_s = 0.0;
 
-  // Whether the track may be in this direction (the bearing's, ECEF), which is off by so much;
-  // generous.
+  // Whether the track may be in the bearing's direction (ECEF), which may be off by off_rad.
+  // Generous.
   bool may_see(const BearingMeasurement& measurement, const Eigen::Vector3d& direction_ecef,
                double off_rad) const;
 };
-// By how much a direction may be off, by all that is stated of it: once for all tracks.
+// By how much a direction may be off, from all its stated errors. The same for all tracks.
 double may_be_off_rad(const LineOfSight& sight);
 TrackGlance summarise_track(const Track& track);
 

@@ -1,4 +1,4 @@
-// Which identity an object has, as a track and, before and after, as a bearing-only track. Pure.
+// The identity of an object, as a track and, before and after that, as a bearing-only track. Pure.
 #pragma once
 
 #include <cstdint>
@@ -24,18 +24,19 @@ class TrackIdentities {
   void follow(const BearingMeasurement& measurement, const Track& track);
   // The confirmed track of this local track; null: none.
   Track* follower(const BearingMeasurement& measurement, std::vector<Track>& tracks) const;
-  // Whether a track takes the bearings of this local track: the last one not longer ago than this.
+  // Whether a track takes the bearings of this local track, the last one within_s ago at most.
   bool takes(const BearingMeasurement& newest, std::int64_t now_us, double within_s,
              const std::vector<Track>& tracks) const;
-  // The identity of a bearing-only track: 0 for the first new_after_s, and without a local track
-  // id. `told`: those already published at the same instant; one identity is one object.
+  // The identity of a bearing-only track. 0 for the first new_after_s, and for a bearing without a
+  // local track id. `told`: the identities already published at the same instant; each belongs to
+  // one object.
   std::int64_t identify(const BearingMeasurement& newest, double new_after_s,
                         std::set<std::int64_t>& told, const std::vector<Track>& tracks);
   void merge(std::int64_t older, std::int64_t younger) { local_.rename(younger, older); }
   // A confirmed track ended; it may be reacquired.
   void keep_deleted(const Track& track) { deleted_.push_back(track); }
   void forget_deleted(std::int64_t now_us, double after_s);
-  // The local track ids of a station have new meanings from now on.
+  // The station's local track ids have new meanings from now on.
   void forget(const std::string& station) { local_.forget(station); }
   // Forgets everything except which identities are in use.
   void clear();

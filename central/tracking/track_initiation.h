@@ -3,12 +3,12 @@
 //
 // Rays of different objects intersect too (ghosts). A hypothesis must therefore explain its
 // stations' bearings over the last moments, not only the two that made it: the filter is run over
-// them. If three stations agree it is accepted at once; two must agree for longer, until the true
-// objects have taken their own bearings. The two stations that made it come first: a third one that
-// is wrong, or follows another object, is then outside the gate and spoils nothing.
+// them. If three stations agree, it is accepted at once. If two agree, they must do so for longer,
+// until the true objects have taken their own bearings. The two stations that made it come first. A
+// third one that is wrong, or follows another object, is then outside the gate and does no harm.
 //
-// A search costs in proportion to the stations with such bearings. With many, they take turns, so
-// that the cost of a bearing does not grow with their number.
+// The cost of a search grows with the number of stations with such bearings. If there are many,
+// they take turns, so that the cost per bearing does not grow.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +28,7 @@ struct InitiationConfig {
   double pool_s = 0.6;  // how long unassociated bearings are kept
   MeetingConfig meeting{};
   double explained = 0.6;        // min share of the stations' frames that a hypothesis must explain
-  double two_stations_s = 0.35;  // of agreement, if only two stations agree
+  double two_stations_s = 0.35;  // required duration of agreement if only two stations agree
   int least_bearings = 6;
   int pool_of_a_station = 64;  // max number of kept bearings per station
 };
@@ -47,9 +47,9 @@ class TrackInitiation {
         meetings_(config.meeting, filter.max_range_m),
         pool_(config.pool_s, config.pool_of_a_station) {}
 
-  // Takes an unassociated bearing. Returns a new track, with its bearings removed from the pool: it
-  // may be a track of this bearing or, with many waiting stations, of another. `accept_two_rays`:
-  // two rays are enough for now; the pool keeps them, for a better track.
+  // Takes an unassociated bearing. Returns a new track, whose bearings leave the pool. It may be a
+  // track of this bearing or, if many stations wait, of another. accept_two_rays: two rays suffice
+  // for now; the pool keeps them, for a better track.
   std::optional<TrackStart> add(const BearingMeasurement& measurement, const BiasModel& errors,
                                 bool accept_two_rays);
   // Keeps a bearing without a search.
@@ -59,20 +59,20 @@ class TrackInitiation {
   void forget(const std::string& station) { pool_.forget(station); }
   void clear() { *this = TrackInitiation(config_, filter_); }
   const UnassociatedBearings& pool() const { return pool_; }
-  // Why the last bearing began no track: what its ray did with the last other one; kRaysMiss if
-  // rays intersect but the bearings of their stations do not agree; kTooFewRays if they agree but
-  // more are needed, or if there was no other ray.
+  // Why the last bearing began no track: the result of its ray with the last other one. kRaysMiss:
+  // rays intersect, but the bearings of their stations do not agree. kTooFewRays: they agree but
+  // more are needed, or there was no other ray.
   Solution why_no_track() const { return failure_; }
-  // Why there is no track: by the stations with unassociated bearings at this instant, and, if
-  // there are several, the last failure.
+  // Why there is no track: from the stations with unassociated bearings at this instant. If there
+  // are several, the last failure.
   Solution why_none(std::int64_t now_us) const;
 
  private:
   // A candidate track, and what the run over its bearings has shown of the stations.
   struct Hypothesis {
     TrackStart start;
-    int bearings = 0;      // that it explains, of the agreeing stations
-    double span_s = 0.0;   // of them
+    int bearings = 0;      // explained ones of the agreeing stations
+    double span_s = 0.0;   // of those bearings
     bool settled = false;  // the iteration has converged
     double misfit = 0.0;   // mean squared normalised residual of their frames; NaN without any
   };

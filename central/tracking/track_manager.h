@@ -1,12 +1,12 @@
-// Which objects there are: the life cycle of tracks (docs/fusion.md, "The life of a track"), common
-// to live tracks (live_tracks.h) and the one track of a recording (recorded_track.h). Pure.
+// Which objects there are: the life cycle of tracks (docs/fusion.md, "The life of a track"). It is
+// common to live tracks (live_tracks.h) and the one track of a recording (recorded_track.h), which
+// define the criteria for confirmation and loss. Pure.
 //
 //  - tentative -> confirmed: it meets the criteria, and is no duplicate of a confirmed one.
 //  - confirmed -> coasting: no two stations have seen it for coast_s. coasting -> confirmed: two
 //    have.
-//  - any -> deleted: an inconsistent pair, two stations alone whose rays intersect only with larger
-//    biases than they state.
-// The two classes define the criteria for confirmation and loss.
+//  - any -> deleted: an inconsistent pair. Two stations alone see it, and their rays intersect only
+//    with larger biases than they state.
 #pragma once
 
 #include <cstdint>
@@ -53,15 +53,15 @@ class TrackManager {
  public:
   virtual ~TrackManager() = default;
 
-  // may_begin: whether it may take part in track initiation.
+  // may_begin: whether the bearing may take part in track initiation.
   virtual Association add(const BearingMeasurement& measurement, bool may_begin) = 0;
   Association add(const BearingMeasurement& measurement) { return add(measurement, true); }
   // Changes the tracks' states, by the fusion's time.
   void advance(std::int64_t now_us);
   void forget_station(const std::string& station);
-  // A station has a new calibration: forgets the knowledge of its errors.
+  // A station has a new calibration: forgets what is known of its errors.
   void forget_errors(const std::string& station) { errors_.forget(station); }
-  // A station's local track ids have new meanings from now on.
+  // The station's local track ids have new meanings from now on.
   void forget_followed(const std::string& station) { identities_.forget(station); }
 
   const std::vector<Track>& tracks() const { return tracks_; }
@@ -73,11 +73,11 @@ class TrackManager {
   Solution why_no_track_began() const { return initiation_.why_no_track(); }
   Solution why_none(std::int64_t now_us) const { return initiation_.why_none(now_us); }
   // The identity of a local track (the bearing's track_id) that no track explains: that of the
-  // target to which it belonged, later that of the target that it becomes. 0 for the first
-  // confirm_s, in which ordinary targets are initiated, and without a local track id. `told`: those
-  // already published at the same instant; one identity is one object.
+  // target to which it belonged, and later that of the target that it becomes. 0 for the first
+  // confirm_s, in which ordinary targets are initiated, and for a bearing without a local track id.
+  // `told`: the identities already published at the same instant; each belongs to one object.
   std::int64_t identify(const BearingMeasurement& newest, std::set<std::int64_t>& told);
-  // Whether a track takes the bearings of this local track: the last one not longer ago than this.
+  // Whether a track takes the bearings of this local track, the last one within_s ago at most.
   bool takes(const BearingMeasurement& newest, std::int64_t now_us, double within_s) const;
   const LocalTracks& followed() const { return identities_.local(); }
   struct Counts {
@@ -85,8 +85,8 @@ class TrackManager {
                  unexplained = 0;
   };
   const Counts& counts() const { return counts_; }
-  // Predicted minus measured (cross-elevation, elevation), for the confirmed track that is nearest
-  // to a station's bearing.
+  // Predicted minus measured (cross-elevation, elevation), for the confirmed track nearest to the
+  // bearing.
   std::optional<Eigen::Vector2d> off_nearest(const BearingMeasurement& measurement) const;
 
  protected:
@@ -97,8 +97,8 @@ class TrackManager {
   // Whether a tentative track with a position meets the criteria.
   virtual bool is_worth_confirming(const Track& track) const = 0;
   virtual void on_confirmed(const Track&) {}
-  // Whether a tentative track is lost that no two stations have seen for unseen_s; an older one
-  // likewise, for longer than coast_s.
+  // Whether a track is lost that no two stations have seen for unseen_s. is_lost() judges
+  // established tracks, once unseen_s exceeds coast_s.
   virtual bool is_tentative_lost(double unseen_s) const = 0;
   virtual bool is_lost(const Track& track, double unseen_s, std::int64_t now_us) const = 0;
   // Called before the deleted tracks are removed.

@@ -14,7 +14,7 @@
 
 namespace ols::fusion {
 
-// The data of a bearing for a quick check, stored compactly.
+// A compact copy of a bearing's data for a quick check.
 struct BearingSummary {
   std::int64_t utime_us = 0;
   Eigen::Vector3d origin_ecef = Eigen::Vector3d::Zero();
@@ -23,15 +23,15 @@ struct BearingSummary {
   double clock_sd_s = 0.0;
   std::int64_t track_id = 0;
 
-  // Whether it points at this position, within that bound and a margin.
+  // Whether it points at this position, within spread_rad and a margin.
   bool is_near(const Eigen::Vector3d& p_ecef, double more_rad) const;
 };
-// With the given axes at its origin: R_ecef_enu(measurement.sight.origin_ecef).
+// R_ecef_enu: the axes at its origin, R_ecef_enu(measurement.sight.origin_ecef).
 BearingSummary summarise(const BearingMeasurement& measurement, const Eigen::Matrix3d& R_ecef_enu);
 
 class UnassociatedBearings {
  public:
-  // Of one station, both in order of time and of equal length.
+  // One station's bearings and their summaries: in order of time, of equal length.
   struct Station {
     std::deque<BearingMeasurement> bearings;
     std::vector<BearingSummary> looks;
@@ -44,7 +44,7 @@ class UnassociatedBearings {
     PlaceAxes axes_;
   };
 
-  // A bearing is kept until one of its station is newer by this, or until there are this many.
+  // A bearing is kept until a bearing of its station is newer by span_s, or until there are `most`.
   UnassociatedBearings(double span_s, int most)
       : span_s_(span_s), most_(static_cast<std::size_t>(most)) {}
 
@@ -52,7 +52,7 @@ class UnassociatedBearings {
   void erase_if(const std::string& station,
                 const std::function<bool(const BearingMeasurement&)>& condition);
   void forget(const std::string& station) { stations_.erase(station); }
-  // None of them is empty.
+  // No entry is empty.
   const std::map<std::string, Station>& stations() const { return stations_; }
 
  private:
