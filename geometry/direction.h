@@ -1,9 +1,8 @@
-// Directions in a local east-north-up frame and their tangent plane.
+// Directions in a local east-north-up frame, and their tangent plane.
 //
 // Azimuth is clockwise from true north, elevation above the local horizontal plane. Small errors of
-// a direction live on its tangent plane with the axes (cross-elevation, elevation): the unit vector
-// of growing azimuth, and that of growing elevation. Cross-elevation is azimuth times
-// cos(elevation).
+// a direction are on its tangent plane. Its axes (cross-elevation, elevation) are the unit vectors
+// of growing azimuth and of growing elevation. Cross-elevation is azimuth times cos(elevation).
 #pragma once
 
 #include <Eigen/Core>
@@ -18,18 +17,18 @@ struct AzimuthElevation {
 // Unit vector, east-north-up.
 Eigen::Vector3d enu_from_azimuth_elevation(const AzimuthElevation& direction);
 
-// The inverse for any non-zero vector; at the zenith and nadir the azimuth is 0.
+// The inverse, for any non-zero vector. At the zenith and nadir the azimuth is 0.
 AzimuthElevation azimuth_elevation_from_enu(const Eigen::Vector3d& v_enu);
 
-// 3x2: columns are the unit vectors of growing cross-elevation and of growing elevation, both
-// orthogonal to the direction and to each other.
+// 3x2: the columns are the unit vectors of growing cross-elevation and elevation, orthogonal to the
+// direction and to each other.
 Eigen::Matrix<double, 3, 2> tangent_basis(const AzimuthElevation& direction);
 
-// 2x3: the motion of a direction on its tangent plane per small rotation vector [rad], in the frame
-// of the tangent's columns.
+// 2x3: the motion of a direction on its tangent plane for a small rotation vector [rad], which is
+// in the frame of the tangent's columns.
 Eigen::Matrix<double, 2, 3> shift_by_rotation(const Eigen::Matrix<double, 3, 2>& tangent);
 
-// Angle between two vectors [rad], exact also when it is tiny.
+// Angle between two vectors [rad]; exact for tiny angles too.
 double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
 
 // A measured line of sight: the complete geometry of one bearing.
@@ -37,9 +36,9 @@ struct LineOfSight {
   Eigen::Vector3d origin_ecef = Eigen::Vector3d::Zero();  // [m] camera centre
   AzimuthElevation direction;                             // in the horizon at origin_ecef
   // [rad^2] on the tangent plane, order (cross-elevation, elevation).
-  Eigen::Matrix2d covariance_white = Eigen::Matrix2d::Zero();       // new with every frame
-  Eigen::Matrix2d covariance_systematic = Eigen::Matrix2d::Zero();  // stays
-  Eigen::Vector3d origin_sd_enu_m = Eigen::Vector3d::Zero();        // [m] stays
+  Eigen::Matrix2d covariance_white = Eigen::Matrix2d::Zero();       // new in every frame
+  Eigen::Matrix2d covariance_systematic = Eigen::Matrix2d::Zero();  // constant
+  Eigen::Vector3d origin_sd_enu_m = Eigen::Vector3d::Zero();        // [m] constant
 };
 
 // Unit vector of a line of sight in ECEF.

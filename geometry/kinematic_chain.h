@@ -4,11 +4,11 @@
 //   M_next = M_previous T_next RZ_next RX_next RY_next                                   (1)
 //
 // Frames are right-handed with X forward, Y left, Z up. GROUND is the local east-north-up frame of
-// the station (X east, Y north, Z up). CAMERA is the camera's centre of projection; a last fixed
-// rotation joins the X-forward frame there to OpenCV's camera frame (x right, y down, z forward).
-// Angles are right-handed about the named axis: a positive rotation about Z turns left, a positive
-// rotation about Y turns the nose down, a positive rotation about X rolls clockwise as seen from
-// behind.
+// the station (X east, Y north, Z up). CAMERA is the camera's centre of projection. A last fixed
+// rotation leads from the X-forward frame there to OpenCV's camera frame (x right, y down, z
+// forward). Angles are right-handed about the named axis: a positive rotation about Z turns left, a
+// positive rotation about Y turns the nose down, a positive rotation about X rolls clockwise as
+// seen from behind.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -28,18 +28,18 @@ struct Link {
   double ry_rad = 0.0;
 };
 
-// Everything about one station's geometry that calibration finds. Heading is that of the PTU's zero
-// pan direction.
+// All parameters of a station's geometry that calibration determines. Heading is that of the PTU's
+// zero pan direction.
 struct ChainParameters {
   double heading_rad = 0.0;  // clockwise from true north, the X axis of ORIGIN
   double tilt_x_rad = 0.0;   // inclination of ORIGIN about its X axis (roll, right side down > 0)
   double tilt_y_rad = 0.0;   // inclination of ORIGIN about its Y axis (nose down > 0)
   Eigen::Vector3d ground_to_origin_m{0.0, 0.0, 1.5};  // east, north, up
-  Eigen::Vector3d origin_to_azi_m{0.0, 0.0, 0.09};    // PTU base to the crossing of its axes
+  Eigen::Vector3d origin_to_azi_m{0.0, 0.0, 0.09};    // PTU base to the intersection of its axes
   Eigen::Vector3d azi_to_ele_m{0.0, 0.0, 0.0};        // paper: AZI and ELE share one position
   Eigen::Vector3d ele_to_focus_m{0.0, 0.0, 0.06};     // in the frame that tilts
   Eigen::Vector3d focus_to_camera_m{0.05, 0.0, 0.0};  // paper: further along X
-  // The tilt axis' error of squareness to the pan axis, about X of AZI: a positive trunnion error
+  // Error of squareness between tilt axis and pan axis, about X of AZI: a positive trunnion error
   // turns the left end of the tilt axis up.
   double trunnion_rad = 0.0;
   // Mounting rotation of the camera on the manipulator (paper section 4.2), at FOCUS.
@@ -54,7 +54,7 @@ struct ChainParameters {
   double tilt_zero_rad = 0.0;
 };
 
-// Pan and tilt as the PTU reports them, in radians.
+// Pan and tilt as the PTU reports them [rad].
 struct PanTilt {
   double pan_rad = 0.0;
   double tilt_rad = 0.0;
@@ -63,19 +63,20 @@ struct PanTilt {
 // One step of eq. (1).
 Eigen::Isometry3d next_joint(const Eigen::Isometry3d& M_previous, const Link& link);
 
-// The five links for these parameters at these PTU angles, in the order ORIGIN..CAMERA.
+// The five links, in the order ORIGIN..CAMERA, at these PTU angles.
 std::array<Link, kJoints - 1> links(const ChainParameters& chain, const PanTilt& angles);
 
-// Pose of every joint in GROUND (east-north-up at the station), indexed by Joint.
+// Pose of every joint in GROUND, indexed by Joint.
 std::array<Eigen::Isometry3d, kJoints> joints(const ChainParameters& chain, const PanTilt& angles);
 
-// Pose of the camera in GROUND: rotation R_enu_cam takes OpenCV camera components to east-north-up,
-// translation is the camera centre [m].
+// Pose of the camera in GROUND: the rotation R_enu_cam takes OpenCV camera components to
+// east-north-up; the translation is the camera centre [m].
 Eigen::Isometry3d enu_from_camera(const ChainParameters& chain, const PanTilt& angles);
 
-// The PTU angles that bring a unit direction of the camera frame (OpenCV axes; the optical axis is
-// z) onto a unit direction in GROUND. Of the two solutions the one with the camera upright; tilt in
-// -pi/2..pi/2 of the shaft, pan in -pi..pi. Nothing where none exists (around the pan axis).
+// The PTU angles that turn a unit direction of the camera frame (OpenCV axes; the optical axis is
+// z) onto a unit direction in GROUND. Of the two solutions, it is the one with the camera upright:
+// tilt in -pi/2..pi/2 of the shaft, pan in -pi..pi. nullopt where none exists (around the pan
+// axis).
 std::optional<PanTilt> aim(const ChainParameters& chain, const Eigen::Vector3d& direction_enu,
                            const Eigen::Vector3d& direction_cam = Eigen::Vector3d::UnitZ());
 

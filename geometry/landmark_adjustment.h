@@ -1,7 +1,7 @@
-// The least-squares adjustment of geometry/stationing.h: of a station's pose, by any choice of the
-// sighted landmarks, linearised for all of them.
+// The least-squares adjustment behind geometry/stationing.h: fits a station's pose to any subset of
+// the sighted landmarks, linearised for all of them.
 //
-// A landmark groups all sightings of one place: they share the error of its coordinates, which
+// A landmark groups all sightings of one place. They share the error of its coordinates, which
 // repeated sightings do not average out.
 #pragma once
 
@@ -14,14 +14,15 @@
 
 namespace ols {
 
-// The pose's six angles (heading, tilt x, tilt y, mount z, mount x, mount y), then the position:
-// east, north, up. Each over its stated deviation, the heading over a milliradian.
+// The six angles of the pose (heading, tilt x, tilt y, mount z, mount x, mount y), then the
+// position (east, north, up). Each is divided by its stated deviation, the heading by a
+// milliradian.
 inline constexpr int kPoseUnknowns = 9;
 using PoseUnknowns = Eigen::Matrix<double, kPoseUnknowns, 1>;
 using PoseInformation = Eigen::Matrix<double, kPoseUnknowns, kPoseUnknowns>;
 
-// The normal equations of a landmark's sightings at a pose, with W the inverse of their covariance,
-// J their Jacobian and v their residuals.
+// The normal equations of a landmark's sightings at a pose. W is the inverse of their covariance, J
+// their Jacobian, v their residuals.
 struct LandmarkEquations {
   PoseInformation information = PoseInformation::Zero();  // J^T W J
   PoseUnknowns gradient = PoseUnknowns::Zero();           // J^T W v
@@ -39,23 +40,23 @@ struct LandmarkFit {
   PoseUnknowns unknowns = PoseUnknowns::Zero();
   StationGeometry station;
   PoseInformation information = PoseInformation::Zero();
-  double misfit = 0.0;  // of the kept landmarks and the priors: chi-square with `redundancy`
+  double misfit = 0.0;  // of kept landmarks and priors: chi-square with `redundancy`
   int redundancy = 0;
   std::vector<LandmarkEquations> landmarks;
 };
 
 class LandmarkAdjustment {
  public:
-  // Refuses sightings as station_by_landmarks does.
+  // Refuses the same sightings as station_by_landmarks.
   LandmarkAdjustment(const StationGeometry& rough, std::span<const LandmarkSighting> sightings);
 
   const std::vector<std::vector<std::size_t>>& landmarks() const { return landmarks_; }
-  // The heading at which the landmark's first sighting meets it.
+  // The heading at which the landmark's first sighting hits it.
   double heading_by(std::size_t landmark) const;
   LandmarkFit fit(const std::vector<bool>& kept, double heading_rad) const;
   // The standard deviation of each unknown; 0 if it is known exactly.
   const PoseUnknowns& scale() const { return scale_; }
-  // By how much the sighting's line of sight misses the landmark [rad]: (across, up).
+  // The angles by which the sighting's line of sight misses the landmark [rad]: (across, up).
   Eigen::Vector2d residual(const StationGeometry& station, std::size_t sighting) const;
   double deviation_rad(std::size_t sighting) const;  // of a residual's components
   double distance_m(std::size_t sighting) const;
@@ -74,7 +75,7 @@ class LandmarkAdjustment {
   std::vector<LandmarkSighting> sightings_;
   std::vector<Eigen::Vector3d> rays_cam_;
   std::vector<double> distances_m_;
-  std::vector<std::vector<std::size_t>> landmarks_;  // the sightings of each
+  std::vector<std::vector<std::size_t>> landmarks_;  // the sightings of each landmark
   PoseUnknowns scale_;
 };
 

@@ -1,5 +1,5 @@
-// The Military Grid Reference System: places as people say them over the radio. The arithmetic is
-// GeographicLib's (C. Karney).
+// The Military Grid Reference System: positions as spoken over the radio. By GeographicLib (C.
+// Karney).
 #pragma once
 
 #include <string>
@@ -8,9 +8,9 @@
 
 namespace ols {
 
-// "33UXQ" with 0 digits, the square of 100 km; "33UXQ1643251958" with 5, of 1 m: the south-western
-// corner of the square that holds the place. Near the poles in the polar squares.
-// std::invalid_argument for what is no latitude or longitude.
+// The south-western corner of the square that holds the position. 0 digits: "33UXQ", the square of
+// 100 km. 5 digits: "33UXQ1643251958", of 1 m. Near the poles it uses the polar squares. Throws
+// std::invalid_argument for an invalid latitude or longitude.
 std::string mgrs(const Geodetic& position, int digits);
 
 }  // namespace ols

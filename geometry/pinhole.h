@@ -28,18 +28,18 @@ Eigen::Matrix3d camera_matrix(const CameraIntrinsics& intrinsics);
 Eigen::Matrix<double, 3, 4> projection_matrix(const Eigen::Matrix3d& K, const Eigen::Matrix3d& R,
                                               const Eigen::Vector3d& C);
 
-// Back-projection X(lambda) = P+ x + lambda C (paper section 6): the direction of the line in the
-// world frame, unit length, pointing from the camera centre to the front of the camera.
+// Back-projection X(lambda) = P+ x + lambda C (paper section 6): the unit direction of the line in
+// the world frame, from the camera centre to the front of the camera.
 Eigen::Vector3d back_project(const Eigen::Matrix<double, 3, 4>& P, const Eigen::Vector2d& pixel);
 
-// Image of a point given in camera coordinates [m], or nothing when it is not in front (z <= 0) or
-// so far off the axis that the distortion polynomial has folded back: there it would put a point
-// far outside the field of view into the middle of the image.
+// The image of a point in camera coordinates [m]. nullopt when it is not in front (z <= 0), or so
+// far off the axis that the distortion polynomial folds back: it would put a point far outside the
+// field of view into the middle of the image.
 std::optional<Eigen::Vector2d> project(const CameraIntrinsics& intrinsics,
                                        const Eigen::Vector3d& p_cam);
 
-// Unit direction in the camera frame of the ray through a pixel; distortion is inverted by Newton's
-// method to below 1e-9 px. Nothing when that does not converge (outside the model's valid field).
+// Unit direction in the camera frame of the ray through a pixel. Newton's method inverts the
+// distortion to below 1e-9 px. nullopt when it does not converge (outside the model's valid field).
 std::optional<Eigen::Vector3d> unproject(const CameraIntrinsics& intrinsics,
                                          const Eigen::Vector2d& pixel);
 
@@ -47,7 +47,8 @@ std::optional<Eigen::Vector3d> unproject(const CameraIntrinsics& intrinsics,
 Eigen::Matrix<double, 2, 3> project_jacobian(const CameraIntrinsics& intrinsics,
                                              const Eigen::Vector3d& p_cam);
 
-// Whole angle of view, horizontal and vertical [rad], through the principal point, no distortion.
+// Full angle of view, horizontal and vertical [rad], through the principal point, without
+// distortion.
 Eigen::Vector2d field_of_view(const CameraIntrinsics& intrinsics);
 
 }  // namespace ols

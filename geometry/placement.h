@@ -1,10 +1,12 @@
-// Where to put stations: the best n of given places for an area to protect. Pure and deterministic
+// Where to put stations: the best n of given places for an area to protect. Pure, and deterministic
 // for a given generator.
 //
-// A place is worth its information about each point of the area (geometry/precision.h); the cost of
-// a choice is the root of the mean, over the area, of the expected squared distance from the truth,
-// or the largest over the area (as a power mean of high order, which a search can descend). It
-// starts from random choices and improves each by exchanging one place at a time for the best other
+// The value of a place is its information about each point of the area (geometry/precision.h). The
+// cost of a choice is the root of the mean, over the area, of the expected squared distance from
+// the truth; or the largest such distance over the area (as a power mean of high order, which a
+// search can descend). The search starts from random choices. It improves each by exchanging one
+// place at a time for the best other one, until no exchange helps (V. Fedorov's exchange
+// algorithm).
 // one until none helps (V. Fedorov's exchange algorithm).
 #pragma once
 
@@ -18,37 +20,38 @@
 
 namespace ols {
 
-// The error that counts for a point whose position the stations do not determine. The place of a
-// chosen station itself then does not count.
+// The error assumed for a point whose position the stations do not determine. The place of a chosen
+// station is then not counted.
 inline constexpr double kUndetermined_m = 1e6;
 
-// The default criterion is the worst point: where stations may stand anywhere around the area, it
-// gives the paper's regular polygon on the edge. The mean gives the polygon from four stations on,
-// but puts three on one side, at the expense of the far side.
+// The default is the worst point. Where stations may stand anywhere around the area, it gives the
+// paper's regular polygon on the edge. The mean gives the polygon from four stations on, but puts
+// three on one side, at the expense of the far side.
 enum class PlacementGoal { kMean, kWorst };
 
 struct PlacementProblem {
-  std::vector<PlannedStation> kept;    // already in place
-  std::vector<PlannedStation> places;  // can be used, each once
-  std::vector<PlannedTarget> area;     // points that stand for it, each for as much of it
-  std::size_t stations = 0;            // to choose
+  std::vector<PlannedStation> kept;    // stations already in place
+  std::vector<PlannedStation> places;  // candidates, each used at most once
+  std::vector<PlannedTarget> area;     // points of the area, each for an equal part
+  std::size_t stations = 0;            // number to choose
   PlacementGoal goal = PlacementGoal::kWorst;
   double exposures = 1.0;
   int starts = 30;
 };
 
 struct Placement {
-  std::vector<std::size_t> chosen;  // of the places, in growing order
+  std::vector<std::size_t> chosen;  // indices into `places`, ascending
   double mean_m = 0.0;              // root of the mean squared 3-D error over the area
   double worst_m = 0.0;             // the largest root mean squared 3-D error in it
 
   bool determines_all() const { return worst_m < 0.1 * kUndetermined_m; }
 };
 
-// Called repeatedly during a search with the number of starts done and their total.
+// Called repeatedly during a search, with the number of starts done and their total.
 using TellStarts = std::function<void(std::size_t done, std::size_t all)>;
 
-// std::invalid_argument when there are fewer places than stations, no area or no station.
+// Throws std::invalid_argument when there are fewer places than stations, no area, or no station to
+// choose.
 Placement place_stations(const PlacementProblem& problem, std::mt19937_64& generator,
                          const TellStarts& tell = {});
 

@@ -1,12 +1,13 @@
-// How well N stations can know a position, before anything is measured: the Cramer-Rao bound of one
-// instant. Exact on the ellipsoid: each station has its own horizon, distances have no limit.
+// How accurately N stations can know a position: the Cramer-Rao bound of one instant, before any
+// measurement. Exact on the ellipsoid: each station has its own horizon, and distances are
+// unlimited.
 //
-// Each station measures the direction to the target (a point of its tangent plane, geometry/
-// direction.h) with errors that are independent of the other stations'. What stays from frame to
-// frame is a nuisance of that station alone with a known deviation: with it marginalised the
-// information about the position is the sum over stations of H' R^-1 H, where R holds all of a
-// station's errors; its inverse is the bound. (H. Van Trees, Detection, Estimation, and Modulation
-// Theory I, section 2.4.3: the bound with random nuisance parameters, for linear Gaussian ones.)
+// Each station measures the direction to the target on its tangent plane (geometry/direction.h),
+// with errors that are independent of the other stations'. Errors that stay from frame to frame are
+// nuisance parameters of that station, with known deviations. When they are marginalised, the
+// information about the position is the sum over stations of H' R^-1 H, where R holds all errors of
+// a station. Its inverse is the bound. (H. Van Trees, Detection, Estimation, and Modulation Theory
+// I, section 2.4.3: the bound with random nuisance parameters, for the linear Gaussian case.)
 #pragma once
 
 #include <Eigen/Core>
@@ -20,9 +21,9 @@
 namespace ols {
 
 // 2x3 [rad/m]: derivative of the direction to a point, on the tangent plane (cross-elevation,
-// elevation) of the station's horizon, by the point's position in ECEF. With the opposite sign that
-// by the station's own position. The turn of the horizon with the station's position (below 2e-7
-// rad/m outside the polar regions) is neglected.
+// elevation) of the station's horizon, by the point's ECEF position. The derivative by the
+// station's own position has the opposite sign. It neglects the turn of the horizon with the
+// station's position (below 2e-7 rad/m outside the polar regions).
 Eigen::Matrix<double, 2, 3> bearing_jacobian(const LocalFrame& station,
                                              const Eigen::Vector3d& p_ecef);
 
@@ -30,17 +31,17 @@ Eigen::Matrix<double, 2, 3> bearing_jacobian(const LocalFrame& station,
 struct BearingPrecision {
   LocalFrame station{Geodetic{}};  // origin: the camera centre
   Eigen::Matrix2d covariance_rad2 =
-      Eigen::Matrix2d::Zero();  // all errors together, (cross-elevation, elevation)
+      Eigen::Matrix2d::Zero();  // all errors, (cross-elevation, elevation)
 };
 
 // H' R^-1 H of one station [1/m^2], ECEF components. R must be positive definite.
 Eigen::Matrix3d bearing_information(const BearingPrecision& bearing, const Eigen::Vector3d& p_ecef);
 
-// The inverse of an information matrix; nothing when a direction is not determined (its share of
+// The inverse of an information matrix; nullopt when a direction is not determined (its share of
 // the information is below 1e-12).
 std::optional<Eigen::Matrix3d> bound_from_information(const Eigen::Matrix3d& information);
 
-// The bound [m^2] of a target at p_ecef, ECEF components; nothing when the stations do not
+// The bound [m^2] of a target at p_ecef, in ECEF components; nullopt when the stations do not
 // determine it (fewer than two, or all on one line with the target).
 std::optional<Eigen::Matrix3d> cramer_rao_bound(std::span<const BearingPrecision> bearings,
                                                 const Eigen::Vector3d& p_ecef);
@@ -49,8 +50,8 @@ std::optional<Eigen::Matrix3d> cramer_rao_bound(std::span<const BearingPrecision
 struct PlannedStation {
   LocalFrame place{Geodetic{}};  // origin: the camera centre
   double white_rad = 0.0;        // 1-sigma of each axis of the tangent plane, new with every frame
-  CalibrationSd calibration;     // stays; the roll about the optical axis moves nothing on it
-  double clock_sd_s = 0.0;       // stays; counts as the target's motion in that time
+  CalibrationSd calibration;     // constant; the roll about the optical axis has no effect there
+  double clock_sd_s = 0.0;       // constant; acts as the target's motion in that time
 };
 
 // Where an error comes from.
@@ -62,13 +63,13 @@ inline constexpr std::array kErrorSources{ErrorSource::kWhite,    ErrorSource::k
 // A planned target.
 struct PlannedTarget {
   Eigen::Vector3d p_ecef = Eigen::Vector3d::Zero();  // [m]
-  // [m^2/s^2] second moment E[v v'] of its velocity, ECEF: v v' of a known one, speed^2 / 3 times
-  // the identity of one in any direction.
+  // [m^2/s^2] second moment E[v v'] of its velocity, ECEF. For a known velocity: v v'. For a known
+  // speed in any direction: speed^2 / 3 times the identity.
   Eigen::Matrix3d velocity_moment_ecef = Eigen::Matrix3d::Zero();
 };
 
-// Covariance of a station's direction [rad^2] on the tangent plane that one source causes; the
-// white one is divided by the number of independent exposures.
+// Covariance of a station's direction [rad^2] on the tangent plane from one source. The white one
+// is divided by the number of independent exposures.
 Eigen::Matrix2d source_covariance(const PlannedStation& station, ErrorSource source,
                                   const PlannedTarget& target, double exposures = 1.0);
 
@@ -78,12 +79,11 @@ BearingPrecision bearing_precision(const PlannedStation& station, const PlannedT
 
 struct PositionPrecision {
   Eigen::Matrix3d covariance_ecef = Eigen::Matrix3d::Zero();  // [m^2] the bound
-  // [m^2] what each source contributes to it, in the order of kErrorSources; their sum is the
-  // bound.
+  // [m^2] the contribution of each source, in the order of kErrorSources. They sum to the bound.
   std::array<Eigen::Matrix3d, kErrorSources.size()> parts_ecef{};
 };
 
-// Nothing when the stations do not determine the position.
+// nullopt when the stations do not determine the position.
 std::optional<PositionPrecision> position_precision(std::span<const PlannedStation> stations,
                                                     const PlannedTarget& target,
                                                     double exposures = 1.0);

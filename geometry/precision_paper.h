@@ -1,8 +1,8 @@
-// The paper's precision theory (section 4.1): how far a random error of p pixels puts the position
+// The paper's precision theory (section 4.1): how far an error of p pixels displaces the position
 // of a target that two cameras see. Plane geometry; lengths in metres, angles in radians.
 //
-// Every error here is a worst case, not a deviation: the pixels are off by up to p, and the result
-// is the largest distance from the truth that this can cause; infinity if it is unbounded.
+// Every error here is a worst case, not a deviation: the pixels are off by up to p. The result is
+// the largest distance from the truth that this can cause; infinity if it is unbounded.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,18 +20,18 @@ struct PixelError {
   double tangent() const { return pixels * pixel_m / focal_length_m; }
 };
 
-// E = p r Z^2 / (f b - p r Z): two parallel cameras a base b apart, a target at depth Z whose
-// disparity is p pixels too small. With p = 1 the depth resolution R. Exact.
+// E = p r Z^2 / (f b - p r Z), exact: two parallel cameras on a base b, a target at depth Z whose
+// disparity is p pixels too small. With p = 1 it is the depth resolution R.
 double canonical_stereo_error_m(const PixelError& error, double base_m, double depth_m);
 
 // E = B tan(arctan(D / B) + arctan(p r / f)) - D: cameras that can rotate, the target straight
-// ahead of the first at the distance D, and the second one alone in error. The paper prints
-// arctan(r / f), which is this with p = 1.
+// ahead of the first at distance D, and only the second one in error. The paper prints arctan(r /
+// f), which is p = 1.
 double rotating_pair_error_m(const PixelError& error, double base_m, double distance_m);
 
-// Both cameras in error by up to angle_rad, in the plane of the cameras and the target: the
-// largest distance from the target at which the two rays can meet. All such points fill the
-// intersection of two wedges, which is convex: its farthest point is one of its corners.
+// Both cameras in error by up to angle_rad, in the plane of the cameras and the target: the largest
+// distance from the target at which the two rays can meet. These points fill the intersection of
+// two wedges. It is convex, so the farthest point is a corner.
 double pair_error_m(const Eigen::Vector3d& first, const Eigen::Vector3d& second,
                     const Eigen::Vector3d& target, double angle_rad);
 
@@ -41,19 +41,19 @@ struct Baseline {
   Eigen::Vector3d second = Eigen::Vector3d::Zero();
 };
 
-// t . n of the paper: t the unit vector from the baseline's centre to the target, n the baseline's
-// unit normal in their common plane, on the target's side. That is the sine of the angle between t
-// and the baseline, 0..1; 0 also where the target is at the baseline's centre.
+// t . n of the paper: t is the unit vector from the baseline's centre to the target, n the
+// baseline's unit normal in their common plane, on the target's side. This is the sine of the angle
+// between t and the baseline, 0..1. It is also 0 for a target at the baseline's centre.
 double normal_component(const Baseline& baseline, const Eigen::Vector3d& target);
 
-// i = argmax t_i . n_i. The first of several equal ones; std::invalid_argument for none.
+// i = argmax t_i . n_i, the first of equal ones. Throws std::invalid_argument if there are none.
 std::size_t best_baseline(std::span<const Baseline> baselines, const Eigen::Vector3d& target);
 
-// The target of a row of the paper's Table 1, in the plane (x along the base, y across it) with the
-// base's centre as origin. The paper does not say where its distance is measured from, nor on which
-// side of the base's normal the target is. `side`: 0, the distance is from the centre of the base;
-// otherwise it is from the first camera (at x = -base/2), and the target is on that camera's side
-// (-1) or on the other's (+1). alpha_rad is the angle at the base's centre from its normal.
+// The target of a row of the paper's Table 1, in the plane (x along the base, y across it), with
+// the base's centre as origin. The paper does not say where it measures the distance from, nor on
+// which side of the base's normal the target is. side 0: the distance is from the centre of the
+// base. Otherwise it is from the first camera (at x = -base/2), and the target is on that camera's
+// side (-1) or on the other (+1). alpha_rad: the angle at the base's centre, from its normal.
 Eigen::Vector3d table_target(double base_m, double distance_m, double alpha_rad, int side);
 
 }  // namespace ols

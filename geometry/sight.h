@@ -11,11 +11,11 @@
 
 namespace ols {
 
-// Calibration errors, 1-sigma; systematic: they stay from frame to frame.
+// Calibration errors, 1-sigma; systematic: constant from frame to frame.
 struct CalibrationSd {
   double heading_rad = 0.0;
   double tilt_rad = 0.0;        // of each of the two axes of ORIGIN
-  double mount_rad = 0.0;       // of the camera, about each axis across its optical axis
+  double mount_rad = 0.0;       // of the camera, about each axis across the optical axis
   double mount_roll_rad = 0.0;  // about the optical axis
   double position_m = 0.0;      // of the station, each of east, north, up
 };
@@ -32,12 +32,12 @@ struct StationGeometry {
 struct PixelSight {
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
   Eigen::Matrix2d covariance_px2 = Eigen::Matrix2d::Zero();             // white
-  Eigen::Matrix2d covariance_systematic_px2 = Eigen::Matrix2d::Zero();  // stays (designation)
+  Eigen::Matrix2d covariance_systematic_px2 = Eigen::Matrix2d::Zero();  // constant (designation)
   PanTilt angles;
   Eigen::Matrix2d angles_covariance_rad2 = Eigen::Matrix2d::Zero();  // white, (pan, tilt)
 };
 
-// The line of sight of a pixel, first-order covariances. Nothing when the pixel cannot be
+// The line of sight of a pixel, with first-order covariances; nullopt when the pixel cannot be
 // unprojected.
 std::optional<LineOfSight> sight(const StationGeometry& station, const PixelSight& measurement);
 
@@ -47,13 +47,13 @@ struct View {
   double distance_m = 0.0;  // from the camera centre
 };
 
-// The inverse at given PTU angles: the pixel of a point, or nothing when it is behind the camera.
+// The inverse at given PTU angles: the pixel of a point; nullopt when it is behind the camera.
 std::optional<View> view(const StationGeometry& station, const PanTilt& angles,
                          const Eigen::Vector3d& p_ecef);
 
-// The inverse with free PTU angles: those that put the point on the given pixel (default: where the
-// optical axis meets the image). Takes the lever arms of the chain into account. Nothing when out
-// of reach of any pan and tilt.
+// The inverse with free PTU angles: the angles that put the point on the given pixel (default:
+// where the optical axis meets the image). The lever arms of the chain are included. nullopt when
+// no pan and tilt reach the point.
 std::optional<PanTilt> aim_at(const StationGeometry& station, const Eigen::Vector3d& p_ecef,
                               const std::optional<Eigen::Vector2d>& pixel = std::nullopt);
 
@@ -66,8 +66,8 @@ AzimuthElevation optical_axis(const StationGeometry& station, const PanTilt& ang
 // Camera centre in ECEF [m].
 Eigen::Vector3d camera_centre_ecef(const StationGeometry& station, const PanTilt& angles);
 
-// Homography K R_2 R_1^T K^-1 that takes pixels of a frame exposed at PTU angles `from` to pixels
-// of one exposed at `to`, for points at infinity, without distortion.
+// Homography K R_2 R_1^T K^-1: takes pixels of a frame exposed at PTU angles `from` to pixels of a
+// frame exposed at `to`. For points at infinity, without distortion.
 Eigen::Matrix3d rotation_homography(const StationGeometry& station, const PanTilt& from,
                                     const PanTilt& to);
 

@@ -1,15 +1,16 @@
-// A station as it really is: eq. (1) with the errors of a real pan-tilt unit's gears, bearings and
-// clock. With all of them zero it is geometry/kinematic_chain.h.
+// A real station: eq. (1) with the errors of a pan-tilt unit's gears, bearings and clock. With all
+// errors zero it is geometry/kinematic_chain.h.
 //
 // The shaft of an axis stands at
 //
 //   theta = s q n + zero + sum_k (A_k cos k theta + B_k sin k theta)
 //           + W_c cos(m theta) + W_s sin(m theta) + b d / 2
 //
-// n: counts at the exposure, q: one turn over the counts of a turn (exact: the resolution that a
-// unit prints is rounded), s: the axis' sign; k = 1, 2: eccentricity of the worm wheel and of the
-// axis; m: teeth of the worm wheel, one turn of the worm each; b: backlash, d = 1 or -1: sign of
+// n: counts at the exposure. q: one turn over the counts of a turn (exact: the resolution that a
+// unit prints is rounded). s: the axis' sign. k = 1, 2: eccentricity of the worm wheel and of the
+// axis. m: teeth of the worm wheel, one turn of the worm each. b: backlash. d = 1 or -1: sign of
 // the last motion in counts. The angles on the right are s q n + zero. The worm wheel closes on
+// itself, so there is no error of scale.
 // itself, so there is no error of scale.
 #pragma once
 
@@ -25,10 +26,10 @@ struct AxisModel {
   int worm_teeth = 70;
   double cos1_rad = 0.0, sin1_rad = 0.0, cos2_rad = 0.0, sin2_rad = 0.0;
   double worm_cos_rad = 0.0, worm_sin_rad = 0.0;
-  double backlash_rad = 0.0;  // of the shaft, from one direction of approach to the other
+  double backlash_rad = 0.0;  // of the shaft, between the two directions of approach
 };
 
-// What the unit reports of one axis for a frame's stamp.
+// The unit's reading of one axis, at a frame's stamp.
 struct AxisReading {
   double counts = 0.0;
   double counts_per_s = 0.0;
@@ -38,8 +39,8 @@ struct UnitReading {
   AxisReading pan, tilt;
 };
 
-// Everything that an adjustment can change, in this order in every vector and covariance. Angles
-// are in radians, lengths in metres.
+// All parameters that an adjustment can change, in their order in every vector and covariance.
+// Angles in radians, lengths in metres.
 enum Parameter : int {
   // of the instrument
   kFocal,   // fx [px]
@@ -80,10 +81,10 @@ using ModelParameters = Eigen::Matrix<double, kModelParameters, 1>;
 struct StationModel {
   StationGeometry geometry;
   AxisModel pan, tilt;
-  double exposure_offset_s = 0.0;  // the exposure is this much later than the stamp of the counts
+  double exposure_offset_s = 0.0;  // exposure minus the stamp of the counts
 };
 
-// An angle of a shaft, and what it depends on.
+// An angle of a shaft, with its derivatives.
 struct ShaftAngle {
   double rad = 0.0;          // with all errors
   double nominal_rad = 0.0;  // s q n + zero
@@ -92,11 +93,11 @@ struct ShaftAngle {
 ShaftAngle shaft_angle(const AxisModel& axis, int sign, double zero_rad, const AxisReading& reading,
                        double exposure_offset_s);
 
-// The angles that a unit without errors would report with its shafts there: for sight(), view() and
-// the chain.
+// The angles that an ideal unit would report with its shafts at the same angles, for sight(),
+// view() and the chain.
 PanTilt corrected_angles(const StationModel& model, const UnitReading& reading);
 
-// The model with its parameters changed by so much. The tilts and the heading stay those of the
+// The model with its parameters changed by this much. The tilts and the heading stay those of the
 // horizon at the new position.
 StationModel changed(const StationModel& model, const ModelParameters& by);
 

@@ -1,15 +1,15 @@
 // Stationing (paper section 4.2): "the precise heading must be estimated visually by observing the
-// distinctive landmarks". From sightings of places whose positions are known, the heading of a
-// station, and corrections of its tilt (inclinometer) and of its camera's mounting (rectification).
+// distinctive landmarks". Sightings of places with known positions give a station's heading, and
+// corrections of its tilt (inclinometer) and its camera's mounting (rectification).
 //
-// Maximum a posteriori: no prior for the heading; tilts, mounting and position have the station's
-// stated deviations as priors. The position is a nuisance parameter: it is not changed.
-// A turn of the mounting about the vertical looks like a heading; only the sum shows at the
-// horizon, and only the sum is needed there.
+// Maximum a posteriori. The heading has no prior. Tilts, mounting and position have the station's
+// stated deviations as priors. The position is a nuisance parameter: it is not changed. A turn of
+// the mounting about the vertical looks like a heading: at the horizon only the sum is observable,
+// and only the sum is needed.
 //
-// The adjustment is tested as geodesists do (W. Baarda, A Testing Procedure for Use in Geodetic
-// Networks, 1968; P. Teunissen, Testing Theory): by data snooping for mistaken landmarks
-// (geometry/data_snooping.h), then by the global test for stated deviations that are too small.
+// The adjustment is tested by geodetic methods (W. Baarda, A Testing Procedure for Use in Geodetic
+// Networks, 1968; P. Teunissen, Testing Theory): data snooping finds mistaken landmarks
+// (geometry/data_snooping.h), then the global test finds stated deviations that are too small.
 #pragma once
 
 #include <Eigen/Core>
@@ -25,9 +25,9 @@
 namespace ols {
 
 // A landmark in a station's image. Its pixel and angles must have an error. Sightings of exactly
-// the same place belong to one landmark and share the error of its coordinates.
+// the same place belong to one landmark, and share the error of its coordinates.
 struct LandmarkSighting {
-  Eigen::Vector3d landmark_ecef = Eigen::Vector3d::Zero();  // [m] as the land register has it
+  Eigen::Vector3d landmark_ecef = Eigen::Vector3d::Zero();  // [m] from the land register
   double landmark_sd_m = 0.0;                               // of each axis
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
   double pixel_sd_px = 0.0;  // of each coordinate
@@ -53,7 +53,7 @@ class LandmarkRefused : public std::invalid_argument {
   std::string field_, why_;
 };
 
-// One explanation of a contradiction: without the rejected sightings all others agree.
+// One explanation of a contradiction: without the rejected sightings, all others agree.
 struct StationingAlternative {
   std::vector<std::size_t> rejected;
   double heading_rad = 0.0;
@@ -69,7 +69,7 @@ class LandmarksContradict : public std::invalid_argument {
         alternatives_(std::move(alternatives)),
         failing_(std::move(failing)) {}
   const std::string& why() const { return why_; }
-  // At most five, the likeliest first.
+  // At most five, most likely first.
   const std::vector<StationingAlternative>& alternatives() const { return alternatives_; }
   // Without alternatives: the sightings that contradict each other or the stated pose.
   const std::vector<std::size_t>& failing() const { return failing_; }
@@ -83,23 +83,23 @@ class LandmarksContradict : public std::invalid_argument {
 // heading, tilt x, tilt y, mount z, mount x, mount y of ChainParameters.
 using PoseCovariance = Eigen::Matrix<double, 6, 6>;
 
-// Levels of significance: how often each test rejects a correct hypothesis.
+// Levels of significance: the rates at which each test rejects a correct hypothesis.
 struct StationingLevels {
-  double mistaken = 1e-3;  // the w-tests of all landmarks together
-  double misfit = 0.05;    // the global test
+  double mistaken = 1e-3;  // of the w-tests of all landmarks together
+  double misfit = 0.05;    // of the global test
 };
 
-// The w-test of a landmark: all its sightings together, against the others.
+// The w-test of a landmark: all its sightings together against the others.
 struct LandmarkTest {
   std::vector<std::size_t> sightings;
   bool rejected = false;
-  // The root of a chi-square with 2 degrees of freedom per sighting; beyond the critical value the
-  // landmark is mistaken.
+  // The root of a chi-square with 2 degrees of freedom per sighting. The landmark is mistaken
+  // beyond the critical value.
   double w = 0.0;
   double critical = 0.0;
   // The minimal detectable bias (power 80 %): a shift of the landmark across and up, as seen from
-  // the station. Infinite if the others do not check it. A shift along the line of sight is
-  // not detectable.
+  // the station. Infinite if the others do not check it. A shift along the line of sight is not
+  // detectable.
   Eigen::Vector2d detectable_m = Eigen::Vector2d::Zero();
 };
 
@@ -110,7 +110,7 @@ struct GlobalTest {
   int redundancy = 0;
 };
 
-// 1-sigma of a line of sight along the horizon.
+// 1-sigma of a line of sight near the horizon.
 struct HorizonSd {
   double azimuth_rad = 0.0;
   double elevation_sd_rad = 0.0;
@@ -118,26 +118,26 @@ struct HorizonSd {
 
 struct Stationing {
   // With the adjusted chain. The remaining errors are strongly correlated, which separate
-  // deviations cannot express: its sd has none for the mounting and the smallest for heading and
-  // tilts that cover every line of sight within `highest_rad` of the horizon.
+  // deviations cannot express. Its sd has therefore no part for the mounting, and for heading and
+  // tilts the smallest values that cover every line of sight within `highest_rad` of the horizon.
   StationGeometry station;
-  // [rad^2] Multiplied by the variance factor if the global test rejects the stated deviations.
+  // [rad^2] Includes the variance factor if the global test rejects the stated deviations.
   PoseCovariance covariance = PoseCovariance::Zero();
   // Each sighting's (cross-elevation, elevation) divided by its deviation.
   std::vector<Eigen::Vector2d> residuals;
   std::vector<Eigen::Vector2d> residuals_rad;
   std::vector<LandmarkTest> landmarks;
   GlobalTest global;
-  // The w-test of the priors of tilt x, tilt y, mount z, mount x, mount y, east, north and up:
-  // standard normal; 0 for a prior without a deviation.
+  // The w-test of each prior (tilt x, tilt y, mount z, mount x, mount y, east, north, up): standard
+  // normal; 0 for a prior without a deviation.
   std::array<double, 8> stated_w{};
-  double scaled_by = 1.0;  // the deviations, for the global test
+  double scaled_by = 1.0;  // factor of the deviations, from the global test
   HorizonSd best, worst;   // where the landmarks determine the tilt best and least
 };
 
-// std::invalid_argument for no sighting, and where the landmarks leave the heading unknown (10
-// degrees); LandmarkRefused for one that is not finite, outside of the lens model or of a landmark
-// at the station; LandmarksContradict.
+// Throws std::invalid_argument without sightings, and where the landmarks leave the heading unknown
+// (10 degrees). Throws LandmarkRefused for a sighting that is not finite, outside the lens model,
+// or of a landmark at the station. Throws LandmarksContradict.
 Stationing station_by_landmarks(const StationGeometry& rough,
                                 std::span<const LandmarkSighting> sightings, double highest_rad,
                                 const StationingLevels& levels = {});

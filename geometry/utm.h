@@ -1,9 +1,9 @@
-// Universal Transverse Mercator, in which land registers and surveyors give positions. The
-// arithmetic is GeographicLib's (C. Karney).
+// Universal Transverse Mercator, the coordinates of land registers and surveyors. By GeographicLib
+// (C. Karney).
 //
 // Grid north is not true north: a grid bearing plus the convergence is the true azimuth. Grid
-// distances are the scale times true ones. A height in a land register is usually above mean sea
-// level; here it is ellipsoidal, as everywhere.
+// distances are the scale times true ones. Heights in land registers are usually above mean sea
+// level; here they are ellipsoidal, as everywhere.
 #pragma once
 
 #include "geometry/wgs84.h"
@@ -23,10 +23,12 @@ struct UtmPoint {
   double scale = 1.0;            // grid distance over true distance on the ellipsoid
 };
 
-// std::invalid_argument, saying why, for a zone that does not exist or coordinates outside it.
+// Throws std::invalid_argument with the reason for a zone that does not exist or coordinates
+// outside it.
 Geodetic geodetic_from_utm(const Utm& position, double height_m);
 
-// In the standard zone of the place; std::invalid_argument near the poles, which have none.
+// In the standard zone of the place. Throws std::invalid_argument near the poles, which have no
+// zone.
 UtmPoint utm_from_geodetic(const Geodetic& position);
 
 }  // namespace ols

@@ -1,5 +1,4 @@
-// A zoom lens as a calibration found it: the camera at some positions of the zoom, and between
-// them. Pure.
+// A calibrated zoom lens: the camera at some zoom positions, and between them. Pure.
 #pragma once
 
 #include <vector>
@@ -8,7 +7,8 @@
 
 namespace ols {
 
-// The camera at one zoom position (0 widest .. 1 longest), with what its calibration left.
+// The camera at one zoom position (0 widest .. 1 longest), with the errors that its calibration
+// left.
 struct ZoomPoint {
   double position = 0.0;
   CameraIntrinsics camera;
@@ -18,14 +18,15 @@ struct ZoomPoint {
 
 class ZoomTable {
  public:
-  // At least two points. Throws std::invalid_argument, naming the point from 1: positions that do
-  // not rise, or are outside 0..1; a focal length that is not positive or does not rise.
+  // At least two points. Throws std::invalid_argument, naming the point (counted from 1), for
+  // positions that do not rise or are outside 0..1, and for a focal length that is not positive or
+  // does not rise.
   explicit ZoomTable(std::vector<ZoomPoint> points);
 
-  // Between the points the logarithm of the focal length is linear in the position, and everything
-  // else too. The deviations are the worse one of the neighbours', and of the focal length also
-  // what bends between them (as the slopes on both sides differ) and what the position's own
-  // 1-sigma means. Outside the table, the nearest point's.
+  // Between the points, the logarithm of the focal length and all other values are linear in the
+  // position. The deviations are the larger ones of the two neighbours. That of the focal length
+  // also includes the curvature between them (from the difference of the slopes on both sides) and
+  // the position's own 1-sigma. Outside the table, the nearest point's values hold.
   ZoomPoint at(double position, double position_sd) const;
 
   const std::vector<ZoomPoint>& points() const { return points_; }
