@@ -1,4 +1,4 @@
-// Writes a program's alarms into the journal as they begin and end, without flooding.
+// Writes the beginning and the end of a program's alarms into the journal, without flooding it.
 #pragma once
 
 #include <functional>
@@ -17,7 +17,7 @@ class AlarmJournal {
 
   explicit AlarmJournal(Write write = write_to_journal);
 
-  // Call regularly with the alarms that hold now. `now_s`: monotonic.
+  // Call regularly with the current alarms. `now_s`: monotonic.
   void look(const std::vector<std::string>& alarms, double now_s);
 
  private:

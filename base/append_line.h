@@ -1,4 +1,4 @@
-// A line at the end of a file that outlives a loss of power.
+// Appends a line to a file so that it survives a loss of power.
 #pragma once
 
 #include <filesystem>
@@ -6,8 +6,8 @@
 
 namespace ols {
 
-// Adds the line and its end, and returns when the disk has it. Creates the file where there is
-// none. std::system_error naming the path; a part of the line may then be there, without its end.
+// Appends the line with its end, and returns when it is on disk. Creates the file if needed. Throws
+// std::system_error naming the path; a part of the line may then be in the file, without its end.
 void append_line(const std::filesystem::path& path, std::string_view line);
 
 }  // namespace ols

@@ -5,7 +5,7 @@
 
 namespace ols {
 
-// South, west, north, east [deg]; where west is greater than east, across the date line.
+// South, west, north, east [deg]. If west is greater than east, the area crosses the date line.
 using Area = std::array<double, 4>;
 
 inline bool spans_longitude(const Area& area_deg, double longitude_deg) {

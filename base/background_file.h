@@ -1,5 +1,5 @@
 // A small file, written by a background thread so that its owner never waits for a disk. The thread
-// checks the file from then on: if it is removed or changed, it is written again.
+// then watches the file, and writes it again if it is removed or changed.
 #pragma once
 
 #include <memory>
@@ -15,17 +15,17 @@ class BackgroundFile {
   BackgroundFile(const BackgroundFile&) = delete;
   BackgroundFile& operator=(const BackgroundFile&) = delete;
 
-  // Replaces the content of the file soon, and any pending write. A failed write is repeated every
-  // few seconds. The folder is never created: it may be the mount point of a missing disk.
+  // Replaces the content of the file soon, and any pending write. Retries a failed write every few
+  // seconds. Never creates the folder: it may be the mount point of a missing disk.
   void write(const std::string& text);
 
-  // Whether the text is in the file; waits at most wait_s for the answer.
+  // Whether the file holds the text; waits at most wait_s for the answer.
   bool is_written(double wait_s) const;
-  // Why it is not in the file; empty when all is well.
+  // Why the file does not hold the text; empty if it does.
   std::string trouble() const;
 
  private:
-  struct Shared;  // with the thread
+  struct Shared;  // shared with the thread
 
   std::shared_ptr<Shared> shared_;
 };

@@ -1,5 +1,5 @@
-// A program's connection to the bus: tried again every second while there is no network, ended when
-// nothing arrives any more, and its trouble said once. Needs one thread.
+// A program's connection to the bus. It retries every second while there is no network, closes when
+// nothing arrives any more, and reports its trouble once. Needs one thread.
 #pragma once
 
 #include <functional>
@@ -16,34 +16,34 @@ namespace ols {
 class BusClient {
  public:
   using Subscribe = std::function<void(LcmBus&)>;
-  // Why there is no connection; empty: it is back.
+  // Receives why there is no connection; empty: it is back.
   using Tell = std::function<void(const std::string& trouble)>;
 
-  // subscribe: called on each new connection. tell: besides the log. trust: null: nothing is signed
-  // or verified.
+  // subscribe: called on each new connection. tell: receives trouble, which is also logged. trust:
+  // null if nothing is signed or verified.
   BusClient(std::string url, std::shared_ptr<trust::BusTrust> trust, Subscribe subscribe = {},
             Tell tell = {});
 
   // Waits at most this long for a connection.
   void connect(double now_s, double wait_s);
-  // Handles what has arrived, waits at most this long for the first, and looks whether anything
-  // arrives at all; without a connection, tries to connect.
+  // Handles the messages that have arrived (waits at most this long for the first), and checks
+  // whether any arrive at all. Without a connection, tries to connect.
   void turn(double now_s, int wait_ms);
 
-  // The parts of a turn, for a caller that does something between them. Only with a connection.
+  // The parts of turn(), for a caller with work between them. Need a connection.
   void handle(double now_s, int wait_ms);
   void end_if_deaf();
 
-  // Closes a connection that does not work, so that it is opened again.
+  // Closes a connection that does not work; turn() opens it again.
   void end(const std::string& why);
 
   LcmBus* bus() const { return bus_.get(); }  // null: no network
   const std::string& url() const { return url_; }
-  // Empty: there is a connection.
+  // Empty if there is a connection.
   std::string trouble() const;
-  // Of the traffic.
+  // Alarms about the traffic.
   std::vector<std::string> alarms(double now_s) const { return monitor_.alarms(now_s); }
-  // All that is wrong: that there is no connection, and the alarms of the traffic.
+  // All alarms: the missing connection, and those about the traffic.
   std::vector<std::string> all_alarms(double now_s) const;
   void count(std::map<std::string, double>& counters) const { monitor_.count(counters); }
 
@@ -56,7 +56,7 @@ class BusClient {
   BusConnector connector_;
   std::unique_ptr<LcmBus> bus_;
   BusMonitor monitor_;
-  std::string trouble_;  // the last that was said; empty: none since the connection
+  std::string trouble_;  // the last one reported; empty: none since the connection
 };
 
 }  // namespace ols

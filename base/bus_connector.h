@@ -1,4 +1,4 @@
-// Connects to the bus in the background: where multicast is blocked, the self test takes seconds,
+// Connects to the bus in the background. Where multicast is blocked, the self-test takes seconds,
 // for which a control loop must not wait.
 #pragma once
 
@@ -14,12 +14,12 @@ class BusConnector {
  public:
   explicit BusConnector(std::string url, std::shared_ptr<trust::BusTrust> trust = {});
 
-  // A bus that passed its self test; nothing until then, with an attempt every second. `now_s`:
-  // monotonic. Waits at most wait_s; an attempt ends within kLongest_s.
+  // A bus that has passed its self-test; null until then, with an attempt every second. Waits at
+  // most wait_s; an attempt ends within kLongest_s. `now_s`: monotonic.
   std::unique_ptr<LcmBus> take(double now_s, double wait_s = 0.0);
   static constexpr double kLongest_s = 12.0;
 
-  // The site's settings that the process has; number 0: none.
+  // The number of the process's site settings; 0: none.
   std::int64_t site_settings_number() const;
 
   // Why the last attempt failed; empty after a success or before the first.

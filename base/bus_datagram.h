@@ -1,9 +1,9 @@
 // A datagram of the bus: one whole LCM message ("LC02"). Pure.
 //
 // LCM cuts messages that fit no datagram into fragments ("LC03"). No message of this system needs
-// them, and the reassembly in liblcm 1.3.1 writes beyond its buffer when a fragment says so
-// (offset and length are added in 32 bits; https://github.com/lcm-proj/lcm/pull/628). So fragments
-// are refused here, and liblcm never sees a datagram.
+// them. The reassembly in liblcm 1.3.1 writes beyond its buffer when a fragment says so (offset and
+// length are added in 32 bits; https://github.com/lcm-proj/lcm/pull/628). Fragments are therefore
+// refused here, and liblcm never sees a datagram.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +20,7 @@ inline constexpr std::size_t kLongestChannel = 63;
 // Of a UDP datagram over IPv4.
 inline constexpr std::size_t kLargestDatagram = 65507;
 
-// Views into the datagram that it was parsed from.
+// Views into the parsed datagram.
 struct BusDatagram {
   std::uint32_t sequence = 0;  // of its sender, over all channels
   std::string_view channel;    // 1 to kLongestChannel printable ASCII characters without a space
@@ -28,14 +28,14 @@ struct BusDatagram {
 };
 
 enum class DatagramFault {
-  kFragment,  // of a message that was cut into several datagrams
-  kForeign,   // no LCM at all, or cut off in its header
-  kChannel,   // a channel name that is empty, endless, too long or not printable
+  kFragment,  // part of a message that was cut into several datagrams
+  kForeign,   // not LCM, or cut off in its header
+  kChannel,   // the channel name is empty, endless, too long or not printable
 };
 
 std::variant<BusDatagram, DatagramFault> parse_datagram(std::span<const std::uint8_t> bytes);
 
-// Empty when the channel's name is not one, or when it all does not fit into a datagram.
+// Empty if the channel name is invalid, or if the message does not fit into a datagram.
 std::vector<std::uint8_t> make_datagram(std::uint32_t sequence, std::string_view channel,
                                         std::span<const std::uint8_t> payload);
 

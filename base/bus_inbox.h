@@ -1,5 +1,5 @@
-// The bounded queues of received messages: parsed and filtered by channel; channels without a
-// subscription are dropped. One thread puts datagrams in, another takes messages out.
+// The bounded queues of received messages. Messages are parsed and filtered by channel; those
+// without a subscription are dropped. One thread puts datagrams in, another takes messages out.
 #pragma once
 
 #include <array>
@@ -29,10 +29,10 @@ struct BusMessage {
   std::vector<std::uint8_t> payload;
   std::int64_t received_utime_us = 0;   // this host's clock
   std::vector<std::uint8_t> trailer{};  // the signature, as received (base/trust/trailer.h)
-  // A command that names this process's boot; of others only a stop may be obeyed. Always true
+  // Whether a command names this process's boot. If not, only a stop may be obeyed. Always true
   // where signatures are not required.
   bool addressed = true;
-  std::int64_t list_number = 0;  // of the trust list that it was judged by; 0: none
+  std::int64_t list_number = 0;  // of the trust list that judged it; 0: none
 };
 
 // The limit of one subscription's queue. The oldest messages are displaced.
@@ -41,37 +41,38 @@ struct QueueLimits {
   std::size_t bytes = 4'000'000;  // of names, payloads and their overhead
 };
 
-// Counters that only go up.
+// Counters that only increase.
 struct BusTraffic {
   std::uint64_t received = 0;    // whole messages, of any channel
   std::uint64_t fragments = 0;   // refused, see DatagramFault
   std::uint64_t malformed = 0;   // refused: foreign, or with a damaged channel name
   std::uint64_t overflowed = 0;  // displaced by newer ones before they were handled
   std::uint64_t unsendable = 0;  // own messages that fit into no datagram
-  std::uint64_t dropped = 0;     // by the kernel, because this process did not fetch them in time
-  // Not believed, by reason (trust::Distrust); refused where signatures are required.
+  std::uint64_t dropped = 0;     // by the kernel: this process did not fetch them in time
+  // Messages that failed verification, by reason (trust::Distrust). They are refused where
+  // signatures are required.
   std::array<std::uint64_t, static_cast<std::size_t>(trust::Distrust::kCount)> distrusted{};
   std::string distrusted_last{};  // the last such message, for a person
-  std::string trust_trouble{};    // what a person should put right in keys and trust list
+  std::string trust_trouble{};    // what a person should correct in keys and trust list
 };
 
 class BusInbox {
  public:
   using Handler = std::function<void(const BusMessage&)>;
-  // Called in the receiving thread before queueing: true if the message is completely handled. It
-  // is then not queued, so that no flood can displace it.
+  // Called in the receiving thread before queueing. Returns true if the message is completely
+  // handled: it is then not queued, so no flood can displace it.
   using Express = std::function<bool(const BusMessage&)>;
 
-  // Null: signatures are ignored.
+  // trust: null if signatures are ignored.
   explicit BusInbox(std::shared_ptr<trust::BusTrust> trust = {}) : trust_(std::move(trust)) {}
 
-  // Throws std::invalid_argument if it is not a regular expression.
+  // Throws std::invalid_argument if the channel is not a regular expression.
   void subscribe(const std::string& channel_regex, Handler handler, QueueLimits limits = {},
                  Express express = {});
 
   void put(std::span<const std::uint8_t> datagram, std::int64_t utime_us);
 
-  // Passes the oldest queued message to its subscriber in the caller's thread; waits at most
+  // Passes the oldest queued message to its subscriber, in the caller's thread. Waits at most
   // timeout_ms for one. Returns whether there was one. All subscriptions share one order.
   bool handle_one(int timeout_ms);
 
@@ -88,7 +89,7 @@ class BusInbox {
     QueueLimits limits;
     Express express;
     std::deque<Waiting> queue;
-    std::size_t bytes = 0;  // of what waits
+    std::size_t bytes = 0;  // of the waiting messages
   };
 
   struct Admitted {

@@ -1,4 +1,4 @@
-// The CSV files of ols-calibrate: references in, predictions in. Conventions as base/csv_files.h.
+// The CSV files of ols-calibrate: references and predictions. Conventions as in base/csv_files.h.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace ols {
 
-// ICRS at 2000.0.
+// ICRS at epoch 2000.0.
 struct StarCells {
   double ra_deg = 0.0, dec_deg = 0.0;
   double pm_ra_mas_yr = 0.0;  // times the cosine of the declination
@@ -18,7 +18,7 @@ struct StarCells {
   double parallax_mas = 0.0;
 };
 
-// A star (which has no place), a surveyed point, or with a time one position of a trajectory.
+// A star (without a place), a surveyed point, or, with a time, one position of a trajectory.
 struct ReferenceRow {
   std::string name;
   std::optional<StarCells> star;
@@ -30,7 +30,7 @@ struct ReferenceRow {
 };
 
 struct PredictRow {
-  std::string station;  // empty without such a column
+  std::string station;  // empty if the file has no such column
   double pan_counts = 0.0, tilt_counts = 0.0;
   int approach_pan = 1, approach_tilt = 1;
   double x_px = 0.0, y_px = 0.0;
@@ -38,7 +38,7 @@ struct PredictRow {
   unsigned line = 0;
 };
 
-// At least one row. Only rows with a time may repeat a name, and their times grow.
+// At least one row. Only rows with a time may repeat a name; their times ascend.
 std::vector<ReferenceRow> read_references(const std::string& path);
 // At least one row.
 std::vector<PredictRow> read_predictions(const std::string& path);

@@ -1,4 +1,4 @@
-// The channels of the bus; the messages of lcmtypes/ say what each carries.
+// The channels of the bus. lcmtypes/ defines the messages on each.
 #pragma once
 
 #include <string>
@@ -21,7 +21,7 @@ inline constexpr std::string_view kFrameChannel = "OLS_FRAME_";
 inline constexpr std::string_view kProcedureChannel = "OLS_PROCEDURE_";
 inline constexpr std::string_view kProcedureAnswerChannel = "OLS_PROCEDURE_ANSWER_";
 
-// One for the site.
+// One per site.
 inline constexpr std::string_view kTargetChannel = "OLS_TARGET";
 inline constexpr std::string_view kPaperTargetChannel = "OLS_TARGET_PAPER";
 inline constexpr std::string_view kFusionStatusChannel = "OLS_FUSION_STATUS";
@@ -32,7 +32,7 @@ inline std::string station_channel(std::string_view channel, std::string_view st
   return std::string(channel).append(station);
 }
 
-// The kind of message on a station's channel, as its name says: PTU on OLS_PTU_.
+// The kind of message on a station's channel, from the channel's name: PTU for OLS_PTU_.
 inline std::string message_kind(std::string_view channel) {
   constexpr std::string_view kPrefix = "OLS_";
   return std::string(channel.substr(kPrefix.size(), channel.size() - kPrefix.size() - 1));

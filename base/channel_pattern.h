@@ -1,5 +1,5 @@
-// Which channels a reader of the bus wants: a regular expression (GLib's, as LCM takes it) that the
-// whole name must match. Plain names and prefixes ("NAME.*") are matched without an expression.
+// The channels that a reader of the bus wants: a regular expression (GLib's, as in LCM) that must
+// match the whole name. Plain names and prefixes ("NAME.*") are matched without an expression.
 #pragma once
 
 #include <memory>
@@ -12,7 +12,7 @@ namespace ols {
 
 class ChannelPattern {
  public:
-  // Throws std::invalid_argument saying what is wrong with the expression.
+  // Throws std::invalid_argument with the error in the expression.
   explicit ChannelPattern(const std::string& regex);
 
   bool matches(std::string_view channel) const;

@@ -1,5 +1,5 @@
-// Common start and end of every program: command line parsing (bad input: one line and status 2)
-// and a check that its output was written.
+// The common start and end of every program: parses the command line (bad input: one line and
+// status 2), and checks that the output was written.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -15,8 +15,8 @@ namespace ols {
 
 inline constexpr int kExitBadInput = 2;
 
-// Throws std::system_error where anything printed so far, by std::cout or stdout, was not written:
-// on a full disk, for instance.
+// Throws std::system_error if any output of std::cout or stdout was not written, for example on a
+// full disk.
 inline void flush_output() {
   errno = 0;
   std::cout.flush();
@@ -24,7 +24,7 @@ inline void flush_output() {
   throw std::system_error(errno == 0 ? EIO : errno, std::generic_category(), "standard output");
 }
 
-// Number check: CLI::Range accepts NaN.
+// A check of numbers, because CLI::Range accepts NaN.
 inline std::string refuse_not_finite(const std::string& text) {
   double value = 0.0;
   const bool finite = !CLI::detail::lexical_cast(text, value) || std::isfinite(value);
@@ -40,7 +40,7 @@ inline void check_numbers(CLI::App& app) {
   }
 }
 
-// The exit status: 0 after --help, 2 after bad input; nothing if the program is to continue.
+// The exit status: 0 after --help, 2 after bad input; nullopt if the program is to continue.
 inline std::optional<int> parse_command_line(CLI::App& app, int argc, char** argv,
                                              const char* program) {
   check_numbers(app);

@@ -1,5 +1,4 @@
-// What the configurations of several programs share: rows, checks, and how a file becomes a
-// configuration.
+// Parts that the configurations of several programs share: rows, checks, and reading a file.
 #pragma once
 
 #include <array>
@@ -14,7 +13,8 @@ namespace ols::config {
 Row bus_url(std::string& field);
 Row status_file(std::string& field);
 
-// Of a table's rows, each with a name and, among others, the value that it stands for.
+// The words of a table's rows. Each row has a name and, among others, the value for which it
+// stands.
 template <class Row, class T>
 Words<T> words_of(const std::vector<Row>& rows, T Row::*value) {
   Words<T> words;
@@ -22,12 +22,12 @@ Words<T> words_of(const std::vector<Row>& rows, T Row::*value) {
   return words;
 }
 
-// Letters, digits, - and _: it stands in names of files, in topics and in XML.
+// Letters, digits, - and _: safe in file names, topics and XML.
 Check word_up_to(std::size_t longest);
-// South, west, north, east; the range of the numbers is the row's.
+// South, west, north, east. The row itself checks the range of the numbers.
 void check_area(const std::array<double, 4>& area_deg, const char* key, const ConfigTable& table);
 
-// Of the elements of an array of tables: refuses two of one name.
+// Refuses two elements of an array of tables with the same name.
 void check_distinct(const std::vector<std::string>& names, const char* array,
                     const ConfigTable& root);
 
@@ -45,7 +45,7 @@ Config load(const std::string& path, Section (*section)(Config&)) {
   return read(file, section);
 }
 
-// The same from text, `name` standing for the path in errors.
+// The same from text. Errors give `name` instead of the path.
 template <class Config>
 Config parse(const std::string& text, const std::string& name, Section (*section)(Config&)) {
   ConfigFile file(text, name);

@@ -50,14 +50,14 @@ enum class Presence {
 
 struct Row {
   std::string key, values, unit;  // values: the range or the choices
-  std::string fallback;           // as the file would write it
+  std::string fallback;           // as written in the file
   std::string sentence;
   std::function<void(ConfigTable&)> read;
   Presence presence = Presence::kOptional;
 
   Row required() && { return with(Presence::kRequired); }
   Row required_with_section() && { return with(Presence::kWithSection); }
-  // Where the default is derived from something else: a description.
+  // A description, where the default depends on something else.
   Row default_is(std::string words) && {
     fallback = std::move(words);
     return std::move(*this);
@@ -75,26 +75,26 @@ struct Section {
   std::string sentence;
   std::vector<Row> rows = {};
   std::vector<Section> sections = {};
-  // A check across rows; throws ConfigError. Runs after rows and sections are read.
+  // A check across rows, which throws ConfigError. Runs after rows and sections are read.
   std::function<void(ConfigTable&)> check = {};
-  // Of an array of tables: appends an element and returns its section.
+  // For an array of tables: appends an element and returns its section.
   std::function<Section()> append = {};
 };
 
 // Throws ConfigError for the first unknown key, missing key or bad value.
 void read(const Section& section, ConfigTable& table);
-// As Markdown: a heading and a table for the section and each nested one. `path`: of the parent
-// section.
+// Markdown: a heading and a table for the section and each nested one. `path`: the path of the
+// parent section.
 std::string markdown(const Section& section, const std::string& path = "");
-// As an example file: the rows of `values` ("ptu.baud" -> "9600"), in the order of the sections,
-// each with its sentence. Throws std::invalid_argument for a key that has no row.
+// An example file: the rows of `values` ("ptu.baud" -> "9600"), in the order of the sections, each
+// with its sentence. Throws std::invalid_argument for a key that has no row.
 std::string example(const Section& root,
                     const std::vector<std::pair<std::string, std::string>>& values);
 
 // Only the rows of these keys ("ptu.baud"), without the checks across rows. Throws
 // std::invalid_argument for a key that has no row.
 Section picked(const Section& root, const std::vector<std::string>& keys);
-// Of the section's rows, those whose keys the table states.
+// The keys of the section's rows that the table states.
 std::vector<std::string> stated(const Section& section, ConfigTable& table);
 
 using Check = std::function<void(const std::string&)>;  // throws std::invalid_argument
@@ -143,7 +143,7 @@ Row integer(std::string key, T& field, std::int64_t min, std::int64_t max, std::
       [&field](std::int64_t value) { field = static_cast<T>(value); }, std::move(sentence));
 }
 
-// A field of any type, by words for its values.
+// A field of any type, with words for its values.
 template <class T>
 Row word(std::string key, T& field, const Words<std::type_identity_t<T>>& words,
          std::string sentence) {

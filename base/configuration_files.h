@@ -1,5 +1,5 @@
-// The files NAME.toml in /etc/ols: those of the centre's programs, those that the site's root has
-// signed, and one for each station, whose name is any other. Pure.
+// The files NAME.toml in /etc/ols. Reserved names belong to the centre's programs and to files
+// signed by the site's root; any other name is a station's. Pure.
 #pragma once
 
 #include <algorithm>

@@ -1,10 +1,10 @@
-// The files that the offline programs read: stations.csv, bearings.csv; a surveyor's landmarks and
-// their sightings; a flight for the simulator. Degrees, as in the files. What they write is in
-// fix_writer.h.
+// The input files of the offline programs: stations.csv, bearings.csv; a surveyor's landmarks and
+// their sightings; a flight for the simulator. Angles are in degrees, as in the files. fix_writer.h
+// writes the output.
 //
 // Columns are found by the header's names, in any order; unknown ones are ignored. Numbers must be
-// plain decimal, finite and in range, ids without commas, quotes and control characters. Any bad
-// row is an error.
+// plain decimal, finite and in range. Ids must be free of commas, quotes and control characters.
+// Any bad row is an error.
 #pragma once
 
 #include <cstdint>
@@ -38,8 +38,8 @@ struct BearingRow {
   double azimuth_deg = 0.0;  // clockwise from true north, -360..360 is accepted
   double elevation_deg = 0.0;
   double sigma_deg = 0.0;  // 1-sigma of each axis, white
-  double belief = 1.0;     // 1 if the file has no such column
-  std::string target;      // empty if the file has no such column; an empty cell is "1"
+  double belief = 1.0;     // 1 without such a column
+  std::string target;      // empty without such a column; an empty cell is "1"
 };
 
 // A landmark before a base, as in the paper's Table 1.
@@ -76,11 +76,11 @@ struct SurveyRow {
 struct SightedRow {
   std::string landmark;
   double pan_deg = 0.0, tilt_deg = 0.0;  // as the PTU reports them
-  std::optional<double> x_px, y_px;      // both, or neither: where the optical axis meets it
+  std::optional<double> x_px, y_px;      // both, or neither: where the optical axis meets the image
   unsigned line = 0;                     // of the file
 };
 
-// A point of a recorded flight: a row of a trajectory file.
+// A point of a recorded flight: one row of a trajectory file.
 struct FlightRow {
   std::int64_t utime_us = 0;
   double latitude_deg = 0.0;
@@ -88,21 +88,21 @@ struct FlightRow {
   double height_m = 0.0;  // above the WGS84 ellipsoid
 };
 
-// At least one row; station ids are unique.
+// At least one row. Station ids are unique.
 std::vector<StationRow> read_stations(const std::string& path);
-// At least one row, in the order of the file; every row's station is one of `stations`. The first
-// form passes them on one by one: files of a million rows need not fit into memory.
+// At least one row, in the order of the file. Each row's station is one of `stations`. This form
+// passes the rows on one by one: a file of a million rows need not fit into memory.
 void for_each_bearing(const std::string& path, const std::vector<StationRow>& stations,
                       const std::function<void(const BearingRow&)>& take);
 std::vector<BearingRow> read_bearings(const std::string& path,
                                       const std::vector<StationRow>& stations);
 // At least one row.
 std::vector<LandmarkRow> read_landmarks(const std::string& path);
-// At least one row; names are unique.
+// At least one row. Names are unique.
 std::vector<SurveyRow> read_survey(const std::string& path);
-// At least one row; every row's landmark is one of `survey`.
+// At least one row. Each row's landmark is one of `survey`.
 std::vector<SightedRow> read_sighted(const std::string& path, const std::vector<SurveyRow>& survey);
-// At least two rows; utime_us grows.
+// At least two rows. utime_us ascends.
 std::vector<FlightRow> read_flight(const std::string& path);
 
 }  // namespace ols

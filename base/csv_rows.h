@@ -1,5 +1,5 @@
-// The rows of a CSV file, by the names of their columns: what base/csv_files.cpp and its like are
-// written with. Reads files.
+// Reads the rows of a CSV file by the names of their columns. The readers of base/csv_files.cpp and
+// similar files are built on it.
 #pragma once
 
 #include <algorithm>
@@ -17,20 +17,21 @@
 
 #include "base/csv_files.h"
 
-// Rows are few enough for one thread.
+// One thread suffices: the files have few rows.
 #define CSV_IO_NO_THREAD
 #include <libfccp/csv.h>
 
 namespace ols::csv {
 
-// The column names of a file: required ones first.
+// The column names of a file, required ones first.
 template <std::size_t kColumns>
 struct Header {
   std::array<const char*, kColumns> names;
   std::size_t required;
 };
 
-// One row: its place, for errors, and its cells by column; null where the file has no such column.
+// One row: its place, for errors, and its cells by column. A cell is null if the file has no such
+// column.
 template <std::size_t kColumns>
 class Row {
  public:
@@ -51,7 +52,7 @@ class Row {
     if (!has(column)) fail(column, "is empty");
     return cells_[column];
   }
-  // Ids are written to other files as they are.
+  // Ids are copied to other files unchanged.
   std::string id(std::size_t column) const {
     const std::string cell = text(column);
     const bool plain = std::ranges::none_of(
@@ -89,7 +90,7 @@ template <std::size_t kColumns>
 using Reader = io::CSVReader<kColumns, io::trim_chars<' ', '\t'>, io::double_quote_escape<',', '"'>,
                              io::throw_on_overflow, io::empty_line_comment>;
 
-// The column separator that a spreadsheet has used instead of a comma.
+// The column separator of a spreadsheet that does not use the comma.
 inline std::string other_separator(const std::string& path) {
   std::string header;
   std::getline(std::ifstream(path, std::ios::binary), header);
@@ -117,7 +118,7 @@ void read_header(Reader<kColumns>& reader, const std::string& path,
   }
 }
 
-// A file, its last line ended: the library reads past the end of one that is not.
+// A file whose last line is ended, because the library reads past the end of an unended one.
 class EndedLines : public io::ByteSourceBase {
  public:
   explicit EndedLines(const std::string& path) : path_(path), file_(path, std::ios::binary) {
@@ -130,7 +131,8 @@ class EndedLines : public io::ByteSourceBase {
     if (file_.bad()) throw CsvError(path_ + ": cannot be read");
     auto count = static_cast<int>(file_.gcount());
     if (count > 0) last_ = buffer[count - 1];
-    // With the file's end, not after it: of a file that fits into the buffer nothing more is read.
+    // Together with the file's end, not after it: if the file fits into the buffer, nothing more is
+    // read.
     if (count < size && last_ != '\n') buffer[count++] = last_ = '\n';
     return count;
   }
@@ -162,8 +164,8 @@ void for_each_row(const std::string& path, const Header<kColumns>& header, Take 
   }
 }
 
-// Latitude and longitude in two columns from `geodetic`, or zone, easting and northing in three
-// from `utm`. The zone is as "33N": its number and its hemisphere, not a band of latitude.
+// Latitude and longitude from two columns at `geodetic`, or zone, easting and northing from three
+// at `utm`. The zone is written as "33N": number and hemisphere, not the band of latitude.
 template <std::size_t kColumns>
 std::variant<GeodeticCells, UtmCells> place_of(const Row<kColumns>& row, std::size_t geodetic,
                                                std::size_t utm) {

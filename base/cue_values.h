@@ -1,5 +1,5 @@
-// What a cue from outside may say at all: judged where it is read, and again by the fusion, which
-// hears of it over the bus. Pure.
+// The valid values of a cue from outside. Checked where the cue is read, and again by the fusion
+// when it arrives over the bus. Pure.
 #pragma once
 
 #include <array>
@@ -16,8 +16,8 @@ struct CueValues {
 enum class CueFault {
   kNone,
   kNotFinite,
-  kOutOfRange,  // a latitude, a speed, a deviation that cannot be
-  kPole,        // there east and north mean nothing
+  kOutOfRange,  // an impossible latitude, speed or deviation
+  kPole,        // east and north are undefined there
 };
 CueFault fault_of(const CueValues& cue);
 

@@ -1,4 +1,4 @@
-// Writes fixes.csv row by row: a million of them need not be in memory.
+// Writes fixes.csv row by row, because a million rows need not fit into memory.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,7 @@ struct FixRow {
 
 class FixWriter {
  public:
-  // Until commit(), and on an error (std::system_error), the old file is left unchanged.
+  // The old file is unchanged until commit(), and after an error (std::system_error).
   explicit FixWriter(const std::string& path);
   void add(const FixRow& fix);
   void commit();

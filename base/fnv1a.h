@@ -1,5 +1,5 @@
-// FNV-1a (Fowler, Noll, Vo), 64 bits: a number for a text that is the same on every machine. It
-// finds accidents, and is no protection against a forger.
+// FNV-1a (Fowler, Noll, Vo), 64 bits: a hash of a text that is the same on every machine. It
+// detects accidents, not forgeries.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace ols {
 
-// `before`: of the text that this one goes on.
+// `before`: the hash of the text that this one continues.
 constexpr std::uint64_t fnv1a(std::string_view text, std::uint64_t before = 0xcbf29ce484222325U) {
   for (const char byte : text)
     before = (before ^ static_cast<unsigned char>(byte)) * 0x100000001b3U;

@@ -6,8 +6,8 @@
 
 namespace ols {
 
-// "10.0.0.11:7790" or "[fd00::11]:7790". Throws std::invalid_argument for anything else, also for
-// an address that stands for all of a computer's: nobody could look for it there.
+// "10.0.0.11:7790" or "[fd00::11]:7790". Throws std::invalid_argument for anything else, and for a
+// wildcard address: nobody can connect to it.
 boost::asio::ip::tcp::endpoint parse_endpoint(const std::string& text);
 
 }  // namespace ols

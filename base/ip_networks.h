@@ -1,4 +1,4 @@
-// Networks by which an address is allowed. Pure.
+// A list of networks that decides whether an address is allowed. Pure.
 #pragma once
 
 #include <boost/asio/ip/address.hpp>

@@ -1,6 +1,6 @@
-// A connection to the bus: LCM messages over UDP multicast, or within one process. Datagrams are
-// parsed by this project's own code (bus_datagram.h says why); LCM provides the types, the wire
-// format and the logs. The one place where a process signs and verifies (base/trust/bus_trust.h).
+// A connection to the bus: LCM messages over UDP multicast, or within one process. The project
+// parses datagrams itself (bus_datagram.h says why); LCM provides the types, the wire format and
+// the logs. All signing and verifying of a process is done here (base/trust/bus_trust.h).
 #pragma once
 
 #include <cstdint>
@@ -28,8 +28,8 @@ class LcmBus {
   using Handler = BusInbox::Handler;
   using Express = BusInbox::Express;
 
-  // Throws BusError, with advice, if the URL is malformed or there is no multicast route.
-  // `trust`: of the process, for all of its connections; null: nothing is signed or verified.
+  // Throws BusError, with advice, if the URL is malformed or there is no multicast route. trust:
+  // shared by all connections of the process; null: nothing is signed or verified.
   explicit LcmBus(const std::string& url, std::shared_ptr<trust::BusTrust> trust = {});
   ~LcmBus();
 
@@ -38,12 +38,12 @@ class LcmBus {
   void listen();
   static constexpr double kSelfTest_s = 3.0;
 
-  // The handler decodes, and counts undecodable messages.
+  // The handler decodes the message, and counts undecodable ones.
   void subscribe(const std::string& channel_regex, Handler handler, QueueLimits limits = {},
                  Express express = {});
 
-  // False if sending fails: the network is down. A message too large for a datagram is not sent but
-  // counted (BusTraffic::unsendable); that is not a network failure.
+  // False if sending fails because the network is down. A message too large for a datagram is not
+  // sent but counted (BusTraffic::unsendable); that is no network failure.
   template <class Message>
   bool publish(const std::string& channel, const Message& message) {
     std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
@@ -53,15 +53,15 @@ class LcmBus {
     return true;
   }
 
-  // Handles what has arrived, a few hundred messages at most, so that a flood cannot keep the
-  // caller; waits at most timeout_ms for the first. Returns the number of messages handled.
+  // Handles the messages that have arrived; waits at most timeout_ms for the first. Handles a few
+  // hundred at most, so that a flood cannot hold the caller. Returns their number.
   int handle(int timeout_ms);
 
-  // Stops receiving; queued messages can still be handled. A later subscription starts again.
+  // Stops receiving. Queued messages can still be handled. A later subscription starts again.
   void stop_listening();
 
-  // True if nothing has arrived for some seconds, not even this connection's own self test: an
-  // interface that disappears takes the group membership with it, without an error. This state is
+  // True if nothing has arrived for some seconds, not even this connection's own self-test: an
+  // interface that disappears takes the group membership with it, without an error. The state is
   // permanent; a new connection may receive again.
   bool is_deaf() const { return unanswered_ >= kUnanswered; }
 
@@ -77,22 +77,22 @@ class LcmBus {
 
   std::string url_;
   std::shared_ptr<trust::BusTrust> trust_;
-  std::unique_ptr<MulticastSocket> socket_;  // nothing: within this process
+  std::unique_ptr<MulticastSocket> socket_;  // null: within this process
   BusInbox inbox_;
   std::uint32_t sequence_ = 0;
   std::uint64_t unsendable_ = 0;
   Wakeup end_;
-  std::thread receiver_;  // shares the inbox and nothing else with the others
+  std::thread receiver_;  // shares only the inbox with the others
   static constexpr double kCheck_s = 2.0;
   static constexpr int kUnanswered = 2;  // self-tests in a row
   double checked_s_ = 0.0;
   std::uint64_t received_ = 0;  // at the last check
-  bool tested_ = false;         // at the last check: nothing had come since the one before
+  bool tested_ = false;         // at the last check: nothing had arrived since the one before
   int unanswered_ = 0;
 };
 
-// True when the whole of a datagram is one message of this type. Generated decoders throw on a
-// damaged length (std::length_error, std::bad_alloc); that is not a message either.
+// True if the whole datagram is one message of this type. Generated decoders throw on a damaged
+// length (std::length_error, std::bad_alloc): then it is no message either.
 template <class Message>
 bool decode_exactly(const void* data, int bytes, Message& message) {
   try {
@@ -108,7 +108,7 @@ bool decode_exactly(const BusMessage& received, Message& message) {
                         message);
 }
 
-// ... and of the schema that this program knows.
+// The same, and the schema number is the one that this program knows.
 template <class Message>
 bool decode_of_schema(const BusMessage& received, Message& message) {
   return decode_exactly(received, message) && message.schema_version == Message::SCHEMA_VERSION;

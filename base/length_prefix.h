@@ -1,4 +1,4 @@
-// Messages over a stream of bytes: each follows its length, four bytes, the most significant first.
+// Messages in a stream of bytes: each follows its length in four bytes, most significant first.
 // Pure.
 #pragma once
 
@@ -14,8 +14,8 @@ inline constexpr std::size_t kLengthPrefix_bytes = 4;
 using LengthPrefix = std::array<std::uint8_t, kLengthPrefix_bytes>;
 
 LengthPrefix length_prefix(std::uint32_t length);
-// Empty if the message is empty or longer than `max_bytes`: whoever sends this does not speak the
-// language, and where the next message begins is unknown.
+// nullopt if the message is empty or longer than `max_bytes`: the peer does not use this protocol,
+// and the start of the next message is unknown.
 std::optional<std::uint32_t> message_length(const LengthPrefix& prefix, std::uint32_t max_bytes);
 
 }  // namespace ols

@@ -1,4 +1,4 @@
-// The two sockets of a multicast bus: one that sends to the group, one that receives from it.
+// The two sockets of a multicast bus: one sends to the group, one receives from it.
 #pragma once
 
 #include <netinet/in.h>
@@ -16,7 +16,7 @@ namespace ols {
 
 class MulticastSocket {
  public:
-  // Throws std::system_error, also where no route leads to the group.
+  // Throws std::system_error, also if no route leads to the group.
   explicit MulticastSocket(const BusAddress& address);
   ~MulticastSocket();
   MulticastSocket(const MulticastSocket&) = delete;
@@ -26,14 +26,14 @@ class MulticastSocket {
   void listen();
   // Readable when a datagram waits; -1 before listen().
   int descriptor() const { return receiving_; }
-  // The next datagram, in `buffer`; nothing when none waits.
+  // The next datagram, in `buffer`; nullopt if none waits.
   std::optional<std::span<const std::uint8_t>> receive(std::span<std::uint8_t> buffer);
 
-  // Datagrams that the kernel dropped because nobody fetched those before them; known when the next
-  // one behind them is received. From any thread.
+  // Number of datagrams that the kernel dropped because the process did not fetch earlier ones in
+  // time. It is updated when the next datagram is received. From any thread.
   std::uint64_t dropped() const { return dropped_; }
 
-  // Why it could not be sent; no error when it was.
+  // Returns why the datagram could not be sent; no error if it was.
   std::error_code send(std::span<const std::uint8_t> datagram);
 
  private:
@@ -42,7 +42,7 @@ class MulticastSocket {
   BusAddress address_;
   int sending_ = -1;
   int receiving_ = -1;
-  std::uint32_t kernels_count_ = 0;  // of what it dropped; it starts again at 2^32
+  std::uint32_t kernels_count_ = 0;  // dropped datagrams as the kernel counts them, modulo 2^32
   std::atomic<std::uint64_t> dropped_ = 0;
 };
 

@@ -1,4 +1,4 @@
-// What a program writes into its journal: when each condition begins and ends, without flooding.
+// Limits a program's journal entries: the beginning and end of each condition, without flooding.
 // Pure.
 #pragma once
 
@@ -19,9 +19,9 @@ struct News {
 
 class NewsLimit {
  public:
-  // The entries to write now: the first kBurst of a key within kWindow_s. Of the others the last is
-  // written after the window, with the number left out, so that the end of a condition is always
-  // written. Must also be called when there is nothing new. `now_s`: monotonic.
+  // The entries to write now: the first kBurst of a key within kWindow_s. Of the others, only the
+  // last is written, after the window, with the number left out: so the end of a condition is
+  // always written. Call also when there is nothing new. `now_s`: monotonic.
   std::vector<JournalEvent> pass(const std::vector<News>& news, double now_s);
 
   static constexpr int kBurst = 4;

@@ -1,5 +1,5 @@
-// One word of state that survives a restart or a power loss. A missing file is information: the
-// previous state is unknown.
+// One word of state that survives a restart or a power loss. A missing file means that the previous
+// state is unknown.
 #pragma once
 
 #include <string>
@@ -11,18 +11,18 @@ namespace ols {
 
 // The result of reading the file at construction.
 enum class RestoreResult {
-  kKnown,       // one of the words
+  kKnown,       // one of the permitted words
   kNoFile,      // no file is configured: nothing is persisted
   kMissing,     // the file or its folder does not exist
   kUnreadable,  // it cannot be read, or holds another word
-  kUnwritable,  // it holds the first word, perhaps outdated: the disk does not take a new one
+  kUnwritable,  // it holds the first word, perhaps outdated: the disk cannot be written
 };
 
 class PersistedWord {
  public:
-  // `words`: the permitted words, the most permissive first. That one is trusted only after it was
-  // written again: on a disk that cannot be written, a later, stricter word may be missing. `file`
-  // empty: nothing is persisted. Waits for the disk, at most kProof_s.
+  // `words`: the permitted words, most permissive first. The first is trusted only after it was
+  // written again: on a disk that cannot be written, a later, stricter word may have been lost.
+  // `file` empty: nothing is persisted. Waits for the disk, at most kProof_s.
   PersistedWord(const std::string& file, std::vector<std::string> words);
 
   RestoreResult restore_result() const { return restore_result_; }
@@ -34,7 +34,7 @@ class PersistedWord {
   // written again.
   void set(const std::string& word);
 
-  // Why it cannot be written now; empty if it can.
+  // Why the file cannot be written now; empty if it can.
   std::string trouble() const { return file_.trouble(); }
 
  private:

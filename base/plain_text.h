@@ -1,4 +1,4 @@
-// Makes received text safe for a terminal, a journal or a page.
+// Makes received text safe for a terminal, the journal or a page.
 #pragma once
 
 #include <string>
@@ -6,8 +6,8 @@
 
 namespace ols {
 
-// Keeps printable UTF-8; every control character, escape, direction mark and damaged byte becomes
-// "?". The result is one line, and cannot move a cursor or hide text.
+// Keeps printable UTF-8. Every control character, escape, direction mark and damaged byte becomes
+// "?". The result is one line that cannot move a cursor or hide text.
 std::string plain_text(std::string_view text);
 
 }  // namespace ols

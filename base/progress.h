@@ -8,19 +8,19 @@
 
 namespace ols {
 
-// Told of long work: how many steps are done, and their total; 0: the total is unknown.
+// Receives the number of steps done and their total; 0: the total is unknown.
 using TellSteps = std::function<void(std::size_t done, std::size_t all)>;
 
-// Itself a TellSteps.
+// Can be used as a TellSteps.
 class Progress {
  public:
-  // "program: 120 of 900 frames after 10 s"; `steps` is the word for the steps.
+  // Prints "program: 120 of 900 frames after 10 s"; `steps` is the word "frames".
   Progress(std::string program, std::string steps);
-  // For tests: where the lines go, and the clock.
+  // For tests: the output stream and the clock.
   Progress(std::string program, std::string steps, std::ostream& out,
            std::function<double()> now_s);
 
-  // Called often.
+  // Call often.
   void operator()(std::size_t done, std::size_t all);
 
  private:

@@ -1,5 +1,5 @@
-// A line of SBS, which receivers of aircraft write: cells between commas, the first is the type
-// of the message. Pure.
+// One line of SBS, the format of aircraft receivers: cells separated by commas. The first is the
+// type of the message. Pure.
 #pragma once
 
 #include <cstddef>
@@ -11,14 +11,14 @@ namespace ols {
 
 class SbsLine {
  public:
-  // Cells with a use: when the message was made, as text, and what it says of the aircraft.
+  // The cells in use: the time of the message, as text, and the data of the aircraft.
   enum Cell : std::size_t {
     kType = 0,
     kAddress = 4,
     kDate = 6,
     kTime = 7,
     kCallsign = 10,
-    kHeightFt = 11,  // by pressure
+    kHeightFt = 11,  // pressure altitude
     kSpeedKt = 12,
     kTrackDeg = 13,
     kLatitudeDeg = 14,
@@ -30,9 +30,9 @@ class SbsLine {
 
   // Empty if the line has no such cell.
   const std::string& text(Cell cell) const;
-  // nullopt: it is empty, or no finite number.
+  // nullopt if the cell is empty or no finite number.
   std::optional<double> number(Cell cell) const;
-  // The aircraft's address, of six hexadecimal digits, in lower case; nullopt: there is none.
+  // The aircraft's address: six hexadecimal digits, in lower case; nullopt: none.
   std::optional<std::string> icao() const;
 
  private:

@@ -17,7 +17,7 @@ struct ServiceOptions {
 
 void add_service_options(CLI::App& app, ServiceOptions& options);
 
-// The configuration as its file and the options say. `load` throws ConfigError.
+// The configuration from the file and the options. `load` throws ConfigError.
 template <class Config>
 Config configuration_of(const ServiceOptions& options, Config (*load)(const std::string& path)) {
   Config config;
@@ -26,16 +26,16 @@ Config configuration_of(const ServiceOptions& options, Config (*load)(const std:
   return config;
 }
 
-// Whose fault an std::invalid_argument is: of who called the program, or of its own.
+// What caused an std::invalid_argument: bad input of the caller, or a failure of the program.
 enum class InvalidArgument { kBadInput, kFailure };
 
-// Runs `act` and logs by the program's name. The exit status: act's; 2 after bad input, which no
-// restart helps, with one line that says what; 1 after a failure.
+// Runs `act`, and logs under the program's name. Returns act's exit status; 2 after bad input,
+// which no restart helps, with one line that says what; 1 after a failure.
 int run_service(const std::string& program, InvalidArgument invalid,
                 const std::function<int()>& act);
 
-// Calls `turn` until the process is asked to end, and each status_s `status`, whose line the
-// service manager shows. Times: monotonic.
+// Calls `turn` until the process is asked to end, and `status` every status_s. The service manager
+// shows the line that `status` returns. Times: monotonic.
 void serve(ServiceNotifier& service_manager, double status_s,
            const std::function<void(double now_s)>& turn,
            const std::function<std::string()>& status);

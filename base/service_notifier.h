@@ -1,5 +1,5 @@
 // Notifies the service manager (systemd): ready, status line, watchdog of the control loop. Without
-// a service manager every call does nothing.
+// a service manager, every call does nothing.
 #pragma once
 
 #include <string>
@@ -11,11 +11,11 @@ class ServiceNotifier {
   // Reads NOTIFY_SOCKET, WATCHDOG_USEC and WATCHDOG_PID as systemd sets them.
   ServiceNotifier();
 
-  // The process serves from now on. `status` is the line that `systemctl status` shows.
+  // The process is ready. `status`: the line that `systemctl status` shows.
   void ready(const std::string& status);
   // Replaces the status line, for example by the active alarms.
   void status(const std::string& text);
-  // Call at each turn of the control loop, and from nowhere else: a loop that hangs must starve the
+  // Call at each turn of the control loop, and nowhere else: a loop that hangs must starve the
   // watchdog. Sends at most four times per watchdog interval. `now_s`: CLOCK_MONOTONIC.
   void alive(double now_s);
   void stopping();

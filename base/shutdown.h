@@ -1,4 +1,4 @@
-// An orderly end on SIGTERM and SIGINT.
+// Orderly shutdown on SIGTERM and SIGINT.
 #pragma once
 
 namespace ols {

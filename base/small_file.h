@@ -1,5 +1,5 @@
-// Reads a small file that another program may have replaced, for example by a pipe, without
-// blocking.
+// Reads a small file without blocking, even if another program has replaced it, for example by a
+// pipe.
 #pragma once
 
 #include <cstddef>
@@ -7,8 +7,8 @@
 
 namespace ols {
 
-// The whole of a plain file. Throws std::system_error that names it when it is not there, cannot be
-// read, is not a plain file (reading a pipe would block) or is larger than `most_bytes`.
+// The content of a plain file. Throws std::system_error naming the file if it does not exist,
+// cannot be read, is no plain file (reading a pipe would block) or is larger than `most_bytes`.
 std::string read_small_file(const std::string& path, std::size_t most_bytes);
 
 }  // namespace ols

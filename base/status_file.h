@@ -1,4 +1,4 @@
-// The file in which a program says how it is, for people and other programs: rewritten as a whole.
+// A program's status file, for people and other programs. It is rewritten as a whole.
 #pragma once
 
 #include <string>
@@ -7,10 +7,10 @@ namespace ols {
 
 class StatusFile {
  public:
-  // Empty: none.
+  // path: empty: no file.
   explicit StatusFile(std::string path);
 
-  // A line's end is added. A failure must not end the program: it is logged once.
+  // Appends a line's end. A failure must not end the program: it is logged once.
   void write(const std::string& text);
 
  private:

@@ -1,13 +1,13 @@
-// A peer that has lost its power says nothing any more: the kernel asks it from time to time, and
-// ends the connection when it does not answer.
+// Keepalive of a connection. A peer that has lost its power sends nothing any more; the kernel
+// probes it, and closes the connection if it does not answer.
 #pragma once
 
 namespace ols {
 
 struct TcpKeepalive {
-  int idle_s = 0;      // of silence, until the first question
-  int interval_s = 0;  // between two questions
-  int probes = 0;      // so many without an answer end the connection
+  int idle_s = 0;      // silence before the first probe
+  int interval_s = 0;  // between two probes
+  int probes = 0;      // this many without an answer close the connection
 };
 
 void keep_alive(int socket, const TcpKeepalive& keepalive);

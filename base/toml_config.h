@@ -26,10 +26,11 @@ class ConfigTable {
 
   bool exists() const;  // otherwise every key is absent
   bool has(std::string_view key) const;
-  // Throws ConfigError for the first key that is not one of these, with the most similar of them.
+  // Throws ConfigError for the first key that is not one of these; the error suggests the most
+  // similar one.
   void refuse_unknown(const std::vector<std::string>& known) const;
-  // Each getter returns `fallback` when the key is absent, and throws ConfigError when the value
-  // has another type, is not finite or is outside least..greatest.
+  // Each getter returns `fallback` if the key is absent. It throws ConfigError if the value has
+  // another type, is not finite or is outside least..greatest.
   double number(std::string_view key, double fallback, double least, double greatest);
   std::int64_t integer(std::string_view key, std::int64_t fallback, std::int64_t least,
                        std::int64_t greatest);
@@ -48,7 +49,7 @@ class ConfigTable {
   // An array of tables; empty when absent.
   std::vector<ConfigTable*> tables(std::string_view key);
 
-  // An error about this table's key, for checks of the caller's own.
+  // An error about this table's key, for the caller's own checks.
   [[nodiscard]] ConfigError error(std::string_view key, std::string_view what) const;
 
  private:
@@ -61,7 +62,7 @@ class ConfigTable {
 class ConfigFile {
  public:
   explicit ConfigFile(const std::string& path);
-  // The same from text, `name` standing for the path in errors.
+  // The same from text. Errors give `name` instead of the path.
   ConfigFile(std::string_view text, const std::string& name);
   ConfigTable& root() { return *root_; }
 

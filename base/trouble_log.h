@@ -1,5 +1,5 @@
-// Logs the troubles of a program's inputs or outputs: each when it begins, and when it has ended.
-// One that comes and goes is one trouble. Pure, but for the journal.
+// Logs the beginning and end of each trouble of a program's inputs or outputs. A trouble that comes
+// and goes counts as one. Pure except for the journal.
 #pragma once
 
 #include <map>
@@ -9,19 +9,19 @@ namespace ols {
 
 class TroubleLog {
  public:
-  // kind: "input", "output".
+  // kind: "input" or "output".
   explicit TroubleLog(std::string kind);
 
-  // Call regularly; trouble: empty: none. `now_s`: monotonic.
+  // Call regularly. `trouble` empty: none. `now_s`: monotonic.
   void look(const std::string& name, const std::string& trouble, double now_s);
 
-  // A trouble's end, or another in its place, is logged when it has lasted so long.
+  // The end of a trouble, or another one in its place, is logged after this time.
   static constexpr double kSettled_s = 10.0;
 
  private:
   struct Known {
     std::string logged, seen;
-    double since_s = 0.0;  // of `seen`
+    double since_s = 0.0;  // since when `seen` holds
   };
   const std::string kind_;
   std::map<std::string, Known> known_;

@@ -17,13 +17,13 @@ namespace ols::command {
 // Limits the memory that forged statuses with invented names can use.
 inline constexpr std::size_t kMostStationsHeard = 2000;
 
-// Nothing if it is not a status or not from the station of its channel. Its texts are made safe for
-// a terminal (base/plain_text.h).
+// nullopt if it is no status, or not from the station of its channel. Its texts are made safe for a
+// terminal (base/plain_text.h).
 std::optional<ols_msg::station_status_t> heard_status(const BusMessage& message);
 
 Reply reply_of(const ols_msg::station_status_t& status);
 
-// An order that was sent by whoever; nothing if it is none, or not for the station of its channel.
+// An order of any sender; nullopt if it is none, or not for the station of its channel.
 std::optional<Order> heard_order(const BusMessage& message);
 
 // The value of a counter in a status; 0 if it is missing.
@@ -31,16 +31,16 @@ double counter(const ols_msg::station_status_t& status, const std::string& name)
 
 const char* state_name(std::int8_t state);
 const char* device_name(std::int8_t device);
-// The state of a device by its name; "-" when the station has no such device.
+// The state of a device; "-" if the station has no such device.
 const char* device_state(const ols_msg::station_status_t& status, const std::string& name);
-// The version of the station's program, cut to a line; "-" if it does not say it.
+// The version of the station's program, cut to one line; "-" if it is not stated.
 std::string software(const ols_msg::station_status_t& status);
 // "synchronised", "unsynchronised", "unknown".
 const char* clock_name(std::int8_t state);
 // "none", "in use", "refused", "doubted".
 const char* calibration_name(std::int8_t state);
 
-// A cue as the fusion's status has it.
+// A cue from the fusion's status.
 struct FusionCue {
   std::string id, label, state;  // "waiting", "searched", "found", "forbidden"
   std::int64_t target_id = 0;
@@ -51,16 +51,16 @@ struct FusionCues {
   std::vector<FusionCue> cues;
   double orders_refused = 0.0;  // a counter
 };
-// Nothing if it is not a fusion's status. Its texts are made safe for a terminal.
+// nullopt if it is no fusion status. Its texts are made safe for a terminal.
 std::optional<FusionCues> heard_cues(const BusMessage& message);
 
-// An operator's word on a cue.
+// An operator's decision on a cue.
 struct CueOrder {
   std::string cue;
   bool allow = false;
 };
 
-// Sends orders under one boot id, each with a sequence of its own.
+// Sends orders under one boot id, each with its own sequence number.
 class OrderSender {
  public:
   explicit OrderSender(std::int64_t boot_id) : boot_id_(boot_id) {}

@@ -30,39 +30,40 @@ struct Order {
   std::string station = {};
   Kind kind = Kind::kStop;
   // kDesignate, kCentre, kLook: the frame's mid-exposure [us UTC], 0 for the newest, and the box,
-  // or the point alone, [px] in the full-resolution frame. kLook designates what is at the point.
+  // or only the point, [px] in the full-resolution frame. kLook designates the object at the point.
   std::int64_t frame_utime_us = 0;
   double x_px = 0.0, y_px = 0.0, width_px = 0.0, height_px = 0.0;
-  // kPoint: as the PTU counts them.
+  // kPoint: in the PTU's angles.
   double pan_rad = 0.0, tilt_rad = 0.0;
-  // kRate: of the PTU's angles; in force for its lease.
+  // kRate: rates of the PTU's angles, in force for the lease.
   double pan_rate_rad_s = 0.0, tilt_rate_rad_s = 0.0;
-  // kLens: positions, or rates for the lease; NaN: this axis goes on (lens_command_t).
+  // kLens: positions, or rates for the lease. NaN: no change of this axis (lens_command_t).
   bool lens_rates = false;
   double zoom = kNaN, focus = kNaN, iris = kNaN;
-  // kRecord: around now.
+  // kRecord: before and after the present.
   double before_s = 0.0, after_s = 0.0;
   std::string label = {};
 };
 
-// How long a station obeys an order after it was made, and hence how long its answer is awaited.
+// How long a station obeys an order after its creation, and therefore how long the sender waits for
+// the answer.
 inline constexpr double kLease_s = 2.0;
-// A station counts what it takes and refuses within this time at the latest: two status intervals.
+// A station counts accepted and refused orders within this time: two status intervals.
 inline constexpr double kTwoIntervals_s = 1.2;
-// A rate is repeated this often while the hand holds: two may get lost within its lease.
+// Interval at which a rate is repeated while the hand holds: two may get lost within its lease.
 inline constexpr double kRateAgain_s = 0.1;
-// The most that a station accepts: kRateLease_s of geometry/slew_limits.h.
+// The maximum that a station accepts: kRateLease_s of geometry/slew_limits.h.
 inline constexpr double kJoystickLease_s = 0.3;
-// A stop is repeated this often until its station confirms it: a flooded network loses some.
+// Interval at which a stop is repeated until its station confirms it: a flooded network loses some.
 inline constexpr double kStopAgain_s = 0.02;
 
-// A joystick's order: how long it moves the unit or the lens.
+// Whether it is a joystick's order, which moves the unit or the lens for a lease.
 bool is_joystick(const Order& order);
 double lease_s(const Order& order);
 
 // "reference_ok".
 std::string_view name(Kind kind);
-// The first part of the names of the station's counters.
+// The prefix of the station's counters for this order.
 std::string_view counted_as(Kind kind);
 std::optional<Kind> kind_named(std::string_view name);
 

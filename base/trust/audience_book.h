@@ -1,5 +1,5 @@
-// The boot of each station, from its verified statuses: what a command to it must name; and which
-// statuses that are not fresh may be its own. Pure.
+// The boot id of each station, from its verified statuses. A command must name it. Also decides
+// which old statuses may be a station's own. Pure.
 #pragma once
 
 #include <cstdint>
@@ -11,12 +11,12 @@ namespace ols::trust {
 
 class AudienceBook {
  public:
-  // A status was heard. `fresh`: its stamp agrees with this host's clock. The others count only if
-  // they may be the station's own.
+  // Takes a status. fresh: its stamp agrees with this host's clock. One that is not fresh counts
+  // only if may_be_own().
   void hear(std::string_view station, std::int64_t boot_id, bool fresh, double now_s);
-  // Whether a status that is not fresh may be the station's own: of one whose fresh statuses were
-  // heard within kPreferred_s, or within kReboot_s if it is of another boot, it is a recording. A
-  // host takes longer to boot, and only that loses its clock.
+  // Whether a status that is not fresh may be the station's own. It is a recording if fresh
+  // statuses of the same boot were heard within kPreferred_s, or of another boot within kReboot_s:
+  // a host takes longer to boot, and only a boot loses its clock.
   bool may_be_own(std::string_view station, std::int64_t boot_id, double now_s) const;
   static constexpr double kPreferred_s = 5.0, kReboot_s = 20.0;
 
@@ -30,7 +30,7 @@ class AudienceBook {
     std::int64_t fresh_boot_id = 0;
   };
 
-  std::map<std::string, Heard, std::less<>> stations_;  // enrolled ones
+  std::map<std::string, Heard, std::less<>> stations_;  // enrolled stations
 };
 
 }  // namespace ols::trust

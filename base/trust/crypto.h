@@ -1,5 +1,5 @@
-// The three functions of libsodium that the bus needs: Ed25519 signatures (RFC 8032), and BLAKE2b
-// (RFC 7693) with and without a key. Pure but for the drawing of keys.
+// The functions of libsodium that the bus needs: Ed25519 signatures (RFC 8032), and BLAKE2b (RFC
+// 7693) with and without a key. Pure, except for drawing keys.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ using Bytes = std::span<const std::uint8_t>;
 using PublicKey = std::array<std::uint8_t, 32>;
 using Seed = std::array<std::uint8_t, 32>;  // a private key
 using Signature = std::array<std::uint8_t, 64>;
-using SiteKey = std::array<std::uint8_t, 32>;  // that of the site tag: a secret of all members
+using SiteKey = std::array<std::uint8_t, 32>;  // of the site tag: a secret of all members
 using SiteTag = std::array<std::uint8_t, 8>;
 // The first bytes of a public key's BLAKE2b hash.
 using KeyId = std::array<std::uint8_t, 8>;
@@ -39,13 +39,13 @@ KeyId key_id(const PublicKey& key);
 
 std::array<std::uint8_t, 32> draw_secret();
 
-// Lower case; nothing if the text is not exactly this many bytes.
+// from_hex: nullopt if the text is not exactly this many bytes. to_hex: lower case.
 std::string to_hex(Bytes bytes);
 template <std::size_t Size>
 std::optional<std::array<std::uint8_t, Size>> from_hex(std::string_view text);
 
-// Six words that stand for a public key, to be compared by voice: 96 bits of its hash as proquints
-// (Wilkerson, arXiv:0901.4016).
+// Six words for a public key, to be compared by voice: 96 bits of its hash as proquints (Wilkerson,
+// arXiv:0901.4016).
 std::string spoken(const PublicKey& key);
 
 }  // namespace ols::trust

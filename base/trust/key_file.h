@@ -27,11 +27,11 @@ struct RootKey {
 };
 
 // Throw ConfigError, or std::system_error naming the file. A file that others can read is refused:
-// it is not a secret any more.
+// it is no longer a secret.
 MemberKey read_member_key(const std::string& path);
 RootKey read_root_key(const std::string& path);
 
-// Made anew with mode 0600; throw std::system_error when the file is there already.
+// Create the file with mode 0600. Throw std::system_error if it exists.
 void write_member_key(const std::string& path, const MemberKey& key);
 void write_root_key(const std::string& path, const RootKey& key);
 

@@ -1,5 +1,5 @@
-// The marks against replays (replay_marks.h) in a file, so that they outlast a restart. Says what
-// is wrong with it for as long as that matters.
+// Keeps the marks against replays (replay_marks.h) in a file, so that they survive a restart.
+// Reports its troubles for as long as they matter.
 #pragma once
 
 #include <cstddef>
@@ -14,20 +14,20 @@ namespace ols::trust {
 class MarksFile {
  public:
   static constexpr std::size_t kLargest = 20'000'000;  // [byte]
-  static constexpr int kSaid = 600;  // looks: of the watching thread, one a second
+  static constexpr int kSaid = 600;  // looks: the watching thread looks once a second
 
-  // An empty path: they are not kept. A file that could not be read is said for `said` looks.
+  // Empty path: nothing is kept. A file that could not be read is reported for `said` looks.
   explicit MarksFile(std::string path, int said = kSaid);
 
-  // At the start. A file that is not there is that of a first start.
+  // At the start. A missing file is normal at the first start.
   void read(ReplayMarks& marks);
-  // Whether there is anything new to write; from one thread, as write().
+  // Whether there is anything new to write. Called from the thread that calls write().
   bool is_behind(const ReplayMarks& marks) const;
   void write(const std::string& text, std::uint64_t revision);
-  // Once a second.
+  // Call once a second.
   void look();
 
-  // What a person should put right; empty: nothing.
+  // What a person should correct; empty: nothing.
   std::string trouble() const;
 
  private:
@@ -35,8 +35,8 @@ class MarksFile {
 
   const std::string path_;
   std::uint64_t written_ = 0;  // revision
-  mutable std::mutex mutex_;   // of what follows
-  int said_;                   // looks for which a file that could not be read is still said
+  mutable std::mutex mutex_;   // guards the following
+  int said_;                   // looks for which an unreadable file is still reported
   std::string lost_, unwritten_;
 };
 

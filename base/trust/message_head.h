@@ -1,4 +1,4 @@
-// What every message of the bus begins with, read without its type: when and by whom it was sent.
+// The beginning of every message of the bus, read without its type: when it was sent, and by whom.
 // Pure.
 #pragma once
 
@@ -11,19 +11,19 @@
 namespace ols::trust {
 
 enum class HeadForm {
-  kStationFirst,  // utime, schema, station, boot id, sequence: what a station says of itself
-  kBootFirst,     // utime, schema, boot id, sequence: commands, and what the fusion says
-  kUtimeOnly,     // utime: what the simulator says
+  kStationFirst,  // utime, schema, station, boot id, sequence: messages of a station
+  kBootFirst,     // utime, schema, boot id, sequence: commands, and messages of the fusion
+  kUtimeOnly,     // utime: messages of the simulator
 };
 
 struct MessageHead {
   std::int64_t utime_us = 0;
-  std::string_view station;  // empty but in kStationFirst
+  std::string_view station;  // empty except in kStationFirst
   std::int64_t boot_id = 0;
   std::int64_t sequence = 0;
 };
 
-// Nothing when the payload is too short for it.
+// nullopt if the payload is too short.
 std::optional<MessageHead> read_head(Bytes payload, HeadForm form);
 
 }  // namespace ols::trust

@@ -1,4 +1,4 @@
-// A token bucket: this many a second on average, a second's worth at once. Pure.
+// A token bucket: `rate` per second on average, with bursts of one second's worth. Pure.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@ class RateLimit {
  public:
   explicit RateLimit(double rate_hz) : rate_hz_(rate_hz), tokens_(rate_hz) {}
 
-  // Whether one more may pass now; `now_s`: monotonic. spend() takes it.
+  // Whether one more may pass now; spend() then takes it. `now_s`: monotonic.
   bool has(double now_s) {
     if (seen_s_ >= 0.0) {
       tokens_ = std::min(rate_hz_, tokens_ + std::max(0.0, now_s - seen_s_) * rate_hz_);

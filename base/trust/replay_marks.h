@@ -1,9 +1,10 @@
-// The sequences received from each key on each channel, so that no message is accepted twice. Pure.
+// The sequence numbers received from each key on each channel, so that no message is accepted
+// twice. Pure.
 //
 // A sender's sequence grows within its boot; datagrams may overtake each other by less than
-// kWindow. Each boot has a mark of its own, so that a recording of an earlier boot is refused
-// whatever the clocks say. Only the last kBoots boots are remembered; the messages of any other
-// must be stamped later than all that the forgotten ones have sent, unless the caller lets it pass.
+// kWindow. Each boot has its own mark: a recording of an earlier boot is refused whatever the
+// clocks say. Only the last kBoots boots are remembered. Messages of any other boot must be stamped
+// later than everything that the forgotten boots have sent, unless the caller allows them.
 #pragma once
 
 #include <cstddef>
@@ -23,15 +24,15 @@ class ReplayMarks {
   static constexpr std::uint64_t kWindow = 64;
   static constexpr std::size_t kBoots = 32;
 
-  // Whether it was heard, or might have been: of a boot that is forgotten.
+  // Whether the message was heard, or may have been: its boot is forgotten.
   bool is_replayed(const KeyId& key, const std::string& channel, const MessageHead& head) const;
-  // Whether it was heard from a boot that is remembered.
+  // Whether it was heard from a remembered boot.
   bool is_heard(const KeyId& key, const std::string& channel, const MessageHead& head) const;
-  // Only for a verified message that is no replay: so enrolled keys bound the number of streams.
+  // Call only for a verified message that is no replay: the enrolled keys then bound the number of
+  // streams.
   void note(const KeyId& key, const std::string& channel, const MessageHead& head);
 
-  // For a restart: one line a boot. read() ignores lines that are not such, and returns their
-  // number.
+  // For a restart: one line per boot. read() ignores invalid lines, and returns their number.
   std::string text() const;
   std::size_t read(const std::string& text);
   // Changes with each note.
@@ -43,11 +44,11 @@ class ReplayMarks {
     std::int64_t newest = 0;    // sequence
     std::uint64_t heard = 0;    // bit n: sequence newest - n
     std::int64_t utime_us = 0;  // the latest
-    std::uint64_t used = 0;     // revision at the last note
+    std::uint64_t used = 0;     // revision at its last note
   };
   struct Stream {
     std::vector<Mark> boots;
-    std::int64_t forgotten_utime_us = 0;  // the latest of all forgotten boots
+    std::int64_t forgotten_utime_us = 0;  // the latest stamp of all forgotten boots
   };
   using Name = std::pair<KeyId, std::string>;
 

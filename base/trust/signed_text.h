@@ -1,9 +1,9 @@
-// A text that the site's root has signed, as the trust list and the site's settings are:
+// A text signed by the site's root, such as the trust list and the site's settings:
 //
 //   …
 //   # signature …128 hexadecimal digits…
 //
-// The last line signs a word for the kind of text and all lines before it, byte by byte. Pure.
+// The signature covers a word for the kind of text and all lines before, byte by byte. Pure.
 #pragma once
 
 #include <string>
@@ -18,10 +18,10 @@ struct SignedText {
   Signature signature{};
 };
 
-// `name` stands for the file in errors. Throws ConfigError if it has no signature; whose that is,
-// is not looked at.
+// `name`: the file's name in errors. Throws ConfigError without a signature. Does not check whose
+// it is.
 SignedText split_signed(const std::string& text, const std::string& name);
-// Throws ConfigError if it is not this root's for this kind of text.
+// Throws ConfigError if it is not this root's signature for this kind of text.
 void require_signed(const SignedText& parts, std::string_view kind, const PublicKey& root,
                     const std::string& name);
 // `body` with its signature.

@@ -1,6 +1,6 @@
-// The settings that are the same on all hosts of a site, made at the centre by `ols-key settings`
-// and signed by the site's root. Each change has a higher number; a lower one never replaces a
-// higher one.
+// The settings that are the same on all hosts of a site. `ols-key settings` makes them at the
+// centre and signs them with the site's root key. Each change has a higher number; a lower one
+// never replaces a higher one.
 //
 //   site = "airfield"
 //   number = 3
@@ -10,7 +10,7 @@
 //   logic.slew_lease_max_s = 1.5
 //   # signature …128 hexadecimal digits…
 //
-// Members are no settings: the trust list has them. Pure.
+// Members are not settings: they are in the trust list. Pure.
 #pragma once
 
 #include <cstddef>
@@ -22,7 +22,7 @@
 
 namespace ols::trust {
 
-// What may be told on the bus: it fits into a datagram.
+// Max size on the bus: it fits into a datagram.
 inline constexpr std::size_t kLargestSettings = 60'000;
 
 struct SiteSettings {
@@ -30,20 +30,20 @@ struct SiteSettings {
   std::int64_t number = 0;  // 0: there are none
   PublicKey root{};
   std::string geoid;  // empty: not stated
-  std::string body;   // all lines but the signature's; its table [station] is the station's to read
+  std::string body;   // all lines but the signature; the station reads its table [station]
 };
 
-// Of settings whose origin is known: throws ConfigError for a value that cannot be used. `name`
-// stands for the file.
+// Checks settings of known origin: throws ConfigError for a value that cannot be used. `name`: the
+// file.
 using SettingsCheck = std::function<void(const SiteSettings&, const std::string& name)>;
 
-// `wanted`: what a person has written, without site, number and root. Throws ConfigError for keys
-// that are no settings.
+// `wanted`: a person's text, without site, number and root. Throws ConfigError for keys that are no
+// settings.
 std::string sign_settings(const SiteSettings& head, const std::string& wanted,
                           const std::string& name, const SigningKey& root);
-// Throws ConfigError if they are not settings that this root has signed.
+// Throws ConfigError if this root has not signed them as settings.
 SiteSettings read_settings(const std::string& text, const std::string& name, const PublicKey& root);
-// Of a person's text: geoid and [station] only. Throws ConfigError.
+// From a person's text: geoid and [station] only. Throws ConfigError.
 SiteSettings read_wanted_settings(const std::string& wanted, const std::string& name);
 
 }  // namespace ols::trust

@@ -8,7 +8,7 @@ struct Section;
 }
 namespace ols::trust {
 
-// kDefault: as the environment variable OLS_TRUST says; without it, off.
+// kDefault: the mode in the environment variable OLS_TRUST; without it, off.
 enum class Mode { kDefault, kOff, kObserve, kRequire };
 
 struct TrustConfig {
@@ -20,23 +20,24 @@ struct TrustConfig {
 
 config::Section trust_section(TrustConfig& config);
 
-// From the environment, if the configuration does not state it. The environment's variables, and
-// those of systemd, are passed in.
+// The environment's values, for what the configuration does not state. The variables, including
+// systemd's, are passed in.
 struct Environment {
   std::string mode{};         // OLS_TRUST
   std::string keys{};         // OLS_KEYS: a folder of NAME.key files, trust.toml, site.toml
-  std::string credentials{};  // CREDENTIALS_DIRECTORY: of systemd
-  std::string state{};        // STATE_DIRECTORY: of systemd
+  std::string credentials{};  // CREDENTIALS_DIRECTORY, from systemd
+  std::string state{};        // STATE_DIRECTORY, from systemd
 };
-// Throws std::invalid_argument for another word in OLS_TRUST.
+// Throws std::invalid_argument for an unknown word in OLS_TRUST.
 Mode mode_of(const TrustConfig& config, const Environment& environment);
-// `name`: of the member.
+// `name`: the member's name.
 std::string key_path(const TrustConfig& config, const Environment& environment,
                      const std::string& name);
 std::string list_path(const TrustConfig& config, const Environment& environment);
-// Of the site's settings: beside the list.
+// The site's settings: beside the list.
 std::string settings_path(const TrustConfig& config, const Environment& environment);
-// The file of what was received, for the next start; empty: none, without a folder of state.
+// The file that keeps received data for the next start; empty: none, because there is no state
+// folder.
 std::string kept_path(const Environment& environment, const std::string& what,
                       const std::string& name);
 

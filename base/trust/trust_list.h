@@ -1,5 +1,5 @@
-// Who belongs to a site: the members, their roles and public keys, signed by the site's root. Each
-// change gives the list a higher number; a lower number never replaces a higher one.
+// The members of a site, with their roles and public keys, signed by the site's root. Each change
+// gives the list a higher number; a lower number never replaces a higher one.
 //
 //   site = "airfield"
 //   number = 3
@@ -27,27 +27,27 @@
 namespace ols::trust {
 
 struct Member {
-  std::string name;  // of a station: its id
+  std::string name;  // for a station: its id
   Role role = Role::kListener;
   PublicKey key{};
   bool revoked = false;
-  std::string unknown_role{};  // its word, where this program does not know it
+  std::string unknown_role{};  // the word, if this program does not know it
 };
 
-// What may be told on the bus: it fits into a datagram. About 500 members.
+// Max size on the bus: it fits into a datagram. About 500 members.
 inline constexpr std::size_t kLargestList = 60'000;
 
 struct TrustList {
   std::string site;
   std::int64_t number = 0;
   PublicKey root{};
-  std::vector<Member> members;  // no two with one name, and none with another's key
+  std::vector<Member> members;  // names and keys are unique
 
-  // The member that is not revoked; null if there is none.
+  // The member if it is not revoked; otherwise null.
   const Member* find(std::string_view name) const;
-  // Of those that are not revoked, the stations' names.
+  // The names of the stations that are not revoked.
   std::vector<std::string> stations() const;
-  // "name (role), …" of those whose role this program does not know.
+  // "name (role), …" of the members whose role this program does not know.
   std::string strange_members() const;
   // "trust list 3: 4 members, revoked: bravo".
   std::string in_one_line() const;
@@ -55,10 +55,9 @@ struct TrustList {
 
 // The text of the file.
 std::string sign_list(const TrustList& list, const SigningKey& root);
-// `name` stands for the file in errors. Throws ConfigError if it is not a list that this root has
-// signed.
+// `name`: the file's name in errors. Throws ConfigError if it is not a list signed by this root.
 TrustList read_list(const std::string& text, const std::string& name, const PublicKey& root);
-// The same by the root that the list itself names: that is no proof of anything.
+// The same with the root that the list itself names, which proves nothing.
 TrustList read_list(const std::string& text, const std::string& name);
 
 }  // namespace ols::trust

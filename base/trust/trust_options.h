@@ -11,8 +11,8 @@
 
 namespace ols::trust {
 
-// Who has a key gives signed orders without saying so: a site that requires signatures obeys no
-// others, and one that does not ignores the trailer.
+// With a key, orders are signed by default: a site that requires signatures obeys no others, and
+// any other site ignores the trailer.
 inline void add_trust_options(CLI::App& app, TrustConfig& config) {
   const std::map<std::string, Mode> modes{
       {"off", Mode::kOff}, {"observe", Mode::kObserve}, {"require", Mode::kRequire}};

@@ -1,4 +1,4 @@
-// The keys that the files of this folder share, read with errors that name file, line and key.
+// Reads the keys that the files of this folder share. Errors name file, line and key.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@ namespace ols::trust {
 
 // 64 hexadecimal digits: a private or public key, or the site's secret.
 std::array<std::uint8_t, 32> read_hex(ConfigTable& table, const char* key);
-// As require_member_name().
+// Accepts the same names as require_member_name().
 std::string read_name(ConfigTable& table, const char* key);
 
 // Throws std::invalid_argument: 1 to 32 letters, digits, - and _.

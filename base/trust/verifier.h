@@ -1,7 +1,7 @@
-// Whether a message of the bus may be believed: signed by a member of the site whose role may send
-// it, for this process, now, and for the first time. The order of the checks is that of their cost:
-// what no stranger can make ends before anything costs, and a member's flood before its signatures
-// are verified. Pure.
+// Whether a message of the bus may be believed. It must be signed by a member of the site whose
+// role may send it, for this process, now, and for the first time. The checks are in the order of
+// their cost: strangers are refused before anything costs, and a member's flood before its
+// signatures are verified. Pure.
 #pragma once
 
 #include <cstddef>
@@ -25,16 +25,16 @@ namespace ols::trust {
 // Why a message is not believed; to_string() is part of its counter's name.
 enum class Distrust {
   kUnsigned,
-  kStranger,  // a key of no member, or a wrong site tag
+  kStranger,  // the key of no member, or a wrong site tag
   kRevoked,
-  kChannel,    // a channel that is not this member's, or of no enrolled station
+  kChannel,    // not this member's channel, or of no enrolled station
   kMalformed,  // signed, but no message
   kOtherBoot,  // a command that names another boot of this station, or none
   kStale,      // stamped too far from this host's clock
   kReplayed,
   kRate,  // more than a member may send on such channels
   kSignature,
-  kCount,  // not a reason: how many there are
+  kCount,  // not a reason: the number of reasons
 };
 const char* to_string(Distrust reason);
 
@@ -46,22 +46,22 @@ struct Arrival {
 class Verifier {
  public:
   struct Config {
-    std::string station{};     // whose commands must name this boot; empty: none
+    std::string station{};     // the station whose commands must name this boot; empty: none
     std::int64_t boot_id = 0;  // of this process
     std::int64_t clock_tolerance_us = 30'000'000;
-    // For who shows and commands stations: one whose clock is wrong can still be seen, and stopped.
-    // Beside its fresh ones they are recordings.
+    // For a process that shows and commands stations: a station with a wrong clock can still be
+    // seen and stopped. If there are fresh statuses too, the stale ones are recordings.
     bool takes_stale_statuses = false;
-    // Whether an order to a unit is a stop; empty: none is known.
+    // Whether an order to a unit is a stop; empty: unknown.
     std::function<bool(Bytes)> is_stop{};
   };
   struct Verdict {
     std::optional<Distrust> distrust{};
     std::string sender{};  // the member, if its key is known
-    // A command that names this boot. Of the others only a stop may be obeyed.
+    // Whether a command names this boot. If not, only a stop may be obeyed.
     bool addressed = false;
     const ChannelRule* rule = nullptr;  // of a message that may be believed
-    MessageHead head{};                 // of the same; views into it
+    MessageHead head{};                 // of the same message; views into it
   };
 
   // Without the site's secret the tags are not checked: for recordings, where no flood waits.
@@ -70,15 +70,15 @@ class Verifier {
   // `message`: as received, with its trailer.
   Verdict judge(std::string_view channel, Bytes message, const Arrival& arrival);
 
-  // Members keep their marks and rates.
+  // Members that stay keep their marks and rates.
   void adopt(const TrustList& list);
   ReplayMarks& marks() { return marks_; }
 
  private:
   struct Known {
     Member member;
-    std::vector<RateLimit> rates;  // of each rule
-    // Towards an enrolled station: of each rule that has such a limit, and of stops.
+    std::vector<RateLimit> rates;  // by rule
+    // Per enrolled station: for each rule with such a limit, and for stops.
     std::map<std::tuple<std::size_t, bool, std::string>, RateLimit> station_rates{};
   };
   struct Judged;
@@ -96,7 +96,7 @@ class Verifier {
   Config config_;
   std::optional<SiteKey> site_;
   std::map<KeyId, Known> members_;
-  std::map<std::string, bool, std::less<>> stations_;  // enrolled
+  std::map<std::string, bool, std::less<>> stations_;  // enrolled ones
   ReplayMarks marks_;
   AudienceBook statuses_;
 };
