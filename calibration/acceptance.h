@@ -1,5 +1,5 @@
 // Whether a calibration is good enough to be offered to a person: named findings, each with its
-// number and its limit. Nothing is accepted by itself.
+// number and its limit. Nothing is accepted automatically.
 #pragma once
 
 #include <optional>
@@ -12,13 +12,14 @@
 namespace ols::calibration {
 
 struct AcceptanceLimits {
-  double rms_arcsec = 15.0, worst_arcsec = 25.0;  // systematic, of an axis, over the volume
+  double rms_arcsec = 15.0, worst_arcsec = 25.0;  // systematic, per axis, over the working volume
   double detectable_arcsec = 30.0;                // of each reference
   double without_itself_sigma = 3.0;
   double without_itself_arcsec = 20.0;  // of a reference whose mistake would be found
   double closing_arcsec = 12.0;
-  double sweep_px = 0.35, stars_px = 0.3;  // RMS of a coordinate's residual
-  int sectors = 3;                         // of azimuth, of 60 deg each, with a reference
+  double sweep_px = 0.35, stars_px = 0.3;  // RMS residual of a coordinate
+  int sectors = 3;                         // number of 60 deg sectors of azimuth that contain a
+                                           // reference
   double elevation_deg = 10.0;             // from the lowest reference to the highest
 };
 
@@ -31,19 +32,18 @@ struct Finding {
   std::string sentence;  // for a person
 };
 
-// "good", "unchecked", "bad"
 const char* to_string(Finding::Judgement judgement);
 
 struct Acceptance {
   std::vector<Finding> findings;
-  // Where the references allow the calibration to be used.
+  // The directions in which the references allow the calibration to be used.
   WorkingVolume volume;
   bool volume_is_cut = false;
   bool acceptable() const;  // no finding is bad
 };
 
-// Of an instrument without a setup: whether what was observed fits what was known of it, in its
-// residuals and in lens and gears. Nothing is said of a direction.
+// Judges an instrument without a setup: whether the observations fit what was known of it, by their
+// residuals and by lens and gears. It judges no direction.
 Acceptance judge_instrument(const Problem& problem, const Adjustment& adjustment,
                             const Calibration& found, std::size_t station,
                             const AcceptanceLimits& limits = {});

@@ -1,5 +1,5 @@
-// The least-squares adjustment of a network: damped normal equations (Levenberg and Marquardt) on
-// the globals, each block's nuisance eliminated.
+// The least-squares adjustment of a network: damped normal equations (Levenberg and Marquardt) for
+// the globals, with the nuisance of each block eliminated.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,8 +12,8 @@ namespace ols::calibration {
 struct Fit {
   std::vector<bool> kept;  // by group
   State state;
-  std::vector<BlockEquations> equations;  // of all blocks at the state, also of rejected groups
-  Eigen::MatrixXd covariance;             // of the globals; 0 for what is known exactly
+  std::vector<BlockEquations> equations;  // of all blocks at the state, rejected groups included
+  Eigen::MatrixXd covariance;             // of the globals; 0 for a value that is known exactly
   double misfit = 0.0;                    // of the kept groups and the priors
   bool converged = false;
 };
@@ -24,13 +24,13 @@ class Adjustment {
 
   const Network& network() const { return network_; }
   const std::vector<Group>& groups() const { return network_.groups; }
-  // As the priors have it, but for the headings.
+  // The state of the priors, with these headings.
   State start(const std::vector<double>& headings_rad) const;
   Fit fit(State start, const std::vector<bool>& kept) const;
-  // What all groups together would leave of a station's parameters, if everything were as the
-  // priors have it: no pixel counts. Infinite where a target could not be seen.
+  // The covariance of a station's parameters that all groups together would leave, if everything
+  // were as in the priors. No pixel is used. Infinite if a target could not be seen.
   StationMatrix planned_covariance(std::size_t station) const;
-  // A group's equations, its blocks' summed, over the columns of all of them.
+  // A group's equations: the sum of its blocks', over the columns of all of them.
   BlockEquations equations(const Fit& fit, std::size_t group) const;
 
  private:

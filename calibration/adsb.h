@@ -1,5 +1,5 @@
-// Positions that aircraft announce themselves, from the messages of their transponders: ADS-B,
-// extended squitter (ICAO Annex 10 Volume IV; RTCA DO-260B; J. Sun, The 1090 Megahertz Riddle).
+// Positions that aircraft broadcast with their transponders: ADS-B, extended squitter (ICAO Annex
+// 10 Volume IV; RTCA DO-260B; J. Sun, The 1090 Megahertz Riddle).
 #pragma once
 
 #include <array>
@@ -23,13 +23,13 @@ bool has_right_parity(std::span<const std::uint8_t> message);
 
 class AdsbDecoder {
  public:
-  // A message of 14 bytes. Gives the position that it completes, if any: an even and an odd one
-  // within ten seconds, and a height above the ellipsoid, announced itself or as the difference to
-  // the barometric one.
+  // Takes a message of 14 bytes, and returns the position that it completes, if any. A position
+  // needs an even and an odd message within ten seconds, and a height above the ellipsoid:
+  // broadcast itself, or as the difference to the barometric height.
   std::optional<AircraftPosition> take(std::span<const std::uint8_t> message,
                                        std::int64_t utime_us);
 
-  // Positions that were lost because the aircraft announces its barometric height alone.
+  // Number of positions lost because the aircraft broadcasts only its barometric height.
   int barometric_only() const { return barometric_only_; }
 
  private:
@@ -40,7 +40,7 @@ class AdsbDecoder {
   };
   struct Aircraft {
     std::array<std::optional<Half>, 2> halves;  // even, odd
-    std::optional<double> above_barometric_m;   // of the ellipsoidal height
+    std::optional<double> above_barometric_m;   // ellipsoidal minus barometric height
     std::int64_t difference_utime_us = 0;
   };
   void take_velocity(Aircraft& aircraft, std::span<const std::uint8_t> payload,

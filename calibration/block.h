@@ -1,6 +1,6 @@
-// A block of an adjustment: observations that share a nuisance of their own, or a prior. It
-// eliminates the nuisance and hands in its information, gradient and squares (Schur complement), so
-// that a block can be added, left out and tested as one.
+// A block of an adjustment: observations that share a nuisance, or a prior. It eliminates its
+// nuisance (Schur complement) and returns information, gradient and squares. A block can therefore
+// be added, left out and tested as one.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,22 +14,22 @@ namespace ols::calibration {
 
 // At a state, in the natural units of the globals.
 struct BlockEquations {
-  std::vector<int> columns;     // of the globals; the rows below are theirs
+  std::vector<int> columns;     // indices of the globals; the rows below belong to them
   Eigen::MatrixXd information;  // J' W J, nuisance eliminated
   Eigen::VectorXd gradient;     // J' W v
-  double squares = 0.0;         // v' W v, with the nuisance that suits the state best
-  double misfit = 0.0;          // v' W v with the nuisance of the state
-  // What the nuisance does when the globals change by dx: -(nuisance_step + nuisance_by dx).
+  double squares = 0.0;         // v' W v, with the nuisance that fits the state best
+  double misfit = 0.0;          // v' W v, with the nuisance of the state
+  // The change of the nuisance for a change dx of the globals: -(nuisance_step + nuisance_by dx).
   Eigen::VectorXd nuisance_step;
   Eigen::MatrixXd nuisance_by;
   // For a shift of the target by one radian as seen from the station, across and up.
   Eigen::Matrix2d shift_information = Eigen::Matrix2d::Zero();
   Eigen::Matrix<double, Eigen::Dynamic, 2> shift_by;
   Eigen::Vector2d shift_gradient = Eigen::Vector2d::Zero();
-  // By sighting [px], in the order of the block's.
+  // By sighting [px], in the order of the block.
   std::vector<Eigen::Vector2d> residuals;
-  std::vector<double> weights;  // below 1: a scene point that a robust weight holds back
-  bool valid = true;            // false: a target is behind the camera or outside of the lens model
+  std::vector<double> weights;  // below 1: a scene point that a robust weight reduces
+  bool valid = true;            // false: a target is behind the camera or outside the lens model
 };
 
 class Block;
@@ -42,12 +42,12 @@ class Block {
   virtual Eigen::VectorXd initial(const State&) const { return Eigen::VectorXd(0); }
   // `damping`: of Levenberg and Marquardt, for the nuisance.
   virtual BlockEquations equations(const State& state, std::size_t block, double damping) const = 0;
-  // The heading of its station with which the block's first sighting is where its target is.
+  // The heading of the block's station at which its first sighting hits its target.
   virtual std::optional<double> heading(const State&, std::size_t) const { return std::nullopt; }
-  // The block with what one station has sighted of its target; none, if that is nothing.
+  // The block with the sightings of one station only; null if there are none.
   virtual BlockPtr of_station(std::size_t) const { return nullptr; }
-  // Of a target's block: how many sightings it has; the block with some of them, by their number;
-  // and, over the same columns, its equations without each of them.
+  // For a target's block: the number of its sightings; the block with some of them, by index; and,
+  // over the same columns, its equations without each of them.
   virtual std::size_t sighting_count() const { return 0; }
   virtual BlockPtr with_only(const std::vector<std::size_t>&) const { return nullptr; }
   virtual std::vector<BlockEquations> without_each(const State&, std::size_t) const { return {}; }
@@ -55,22 +55,22 @@ class Block {
 
 struct PixelBlockConfig {
   Layout layout;
-  std::vector<double> pose_sd_rad;  // by station: of a pose that only one sighting has
+  std::vector<double> pose_sd_rad;  // by station: of a pose with only one sighting
   bool robust = false;
-  bool absolute = true;  // its target is where somebody has said
+  bool absolute = true;  // a person has stated where its target is
 };
 BlockPtr pixel_block(TargetPtr target, std::vector<Sighting> sightings,
                      const PixelBlockConfig& config);
 // The readings of one station's inclinometer; its zero is the nuisance.
 BlockPtr level_block(const Layout& layout, std::vector<Observation> readings);
-// The prior of a station's parameters; of UT1; of a shared pose's angles.
+// The priors of a station's parameters, of UT1, and of a shared pose's angles.
 BlockPtr station_prior_block(const Layout& layout, std::size_t station,
                              const StationMatrix& covariance);
 BlockPtr ut1_prior_block(const Layout& layout, double sd_s);
 BlockPtr pose_prior_block(const Layout& layout, std::size_t pose, double sd_rad);
 
-// N, b and the squares of a block's normal equations over (columns, shift, nuisance): the nuisance,
-// the last `nuisance` rows, is eliminated. `shift` is 2 or 0.
+// Eliminates the nuisance, the last rows, from a block's normal equations N, b and squares over
+// (columns, shift, nuisance). `shift` is 2 or 0.
 BlockEquations eliminated(const Eigen::MatrixXd& N, const Eigen::VectorXd& b, double squares,
                           Eigen::Index columns, Eigen::Index shift, double damping);
 

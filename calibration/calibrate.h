@@ -1,10 +1,10 @@
-// A whole calibration: the headings to begin with, the adjustment, and its tests by data snooping
-// (W. Baarda, A Testing Procedure for Use in Geodetic Networks, 1968).
+// A whole calibration: the initial headings, the adjustment, and its tests by data snooping (W.
+// Baarda, A Testing Procedure for Use in Geodetic Networks, 1968).
 //
 // Each group of observations is tested against all others at once, with both components of all its
-// sightings. Starting from the headings on which most groups agree, groups that fail are rejected
-// one by one, the worst first, and rejected ones that pass are taken back. Scene points are not
-// tested; a robust weight holds back those that do not fit.
+// sightings. The search starts from the headings on which most groups agree. Groups that fail are
+// rejected one by one, the worst first; rejected ones that pass are taken back. Scene points are
+// not tested: a robust weight reduces those that do not fit.
 #pragma once
 
 #include <functional>
@@ -16,15 +16,15 @@
 namespace ols::calibration {
 
 struct Levels {
-  double mistaken = 1e-3;  // of the tests of all groups together
-  double misfit = 0.05;    // of the global test
+  double mistaken = 1e-3;  // for the tests of all groups together
+  double misfit = 0.05;    // for the global test
 };
 
 struct GroupTest {
   bool rejected = false;
   double w = 0.0;  // root of a chi-square with the group's degrees of freedom
   double critical = 0.0;
-  // Minimal detectable bias (power 80 %) of the direction to the target: across, up; infinite where
+  // Minimal detectable bias (power 80 %) of the direction to the target: across, up. Infinite where
   // the others do not check it.
   Eigen::Vector2d detectable_rad = Eigen::Vector2d::Zero();
 };
@@ -40,26 +40,26 @@ struct Calibration {
   Fit fit;
   std::vector<GroupTest> tests;  // by group
   ModelTest global;
-  // [px] by observation: measured less adjusted; nothing for what was not used.
+  // [px] by observation: measured minus adjusted; nullopt for an unused observation.
   std::vector<std::optional<Eigen::Vector2d>> residuals;
-  std::vector<std::string> remarks;  // what a person should look at, as sentences
-  // Of one station's parameters, enlarged by the variance factor if the global test fails.
+  std::vector<std::string> remarks;  // sentences for a person to check
+  // Of one station's parameters; includes the variance factor if the global test fails.
   StationMatrix covariance(const Network& network, std::size_t station) const;
-  double scaled_by = 1.0;  // the deviations
-  // Not where rectification targets or scenery were sighted and nothing that tells where the
-  // stations look: then only the instruments are a result.
+  double scaled_by = 1.0;  // factor of the deviations
+  // False if only rectification targets or scenery were sighted, which do not tell where the
+  // stations look. Then only the instruments are a result.
   bool headings_known = true;
 };
 
-// The observations contradict each other, and not so that a minority can be named.
+// The observations contradict each other, and no minority can be named as the cause.
 class Contradiction : public std::invalid_argument {
   using std::invalid_argument::invalid_argument;
 };
 
 using TellAdjusted = std::function<void()>;
 
-// Contradiction; std::invalid_argument where a heading stays unknown. `tell` is called after each
-// adjustment on the way.
+// Throws Contradiction, and std::invalid_argument if a heading stays unknown. `tell` is called
+// after each adjustment.
 Calibration calibrate(const Adjustment& adjustment, const Levels& levels = {},
                       const TellAdjusted& tell = {});
 

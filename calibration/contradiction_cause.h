@@ -1,4 +1,4 @@
-// Why observations contradict each other: the one mistake without which all of them agree.
+// Finds why observations contradict each other: the one mistake without which all of them agree.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace ols::calibration {
 
-// A sentence for each mistake that would explain all of them: two landmarks that were taken for
-// each other, a sign of the station's position. Empty where there is none.
+// One sentence for each mistake that would explain everything: two landmarks taken for each other,
+// or a wrong sign in the station's position. Empty if there is none.
 std::vector<std::string> causes_of_contradiction(const Problem& problem, const Levels& levels = {});
 
 }  // namespace ols::calibration

@@ -1,4 +1,4 @@
-// Two references that were taken for each other.
+// Finds two references that were taken for each other.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace ols::calibration {
 
-// A sentence for each two rejected landmarks that agree with all others once their places are
+// One sentence for each pair of rejected landmarks that agree with all others once their places are
 // exchanged.
 std::vector<std::string> exchanged_landmarks(const Problem& problem, const Adjustment& adjustment,
                                              const Calibration& found, const Levels& levels = {});

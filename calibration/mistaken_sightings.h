@@ -1,9 +1,9 @@
-// Single sightings of what was followed (drones, aircraft, tracks) that contradict all others.
+// Finds single sightings of followed objects (drones, aircraft, tracks) that contradict all others.
 //
-// The sightings of a drone share an offset, so that they are one group; but a detection that sat on
-// a bird for one picture does not make the drone's positions wrong. Each sighting, of a track each
-// instant, is tested against everything else, beside the groups, and the worst one that fails goes
-// first. Where more than a third of a group's sightings fail it is the group that is mistaken, and
+// The sightings of a drone share an offset, so they are one group. But a detection that sat on a
+// bird in one picture does not make the drone's positions wrong. Each sighting (of a track: each
+// instant) is therefore tested against everything else, beside the groups. The worst one that fails
+// is removed first. If more than a third of a group's sightings fail, the group itself is mistaken;
 // that is left to calibrate().
 #pragma once
 
@@ -14,11 +14,11 @@
 
 namespace ols::calibration {
 
-// Observations, by their index. Empty where there is nothing of the kind. `tell`: as calibrate().
+// Indices of observations. Empty if there are none. `tell`: as for calibrate().
 std::set<std::size_t> mistaken_sightings(const Network& network, const Levels& levels = {},
                                          const TellAdjusted& tell = {});
 
-// The network without these sightings of followed targets; its blocks keep their numbers.
+// The network without these sightings of followed targets. Its blocks keep their numbers.
 Network without(const Network& network, const std::set<std::size_t>& observations);
 
 }  // namespace ols::calibration

@@ -1,4 +1,4 @@
-// Gives stars that were observed without a name theirs.
+// Identifies stars that were observed without a name.
 #pragma once
 
 #include <stdexcept>
@@ -9,19 +9,19 @@
 
 namespace ols::calibration {
 
-// The stars of a station could not be identified; the text says why.
+// The stars of a station could not be identified; what() says why.
 class StarsUnidentified : public std::invalid_argument {
   using std::invalid_argument::invalid_argument;
 };
 
 struct NamedStars {
-  std::vector<std::string> remarks;     // of each station, what was found
+  std::vector<std::string> remarks;     // per station, what was found
   std::vector<std::size_t> false_ones;  // indices of observations that show no star of the table
 };
 
-// Star observations without a reference get one, and every "HIP n" that the references do not have
+// Star observations without a reference get one. Every "HIP n" that is missing in the references
 // gets its place from the table. Observations of one station, reading and time are one frame. The
-// false ones keep no name, and must be left out. StarsUnidentified.
+// false ones get no name and must be left out. Throws StarsUnidentified.
 NamedStars name_stars(Problem& problem);
 
 }  // namespace ols::calibration

@@ -1,4 +1,4 @@
-// What was observed, and what it refers to: the inputs of a calibration.
+// The inputs of a calibration: the observations, and the references to which they refer.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,7 +18,7 @@ enum class Kind {
   kLandmark,
   kStar,
   kSun,
-  kScene,  // a point of the scenery, wherever it is
+  kScene,  // a point of the scenery, at an unknown place
   kStation,
   kAircraft,
   kDrone,
@@ -32,18 +32,18 @@ enum class Kind {
 inline bool is_rectification_target(Kind kind) {
   return kind == Kind::kLevelLine || kind == Kind::kCross || kind == Kind::kRuler;
 }
-// As in the files: "landmark".
+// As in the files, for example "landmark".
 const char* name(Kind kind);
 std::optional<Kind> kind_of(const std::string& name);
 
-// What a person states of a rectification target.
+// The data of a rectification target that a person states.
 struct TargetFacts {
   Eigen::Vector2d second_px = Eigen::Vector2d::Zero();  // of a level line: another pixel of it
-  double distance_m = 0.0;                              // from the pan axis; of a cross, a ruler
-  // Of a cross: to the right of the plane that is square to the tilt axis and contains the pan
-  // axis. Of a ruler: the reading at the pixel, growing upwards; all have their zeros level.
+  double distance_m = 0.0;                              // from the pan axis; of a cross or a ruler
+  // Of a cross: to the right of the plane that contains the pan axis and is perpendicular to the
+  // tilt axis. Of a ruler: the reading at the pixel, growing upwards; all zeros are level.
   double offset_m = 0.0;
-  double sd = 0.0;  // of a line's level [rad]; of a cross's place, of a ruler's zero [m]
+  double sd = 0.0;  // of a line's level [rad]; of a cross's place or a ruler's zero [m]
 };
 
 struct Observation {
@@ -52,11 +52,12 @@ struct Observation {
   std::optional<std::int64_t> pose;  // sightings of one pose share the errors of its two angles
   std::int64_t utime_us = 0;         // UTC
   UnitReading reading;
-  bool sides_stated = true;  // whether the approach of both angles was; else it is taken as 1
+  bool sides_stated = true;  // whether the approach of both angles was stated; otherwise it is
+                             // taken as 1
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
   double sd_px = 0.0;     // of each coordinate
-  std::string reference;  // a name; of a scene point its number
-  // An inclinometer's: inclination about X and Y of ORIGIN [rad], and how well its zero is known.
+  std::string reference;  // a name; of a scene point, its number
+  // Of an inclinometer: inclination about X and Y of ORIGIN [rad], and 1-sigma of its zero.
   Eigen::Vector2d tilt_rad = Eigen::Vector2d::Zero();
   double tilt_sd_rad = 0.0;
   double zero_sd_rad = 0.0;
@@ -70,15 +71,15 @@ struct FixedPoint {
   double sd_m = 0.0;                               // of each axis
 };
 
-// ICRS, at 2000.0.
+// ICRS, at epoch 2000.0.
 struct Star {
   double ra_rad = 0.0, dec_rad = 0.0;
-  double pm_ra_rad_yr = 0.0;  // times the cosine of the declination, as catalogues have it
+  double pm_ra_rad_yr = 0.0;  // times the cosine of the declination, as in catalogues
   double pm_dec_rad_yr = 0.0;
   double parallax_arcsec = 0.0;
 };
 
-// Positions in time of an aircraft or a drone; the instants grow.
+// Positions of an aircraft or a drone over time, in ascending order.
 struct Trajectory {
   struct Point {
     std::int64_t utime_us = 0;
@@ -91,14 +92,14 @@ struct Trajectory {
 using Reference = std::variant<FixedPoint, Star, Trajectory>;
 using References = std::map<std::string, Reference>;
 
-// An observation that cannot be used: by its index among all of them.
+// An observation that cannot be used, by its index.
 class ObservationRefused : public std::invalid_argument {
  public:
   ObservationRefused(std::size_t index, const std::string& key, const std::string& why,
                      std::optional<std::size_t> other = std::nullopt)
       : std::invalid_argument(key + ": " + why), index_(index), other_(other) {}
   std::size_t index() const { return index_; }
-  // With which it is at odds.
+  // The observation that it contradicts.
   std::optional<std::size_t> other() const { return other_; }
 
  private:

@@ -1,4 +1,4 @@
-// How far an adjustment has moved a parameter from what was known of it.
+// How far an adjustment has moved a parameter from its prior.
 #pragma once
 
 #include "calibration/calibrate.h"
@@ -6,14 +6,14 @@
 namespace ols::calibration {
 
 struct ParameterChange {
-  double by = 0.0;  // found less known
-  // Of `by`, if what was known and what was observed agree: the variance that the adjustment has
-  // taken off.
+  double by = 0.0;  // found minus known
+  // 1-sigma of `by` if prior and observations agree: the root of the variance that the adjustment
+  // has removed.
   double sd = 0.0;
-  // Else the observations say next to nothing of it.
+  // False: the observations say almost nothing of the parameter.
   bool is_told = false;
   double sigmas() const;
-  // More than agreement allows, once in a thousand.
+  // More than agreement explains with a probability of one in a thousand.
   bool is_large() const;
 };
 

@@ -1,4 +1,4 @@
-// The parameters of an adjustment: those of geometry/station_model.h, and what the air adds.
+// The parameters of an adjustment: those of geometry/station_model.h, and those of the air.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,16 +21,16 @@ struct ParameterText {
   const char* key;       // in every file, with its unit: "mount_z_deg"
   bool is_angle;         // degrees in the file, radians here
   double new_unit_sd;    // 1-sigma of a unit that no workshop has measured; focal: of fx
-  const char* sentence;  // what it is
+  const char* sentence;  // its meaning
 };
 // In the order of Parameter.
 const std::array<ParameterText, kStationParameters>& parameter_texts();
 
-// From the unit of the file to that inside.
+// Converts from the file's unit to the internal one.
 double from_file(int parameter, double value);
 double to_file(int parameter, double value);
 
-// The instrument's parameters as they stand in a model.
+// The instrument's parameters of a model.
 InstrumentVector instrument_of(const StationModel& model);
 
 }  // namespace ols::calibration

@@ -1,5 +1,5 @@
-// What the paper's rectification (section 4.2) is after: three angles between camera and unit,
-// from an adjustment in which its targets are observations as any others.
+// The results of the paper's rectification (section 4.2): three angles between camera and unit,
+// from an adjustment in which its targets are ordinary observations.
 #pragma once
 
 #include <vector>
@@ -10,10 +10,11 @@ namespace ols::calibration {
 
 struct RectifiedAngle {
   enum class Kind {
-    kRoll,     // of the image against the horizon, where the level line was seen; right side
-               // down > 0
-    kAzimuth,  // of the image's middle against the plane square to the tilt axis; to the right > 0
-    kElevation,  // of the image's middle at the rulers, over the tilt that the unit counts
+    kRoll,     // of the image against the horizon, where the level line was seen; right side down >
+               // 0
+    kAzimuth,  // of the image centre against the plane perpendicular to the tilt axis; to the right
+               // > 0
+    kElevation,  // of the image centre at the rulers, above the tilt that the unit counts
   };
   Kind kind = Kind::kRoll;
   double rad = 0.0, sd_rad = 0.0;
@@ -21,7 +22,7 @@ struct RectifiedAngle {
 // As in the reports: "roll", "azimuth", "elevation".
 const char* to_string(RectifiedAngle::Kind kind);
 
-// Those whose targets the station has seen and the adjustment has not rejected.
+// The angles whose targets the station has seen and the adjustment has not rejected.
 std::vector<RectifiedAngle> rectified_angles(const Problem& problem, const Adjustment& adjustment,
                                              const Calibration& found, std::size_t station);
 

@@ -1,11 +1,11 @@
 // The paper's three rectification targets (section 4.2) as blocks of an adjustment.
 //
-//   level line   how the image is rolled against the horizon: a line that is level, square to the
-//                line of sight to some degrees
-//   cross        the direction of the camera against the plane that is square to the tilt axis
-//   ruler pair   its elevation: the marks of two rulers, one behind the other, with level zeros
+//   level line   roll of the image against the horizon: a level line, perpendicular to the line of
+//                sight to some degrees
+//   cross        direction of the camera against the plane perpendicular to the tilt axis
+//   ruler pair   elevation of the camera: two rulers, one behind the other, with level zeros
 //
-// Each sighting is one equation, scaled to its deviation.
+// Each sighting is one equation, scaled by its deviation.
 #pragma once
 
 #include <string>
@@ -21,16 +21,16 @@ struct TargetSighting {
   std::string name;  // of the target
 };
 
-// The lines of one board: its error of level and how far it is from square to the line of sight
-// are the nuisance. Lines above and below the camera's height tell the latter.
+// The lines of one board. The nuisance: its error of level, and its angle from perpendicular to the
+// line of sight. Lines above and below the camera's height determine the latter.
 BlockPtr level_line_block(const PixelBlockConfig& config, std::vector<TargetSighting> sightings);
-// The nuisance: the cross is beside its place.
+// The nuisance: the cross's offset from its place.
 BlockPtr cross_block(const PixelBlockConfig& config, std::vector<TargetSighting> sightings);
-// The nuisance: the height of the zeros over GROUND, and each ruler's own error.
+// The nuisance: the height of the zeros above GROUND, and each ruler's own error.
 BlockPtr ruler_block(const PixelBlockConfig& config, std::vector<TargetSighting> sightings);
 
-// The model of the camera on its head alone: X (the line of sight) east, the tilt axis north. Its
-// directions depend on the camera and its mounting only.
+// The model of the camera alone on its head: X (the line of sight) east, the tilt axis north. Its
+// directions depend only on the camera and its mounting.
 StationModel head_alone(const StationModel& model);
 
 }  // namespace ols::calibration

@@ -1,15 +1,15 @@
-// How the air bends a line of sight: to a place on or above the ground (terrestrial refraction) and
-// to a body of the sky (astronomical refraction). Of a calibration's observations alone: bearings
-// go out as they are seen.
+// How the air bends a line of sight: to a place on or above the ground (terrestrial refraction),
+// and to a celestial body (astronomical refraction). Only for a calibration's observations:
+// bearings are sent out as observed.
 #pragma once
 
 #include <Eigen/Core>
 
 namespace ols::calibration {
 
-// By how much a point is lifted as seen from the origin, for a coefficient of refraction of 1:
-// s^2 / R of the distance s times the bend of the ray, across the line of sight [m]. `enu_m` is the
-// point, east, north, up.
+// By how much a point appears lifted from the origin, for a refraction coefficient of 1: s^2 / R,
+// with the distance s, times the bend of the ray; across the line of sight [m]. `enu_m`: the point,
+// east, north, up.
 Eigen::Vector3d terrestrial_lift_m(const Eigen::Vector3d& enu_m);
 
 struct Air {
@@ -17,17 +17,17 @@ struct Air {
   double temperature_degC = 10.0;
   double humidity = 0.5;  // 0..1
 };
-// The standard atmosphere's at this height.
+// The standard atmosphere at this height.
 Air standard_air(double height_m);
 
 inline constexpr double kWavelength_um = 0.55;  // of the light that the camera sees
 
-// A tan z + B tan^3 z of the apparent zenith distance z (ERFA's eraRefco). It is wrong by arc
-// seconds below 10 degrees of elevation.
+// A tan z + B tan^3 z of the apparent zenith distance z (ERFA's eraRefco). Wrong by arc seconds
+// below 10 degrees of elevation.
 class AstronomicalRefraction {
  public:
   explicit AstronomicalRefraction(const Air& air);
-  // By how much a body appears higher than it would without air [rad].
+  // By how much a body appears higher than without air [rad].
   double lift_rad(double true_zenith_rad) const;
 
  private:

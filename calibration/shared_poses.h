@@ -1,5 +1,5 @@
-// The stops of a unit from which several things were sighted: the errors of its two angles are the
-// same for all of them.
+// Stops of a unit at which several things were sighted: the errors of its two angles are the same
+// for all of them.
 #pragma once
 
 #include <optional>
@@ -9,19 +9,19 @@
 
 namespace ols::calibration {
 
-// The matrices of an adjustment have two rows for each: of so many, 230 MB in all.
+// The matrices of an adjustment have two rows for each. This many take 230 MB in all.
 inline constexpr std::size_t kMostSharedPoses = 1000;
 
 class SharedPoses {
  public:
-  // Sightings with the same number of pose, and those without one that were taken at the same time
-  // at the same counts: of one picture. ObservationRefused: a number that stands at two places, and
-  // more of them than can be adjusted.
+  // Sightings with the same pose number share a pose. So do those without one that have the same
+  // time and counts: they are from one picture. Throws ObservationRefused for a number at two
+  // places, and for more shared poses than can be adjusted.
   explicit SharedPoses(const std::vector<Observation>& observations);
 
   std::size_t size() const { return stations_.size(); }
   std::size_t station(std::size_t pose) const { return stations_[pose]; }
-  // Of an observation; nothing where it shares its stop with no other.
+  // The shared pose of an observation; nullopt if it has its pose alone.
   std::optional<std::size_t> of(std::size_t observation) const { return poses_[observation]; }
 
  private:

@@ -1,4 +1,4 @@
-// The tests of an adjustment's groups, from its equations alone.
+// The tests of an adjustment's groups, from its equations.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,23 +12,23 @@ namespace ols::calibration {
 // added: chi-square with the group's degrees of freedom.
 double test_statistic(const Adjustment& adjustment, const Fit& fit, std::size_t group);
 
-// The same of a part of a block: by how much the misfit falls when its equations `now` become those
-// of `then`, over the same columns; negative where it grows.
+// The same for a part of a block: by how much the misfit falls when its equations `now` are
+// replaced by `then`, over the same columns. Negative if it grows.
 double replacement_statistic(const Fit& fit, const BlockEquations& now, const BlockEquations& then);
 
-// The direction's bias across and up that the group's test finds with this noncentrality.
+// The bias of the direction (across, up) that the group's test detects at this noncentrality.
 Eigen::Vector2d detectable_rad(const Adjustment& adjustment, const Fit& fit, std::size_t group,
                                double noncentrality);
 
-// By how much the target of a kept group stands beside where all others have it, as seen from the
-// station: the group predicted without itself. Nothing where no other checks it.
+// The offset of a kept group's target from where all others put it, as seen from the station: the
+// group is predicted without itself. nullopt if no other group checks it.
 struct Bias {
   Eigen::Vector2d rad = Eigen::Vector2d::Zero();  // across, up
-  double sigmas = 0.0;                            // of the worse of the two
+  double sigmas = 0.0;                            // of the worse component
 };
 std::optional<Bias> bias_without(const Adjustment& adjustment, const Fit& fit, std::size_t group);
 
-// The headings on which most groups agree with the priors, and which groups these are.
+// The headings on which most groups agree with the priors, and these groups.
 struct Start {
   State state;
   std::vector<bool> kept;

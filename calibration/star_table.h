@@ -1,6 +1,5 @@
-// The stars to magnitude 7: positions of the Hipparcos catalogue, made by
-// dev/python/ols_star_table.py from the table in cedar-solve (Apache-2.0); see star_table.inc for
-// its licence.
+// The stars down to magnitude 7: positions of the Hipparcos catalogue. dev/python/ols_star_table.py
+// makes the table from that of cedar-solve (Apache-2.0); see star_table.inc for its licence.
 #pragma once
 
 #include <cstdint>
@@ -21,17 +20,17 @@ struct TableStar {
   std::int32_t magnitude_tenths = 0;
 };
 
-// Proper motion up to this year is in the positions; the table has none after it. Of a star to
-// magnitude 7 it is 0.04 arc seconds a year in the median, 0.3 in one of a hundred.
+// The positions include proper motion up to this year; the table has none after it. For these stars
+// it is 0.04 arc seconds a year in the median, and above 0.3 for one in a hundred.
 inline constexpr double kStarTableEpoch = 2024.0;
 
-// By their numbers, ascending.
+// Ascending by number.
 std::span<const TableStar> star_table();
 
-// As it stands at the epoch: without proper motion and parallax.
+// At the epoch, without proper motion and parallax.
 Star star_of(const TableStar& star);
 
-// "HIP 11767"; nothing for another text or a number that the table does not have.
+// "HIP 11767"; nullopt for another text, or a number that the table does not have.
 std::optional<TableStar> table_star(std::string_view name);
 std::string name_of(const TableStar& star);
 

@@ -10,8 +10,8 @@
 
 namespace ols::calibration {
 
-// A frame's detections as they would stand with the heading 0, and the stars that could be among
-// them at any heading.
+// A frame's detections as they would be at heading 0, and the stars that could be among them at any
+// heading.
 struct SeenFrame {
   struct Detection {
     std::size_t index = 0;  // in the frame
@@ -26,8 +26,8 @@ struct SeenFrame {
   UnitReading reading;
   std::vector<Detection> detections;
   std::vector<SkyStar> sky;
-  AzimuthElevation axis;                        // of the middle of the image, with the heading 0
-  double across_sd_rad = 0.0, up_sd_rad = 0.0;  // how well the station's parameters tell it
+  AzimuthElevation axis;                        // of the image centre, at heading 0
+  double across_sd_rad = 0.0, up_sd_rad = 0.0;  // from the station's parameters
 };
 
 // Indices into a frame's detections and stars.
@@ -37,7 +37,7 @@ struct StarPair {
 
 struct StarHypothesis {
   double heading_rad = 0.0;
-  int votes = 0;  // of all frames
+  int votes = 0;  // over all frames
   std::vector<StarPair> pairs;
 };
 
@@ -47,7 +47,7 @@ class StarVotes {
             const StarConditions& conditions, std::span<const TableStar> table);
 
   const std::vector<SeenFrame>& frames() const { return frames_; }
-  // Those with most votes, the best first.
+  // Those with most votes, best first.
   std::vector<StarHypothesis> hypotheses() const;
 
  private:
@@ -56,7 +56,7 @@ class StarVotes {
     int turns = 0, lifts = 0;
     std::vector<int> votes;
     int wrapped(int turn) const { return (turn % turns + turns) % turns; }
-    // Of 2 x 2 cells: what belongs together may lie on both sides of an edge.
+    // Sum of 2 x 2 cells: related votes may be on both sides of an edge.
     int block(int turn, int lift) const;
   };
   struct Peak {
@@ -69,7 +69,7 @@ class StarVotes {
   std::pair<int, int> cell(const SeenFrame& frame, const Cells& cells, std::size_t seen,
                            std::size_t star) const;
   std::vector<Peak> peaks(std::size_t frame) const;
-  // The best cell of a frame with about this heading.
+  // The best cell of a frame near this heading.
   Peak nearby(std::size_t frame, double heading_rad, double slack_rad) const;
   StarHypothesis hypothesis(const Peak& peak) const;
   void add_pairs(const Peak& peak, StarHypothesis& to) const;

@@ -1,7 +1,8 @@
-// The unknowns of an adjustment: of every station, of every shared pose, and the nuisance of every
+// The unknowns of an adjustment: of every station and every shared pose, and the nuisance of every
 // block.
 //
 // The globals are one vector: kStationParameters for each station, then UT1 - UTC, then pan and
+// tilt of each shared pose.
 // tilt of each shared pose.
 #pragma once
 
@@ -12,14 +13,14 @@
 
 namespace ols::calibration {
 
-// A station as it is taken to be before the adjustment.
+// A station before the adjustment.
 struct StationPrior {
   StationModel model;
   double refraction = 0.13;
   double air = 1.0;
-  // Of the parameters in their own units; 0 where one is known. The heading's does not count.
+  // Of the parameters in their own units; 0 for a known one. That of the heading is ignored.
   StationMatrix covariance = StationMatrix::Zero();
-  double pose_sd_rad = 0.0;  // of each angle of a pose, new with every pose
+  double pose_sd_rad = 0.0;  // of each angle of a pose; new at every pose
 };
 
 struct StationState {
@@ -36,7 +37,7 @@ struct State {
   std::vector<Eigen::VectorXd> nuisances;  // by block
 };
 
-// Where a station's parameters, UT1 and a pose's angles stand among the globals.
+// The indices of a station's parameters, UT1 and a pose's angles among the globals.
 struct Layout {
   std::size_t stations = 0, poses = 0;
   int station(std::size_t i) const { return static_cast<int>(i) * kStationParameters; }
@@ -47,7 +48,7 @@ struct Layout {
 
 StationState station_at(const StationPrior& prior, const StationVector& change);
 
-// The horizon's axes at the station, as components in ECEF, and its GROUND.
+// The station's GROUND frame, with the axes of its horizon.
 inline LocalFrame frame_of(const StationState& station) {
   return LocalFrame(station.model.geometry.position);
 }

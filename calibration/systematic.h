@@ -1,4 +1,4 @@
-// What a calibration leaves: the systematic error of each direction, J C J', and its size over the
+// The systematic error that a calibration leaves: J C J' of each direction, and its size over the
 // directions in which a station works.
 #pragma once
 
@@ -11,33 +11,33 @@
 namespace ols::calibration {
 
 struct SystematicDirection {
-  AzimuthElevation direction;  // as it appears: with the refraction in it
+  AzimuthElevation direction;                                 // apparent: with refraction
   Eigen::Matrix2d covariance_rad2 = Eigen::Matrix2d::Zero();  // (cross-elevation, elevation)
 };
 
-// Nothing when the pixel cannot be unprojected.
+// nullopt if the pixel cannot be unprojected.
 std::optional<SystematicDirection> systematic_direction(const StationModel& model,
                                                         const StationMatrix& covariance,
                                                         const UnitReading& reading,
                                                         const Eigen::Vector2d& pixel);
 
-// Pan and tilt of the unit that a station works in.
+// The pan and tilt angles in which a station works.
 struct WorkingVolume {
-  double pan_deg = 150.0;  // to both sides
+  double pan_deg = 150.0;  // to either side
   double lowest_deg = -5.0, highest_deg = 30.0;
 };
 
 struct VolumePoint {
   double pan_deg = 0.0, tilt_deg = 0.0;
-  double rms_rad = 0.0;  // of an axis
+  double rms_rad = 0.0;  // per axis
 };
 
 struct VolumePrecision {
-  double rms_rad = 0.0, worst_rad = 0.0;  // of an axis
+  double rms_rad = 0.0, worst_rad = 0.0;  // per axis
   std::vector<VolumePoint> points;
 };
 
-// On a grid, at the middle of the image, approached alternately from both sides.
+// On a grid, at the image centre, approached alternately from both sides.
 VolumePrecision volume_precision(const StationModel& model, const StationMatrix& covariance,
                                  const WorkingVolume& volume = {});
 

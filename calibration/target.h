@@ -1,4 +1,4 @@
-// What a pixel shows: where it is for a station, and what that depends on besides the station.
+// The object at a pixel: where a station sees it, and what that depends on besides the station.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,20 +20,20 @@ struct Sighting {
   UnitReading reading;
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
   double sd_px = 0.0;
-  std::optional<std::size_t> pose;  // shared with other sightings; else it has one of its own
+  std::optional<std::size_t> pose;  // shared with other sightings; nullopt: its own
 };
 
 struct TargetView {
   HomogeneousPoint point;  // in GROUND of the station that sees it
-  // Of (x, w), by the target's nuisance, the station's refraction and air, and UT1.
+  // Derivatives of (x, w): by the target's nuisance, the station's refraction and air, and UT1.
   Eigen::Matrix<double, 4, Eigen::Dynamic, 0, 4, 4> by_nuisance =
       Eigen::Matrix<double, 4, Eigen::Dynamic, 0, 4, 4>::Zero(4, 0);
   Eigen::Vector3d by_refraction = Eigen::Vector3d::Zero();
   Eigen::Vector3d by_air = Eigen::Vector3d::Zero();
   Eigen::Vector3d by_ut1 = Eigen::Vector3d::Zero();
-  // Of a target that stands on another station: of x, by that one's east, north and up.
+  // For a target on another station: derivative of x by that station's east, north and up.
   Eigen::Matrix3d by_position = Eigen::Matrix3d::Zero();
-  double white_sd_m = 0.0;     // of the position, new with every sighting
+  double white_sd_m = 0.0;     // of the position; new at every sighting
   bool moves_with_us = false;  // its place is given in the station's own frame
 };
 
@@ -43,9 +43,9 @@ class Target {
  public:
   virtual ~Target() = default;
   virtual int unknowns() const { return 0; }
-  // Of the nuisance: 1-sigma of each. A prior of infinite width has no weight.
+  // 1-sigma of each nuisance. A prior of infinite width has no weight.
   virtual Eigen::VectorXd prior_sd() const { return Eigen::VectorXd(0); }
-  // At which an adjustment begins.
+  // The value at which an adjustment begins.
   virtual Eigen::VectorXd initial(const State&, const std::vector<Sighting>&) const {
     return Eigen::VectorXd::Zero(unknowns());
   }
@@ -55,32 +55,32 @@ class Target {
 };
 using TargetPtr = std::shared_ptr<const Target>;
 
-// A surveyed place: its three coordinates are wrong by a constant.
+// A surveyed place: its three coordinates have a constant error.
 TargetPtr fixed_target(const FixedPoint& point);
-// A direction in ECEF with the astronomical refraction in it, sighted once.
+// A direction in ECEF that includes astronomical refraction, sighted once.
 struct SkyDirection {
-  Eigen::Vector3d ecef = Eigen::Vector3d::UnitX();   // unit, as it appears
-  Eigen::Vector3d by_air = Eigen::Vector3d::Zero();  // by the factor of the refraction
+  Eigen::Vector3d ecef = Eigen::Vector3d::UnitX();   // unit vector, apparent
+  Eigen::Vector3d by_air = Eigen::Vector3d::Zero();  // derivative by the factor of the refraction
   Eigen::Vector3d by_ut1 = Eigen::Vector3d::Zero();  // [1/s]
-  double elevation_rad = 0.0;                        // as it appears
+  double elevation_rad = 0.0;                        // apparent
 };
 TargetPtr sky_target(const SkyDirection& direction);
-// A body whose directions at the sightings' instants are off alike, to `sd_rad` of each axis.
+// A body whose directions share one error at all instants, `sd_rad` of each axis.
 struct SkyPosition {
   std::size_t station = 0;
   std::int64_t utime_us = 0;
   SkyDirection direction;
 };
 TargetPtr body_target(std::vector<SkyPosition> positions, double sd_rad);
-// A direction and an inverse distance from GROUND, unknown both.
+// An unknown direction and an unknown inverse distance from GROUND.
 TargetPtr scene_target();
-// A place that is unknown.
+// An unknown place.
 TargetPtr unknown_target();
-// Along, across, up and latency of an aircraft that announces itself.
+// An aircraft that broadcasts its position; nuisance: along, across, up, latency.
 TargetPtr aircraft_target(const Trajectory& trajectory);
-// The antenna's offset of a drone: its visible centre from it, east, north, up.
+// A drone; nuisance: the offset of its visible centre from the antenna (east, north, up).
 TargetPtr drone_target(const Trajectory& trajectory);
-// The crossing of another station's axes.
+// The intersection of another station's axes.
 TargetPtr station_target(std::size_t station);
 
 }  // namespace ols::calibration

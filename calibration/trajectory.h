@@ -1,4 +1,4 @@
-// Where something that tells its positions in time was at an instant.
+// The position of a trajectory at an instant.
 #pragma once
 
 #include "calibration/observation.h"
@@ -7,14 +7,14 @@ namespace ols::calibration {
 
 struct Motion {
   Eigen::Vector3d ecef, velocity_ecef;
-  double gap_s = 0.0;  // between the two positions that it is from; 0 at one of them
+  double gap_s = 0.0;  // between the two positions used; 0 at a position
 };
 
-// On the chord between the two positions around the instant, an instant of a position with the one
-// after it; beyond the ends along the last chord. Two positions at least.
+// On the chord between the two positions around the instant; an instant at a position uses the next
+// one. Beyond the ends it extrapolates the last chord. Needs at least two positions.
 Motion motion_at(const Trajectory& trajectory, double utime_us);
 
-// Without a position for so long a drone or an aircraft may be anywhere.
+// After this time without a position, a drone or an aircraft may be anywhere.
 inline constexpr double kLongestGap_s = 3.0;
 
 }  // namespace ols::calibration

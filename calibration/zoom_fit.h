@@ -1,5 +1,5 @@
-// The focal length of a lens at one zoom position, from pictures of still scenery at pan angles
-// that the unit has counted: the unit is the ruler. Pure.
+// Determines the focal length of a lens at one zoom position, from pictures of still scenery at pan
+// angles that the unit has counted: the unit is the ruler. Pure.
 #pragma once
 
 #include <cstddef>
@@ -10,28 +10,27 @@
 
 namespace ols::calibration {
 
-// A point of the scenery in two of the pictures.
+// A point of the scenery in two pictures.
 struct ZoomPair {
   std::size_t first = 0, second = 0;
   Eigen::Vector2d first_px = Eigen::Vector2d::Zero(), second_px = Eigen::Vector2d::Zero();
-  double sd_px = 0.0;  // of a coordinate of their difference
+  double sd_px = 0.0;  // of each coordinate of the difference
 };
 
 struct ZoomFitOptions {
-  double angle_sd_rad = 5e-5;  // 1-sigma of an angle of the unit, without what all have in common
-  double centre_sd_px = 10.0;  // of the principal point, before
-  double k1_sd = 0.05;         // of the radial distortion, before
+  double angle_sd_rad = 5e-5;  // 1-sigma of an angle of the unit, without the common part
+  double centre_sd_px = 10.0;  // prior of the principal point
+  double k1_sd = 0.05;         // prior of the radial distortion
 };
 
 struct ZoomFit {
-  ZoomPoint point;      // without its position; a pair of pictures in which nothing agrees: sd 0
-  int used = 0;         // pairs; the others disagree with them
-  double rms_sd = 0.0;  // of what is left, in its own deviations: 1 is as expected
+  ZoomPoint point;      // without its position; sd 0: a pair of pictures in which nothing agrees
+  int used = 0;         // number of pairs; the others disagree
+  double rms_sd = 0.0;  // residual RMS in its own deviations: 1 is as expected
   explicit operator bool() const { return used > 0; }
 };
 
-// `station`: as it is known, with a focal length that is right to a tenth. `angles`: of each
-// picture.
+// `station`: as known, with the focal length right to a tenth. `angles`: of each picture.
 ZoomFit fit_zoom(const StationGeometry& station, const std::vector<PanTilt>& angles,
                  const std::vector<ZoomPair>& pairs, const ZoomFitOptions& options = {});
 

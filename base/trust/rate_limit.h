@@ -1,4 +1,4 @@
-// A token bucket: `rate` per second on average, with bursts of one second's worth. Pure.
+// A token bucket: `rate_hz` per second on average, with bursts of one second's worth. Pure.
 #pragma once
 
 #include <algorithm>

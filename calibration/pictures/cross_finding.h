@@ -1,6 +1,7 @@
-// The crosses of a rectification target: upright, dark arms on a light board, alone or two side by
-// side. Found at the size that their distance gives, by normalised correlation with a drawn one;
-// placed where the middle lines of the two arms cross. Pure.
+// Finds the crosses of a rectification target: upright, dark arms on a light board, one alone or
+// two side by side. They are searched at the size that follows from their distance, by normalised
+// correlation with a drawn cross. The position is the intersection of the two arms' middle lines.
+// Pure.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,26 +9,27 @@
 
 namespace ols::calibration {
 
-// As it should appear in the picture [px].
+// The expected size in the picture [px].
 struct CrossSize {
   double arm_px = 0.0;    // from the centre to the end of an arm
-  double width_px = 0.0;  // of an arm
-  double apart_px = 0.0;  // of the two crosses; 0: there is one
+  double width_px = 0.0;  // width of an arm
+  double apart_px = 0.0;  // distance of the two crosses; 0: only one
 };
 
 struct Crosses {
   enum class Refusal {
     kNone,
     kNothing,  // no cross stands out
-    kOne,      // one, where two are expected
-    kScale,    // they appear larger or smaller than the distance allows
-    kBlurred,  // placed to no better than a third of a pixel
+    kOne,      // one cross where two are expected
+    kScale,    // larger or smaller than the distance allows
+    kBlurred,  // position worse than a third of a pixel
   };
   Refusal refusal = Refusal::kNone;
-  double scale = 1.0;                                 // their size over the expected one
-  Eigen::Vector2d left_px = Eigen::Vector2d::Zero();  // of one alone: the same
+  double scale = 1.0;                                 // size over the expected one
+  Eigen::Vector2d left_px = Eigen::Vector2d::Zero();  // if there is only one: the same as the right
+                                                      // one
   Eigen::Vector2d right_px = Eigen::Vector2d::Zero();
-  double sd_px = 0.0;  // 1-sigma of a coordinate of the right one
+  double sd_px = 0.0;  // 1-sigma of each coordinate of the right one
   explicit operator bool() const { return refusal == Refusal::kNone; }
 };
 const char* to_string(Crosses::Refusal refusal);

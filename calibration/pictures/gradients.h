@@ -1,4 +1,4 @@
-// Gradients of a gray picture, and how strong they must be to mean anything. Pure.
+// Gradients of a gray picture, and their noise. Pure.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -6,15 +6,15 @@
 namespace ols::calibration {
 
 // 1-sigma [gray] of the noise from pixel to pixel: J. Immerkaer, Fast Noise Variance Estimation,
-// Computer Vision and Image Understanding 64 (1996), by the median, so that edges do not count. Of
-// a fine texture it is too large.
+// Computer Vision and Image Understanding 64 (1996), with the median instead of the mean, so that
+// edges do not count. A fine texture makes it too large.
 double noise_of(const cv::Mat& gray);
 
 struct Gradients {
   cv::Mat x, y;     // float, [gray/px], of the smoothed picture
-  double sd = 0.0;  // 1-sigma of each that noise alone causes, and rounding to whole gray levels
+  double sd = 0.0;  // 1-sigma of each, from noise and from rounding to whole gray levels
 };
-// `smoothing_px`: 1-sigma of the Gaussian before.
+// `smoothing_px`: 1-sigma of the Gaussian applied first.
 Gradients gradients_of(const cv::Mat& gray, double smoothing_px);
 
 }  // namespace ols::calibration

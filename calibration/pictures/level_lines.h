@@ -1,8 +1,9 @@
-// The parallel, nearly level lines of a rectification target, each to a fraction of a pixel. Pure.
+// Finds the parallel, nearly level lines of a rectification target, each to a fraction of a pixel.
+// Pure.
 //
-// The gradient summed along all nearly level lines (a Radon transform) finds them through noise and
-// gaps; each edge is then fitted to its centroids column by column, without those that something
-// hides.
+// A Radon transform sums the gradient along all nearly level lines, and finds them through noise
+// and gaps. Each edge is then fitted to its centroids, column by column, without those that
+// something hides.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,24 +12,24 @@
 
 namespace ols::calibration {
 
-// One edge. The two points lie a radius of gyration to both sides of its middle: their errors
-// across the line are independent, and a line that the lens bends evenly goes through both.
+// One edge. The two points are one radius of gyration to either side of its middle: their errors
+// across the line are independent, and a line that the lens bends evenly passes through both.
 struct LevelEdge {
   Eigen::Vector2d left_px = Eigen::Vector2d::Zero(), right_px = Eigen::Vector2d::Zero();
-  double sd_px = 0.0;  // across the line, of each
+  double sd_px = 0.0;  // across the line, of each point
 };
 
 struct LevelLines {
   enum class Refusal {
     kNone,
     kNothing,  // no line stands out
-    kShort,    // none over a quarter of the picture's width
+    kShort,    // none longer than a quarter of the picture's width
     kSteep,    // rolled by more than eight degrees
     kBlurred,  // edges wider than forty pixels
   };
   Refusal refusal = Refusal::kNone;
   std::vector<LevelEdge> edges;  // from top to bottom
-  double slope = 0.0;            // mean of the edges, to the right and down > 0
+  double slope = 0.0;            // mean of the edges; positive down to the right
   explicit operator bool() const { return refusal == Refusal::kNone; }
 };
 const char* to_string(LevelLines::Refusal refusal);

@@ -1,4 +1,4 @@
-// A straight line through points of which some belong to something else. Pure.
+// Fits a straight line through points, some of which belong to something else. Pure.
 #pragma once
 
 #include <cstddef>
@@ -15,12 +15,12 @@ struct LinePoints {
 struct FittedLine {
   double offset = 0.0, slope = 0.0, middle = 0.0;
   double gyration_px = 0.0;  // root mean square of x - middle
-  double rms_px = 0.0;       // of the points that count
-  std::size_t columns = 0;   // so many points count
+  double rms_px = 0.0;       // of the used points
+  std::size_t columns = 0;   // number of used points
 };
 
-// Least squares without what is farther off than three deviations, which the median of the
-// distances tells, beginning at `start`. Nothing where fewer than eight points are left.
+// Least squares, beginning at `start`, without points that are further off than three deviations
+// (estimated from the median of the distances). nullopt if fewer than eight points are left.
 std::optional<FittedLine> fit_line(const LinePoints& points, const FittedLine& start);
 
 }  // namespace ols::calibration

@@ -1,13 +1,13 @@
 // The paper's picture for rotating a camera about its optical axis (section 4.2): the blend of a
-// picture and its mirror image. Lines that are level in the picture run through without a break;
-// those of a rolled camera cross their mirror images in the middle column. Pure.
+// picture and its mirror image. Level lines continue without a break; those of a rolled camera
+// cross their mirror images in the middle column. Pure.
 #pragma once
 
 #include <opencv2/core.hpp>
 
 namespace ols::calibration {
 
-// Left and right exchanged in the mirror image; each has half of the blend.
+// The mirror image exchanges left and right. Each has half of the blend.
 cv::Mat mirrored_blend(const cv::Mat& gray);
 
 }  // namespace ols::calibration

@@ -1,5 +1,5 @@
-// A rectification target's ruler: black and white bars of equal height on a vertical board, and one
-// black bar of three times the height, the zero. Pure.
+// Reads a rectification target's ruler: black and white bars of equal height on a vertical board.
+// One black bar of three times the height is the zero. Pure.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,26 +11,26 @@ namespace ols::calibration {
 struct RulerReading {
   enum class Refusal {
     kNone,
-    kNothing,  // no bars there
-    kScale,    // bars of another height than the distance gives
-    kNoZero,   // the zero is hidden or outside of the picture
+    kNothing,  // no bars
+    kScale,    // bars of another height than follows from the distance
+    kNoZero,   // the zero is hidden or outside the picture
     kShort,    // the ruler does not reach the wanted row
-    kUneven,   // the bars do not follow each other evenly: half hidden, blurred, or no ruler
+    kUneven,   // the bars are not even: half hidden, blurred, or no ruler
   };
   Refusal refusal = Refusal::kNone;
   double scale = 1.0;    // height of a bar over the expected one
-  double x_px = 0.0;     // of the ruler
-  double bars = 0.0;     // the reading at the wanted row: heights of a bar over the zero's middle
-  double sd_px = 0.0;    // 1-sigma of the reading's place
+  double x_px = 0.0;     // column of the ruler
+  double bars = 0.0;     // the reading at the wanted row: heights of a bar above the zero's middle
+  double sd_px = 0.0;    // 1-sigma of the reading's position
   double zero_px = 0.0;  // row of the zero's middle
   explicit operator bool() const { return refusal == Refusal::kNone; }
 };
 const char* to_string(RulerReading::Refusal refusal);
 
-// Where bars of this height stand, somewhere on the ruler; nothing: nowhere.
+// A point on the ruler whose bars have this height; nullopt if there is none.
 std::optional<Eigen::Vector2d> find_ruler(const cv::Mat& gray, double bar_px);
 
-// Reads the ruler that stands at `at_px`, at this row. `bar_px`: expected height of a bar.
+// Reads the ruler at `at_px`, at this row. `bar_px`: expected height of a bar.
 RulerReading read_ruler(const cv::Mat& gray, const Eigen::Vector2d& at_px, double bar_px,
                         double row_px);
 

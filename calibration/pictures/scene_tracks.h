@@ -1,6 +1,6 @@
-// Points of the scenery, found again in the overlapping pictures of a sweep. Pure.
+// Finds points of the scenery again in the overlapping pictures of a sweep. Pure.
 //
-// The chain predicts to some tens of pixels where a point of one picture is in another. The offset
+// The chain predicts the position of a point in another picture to some tens of pixels. The offset
 // that all points of a pair share is found first, then each point to a fraction of a pixel by
 // least-squares matching. Points that move against the others (cars, branches, clouds) are left
 // out.
@@ -18,10 +18,10 @@
 namespace ols::calibration {
 
 struct SceneTrackOptions {
-  double reach_px = 40.0;     // by how much the chain may be wrong from picture to picture
-  int points_a_picture = 40;  // at most
+  double reach_px = 40.0;     // max error of the chain from picture to picture
+  int points_a_picture = 40;  // max number
   int patch_half_px = 9;
-  double agree_px = 1.0;  // points of one pair lie within this of a common motion, at most
+  double agree_px = 1.0;  // max distance of a point from the common motion of its pair
 };
 
 struct SceneSighting {
@@ -33,8 +33,8 @@ struct SceneSighting {
 
 struct ScenePair {
   std::size_t first = 0, second = 0;
-  int matched = 0, moved = 0;                           // points that agree, that do not
-  Eigen::Vector2d offset_px = Eigen::Vector2d::Zero();  // found less predicted, the median
+  int matched = 0, moved = 0;                           // points that agree, and that do not
+  Eigen::Vector2d offset_px = Eigen::Vector2d::Zero();  // found minus predicted, the median
 };
 
 class SceneTracks {
@@ -45,10 +45,10 @@ class SceneTracks {
   // The next picture, and the angles at its exposure.
   void add(const cv::Mat& gray, const PanTilt& angles);
 
-  // Tracks that two pictures see at least; by picture.
+  // Tracks seen in at least two pictures, sorted by picture.
   std::vector<SceneSighting> sightings() const;
   const std::vector<ScenePair>& pairs() const { return pairs_; }
-  // Pairs in which more points have moved than stayed: the scene is not still.
+  // Number of pairs in which more points have moved than stayed: the scene is not still.
   int moving_pairs() const;
 
  private:

@@ -1,4 +1,4 @@
-// Stars in a picture of the night sky: found above the background, centred, each with its
+// Finds stars in a picture of the night sky: above the background, centred, each with its
 // deviation. Hot pixels, streaks (aircraft, satellites) and lit surfaces are refused and counted.
 // Pure.
 #pragma once
@@ -11,7 +11,7 @@ namespace ols::calibration {
 
 struct DetectedStar {
   Eigen::Vector2d centre_px = Eigen::Vector2d::Zero();
-  double sd_px = 0.0;  // 1-sigma of each coordinate, the larger one
+  double sd_px = 0.0;  // 1-sigma of the worse coordinate
   double flux = 0.0;   // [gray px] above the background
   bool saturated = false;
 };
@@ -23,9 +23,9 @@ struct StarField {
 };
 
 struct StarDetectionOptions {
-  double threshold = 5.0;  // of the noise, of the smoothed picture
-  double widest_px = 4.0;  // 1-sigma of a star's image: more is a surface
-  double longest = 2.0;    // length over width: more is a streak
+  double threshold = 5.0;  // in units of the noise of the smoothed picture
+  double widest_px = 4.0;  // max 1-sigma of a star's image: a larger one is a surface
+  double longest = 2.0;    // max length over width: a longer one is a streak
 };
 
 // 8-bit or 16-bit gray.

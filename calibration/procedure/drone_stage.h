@@ -1,6 +1,6 @@
-// A drone with RTK: it hovers at one point after the other, a person says when, the unit looks
-// there and, once its positions reach beyond the picture, the drone is found in it; where it flies
-// next is what helps most. Pure.
+// Calibration with an RTK drone. It hovers at one point after the other, and a person says when.
+// The unit looks there. Once the drone's positions reach beyond the picture, the drone is found in
+// it. The next point is the one that helps most. Pure.
 #pragma once
 
 #include <functional>
@@ -21,10 +21,10 @@ struct DroneOptions {
 
 class DroneStage : public Stage {
  public:
-  // What is known of the drone's positions by now; empty: nothing yet.
+  // The drone's positions known so far; empty: none yet.
   using Positions = std::function<Trajectory()>;
-  // `now`: [us] UTC. `adviser`: where the drone should fly next; may be empty. `may_go`: the unit's
-  // travel and keep-out regions.
+  // `now`: [us] UTC. `adviser`: where the drone is to fly next; may be empty. `may_go`: whether the
+  // unit's travel and keep-out regions allow it.
   DroneStage(const StationModel& model, DroneOptions options, Positions positions,
              SunKeepOut::UtcNow now, MayGo may_go, Adviser adviser = nullptr);
 
@@ -37,7 +37,7 @@ class DroneStage : public Stage {
 
  private:
   void ask(const std::string& trouble);
-  // `now_us`: of the answer, also when the procedure is gone on with later.
+  // `now_us`: the time of the answer, also when the procedure is resumed later.
   void sight(std::int64_t now_us);
   void judge();
   void confirm(const Taken& picture, const Eigen::Vector2d& pixel, double sd_px);
@@ -54,15 +54,15 @@ class DroneStage : public Stage {
   Question question_;             // where to fly
   std::optional<Shot> shot_;      // to be taken
   std::optional<Taken> picture_;  // until the positions reach beyond it
-  PanTilt turned_;                // by the person, of this point
+  PanTilt turned_;                // by the person, for this point
   PointingDialog dialog_;
-  // The last sighting beside where the chain had it; nothing before the first.
+  // Offset of the last sighting from the chain's prediction; nullopt before the first.
   std::optional<Eigen::Vector2d> beside_px_;
   std::vector<Observation> observations_;
 };
 
-// Where a trajectory is at an instant: between its points straight, at most `beyond_us` after the
-// last one where that is.
+// The position at an instant: on the straight line between two points, or up to `beyond_us` after
+// the last point, where it stays.
 std::optional<Eigen::Vector3d> position_at(const Trajectory& trajectory, std::int64_t utime_us,
                                            std::int64_t beyond_us);
 

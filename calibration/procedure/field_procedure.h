@@ -1,5 +1,5 @@
-// A whole procedure: its stages one after the other, then what a person decides about the result.
-// Whoever runs it carries out orders, adjusts when the stages are complete, and stores. Pure.
+// A whole procedure: its stages in order, then a person's decision about the result. The caller
+// carries out orders, adjusts when the stages are complete, and stores. Pure.
 #pragma once
 
 #include <algorithm>
@@ -13,12 +13,12 @@
 
 namespace ols::calibration {
 
-// The result of an adjustment, as a person sees it.
+// The result of an adjustment, as shown to a person.
 struct AdjustedResult {
-  bool failed = false;  // nothing came of it: contradictions, no heading
-  bool good = false;    // it meets the limits for being accepted
+  bool failed = false;  // no result: contradictions, or no heading
+  bool good = false;    // it is within the limits for acceptance
   std::string text;     // one screen
-  std::string worst;    // the reference that should be sighted again; empty: none
+  std::string worst;    // the reference to be sighted again; empty: none
 };
 
 enum class Outcome { kRunning, kAccepted, kKeptOld, kAborted };
@@ -26,11 +26,10 @@ enum class Outcome { kRunning, kAccepted, kKeptOld, kAborted };
 class FieldProcedure {
  public:
   using Redo = std::function<void(const std::string& reference)>;
-  // `redo`: what sights one reference again, in the
-  // last stage.
+  // `redo`: sights one reference again, in the last stage.
   FieldProcedure(std::vector<std::unique_ptr<Stage>> stages, Redo redo);
 
-  // Nothing: the stages are complete and adjusted() is waited for, or all is over.
+  // nullopt if the stages are complete and adjusted() is awaited, or if all is over.
   std::optional<Order> next();
   void taken(const Taken& picture) { stage().taken(picture); }
   void seen(const Taken& picture) { stage().seen(picture); }

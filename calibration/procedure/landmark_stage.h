@@ -1,7 +1,7 @@
-// Sighting landmarks with a person: the first one pointed at, then the unit drives to each, that
-// one first which helps most, and a crosshair snaps that the person confirms; a second round by
-// itself, from the other side of the gears; back to the first at the end, which closes the round.
-// Pure.
+// Sighting landmarks with a person. The person points at the first. The unit then drives to each,
+// the most helpful one first; a crosshair snaps to it, and the person confirms. A second round runs
+// automatically, from the other side of the gears. At the end the unit returns to the first
+// landmark, which closes the round. Pure.
 #pragma once
 
 #include <string>
@@ -19,10 +19,9 @@ using Landmark = Place;
 
 class LandmarkStage : public Stage {
  public:
-  // `model`: the station as far as it is known; its heading may be anything, the first sighting
-  // tells. `rounds`: how often each landmark is sighted. Landmarks that the unit cannot look at are
-  // remarked and left out. `adviser`: tells the order after the first; without one it is that
-  // given.
+  // `model`: the station as far as it is known. Its heading may be anything: the first sighting
+  // gives it. `rounds`: number of sightings of each landmark. Landmarks that the unit cannot look
+  // at are remarked and left out. `adviser`: the order after the first; null: the given order.
   LandmarkStage(const StationModel& model, std::vector<Landmark> landmarks, int rounds,
                 Adviser adviser = nullptr);
 
@@ -33,14 +32,14 @@ class LandmarkStage : public Stage {
   std::vector<Observation> observations() const override;
   double progress() const override;
 
-  // By how much the first landmark had moved at the end [rad]; nothing before.
+  // By how much the first landmark had moved at the end [rad]; nullopt before.
   std::optional<double> closing_rad() const { return closing_rad_; }
-  // Sights this landmark again, with the person: its sightings so far stand until he confirms.
+  // Sights this landmark again, with the person. Its old sightings hold until the person confirms.
   void redo(const std::string& name);
   const StationModel& model() const { return model_; }
 
  private:
-  // What a person has confirmed of a landmark.
+  // A person's confirmed sighting of a landmark.
   struct Confirmed {
     Taken picture;
     Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
@@ -51,12 +50,12 @@ class LandmarkStage : public Stage {
     Landmark landmark;
     std::optional<Confirmed> confirmed;
     std::vector<Observation> sightings;
-    bool to_be_replaced = false;  // the sightings, by new ones
+    bool to_be_replaced = false;  // new sightings will replace these
   };
   struct Visit {
     std::size_t entry = 0;
     int approach = 1;
-    bool by_person = true;  // else found again by its patch
+    bool by_person = true;  // false: found again by its patch
     bool closing = false;
   };
 
@@ -76,7 +75,7 @@ class LandmarkStage : public Stage {
   std::vector<Entry> entries_;
   std::vector<Visit> visits_;
   std::size_t at_ = 0;
-  PanTilt turned_;         // by the person, of this visit
+  PanTilt turned_;         // by the person, in this visit
   PointingDialog dialog_;  // of this visit
   Adviser adviser_;
   std::string advice_;  // of this visit

@@ -1,5 +1,4 @@
-// The heading that a first sighting tells, so that the next targets are where they are expected.
-// Pure.
+// The heading from a first sighting, so that the next targets are where they are expected. Pure.
 #pragma once
 
 #include <optional>
@@ -8,8 +7,8 @@
 
 namespace ols::calibration {
 
-// With which the pixel shows what stands there (ECEF, [m]); the mounting's error is in it. Nothing
-// where the pixel cannot be unprojected. Radians, 0 to 2 pi.
+// The heading at which the pixel shows this point (ECEF, [m]), 0 to 2 pi. It contains the
+// mounting's error. nullopt if the pixel cannot be unprojected.
 std::optional<double> learned_heading(const StationModel& model, const UnitReading& reading,
                                       const Eigen::Vector2d& pixel, const Eigen::Vector3d& ecef);
 

@@ -1,5 +1,5 @@
-// A person shows where something is in a picture: he points, a crosshair snaps to what is there, he
-// confirms; or he turns the unit first. Pure.
+// A person shows where something is in a picture: points at it, a crosshair snaps to it, and the
+// person confirms. The person may turn the unit first. Pure.
 #pragma once
 
 #include <optional>
@@ -13,15 +13,15 @@ class PointingDialog {
  public:
   enum class Event { kAsksOn, kConfirmed, kTurn, kSkipped };
 
-  // About `what` in this picture, without a crosshair.
+  // Asks for `what` in this picture, without a crosshair.
   void begin(const std::string& what, const Taken& picture);
-  // Puts the crosshair on the structure near this pixel, or says why there is none. `as_is`: on the
-  // pixel itself.
+  // Puts the crosshair on the structure near this pixel, or says why there is none. `as_is`: puts
+  // it on the pixel itself.
   void place(const Eigen::Vector2d& near_px, double radius_px, bool as_is = false);
   Event answered(const Answer& answer);
   void end() { question_.reset(); }
 
-  // What is asked; nothing before begin() and after end().
+  // The current question; nullopt before begin() and after end().
   const std::optional<Order>& question() const { return question_; }
   bool has_crosshair() const { return question_ && question_->question.crosshair_px.has_value(); }
   // Of the crosshair.

@@ -1,4 +1,4 @@
-// What must be so before a calibration begins, and what a person should at least know. Pure.
+// The conditions for beginning a calibration, and warnings for the person. Pure.
 #pragma once
 
 #include <optional>
@@ -7,17 +7,17 @@
 
 namespace ols::calibration {
 
-// How a station's alarm begins that a device says another serial number than is configured.
+// The beginning of a station's alarm when a device has another serial number than configured.
 inline constexpr const char* kAnotherDevice = "calibration: another ";
 
-// Of a station's status.
+// From a station's status.
 struct StationFacts {
   bool camera_works = false, unit_works = false;
-  bool limits_known = false;  // the unit is homed and has said its travel
+  bool limits_known = false;  // the unit is homed and has reported its travel
   bool stopped = false, emergency = false;
-  bool held_by_hand = false;  // under manual operation, whoever has taken it
+  bool held_by_hand = false;  // under manual operation, by anyone
   bool follows_target = false;
-  double status_gap_s = 0.0;  // between two statuses
+  double status_gap_s = 0.0;  // interval between two statuses
   bool has_position = false, has_tilt = false;
   double position_sd_m = 0.0, tilt_sd_deg = 0.0, heading_sd_deg = 0.0;  // 1-sigma
   bool clock_synchronised = false;
@@ -27,19 +27,19 @@ struct StationFacts {
 };
 
 struct Wanted {
-  double status_gap_s = 0.0;                    // less than this: a stop is heard of in time
+  double status_gap_s = 0.0;                    // max interval: a stop is heard of in time
   bool absolute_time = false;                   // stars, the sun, aircraft, drones
   bool sun_kept_out = false;                    // it is up, and must not come into the picture
-  int image_width_px = 0, image_height_px = 0;  // by the configuration
+  int image_width_px = 0, image_height_px = 0;  // as configured
 };
 
 struct Precondition {
   bool met = false;
-  bool needed = true;    // else it is only said
-  std::string sentence;  // for a person: what is, and what to do
+  bool needed = true;    // false: only a warning
+  std::string sentence;  // for a person: the state, and what to do
 };
 
-// In the order in which a person puts them right.
+// In the order in which a person corrects them.
 std::vector<Precondition> preconditions(const StationFacts& facts, const Wanted& wanted);
 // Why a calibration cannot begin; empty: it can.
 std::string first_hindrance(const std::vector<Precondition>& all);

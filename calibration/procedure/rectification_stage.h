@@ -1,6 +1,7 @@
-// One rectification target with a person: a live picture with its number until the target is put
-// up and the person confirms; then pictures from both sides of the gears, each read by itself. A
-// target whose place the unit itself has pointed out is measured without turning it. Pure.
+// One rectification target with a person. A live picture shows the measured value until the target
+// is in place and the person confirms. Pictures from both sides of the gears follow; each is read
+// separately. If the unit's own pointing has defined the target's place, the unit does not turn.
+// Pure.
 #pragma once
 
 #include <string>
@@ -12,7 +13,7 @@ namespace ols::calibration {
 
 class RectificationStage : public Stage {
  public:
-  // `start`: where the unit looks first. `rounds`: so many pictures from each side.
+  // `start`: where the unit looks first. `rounds`: number of pictures from each side.
   RectificationStage(TargetReaderPtr reader, const PanTilt& start, int rounds);
 
   std::optional<Order> next() override;
@@ -42,7 +43,7 @@ class RectificationStage : public Stage {
   std::optional<TargetReading> reading_;  // of that picture
   std::optional<Order> question_;
   int taken_ = 0, read_ = 0;
-  std::string number_;  // of the last picture that was read
+  std::string number_;  // from the last picture that was read
   std::vector<Observation> observations_;
 };
 

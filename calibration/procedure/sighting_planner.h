@@ -1,5 +1,5 @@
-// Which place a person should sight next: what each would leave of the systematic error over the
-// working volume, with everything that has been observed. Pure.
+// Which place a person should sight next: predicts for each the systematic error over the working
+// volume, with all observations so far. Pure.
 #pragma once
 
 #include <functional>
@@ -18,16 +18,16 @@ struct Place {
   double sd_m = 0.0;                               // of each axis
 };
 
-// What stays of the systematic error, RMS of an axis, if this place is sighted.
+// RMS per axis of the systematic error that remains after sighting this place.
 struct Foretold {
   std::string name;
   double rms_rad = 0.0;
 };
-// "mast would leave 21.3″ (gable 24.0″, barn 25.1″)". Empty where nothing is foretold.
+// "mast would leave 21.3″ (gable 24.0″, barn 25.1″)". Empty without predictions.
 std::string in_words(const std::vector<Foretold>& ranked);
 
-// The places by what they would leave, the best first; those that cannot be foretold are left out.
-// `model`: the station as far as it is known.
+// The places, sorted by the error that would remain, smallest first. Places without a prediction
+// are left out. `model`: the station as far as it is known.
 using Adviser =
     std::function<std::vector<Foretold>(const StationModel& model, const std::vector<Place>&)>;
 
@@ -35,7 +35,7 @@ class SightingPlanner {
  public:
   using Observed = std::function<std::vector<Observation>()>;
   // `problem`: the station's prior, air and references; its observations do not count. `observed`:
-  // what has been so far. `times`: how often a place would be sighted, from alternate sides.
+  // the observations so far. `times`: number of sightings of a place, from alternate sides.
   SightingPlanner(Problem problem, Observed observed, int times)
       : problem_(std::move(problem)), observed_(std::move(observed)), times_(times) {}
 
@@ -47,8 +47,8 @@ class SightingPlanner {
   Problem problem_;
   Observed observed_;
   int times_;
-  std::size_t unnamed_ = 0;           // stars of the last call, so many
-  std::vector<Observation> named_{};  // those, with their names
+  std::size_t unnamed_ = 0;           // number of unnamed stars in the last call
+  std::vector<Observation> named_{};  // these stars with their names
 };
 
 }  // namespace ols::calibration

@@ -1,5 +1,5 @@
-// Pictures of the night sky all around, and the stars that are in them: without names, which the
-// adjustment finds. Pure.
+// Takes pictures of the night sky all around, and finds the stars in them. They have no names: the
+// adjustment identifies them. Pure.
 #pragma once
 
 #include <numbers>
@@ -11,13 +11,13 @@ namespace ols::calibration {
 struct StarPlanOptions {
   int pictures = 24;
   double pan_min_rad = -2.6, pan_max_rad = 2.6;
-  double lowest_rad = 0.21;  // 12 degrees: refraction below 10 is not known well enough
+  double lowest_rad = 0.21;  // 12 degrees: below 10, refraction is not known well enough
   double highest_rad = 0.5;
-  double worm_turn_rad = 2.0 * std::numbers::pi / 70.0;  // of pan and tilt
+  double worm_turn_rad = 2.0 * std::numbers::pi / 70.0;  // one turn of the worm, of pan and tilt
 };
 
 // All around, alternately low and high, from all sides of the gears, and over all phases of the
-// worms. std::invalid_argument where the unit does not reach the lowest elevation.
+// worms. Throws std::invalid_argument if the unit does not reach the lowest elevation.
 std::vector<Shot> plan_stars(const StarPlanOptions& options);
 
 class StarStage : public Stage {

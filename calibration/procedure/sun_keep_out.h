@@ -1,7 +1,7 @@
 // The region around the sun into which the unit must not point without a filter on the lens. Pure.
 //
-// It relies on the known heading: a compass error of some degrees is within the margin, a heading
-// that was never stated is not.
+// It relies on the heading. The margin covers a compass error of some degrees, but not a heading
+// that was never stated.
 #pragma once
 
 #include <cstdint>
@@ -15,21 +15,21 @@ namespace ols::calibration {
 
 class SunKeepOut {
  public:
-  static constexpr double kRadius_deg = 8.0;  // half a picture's diagonal, and a compass' error
+  static constexpr double kRadius_deg = 8.0;  // half a picture's diagonal, and a compass error
 
   using UtcNow = std::function<std::int64_t()>;  // [us]
   SunKeepOut(const StationModel& model, UtcNow now) : model_(model), now_(std::move(now)) {}
 
-  // In words why the unit must not look there (reported angles) now; empty: it may. `doubt_rad`: by
-  // how much more the tripod may have turned than a compass is wrong.
+  // Why the unit must not look there now (reported angles), in words; empty: it may. `doubt_rad`:
+  // how far the tripod may have turned, beyond a compass error.
   std::string hindrance(const PanTilt& angles, double doubt_rad = 0.0) const;
-  // Some of it may be seen: it is not far below the horizon.
+  // Whether part of it may be visible: it is not far below the horizon.
   bool is_up() const;
   // A filter is on the lens: a person has said so, and a picture beside the sun has proved it.
   void lift() { lifted_ = true; }
   void restore() { lifted_ = false; }
 
-  // Where the sun stands now, with the refraction in it, from GROUND: east, north, up.
+  // Direction of the sun now, with refraction, from GROUND: east, north, up.
   Eigen::Vector3d sun_enu() const;
   std::int64_t now_utime_us() const { return now_(); }
 

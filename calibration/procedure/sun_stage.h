@@ -1,6 +1,6 @@
-// The sun through a filter: a person puts the filter on, a picture beside the sun proves it, and
-// only then the unit looks at the sun, from both sides of its gears and at several places of the
-// picture. Pure.
+// Sights the sun through a filter. A person puts the filter on, and a picture beside the sun proves
+// it. Only then does the unit look at the sun, from both sides of its gears and at several places
+// of the picture. Pure.
 #pragma once
 
 #include <memory>
@@ -10,7 +10,7 @@
 
 namespace ols::calibration {
 
-// Reported angles that the unit can be sent to.
+// Whether the unit can be sent to these reported angles.
 using MayGo = std::function<bool(const PanTilt&)>;
 
 class SunStage : public Stage {
@@ -22,7 +22,7 @@ class SunStage : public Stage {
   void taken(const Taken& picture) override;
   void not_taken(const std::string& why) override;
   void answered(const Answer& answer) override;
-  // The filter may be off by now.
+  // The filter may have been taken off.
   void resumed() override;
   std::vector<Observation> observations() const override { return observations_; }
   double progress() const override;
@@ -43,7 +43,7 @@ class SunStage : public Stage {
   MayGo may_go_;
   Step step_ = Step::kAskFilter;
   Question question_;
-  bool filter_is_on_ = false;  // as the person said last
+  bool filter_is_on_ = false;  // the person's last statement
   PanTilt turned_;             // by the person
   std::size_t at_ = 0;         // sighting
   std::vector<Observation> observations_;

@@ -1,9 +1,9 @@
-// Where a sweep looks: a ring around the horizon, which finds focal length, worm and backlash, and
-// a block of overlapping pictures above one another, which finds what turns with the tilt. Pure.
+// Where a sweep looks. A ring around the horizon determines focal length, worm and backlash. A
+// block of overlapping pictures above one another determines what turns with the tilt. Pure.
 //
-// The steps are uneven: at even ones the worm's error would look like an eccentricity. The ring is
-// walked out over every other pose and back over those between, so that neighbours are approached
-// from both sides and their difference is the backlash.
+// The steps are uneven: with even steps the worm's error would look like an eccentricity. The ring
+// goes out over every other pose and back over those between. Neighbours are thus approached from
+// both sides, and their difference is the backlash.
 #pragma once
 
 #include <functional>
@@ -18,12 +18,12 @@ struct SweepPlanOptions {
   PanTilt field_of_view_rad;  // horizontal, vertical
   double pan_min_rad = -2.6, pan_max_rad = 2.6;
   double tilt_min_rad = -0.08, tilt_max_rad = 0.5;
-  double ring_tilt_rad = 0.03;  // where the scenery is
-  // Whether the unit may look there; poses where it may not are left out. Empty: everywhere.
+  double ring_tilt_rad = 0.03;  // towards the scenery
+  // Whether the unit may look there; other poses are left out. Empty: everywhere.
   std::function<bool(const PanTilt&)> allowed;
 };
 
-// std::invalid_argument for fewer than eight poses or a range that holds none.
+// Throws std::invalid_argument for fewer than eight poses, or a range that holds none.
 std::vector<Shot> plan_sweep(const SweepPlanOptions& options);
 
 }  // namespace ols::calibration

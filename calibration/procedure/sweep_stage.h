@@ -1,4 +1,5 @@
-// The automatic sweep: pictures all around, and the points of the scenery in them. Pure.
+// The automatic sweep: takes pictures all around, and finds the points of the scenery in them.
+// Pure.
 #pragma once
 
 #include <deque>
@@ -28,7 +29,7 @@ class SweepStage : public Stage {
   std::size_t at_ = 0;
   int missed_ = 0;
   SceneTracks tracks_;
-  std::deque<Taken> waiting_;  // for their points to be found
+  std::deque<Taken> waiting_;  // pictures whose points are still to be found
   std::vector<Taken> taken_;   // without their pictures
 };
 

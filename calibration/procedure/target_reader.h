@@ -1,5 +1,5 @@
-// The paper's rectification targets as a person puts them up, and what a picture says of each: what
-// to show, a number, observations. Pure.
+// The paper's rectification targets as a person sets them up, and the evaluation of a picture of
+// each: what to show, the measured value, observations. Pure.
 #pragma once
 
 #include <memory>
@@ -16,15 +16,15 @@ namespace ols::calibration {
 struct LevelBoard {
   double level_sd_rad = 30.0 * EIGEN_PI / 648000.0;
 };
-// A cross straight ahead of the unit's axes, and another one so far to the right of it as the
-// camera stands; where the camera stands above the axes they are one.
+// A cross straight ahead of the unit's axes, and another one to the right of it, at the camera's
+// offset from the axes. If the camera is directly above the axes, there is only one.
 struct CrossBoard {
   double distance_m = 0.0;  // from the pan axis
   double apart_m = 0.0;
-  double arm_m = 0.12, width_m = 0.03;  // from the centre to the end of an arm; of an arm
-  double sd_m = 0.003;                  // of the left cross: beside where the unit points
+  double arm_m = 0.12, width_m = 0.03;  // from the centre to the end of an arm; its width
+  double sd_m = 0.003;                  // of the left cross, against where the unit points
 };
-// Two rulers, the farther one seen beside the nearer one, their zeros at one height.
+// Two rulers, the farther one seen beside the nearer one, with their zeros at one height.
 struct RulerPair {
   double near_m = 0.0, far_m = 0.0;  // from the pan axis
   double bar_m = 0.05;               // height of a bar
@@ -37,22 +37,23 @@ struct RectificationTargets {
 };
 
 struct TargetReading {
-  std::string trouble;  // why the target is not read, as a sentence; empty: it is
-  std::string number;   // what it says by itself, for a person
+  std::string trouble;  // why the target cannot be read, as a sentence; empty: it is read
+  std::string number;   // the measured value in words
   cv::Mat shown;
   std::optional<Eigen::Vector2d> crosshair_px;
   double crosshair_sd_px = 0.0;
-  std::vector<Observation> observations;  // none where there is trouble
+  std::vector<Observation> observations;  // none if there is trouble
 };
 
 class TargetReader {
  public:
   virtual ~TargetReader() = default;
   virtual std::string name() const = 0;         // "level line"
-  virtual std::string instruction() const = 0;  // what a person has to put up, and where
-  // Its place is known from the unit as it stands: it must not turn until all pictures are taken.
+  virtual std::string instruction() const = 0;  // what a person has to set up, and where
+  // Whether the target's place depends on the unit's present pointing: the unit must not turn until
+  // all pictures are taken.
   virtual bool holds_unit() const { return false; }
-  // `pointed`: where a person says that the target is, or a part of it.
+  // `pointed`: where a person says the target, or a part of it, is.
   virtual TargetReading read(const Taken& picture,
                              const std::optional<Eigen::Vector2d>& pointed) const = 0;
 };

@@ -5,7 +5,7 @@
 
 namespace ols::calibration {
 
-// The point in ECEF, seen by the station, without its nuisance.
+// The view of the point, without a nuisance.
 TargetView place_seen(const State& state, const Sighting& sighting, const Eigen::Vector3d& ecef);
 
 Eigen::Matrix3d R_enu_ecef(const State& state, const Sighting& sighting);
