@@ -162,6 +162,26 @@ const char* solution_name(std::int8_t solution) {
   }
 }
 
+const char* class_name(std::int8_t object_class) {
+  return object_class == Target::CLASS_DRONE      ? "drone"
+         : object_class == Target::CLASS_BIRD     ? "bird"
+         : object_class == Target::CLASS_AIRCRAFT ? "aircraft"
+         : object_class == Target::CLASS_OTHER    ? "other"
+                                                  : "unknown";
+}
+
+// Null for what is not known.
+void add_appearance(const Target& t, Json& fields) {
+  const auto known = [](double value, int digits) {
+    return value > 0.0 ? Json(rounded(value, digits)) : Json(nullptr);
+  };
+  fields["class"] = class_name(t.object_class);
+  fields["class_probability"] = known(t.class_probability, 2);
+  fields["size_m"] = known(t.size_m, 2);
+  fields["size_sd_m"] = known(t.size_sd_m, 2);
+  fields["signal"] = known(t.signal, 1);
+}
+
 Json stations_of(const Target& t) {
   Json stations = Json::array();
   for (std::size_t i = 0; i < std::min(t.station.size(), kMostListed); ++i) {
@@ -197,6 +217,7 @@ void add_position(const Target& t, Json& fields) {
   fields["crossing_angle_deg"] = rounded(degrees(t.crossing_angle_rad), 1);
   fields["residual"] = rounded(t.residual, 2);
   fields["stations"] = stations_of(t);
+  add_appearance(t, fields);
   add_motion(t, fields);
 }
 

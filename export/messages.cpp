@@ -63,6 +63,29 @@ TrackState state_of(const TargetMessage& t) {
   }
 }
 
+ObjectClass class_of(const TargetMessage& t) {
+  switch (t.object_class) {
+    case TargetMessage::CLASS_DRONE:
+      return ObjectClass::kDrone;
+    case TargetMessage::CLASS_BIRD:
+      return ObjectClass::kBird;
+    case TargetMessage::CLASS_AIRCRAFT:
+      return ObjectClass::kAircraft;
+    case TargetMessage::CLASS_OTHER:
+      return ObjectClass::kOther;
+    default:
+      return ObjectClass::kUnknown;
+  }
+}
+
+void add_appearance(const TargetMessage& t, Target& target) {
+  const auto known = [](double value) { return value > 0.0 ? value : kUnknown; };
+  target.object_class = class_of(t);
+  target.class_probability = std::min(known(t.class_probability), 1.0);
+  target.size_m = known(t.size_m);
+  target.size_sd_m = known(t.size_sd_m);
+}
+
 std::vector<std::string> used_stations(const TargetMessage& t) {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < std::min(t.station.size(), kMostStations); ++i) {
@@ -103,6 +126,7 @@ std::optional<Target> target_from(const BusMessage& message, const SiteContext& 
   std::ranges::copy(t.velocity_covariance_enu_m2_s2, target.velocity_covariance_m2_s2.begin());
   target.velocity_enu_m_s = velocity_of(t);
   target.stations = used_stations(t);
+  add_appearance(t, target);
   return target;
 }
 

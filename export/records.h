@@ -25,6 +25,8 @@ struct Place {
 // Symmetric, at the place's own east, north, up: ee, en, eu, nn, nu, uu.
 using Covariance = std::array<double, 6>;
 
+enum class ObjectClass { kUnknown, kDrone, kBird, kAircraft, kOther };
+
 enum class TrackState { kTentative, kConfirmed, kCoasted, kEnded };
 
 struct Target {
@@ -37,6 +39,9 @@ struct Target {
   std::array<double, 3> velocity_enu_m_s{};  // unknown where not estimated
   Covariance velocity_covariance_m2_s2{};
   std::vector<std::string> stations;  // whose bearings are used
+  ObjectClass object_class = ObjectClass::kUnknown;
+  double class_probability = kUnknown;             // 0..1 of this class
+  double size_m = kUnknown, size_sd_m = kUnknown;  // largest extent, and its 1-sigma
 };
 
 // In the order of the bus's numbers; then that of a number that is not known.

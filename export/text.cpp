@@ -88,6 +88,22 @@ const char* to_string(TrackState state) {
   return "confirmed";
 }
 
+const char* to_string(ObjectClass object_class) {
+  switch (object_class) {
+    case ObjectClass::kDrone:
+      return "UAV";
+    case ObjectClass::kBird:
+      return "Bird";
+    case ObjectClass::kAircraft:
+      return "Aircraft";
+    case ObjectClass::kOther:
+      return "Other";
+    case ObjectClass::kUnknown:
+      break;
+  }
+  return "Unknown";
+}
+
 std::string callsign(const Target& target) { return "OLS " + std::to_string(target.id); }
 
 }  // namespace ols::exports

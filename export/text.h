@@ -18,6 +18,8 @@ std::string iso_time(std::int64_t utime_us);
 std::string xml(std::string_view text);
 // "tentative", "confirmed", "coasted", "ended".
 const char* to_string(TrackState state);
+// "Unknown", "UAV", "Bird", "Aircraft", "Other".
+const char* to_string(ObjectClass object_class);
 // What a person calls a target: "OLS 7".
 std::string callsign(const Target& target);
 

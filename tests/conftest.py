@@ -17,6 +17,8 @@ import pytest
 ROOT = Path(__file__).resolve().parents[1]
 BIN = Path(os.environ.get("OLS_BIN", ROOT / "build/release/bin"))
 SCENARIO = ROOT / "sim/scenarios/fig7.toml"
+# A site as it was recorded before any message grew (lcmtypes/README.md).
+GOLDEN_LOG = ROOT / "tests/golden/messages/site.lcmlog"
 CLONE_NEWNET = 0x40000000  # linux/sched.h
 SEED = 20240229
 

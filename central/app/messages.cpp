@@ -106,6 +106,14 @@ void fill_bearing(const std::optional<BearingOnly>& only, ols_msg::target_t& mes
   for (int axis = 0; axis < 2; ++axis) message.direction_rate_rad_s[axis] = only->rate_rad_s(axis);
 }
 
+void fill_appearance(const Appearance& appearance, ols_msg::target_t& message) {
+  message.object_class = static_cast<std::int8_t>(appearance.object_class);
+  message.class_probability = appearance.class_probability;
+  message.size_m = appearance.size_m;
+  message.size_sd_m = appearance.size_sd_m;
+  message.signal = appearance.signal;
+}
+
 CalibrationState calibration_state(std::int8_t code) {
   using M = ols_msg::station_status_t;
   switch (code) {
@@ -261,6 +269,7 @@ ols_msg::target_t to_message(const FusedTarget& target, const MessageStamp& stam
   message.track_state = static_cast<std::int8_t>(target.state);
   fill_position(target.estimate, message);
   fill_bearing(target.bearing_only, message);
+  fill_appearance(target.appearance, message);
   message.crossing_angle_rad = target.estimate.crossing_angle_rad;
   message.residual = target.estimate.residual;
   message.stations = static_cast<std::int16_t>(target.stations.size());

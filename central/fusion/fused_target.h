@@ -22,6 +22,16 @@ struct BearingOnly {
   Eigen::Vector2d rate_rad_s = Eigen::Vector2d::Zero();
 };
 
+enum class ObjectClass { kUnknown, kDrone, kBird, kAircraft, kOther };
+
+// What the object is and how well it is seen; 0: unknown.
+struct Appearance {
+  ObjectClass object_class = ObjectClass::kUnknown;  // the most probable one
+  double class_probability = 0.0;                    // 0..1 of this class
+  double size_m = 0.0, size_sd_m = 0.0;              // largest extent, and its 1-sigma
+  double signal = 0.0;  // signal-to-noise ratio in one picture, of the station that sees it best
+};
+
 struct FusedTarget {
   std::int64_t utime_us = 0;   // the epoch
   std::int64_t target_id = 0;  // 0: no object yet. A target takes over the id of its bearing-only
@@ -31,6 +41,7 @@ struct FusedTarget {
   Estimate estimate;
   std::vector<ContributingStation> stations;  // in the order of their ids
   std::optional<BearingOnly> bearing_only;    // instead of a position
+  Appearance appearance;
 };
 
 struct FusionOutput {

@@ -38,9 +38,16 @@ Json alarm(TrackState state) {
   return {{"active", state != TrackState::kTentative}, {"certainty", is_confirmed ? 1.0 : 0.5}};
 }
 
+// The format knows no birds and no aircraft.
+const char* classification(ObjectClass object_class) {
+  const bool is_named =
+      object_class == ObjectClass::kUnknown || object_class == ObjectClass::kDrone;
+  return to_string(is_named ? object_class : ObjectClass::kOther);
+}
+
 Json track_record(const Target& target, std::uint64_t number) {
   Json record{{"alarm", alarm(target.state)},
-              {"classification", "Unknown"},
+              {"classification", classification(target.object_class)},
               {"location", location(target.place)},
               {"record_number", number},
               {"time", milliseconds(target.utime_us)}};

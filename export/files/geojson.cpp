@@ -48,6 +48,10 @@ Json target_properties(const Target& target) {
           {"course_deg", number(motion.course_deg, 1)},
           {"climb_m_s", number(motion.climb_m_s, 2)},
           {"covariance_enu_m2", covariance(target.covariance_m2)},
+          {"class", to_string(target.object_class)},
+          {"class_probability", number(target.class_probability, 2)},
+          {"size_m", number(target.size_m, 2)},
+          {"size_sd_m", number(target.size_sd_m, 2)},
           {"stations", target.stations}};
 }
 

@@ -55,6 +55,9 @@ Json json_of(const Target& target) {
   fields["speed_m_s"] = number(motion.speed_m_s, 2);
   fields["course_deg"] = number(motion.course_deg, 1);
   fields["climb_m_s"] = number(motion.climb_m_s, 2);
+  fields["class"] = to_string(target.object_class);
+  fields["class_probability"] = number(target.class_probability, 2);
+  fields["size_m"] = number(target.size_m, 2);
   fields["stations"] = target.stations.size();
   return fields;
 }

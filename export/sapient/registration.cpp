@@ -2,6 +2,7 @@
 
 #include "export/sapient/frame.h"
 #include "export/sapient/sapient_messages.h"
+#include "export/text.h"
 #include "sapient/sapient.pb.h"
 
 namespace ols::exports {
@@ -61,7 +62,11 @@ void describe_detections(Registration::DetectionDefinition& detections) {
   add_field("stations", "names of those that see it");
   add_field("covariance_enu_m2", "m2: ee en eu nn nu uu");
   add_field("velocity_covariance_enu_m2_s2", "m2/s2: ee en eu nn nu uu");
-  detections.add_detection_class_definition()->add_class_definition()->set_type("Unknown");
+  auto& classes = *detections.add_detection_class_definition();
+  for (const ObjectClass one : {ObjectClass::kUnknown, ObjectClass::kDrone, ObjectClass::kBird,
+                                ObjectClass::kAircraft, ObjectClass::kOther}) {
+    classes.add_class_definition()->set_type(to_string(one));
+  }
   auto& velocity = *detections.mutable_velocity_type();
   velocity.mutable_enu_velocity_units()->set_east_north_rate_units(sapient::SPEED_UNITS_MS);
   velocity.mutable_enu_velocity_units()->set_up_rate_units(sapient::SPEED_UNITS_MS);

@@ -196,7 +196,11 @@ std::string sapient_detection(const SapientSettings& settings, const Target& tar
   add_information(report, "covariance_enu_m2", numbers_of(target.covariance_m2));
   add_information(report, "velocity_covariance_enu_m2_s2",
                   numbers_of(target.velocity_covariance_m2_s2));
-  report.add_classification()->set_type("Unknown");
+  auto& classification = *report.add_classification();
+  classification.set_type(to_string(target.object_class));
+  if (std::isfinite(target.class_probability)) {
+    classification.set_confidence(static_cast<float>(target.class_probability));
+  }
   report.set_id(callsign(target));
   return framed(message.SerializeAsString());
 }

@@ -1,5 +1,6 @@
 """ols-batch: the fixes of an uncut run, each once, whatever happens to workers and files."""
 
+import collections
 import dataclasses
 import json
 import math
@@ -8,11 +9,16 @@ import shutil
 import signal
 from pathlib import Path
 
+import lcm
 import numpy as np
 import ols
+import ols_msg
 import pytest
 from archive_site import HOURS, REGION, archived, flip_a_byte, flown
 from batch_site import ALL, fixes, here, hour, results
+from conftest import GOLDEN_LOG
+from ols_archive.__main__ import main as ols_archive
+from ols_archive.kinds import KINDS
 from ols_archive.partitions import Hour, file_of, hours_of, locked, metadata, read
 from ols_batch import plan as planner
 from ols_batch import run as runner
@@ -51,6 +57,23 @@ def test_without_a_warm_up_they_are_not(done, tmp_path):
     compared = compare(uncut_fixes(cut.archive), cut.output, flights.START_US)
     assert compared.identical < compared.rows
     assert compared.batch_targets > compared.uncut_objects
+
+
+def test_a_log_of_former_messages_is_archived_and_fused(tmp_path):
+    archive = tmp_path / "archive"
+    assert ols_archive([str(archive), "--region", REGION, str(GOLDEN_LOG)]) == 0
+    recorded = collections.Counter(e.channel for e in lcm.EventLog(str(GOLDEN_LOG), "r"))
+    for kind in KINDS:
+        rows = sum(
+            read(file_of(archive, kind.name, h)).num_rows for h in hours_of(archive, kind.name)
+        )
+        assert rows == sum(n for channel, n in recorded.items() if kind.is_on(channel)), kind.name
+    (hour_of_log,) = hours_of(archive, "target")
+    target = read(file_of(archive, "target", hour_of_log)).to_pylist()[-1]
+    assert (target["object_class"], target["size_m"]) == (ols_msg.target_t.CLASS_UNKNOWN, 0.0)
+    output = tmp_path / "out"
+    here(Settings(archive, output))
+    assert read(file_of(output, "fixes", hour_of_log)).num_rows > 10
 
 
 def test_what_was_seen_before_a_silence_changes_nothing(done, tmp_path):

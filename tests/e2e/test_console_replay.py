@@ -4,10 +4,11 @@ import os
 import re
 import subprocess
 import sys
+import time
 
 import numpy as np
 import pytest
-from conftest import BIN, finished, wait
+from conftest import BIN, GOLDEN_LOG, finished, wait
 from console_page import axe_finds
 from console_site import DEADLINE_S, Api, PaperSite, address_of
 from ols_demo.site import Site
@@ -95,6 +96,23 @@ def test_no_command_goes_out(replay):
     status, said, _ = Api(replay[0]).ask("/api/stop", {})
     assert status == 409
     assert said["error"] == "this is a replay: commands are not sent"
+
+
+def test_a_log_of_former_messages_is_shown(network, tmp_path):
+    with Site(tmp_path / "logs") as site:
+        log = tmp_path / GOLDEN_LOG.name
+        log.symlink_to(GOLDEN_LOG)
+        site.start_and_wait("replay", command(log), "ready")
+        api = Api(address_of(site, "replay"))
+        wait(lambda: api.state()["replay"]["read"] >= 1, "the whole log")
+        _, timeline, _ = api.ask("/api/replay")
+        marks = {(mark["station"], mark["text"]) for mark in timeline["marks"]}
+        assert {("bravo", "rearm"), ("delta", "stop"), ("alfa", "record golden")} <= marks
+        wait(lambda: api.state()["targets"], "a target", turn=lambda: time.sleep(0.1))
+        state = api.state()
+    assert [s["id"] for s in state["stations"]] == ["alfa", "bravo", "charlie", "delta"]
+    assert state["targets"][0]["class"] == "unknown"
+    assert state["targets"][0]["size_m"] is None
 
 
 def test_scrubbing_shows_the_state_of_the_instant(page, replay):

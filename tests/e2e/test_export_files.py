@@ -9,7 +9,7 @@ import gpxpy
 import jsonschema
 import lcm
 import pytest
-from conftest import BIN, finished
+from conftest import BIN, GOLDEN_LOG, finished
 from export_site import (
     GEOID_M,
     HEIGHT_M,
@@ -226,6 +226,14 @@ def test_a_log(tmp_path, log, kind):
     assert done.returncode == 0, done.stderr
     assert "100 positions, 100 places of stations" in done.stderr
     CHECKS[kind](made)
+
+
+@pytest.mark.parametrize("kind", CHECKS)
+def test_a_log_of_former_messages(tmp_path, kind):
+    made = tmp_path / f"made.{kind}"
+    done = export("--log", GOLDEN_LOG, "--format", kind, "--output", made)
+    assert done.returncode == 0, done.stderr
+    assert "22 positions, 8 places of stations" in done.stderr
 
 
 def test_a_log_at_a_lower_rate(tmp_path, log):

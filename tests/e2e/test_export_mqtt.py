@@ -32,7 +32,7 @@ TARGET = {
     "additionalProperties": False,
     "required": ["id", "number", "time", "state", "latitude", "longitude", "height_ellipsoid_m"],
     "properties": {
-        **dict.fromkeys(("id", "time"), TEXT),
+        **dict.fromkeys(("id", "time", "class"), TEXT),
         "state": {"enum": ["tentative", "confirmed", "coasted", "ended"]},
         **dict.fromkeys(("number", "stations"), {"type": "integer"}),
         **dict.fromkeys(("latitude", "longitude"), {"type": "number"}),
@@ -41,6 +41,7 @@ TARGET = {
                 *("height_ellipsoid_m", "height_above_sea_m", "gps_accuracy"),
                 *("ellipse_semi_major_m", "ellipse_semi_minor_m", "ellipse_azimuth_deg"),
                 *("height_sd_m", "speed_m_s", "course_deg", "climb_m_s"),
+                *("class_probability", "size_m"),
             ),
             NUMBER,
         ),

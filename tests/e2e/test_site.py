@@ -12,7 +12,7 @@ import time
 import lcm
 import numpy as np
 import pytest
-from conftest import BIN, ROOT, finished, wait
+from conftest import BIN, GOLDEN_LOG, ROOT, finished, wait
 from console_site import Api, address_of
 from ols_demo import recording
 from ols_demo.bus import decode
@@ -131,6 +131,16 @@ def test_a_replay_gives_the_targets_of_the_live_run_and_moves_nothing(run):
     assert max(apart) < 0.1
     assert not any(channel.startswith("OLS_SLEW") for channel in channels_in(out))
     assert any(channel.startswith("OLS_SLEW") for channel in channels_in(slews))
+
+
+def test_a_log_of_former_messages_is_fused(network, tmp_path, monkeypatch):
+    monkeypatch.setenv("OLS_TRUST", "off")  # it was signed by another site
+    out, _ = replay(GOLDEN_LOG, tmp_path)
+    located = {key: at for key, at in positions_of(out).items() if np.any(at)}
+    recorded = {key: at for key, at in positions_of(GOLDEN_LOG).items() if np.any(at)}
+    both = [key for key in located.keys() & recorded.keys() if key[0] == "OLS_TARGET"]
+    assert len(both) > 10
+    assert np.median([np.linalg.norm(located[key] - recorded[key]) for key in both]) < 1.0
 
 
 def test_messages_of_the_log_decode(run):

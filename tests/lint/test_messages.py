@@ -35,6 +35,22 @@ def test_a_file_has_the_one_message_of_its_name():
     assert {name: found for name, found in named.items() if found != [name[:-4]]} == {}
 
 
+def fields(path: Path) -> list[tuple[str, ...]]:
+    """Type, name and dimensions of each, in their order."""
+    code = re.sub(r"//.*", "", path.read_text())
+    return re.findall(r"^\s*(?!const|package)(\w+)\s+(\w+)((?:\[\w+\])*)\s*;", code, re.M)
+
+
+def test_a_message_begins_with_the_fields_of_each_frozen_one():
+    """So that its decoder reads what was recorded before (lcmtypes/former.h)."""
+    frozen = {path: re.sub(r"_v\d+_t$", "_t", path.stem) for path in MESSAGES}
+    pairs = [(path, path.with_stem(now)) for path, now in frozen.items() if now != path.stem]
+    assert pairs
+    for former, now in pairs:
+        assert fields(now)[: len(fields(former))] == fields(former), former.name
+        assert len(fields(now)) > len(fields(former)), former.name
+
+
 def test_a_field_without_a_comment_is_found(tmp_path):
     path = tmp_path / "a_t.lcm"
     path.write_text("struct a_t\n{\n  double x;  // metres\n  double y;\n  double z_m;\n}\n")

@@ -85,6 +85,11 @@ export type Target = {
   velocity_enu_m_s: (number | null)[];
   speed_m_s: number | null;
   course_deg: number | null;
+  class: string;
+  class_probability: number | null;
+  size_m: number | null; // largest extent
+  size_sd_m: number | null;
+  signal: number | null; // to noise, in one picture
   crossing_angle_deg: number | null;
   residual: number | null;
   stations: { id: string; used: boolean; weight: number | null; age_s: number | null }[];

@@ -112,6 +112,14 @@ function Name({ target, onName }: { target: Target; onName: ((name: string) => v
   );
 }
 
+// "drone (87 %), 0.4 ± 0.1 m, signal 12.0": what of it is known.
+function Appearance({ of }: { of: Target }) {
+  const sure = of.class_probability == null ? "" : ` (${fixed(100 * of.class_probability, 0)} %)`;
+  const size = of.size_m == null ? "" : `, ${length(of.size_m, 1)} ± ${length(of.size_sd_m, 1)}`;
+  const signal = of.signal == null ? "" : `, ${t("signal")} ${fixed(of.signal, 1)}`;
+  return <>{named("t", of.class) + sure + size + signal}</>;
+}
+
 type PanelProps = { target: Target; link: Link; mayCommand: boolean; onPoint: OnPoint; onName: (name: string) => void; onClose: () => void };
 
 export function TargetPanel({ target, link, mayCommand, onPoint, onName, onClose }: PanelProps) {
@@ -133,6 +141,9 @@ export function TargetPanel({ target, link, mayCommand, onPoint, onName, onClose
         <PanelRow word="height">{length(height_m, 1)}</PanelRow>
         <PanelRow word="speed">
           {speed(target.speed_m_s, 1)}, {bearing(target.course_deg, 0)}, {t("climb")} {speed(target.velocity_enu_m_s?.[2], 1)}
+        </PanelRow>
+        <PanelRow word="object_class">
+          <Appearance of={target} />
         </PanelRow>
         <PanelRow word="sigma">
           <Covariance target={target} />

@@ -98,6 +98,13 @@ const WORDS = {
   climb: ["climb", "steigt"],
   covariance: ["Covariance", "Kovarianz"],
   covariance_of: ["Covariance of east, north, up in m²", "Kovarianz von Ost, Nord, Höhe in m²"],
+  object_class: ["Class", "Art"],
+  signal: ["signal", "Signal"],
+  t_drone: ["drone", "Drohne"],
+  t_bird: ["bird", "Vogel"],
+  t_aircraft: ["aircraft", "Flugzeug"],
+  t_other: ["other", "anderes"],
+  t_unknown: ["unknown", "unbekannt"],
   crossing: ["Rays cross at", "Schnittwinkel"],
   not_used: ["not used", "nicht verwendet"],
   copy: ["Copy", "Kopieren"],
@@ -300,7 +307,7 @@ export function inLanguage<T>(both: [T, T]): T {
 }
 
 // A word for a value that comes from the server; itself if there is none.
-export function named(prefix: "s" | "k" | "v" | "c" | "p" | "o" | "g", value: string): string {
+export function named(prefix: "s" | "k" | "v" | "c" | "p" | "o" | "g" | "t", value: string): string {
   const word = `${prefix}_${value}` as Word;
   return word in WORDS ? t(word) : value;
 }

@@ -46,8 +46,10 @@ KINDS = (
     Kind("lens_command", "lens_command_t", "OLS_LENS_", True),
     Kind("designate", "designate_t", "OLS_DESIGNATE_", True),
     Kind("record", "record_t", "OLS_RECORD_", True),
+    Kind("command_reply", "command_reply_t", "OLS_REPLY_", True),
     Kind("cue", "cue_t", "OLS_CUE", False),
     Kind("cue_order", "cue_order_t", "OLS_CUE_ORDER", False),
+    Kind("cue_reply", "command_reply_t", "OLS_CUE_REPLY", False),
 )
 BY_NAME = {kind.name: kind for kind in KINDS}
 

@@ -1,0 +1,27 @@
+// How a message is decoded from the bytes of a frozen one that it has grown from
+// (lcmtypes/README.md). For the generated bindings only. Pure.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace ols_lcm {
+
+// As Message::decode(), whose first `pos` bytes, the fingerprint, are those of Former. The fields
+// that Former lacks are zero, or empty.
+template <class Former, class Message>
+int decode_former(Message& message, const void* buf, int offset, int maxlen, int pos) {
+  const int length = Former{}._decodeNoHash(buf, offset + pos, maxlen - pos);
+  if (length < 0) return length;
+  // Fields are only ever appended, so Former's bytes are the first of Message's.
+  const Message unknown{};
+  std::vector<std::uint8_t> rest(static_cast<std::size_t>(unknown._getEncodedSizeNoHash()));
+  unknown._encodeNoHash(rest.data(), 0, static_cast<int>(rest.size()));
+  const auto* const first = static_cast<const std::uint8_t*>(buf) + offset + pos;
+  std::vector<std::uint8_t> bytes(first, first + length);
+  bytes.insert(bytes.end(), rest.begin() + Former{}._getEncodedSizeNoHash(), rest.end());
+  const int grown = message._decodeNoHash(bytes.data(), 0, static_cast<int>(bytes.size()));
+  return grown == static_cast<int>(bytes.size()) ? pos + length : -1;
+}
+
+}  // namespace ols_lcm
