@@ -1,5 +1,5 @@
-// Has the server keep a stream, and looks from time to time whether it grows. A thread of its own:
-// a server may take its time to answer.
+// Makes the server keep a stream, and checks periodically whether it grows. In its own thread,
+// because a server may be slow to answer.
 #pragma once
 
 #include <condition_variable>
@@ -14,7 +14,7 @@
 
 namespace ols::bridge {
 
-// A copied site, by the newest message that the stream has of it.
+// A copied site, with its newest message in the stream.
 struct SourceReport {
   std::string site;
   std::int64_t newest_utime_us = 0;  // 0: none
@@ -43,7 +43,7 @@ class ArchiveStream {
   NatsLink& link_;
   const StreamPlan plan_;
   const BridgeConfig config_;
-  bool is_made_ = false;  // of the thread
+  bool is_made_ = false;  // used by the thread
   mutable std::mutex mutex_;
   std::condition_variable end_;
   bool ends_ = false;

@@ -1,5 +1,5 @@
-// ols-bridge on the bus: hears and sends messages as they are, with their signatures, which it does
-// not judge. Sends from any thread.
+// ols-bridge on the bus: receives and sends messages unchanged, with their signatures, which it
+// does not judge. Sends from any thread.
 #pragma once
 
 #include <functional>
@@ -14,10 +14,10 @@ namespace ols::bridge {
 
 class BridgeBus : public BusClient {
  public:
-  // In the thread of turn(), with the message's bytes as received.
+  // Called in the thread of turn(), with the message's bytes as received.
   using Handler = std::function<void(const std::string& channel, Bytes bytes)>;
 
-  // channels: a regular expression; empty: it hears nothing.
+  // channels: a regular expression; empty: it receives nothing.
   BridgeBus(std::string url, const std::string& channels, const Handler& handler);
 
   // False: there is no bus.
@@ -25,7 +25,7 @@ class BridgeBus : public BusClient {
 
  private:
   std::mutex mutex_;
-  std::unique_ptr<LcmBus> sender_;  // under the lock: another one, which hears nothing
+  std::unique_ptr<LcmBus> sender_;  // under the lock: a second connection, which receives nothing
 };
 
 }  // namespace ols::bridge

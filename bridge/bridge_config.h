@@ -1,4 +1,4 @@
-// What ols-bridge's configuration file holds: docs/configuration.md.
+// The contents of ols-bridge's configuration file: docs/configuration.md.
 #pragma once
 
 #include <array>
@@ -12,27 +12,27 @@ struct Section;
 }
 namespace ols::bridge {
 
-// The connection to a server of NATS.
+// The connection to a NATS server.
 struct NatsConfig {
   std::vector<std::string> servers{"nats://127.0.0.1:4222"};
   std::string credentials;  // file of a user's JWT and seed
-  std::string nkey, seed;   // public key; file of its seed
-  std::string authority;    // file of certificates that are trusted
+  std::string nkey, seed;   // public key; file with its seed
+  std::string authority;    // file of trusted certificates
   std::string certificate, key;
 };
 
-// What a server keeps, besides what is live.
+// What a server keeps, in addition to the live traffic.
 struct ArchiveConfig {
   bool is_on = false;
   double keep_h = 24.0;
   double most_bytes = 16e9;
-  std::string domain;                // of the server that keeps it; empty: the one connected to
+  std::string domain;                // of the server that keeps it; empty: the connected one
   std::vector<std::string> sources;  // sites whose streams a region copies
 };
 
 struct OwnershipConfig {
   bool is_on = false;
-  std::string name;    // of this fusion among those that may own a target
+  std::string name;    // of this fusion, among those that may own a target
   std::string domain;  // of the server that keeps the owners
   std::array<double, 4> cell_deg{-90.0, -180.0, 90.0, 180.0};  // south, west, north, east
   double margin_m = 2000.0;
@@ -52,13 +52,13 @@ struct BridgeConfig {
   OwnershipConfig ownership;
 };
 
-// Whether its servers are spoken to over TLS alone.
+// Whether its servers are reached only over TLS.
 bool is_over_tls(const NatsConfig& config);
 config::Section bridge_section(BridgeConfig& config);  // the whole file
 PassageConfig passage_of(const BridgeConfig& config);
 // Throws ConfigError.
 BridgeConfig load_bridge_config(const std::string& path);
-// The same from text, `name` standing for the path in errors.
+// The same from text. Errors give `name` instead of the path.
 BridgeConfig parse_bridge_config(const std::string& text, const std::string& name);
 
 }  // namespace ols::bridge

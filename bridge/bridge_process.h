@@ -1,5 +1,5 @@
-// ols-bridge at work: its parts, connected. Messages of the bus are handled in the thread of run(),
-// those of the network in the threads in which they arrive, so that neither waits for the other.
+// ols-bridge at work: connects its parts. Messages of the bus are handled in the thread of run(),
+// those of the network in the threads in which they arrive: neither waits for the other.
 #pragma once
 
 #include <atomic>
@@ -27,11 +27,11 @@ class BridgeProcess {
  public:
   explicit BridgeProcess(const BridgeConfig& config);
 
-  // Until the process is asked to end.
+  // Runs until the process is asked to end.
   void run();
 
  private:
-  // What has to do with one connection to a server, each part ended before what it needs.
+  // The parts of one connection to a server. Each ends before the parts that it needs.
   struct Remote {
     Remote(BridgeProcess& bridge, const BridgeConfig& config);
     NatsLink link;
@@ -49,21 +49,22 @@ class BridgeProcess {
   BridgeStatus status();
   void describe_link(BridgeStatus& status) const;
   void describe_archive(BridgeStatus& status, std::map<std::string, double> heard, double now_s);
-  // Logs what begins and what ends, and writes the status: it in one line.
+  // Logs conditions that begin and end, and writes the status. Returns it in one line.
   std::string report();
 
   const BridgeConfig config_;
   StatusFile status_file_;
   std::mutex mutex_;
   Passage passage_;                     // under the lock
-  std::optional<Ownership> ownership_;  // under the lock; nothing: nobody else owns targets
+  std::optional<Ownership> ownership_;  // under the lock; nullopt: nobody else owns targets
   BridgeBus bus_;
   std::atomic<std::uint64_t> unsent_to_bus_{0};
   AlarmJournal alarms_;
-  std::map<std::string, double> live_since_s_;  // of sites
-  LinkReport before_;                           // of connections that have ended: their counts
-  std::string tried_anew_;                      // why, as it was logged; empty: not
-  std::unique_ptr<Remote> remote_;  // last of those that its threads use, so that they end first
+  std::map<std::string, double> live_since_s_;  // by site
+  LinkReport before_;                           // counts of the connections that have ended
+  std::string tried_anew_;                      // the logged reason for a new attempt; empty: none
+  std::unique_ptr<Remote> remote_;  // declared after everything that its threads use, so that they
+                                    // end first
 };
 
 }  // namespace ols::bridge

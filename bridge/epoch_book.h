@@ -1,9 +1,9 @@
-// Which owner's commands a station obeys: those of the greatest epoch. Pure.
+// Whose commands a station obeys: those of the greatest epoch. Pure.
 //
-// Epochs are revisions of one store, so they grow over all targets and owners: of two commands the
-// one with the greater epoch comes from who became an owner later. An owner that does not know yet
-// that it has been replaced is thereby ignored. Nobody signs them, so what cannot be is refused,
-// and what is silent for a minute is forgotten.
+// Epochs are revisions of one store, so they grow over all targets and owners: of two commands, the
+// one with the greater epoch comes from the later owner. An owner that does not know yet that it
+// was replaced is thereby ignored. Nobody signs epochs. Impossible ones are therefore refused, and
+// those of a sender that is silent for a minute are forgotten.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace ols::bridge {
 
-// What a command says of its sender; epoch 0: one without ownership.
+// What a command states of its sender. Epoch 0: without ownership.
 struct Claim {
   std::string target;  // the region-wide id
   std::string owner{};
@@ -21,18 +21,18 @@ struct Claim {
 
 class EpochBook {
  public:
-  // Another owner's command of a lower epoch passes when nothing of the greatest has come for this
-  // long: then its owner leads this station no more.
+  // Another owner's command with a lower epoch passes when no command of the greatest has come for
+  // this long: that owner no longer leads this station.
   static constexpr double kSilence_s = 2.0;
   static constexpr double kForgotten_s = 60.0;
-  // The store counts renewals of all targets; no revision is further from the last than by so many,
-  // and by so many a second.
+  // The store counts the renewals of all targets. No revision differs from the last one by more
+  // than kMostJump, plus as many per second.
   static constexpr std::uint64_t kMostEver = 1'000'000'000'000'000, kMostJump = 1'000'000;
   static constexpr double kMost_Hz = 10'000.0;
 
-  // Without ownership a command passes while no owner leads the station. `now_s`: monotonic.
+  // Without ownership, a command passes while no owner leads the station. `now_s`: monotonic.
   bool passes(const std::string& station, const Claim& claim, double now_s);
-  // Of all that have passed; 0: none with an owner.
+  // Of all commands that have passed; 0: none had an owner.
   std::uint64_t greatest() const { return greatest_; }
 
  private:

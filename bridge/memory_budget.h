@@ -1,14 +1,14 @@
-// What waits in memory at most. With what the program itself needs, and the books of names, it must
-// be less than the MemoryMax of systemd/units/ols-bridge.service: tests/lint/test_units.py
-// compares.
+// The limits of the memory for waiting messages. Together with the program itself and the books of
+// names, they must be less than the MemoryMax of systemd/units/ols-bridge.service;
+// tests/lint/test_units.py compares them.
 #pragma once
 
 #include <cstddef>
 
 namespace ols::bridge {
 
-// Of the bus, and of all subscriptions at the server: each a second's worth of a thousand stations.
-// The library needs as much again around each message.
+// For the bus, and for all subscriptions at the server: each one second of traffic of a thousand
+// stations. The library needs as much again around each message.
 inline constexpr std::size_t kBusQueueBytes = 24'000'000;
 inline constexpr std::size_t kNetworkQueueBytes = 24'000'000;
 

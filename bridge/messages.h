@@ -1,4 +1,4 @@
-// What the bridge reads of the fusion's messages.
+// Reads the parts of the fusion's messages that the bridge needs.
 #pragma once
 
 #include <cstdint>
@@ -9,12 +9,13 @@
 
 namespace ols::bridge {
 
-// The target of a message of the fusion: of a target or a slew (0: it concerns none). Nothing if it
-// is no such message. `payload`: without its signature.
+// The target of a fusion message (a target or a slew; 0: it concerns none). nullopt if it is no
+// such message. `payload`: without its signature.
 std::optional<std::int64_t> target_id_of(Kind kind, Bytes payload);
-// A target that is where the message says; nothing if it says no place, or that it is over.
+// A target at the message's position; nullopt if the message states none, or that the target is
+// over.
 std::optional<Track> track_from(Bytes payload);
-// What another owner says of its target with such a message.
+// Another owner's target, from such a message.
 std::optional<Sighting> sighting_from(const Headers& headers, Bytes payload);
 
 }  // namespace ols::bridge

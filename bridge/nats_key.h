@@ -1,4 +1,4 @@
-// A user's key as NATS writes it: base32 of a kind, the key and a checksum. Pure.
+// A user's key in NATS notation: base32 of a kind, the key and a checksum. Pure.
 #pragma once
 
 #include <array>
@@ -10,10 +10,10 @@ namespace ols::bridge {
 using Key = std::array<std::uint8_t, 32>;
 
 struct NatsKey {
-  std::string seed;        // "SU...": secret, into a file for its owner alone
-  std::string public_key;  // "U...": into the configuration of the server
+  std::string seed;        // "SU...": secret; kept in a file that only its owner can read
+  std::string public_key;  // "U...": for the server's configuration
 };
-// Of an Ed25519 pair: the seed that it was made from, and its public half.
+// From an Ed25519 pair: the seed from which it was made, and its public half.
 NatsKey nats_key(const Key& seed, const Key& public_half);
 
 }  // namespace ols::bridge

@@ -1,8 +1,10 @@
-// The connection to a server of NATS: publishes and hears, and comes back by itself, unless it has
-// ended: the server refuses it twice, or is none. No message waits for a connection: what cannot be
-// sent now is lost and counted, because a queued command is a stale one. On an open one the library
-// collects up to 32 kB and writes them in a thread of its own; while that waits, so does send(). A
-// server that does not read holds it up for kWrite_ms, then the library connects anew.
+// The connection to a NATS server: publishes and receives, and reconnects by itself, unless it has
+// ended: the server has refused it twice, or is no NATS server. No message waits for a connection:
+// a message that cannot be sent now is lost and counted, because a queued command is a stale one.
+//
+// On an open connection the library collects up to 32 kB and writes them in its own thread. While
+// that thread waits, send() waits too. A server that does not read holds it up for kWrite_ms; then
+// the library reconnects.
 #pragma once
 
 #include <atomic>
@@ -30,16 +32,16 @@ struct LinkReport {
   bool is_open = false;
   std::uint64_t openings = 0, losses = 0;
   std::uint64_t sent = 0, unsent = 0;  // unsent: there was no connection
-  std::uint64_t displaced = 0;         // arrived, and came faster than they were handled
-  std::uint64_t refusals = 0;          // what the server refused of an open connection
-  std::string refusal;                 // the last of them, while it is of interest
+  std::uint64_t displaced = 0;         // arrived faster than they were handled
+  std::uint64_t refusals = 0;          // refusals by the server on an open connection
+  std::string refusal;                 // the last refusal, while it is recent
   std::string trouble;                 // why there is no connection; empty: there is one
-  bool has_ended = false;              // the library does not try again
+  bool has_ended = false;              // the library does not reconnect
 };
 
 class NatsLink {
  public:
-  // Called in threads of the library, one after the other for each subject.
+  // Called in the library's threads, one message after the other for each subject.
   using Handler =
       std::function<void(std::string_view subject, const Headers& headers, Bytes bytes)>;
 
@@ -62,8 +64,8 @@ class NatsLink {
   };
   struct Said {
     std::string trouble = "connecting";
-    std::string unheard;  // a subscription that was refused: that is said once
-    std::string refusal;  // of a publication
+    std::string unheard;  // a refused subscription, which the server reports once
+    std::string refusal;  // a refused publication
     double refused_s = -1e9;
   };
   void configure(const NatsConfig& config, const std::string& name);
@@ -88,7 +90,7 @@ class NatsLink {
   Tally tally_;
   mutable std::mutex mutex_;
   std::condition_variable ended_;
-  std::size_t callers_ = 0;  // threads of the library that may call; under the lock
+  std::size_t callers_ = 0;  // library threads that may call; under the lock
   Said said_;                // under the lock
 };
 

@@ -1,5 +1,5 @@
-// The store of owners: a bucket of keys and values at a server of NATS. Two threads, because it may
-// take its time: one that asks, one that hears what has changed.
+// The store of owners: a bucket of keys and values at a NATS server. Two threads, because it may be
+// slow: one asks, the other receives changes.
 #pragma once
 
 #include <atomic>
@@ -35,9 +35,9 @@ class OwnerStore {
   OwnerStore(const OwnerStore&) = delete;
   OwnerStore& operator=(const OwnerStore&) = delete;
 
-  // Asked one after the other; too many at once are answered with kNone.
+  // Asked one after the other. If there are too many, the excess is answered with kNone.
   void ask(std::vector<StoreRequest> requests);
-  // From asking to the answer: of the last, or of the one that waits longest.
+  // Time from request to answer: of the last request, or of the one that waits longest.
   double delay_s() const;
 
  private:
@@ -57,7 +57,7 @@ class OwnerStore {
   NatsLink& link_;
   const std::string domain_;
   const Ears ears_;
-  __jsCtx* js_ = nullptr;  // both of the working thread, until the watching one has begun
+  __jsCtx* js_ = nullptr;  // both for the working thread, until the watching one has begun
   __kvStore* store_ = nullptr;
   mutable std::mutex mutex_;
   std::condition_variable asked_;

@@ -1,7 +1,7 @@
-// What passes between a bus and the network of sites: judges each message, changes none. Pure.
+// Decides which messages pass between a bus and the network of sites. Changes none. Pure.
 //
-// It holds no keys: where the bus is signed, signatures are judged by who receives. What it does
-// know is whose message may go where, how large, how many, and how old a command may be.
+// It holds no keys: on a signed bus, the receiver judges the signatures. It knows which messages
+// may go where, how large and how many they may be, and how old a command may be.
 #pragma once
 
 #include <array>
@@ -27,7 +27,7 @@ namespace ols::bridge {
 using Bytes = std::span<const std::uint8_t>;
 using Headers = std::map<std::string, std::string>;
 
-inline constexpr const char* kIdHeader = "Nats-Msg-Id";  // by which a stream stores once
+inline constexpr const char* kIdHeader = "Nats-Msg-Id";  // by which a stream stores a message once
 inline constexpr const char* kTargetHeader = "Ols-Target";
 inline constexpr const char* kEpochHeader = "Ols-Epoch";
 inline constexpr const char* kUnconfirmedHeader = "Ols-Unconfirmed";
@@ -35,32 +35,32 @@ inline constexpr const char* kOwnerHeader = "Ols-Owner";
 
 enum class Role {
   kSite,    // sends its stations' messages, takes commands for them
-  kRegion,  // takes stations' messages for its fusion, sends that one's targets and commands
+  kRegion,  // takes stations' messages for its fusion, sends its targets and commands
 };
 
 // Why a message does not pass.
 enum class Refusal {
   kShape,  // a channel or subject that never crosses, or not in this direction
   kSize,
-  kMalformed,  // no head of such a message
-  kName,       // a station of another place, or one that the message does not name itself
+  kMalformed,  // not the head of such a message
+  kName,       // a station of another place, or not the one that the message names
   kRate,
-  kStale,   // too old by this host's clock; of a command also: from its future
-  kOwn,     // it came in over the bridge: it never goes out again
-  kEpoch,   // a command of an owner that has been replaced
-  kNobody,  // a command to a station that has not been heard
+  kStale,   // too old by this host's clock; a command also: from its future
+  kOwn,     // came in over the bridge: it never goes out again
+  kEpoch,   // a command of an owner that was replaced
+  kNobody,  // a command to a station that was not heard
   kNotOwned,
-  kCount,  // not a reason: how many there are
+  kCount,  // not a reason: the number of reasons
 };
 const char* to_string(Refusal reason);
 
 struct PassageConfig {
   Role role = Role::kSite;
   std::string region = "region", site = "site";
-  std::vector<std::string> stations{};  // of a site that go out; empty: all that are heard
+  std::vector<std::string> stations{};  // of a site, that go out; empty: all that are heard
   std::vector<Selection> takes{};       // others' stations that come in
-  std::vector<std::string> commands{};  // that cross
-  bool targets = false;                 // of the fusion on this bus go out
+  std::vector<std::string> commands{};  // commands that cross
+  bool targets = false;                 // whether targets of the fusion on this bus go out
   double command_age_s = 1.0, live_age_s = 5.0;
 };
 
@@ -80,56 +80,57 @@ struct Counts {
   std::string last_refusal{};
 };
 
-// Of a target that goes out, or whose command does: under which id and epoch.
+// Of a target that goes out, or whose command does: its id and epoch.
 struct Grant {
-  std::string id;            // region-wide; empty: it is nobody's (a search, no target)
+  std::string id;            // region-wide; empty: no target (a search)
   std::uint64_t epoch = 0;   // 0: without ownership
   bool is_confirmed = true;  // false: the store of owners does not answer
   std::string owner{};       // a fusion and its start
 };
-// Nothing: another one owns the target of this message.
+// nullopt: another fusion owns the target of this message.
 using Owned = std::function<std::optional<Grant>(Kind, Bytes)>;
 
-// Of the headers of a message; nothing if no bridge would write such ones.
+// The claim in a message's headers; nullopt if no bridge would write such headers.
 std::optional<Claim> claim_of(const Headers& headers);
 
 class Passage {
  public:
   explicit Passage(PassageConfig config) : config_(std::move(config)) {}
 
-  // `bytes`: with their signature, as received. `owned`: asked of targets and slews of a region.
+  // `bytes`: with their signature, as received. `owned`: called for the targets and slews of a
+  // region.
   std::optional<Outgoing> out(std::string_view channel, Bytes bytes, const Now& now,
                               const Owned& owned = {});
-  // The channel on which the same bytes go on.
+  // The channel on which the same bytes continue.
   std::optional<std::string> in(std::string_view subject, const Headers& headers, Bytes bytes,
                                 const Now& now);
-  // Whether another owner's target comes in time to say where it is.
+  // Whether another owner's target comes in time for its position to be used.
   bool hears_target(std::string_view subject, Bytes bytes, const Now& now);
 
-  // What to subscribe to on either side.
+  // The subscriptions on either side.
   std::string channels() const;
   std::vector<std::string> subjects() const;
 
   const Counts& out_counts() const { return out_; }
   const Counts& in_counts() const { return in_; }
-  // With which a command came in; 0: none with an owner.
+  // The greatest epoch of a command that came in; 0: none had an owner.
   std::uint64_t greatest_epoch() const { return epochs_.greatest(); }
   const SequenceWatch& gaps() const { return gaps_; }
-  // The last of the live messages that came late, "alfa, 12 s", while that is recent; else empty.
+  // The last live message that came late ("alfa, 12 s"), while it is recent; otherwise empty.
   std::string late(double now_s) const;
   std::size_t stations() const { return places_.size(); }
-  // Of each site: how long ago a station of it was heard.
+  // How long ago a station of each site was heard.
   std::map<std::string, double> sites_ago_s(double now_s) const {
     return places_.sites_ago_s(now_s);
   }
 
  private:
-  // Of bearings and statuses of as many stations as there is room for; of commands, which name
-  // stations that need not be there.
+  // For bearings and statuses: as many stations as the place book holds. For commands, separately:
+  // they name stations that need not exist.
   static constexpr std::size_t kMostChannels = 2 * PlaceBook::kMost + 1, kMostCommands = 10'000;
   using Judged = std::optional<Refusal>;
 
-  // They fill what is known so far.
+  // Fill what is known so far.
   Judged judge_out(std::string_view channel, Bytes bytes, const Now& now, const Owned& owned,
                    Outgoing& outgoing);
   Judged judge_in(std::string_view text, const Headers& headers, Bytes bytes, const Now& now,

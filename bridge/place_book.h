@@ -1,5 +1,6 @@
-// Where each station is. A name belongs to the place from which it is heard, until it falls silent:
-// two stations of one name would be one to a fusion, and what came in would go out again. Pure.
+// Where each station is. A name belongs to the place from which it is heard, until it falls silent.
+// Otherwise two stations of one name would be one to a fusion, and incoming messages would go out
+// again. Pure.
 #pragma once
 
 #include <cstddef>
@@ -11,8 +12,8 @@ namespace ols::bridge {
 
 class PlaceBook {
  public:
-  static constexpr double kSettled_s = 60.0;  // a silent station's name is free again
-  // Of one site, so that invented names leave room for the other sites' stations.
+  static constexpr double kSettled_s = 60.0;  // after this silence a station's name is free again
+  // Limits for one site, so that invented names leave room for other sites' stations.
   static constexpr std::size_t kMostOfSite = 2'000, kMost = 20'000;
 
   struct Place {
@@ -25,11 +26,11 @@ class PlaceBook {
   // Whether the name belongs to another place now.
   bool is_elsewhere(const std::string& station, const std::string& region, const std::string& site,
                     double now_s) const;
-  // It is heard there. False: the name is another place's, or there is no room.
+  // The station is heard there. False: the name belongs to another place, or there is no room.
   bool settle(const std::string& station, const std::string& region, const std::string& site,
               double now_s);
   std::size_t size() const { return places_.size(); }
-  // Of each site: how long ago a station of it was heard.
+  // How long ago a station of each site was heard.
   std::map<std::string, double> sites_ago_s(double now_s) const;
 
  private:

@@ -1,5 +1,5 @@
-// How often each channel may pass. Channels come and go: who is silent for a minute is forgotten
-// when there is no more room. Pure.
+// The rate limit of each channel. When there is no more room, channels that are silent for a minute
+// are forgotten. Pure.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +18,7 @@ class RateBook {
 
   explicit RateBook(std::size_t most) : most_(most) {}
 
-  // Whether one more may pass now; it is counted.
+  // Whether one more may pass now; counts it.
   bool passes(std::string_view channel, double rate_hz, double now_s);
 
  private:

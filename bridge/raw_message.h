@@ -1,5 +1,5 @@
-// A message that is passed on as it came, with its signature; as a type of LCM only what sending
-// needs.
+// A message that is passed on unchanged, with its signature. It has only those parts of an LCM type
+// that sending needs.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Gaps in what came over a link: of each sender, what its own sequence says is missing. Pure.
+// Finds gaps in what came over a link, from each sender's own sequence numbers. Pure.
 #pragma once
 
 #include <cstdint>
@@ -12,11 +12,11 @@ class SequenceWatch {
   // `stream`: a station and a kind of message.
   void hear(const std::string& stream, std::int64_t boot_id, std::int64_t sequence, double now_s);
 
-  // Of all streams: sequences that never came. One that came late is taken off again.
+  // Number of sequences that never came, over all streams. A late one is subtracted again.
   std::uint64_t missing() const { return missing_; }
-  // Came twice, or so late that it cannot be told.
+  // Number of messages that came twice, or too late to distinguish the two.
   std::uint64_t repeated() const { return repeated_; }
-  // The last stream with a gap, while that is no longer ago than kAlarm_s; else empty.
+  // The last stream with a gap within kAlarm_s; otherwise empty.
   std::string alarm(double now_s) const;
   static constexpr double kAlarm_s = 10.0;
 

@@ -1,4 +1,4 @@
-// How the bridge is, for people and for programs. Pure.
+// The state of the bridge, for people and for programs. Pure.
 #pragma once
 
 #include <cstdint>
@@ -15,21 +15,21 @@ struct LinkStatus {
   std::string trouble;
   std::uint64_t openings = 0, losses = 0, sent = 0, unsent = 0, displaced = 0;
   std::uint64_t refusals = 0;
-  std::string refusal;  // of the server, the last one
+  std::string refusal;  // the server's last one
 };
 
 struct ArchiveStatus {
   bool is_wanted = false, is_kept = false;
   std::string trouble;
   std::uint64_t messages = 0, bytes = 0;
-  std::vector<std::string> standing;  // sites that are heard live and not copied
+  std::vector<std::string> standing;  // sites that are heard live but not copied
 };
 
 struct OwnershipStatus {
   bool is_wanted = false, is_confirmed = true;
   std::size_t owned = 0, others = 0;
   std::uint64_t taken = 0, handed_over = 0, lost = 0;
-  std::uint64_t epoch = 0;  // the greatest of those that are owned
+  std::uint64_t epoch = 0;  // the greatest among owned targets
   double delay_s = 0.0;     // until the store answers
 };
 
@@ -43,9 +43,9 @@ struct BridgeStatus {
   OwnershipStatus ownership;
   Counts out, in;
   std::uint64_t missing = 0, repeated = 0, unsent_to_bus = 0;
-  std::uint64_t obeyed_epoch = 0;  // the greatest with which a command came in
-  std::string gap;                 // the stream with the last gap, while that is recent
-  std::string late;                // the last live message that came late, likewise
+  std::uint64_t obeyed_epoch = 0;  // the greatest of a command that came in
+  std::string gap;                 // the stream with the last gap, while recent
+  std::string late;                // the last live message that came late, while recent
 };
 
 // One condition each; empty if all is well.
@@ -54,8 +54,8 @@ std::vector<std::string> alarms(const BridgeStatus& status);
 std::string in_one_line(const BridgeStatus& status);
 std::string to_json(const BridgeStatus& status);
 
-// Which sites are live now, but have not come into the archive for `patience_s`: a server whose
-// copying has stopped says that all is well.
+// The sites that are live now, but have not come into the archive for `patience_s`. A server that
+// has stopped copying reports that all is well.
 std::vector<std::string> standing_still(const std::map<std::string, double>& heard_ago_s,
                                         const std::map<std::string, double>& archived_ago_s,
                                         double patience_s);

@@ -1,4 +1,4 @@
-// What a server keeps of a site or a region: bearings, statuses, targets, and never a command. A
+// What a server keeps of a site or a region: bearings, statuses and targets, but never a command: a
 // queued command is a stale command. Pure.
 #pragma once
 
@@ -17,20 +17,20 @@ struct StreamSource {
 
 struct StreamPlan {
   std::string name;
-  std::vector<std::string> subjects;  // that this server itself hears; none where it copies
+  std::vector<std::string> subjects;  // received by this server itself; empty where it copies
   std::vector<StreamSource> sources;
   std::int64_t keep_ns = 0, most_bytes = 0;
 };
 
-// Nothing where no stream is configured.
+// nullopt if no stream is configured.
 std::optional<StreamPlan> plan_stream(const BridgeConfig& config);
 
-// Whether a stream of that name, which was found with these, is the planned one, perhaps of an
-// earlier configuration: then all it keeps is of this region, or site.
+// Whether an existing stream of that name, with these subjects and sources, is the planned one,
+// perhaps of an earlier configuration: everything that it keeps is of this region, or site.
 bool is_same_stream(const BridgeConfig& config, const std::vector<std::string>& subjects,
                     const std::vector<std::string>& sources);
 
-// Whether a subject with wildcards covers this one, as NATS has it.
+// Whether a subject with wildcards covers this one, by NATS's rules.
 bool covers(const std::string& pattern, const std::string& subject);
 
 }  // namespace ols::bridge

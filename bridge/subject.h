@@ -1,4 +1,4 @@
-// The subjects between sites, and which channel of a bus stands behind each. Pure.
+// The subjects between sites, and the bus channel behind each. Pure.
 //
 //   ols.v1.<region>.<site>.<station>.bearing | status | cmd.<command>
 //   ols.v1.<region>.target
@@ -17,28 +17,28 @@ struct Subject {
   Kind kind = Kind::kTarget;
   std::string region;
   std::string site{}, station{};  // empty for a target
-  std::string command{};          // of kCommand: "slew"
+  std::string command{};          // of kCommand, for example "slew"
 
   friend bool operator==(const Subject&, const Subject&) = default;
 };
 
-// A region, a site, a station: 1 to 40 letters, digits, - or _. Nothing else may stand between the
-// dots of a subject: a station named "*" or "a.b" would be somebody else's.
+// A region, a site or a station: 1 to 40 letters, digits, - or _. Nothing else may be between the
+// dots of a subject: a station named "*" or "a.b" would be another's.
 bool is_name(std::string_view text);
 // The commands that a subject may carry.
 const std::vector<std::string>& commands();
 
-// Nothing for any other subject, or one with wildcards.
+// nullopt for any other subject, and for one with wildcards.
 std::optional<Subject> parse_subject(std::string_view text);
 std::string to_text(const Subject& subject);
 
-// What a channel carries, where its station is; nothing for a channel that never crosses.
+// The contents of a station's channel; nullopt for a channel that never crosses.
 struct Content {
   Kind kind = Kind::kTarget;
   std::string station, command;
 };
 std::optional<Content> content_of(std::string_view channel);
-// The channel on the bus. A station's message keeps its name: the channel is signed.
+// The channel on the bus. A station's message keeps its channel, because the channel is signed.
 std::string channel_of(const Subject& subject);
 
 // Stations by "REGION.SITE.STATION", each part a name or *.

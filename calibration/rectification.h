@@ -10,10 +10,8 @@ namespace ols::calibration {
 
 struct RectifiedAngle {
   enum class Kind {
-    kRoll,     // of the image against the horizon, where the level line was seen; right side down >
-               // 0
-    kAzimuth,  // of the image centre against the plane perpendicular to the tilt axis; to the right
-               // > 0
+    kRoll,       // of the image against the horizon at the level line; right side down > 0
+    kAzimuth,    // of the image centre against the plane perpendicular to the tilt axis; right > 0
     kElevation,  // of the image centre at the rulers, above the tilt that the unit counts
   };
   Kind kind = Kind::kRoll;

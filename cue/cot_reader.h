@@ -1,6 +1,6 @@
 // Cursor on Target: an event as XML, or as a message of the TAK protocol, version 1. Pure.
 //
-// ce and le count as one sigma, as the schema has it; who means 90 % says more than is asked for.
+// ce and le count as one sigma, as in the schema. A source that means 90 % states more than needed.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace ols::cues {
 
-// Events whose type begins with one of these are wanted: "a-" is all things, "a-h-A" hostile ones
-// in the air.
+// The types of wanted events, by their beginnings: "a-" is everything, "a-h-A" hostile objects in
+// the air.
 using CotTypes = std::vector<std::string>;
 
 Reading cot_reading(const std::string& message, const CotTypes& types);

@@ -1,4 +1,4 @@
-// ols-cue on the bus: it sends cues, and hears nothing but itself.
+// ols-cue on the bus: it sends cues, and receives nothing but its own self-test.
 #pragma once
 
 #include <cstdint>

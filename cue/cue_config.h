@@ -1,4 +1,4 @@
-// What ols-cue's configuration file holds: docs/configuration.md.
+// The contents of ols-cue's configuration file: docs/configuration.md.
 #pragma once
 
 #include <deque>
@@ -18,8 +18,8 @@ enum class Format { kCot, kAircraftJson, kSbs, kJson, kSapient };
 struct InputConfig {
   Format format = Format::kCot;
   std::string from;                      // parse_source()
-  double poll_s = 1.0;                   // of a file or a web address
-  std::vector<std::string> types{"a-"};  // of CoT's events
+  double poll_s = 1.0;                   // for a file or a web address
+  std::vector<std::string> types{"a-"};  // for CoT events
   InputRules rules;
 };
 
@@ -28,16 +28,17 @@ struct CueConfig {
   std::string geoid = "egm96_15.gtx";
   std::string status_file;
   int most = 32;
-  std::deque<InputConfig> inputs;  // whose places stay, as the configuration's table refers to them
+  std::deque<InputConfig> inputs;  // a deque, because the configuration's table refers to its
+                                   // elements
   trust::TrustConfig trust;
 };
 
 config::Section cue_section(CueConfig& config);  // the whole file
-// Of a new input: a table of the array.
+// For a new input: a table of the array.
 config::Section input_section(CueConfig& config);
 // Throws ConfigError.
 CueConfig load_cue_config(const std::string& path);
-// The same from text, `name` standing for the path in errors.
+// The same from text. Errors give `name` instead of the path.
 CueConfig parse_cue_config(const std::string& text, const std::string& name);
 const char* to_string(Format format);
 

@@ -1,4 +1,4 @@
-// Messages out of a stream of bytes in any pieces. Pure.
+// Splits a stream of bytes, in any pieces, into messages. Pure.
 #pragma once
 
 #include <string>
@@ -10,31 +10,31 @@ namespace ols::cues {
 enum class Framing {
   kWhole,  // a datagram, a file
   kLines,
-  kCot,  // events as XML, one behind the other, or messages of the TAK protocol with their length
-  kSapient,  // messages with their length, four bytes before them
+  kCot,      // XML events in sequence, or messages of the TAK protocol with their length
+  kSapient,  // messages, each after its length in four bytes
 };
 
 class Framer {
  public:
   explicit Framer(Framing framing) : framing_(framing) {}
 
-  // The messages that the bytes complete.
+  // Takes bytes, and returns the messages that they complete.
   std::vector<std::string> take(std::string_view bytes);
-  // The stream begins anew.
+  // The stream starts again.
   void clear() { drop_rest(); }
-  // Streams without an end of a message in sight: they were dropped.
+  // Number of dropped streams, in which no end of a message came in sight.
   int overlong() const { return overlong_; }
 
   static constexpr std::size_t kLongest_bytes = 65'536;
 
  private:
-  // Takes the first message that is not taken yet; false: it is not complete.
+  // Takes the next message; false: it is not complete.
   bool next(std::string& message);
   bool next_line(std::string& message);
   bool next_event(std::string& message);
   bool next_tak_message(std::string& message);
   bool next_sapient_message(std::string& message);
-  // A message of such a length is none: where the next one begins is unknown.
+  // Drops the stream: no message has this length, and the start of the next one is unknown.
   bool refuse_overlong();
 
   void drop_rest();
@@ -42,7 +42,7 @@ class Framer {
 
   Framing framing_;
   std::string bytes_;
-  std::size_t taken_ = 0;  // of them, during take(): erased once at its end
+  std::size_t taken_ = 0;  // bytes taken during take(); erased once at its end
   int overlong_ = 0;
 };
 

@@ -1,4 +1,4 @@
-// Bytes of one input in, what they say out. Pure.
+// Turns the bytes of one input into readings. Pure.
 #pragma once
 
 #include <cstdint>
@@ -14,12 +14,12 @@ namespace ols::cues {
 
 class InputReader {
  public:
-  // `is_stream`: messages come in any pieces; else each piece is whole. `geoid_m`: of SAPIENT's
-  // heights above it; none: those are refused.
+  // `is_stream`: messages come in any pieces; otherwise each piece is a whole message. `geoid_m`:
+  // for SAPIENT's heights above the geoid; without it they are refused.
   InputReader(Format format, CotTypes types, bool is_stream, GeoidHeight geoid_m = {});
 
   Readings take(std::string_view bytes, std::int64_t now_us);
-  // The connection begins anew.
+  // The connection starts again.
   void clear() { framer_.clear(); }
 
  private:
@@ -30,7 +30,7 @@ class InputReader {
   Framer framer_;
   SbsReader sbs_;
   SapientReader sapient_;
-  int overlong_ = 0;  // of the framer's, told
+  int overlong_ = 0;  // of the framer's count, already reported
 };
 
 }  // namespace ols::cues

@@ -1,4 +1,4 @@
-// A cue as a line of JSON, for everything that has no format of its own: docs/cues.md. Pure.
+// A cue as a line of JSON, for sources without a format of their own: docs/cues.md. Pure.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// What an input says of one object, or why that is not used.
+// An input's data on one object, or the reason why they are not used.
 #pragma once
 
 #include <array>
@@ -10,14 +10,14 @@
 
 namespace ols::cues {
 
-// NaN or nothing: the source does not say.
+// NaN or nullopt: the source does not state it.
 struct Report {
-  std::string name;           // as its source calls it, stable
+  std::string name;           // stable, as its source calls it
   std::string label;          // for people
-  std::int64_t utime_us = 0;  // UTC of the place
-  std::int64_t stale_us = 0;  // until when its source stands by it; 0: it does not say
+  std::int64_t utime_us = 0;  // UTC of the position
+  std::int64_t stale_us = 0;  // valid until, as its source states; 0: not stated
   double latitude_deg = 0.0, longitude_deg = 0.0;
-  double height_m = 0.0;  // above the ellipsoid, unless it is the pressure's
+  double height_m = 0.0;  // above the ellipsoid, unless it is a pressure altitude
   bool is_pressure_height = false;
   std::optional<double> horizontal_sd_m, vertical_sd_m;
   std::optional<std::array<double, 3>> velocity_enu_m_s;
@@ -33,17 +33,17 @@ enum class Refusal {
   kNoHeight,
   kStale,
   kFuture,
-  kOwn,        // what ols-export has sent
-  kOtherType,  // not of those that are wanted
+  kOwn,        // sent by ols-export itself
+  kOtherType,  // not of a wanted type
   kOutOfArea,
   kTooMany,
-  kCount,  // not a reason: how many there are
+  kCount,  // not a reason: the number of reasons
 };
 const char* to_string(Refusal refusal);
 
 struct Refused {
   Refusal why = Refusal::kMalformed;
-  std::string what;  // which object, or what is wrong with it
+  std::string what;  // the object, or what is wrong with it
 };
 
 using Reading = std::variant<Report, Refused>;

@@ -1,4 +1,4 @@
-// SAPIENT, BSI Flex 335 v2.0: the detections of other nodes, as a middleware passes them on. Pure.
+// SAPIENT, BSI Flex 335 v2.0: detections of other nodes, passed on by a middleware. Pure.
 #pragma once
 
 #include <functional>
@@ -12,28 +12,28 @@
 
 namespace ols::cues {
 
-// [m] above the ellipsoid, by latitude and longitude in degrees; not finite: not known there.
+// [m] geoid above the ellipsoid, by latitude and longitude in degrees; not finite: unknown there.
 using GeoidHeight = std::function<double(double, double)>;
 
 class SapientReader {
  public:
-  // Without a geoid, heights above it are none.
+  // Without a geoid, heights above it are refused.
   explicit SapientReader(GeoidHeight geoid_m) : geoid_m_(std::move(geoid_m)) {}
 
-  // A message without its length. Nothing for one that is no detection.
+  // A message without its length. Empty for a message that is no detection.
   Readings take(const std::string& message);
 
  private:
-  // What is known of a node, which its detections count from.
+  // What is known of a node; its detections are relative to it.
   struct Node {
     std::optional<Geodetic> place;
     double speed_unit_m_s = 1.0;
-    std::string utm_zone;  // of places that name none
+    std::string utm_zone;  // for locations that name none
   };
   Reading reading_of(const exports::sapient::DetectionReport& report, const std::string& node,
                      std::int64_t utime_us) const;
   static void note_registration(Node& node, const exports::sapient::Registration& registration);
-  // Puts where it is into the report; else why that is not known.
+  // Sets the report's position; otherwise returns why it is unknown.
   std::optional<Refusal> place(Report& report, const exports::sapient::Location& location,
                                const Node& from) const;
   std::optional<Refusal> set_height(Report& report,

@@ -1,4 +1,4 @@
-// Where an input comes from, as the configuration writes it. Pure.
+// The source of an input, as the configuration writes it. Pure.
 #pragma once
 
 #include <string>
@@ -9,10 +9,10 @@ enum class Carrier { kUdp, kTcp, kFile, kHttp };
 
 struct Source {
   Carrier carrier = Carrier::kUdp;
-  std::string host;  // udp: the address to listen on, or a group's; tcp, http: to connect to
+  std::string host;  // udp: the address to listen on, or a group; tcp, http: the server
   int port = 0;
-  std::string path;       // of a file, or on the web server
-  std::string interface;  // udp, a group: the address of the interface to listen on; empty: any
+  std::string path;       // of a file, also on a web server
+  std::string interface;  // udp group: the interface's address; empty: any
 };
 
 // "udp://239.2.3.1:6969?interface=10.0.0.5", "udp://0.0.0.0:6969", "tcp://HOST:PORT",

@@ -1,4 +1,4 @@
-// How the inputs are, for people and for programs. Pure.
+// The state of the inputs, for people and for programs. Pure.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@ struct InputStatus {
 struct CueStatus {
   std::int64_t utime_us = 0;
   std::size_t cues = 0;
-  std::vector<std::string> alarms;  // of the bus
+  std::vector<std::string> alarms;  // about the bus
   std::map<std::string, double> counters;
   std::vector<InputStatus> inputs;
 };

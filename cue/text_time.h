@@ -1,4 +1,4 @@
-// Instants as texts. Pure.
+// Instants as text. Pure.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace ols::cues {
 
-// "2026-11-23T10:15:30.250Z": UTC, with any number of decimals or none; of years 1970 to 9999.
+// "2026-11-23T10:15:30.250Z": UTC, with any number of decimals or none; years 1970 to 9999.
 std::optional<std::int64_t> utime_of_iso(const std::string& text);
 
 }  // namespace ols::cues

@@ -1,4 +1,4 @@
-// Where a region's targets are: a box of latitude and longitude. Pure.
+// The area of a region's targets: a box of latitude and longitude. Pure.
 #pragma once
 
 #include "base/area.h"
@@ -7,7 +7,7 @@ namespace ols::bridge {
 
 using Cell = Area;
 
-// How far inside of the cell's border this place is; negative: outside. [m]
+// How far a place is inside the cell's border [m]; negative: outside.
 double depth_m(const Cell& cell, double latitude_deg, double longitude_deg);
 
 }  // namespace ols::bridge

@@ -42,7 +42,7 @@ class SceneTracks {
   explicit SceneTracks(const StationGeometry& geometry, const SceneTrackOptions& options = {})
       : geometry_(geometry), options_(options) {}
 
-  // The next picture, and the angles at its exposure.
+  // Adds a picture with the angles at its exposure.
   void add(const cv::Mat& gray, const PanTilt& angles);
 
   // Tracks seen in at least two pictures, sorted by picture.

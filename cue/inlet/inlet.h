@@ -1,4 +1,5 @@
-// Where an input's bytes come in: on the process's io_context, so that none makes another wait.
+// The source of an input's bytes. Inlets share the process's io_context, so none makes another
+// wait.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +21,7 @@ struct InletReport {
   std::int64_t openings = 0, failures = 0, bytes = 0;
 };
 
-// Who gets the bytes; `begins`: before the first ones of a connection.
+// The receiver of the bytes. `begins`: called before the first bytes of a connection.
 struct InletSink {
   std::function<void()> begins;
   std::function<void(std::string_view)> bytes;
@@ -40,7 +41,7 @@ class Inlet {
   InletReport report_;
 };
 
-// `poll_s`: between two looks at a file.
+// `poll_s`: interval between two looks at a file.
 std::unique_ptr<Inlet> make_inlet(boost::asio::io_context& context, const Source& source,
                                   double poll_s, InletSink sink);
 

@@ -1,4 +1,4 @@
-// A stream from a server that is connected to, again and again.
+// A stream from a server. Reconnects by itself.
 #pragma once
 
 #include <boost/asio/io_context.hpp>
@@ -21,7 +21,7 @@ class TcpInlet : public Inlet {
   void connected();
   void listen();
   void fail(const std::string& why);
-  // Ends an attempt that takes too long.
+  // Ends a connection attempt that takes too long.
   void give_patience();
 
   Source source_;

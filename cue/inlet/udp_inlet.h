@@ -1,4 +1,4 @@
-// Datagrams, to this host or to a group. A group that is silent for ten seconds is joined anew.
+// Datagrams to this host or to a group. A group that is silent for ten seconds is joined again.
 #pragma once
 
 #include <boost/asio/io_context.hpp>
@@ -27,7 +27,7 @@ class UdpInlet : public Inlet {
   boost::asio::ip::udp::socket socket_;
   boost::asio::steady_timer timer_;
   std::vector<char> buffer_;
-  bool heard_ = false;  // since it was looked at last
+  bool heard_ = false;  // since the last look
 };
 
 }  // namespace ols::cues
