@@ -1,4 +1,4 @@
-// Where an output goes to, as the configuration writes it. Pure.
+// The destination of an output, as the configuration writes it. Pure.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@ enum class Scheme { kUdp, kTcp, kTls, kMqtt, kMqtts, kFile };
 
 struct Address {
   Scheme scheme = Scheme::kUdp;
-  std::string host;  // udp: an IP address; else a name or an address
+  std::string host;  // udp: an IP address; otherwise a name or an address
   int port = 0;
   std::string path;  // file
   int ttl = 1;       // udp, multicast: hops

@@ -1,4 +1,4 @@
-// How long to wait before the next attempt to reach a receiver: longer with each failure. Pure.
+// How long to wait before the next attempt to reach a receiver; longer after each failure. Pure.
 #pragma once
 
 #include <algorithm>

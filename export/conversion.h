@@ -1,4 +1,4 @@
-// A recording, or positions from ols-fuse, as one file of a format.
+// Converts a recording, or positions from ols-fuse, to one file of a format.
 #pragma once
 
 #include <string>
@@ -10,20 +10,20 @@ namespace ols::exports {
 
 struct Conversion {
   std::string log;    // an LCM log; or
-  std::string fixes;  // the CSV that ols-fuse writes
+  std::string fixes;  // ols-fuse's CSV
   Format format = Format::kGeoJson;
   std::string output;
-  bool skips_damage = false;  // what is damaged is left out and reported
+  bool skips_damage = false;  // damaged parts are left out and reported
 };
 
 struct ConversionReport {
   std::size_t targets = 0, stations = 0, lines = 0;  // records
-  std::string damage;  // that was left out, with its places; empty: none
+  std::string damage;  // the parts left out, with their places; empty: none
 };
 
-// Everything in the recording, whatever its rate; tentative targets only where the gate lets them.
-// Throws std::exception with the file's name, and leaves the output as it was: also where the
-// recording is damaged, or there is nothing in it to write. `tell`: of a log's bytes.
+// Converts everything in the recording, whatever its rate; tentative targets only if the gate
+// passes them. Throws std::exception with the file's name if the recording is damaged or contains
+// nothing to write; the output is then unchanged. `tell`: progress in bytes of a log.
 ConversionReport convert(const Conversion& conversion, const ExportConfig& config,
                          const GateConfig& gate, const TellSteps& tell = {});
 

@@ -1,5 +1,5 @@
-// One format: records in, bytes out. Encoders have no clock, file or socket; whatever memory they
-// have is of what they were told.
+// One format: records in, bytes out. Encoders have no clock, file or socket; their only memory is
+// of the records that they received.
 #pragma once
 
 #include <cstdint>
@@ -13,9 +13,9 @@ namespace ols::exports {
 
 // One datagram, message of a stream, MQTT message or file.
 struct Packet {
-  std::string subject;  // a newer one of the same subject replaces it; empty: none replaces it
+  std::string subject;  // a newer packet replaces one of the same subject; empty: none does
   std::string bytes{};
-  std::string where{};       // an MQTT topic, or what is put behind the name of a file
+  std::string where{};       // an MQTT topic, or the suffix of a file's name
   bool is_retained = false;  // MQTT
 };
 using Packets = std::vector<Packet>;
@@ -27,13 +27,13 @@ class Encoder {
   virtual Packets encode(const Target& target) = 0;
   virtual Packets encode(const Station& station) = 0;
   virtual Packets encode(const Line& line) = 0;
-  // What the format sends of its own accord, about once a second, or as often as a file is to be
-  // written: a document, a service's status. `utime_us`: now.
+  // The packets that the format sends without a record, about once a second, or as often as a file
+  // is written: a document, a service status. `utime_us`: now.
   virtual Packets turn(std::int64_t utime_us) {
     static_cast<void>(utime_us);
     return {};
   }
-  // The receiver is new, or has forgotten: what was told once is to be told again.
+  // The receiver is new or has forgotten everything: what is sent once is to be sent again.
   virtual void begin_again() {}
 };
 

@@ -8,11 +8,11 @@
 
 namespace ols::exports {
 
-inline constexpr const char* kMemberName = "export";  // of the site
+inline constexpr const char* kMemberName = "export";  // in the site's trust list
 
 class ExportBus : public BusClient {
  public:
-  // The handler gets targets, stations' statuses, and bearings.
+  // The handler receives targets, station statuses and bearings.
   ExportBus(std::string url, const trust::TrustConfig& trust, const BusInbox::Handler& handler);
 };
 

@@ -1,4 +1,4 @@
-// What ols-export's configuration file holds: docs/configuration.md.
+// The contents of ols-export's configuration file: docs/configuration.md.
 #pragma once
 
 #include <deque>
@@ -43,12 +43,12 @@ struct ExportConfig {
   std::string lcm_url = "udpm://239.255.76.67:7667?ttl=0";
   std::string site = "ols";
   std::string geoid = "egm96_15.gtx";
-  bool has_own_geoid = false;  // the file states it; else the site's settings may
+  bool has_own_geoid = false;  // the file states it; otherwise the site's settings may
   std::string status_file;
   double max_age_s = 5.0;
-  double history_min = 10.0;  // of tracks in a file
+  double history_min = 10.0;  // of tracks in a file [min]
   std::deque<OutputConfig>
-      outputs;  // whose places stay, as the configuration's table refers to them
+      outputs;  // a deque, because the configuration's table refers to its elements
   CotSettings cot;
   HomeSettings home;
   AsterixSettings asterix;
@@ -58,17 +58,17 @@ struct ExportConfig {
 };
 
 config::Section export_section(ExportConfig& config);  // the whole file
-// Of a new output: a table of the array.
+// For a new output: a table of the array.
 config::Section output_section(ExportConfig& config);
 // Throws ConfigError.
 ExportConfig load_export_config(const std::string& path);
-// The same from text, `name` standing for the path in errors.
+// The same from text. Errors give `name` instead of the path.
 ExportConfig parse_export_config(const std::string& text, const std::string& name);
 
-// Whether its heights count from the sea, so that it needs a geoid.
+// Whether its heights are above sea level, so that it needs a geoid.
 bool needs_geoid(Format format);
 const char* to_string(Format format);
-// By its name on a command line; throws std::invalid_argument.
+// From its name on a command line. Throws std::invalid_argument.
 Format format_from(const std::string& name);
 
 }  // namespace ols::exports

@@ -1,4 +1,4 @@
-// What is heard goes to every output: of the bus, or of a recording. Counts what is not used.
+// Passes everything from the bus, or from a recording, to every output. Counts what is not used.
 #pragma once
 
 #include <cstdint>
@@ -16,15 +16,16 @@ namespace ols::exports {
 
 class Exporter {
  public:
-  // Records further than this from the present are not sent.
+  // max_age_s: records further from the present are not sent.
   Exporter(SiteContext site, std::vector<std::unique_ptr<Output>> outputs, double max_age_s);
 
   void hear(const BusMessage& message, std::int64_t now_utime_us);
-  // Ends what is silent, writes files. `now_s`: monotonic.
+  // Ends silent targets, and writes files. `now_s`: monotonic.
   void turn(double now_s, std::int64_t utime_us);
 
   const std::vector<std::unique_ptr<Output>>& outputs() const { return outputs_; }
-  // records_sent_on, messages_refused, messages_unused (no position, for instance), records_old.
+  // records_sent_on, messages_refused, messages_unused (for example without a position),
+  // records_old.
   const std::map<std::string, double>& counters() const { return counters_; }
   std::size_t targets() const { return book_.size(); }
 

@@ -1,4 +1,4 @@
-// Positions that ols-fuse has written, as targets.
+// Reads positions that ols-fuse has written, as targets.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace ols::exports {
 
-// The columns of base/fix_writer.h, of which standard deviations may be missing; covariances
-// between axes are not in the file and are taken as 0. Throws CsvError (FILE:LINE: COLUMN: what).
+// The columns of base/fix_writer.h; standard deviations may be missing. Covariances between axes
+// are not in the file and are taken as 0. Throws CsvError (FILE:LINE: COLUMN: what).
 std::vector<Target> read_fixes(const std::string& path, const SiteContext& site);
 
 }  // namespace ols::exports

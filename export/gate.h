@@ -1,4 +1,4 @@
-// What of the records goes to one output: kinds, area, and how often. Pure.
+// Decides which records go to one output: kinds, area, and rate. Pure.
 #pragma once
 
 #include <cstdint>
@@ -13,12 +13,12 @@ namespace ols::exports {
 
 struct GateConfig {
   bool targets = true, stations = true, lines = false;
-  bool tentative = false;  // targets that are not confirmed yet, too
-  double rate_hz = 2.0;    // of each object, at most
+  bool tentative = false;  // whether tentative targets pass too
+  double rate_hz = 2.0;    // max rate of each object
   Area area_deg{-90, -180, 90, 180};
 };
 
-// Records between two that may pass are left out, not delayed: what goes out is new. A change of a
+// Records that come too early are left out, not delayed: what goes out is new. A change of a
 // target's state passes at once. A target that leaves the area ends there.
 class Gate {
  public:
@@ -28,13 +28,13 @@ class Gate {
   bool passes(const Station& station);
   bool passes(const Line& line);
 
-  static constexpr double kLeastBelief = 0.5;  // of a line; as the fusion's own limit
+  static constexpr double kLeastBelief = 0.5;  // min belief of a line; as the fusion's own limit
 
  private:
   struct Last {
     std::int64_t utime_us = 0;
     TrackState state = TrackState::kEnded;
-    // Where it was told to be.
+    // The last exported place.
     Place place{};
     Covariance covariance_m2{};
   };

@@ -1,5 +1,5 @@
-// How high the geoid, the level of the sea, is above the WGS84 ellipsoid: from a grid file that
-// PROJ reads. Without one no height above the sea is ever written.
+// The height of the geoid (sea level) above the WGS84 ellipsoid, from a grid file that PROJ reads.
+// Without one, no height above sea level is ever written.
 #pragma once
 
 #include <memory>
@@ -16,7 +16,7 @@ class Geoid {
   Geoid(const Geoid&) = delete;
   Geoid& operator=(const Geoid&) = delete;
 
-  // [m]; not finite where the grid does not reach.
+  // [m]; not finite outside the grid.
   double height_m(double latitude_deg, double longitude_deg) const;
 
  private:

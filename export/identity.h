@@ -1,4 +1,4 @@
-// Names that stay the same: computed from what the bus says, never counted here, so that a restart
+// Names that stay the same. They are computed from the bus's data, never counted here, so a restart
 // of ols-export, or a second one, gives an object the same name. Pure.
 #pragma once
 
@@ -7,7 +7,7 @@
 
 namespace ols::exports {
 
-// "SITE.target.BOOT.NUMBER": the fusion's numbers begin again with each of its starts.
+// "SITE.target.BOOT.NUMBER": the fusion's numbers start again at each of its starts.
 std::string target_uid(const std::string& site, std::int64_t boot_id, std::int64_t target_id);
 std::string station_uid(const std::string& site, const std::string& station);
 std::string line_uid(const std::string& site, const std::string& station);

@@ -1,4 +1,4 @@
-// One output: what passes its gate goes through its encoder to its outlet.
+// One output: records that pass its gate go through its encoder to its outlet.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace ols::exports {
 
 class Output {
  public:
-  // `period_s`: between two turns of the encoder.
+  // `period_s`: interval between two turns of the encoder.
   Output(std::string name, const GateConfig& gate, double period_s,
          std::unique_ptr<Encoder> encoder, std::unique_ptr<Outlet> outlet);
 

@@ -1,4 +1,4 @@
-// What waits for a receiver: bounded, and the newest wins. Pure.
+// The packets that wait for a receiver: bounded, and the newest wins. Pure.
 #pragma once
 
 #include <cstdint>
@@ -15,20 +15,20 @@ class PacketQueue {
  public:
   explicit PacketQueue(std::size_t most = 1000) : most_(most) {}
 
-  // In the place of one of the same subject that still waits; else behind all, and if there are too
-  // many, in place of the oldest.
+  // Replaces a waiting packet of the same subject; otherwise goes last. If there are too many, the
+  // oldest is dropped.
   void put(Packet packet);
   std::optional<Packet> take();
   void clear();
 
   std::size_t size() const { return waiting_.size(); }
-  std::uint64_t displaced() const { return displaced_; }  // never sent; only goes up
+  std::uint64_t displaced() const { return displaced_; }  // never sent; only increases
 
  private:
   std::size_t most_;
   std::deque<Packet> waiting_;
-  std::uint64_t taken_ = 0;                                // number of the first that waits
-  std::unordered_map<std::string, std::uint64_t> number_;  // by subject, of what waits
+  std::uint64_t taken_ = 0;                                // number of the first waiting packet
+  std::unordered_map<std::string, std::uint64_t> number_;  // by subject, of the waiting packets
   std::uint64_t displaced_ = 0;
 };
 

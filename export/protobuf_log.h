@@ -1,14 +1,14 @@
-// What libprotobuf says by itself of damaged messages: a line on standard error for each, which
-// others' rubbish would fill a log with. It is counted in its place.
+// libprotobuf's own warnings about damaged messages: a line on standard error for each. Damaged
+// messages from others would fill the log, so they are counted instead.
 #pragma once
 
 #include <cstdint>
 
 namespace ols::exports {
 
-// From now on, in the whole process. Call once, before there are threads.
+// Applies to the whole process. Call once, before there are threads.
 void count_protobuf_warnings();
-// Only goes up.
+// Only increases.
 std::uint64_t protobuf_warnings();
 
 }  // namespace ols::exports

@@ -8,13 +8,13 @@
 
 namespace ols::exports {
 
-// The site with its geoid; without one, where none is there and none of the formats needs it.
-// Throws std::invalid_argument that names the format and what to do.
+// The site with its geoid; without one, if none is installed and no format needs it. Throws
+// std::invalid_argument that names the format and what to do.
 SiteContext site_context(const ExportConfig& config, const std::vector<Format>& formats);
 std::vector<Format> formats_of(const ExportConfig& config);
 
 // Throws std::invalid_argument that names the output whose certificate, key or password cannot be
-// read: it would only fail again and again.
+// read. Otherwise it would fail again and again.
 void check_files(const ExportConfig& config);
 
 }  // namespace ols::exports

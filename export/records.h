@@ -1,6 +1,5 @@
-// What is exported, in no format yet. Angles in degrees, as every format has them; heights above
-// the WGS84 ellipsoid, and beside them how high the geoid is there, for formats that count from the
-// sea.
+// Records for export, independent of the format. Angles in degrees, as in every format. Heights
+// above the WGS84 ellipsoid, with the geoid's height there for formats that use sea level.
 #pragma once
 
 #include <array>
@@ -17,12 +16,12 @@ struct Place {
   double latitude_deg = 0.0;   // WGS84
   double longitude_deg = 0.0;  // WGS84
   double height_m = 0.0;       // above the ellipsoid
-  double geoid_m = kUnknown;   // the geoid's height above the ellipsoid here; unknown without one
+  double geoid_m = kUnknown;   // the geoid's height above the ellipsoid there
 
   double above_sea_m() const { return height_m - geoid_m; }
 };
 
-// Symmetric, at the place's own east, north, up: ee, en, eu, nn, nu, uu.
+// Symmetric, in the place's own east, north, up: ee, en, eu, nn, nu, uu.
 using Covariance = std::array<double, 6>;
 
 enum class ObjectClass { kUnknown, kDrone, kBird, kAircraft, kOther };
@@ -32,11 +31,11 @@ enum class TrackState { kTentative, kConfirmed, kCoasted, kEnded };
 struct Target {
   std::int64_t utime_us = 0;
   std::string uid;      // of this object in all formats; identity.h
-  std::int64_t id = 0;  // the fusion's number of it
+  std::int64_t id = 0;  // the last place, if it has ended
   TrackState state = TrackState::kConfirmed;
-  Place place;  // where it was last, when it has ended
+  Place place;  // unknown if not estimated
   Covariance covariance_m2{};
-  std::array<double, 3> velocity_enu_m_s{};  // unknown where not estimated
+  std::array<double, 3> velocity_enu_m_s{};  // whose bearings are used
   Covariance velocity_covariance_m2_s2{};
   std::vector<std::string> stations;  // whose bearings are used
   ObjectClass object_class = ObjectClass::kUnknown;
@@ -53,7 +52,7 @@ struct Station {
   std::string uid;
   std::string name;
   Place place;
-  std::array<double, 3> position_sd_m{};      // east, north, up
+  std::array<double, 3> position_sd_m{};      // no alarm
   double azimuth_deg = kUnknown;              // of the optical axis, clockwise from true north
   double elevation_deg = kUnknown;            // above the horizon
   std::array<double, 2> field_of_view_deg{};  // horizontal, vertical; 0: unknown

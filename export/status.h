@@ -1,4 +1,4 @@
-// How the outputs are, for people and for programs. Pure.
+// The state of the outputs, for people and for programs. Pure.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ namespace ols::exports {
 struct ExportStatus {
   std::int64_t utime_us = 0;
   std::size_t targets = 0;
-  std::vector<std::string> alarms;  // of the bus
+  std::vector<std::string> alarms;  // about the bus
   std::map<std::string, double> counters;
   std::vector<std::pair<std::string, OutletReport>> outputs;  // by name
 };

@@ -13,15 +13,15 @@ namespace ols::exports {
 
 class TargetBook {
  public:
-  // The record to export; nothing for the end of what was never there.
+  // The records to export; empty for the end of a target that was never present.
   std::vector<Target> take(const Target& target);
-  // Ends of those that have not been heard for kSilent_s. `utime_us`: now, in the time of the
+  // The ends of targets that were silent for kSilent_s. `utime_us`: now, in the time of the
   // records.
   std::vector<Target> end_silent(std::int64_t utime_us);
   std::size_t size() const { return live_.size(); }
 
   static constexpr double kSilent_s = 10.0;
-  // Of forged messages with invented numbers; the oldest are ended.
+  // Limits forged messages with invented numbers; the oldest targets are ended.
   static constexpr std::size_t kMost = 2000;
 
  private:

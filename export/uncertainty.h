@@ -1,4 +1,4 @@
-// A covariance in the few numbers for which most formats have room. Pure.
+// A covariance in the few numbers that most formats have. Pure.
 #pragma once
 
 #include "export/records.h"
@@ -9,12 +9,12 @@ struct Ellipse {
   double semi_major_m = kUnknown, semi_minor_m = kUnknown;  // 1-sigma
   double azimuth_deg = 0.0;  // of the major axis, clockwise from north, 0..180
 };
-// Of the horizontal part; all unknown for what is no covariance.
+// Of the horizontal part; all unknown if it is no covariance.
 Ellipse ellipse_of(const Covariance& enu);
-// 1-sigma of one axis; unknown for what is negative or not finite.
+// 1-sigma of one axis; unknown if the variance is negative or not finite.
 double sd(double variance);
 
-// Horizontal speed and course of a velocity; unknown where it is.
+// Horizontal speed and course of a velocity; unknown if the velocity is.
 struct Motion {
   double speed_m_s = kUnknown, course_deg = kUnknown, climb_m_s = kUnknown;
 };

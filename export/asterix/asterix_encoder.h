@@ -1,4 +1,4 @@
-// ASTERIX, one record a datagram. Pure.
+// ASTERIX, one record per datagram. Pure.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,5 @@
-// A record of ASTERIX, item by item: which are there stands in front of it in the field
-// specification, seven bits an octet and one that says whether another follows
+// An ASTERIX record, item by item. The field specification in front of it lists the items that it
+// contains: seven bits per octet, and one that says whether another octet follows
 // (EUROCONTROL-SPEC-0149). Pure.
 #pragma once
 
@@ -20,17 +20,17 @@ class AsterixRecord {
   std::map<int, std::string> items_;
 };
 
-// A value in units of `lsb`, most significant octet first; what does not fit becomes the nearest
-// that does.
+// A value in units of `lsb`, most significant octet first. A value out of range becomes the nearest
+// one in range.
 std::string asterix_unsigned(double value, double lsb, int octets);
-// The same of a standard deviation: the next greater value, so that no small one becomes 0.
+// The same for a standard deviation, rounded up, so that a small one does not become 0.
 std::string asterix_deviation(double value, double lsb, int octets);
 std::string asterix_signed(double value, double lsb, int octets);
 // Time since midnight UTC in 1/128 s.
 std::string asterix_time(std::int64_t utime_us);
-// A compound item: the subfields that are there, by their bit from the left, from 0 to 6.
+// A compound item of these subfields, by their bit from the left, 0 to 6.
 std::string asterix_compound(const std::map<int, std::string>& subfields);
-// What goes into a datagram.
+// The contents of a datagram.
 std::string asterix_block(int category, const std::vector<std::string>& records);
 
 }  // namespace ols::exports

@@ -1,4 +1,4 @@
-// The records of the categories that are sent, items as in EUROCONTROL's specifications: CAT062
+// The records of the categories in use, with items as in EUROCONTROL's specifications: CAT062
 // (edition 1.20) system tracks, CAT063 (1.6) sensor status, CAT065 (1.5) service status, CAT015
 // (1.2) bearings. Pure.
 #pragma once
@@ -13,8 +13,8 @@ namespace ols::exports {
 
 struct AsterixSettings {
   int sac = 0;  // system area code, from EUROCONTROL's list
-  int sic = 1;  // our own system identification code
-  // Their identification codes follow ours, in this order; other stations are not sent.
+  int sic = 1;  // this system's identification code
+  // The stations' identification codes follow ours, in this order; other stations are not sent.
   std::vector<std::string> stations;
 };
 

@@ -1,4 +1,4 @@
-// ASTERIX has 16 bits for a track. Pure.
+// Track numbers: ASTERIX has 16 bits for them. Pure.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@ namespace ols::exports {
 
 class TrackNumbers {
  public:
-  // The number of this target as long as it is there: the fusion's own, unless another target that
-  // is there has it; then the next that is free. So a restart gives the same numbers again.
+  // The number of a present target: the fusion's own number, unless another present target has it;
+  // then the next free one. A restart thus gives the same numbers again.
   std::uint16_t of(const std::string& uid, std::int64_t target_id);
   void release(const std::string& uid);
 

@@ -1,6 +1,6 @@
-// COURAGEOUS, the JSON by which counter-drone systems are compared (format 0.4.1, CWA 18150):
-// targets are its tracks, what stations see its detections. Heights above the sea. It has no room
-// for uncertainties. Pure.
+// COURAGEOUS, the JSON by which counter-drone systems are compared (format 0.4.1, CWA 18150).
+// Targets are its tracks, stations' bearings its detections. Heights above sea level. It has no
+// fields for uncertainties. Pure.
 #pragma once
 
 #include <cmath>
@@ -10,7 +10,7 @@
 
 namespace ols::exports {
 
-// Where the system is; unknown: where one of its stations is.
+// The system's place; if unknown, the place of one of its stations.
 struct CourageousSettings {
   double latitude_deg = kUnknown, longitude_deg = kUnknown, height_above_sea_m = kUnknown;
 
@@ -19,7 +19,7 @@ struct CourageousSettings {
   }
 };
 
-// Empty while no station is known and no place is set: the format demands a place of the system.
+// Empty while no station is known and no place is configured: the format requires a place.
 std::string courageous(const Picture& picture, const std::string& site,
                        const CourageousSettings& settings);
 

@@ -1,4 +1,4 @@
-// A file that is written anew at each turn, from everything that was told. Pure.
+// A file that is rewritten at each turn, from all records so far. Pure.
 #pragma once
 
 #include <functional>

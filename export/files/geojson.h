@@ -7,8 +7,8 @@
 
 namespace ols::exports {
 
-// A point for each target and its track as a line, a point for each station, a line of `line_m` for
-// what a station saw last. Covariances are properties.
+// A point for each target with its track as a line, a point for each station, and a line of
+// `line_m` for a station's last bearing. Covariances are properties.
 std::string geojson(const Picture& picture, double line_m);
 
 }  // namespace ols::exports

@@ -1,5 +1,5 @@
-// GPX 1.1: a track for each target, a waypoint for each station; heights above the sea, with how
-// high the geoid is there. It has no room for uncertainties and lines. Pure.
+// GPX 1.1: a track for each target, a waypoint for each station. Heights above sea level, with the
+// geoid's height there. It has no fields for uncertainties and lines. Pure.
 #pragma once
 
 #include <string>

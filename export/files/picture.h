@@ -1,4 +1,4 @@
-// What is in a file: tracks with their points, stations, and what stations saw. Pure.
+// The contents of a file: tracks with their points, stations, and their lines of sight. Pure.
 #pragma once
 
 #include <cstdint>
@@ -13,15 +13,15 @@ namespace ols::exports {
 
 struct PictureLimits {
   double history_s = std::numeric_limits<double>::infinity();
-  // Of all tracks and lines together; where there would be more, each is thinned evenly in time.
+  // For all tracks and lines together. Above it, each is thinned evenly in time.
   std::int64_t most_points = std::numeric_limits<std::int64_t>::max();
-  // What has no height above the sea is left out: the format has no other height.
+  // Leaves out what has no height above sea level: the format has no other height.
   bool needs_sea = false;
 };
 
 struct Track {
   Target last;
-  std::deque<Target> points;  // in the order of time
+  std::deque<Target> points;  // ascending in time
 };
 struct SeenLines {
   std::deque<Line> points;
@@ -34,8 +34,8 @@ class Picture {
   void take(const Target& target);
   void take(const Station& station);
   void take(const Line& line);
-  // Removes points older than the history but for the newest of what is live, tracks that ended
-  // before it, and stations that have said nothing for five minutes. `utime_us`: now.
+  // Removes points older than the history, except the newest of a live object; tracks that ended
+  // before it; and stations that were silent for five minutes. `utime_us`: now.
   void forget(std::int64_t utime_us);
 
   bool is_empty() const { return tracks_.empty() && stations_.empty() && lines_.empty(); }
@@ -54,7 +54,7 @@ class Picture {
   std::map<std::string, SeenLines> lines_;
 };
 
-// Where a line is, this far from its camera.
+// The point on a line at this distance from its camera.
 Place end_of(const Line& line, double distance_m);
 
 }  // namespace ols::exports

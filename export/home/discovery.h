@@ -1,4 +1,4 @@
-// What Home Assistant must be told once to show an entity: its MQTT discovery. Pure.
+// Home Assistant's MQTT discovery: what it must receive once to show an entity. Pure.
 #pragma once
 
 #include <cstddef>
@@ -12,9 +12,9 @@ namespace ols::exports {
 // `prefix`: site_prefix().
 std::string slot_topic(const std::string& prefix, std::size_t slot);
 
-// A place on the map, and height, speed and state as sensors.
+// A place on the map, with height, speed and state as sensors.
 Packets discover_slot(const HomeSettings& settings, const std::string& site, std::size_t slot);
-// State and direction as sensors, and whether it has an alarm. `word`: its name in topics.
+// State and direction as sensors, and whether the station has an alarm. `word`: its name in topics.
 Packets discover_station(const HomeSettings& settings, const std::string& site,
                          const std::string& word, const std::string& name);
 

@@ -1,14 +1,14 @@
-// MQTT: flat JSON of targets, stations and lines, and what Home Assistant needs to find them by
-// itself (its MQTT discovery). Pure.
+// MQTT: flat JSON of targets, stations and lines, and Home Assistant's MQTT discovery, by which it
+// finds them by itself. Pure.
 //
-// PREFIX is [mqtt] prefix and the name of the site: several sites may have one broker.
+// PREFIX is [mqtt] prefix and the name of the site: several sites may share a broker.
 //
 //   PREFIX/status           "online" or "offline" (the last will)
 //   PREFIX/targets          every target
 //   PREFIX/target/SLOT      the target in this slot, retained; {"state": "none"} while it is free,
-//                           said again before that is old news
+//                           repeated before it becomes stale
 //   PREFIX/station/NAME     retained
-//   PREFIX/line/NAME        what this station sees
+//   PREFIX/line/NAME        the station's line of sight
 #pragma once
 
 #include <cstdint>
@@ -38,15 +38,15 @@ class HomeEncoder : public Encoder {
   std::string site_, prefix_;
   TargetSlots slots_;
   bool slots_are_told_ = false;
-  std::int64_t free_due_us_ = 0;  // when it is said again which slots are free
+  std::int64_t free_due_us_ = 0;  // when the free slots are repeated
   std::set<std::string> told_stations_;
 };
 
-// What the site's topics begin with.
+// The beginning of the site's topics.
 std::string site_prefix(const HomeSettings& settings, const std::string& site);
 // The topic of its availability: that of the last will.
 std::string status_topic(const HomeSettings& settings, const std::string& site);
-// A name as a level of a topic: what is no letter, digit, - or _ becomes "_".
+// A name as a level of a topic: everything but letters, digits, - and _ becomes "_".
 std::string topic_word(const std::string& name);
 
 }  // namespace ols::exports

@@ -8,8 +8,8 @@ namespace ols::exports {
 struct HomeSettings {
   std::string prefix = "ols";
   std::string discovery_prefix = "homeassistant";
-  double stale_s = 30.0;  // after this long without news an entity is unavailable; 0: never
-  int slots = 8;          // targets with entities of their own at the same time
+  double stale_s = 30.0;  // after this time without news an entity is unavailable; 0: never
+  int slots = 8;          // number of targets with their own entities at the same time
 };
 
 }  // namespace ols::exports

@@ -1,5 +1,4 @@
-// Files that appear whole: each packet is one file, its topic what is put before the end of its
-// name.
+// Files that appear whole: each packet is one file. Its `where` is inserted before the extension.
 #pragma once
 
 #include <string>
@@ -12,7 +11,7 @@ class FileLink : public Link {
  public:
   explicit FileLink(std::string path) : path_(std::move(path)) {}
 
-  // That it can be written, so that what cannot is not open.
+  // Checks that the file can be written; otherwise the link stays closed.
   void open() override;
   void send(const Packet& packet) override;
   void wait(int wake_fd, double seconds) override;

@@ -1,4 +1,4 @@
-// A connection that may make its caller wait, for a thread of its own (queued_outlet.h).
+// A connection that may make its caller wait, so it has its own thread (queued_outlet.h).
 #pragma once
 
 #include <cstdint>
@@ -19,20 +19,19 @@ class LinkError : public std::runtime_error {
 class Link {
  public:
   virtual ~Link() = default;
-  // These throw LinkError, after kPatience_s at the latest; the link is then closed.
+  // These throw LinkError, after kPatience_s at the latest. The link is then closed.
   virtual void open() = 0;
   virtual void send(const Packet& packet) = 0;
-  // Until there is something to do: `wake_fd` is readable, or the time is over. Takes what the
-  // receiver says.
+  // Waits until `wake_fd` is readable or the time is over. Reads what the receiver sends.
   virtual void wait(int wake_fd, double seconds) = 0;
   virtual void close() = 0;
-  // Before an open connection is closed because the program ends; throws as the others do.
+  // Called before an open connection is closed because the program ends. Throws as the others do.
   virtual void say_goodbye() {}
-  // Whether what waited while it was closed is old news.
+  // Whether packets that waited while it was closed are to be dropped.
   virtual bool forgets() const { return true; }
-  // What the receiver finds wrong while the connection holds; empty: nothing.
+  // What the receiver reports as wrong while the connection holds; empty: nothing.
   virtual std::string trouble() const { return {}; }
-  virtual std::uint64_t complaints() const { return 0; }  // of the receiver; only goes up
+  virtual std::uint64_t complaints() const { return 0; }  // of the receiver; only increases
 
   static constexpr double kPatience_s = 3.0;
 };

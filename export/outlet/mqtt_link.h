@@ -1,5 +1,4 @@
-// A connection to an MQTT broker, over libmosquitto. QoS 0: a position that comes late is of no
-// use.
+// A connection to an MQTT broker, over libmosquitto. QoS 0: a late position is useless.
 #pragma once
 
 #include <memory>
@@ -12,7 +11,7 @@
 namespace ols::exports {
 
 struct MqttLogin {
-  std::string client;               // the broker ends an older connection of the same name
+  std::string client;               // the broker closes an older connection of the same name
   std::string user, password_file;  // empty: none
   std::string status_topic;         // "online" while connected, then "offline"; both retained
 };
@@ -30,7 +29,7 @@ class MqttLink : public Link {
  private:
   struct Client;
   void log_in();
-  int take();  // what the broker says; the library's result
+  int take();  // reads from the broker; returns the library's result
   void check(int result, const std::string& doing) const;
   void write_all();
 

@@ -1,5 +1,5 @@
-// Where an output's packets go. Never waits: whoever fills several outlets must not feel that one
-// receiver is slow, gone or hostile.
+// The destination of an output's packets. It never waits, so a slow, lost or hostile receiver does
+// not delay the other outlets.
 #pragma once
 
 #include <cstdint>
@@ -11,12 +11,13 @@ namespace ols::exports {
 
 struct OutletReport {
   bool is_open = false;
-  std::string trouble{};         // why it is not, or what failed last; empty: nothing
+  std::string trouble{};         // why it is not open, or the last failure; empty: none
   std::uint64_t sent = 0;        // packets handed over
-  std::uint64_t bytes = 0;       // of them
-  std::uint64_t displaced = 0;   // replaced by newer ones or given up before they were sent
-  std::uint64_t failures = 0;    // connections that failed or broke; of a datagram or a file, each
-  std::uint64_t openings = 0;    // connections that were made
+  std::uint64_t bytes = 0;       // bytes of these packets
+  std::uint64_t displaced = 0;   // replaced by newer ones, or dropped, before they were sent
+  std::uint64_t failures = 0;    // connections that failed or broke; for datagrams and files, each
+                                 // one
+  std::uint64_t openings = 0;    // connections made
   std::uint64_t complaints = 0;  // messages that the receiver has called wrong
 };
 

@@ -1,4 +1,4 @@
-// A queue and a thread before a connection: opened again whenever it breaks.
+// A queue and a thread in front of a connection, which is reopened whenever it breaks.
 #pragma once
 
 #include <atomic>
@@ -31,11 +31,11 @@ class QueuedOutlet : public Outlet {
   std::optional<Packet> next();
   void pause(double seconds);
 
-  std::unique_ptr<Link> link_;  // of the thread
-  BackOff back_off_;            // of the thread
+  std::unique_ptr<Link> link_;  // used by the thread
+  BackOff back_off_;            // used by the thread
   Wakeup wakeup_;
   std::atomic<bool> ends_ = false;
-  mutable std::mutex mutex_;  // of what follows
+  mutable std::mutex mutex_;  // guards the following
   PacketQueue queue_;
   OutletReport report_;
   std::thread thread_;

@@ -1,4 +1,4 @@
-// A connection to a receiver of SAPIENT: nothing is sent before it has accepted the registration.
+// A connection to a SAPIENT receiver. Nothing is sent before it has accepted the registration.
 #pragma once
 
 #include "export/outlet/stream_link.h"
@@ -14,7 +14,7 @@ class SapientLink : public StreamLink {
   void open() override;
   void send(const Packet& packet) override;
   void say_goodbye() override;
-  // Of the messages that the receiver has called wrong, the newest, for some seconds.
+  // The newest of the messages that the receiver has called wrong, for some seconds.
   std::string trouble() const override;
   std::uint64_t complaints() const override { return dialogue_.complaints(); }
 

@@ -1,5 +1,5 @@
-// A stream over TCP or TLS: one packet after the other. What the receiver sends is always read, and
-// dropped if it has no use, so that the receiver need not wait for us.
+// A stream over TCP or TLS, packet by packet. Data from the receiver are always read, and dropped
+// if unused, so that the receiver need not wait for us.
 #pragma once
 
 #include <memory>
@@ -20,7 +20,7 @@ struct TlsFiles {
 
 class StreamLink : public Link {
  public:
-  // With the scheme tls, the receiver's certificate must be of an authority in `ca` and of its
+  // With the scheme tls, the receiver's certificate must be from an authority in `ca` and for its
   // host.
   StreamLink(const Address& address, TlsFiles files);
   ~StreamLink() override;
@@ -31,7 +31,7 @@ class StreamLink : public Link {
   void close() override;
 
  protected:
-  // What the receiver says, in any pieces.
+  // Data from the receiver, in any pieces.
   virtual void heard(std::string_view bytes) { static_cast<void>(bytes); }
   LinkError error(const std::string& what) const;
 
@@ -40,7 +40,7 @@ class StreamLink : public Link {
   void shake_hands();
   bool wait_until(double end_s, bool to_write) const;
   long write_some(const std::string& bytes, std::size_t from);
-  // Takes what there is; throws if the receiver has ended.
+  // Reads all available data; throws if the receiver has closed the connection.
   void drain();
   void drain_tls();
 

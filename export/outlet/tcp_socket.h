@@ -1,4 +1,4 @@
-// A TCP connection whose every call ends in time.
+// A TCP connection, each of whose calls has a time limit.
 #pragma once
 
 #include <string>
@@ -7,21 +7,21 @@ struct addrinfo;
 
 namespace ols::exports {
 
-// Of any TCP connection: what the receiver has no room for waits here, where a newer message
-// displaces it, and not in the system's buffer of megabytes.
+// For any TCP connection: unsent data waits in our queue, where a newer message displaces it, and
+// not in the system's buffer of megabytes.
 void keep_unsent_short(int descriptor);
 
 class TcpSocket {
  public:
-  // Connects to the first of the name's addresses that answers. The look-up is the system's and
-  // takes as long as its settings allow. Throws LinkError.
+  // Connects to the first of the name's addresses that answers. The system looks the name up, for
+  // as long as its settings allow. Throws LinkError.
   TcpSocket(const std::string& host, int port, double patience_s);
   ~TcpSocket();
   TcpSocket(const TcpSocket&) = delete;
   TcpSocket& operator=(const TcpSocket&) = delete;
 
   int descriptor() const { return fd_; }
-  // Until it can be read or written; false: not in time.
+  // Waits until it can be read or written. False: not in time.
   bool wait(bool to_write, double patience_s) const;
 
  private:

@@ -14,7 +14,7 @@ class UdpOutlet : public Outlet {
  public:
   explicit UdpOutlet(const Address& address);
 
-  // A datagram for which the system has no room, no route or no network is lost and counted.
+  // If the system has no room, route or network for a datagram, it is lost and counted.
   void put(Packets packets) override;
   OutletReport report() const override { return report_; }
 
@@ -26,7 +26,7 @@ class UdpOutlet : public Outlet {
   boost::asio::io_context context_;
   std::optional<boost::asio::ip::udp::socket> socket_;
   OutletReport report_;
-  double refused_s_ = -1e9;  // when a datagram was last reported as refused
+  double refused_s_ = -1e9;  // when a refused datagram was last reported
 };
 
 }  // namespace ols::exports

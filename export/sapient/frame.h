@@ -1,5 +1,5 @@
-// SAPIENT over a stream of bytes: each message follows its length, four bytes, the least
-// significant first. Pure.
+// SAPIENT in a stream of bytes: each message follows its length in four bytes, least significant
+// first. Pure.
 #pragma once
 
 #include <cstddef>
@@ -12,9 +12,9 @@ namespace ols::exports {
 
 inline constexpr std::size_t kFrameHead_bytes = 4;
 
-// The message with its length before it.
+// The message, preceded by its length.
 std::string framed(const std::string& message);
-// Of the message at the beginning of the bytes; nothing: its length is not complete yet.
+// Size of the framed message at the beginning of the bytes; nullopt: its length is incomplete.
 std::optional<std::size_t> framed_length(std::string_view bytes);
 
 }  // namespace ols::exports

@@ -1,5 +1,5 @@
 // SAPIENT names nodes by UUID and everything else by ULID. Both are computed from our own names, so
-// that they stay the same over a restart. Pure.
+// they survive a restart. Pure.
 #pragma once
 
 #include <cstdint>
@@ -7,10 +7,10 @@
 
 namespace ols::exports {
 
-// Lower case and of version 4, which receivers insist on, though its bits are of a hash.
+// Lower case, and marked as version 4 because receivers insist on it, although its bits are a hash.
 std::string uuid_of(const std::string& name);
 bool is_uuid(const std::string& text);
-// `time_ms`: since 1970; 0 for what has no time of its own, as an object.
+// `time_ms`: since 1970; 0 if it has no time of its own, such as an object.
 std::string ulid_of(std::int64_t time_ms, const std::string& name);
 
 }  // namespace ols::exports

@@ -1,4 +1,4 @@
-// The registration, which says at length what may be expected of the node. Pure.
+// The registration, which describes at length what the node sends. Pure.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace ols::exports {
 
-// Framed; receivers answer it with an acknowledgement.
+// Framed. Receivers answer it with an acknowledgement.
 std::string sapient_registration(const SapientSettings& settings, std::int64_t utime_us);
 
 }  // namespace ols::exports

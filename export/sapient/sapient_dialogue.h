@@ -1,5 +1,5 @@
-// What a receiver of SAPIENT says, and our answers. Alerts and everything else that is meant for
-// others is passed over. Pure.
+// A SAPIENT receiver's messages, and our answers. Alerts and other messages not meant for us are
+// ignored. Pure.
 #pragma once
 
 #include <cstdint>
@@ -17,16 +17,16 @@ class SapientDialogue {
  public:
   explicit SapientDialogue(SapientSettings settings) : settings_(std::move(settings)) {}
 
-  // Bytes in any pieces; what is to be answered. Throws std::runtime_error, in words for a person,
-  // for what is no SAPIENT.
+  // Takes bytes in any pieces; returns the answers. Throws std::runtime_error, in words for a
+  // person, if they are not SAPIENT.
   std::vector<std::string> take(std::string_view bytes, std::int64_t utime_us);
-  // The connection begins anew.
+  // The connection starts again.
   void clear();
 
-  // To our registration; nothing: none yet.
+  // The answer to our registration; nullopt: none yet.
   std::optional<bool> acceptance() const { return acceptance_; }
-  const std::string& refusal() const { return refusal_; }   // why, if it was refused
-  std::uint64_t complaints() const { return complaints_; }  // only goes up
+  const std::string& refusal() const { return refusal_; }   // the reason, if it was refused
+  std::uint64_t complaints() const { return complaints_; }  // only increases
   const std::string& last_complaint() const { return complaint_; }
 
   static constexpr std::size_t kLongest_bytes = 1 << 20;

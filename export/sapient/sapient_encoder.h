@@ -1,5 +1,5 @@
-// SAPIENT: the site as one node, with its targets. Lines are not there, since the standard counts
-// bearings from the node, which has one place only. Pure.
+// SAPIENT: the site as one node, with its targets. It sends no lines: the standard measures
+// bearings from the node, which has only one place. Pure.
 #pragma once
 
 #include <map>
@@ -21,13 +21,14 @@ class SapientEncoder : public Encoder {
   Packets turn(std::int64_t utime_us) override;
   void begin_again() override;
 
-  static constexpr double kStationSilent_s = 10.0;  // then a station is not told of any more
+  static constexpr double kStationSilent_s = 10.0;  // a station silent for longer is no longer
+                                                    // reported
 
  private:
   SapientSettings settings_;
   Scan scan_;
   std::map<std::string, Station> stations_;
-  std::int64_t due_us_ = 0;  // of the next status
+  std::int64_t due_us_ = 0;  // when the next status is due
 };
 
 }  // namespace ols::exports

@@ -1,4 +1,4 @@
-// The site as a node of SAPIENT. Pure.
+// The site as a SAPIENT node. Pure.
 #pragma once
 
 #include <cstdint>
@@ -12,12 +12,12 @@ namespace ols::exports {
 struct SapientSettings {
   std::string site = "ols";
   std::string node_id{};  // UUID; empty: computed from the site
-  double status_s = 5.0;  // between two status reports
+  double status_s = 5.0;  // interval of status reports
 };
 
-// By which the site is known as a node.
+// The node's id of the site.
 std::string node_id(const SapientSettings& settings);
-// A message of it, still without content.
+// A message of the node, still without content.
 sapient::SapientMessage message_of(const SapientSettings& settings, std::int64_t utime_us);
 
 }  // namespace ols::exports

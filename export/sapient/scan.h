@@ -1,5 +1,5 @@
-// At which instants targets are reported: receivers of SAPIENT take reports of one node that come
-// less than 0.08 s after another, or before it, for a fault of its clock, but any number of one
+// The instants for which targets are reported. SAPIENT receivers take reports of one node less than
+// 0.08 s after another, or before it, for a fault of its clock. They accept any number for one
 // instant. Pure.
 #pragma once
 
@@ -14,8 +14,8 @@ namespace ols::exports {
 
 class Scan {
  public:
-  // The instant to tell this target at, at most kGap_s before its own; nothing: it has been told at
-  // that instant.
+  // The instant for this target's report, at most kGap_s before its own; nullopt: it was already
+  // reported for that instant.
   std::optional<std::int64_t> instant_of(const Target& target);
   void begin_again() { told_.clear(); }
 

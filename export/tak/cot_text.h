@@ -8,13 +8,13 @@
 namespace ols::exports {
 
 std::string cot_xml(const CotEvent& event);
-// An event without the XML declaration, and a document of such elements: as a TAK server answers
-// who asks it for the history of an object.
+// An event without the XML declaration, and a document of such elements, as a TAK server answers a
+// request for an object's history.
 std::string cot_element(const CotEvent& event);
 std::string cot_document(const std::string& elements);
 
-// The TAK protocol, version 1: protobuf behind a header, which is `bf 01 bf` in a datagram of the
-// mesh and `bf` with the length as a varint in a stream.
+// The TAK protocol, version 1: protobuf behind a header. The header is `bf 01 bf` in a mesh
+// datagram; in a stream it is `bf` and the length as a varint.
 enum class TakFraming { kMesh, kStream };
 std::string cot_protobuf(const CotEvent& event, TakFraming framing);
 
