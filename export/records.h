@@ -30,12 +30,12 @@ enum class TrackState { kTentative, kConfirmed, kCoasted, kEnded };
 
 struct Target {
   std::int64_t utime_us = 0;
-  std::string uid;      // of this object in all formats; identity.h
-  std::int64_t id = 0;  // the last place, if it has ended
+  std::string uid;      // the same in all formats; identity.h
+  std::int64_t id = 0;  // the fusion's number
   TrackState state = TrackState::kConfirmed;
-  Place place;  // unknown if not estimated
+  Place place;  // the last place, if it has ended
   Covariance covariance_m2{};
-  std::array<double, 3> velocity_enu_m_s{};  // whose bearings are used
+  std::array<double, 3> velocity_enu_m_s{};  // unknown if not estimated
   Covariance velocity_covariance_m2_s2{};
   std::vector<std::string> stations;  // whose bearings are used
   ObjectClass object_class = ObjectClass::kUnknown;
@@ -43,7 +43,7 @@ struct Target {
   double size_m = kUnknown, size_sd_m = kUnknown;  // largest extent, and its 1-sigma
 };
 
-// In the order of the bus's numbers; then that of a number that is not known.
+// In the order of the bus's numbers, then the word for an unknown number.
 inline constexpr std::array kStationStates{"idle",   "manual",  "tracking",  "coasting", "lost",
                                            "slewed", "stopped", "emergency", "unknown"};
 
@@ -52,17 +52,17 @@ struct Station {
   std::string uid;
   std::string name;
   Place place;
-  std::array<double, 3> position_sd_m{};      // no alarm
+  std::array<double, 3> position_sd_m{};      // east, north, up
   double azimuth_deg = kUnknown;              // of the optical axis, clockwise from true north
   double elevation_deg = kUnknown;            // above the horizon
   std::array<double, 2> field_of_view_deg{};  // horizontal, vertical; 0: unknown
   std::string state;                          // of kStationStates
-  bool is_well = true;                        // without an alarm
+  bool is_well = true;                        // no alarm
   bool clock_is_good = true;
   std::size_t alarms = 0;
 };
 
-// On which a station sees what it follows.
+// The line on which a station sees the object that it follows.
 struct Line {
   std::int64_t utime_us = 0;  // at mid-exposure
   std::string uid;
@@ -70,8 +70,7 @@ struct Line {
   Place camera;
   double azimuth_deg = 0.0;
   double elevation_deg = 0.0;
-  // 1-sigma; along the horizon it is that of the direction itself, which the azimuth's is at 0
-  // elevation.
+  // 1-sigma. Along the horizon it is that of the direction, which at elevation 0 is the azimuth's.
   double cross_sd_deg = 0.0;
   double elevation_sd_deg = 0.0;
   double belief = 1.0;        // 0..1

@@ -16,10 +16,11 @@ std::string fixed(double value, int decimals);
 std::string iso_time(std::int64_t utime_us);
 // For an element, or an attribute in double quotes. Characters that XML cannot hold become "?".
 std::string xml(std::string_view text);
+// "tentative", "confirmed", "coasted", "ended".
 const char* to_string(TrackState state);
-// A target's name for a person: "OLS 7".
+// "Unknown", "UAV", "Bird", "Aircraft", "Other".
 const char* to_string(ObjectClass object_class);
-// What a person calls a target: "OLS 7".
+// A target's name for a person: "OLS 7".
 std::string callsign(const Target& target);
 
 }  // namespace ols::exports

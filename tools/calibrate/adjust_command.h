@@ -1,4 +1,4 @@
-// The adjustment of files, as `ols-calibrate adjust` and the procedures have it done.
+// The adjustment of files, for `ols-calibrate adjust` and the procedures.
 #pragma once
 
 #include <filesystem>
@@ -14,29 +14,30 @@
 
 namespace ols::calibration {
 
-// Of `adjust`: the results are written, and at least one finding is bad.
+// Exit status of `adjust`: the results are written, and at least one finding is bad.
 inline constexpr int kExitNotWithinLimits = 1;
 
-// An adjustment and its station's results.
+// An adjustment and the results of its stations.
 struct Adjusted {
   Case what;
   Calibration found;
   std::vector<StationResult> results;
   Acceptance acceptance;                                      // of the first station
-  std::vector<std::pair<std::string, GroupTest>> references;  // what a person has pointed at
+  std::vector<std::pair<std::string, GroupTest>> references;  // the references that a person has
+                                                              // pointed at
   std::vector<RectifiedAngle> angles;                         // of the first station
   std::vector<std::string> notes;                             // remarks and warnings, as sentences
 };
 
-// Reads, adjusts and writes the folder. Throws what its parts throw, naming file, line and key.
-// `tell`: as calibrate().
+// Reads, adjusts and writes the folder. Passes on the errors of its parts, which name file, line
+// and key. `tell`: as for calibrate().
 Adjusted adjust_into(const CaseOptions& options, const std::filesystem::path& folder,
                      const TellAdjusted& tell = {});
 
-// What is not within the limits, of all stations, as sentences; empty: all is good.
+// What is not within the limits, for all stations, as sentences; empty: all is good.
 std::vector<std::string> bad_findings(const Adjusted& adjusted);
 
-// One screen for a person: what is left, what was rejected, what is worst.
+// One screen for a person: the remaining errors, the rejected references, the worst one.
 AdjustedResult result_for_person(const Adjusted& adjusted);
 
 }  // namespace ols::calibration

@@ -1,5 +1,5 @@
-// Answers that come over the bus to the question of a procedure: the first one that is meant for
-// the question that stands, and an abort at any time. Pure.
+// Answers to a procedure's questions that arrive over the bus: the first one to the current
+// question, and an abort at any time. Pure.
 #pragma once
 
 #include <cstdint>
@@ -14,21 +14,21 @@ namespace ols::calibration {
 
 class AnswerBox {
  public:
-  // From now on only answers to this question are taken; 0: to none.
+  // From now on only answers to this question are taken; 0: none.
   void ask(std::int64_t question);
-  // Refuses what is old, what was heard before, what answers no standing question, and what is out
-  // of range. `now_utime_us`: this host's UTC.
+  // Refuses an answer that is old, was heard before, is to no current question, or is out of range.
+  // `now_utime_us`: this host's UTC.
   void hear(const ols_msg::procedure_answer_t& answer, std::int64_t now_utime_us);
-  // Once for each abort.
+  // True once for each abort.
   bool take_abort() { return std::exchange(is_aborted_, false); }
-  // Once, and only the one to this question.
+  // The answer to this question, once.
   std::optional<Answer> take(std::int64_t question);
 
  private:
   std::int64_t question_ = 0;
   std::optional<Answer> answer_;
   bool is_aborted_ = false;
-  // Sender's boot and number; of those that were taken, so that no flood can make it grow.
+  // sender's boot and number of taken answers only, so that no flood makes it grow
   std::set<std::pair<std::int64_t, std::int64_t>> heard_;
 };
 

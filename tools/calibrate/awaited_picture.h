@@ -1,5 +1,5 @@
-// A picture that is awaited from where the unit was sent: how near the unit has come, which parts
-// have come, and what is missing in words. Without clock or bus: times are given [s, monotonic].
+// A picture expected from where the unit was sent: how near the unit is, which parts have arrived,
+// and what is missing, in words. Without clock or bus: times are given [s, monotonic].
 #pragma once
 
 #include <algorithm>
@@ -21,23 +21,24 @@ class AwaitedPicture {
       : boot_id_(boot_id), at_(at), progress_s_(now_s), part_s_(now_s) {}
 
   const PanTilt& at() const { return at_; }
-  // It was asked for. Asked again, a frame that is on its way already still counts.
+  // The picture was requested. After a second request, a frame that is already on its way still
+  // counts.
   void asked(std::int64_t sequence) { first_request_ = std::min(first_request_, sequence); }
   void hear_angles(const PanTilt& angles, double now_s);
-  // The file, when this part completes it. Parts of other requests are dropped; a newer frame's
-  // part ends an older frame.
+  // The file, when this part completes it. Parts of other requests are dropped. A newer frame's
+  // part replaces an older frame.
   std::optional<std::vector<std::uint8_t>> hear_part(const ols_msg::frame_part_t& part,
                                                      double now_s);
 
   double part_heard_s() const { return part_s_; }
-  // When the unit last came nearer, or more of a picture was here than ever before.
+  // When the unit last came nearer, or the received part of a picture last grew.
   double progress_s() const { return progress_s_; }
   std::string missing() const;
 
  private:
   static constexpr double kThere_rad = 2e-3;  // a quarter of the run-up before an approach
 
-  std::int64_t boot_id_;  // of whoever asks
+  std::int64_t boot_id_;  // of the requester
   PanTilt at_;
   double progress_s_, part_s_;
   double nearest_rad_ = std::numeric_limits<double>::infinity();

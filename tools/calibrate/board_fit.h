@@ -1,5 +1,5 @@
-// A camera from pictures of a flat board, in OpenCV's lens model, with its whole covariance: for
-// cameras that focus near. (A long lens that focuses at infinity sees a board as a blur.)
+// Fits a camera in OpenCV's lens model to pictures of a flat board, with its full covariance. For
+// cameras that focus near. (A long lens focused at infinity sees only a blur.)
 #pragma once
 
 #include <Eigen/Core>
@@ -9,13 +9,13 @@
 
 namespace ols::calibration {
 
-// The corners of one picture, and where they are on the board [m], the same number of both.
+// The corners in one picture, and their positions on the board [m]; equal numbers.
 struct BoardView {
   std::vector<cv::Point3f> board;
   std::vector<cv::Point2f> pixels;
 };
 
-// In this order in every vector and covariance.
+// The order in every vector and covariance.
 inline constexpr std::array<const char*, 9> kCameraParameters{
     "focal_px", "aspect", "cx_px", "cy_px", "k1", "k2", "p1", "p2", "k3"};
 inline constexpr int kCameraSize = static_cast<int>(kCameraParameters.size());
@@ -24,12 +24,13 @@ struct BoardCamera {
   using Vector = Eigen::Matrix<double, kCameraSize, 1>;
   using Matrix = Eigen::Matrix<double, kCameraSize, kCameraSize>;
   Vector values = Vector::Zero();
-  Matrix covariance = Matrix::Zero();  // by the residuals
-  double rms_px = 0.0;                 // of a corner's distance, as OpenCV has it
+  Matrix covariance = Matrix::Zero();  // scaled by the residuals
+  double rms_px = 0.0;                 // of a corner's distance, as OpenCV defines it
   std::vector<double> view_rms_px;
 };
 
-// std::invalid_argument for fewer than five views, or views that leave the camera undetermined.
+// Throws std::invalid_argument for fewer than five views, or views that do not determine the
+// camera.
 BoardCamera fit_boards(const std::vector<BoardView>& views, const cv::Size& picture);
 
 }  // namespace ols::calibration

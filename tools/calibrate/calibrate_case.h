@@ -1,4 +1,4 @@
-// The files of ols-calibrate: inputs of an adjustment, read and checked.
+// The input files of an adjustment by ols-calibrate, read and checked.
 #pragma once
 
 #include <optional>
@@ -15,44 +15,45 @@ namespace ols::calibration {
 
 struct CaseOptions {
   std::vector<std::string> stations;     // configurations, as ols-station reads them
-  std::vector<std::string> instruments;  // none, or one for each station
+  std::vector<std::string> instruments;  // none, or one per station
   std::vector<std::string> observations;
   std::string references, predict, output;
   Ut1Value ut1;
-  std::optional<double> resolution_arcsec;  // a count, as the units print it
+  std::optional<double> resolution_arcsec;  // of a count, as the units print it
   std::optional<double> pressure_hPa, temperature_degC;
 };
 
 struct Case {
   CaseOptions options;
-  std::vector<Instrument> instruments;  // as they were before
+  std::vector<Instrument> instruments;  // before the adjustment
   Problem problem;
   std::vector<std::string> warnings;
-  std::vector<std::string> files;  // of the observations, by their index
-  std::set<std::size_t> mistaken;  // observations that are left out, by their index
+  std::vector<std::string> files;  // of the observations, by index
+  std::set<std::size_t> mistaken;  // indices of the observations that are left out
 };
 
-// An instrument that a new setup begins with. What an earlier calibration has found (its covariance
-// is in the file) was carried here since: the camera may have moved on its plate by 30 arc seconds,
-// the axes by 4, beyond what was known. Sizes that somebody states himself stand.
+// The instrument with which a new setup begins. An earlier calibration's values (with a covariance
+// in the file) get a larger uncertainty, because the unit was carried: 30 arc seconds for the
+// camera on its plate, 4 for the axes. Values that a person states are unchanged.
 Instrument carried_instrument(const std::string& path, const Instrument& fallback);
 
-// The station before an adjustment. std::invalid_argument if its position is not surveyed.
+// The station before an adjustment. Throws std::invalid_argument if its position is not surveyed.
 StationPrior prior_of(const station::StationSettings& settings, const Instrument& instrument,
                       const std::string& path);
-// Landmarks, stars and trajectories of a file; an empty path has none. CsvError.
+// Landmarks, stars and trajectories of a file; an empty path has none. Throws CsvError.
 References references_in(const std::string& path);
 
-// The stations as they are before, nothing observed yet.
+// The stations before the adjustment, without observations.
 Case read_stations(const CaseOptions& options);
-// ConfigError, CsvError or std::runtime_error naming file, line and key; std::invalid_argument.
+// Throws ConfigError, CsvError or std::runtime_error naming file, line and key;
+// std::invalid_argument.
 Case read_case(const CaseOptions& options);
 
-// The network of the case, without what is mistaken; an observation that is refused is named with
-// its file and line.
+// The network of the case without the mistaken observations. A refused observation is named with
+// file and line.
 Network network_of(const Case& what);
 
-// Finds single sightings of drones, aircraft and tracks that contradict all others. `tell`: as
+// Finds single sightings of drones, aircraft and tracks that contradict all others. `tell`: as for
 // calibrate().
 void find_mistaken(Case& what, const TellAdjusted& tell = {});
 // One sentence for each of the first few, with file and line.

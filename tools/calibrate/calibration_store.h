@@ -1,13 +1,13 @@
-// A station's calibrations on disk: each in a folder by its id, the one in use by the link
-// `current`, what happened in history.jsonl. Nothing is overwritten; going back is one rename.
+// A station's calibrations on disk. Each has a folder named by its id. The link `current` is the
+// one in use. history.jsonl records the events. Nothing is overwritten; going back is one rename.
 //
 //   FOLDER/current -> 4711            switched by one rename
-//   FOLDER/instrument -> 4712         an instrument without a setup, accepted later; none: that of
-//                                     the calibration in use
+//   FOLDER/instrument -> 4712         an instrument without a setup, accepted later; without it,
+//                                     the instrument of the calibration in use
 //   FOLDER/4711/                      instrument.toml, setup.toml, covariance.csv, reports; raw
-//                                     observations, references, frames: all can be computed again
-//   FOLDER/<UTC>-field.running/       a procedure at work
-//   FOLDER/<UTC>-field.interrupted/   one that lost its power or was aborted: what it had is kept
+//                                     observations, references, frames, to repeat the computation
+//   FOLDER/<UTC>-field.running/       a running procedure
+//   FOLDER/<UTC>-field.interrupted/   a procedure that was aborted or lost power, with its data
 //   FOLDER/history.jsonl
 #pragma once
 
@@ -22,48 +22,49 @@ namespace ols::calibration {
 struct HistoryLine {
   std::int64_t utime_us = 0;
   std::string event;      // "accepted", "instrument", "kept", "reverted"
-  std::string id;         // of the calibration that the event is about
+  std::string id;         // of the calibration
   std::string procedure;  // that made it
-  std::string previous;   // that was in use before; empty: none
+  std::string previous;   // the calibration in use before; empty: none
 };
 
 class CalibrationStore {
  public:
-  // The folder is made if it is missing. Throws std::system_error.
+  // Creates the folder if it is missing. Throws std::system_error.
   explicit CalibrationStore(std::filesystem::path folder);
   ~CalibrationStore();
   CalibrationStore(const CalibrationStore&) = delete;
   CalibrationStore& operator=(const CalibrationStore&) = delete;
 
   const std::filesystem::path& folder() const { return folder_; }
-  // One procedure at a time. std::runtime_error if another one is at work. Folders of procedures
-  // that have died are set aside; returns their new names. A decision that a loss of power has cut
-  // short is carried out.
+  // Allows one procedure at a time. Throws std::runtime_error if another one is running. Sets the
+  // folders of dead procedures aside, and returns their new names. Completes a decision that a loss
+  // of power has interrupted.
   std::vector<std::filesystem::path> lock();
 
-  // A new folder of a procedure at work.
+  // A new folder for a running procedure.
   std::filesystem::path begin(const std::string& procedure, std::int64_t utime_us);
-  // Sets it aside with all it has; returns its new name.
+  // Sets the folder aside with all its data; returns its new name.
   std::filesystem::path interrupt(const std::filesystem::path& running);
-  // Folders that were set aside, the oldest first.
+  // Folders that were set aside, oldest first.
   std::vector<std::filesystem::path> interrupted() const;
-  // One of them is at work again; returns its new name.
+  // Makes one of them a running procedure again; returns its new name.
   std::filesystem::path resume(const std::filesystem::path& interrupted);
-  // Gives it its id, when all of it is on the disk. std::runtime_error if that exists.
+  // Gives the folder its id, once everything is on disk. Throws std::runtime_error if the id
+  // exists.
   std::filesystem::path keep(const std::filesystem::path& running, const std::string& id);
 
   std::optional<std::string> current() const;
   bool has(const std::string& id) const;
-  // The calibration of this id is in use from now on. std::runtime_error without one.
+  // Puts the calibration of this id into use. Throws std::runtime_error if there is none.
   void use(const std::string& id, HistoryLine line);
-  // The next setups begin with the instrument of this calibration; the one in use stays.
+  // New setups begin with the instrument of this calibration; the one in use stays.
   void use_instrument(const std::string& id, HistoryLine line);
-  // Of the instrument that was accepted last; nothing: there is none.
+  // The file of the instrument accepted last; nullopt: none.
   std::optional<std::filesystem::path> instrument_file() const;
   void note(const HistoryLine& line);
-  // Oldest first; lines that are damaged are left out.
+  // Oldest first, without damaged lines.
   std::vector<HistoryLine> history() const;
-  // That was in use when the current one was accepted.
+  // The calibration in use before the current one was accepted.
   std::optional<std::string> previous() const;
 
  private:

@@ -1,4 +1,4 @@
-// ols-calibrate camera: the camera's part of an instrument from pictures of a board.
+// ols-calibrate camera: the camera part of an instrument, from pictures of a board.
 #pragma once
 
 #include <string>
@@ -14,8 +14,8 @@ struct CameraOptions {
   std::string output;
 };
 
-// Writes the folder; returns what a person should know. std::runtime_error or
-// std::invalid_argument, naming picture or option.
+// Writes the folder; returns remarks for a person. Throws std::runtime_error or
+// std::invalid_argument naming picture or option.
 std::vector<std::string> write_camera(const CameraOptions& options);
 
 }  // namespace ols::calibration

@@ -1,4 +1,4 @@
-// How large inputs are, for the progress of reading them.
+// The size of inputs, for the progress of reading them.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 
 namespace ols::calibration {
 
-// Of all together; 0 where one has no size: a pipe, a receiver's address, a file that is not there.
+// Total size; 0 if any has no size: a pipe, a receiver's address, a missing file.
 std::size_t input_bytes(const std::vector<std::string>& paths);
 
 }  // namespace ols::calibration

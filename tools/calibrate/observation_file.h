@@ -1,4 +1,4 @@
-// Observations as any program can write them: one JSON object a line.
+// Observations in a file that any program can write: one JSON object per line.
 #pragma once
 
 #include <istream>
@@ -9,12 +9,11 @@
 
 namespace ols::calibration {
 
-// The stations by their ids: `station` of a line is one of them; it may be missing where there is
-// only one. std::runtime_error "FILE:LINE: key: what" for the first bad line, or for a file without
-// any.
+// `station` in a line is one of `stations`; it may be missing if there is only one. Throws
+// std::runtime_error "FILE:LINE: key: what" for the first bad line, and for a file without lines.
 std::vector<Observation> read_observations(const std::string& path,
                                            const std::vector<std::string>& stations);
-// The same of a stream; `path` is what errors name.
+// The same from a stream; errors name `path`.
 std::vector<Observation> read_observations(std::istream& file, const std::string& path,
                                            const std::vector<std::string>& stations);
 

@@ -1,4 +1,4 @@
-// observations.jsonl, as observation_file.h reads it.
+// Writes observations.jsonl, which observation_file.h reads.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace ols::calibration {
 
-// One JSON object a line.
+// One JSON object per line.
 std::string observation_lines(const std::vector<Observation>& observations,
                               const std::string& station);
 

@@ -1,4 +1,4 @@
-// The folder of a calibration: it appears whole or not at all, and overwrites nothing.
+// The folder of a calibration. It appears whole or not at all, and overwrites nothing.
 #pragma once
 
 #include <array>
@@ -10,12 +10,12 @@
 namespace ols::calibration {
 
 struct OutputFile {
-  std::string name;  // within the output's folder; a network's stations have a folder each
+  std::string name;  // in the output's folder; a network has a folder for each station
   std::string text;
 };
 
-// SIGINT, SIGTERM and SIGHUP wait while it lives, whichever thread they reach. The results are of a
-// few kilobytes: a signal waits until they are there.
+// Delays SIGINT, SIGTERM and SIGHUP while it lives, in every thread. The results are a few
+// kilobytes, and a signal waits until they are written.
 class SignalsWait {
  public:
   static constexpr std::array kSignals{SIGINT, SIGTERM, SIGHUP};
@@ -29,11 +29,12 @@ class SignalsWait {
   std::array<struct sigaction, kSignals.size()> before_{};
 };
 
-// The folder of this name, without links and a slash at the end. std::invalid_argument, naming
-// --output, unless it is new or empty and no interrupted run has left something.
+// The folder of this name, without links and without a slash at the end. Throws
+// std::invalid_argument naming --output unless it is new or empty, and no interrupted run has left
+// data.
 std::filesystem::path checked_folder(const std::string& output);
 
-// All of them or none: the folder gets its name when all are written.
+// All files or none: the folder gets its name when all are written.
 void write_folder(const std::filesystem::path& folder, const std::vector<OutputFile>& files);
 
 }  // namespace ols::calibration

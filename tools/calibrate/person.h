@@ -1,5 +1,4 @@
-// The person at the terminal, or a script in his place: shows what a procedure does and reads
-// answers.
+// The person at the terminal, or a script instead: shows the procedure's steps and reads answers.
 #pragma once
 
 #include <deque>
@@ -10,29 +9,29 @@
 
 namespace ols::calibration {
 
-// An answer as a line: "confirm", "point 640.2 481", "exactly 640.2 481", "turn 2.5 -1" (degrees of
-// pan and tilt), "skip", "accept", "redo", "keep", "abort", "again", "filter_on", "filter_off",
-// "sight", "done". std::invalid_argument for another one.
+// An answer from a line: "confirm", "point 640.2 481", "exactly 640.2 481", "turn 2.5 -1" (degrees
+// of pan and tilt), "skip", "accept", "redo", "keep", "abort", "again", "filter_on", "filter_off",
+// "sight", "done". Throws std::invalid_argument for any other.
 Answer answer_of(const std::string& line);
 
 class Person {
  public:
-  // `script`: a file with an answer a line (# begins a comment); empty: the terminal, if there is
-  // one. std::runtime_error naming file and line.
+  // `script`: a file with one answer per line (# begins a comment); empty: the terminal, if there
+  // is one. Throws std::runtime_error naming file and line.
   explicit Person(const std::string& script);
 
   void tell(const std::string& line);
-  // A line that replaces the last of its sort, for progress.
+  // A line that replaces the previous progress line.
   void progress(const std::string& line);
-  // What was typed before is no answer to it; an abort is one to any.
+  // Earlier input is no answer to this question; but an abort always counts.
   void ask(const Question& question);
-  // The question with another picture: what is typed stays an answer to it. Only its last line is
-  // shown, where its number stands.
+  // The same question with another picture: input so far remains an answer. Only the last line,
+  // with the measured value, is shown again.
   void ask_again(const Question& question);
-  // The answer to the question that was asked; nothing yet. A line that is none is said, and the
-  // question stands.
+  // The answer to the question; nullopt: none yet. An invalid line is reported, and the question
+  // stays.
   std::optional<Answer> answer();
-  // Nobody answers here: the script is at its end, and no terminal is there.
+  // Nobody answers: the script has ended, and there is no terminal.
   bool is_silent() const { return scripted_ && script_.empty(); }
 
  private:

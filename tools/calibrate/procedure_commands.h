@@ -24,13 +24,13 @@ struct ProcedureOptions {
   std::optional<double> pressure_hPa, temperature_degC;
 };
 
-// --ut1-utc and --ut1-date, which `adjust` has, too.
+// --ut1-utc and --ut1-date, which `adjust` has too.
 void add_ut1(CLI::App& app, Ut1Value& ut1);
 
-// Adds the subcommands; the one that was chosen has its name in `options` after parsing.
+// Adds the subcommands. After parsing, `options` has the name of the chosen one.
 void add_procedures(CLI::App& app, ProcedureOptions& options);
 
-// The exit status: 0 accepted or done, 1 kept the old or aborted. Throws what is bad input.
+// The exit status: 0 accepted or done, 1 kept the old or aborted. Throws for bad input.
 int run_procedure(const ProcedureOptions& options);
 
 }  // namespace ols::calibration

@@ -1,4 +1,5 @@
-// The end of a procedure: what is kept, which calibration is in use, the messages to the person.
+// The end of a procedure: what is kept, which calibration is in use, and the messages to the
+// person.
 #pragma once
 
 #include <exception>
@@ -7,11 +8,11 @@
 
 namespace ols::calibration {
 
-// After an outcome; the exit status.
+// After an outcome. Returns the exit status.
 int finish(const Procedure& procedure, Outcome outcome, const StationFiles& station,
            StationLink& link, CalibrationStore& store, Person& person);
-// After an error: the old calibration stands, and what was observed is kept. What failed late may
-// have its final name already.
+// After an error: the old calibration stays in use, and the observations are kept. After a late
+// failure they may already have their final name.
 [[noreturn]] void fail(const std::exception& error, const ProcedureSession& session,
                        CalibrationStore& store);
 

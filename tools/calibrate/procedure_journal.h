@@ -1,4 +1,5 @@
-// What was reported to a procedure, in order: from it an interrupted one can be gone on with. Pure.
+// The results reported to a procedure, in order, from which an interrupted one can be resumed.
+// Pure.
 #pragma once
 
 #include <cstdint>
@@ -16,16 +17,16 @@ struct JournalEntry {
   std::int64_t pose = 0;              // kTaken: number of the picture
   std::string why;                    // kNotTaken
   Answer answer;                      // kAnswered
-  std::int64_t ordered_utime_us = 0;  // when the order was given; 0: not known
+  std::int64_t ordered_utime_us = 0;  // when the order was given; 0: unknown
 };
 
-// A line of JSON, without its end.
+// A line of JSON, without a line end.
 std::string journal_line(const JournalEntry& entry);
-// All lines of a file's text. A last line without its end is a loss of power, and left out.
-// std::runtime_error naming `path` and line.
+// All lines of a file's text. An unended last line is due to a loss of power, and is left out.
+// Throws std::runtime_error naming `path` and line.
 std::vector<JournalEntry> journal_entries(const std::string& text, const std::string& path);
 
-// Whether an entry is what came of this order; figures in its words do not count.
+// Whether an entry is the result of this order; numbers in its words are ignored.
 bool answers(const JournalEntry& entry, const Order& order);
 
 }  // namespace ols::calibration

@@ -1,5 +1,5 @@
-// Carries out the orders of a procedure: drives the unit, takes pictures, asks the person at the
-// terminal or at a console, has the result computed.
+// Carries out a procedure's orders: drives the unit, takes pictures, asks the person at the
+// terminal or at a console, and has the result computed.
 #pragma once
 
 #include <functional>
@@ -16,7 +16,7 @@ namespace ols::calibration {
 class ProcedureRunner {
  public:
   using Adjust = std::function<AdjustedResult()>;
-  // `session`: null where nothing is to be kept.
+  // `session`: null if nothing is to be kept.
   ProcedureRunner(std::string name, StationLink& station, Person& person, ProcedureSession* session)
       : name_(std::move(name)), station_(station), person_(person), session_(session) {}
 
@@ -24,9 +24,9 @@ class ProcedureRunner {
   using KeepAway = std::function<std::string(const PanTilt&)>;
   void keep_away(KeepAway why) { keep_away_ = std::move(why); }
 
-  // To its end. Of a session that was resumed, what was reported before the interruption is
-  // reported again first, and nothing moves. StationStopped when the station is stopped or taken
-  // away; std::runtime_error when it is gone. A SIGTERM or SIGINT aborts.
+  // Runs to the end. A resumed session first reports its earlier results again, without motion.
+  // Throws StationStopped when the station is stopped or taken away, and std::runtime_error when it
+  // is lost. SIGTERM and SIGINT abort.
   Outcome run(FieldProcedure& procedure, const Adjust& adjust);
   // The last message: how it ended.
   void announce(std::int8_t state, const std::string& text);
@@ -40,13 +40,13 @@ class ProcedureRunner {
   void wait();
   void miss(FieldProcedure& procedure, const Order& order, const std::string& why);
   void note(JournalEntry entry);
-  // From the wanted side. Empty: aborted, or it did not come.
+  // Approached from the wanted side. nullopt: aborted, or not reached.
   std::optional<FrameFile> picture_of(FieldProcedure& procedure, const Shot& shot);
-  // Stands there with a picture; the same.
+  // With the unit standing there. nullopt likewise.
   std::optional<FrameFile> picture_at(FieldProcedure& procedure, const PanTilt& angles,
                                       Arrival arrival, bool lossless);
   PanTilt before_approach(const Shot& shot) const;
-  // What stands in a live question, and when the next picture is due (monotonic).
+  // The content of a live question, and when the next picture is due (monotonic).
   struct LiveQuestion {
     double due_s = 0.0;
     std::string text;
@@ -64,12 +64,12 @@ class ProcedureRunner {
   ProcedureSession* session_;
   ols_msg::procedure_t state_{};
   double began_s_ = 0.0, published_s_ = 0.0;
-  double turn_due_s_ = 0.0;            // when it is next looked whether the unit must turn away
+  double turn_due_s_ = 0.0;            // next check whether the unit must turn away
   std::int64_t ordered_utime_us_ = 0;  // when the stage gave the order
   std::int64_t questions_ = 0;
   cv::Size size_;                // [px] of the first picture
-  std::optional<PanTilt> here_;  // of the last picture
-  bool sides_known_ = false;     // from which the unit came there
+  std::optional<PanTilt> here_;  // angles of the last picture
+  bool sides_known_ = false;     // whether the last approach's direction is known
   KeepAway keep_away_;
   bool aborted_ = false;
 };

@@ -1,6 +1,6 @@
-// What a procedure leaves on disk while it works: every picture with its counts, the observations,
-// and what was reported to it. Written as it comes, so that a loss of power costs one picture at
-// most, and the procedure can be gone on with.
+// A procedure's data on disk while it runs: every picture with its counts, the observations, and
+// the results reported to it. Written immediately: a loss of power costs at most one picture, and
+// the procedure can be resumed.
 #pragma once
 
 #include <deque>
@@ -17,35 +17,35 @@ namespace ols::calibration {
 
 class ProcedureSession {
  public:
-  // `folder` exists; `station`: its id.
+  // `folder` exists. `station`: its id.
   ProcedureSession(std::filesystem::path folder, std::string station)
       : folder_(std::move(folder)), station_(std::move(station)) {}
 
-  // Takes up what the folder holds: what was reported is replayed. std::runtime_error naming file
-  // and line.
+  // Loads the folder: its reported results are replayed. Throws std::runtime_error naming file and
+  // line.
   void resume();
   bool is_replaying() const { return !replay_.empty(); }
-  // The next thing that happened was that it was gone on with; takes it.
+  // True, once, if the next event was a resumption.
   bool take_resumed();
-  // [us] When the order was given then whose outcome is replayed next; nothing: none is, or the
+  // [us] When the order whose result is replayed next was given; nullopt: there is none, or the
   // journal does not say.
   std::optional<std::int64_t> replayed_utime_us() const;
-  // What came of this order then; only while replaying. std::runtime_error where the journal is of
-  // another procedure.
+  // The recorded result of this order; only while replaying. Throws std::runtime_error if the
+  // journal is of another procedure.
   JournalEntry replayed(const Order& order);
   Taken stored(std::int64_t pose) const;
   void note(const JournalEntry& entry) const;
-  // A file of this name in the folder.
+  // Writes a file of this name into the folder.
   void write(const std::string& name, const std::string& text) const;
 
   const std::filesystem::path& folder() const { return folder_; }
-  // Numbers the picture and stores it; returns it with its number. `is_view`: as in Shot.
+  // Numbers and stores the picture; returns it with its number. `is_view`: as in Shot.
   Taken add(FrameFile frame, bool is_view);
   void write_observations(const std::vector<Observation>& observations) const;
   std::filesystem::path observations_path() const { return folder_ / "observations.jsonl"; }
-  // Of an adjustment: a new one each time.
+  // The folder of an adjustment: a new one each time.
   std::filesystem::path next_result();
-  // Everything of the last adjustment into the folder itself.
+  // Copies the last adjustment's results into the folder itself.
   void take_result() const;
 
  private:
@@ -60,7 +60,7 @@ class ProcedureSession {
     std::filesystem::path file;
     Taken taken;  // without its picture
   };
-  std::map<std::int64_t, Frame> frames_;  // by pose, of before
+  std::map<std::int64_t, Frame> frames_;  // by pose, from before
 };
 
 }  // namespace ols::calibration

@@ -1,4 +1,4 @@
-// What each procedure is made of: the station's files, its stages, its adjustment.
+// The parts of each procedure: the station's files, its stages, its adjustment.
 #pragma once
 
 #include <filesystem>
@@ -24,38 +24,40 @@ struct StationFiles {
   Instrument instrument;
 };
 
-// ConfigError and others naming file and key; std::invalid_argument for serial numbers that differ.
+// Throws ConfigError and others naming file and key; std::invalid_argument for different serial
+// numbers.
 StationFiles read_station(const ProcedureOptions& options);
 
-// What must be so before anything moves; tells the person. std::runtime_error naming the hindrance.
+// Checks the preconditions of any motion, and tells the person. Throws std::runtime_error naming
+// the obstacle.
 void check_station(StationLink& link, const StationFiles& station, const ProcedureOptions& options,
                    Person& person);
 
-// In a procedure's folder: what goes on with it needs this file.
+// In a procedure's folder: needed to resume it.
 inline constexpr const char* kSessionFile = "session.json";
 
 struct Procedure {
   ProcedureOptions options;
   ProcedureSession* session = nullptr;
   std::shared_ptr<ReferenceFeed> references;  // null: none
-  std::shared_ptr<SunKeepOut> sun;            // null: it does not show
+  std::shared_ptr<SunKeepOut> sun;            // null: it is not visible
   std::unique_ptr<FieldProcedure> field;
   LandmarkStage* landmarks = nullptr;  // one of its stages; null: none
   CaseOptions files;                   // of the adjustment
   std::optional<Adjusted> adjusted;    // the last one
 
-  // Its stages; after this it must not be moved.
+  // Creates its stages. After this it must not be moved.
   void plan(const StationFiles& station, StationLink& link, Person& person);
   Outcome run(ProcedureRunner& runner, Person& person);
   AdjustedResult adjust();
 };
 CaseOptions files_of(const ProcedureOptions& options, const StationFiles& station,
                      const ProcedureSession& session);
-// Without stages. Of a session that was begun, what it holds is taken up.
+// Without stages. Loads the data of a session that has begun.
 Procedure make_procedure(const ProcedureOptions& options, const StationFiles& station,
                          ProcedureSession& session);
 
-// The exit status: 0 nothing has moved, 1 something has or nothing could be told.
+// The exit status: 0: nothing has moved; 1: something has, or it could not be determined.
 int run_check(const ProcedureOptions& options, const StationFiles& station,
               CalibrationStore& store);
 

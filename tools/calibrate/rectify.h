@@ -5,7 +5,7 @@
 
 namespace ols::calibration {
 
-// One stage for each target of options.targets. ConfigError naming file and key.
+// One stage per target of options.targets. Throws ConfigError naming file and key.
 Procedure make_rectification(const ProcedureOptions& options, const StationFiles& station,
                              StationLink& link, ProcedureSession& session);
 

@@ -1,5 +1,5 @@
-// The references of a procedure at work: a copy in its folder, taken again while a program still
-// appends to the file, as one does that writes where a drone flies.
+// The references of a running procedure: a copy in its folder, updated while a program appends to
+// the file, for example one that writes a drone's positions.
 #pragma once
 
 #include <filesystem>
@@ -13,18 +13,18 @@ namespace ols::calibration {
 
 class ReferenceFeed {
  public:
-  // `copy`: written here, whole lines only. CsvError naming file, line and column.
+  // `copy`: written here, whole lines only. Throws CsvError naming file, line and column.
   ReferenceFeed(std::filesystem::path source, std::filesystem::path copy);
 
-  // Takes the source's lines again if it has grown. A source that is gone or cannot be read leaves
-  // what there was; trouble() says why.
+  // Copies the source again if it has grown. If it is missing or unreadable, the old copy stays,
+  // and trouble() says why.
   void refresh();
   const std::string& trouble() const { return trouble_; }
 
   const std::filesystem::path& path() const { return copy_; }
   const References& references() const { return references_; }
   std::vector<Place> landmarks() const;
-  // Empty where nothing of this name is known yet.
+  // Empty while nothing of this name is known.
   Trajectory trajectory(const std::string& name) const;
 
  private:

@@ -1,4 +1,4 @@
-// What an adjustment leaves on disk: instrument, setup, covariance, reports, predictions.
+// The output files of an adjustment: instrument, setup, covariance, reports, predictions.
 #pragma once
 
 #include <cstdint>
@@ -12,10 +12,10 @@
 
 namespace ols::calibration {
 
-// The result of one station, as its files have it.
+// The result of one station, as in its files.
 struct StationResult {
   std::string id;
-  std::int64_t calibration_id = 0;  // by the content of the files
+  std::int64_t calibration_id = 0;  // from the content of the files
   StationState state;
   StationMatrix prior_covariance, covariance;
   Acceptance acceptance;
@@ -24,7 +24,7 @@ struct StationResult {
 std::vector<StationResult> station_results(const Case& what, const Adjustment& adjustment,
                                            const Calibration& found);
 
-// CsvError for a row that cannot be predicted.
+// Throws CsvError for a row that cannot be predicted.
 std::string predictions(const Case& what, const std::vector<StationResult>& results);
 
 std::string report_json(const Case& what, const Adjustment& adjustment, const Calibration& found,
@@ -32,7 +32,7 @@ std::string report_json(const Case& what, const Adjustment& adjustment, const Ca
 std::string report_html(const Case& what, const Adjustment& adjustment, const Calibration& found,
                         const std::vector<StationResult>& results);
 
-// All files of an adjustment. CsvError for a row that cannot be predicted.
+// All files of an adjustment. Throws CsvError for a row that cannot be predicted.
 std::vector<OutputFile> output_files(const Case& what, const Adjustment& adjustment,
                                      const Calibration& found);
 

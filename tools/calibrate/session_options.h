@@ -1,5 +1,4 @@
-// What a procedure was asked for, kept in its folder: whoever goes on with it need not say it
-// again.
+// A procedure's options, kept in its folder, so that it can be resumed without repeating them.
 #pragma once
 
 #include <string>
@@ -10,8 +9,8 @@ namespace ols::calibration {
 
 // JSON.
 std::string session_text(const ProcedureOptions& options);
-// The options of the interrupted procedure; station, state, bus and script are those of `now`.
-// std::runtime_error naming `path`.
+// The options of the interrupted procedure, with the station, state, bus and script of `now`.
+// Throws std::runtime_error naming `path`.
 ProcedureOptions resumed_options(const std::string& text, const ProcedureOptions& now,
                                  const std::string& path);
 

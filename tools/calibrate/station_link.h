@@ -1,5 +1,5 @@
-// One station over the bus, for a procedure: moves its unit with an operator's commands, asks it
-// for frames, hears its status, and carries the procedure's state and a person's answers.
+// A procedure's connection to one station: moves its unit with an operator's commands, requests
+// frames, receives its status, and carries the procedure's state and a person's answers.
 #pragma once
 
 #include <cstdint>
@@ -20,30 +20,30 @@
 
 namespace ols::calibration {
 
-// The station is stopped, by a person or an emergency: the procedure ends.
+// The station was stopped, by a person or an emergency: the procedure ends.
 class StationStopped : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
 struct FrameFile {
   Taken taken;
-  std::vector<std::uint8_t> file;  // as it came
+  std::vector<std::uint8_t> file;  // as received
   bool lossless = true;
 };
 
-// kPasses: near there is enough, moving or not.
+// kPasses: passing near the place is enough; the unit need not stand.
 enum class Arrival { kStands, kPasses };
 
 class StationLink {
  public:
-  // What the process is on the bus: an operator. Null in mode off; throws ConfigError.
+  // The process's role on the bus: an operator. Null in mode off. Throws ConfigError.
   static std::shared_ptr<trust::BusTrust> open_trust(const trust::TrustConfig& config);
-  // Throws BusError. `bus` outlives it.
+  // Throws BusError. `bus` must outlive it.
   StationLink(LcmBus& bus, std::string station);
 
   // Handles messages for at most this long.
   void handle(int timeout_ms) { bus_.handle(timeout_ms); }
-  // The newest status; waits for one that was sent after this call, at most so long.
+  // The newest status. Waits at most within_s for one sent after this call.
   std::optional<ols_msg::station_status_t> status(double within_s);
   double heard_s() const { return heard_s_; }  // monotonic, of the newest status
   // Throws StationStopped.
@@ -51,31 +51,32 @@ class StationLink {
 
   // Whether a status says that pointing ends no stop (motion_leave.h).
   bool may_point() const;
-  // Where the unit stands, by its newest status; nothing while it does not know.
+  // The unit's angles by its newest status; nullopt while it does not know them.
   std::optional<PanTilt> angles() const;
   // From now on the unit is wanted there, with a picture.
   void set_out(const PanTilt& angles);
-  // Turns the unit to where it is wanted, and stays. Only where it may.
+  // Turns the unit to where it is wanted, and stops there. Only if may_point().
   void point();
-  // Gives the unit back that it has pointed, if a fresh status says that it is under manual
-  // operation: a release would end a person's stop, or another operator's hold. False: not sent.
+  // Releases the unit if this procedure has pointed it and a fresh status says that it is under
+  // manual operation: otherwise the release would end a person's stop, or another operator's hold.
+  // False: not sent.
   bool release();
-  // [s] Between two statuses that follow each other, the least of some; infinite where none came.
+  // [s] The least interval between consecutive statuses; infinite if none came.
   double status_gap_s();
-  // Asks for a frame from where the unit is wanted.
+  // Requests a frame from where the unit is wanted.
   void ask_frame(Arrival arrival, bool lossless);
-  // The frame that was asked for since the unit set out, once.
+  // The frame requested since the unit set out, once.
   std::optional<FrameFile> take_frame();
-  // Of the last set_out().
+  // For the last set_out().
   const AwaitedPicture& awaited() const { return awaited_; }
 
   void publish(ols_msg::procedure_t message);
-  // A console wants the procedure to end.
+  // True once when a console wants to end the procedure.
   bool take_abort() { return answers_.take_abort(); }
-  // An answer of a console to this question; those to others are dropped.
+  // A console's answer to this question; other answers are dropped.
   std::optional<Answer> take_answer(std::int64_t question) { return answers_.take(question); }
 
-  // What the unit says that a count is [rad]; nothing before the first frame.
+  // Size of the unit's counts [rad], as it reports; nullopt before the first frame.
   const std::optional<PanTilt>& count() const { return count_; }
 
  private:
@@ -102,7 +103,7 @@ class StationLink {
   std::optional<PanTilt> count_;
 };
 
-// Of a status, for preconditions().
+// From a status, for preconditions().
 StationFacts facts_of(const ols_msg::station_status_t& status);
 
 }  // namespace ols::calibration

@@ -7,7 +7,7 @@
 
 namespace ols::calibration {
 
-// ConfigError naming file, line and key.
+// Throws ConfigError naming file, line and key.
 RectificationTargets read_targets(const std::string& path);
 
 }  // namespace ols::calibration

@@ -1,4 +1,4 @@
-// ols-calibrate tracks: what stations have followed, out of recordings, as observations.
+// ols-calibrate tracks: what stations followed in recordings, as observations.
 #pragma once
 
 #include <string>
@@ -12,11 +12,11 @@ namespace ols::calibration {
 struct TracksOptions {
   CaseOptions stations;  // configurations and instruments
   SightingLogOptions log;
-  std::string aircraft;  // references.csv as `ols-calibrate aircraft` writes it; empty: none
+  std::string aircraft;  // references.csv of `ols-calibrate aircraft`; empty: none
   std::string output;
 };
 
-// Writes, and returns what a person should know. std::runtime_error naming file or option.
+// Writes; returns remarks for a person. Throws std::runtime_error naming file or option.
 std::vector<std::string> write_tracks(const TracksOptions& options);
 
 }  // namespace ols::calibration

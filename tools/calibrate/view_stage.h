@@ -1,5 +1,5 @@
-// Views of a stored panorama, looked at again, and what has happened since: by the rule of a
-// station that checks itself (edge/drift).
+// Looks again at the views of a stored panorama and reports what has changed, by the rule of a
+// station's self-check (edge/drift).
 #pragma once
 
 #include <filesystem>
@@ -18,9 +18,8 @@ struct StoredView {
   int approach_pan = 1, approach_tilt = 1;
 };
 
-// Of a calibration's folder (frames.jsonl): up to six pictures of scenery as far apart in pan as
-// there are.
-// std::runtime_error naming file and line.
+// From a calibration's folder (frames.jsonl): up to six pictures of scenery, as far apart in pan as
+// possible. Throws std::runtime_error naming file and line.
 std::vector<StoredView> views_of(const std::filesystem::path& calibration);
 
 class ViewStage : public Stage {
@@ -36,7 +35,8 @@ class ViewStage : public Stage {
   std::vector<Observation> observations() const override { return {}; }
   double progress() const override;
 
-  // At the end: whether enough views could be compared to tell, and what they say.
+  // At the end: whether enough views could be compared, and whether the station has stayed in
+  // place.
   bool can_tell() const { return can_tell_; }
   bool stands() const;
   std::string verdict() const;
@@ -49,7 +49,7 @@ class ViewStage : public Stage {
   StationModel model_;
   double angle_sd_rad_;
   std::size_t at_ = 0;
-  bool again_ = false;  // a second round, which confirms the first or does not
+  bool again_ = false;  // a second round, to confirm the first
   bool can_tell_ = false;
   std::vector<station::ViewOffset> offsets_;  // of this round
   station::DriftWatch watch_{{}, 0};

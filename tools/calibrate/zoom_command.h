@@ -1,5 +1,5 @@
-// ols-calibrate zoom: drives a station's zoom lens through its travel and measures at each position
-// what its focal length is, by still scenery and the unit's own counts.
+// ols-calibrate zoom: drives a station's zoom lens through its travel, and measures the focal
+// length at each position from still scenery and the unit's own counts.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -17,8 +17,8 @@ struct ZoomOptions {
 
 CLI::App* add_zoom(CLI::App& app, ZoomOptions& options);
 
-// Writes the table; the exit status: 0, or 1 where some position could not be measured. Throws what
-// is bad input, and std::runtime_error where nothing can be measured.
+// Writes the table. Returns the exit status: 0, or 1 if some position could not be measured. Throws
+// for bad input, and std::runtime_error if nothing can be measured.
 int run_zoom(const ZoomOptions& options);
 
 }  // namespace ols::calibration

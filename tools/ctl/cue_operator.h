@@ -1,4 +1,4 @@
-// The operator's side of the bus for cues: what the fusion says of them, and an operator's word.
+// The operator's side of the bus for cues: the fusion's report, and an operator's decision.
 #pragma once
 
 #include <cstdint>
@@ -16,9 +16,10 @@ class CueOperator {
   // Throws BusError, or ConfigError if it cannot sign.
   CueOperator(const std::string& lcm_url, const trust::TrustConfig& trust);
 
-  // The fusion's next status; nothing within this time: there is no fusion.
+  // The fusion's next status; nullopt within this time: there is no fusion.
   std::optional<command::FusionCues> listen(double timeout_s);
-  // Waits for the status that shows it. Nothing if it was taken, otherwise why not.
+  // Sends the order and waits for the status that shows it. nullopt if it was accepted, otherwise
+  // why not.
   std::optional<std::string> give(const command::CueOrder& order, double timeout_s);
 
  private:

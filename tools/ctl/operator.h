@@ -1,4 +1,4 @@
-// The operator's side of the bus: sends an order to a station and reads the outcome from its
+// The operator's side of the bus: sends an order to a station, and reads the outcome from its
 // status.
 #pragma once
 
@@ -26,27 +26,27 @@ class Operator {
   // `station` or "all". Throws BusError, or ConfigError if it cannot sign.
   Operator(const std::string& lcm_url, const trust::TrustConfig& trust, std::string station);
 
-  // Listens and returns the newest status of each addressed station. One named station: until its
-  // status arrives, at most timeout_s; all: for two status intervals.
+  // Listens, and returns the newest status of each addressed station. For one named station: until
+  // its status arrives, at most timeout_s. For all: two status intervals.
   const Statuses& listen(double timeout_s);
   // The table of stations is full: forged statuses may hide real stations.
   bool is_full() const { return statuses_.size() >= command::kMostStationsHeard; }
 
-  // Those that are addressed, of the trust list, heard or not; none where signatures are off.
+  // The addressed stations of the trust list, heard or not; empty where signatures are off.
   std::vector<std::string> enrolled() const;
 
-  // Sends stops repeatedly to the addressed station, or to each as soon as it is heard, until its
-  // status confirms one or timeout_s is over: a stop needs no status, and may get lost. Returns
-  // whether each station confirmed.
+  // Sends stops repeatedly to the addressed station, or to each station as soon as it is heard,
+  // until its status confirms one or timeout_s is over: a stop needs no status, and may get lost.
+  // Returns whether each station confirmed.
   std::map<std::string, bool> stop(double timeout_s);
 
-  // Sends the order and waits for the status that counts it. Returns nothing if it was accepted,
-  // otherwise the station's reason. Homing: acceptance only, it takes half a minute; the status
-  // shows its result.
+  // Sends the order and waits for the status that counts it. Returns nullopt if it was accepted,
+  // otherwise the station's reason. Homing takes half a minute: only its acceptance is awaited; the
+  // status shows its result.
   std::optional<std::string> give(const command::Order& order);
 
-  // Turns the unit for so long, then halts it: sends the rate again and again, each with its lease.
-  // Ends at once with the station's refusal.
+  // Turns the unit for this time, then halts it: sends the rate repeatedly, each with its lease.
+  // Returns at once if the station refuses.
   std::optional<std::string> hold_rate(command::Order order, double seconds);
 
  private:

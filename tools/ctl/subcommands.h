@@ -1,4 +1,4 @@
-// The subcommands of ols-ctl: each reads its words and says what is to be sent or shown.
+// The subcommands of ols-ctl: each reads its words, and says what is to be sent or shown.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -14,10 +14,10 @@
 
 namespace ols::ctl {
 
-// What is shown of the statuses.
+// How the statuses are shown.
 enum class Look { kTable, kFull, kFleet };
 
-// Tells one station; what it refused, in words, or nothing.
+// Orders one station; returns its refusal in words, or nullopt.
 using Send = std::function<std::optional<std::string>(Operator&, const std::string&)>;
 
 // The parsed command line.
@@ -35,12 +35,12 @@ struct Words {
   trust::TrustConfig trust;
   Look look = Look::kTable;
   bool stop = false;
-  bool cues = false;  // in place of a station: what the fusion is led by
+  bool cues = false;  // cues instead of a station
   std::optional<command::CueOrder> cue_order;
-  std::optional<Send> send;  // nothing: stop or status
+  std::optional<Send> send;  // nullopt: stop or status
 };
 
-// The words of every subcommand; parsing fills `words`.
+// Adds every subcommand; parsing fills `words`.
 void add_subcommands(CLI::App& app, Words& words);
 
 }  // namespace ols::ctl

@@ -1,4 +1,4 @@
-// What a person who is to help from afar needs to see of this host, as one file without secrets.
+// Collects what a remote helper needs to know of this host into one file without secrets.
 #pragma once
 
 #include <map>
@@ -11,12 +11,12 @@ namespace ols::doctor {
 struct BundleContents {
   std::string version;  // of the product
   Findings findings;
-  std::string configuration_folder;                  // whose .toml, .env and .conf are put in
-  std::map<std::string, std::string> statuses = {};  // as heard last, by station
+  std::string configuration_folder;                  // its .toml, .env and .conf files are included
+  std::map<std::string, std::string> statuses = {};  // last heard, by station
 };
 
-// A gzipped tar archive: those, and journal, services, clock, network, disks of this host. Throws
-// std::runtime_error if it cannot be written; what cannot be asked is said inside.
+// Writes a gzipped tar archive of these and of this host's journal, services, clock, network and
+// disks. Throws std::runtime_error if it cannot be written. Failed queries are reported inside.
 void write_bundle(const std::string& file, const BundleContents& contents);
 
 }  // namespace ols::doctor

@@ -9,7 +9,8 @@
 namespace ols::doctor {
 
 // Never throws: the result holds the error. `own` is reported if it is heard, however many forged
-// stations there are. Without a trust list it waits for the first before it listens and judges.
+// stations there are. Without a trust list, it waits for the first one before it listens and
+// judges.
 BusHeard listen(const std::string& lcm_url, const trust::TrustConfig& trust, double seconds,
                 const std::string& own = "");
 

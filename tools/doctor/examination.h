@@ -1,4 +1,4 @@
-// One examination: runs the probes in order and judges the results.
+// One examination: runs the probes in order, and judges the results.
 #pragma once
 
 #include <map>
@@ -11,7 +11,8 @@ namespace ols::doctor {
 
 struct Request {
   std::vector<std::string> stations;            // configuration files
-  std::map<std::string, std::string> programs;  // of the centre's, by name: likewise
+  std::map<std::string, std::string> programs;  // configuration files of the centre's programs, by
+                                                // name
   double listen_s = 2.2;                        // two intervals of the slowest sender
   double patience_s = 4.0;                      // for a sensor to become ready
 };
@@ -21,7 +22,7 @@ Request find_configurations(const std::string& folder);
 
 struct Examination {
   Findings findings;
-  std::map<std::string, std::string> statuses;  // as heard last, by station
+  std::map<std::string, std::string> statuses;  // last heard, by station
 };
 Examination examine(const Request& request);
 

@@ -1,4 +1,4 @@
-// The probes' results, as plain values for the judgement. Pure.
+// The probes' results as plain values for the judgement. Pure.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ struct StationHeard {
   bool position_known = true;
   struct Calibration {
     bool in_use = false, doubted = false;
-    double sd_rad = 0.0;  // of an axis of a direction
+    double sd_rad = 0.0;  // of a direction, each axis
     double age_s = 0.0;   // since its last observation; 0: not stated
   } calibration;
   std::vector<std::string> alarms;
@@ -36,14 +36,14 @@ struct StationHeard {
 
 struct BusHeard {
   std::string url;
-  std::string trouble;        // why there is no bus; empty if there is
+  std::string trouble;        // why there is no bus; empty: there is
   std::string interface;      // of the outgoing route; empty: unknown
   int ttl = 0;                // 0: stays on this host
-  std::int64_t rmem_max = 0;  // net.core.rmem_max [byte]; 0: not known
+  std::int64_t rmem_max = 0;  // net.core.rmem_max [byte]; 0: unknown
   std::map<std::string, StationHeard> stations;
   int fusions = 0;
   std::vector<std::string> fusion_alarms;
-  bool is_verified = false;   // the doctor believes only what is signed, or counts what is not
+  bool is_verified = false;   // the doctor believes only signed messages, or counts the others
   std::string trust_trouble;  // what is wrong with keys and trust list; empty: nothing
   std::map<std::string, double> distrusted;  // while it listened, by "bus_distrusted_<reason>"
 };
@@ -61,7 +61,7 @@ struct PtuAxisAnswers {
 
 struct PtuAnswers {
   SerialFacts serial;
-  int baud = 0;  // at which it answered; 0: no answer
+  int baud = 0;  // the rate at which it answered; 0: no answer
   int wanted_baud = 0, wanted_line_baud = 0;
   std::string version;
   PtuAxisAnswers pan, tilt;
@@ -76,25 +76,25 @@ struct LinkFacts {
   bool carrier = false;
   int mtu = 0;
   std::optional<int> speed_Mbit_s;
-  std::uint64_t received = 0, dropped = 0;  // packets since the interface is up
+  std::uint64_t received = 0, dropped = 0;  // packets since the interface came up
 };
 
 struct CameraAnswers {
   std::string device;
-  std::string trouble;  // why it cannot be used; empty if it can
+  std::string trouble;  // why it cannot be used; empty: it can
   std::string identity;
   bool controlled = false;  // by another program
-  bool has_clock = true;    // false: Aravis puts the host's time in place of the camera's
+  bool has_clock = true;    // false: Aravis uses the host's time instead of the camera's
   std::optional<double> temperature_degC;
-  std::vector<std::string> others;  // cameras that answered a broadcast
+  std::vector<std::string> others;  // other cameras that answered a broadcast
   std::optional<LinkFacts> link;
-  double rate_bytes_s = 0.0;  // of the stream that is configured
+  double rate_bytes_s = 0.0;  // of the configured stream
 };
 
 struct FolderFacts {
   std::string name;  // its purpose
   std::string folder;
-  int error = 0;  // errno of looking at it or of asking for write access
+  int error = 0;  // errno of looking at it, or of asking for write access
   double free_bytes = 0.0, reserve_bytes = 0.0;
 };
 

@@ -6,7 +6,7 @@
 
 namespace ols::doctor {
 
-enum class Verdict { kOk, kWarn, kFail };  // in the order of gravity
+enum class Verdict { kOk, kWarn, kFail };  // in ascending gravity
 
 struct Finding {
   Verdict verdict = Verdict::kOk;
@@ -33,7 +33,7 @@ void append(Findings& all, const Findings& more);
 std::string line(const Finding& finding);
 // {"verdict": "warn", "findings": [{"verdict": "ok", "what": "...", "advice": ""}, ...]}
 std::string to_json(const Findings& findings);
-// The gravest verdict: 0 ok, 1 warning, 2 failure.
+// The exit status for the gravest verdict: 0 ok, 1 warning, 2 failure.
 int exit_status(const Findings& findings);
 
 }  // namespace ols::doctor

@@ -1,4 +1,4 @@
-// Is it well, and if not, what to do: clock, disk, processor and services of this host. Pure.
+// Judges clock, disk, processor and services of this host, and says what to do. Pure.
 #pragma once
 
 #include "edge/host_monitor.h"
@@ -10,13 +10,13 @@ namespace ols::doctor {
 Finding judge(const clock::ClockQuality& clock);
 Finding judge(const FolderFacts& folder);
 Findings judge(const station::HostReport& host);
-// Nothing when there is no such unit on this host.
+// nullopt if there is no such unit on this host.
 std::optional<Finding> judge(const UnitFacts& unit);
 
-// The blocks that `systemctl show -p Id,LoadState,ActiveState,SubState,Result,NRestarts,StatusText`
-// prints, one a unit.
+// The blocks printed by `systemctl show -p
+// Id,LoadState,ActiveState,SubState,Result,NRestarts,StatusText`, one per unit.
 std::vector<UnitFacts> parse_units(const std::string& text);
-// The interface in the words of `ip -o route get ADDRESS`; empty: none.
+// The interface in the output of `ip -o route get ADDRESS`; empty: none.
 std::string parse_route(const std::string& text);
 
 }  // namespace ols::doctor

@@ -1,4 +1,4 @@
-// Is it well, and if not, what to do: the bus, and the stations heard on it. Pure.
+// Judges the bus and the stations heard on it, and says what to do. Pure.
 #pragma once
 
 #include "tools/doctor/facts.h"
@@ -7,7 +7,7 @@
 namespace ols::doctor {
 
 Findings judge(const BusHeard& bus);
-// The others on the bus; `own`: this host's station, empty at the centre.
+// The other hosts on the bus. `own`: this host's station; empty at the centre.
 Findings judge_company(const BusHeard& bus, const std::string& own);
 Findings judge(const StationHeard& station);
 

@@ -1,4 +1,4 @@
-// The trust list by which a host examines itself: where it was not given one, the one that its
+// The trust list by which a host examines itself: the configured one, otherwise the one that its
 // member has heard and kept. It is only read.
 #pragma once
 
@@ -8,7 +8,7 @@
 
 namespace ols::doctor {
 
-// `config` with the list that `name` has kept as the configured one, where there is no other.
+// `config`, with `name`'s kept list as the configured one if there is no other.
 trust::TrustConfig with_kept_list(trust::TrustConfig config, const trust::Environment& environment,
                                   const std::string& name);
 

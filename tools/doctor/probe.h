@@ -1,5 +1,5 @@
-// Looks at what the station would use: devices only where no station runs, and never moving one.
-// Nothing throws: what goes wrong is in the answer.
+// Probes what the station would use. Probes devices only where no station runs, and never moves
+// one. Nothing throws: errors are in the answer.
 #pragma once
 
 #include "edge/config.h"
@@ -8,27 +8,27 @@
 
 namespace ols::doctor {
 
-// Opens and closes the line, unless a program of ours has it: they lock it.
+// Opens and closes the line, unless one of our programs holds it: they lock it.
 SerialFacts look_at_line(const std::string& device, int baud);
 
-// Asks version, resolution, limits and supply, at the configured rates first and then at the
-// others. A unit in its scan mode (which no program of ours uses) ends that at any byte.
+// Asks for version, resolution, limits and supply, first at the configured rates, then at the
+// others. Any byte ends a unit's scan mode (which none of our programs uses).
 PtuAnswers ask_ptu(const ptu::PtuConfig& config);
 
 // All cameras that answer a broadcast.
 struct CameraSeen {
-  std::string id, address;  // the id as Aravis has it; no address: not on the network
+  std::string id, address;  // the id from Aravis; no address: not on the network
 };
 std::vector<CameraSeen> cameras_that_answer();
 
-// Opens the camera's control channel for a moment; no frame is taken.
+// Opens the camera's control channel for a moment. Takes no frame.
 CameraAnswers ask_camera(const camera::CameraConfig& config);
 
-// The sensors by their own drivers, for as long as each takes to be well, at most `seconds`.
+// Runs the sensors' own drivers until each is well, at most `seconds`.
 device::DeviceReport ask_gnss(const sensors::GnssConfig& config, double seconds);
 device::DeviceReport ask_inclinometer(const sensors::InclinometerConfig& config, double seconds);
 device::DeviceReport ask_lens(const lens::LensMotorConfig& config, double seconds);
-// Reads the emergency stop; outputs stay untouched.
+// Reads the emergency stop. Outputs are not touched.
 device::DeviceReport ask_gpio(const gpio::GpioConfig& config);
 
 clock::ClockQuality ask_clock(const clock::ClockWatch::Config& config, double seconds);

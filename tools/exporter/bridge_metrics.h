@@ -1,5 +1,5 @@
-// What ols-bridge says of itself, as metrics for Prometheus. It has no key of the bus, so nothing
-// that it said there would be believed: it is known by its status file on this host. Pure.
+// ols-bridge's status as Prometheus metrics. It has no key for the bus, so nothing that it said
+// there would be believed: the metrics come from its status file on this host. Pure.
 #pragma once
 
 #include <prometheus/metric_family.h>
@@ -10,8 +10,8 @@
 
 namespace ols::exporter {
 
-// status: the file's text; empty: there is none. A status that is older, or no status at all, says
-// only that the bridge does not run.
+// status: the file's text; empty: none. An older status, or none, gives only the metric that the
+// bridge does not run.
 inline constexpr double kStaleBridge_s = 10.0;
 std::vector<prometheus::MetricFamily> bridge_metrics(const std::string& status,
                                                      std::int64_t utime_us);

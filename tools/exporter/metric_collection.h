@@ -1,4 +1,4 @@
-// Samples of one metric after another, in the order in which they are first named. Pure.
+// Samples of one metric after another, in the order of their first use. Pure.
 #pragma once
 
 #include <prometheus/metric_family.h>

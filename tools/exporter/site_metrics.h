@@ -1,5 +1,5 @@
-// The site's statuses as metrics for Prometheus. Base units; names as its conventions have them; no
-// target's id anywhere, because labels live for ever. Pure.
+// The site's statuses as Prometheus metrics. Base units, and names by its conventions. No target
+// ids, because labels live for ever. Pure.
 #pragma once
 
 #include <prometheus/metric_family.h>
@@ -17,21 +17,21 @@ namespace ols::exporter {
 
 class SiteMetrics {
  public:
-  // Of more stations nothing is kept, nor of a silent one after a day; that it is enrolled is told
-  // on, so that alerts last.
+  // Max number of stations. A station that is silent for kForget_s is dropped. That it is enrolled
+  // is still reported, so that alerts last.
   static constexpr std::size_t kMostStations = 1000;
   static constexpr double kForget_s = 86400.0;
-  // Of what one message names: readings, counters, devices.
+  // Max number of names (readings, counters, devices) per message.
   static constexpr std::size_t kMostNames = 200;
 
   explicit SiteMetrics(std::string version) : version_(std::move(version)) {}
 
-  // Statuses as verified. Times: monotonic.
+  // Verified statuses. Times: monotonic.
   void hear(const ols_msg::station_status_t& status, double now_s);
   void hear(const ols_msg::fusion_status_t& status, double now_s);
-  // The stations of the trust list; of one that is in it no more nothing is told.
+  // The stations of the trust list. Stations that have left it are no longer reported.
   void know(std::vector<std::string> enrolled);
-  // Messages that were not believed, by reason, since the start.
+  // Messages that failed verification, by reason, since the start.
   void hear_distrusted(std::map<std::string, double> by_reason);
 
   std::vector<prometheus::MetricFamily> families(double now_s) const;

@@ -14,18 +14,19 @@ namespace ols::key {
 
 using Lists = std::map<std::int64_t, trust::TrustList>;  // of one site, by number
 
-// The number of the list that such a message tells: one of `lists`, told by a member of that very
-// list. Stations tell none: theirs are the keys that may be stolen. Nothing for any other message.
+// The number of the trust list that a message publishes, if it is one of `lists` and its sender a
+// member of that list; otherwise nullopt. Stations publish none: their keys are the ones that may
+// be stolen.
 std::optional<std::int64_t> told_number(const Lists& lists, std::string_view channel,
                                         trust::Bytes message);
 
 class LogCheck {
  public:
-  // `lists` must have `first`, under which the recording begins: the first that it tells. Without
-  // the site's secret the tags are not checked: the signatures prove more.
+  // `lists` must contain `first`, under which the recording begins: the first list that it
+  // contains. Without the site's secret the tags are not checked; the signatures prove more.
   LogCheck(Lists lists, std::int64_t first);
 
-  // One message as recorded.
+  // One recorded message.
   void add(std::string_view channel, trust::Bytes message, std::int64_t utime_us);
 
   struct Count {
@@ -35,7 +36,7 @@ class LogCheck {
   // By channel.
   const std::map<std::string, Count>& channels() const { return channels_; }
   std::uint64_t bad() const;
-  // The numbers of the lists that were in force, in their order.
+  // The numbers of the lists that were in force, in order.
   const std::vector<std::int64_t>& in_force() const { return in_force_; }
   // A table for a person.
   std::string text() const;

@@ -1,4 +1,4 @@
-// The changes that the holder of a site's root makes to its trust list. Pure.
+// The changes that the holder of a site's root key makes to its trust list. Pure.
 #pragma once
 
 #include <string>
@@ -7,14 +7,14 @@
 
 namespace ols::key {
 
-// Number 1, without members. Throws std::invalid_argument for a bad name.
+// List number 1, without members. Throws std::invalid_argument for a bad name.
 trust::TrustList new_list(const std::string& site, const trust::PublicKey& root);
 
-// Under the next number. A member that has a key gets the new one, and the old one is revoked.
-// Throws std::invalid_argument if that name has another role, or the key is known.
+// Has the next number. If the member already has a key, it gets the new one, and the old one is
+// revoked. Throws std::invalid_argument if the name has another role, or if the key is known.
 trust::TrustList enrol(const trust::TrustList& list, const trust::Member& member);
 
-// Under the next number. Throws std::invalid_argument if there is no such member.
+// Has the next number. Throws std::invalid_argument if there is no such member.
 trust::TrustList revoke(const trust::TrustList& list, const std::string& name);
 
 // A table for a person.

@@ -1,7 +1,7 @@
-// One recording: a bus connection and a thread that writes its messages into logs.
+// One recording: a bus connection, and a thread that writes its messages into logs.
 //
-// lcm-logger is not used: a forged fragment crashes its liblcm (base/bus_datagram.h), and it
-// continues to write into a file that has been deleted.
+// lcm-logger is not used: a forged fragment crashes its liblcm (base/bus_datagram.h), and it keeps
+// writing into a file that was deleted.
 #pragma once
 
 #include <atomic>
@@ -27,16 +27,16 @@ struct RecorderReport {
   std::uint64_t messages = 0;        // written
   std::uint64_t dropped = 0;         // lost because the disk was too slow
   std::uint64_t files_lost = 0;      // deleted, renamed or replaced while they were written
-  std::string bus_alarm;             // alarm of the bus monitor
+  std::string bus_alarm;             // of the bus monitor
   BusTraffic traffic;
 };
 
 class BusRecorder {
  public:
-  // With `file`, records into that file only; otherwise into new ones in the configured folder.
-  // Throws BusError, or std::system_error when the first file cannot be made.
+  // With `file`, records only into that file; otherwise into new ones in the configured folder.
+  // Throws BusError, or std::system_error if the first file cannot be created.
   explicit BusRecorder(const LoggerConfig& config, const std::string& file = "");
-  // Writes the waiting messages, unless they are discarded.
+  // Writes the waiting messages unless discard() was called.
   ~BusRecorder();
   // For a full disk: drops the waiting messages.
   void discard() { discard_ = true; }
@@ -58,12 +58,12 @@ class BusRecorder {
   const LoggerConfig config_;
   const std::string single_file_;
   LogNames names_;
-  std::optional<LogWriter> writer_;  // used by the thread only
+  std::optional<LogWriter> writer_;  // used only by the thread
   struct Watch {
     BusMonitor monitor;
     AlarmJournal journal;
   };
-  Watch watch_;  // likewise
+  Watch watch_;  // used only by the thread
   struct Due {
     double flush_s = 0.0, look_s = 0.0;
   };
@@ -75,7 +75,7 @@ class BusRecorder {
   std::shared_ptr<trust::BusTrust> trust_;
   struct Lists {
     TrustLists received;
-    // Numbers of the last one beside the logs and in the present file; used by the thread only.
+    // Numbers of the last list beside the logs and in the present file; used only by the thread.
     std::int64_t kept = 0, written = 0;
   };
   Lists lists_;

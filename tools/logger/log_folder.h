@@ -1,4 +1,4 @@
-// The folder of the logs: lists them and removes the oldest. Only files NAME-*.lcmlog.* count.
+// The folder of the logs: lists them, and removes the oldest. Only files NAME-*.lcmlog.* count.
 #pragma once
 
 #include <cstdint>
@@ -17,11 +17,11 @@ class LogFolder {
  public:
   LogFolder(const std::string& folder, const std::string& name);
 
-  // Lists the logs. Creates a missing folder; throws std::system_error if it is not a folder or not
+  // Lists the logs. Creates a missing folder. Throws std::system_error if it is no folder, or not
   // writable.
   void survey();
-  // Removes the oldest until the logs leave `headroom_bytes` of the quota, and of the disk above
-  // its reserve; never `keep`. Throws std::system_error when a file cannot be removed.
+  // Removes the oldest logs until they leave `headroom_bytes` of the quota, and of the disk above
+  // its reserve; never removes `keep`. Throws std::system_error if a file cannot be removed.
   void remove_oldest(double quota_bytes, double reserve_bytes, double headroom_bytes,
                      const std::string& keep);
 

@@ -1,5 +1,5 @@
-// The names of a logger's files: FOLDER/NAME-<UTC>.lcmlog.NN. Later ones sort after earlier ones as
-// long as UTC is not set back.
+// The names of a logger's files: FOLDER/NAME-<UTC>.lcmlog.NN. They sort by time, as long as UTC is
+// not set back.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ class LogNames {
  private:
   std::string folder_, name_;
   std::string time_;  // of the last name
-  int number_ = 0;    // of the next name of that time
+  int number_ = 0;    // of the next name for that time
 };
 
 }  // namespace ols::logger

@@ -1,4 +1,4 @@
-// Writes bus messages into an LCM log that lcm-logplayer and lcm-spy read.
+// Writes bus messages into an LCM log that lcm-logplayer and lcm-spy can read.
 #pragma once
 
 #include <lcm/eventlog.h>
@@ -13,7 +13,7 @@ namespace ols::logger {
 
 class LogWriter {
  public:
-  // Creates the file; throws std::system_error naming it, also if it exists.
+  // Creates the file. Throws std::system_error naming it, also if it exists.
   explicit LogWriter(const std::string& path);
 
   // Both throw std::system_error naming the file if writing fails.
@@ -22,7 +22,7 @@ class LogWriter {
 
   const std::string& path() const { return path_; }
   std::uint64_t bytes() const { return bytes_; }
-  // Whether the open file still has its name: writes to a deleted, renamed or replaced file succeed
+  // Whether the open file still has its name. Writes to a deleted, renamed or replaced file succeed
   // but are lost.
   bool is_in_place() const;
 

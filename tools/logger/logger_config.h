@@ -1,4 +1,4 @@
-// What ols-logger's configuration file holds: docs/configuration.md.
+// The contents of ols-logger's configuration file: docs/configuration.md.
 #pragma once
 
 #include <string>
@@ -15,19 +15,19 @@ struct LoggerConfig {
   std::string name = "site";  // files are NAME-<UTC>.lcmlog.NN
   std::string lcm_url = "udpm://239.255.76.67:7667?ttl=0";
   std::string channels = ".*";  // regular expression
-  bool invert = false;          // record all but those channels
-  double split_bytes = 100e6;   // a new file is begun beyond it
-  double quota_bytes = 20e9;    // of all files together: the oldest go
+  bool invert = false;          // record all channels but those
+  double split_bytes = 100e6;   // beyond it, a new file begins
+  double quota_bytes = 20e9;    // of all files together: the oldest are removed
   double disk_reserve_bytes = 2e9;
-  double max_unwritten_mb = 50.0;  // in memory, when the disk is slow; more is lost
-  std::string status_file;         // JSON, written again and again; empty: none
+  double max_unwritten_mb = 50.0;  // in memory, when the disk is slow; more are lost
+  std::string status_file;         // JSON, rewritten again and again; empty: none
   trust::TrustConfig trust{};
 };
 
 config::Section logger_section(LoggerConfig& config);  // the whole file
 // Throws ConfigError.
 LoggerConfig load_logger_config(const std::string& path);
-// The same from text, `name` standing for the path in errors.
+// The same from text. Errors give `name` instead of the path.
 LoggerConfig parse_logger_config(const std::string& text, const std::string& name);
 
 }  // namespace ols::logger

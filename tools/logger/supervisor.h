@@ -13,17 +13,17 @@ namespace ols::logger {
 
 struct LoggerStatus {
   bool recording = false;
-  std::string text;  // the file being written, or why none is
+  std::string text;  // the file being written, or why there is none
   std::size_t files = 0;
   double bytes = 0.0, free_bytes = 0.0;
-  std::string bus_alarm;         // alarm of the bus monitor
-  std::uint64_t starts = 0;      // of a recording
-  std::uint64_t failures = 0;    // unrequested ends; failed starts
+  std::string bus_alarm;         // of the bus monitor
+  std::uint64_t starts = 0;      // of recordings
+  std::uint64_t failures = 0;    // unrequested ends, and failed starts
   std::uint64_t removed = 0;     // files, for the quota
   std::uint64_t files_lost = 0;  // deleted, renamed or replaced while they were written
-  std::uint64_t dropped = 0;     // messages that the disk was too slow for
-  std::uint64_t fragments = 0;   // datagrams of the bus that were refused
-  std::uint64_t malformed = 0;   // likewise
+  std::uint64_t dropped = 0;     // messages lost because the disk was too slow
+  std::uint64_t fragments = 0;   // refused datagrams of the bus
+  std::uint64_t malformed = 0;   // refused datagrams of the bus
 };
 
 // JSON, one line.
@@ -34,7 +34,7 @@ class Supervisor {
   explicit Supervisor(const LoggerConfig& config);
   ~Supervisor();
 
-  // A few times a second. `now_s`: CLOCK_MONOTONIC.
+  // Call a few times a second. `now_s`: CLOCK_MONOTONIC.
   void turn(double now_s);
   LoggerStatus status() const;
 
@@ -49,10 +49,10 @@ class Supervisor {
   std::unique_ptr<BusRecorder> recorder_;
   std::string trouble_;  // why nothing is recorded; empty while recording
   double started_s_ = 0.0;
-  double retry_s_ = 0.0;  // not started again before
+  double retry_s_ = 0.0;  // earliest next start
   double pause_s_;
   std::uint64_t starts_ = 0, failures_ = 0;
-  LoggerStatus ended_;  // sums of the earlier recordings
+  LoggerStatus ended_;  // totals of earlier recordings
 };
 
 }  // namespace ols::logger

@@ -1,5 +1,5 @@
-// The site's trust lists on their way into a log: each belongs before the first message that was
-// judged by it, however long that message waited to be written. One thread receives, one writes.
+// The site's trust lists on their way into a log. Each must be written before the first message
+// that it judged, however long that message waited. One thread receives, one writes.
 #pragma once
 
 #include <cstdint>
@@ -13,18 +13,18 @@ namespace ols::logger {
 struct ReceivedList {
   std::int64_t number = 0;
   std::string text{};
-  // As a message; nothing: the recorder is no member of it, and nobody would believe its word.
+  // As a message; nullopt if the recorder is not a member of the list: nobody would believe it.
   std::optional<std::vector<std::uint8_t>> telling{};
 };
 
 class TrustLists {
  public:
   std::int64_t newest() const;  // 0: none
-  // A list with a higher number than all before it.
+  // `list` has a higher number than all before.
   void add(ReceivedList list);
-  // What goes before a message that was judged by list `judged_by`, in order. `written`: the number
-  // of the last one in this file; 0: none, and a file begins with the one that its first message
-  // was judged by. Older ones are forgotten.
+  // The lists that go before a message judged by list `judged_by`, in order. `written`: the number
+  // of the last list in this file; 0: none, and the file begins with the list that judged its first
+  // message. Older ones are dropped.
   std::vector<ReceivedList> due(std::int64_t judged_by, std::int64_t written);
 
  private:

@@ -10,7 +10,7 @@ namespace ols::offline {
 
 struct BoxRow {
   long frame = 0;                 // from 0
-  std::optional<cv::Rect2d> box;  // [px] top-left corner and size; nothing when lost
+  std::optional<cv::Rect2d> box;  // [px] top-left corner and size; nullopt when lost
   double belief = 0.0;
   std::string_view state;  // tracking, coasting, lost
 };

@@ -1,5 +1,4 @@
-// Images from a clip, a folder of images or a printf pattern of them, in order: grey, and in
-// colour.
+// Images from a clip, a folder of images or a printf pattern, in order: grey and in colour.
 #pragma once
 
 #include <memory>
@@ -12,7 +11,7 @@
 
 namespace ols::offline {
 
-// One line that names the file.
+// what() is one line that names the file.
 class FrameSourceError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -22,14 +21,14 @@ class FrameSource {
  public:
   explicit FrameSource(const std::string& input);  // throws FrameSourceError
 
-  // The next image; nothing at the end. Throws FrameSourceError if one cannot be read or a clip
-  // ends before its announced number of frames.
+  // The next image; nullopt at the end. Throws FrameSourceError if an image cannot be read, or if a
+  // clip ends before its announced number of frames.
   std::optional<cv::Mat> next();
   // The newest image in colour: 8-bit, blue, green, red; empty if it has none.
   const cv::Mat& colour() const { return colour_; }
-  // The clip's frame rate; 30 if it has none.
+  // The clip's frame rate; 30 if it states none.
   double frames_per_second() const { return frames_per_second_; }
-  // The announced number of frames, for progress only: a clip may have a few less; 0: unknown.
+  // The announced number of frames, for progress only: a clip may have a few less. 0: unknown.
   std::size_t announced() const { return files_.empty() ? announced_ : files_.size(); }
   // The image files of a folder or pattern; empty for a clip.
   const std::vector<std::string>& files() const { return files_; }

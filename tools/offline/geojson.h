@@ -1,4 +1,4 @@
-// GeoJSON (RFC 7946): places and areas in, features out. Positions are longitude, latitude in
+// GeoJSON (RFC 7946): reads places and areas, writes features. Positions are longitude, latitude in
 // degrees and, where given, metres above the WGS84 ellipsoid.
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace ols::offline {
 
-// One line: "FILE: features[3]: what is wrong".
+// what() is one line: "FILE: features[3]: what is wrong".
 class GeoJsonError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -24,12 +24,12 @@ struct GeoPosition {
 };
 
 struct GeoPoint {
-  std::string name;  // the feature's property "station" or "name"; empty: it has none
+  std::string name;  // property "station" or "name"; empty: none
   GeoPosition position;
 };
 
-// The first ring is the outline, others are holes; each ends where it begins. Over the date line
-// longitudes go on beyond 180 degrees: neighbours differ by less than half a circle.
+// The first ring is the outline, the others are holes. Each ends where it begins. Across the date
+// line, longitudes continue beyond 180 degrees: neighbours differ by less than half a circle.
 using GeoPolygon = std::vector<std::vector<GeoPosition>>;
 
 struct GeoShapes {
@@ -37,16 +37,16 @@ struct GeoShapes {
   std::vector<GeoPolygon> polygons;
 };
 
-// Points and polygons, alone or in features and collections. GeoJsonError for anything else, for
-// positions out of range and for rings that are not closed or go round a pole.
+// Points and polygons, alone or in features and collections. Throws GeoJsonError for anything else,
+// for positions out of range, and for rings that are not closed or go round a pole.
 GeoShapes read_geojson(const std::string& path);
 
-// Inside the outline and outside the holes, taken as plane figures of longitude and latitude: fine
-// for areas of some kilometres that are not at a pole.
+// Whether the point is inside the outline and outside the holes, as plane figures of longitude and
+// latitude. Good for areas of some kilometres away from the poles.
 bool contains(const GeoPolygon& polygon, double longitude_deg, double latitude_deg);
 
-// The points of an even east-north grid of this spacing that lie inside one of the polygons, at the
-// given height. std::invalid_argument when they would be more than a million.
+// The points of an even east-north grid of this spacing inside any of the polygons, at the given
+// height. Throws std::invalid_argument if there would be more than a million.
 std::vector<Geodetic> fill(const std::vector<GeoPolygon>& polygons, double spacing_m,
                            double height_m);
 

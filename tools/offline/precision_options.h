@@ -1,4 +1,4 @@
-// Options that the subcommands of ols-precision share: the stations' errors and the target.
+// Options shared by the subcommands of ols-precision: the stations' errors and the target.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -10,7 +10,7 @@
 
 namespace ols::offline {
 
-// Errors of the stations' measurements, where stations.csv has no own values.
+// Errors of the stations' measurements, for values that stations.csv does not state.
 struct MeasurementOptions {
   double pixel_sd_px = 0.5;
   double pixel_um = 3.75;
@@ -26,20 +26,20 @@ struct MeasurementOptions {
 
 void add_measurement_options(CLI::App& app, MeasurementOptions& options);
 
-// A row's position_sd_m replaces the option for position; its pointing_sd_deg those for heading,
-// tilt and mounting together.
+// A row's position_sd_m replaces the option for the position. Its pointing_sd_deg replaces those
+// for heading, tilt and mounting together.
 PlannedStation planned_station(const StationRow& row, const MeasurementOptions& options);
 std::vector<PlannedStation> planned_stations(const std::vector<StationRow>& rows,
                                              const MeasurementOptions& options);
 PlannedStation planned_station(const Geodetic& place, const MeasurementOptions& options);
 
-// Whoever exchanges latitude and longitude has a site on another continent.
-// Throws std::invalid_argument if the place is beyond the range of any camera from each of `near`,
-// which are `of`.
+// Detects exchanged latitude and longitude, which put a site on another continent. Throws
+// std::invalid_argument if `place` is beyond the range of any camera from each of `near`, which
+// belong to `of`.
 void require_near(const std::string& name, const Geodetic& place, const std::vector<Geodetic>& near,
                   const std::string& of);
 
-// A target that flies at the options' speed in any direction.
+// A target that flies at the options' speed in an unknown direction.
 PlannedTarget planned_target(const Geodetic& place, const MeasurementOptions& options);
 
 }  // namespace ols::offline

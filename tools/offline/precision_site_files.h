@@ -1,12 +1,12 @@
-// The precision of a site: a map of its covariance, the budget of one place, and advice on where to
-// put stations.
+// The precision of a site: a map of its covariance, the error budget of one place, and advice on
+// where to put stations.
 #pragma once
 
 #include <CLI/CLI.hpp>
 
 namespace ols::offline {
 
-// Each adds its subcommand to ols-precision; it runs when parsed.
+// Each function adds its subcommand to ols-precision; it runs when parsed.
 void add_map(CLI::App& app);
 void add_budget(CLI::App& app);
 void add_advice(CLI::App& app);

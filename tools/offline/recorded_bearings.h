@@ -11,18 +11,17 @@ namespace ols::offline {
 
 struct RecordedBearings {
   std::vector<fusion::BearingMeasurement> bearings{};  // in the order of the file
-  // By number, from 0: the names in the column `target`, and the number of each bearing's. Empty
-  // where the file has no such column.
+  // The names in the column `target`, numbered from 0, and the number of each bearing's name. Empty
+  // if the file has no such column.
   std::vector<std::string> targets{};
   std::vector<std::uint32_t> target_of{};
 };
 
-// Throws CsvError, also if the angles can only be radians, despite the columns' names.
+// Throws CsvError, also if the angles can only be radians, despite the names of the columns.
 RecordedBearings read_recorded_bearings(const std::string& stations_path,
                                         const std::string& bearings_path);
 
-// The bearings of each target, in the order of their names; the one of a file that names none
-// is "1".
+// The bearings of each target, sorted by name. If the file names none, there is one target "1".
 struct RecordedTarget {
   std::string name;
   fusion::MutableBearings bearings{};

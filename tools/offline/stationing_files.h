@@ -14,10 +14,10 @@ struct StationingOptions {
   std::string station;    // its configuration, as ols-station reads it
   std::string landmarks;  // CSV: geodetic or UTM
   std::string sightings;  // CSV
-  std::string at;         // the landmark where the station stands; empty: [pose] says where
+  std::string at;         // the landmark at the station's place; empty: [pose] gives it
   double pixel_sd_px = 1.0;
   double angles_sd_deg = 0.01;
-  double highest_deg = 45.0;  // of targets
+  double highest_deg = 45.0;  // max elevation of targets
 };
 
 // A sighting's landmark and the line of its row.
@@ -42,8 +42,8 @@ StationingCase read_stationing(const StationingOptions& options);
 // landmarks, or landmarks that do not determine the heading.
 Stationing find_station(const StationingCase& before, double highest_rad);
 
-// The tables of the station's configuration that the stationing has found, with its tests, and
-// what the landmarks determine, as comments.
+// The tables of the station's configuration that the stationing has determined. Comments give its
+// tests, and what the landmarks determine.
 void write_stationing(std::ostream& out, const StationingCase& before, const Stationing& found,
                       bool with_position);
 

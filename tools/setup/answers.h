@@ -1,4 +1,4 @@
-// What ols-setup is told of a host: a file, or what a person has typed.
+// The input of ols-setup for a host: a file, or a person's answers.
 //
 //   role = "station"                # or "centre"
 //   interface = "eth0"              # that leads to the other hosts; left out: none
@@ -30,18 +30,18 @@ struct Answers {
   bool is_station = true;
   std::string interface {};  // empty: lo
   std::vector<std::string> serial{}, neighbours{};
-  std::string gnss{};            // a receiver that gpsd is to read: its device
+  std::string gnss{};            // device of the receiver that gpsd is to read
   std::string station{};         // id
   key::Invitation invitation{};  // of a station
   std::string site{}, root{};    // of the centre
-  Values values{};               // all: "station.pose.heading_deg"
+  Values values{};               // all answers: "station.pose.heading_deg"
 };
 
-// Camera and PTU may be missing: they can be found. Throws ConfigError: `name`, line, key.
+// Camera and PTU may be missing: they can be found. Throws ConfigError with `name`, line and key.
 Answers read_answers(const std::string& text, const std::string& name);
 
-// The text of a program's configuration file by the answers of this section, with the trust mode
-// `require`. Throws ConfigError naming `name` if something is still missing.
+// The text of a program's configuration file from the answers of this section, with the trust mode
+// `require`. Throws ConfigError naming `name` if something is missing.
 std::string station_file(const Values& station, const std::string& name);
 std::string fusion_file(const Values& fusion, const std::string& name);
 std::string logger_file(const Values& logger, const std::string& name);

@@ -1,4 +1,4 @@
-// Which camera, PTU and GNSS receiver this host has. Nothing is moved.
+// Finds this host's camera, PTU and GNSS receiver. Nothing is moved.
 #pragma once
 
 #include <optional>
@@ -7,20 +7,20 @@
 
 namespace ols::setup {
 
-// Serial adapters by names that stay: /dev/ols/*, /dev/serial/by-id/*, else /dev/ttyUSB* and
+// Serial adapters by stable names: /dev/ols/*, /dev/serial/by-id/*, otherwise /dev/ttyUSB* and
 // ttyACM*.
 std::vector<std::string> serial_lines();
 
-// Those on which a unit answers, with its version: (device, version).
+// The lines on which a unit answers, with its version: (device, version).
 struct FoundPtu {
   std::string device, version;
   int baud = 0;
 };
 std::vector<FoundPtu> find_ptus(const std::vector<std::string>& lines);
 
-// Those that speak as a receiver does: NMEA sentences or UBX.
+// The lines on which a receiver talks: NMEA sentences or UBX.
 std::vector<std::string> find_receivers(const std::vector<std::string>& lines);
-// Whether this is part of what a receiver sends. Pure.
+// Whether these bytes are part of a receiver's output. Pure.
 bool is_receiver_talk(const std::string& bytes);
 
 }  // namespace ols::setup

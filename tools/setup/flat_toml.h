@@ -1,4 +1,4 @@
-// A TOML text as its values by full key. Pure.
+// A TOML text as values by full key. Pure.
 #pragma once
 
 #include <optional>
@@ -8,20 +8,20 @@
 
 namespace ols::setup {
 
-// ("pose.latitude_deg", "49.2"): the value as TOML writes it.
+// ("pose.latitude_deg", "49.2"): the value in TOML notation.
 using Values = std::vector<std::pair<std::string, std::string>>;
 
-// In the order of their keys. Throws std::runtime_error for a text that is no TOML.
+// In the order of the keys. Throws std::runtime_error if the text is no TOML.
 Values flat(const std::string& toml);
-// Of one table: what begins with `table` and a dot, without that.
+// The values of one table: keys that begin with `table` and a dot, without that prefix.
 Values of_table(const Values& values, const std::string& table);
-// Null if it is not there.
+// Null if it is missing.
 const std::string* find(const Values& values, const std::string& key);
-// What a value says that is a text; nothing if it is none.
+// The text of a value; nullopt if it is no text.
 std::optional<std::string> text_in(const std::string& value);
-// What a list of texts says; nothing if it is none.
+// The texts of a list; nullopt if it is no list of texts.
 std::optional<std::vector<std::string>> texts_in(const std::string& value);
-// One "key = value" a line.
+// One "key = value" per line.
 std::string as_toml(const Values& values);
 
 }  // namespace ols::setup

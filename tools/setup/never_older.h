@@ -1,5 +1,5 @@
-// What must not be replaced by something older when a host is restored: the site's trust list and
-// settings, for an older list believes keys that were revoked since, and the marks against replays.
+// Files that a restore must not replace by older ones: the site's trust list and settings, because
+// an older list believes keys that were revoked since; and the marks against replays.
 #pragma once
 
 #include <string>
@@ -11,10 +11,10 @@ namespace ols::setup {
 
 class NeverOlder {
  public:
-  // Reads what is there. Throws std::system_error.
+  // Reads the present files. Throws std::system_error.
   explicit NeverOlder(const Host& host);
-  // Puts back each file that was replaced by an older one meanwhile, and says so. Marks have no
-  // number: those that were there stay. Throws std::system_error.
+  // Puts back each file that was replaced by an older one, and reports it. Marks have no number:
+  // the previous ones stay. Throws std::system_error.
   void put_back() const;
 
  private:

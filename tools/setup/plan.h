@@ -1,4 +1,4 @@
-// What ols-setup is going to write and to start. Pure.
+// The files that ols-setup will write, and the units that it will start. Pure.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ struct PlannedFile {
   std::string path;  // from the root of the file system
   std::string text;
   bool is_toml = true;
-  // A line of the file that its package installs, in which nobody has chosen anything yet.
+  // A line of the package's own file, in which nobody has made a choice yet.
   std::string unchosen{};
 };
 
@@ -21,14 +21,14 @@ struct Plan {
   std::vector<std::string> units;  // to enable, in the order of their start
 };
 
-// Throws ConfigError, or std::invalid_argument naming an answer that has no place in the file.
+// Throws ConfigError, or std::invalid_argument naming an answer without a place in the file.
 Plan plan_station(const Answers& answers);
 struct Installed {
   bool fusion = true, console = true;
 };
 Plan plan_centre(const Answers& answers, Installed installed);
 
-// The answer to one question more: what was found. Replaces none.
+// Adds a found value as another answer. Never replaces one.
 void add(Values& values, const std::string& key, const std::string& text);
 
 }  // namespace ols::setup
