@@ -26,14 +26,20 @@ def chromium():
 
 
 @pytest.fixture
-def page(chromium, consoles, paper):
-    """The open console's; its stations are idle."""
-    stations = Api(consoles[0])
+def idle(consoles, paper):
+    """Makes the stations idle; the consoles know it then."""
+    console = Api(consoles[0])
 
-    def idle():
+    def is_known():
         paper.begin_anew()  # again: a command of the page before may still come
-        return {s["state"] for s in stations.state()["stations"]} == {"idle"}
+        return {station["state"] for station in console.state()["stations"]} == {"idle"}
 
-    wait(idle, "the stations")
+    return lambda: wait(is_known, "the stations")
+
+
+@pytest.fixture
+def page(chromium, consoles, idle):
+    """The open console's; its stations are idle."""
+    idle()
     with watched_page(chromium, consoles[0]) as opened:
         yield opened
