@@ -4,7 +4,7 @@ import time
 
 import ols
 import pytest
-from conftest import BIN
+from conftest import BIN, wait
 from ols_demo.bus import LIVE_URL
 from ols_demo.keys import make_keys
 from ols_demo.observer import Observer
@@ -36,19 +36,17 @@ class SignedStations(FusionAlone):
         self.wait_for_status()
         before, targets, slews = self.count(name), self.observer.targets, self.slews
         self.play(messages)
-        end = time.monotonic() + 20.0
-        while self.count(name) < before + len(messages):
-            assert time.monotonic() < end, f"{name}: {self.count(name)}"
-            self.lcm.handle_timeout(50)
+        self.hear_until(lambda: self.count(name) >= before + len(messages), name)
         self.wait_for_status()
         assert self.count(name) == before + len(messages)
         assert (self.observer.targets, self.slews) == (targets, slews)
 
     def wait_for_status(self):
-        before, end = self.observer.fusion, time.monotonic() + 20.0
-        while self.observer.fusion is before:
-            assert time.monotonic() < end, "no status of the fusion"
-            self.lcm.handle_timeout(50)
+        before = self.observer.fusion
+        self.hear_until(lambda: self.observer.fusion is not before, "a status of the fusion")
+
+    def hear_until(self, condition, what):
+        wait(condition, what, turn=lambda: self.lcm.handle_timeout(50))
 
 
 @pytest.fixture

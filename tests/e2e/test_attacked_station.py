@@ -2,13 +2,12 @@
 
 import os
 import subprocess
-import time
 
 import lcm
 import ols
 import ols_msg
 import pytest
-from conftest import BIN, finished
+from conftest import BIN, finished, wait
 from helpers import Listener, addressed, slew, station_without_devices
 from ols_demo.bus import LIVE_URL, counters
 from ols_demo.keys import make_keys
@@ -35,9 +34,7 @@ class Attacked(Listener):
 
     def learn_boot(self):
         """Until the members have heard a status, and can name the station's boot."""
-        end = time.monotonic() + 20.0
-        while self.wire.handle_timeout(200) <= 0:
-            assert time.monotonic() < end, "no status"
+        wait(lambda: self.wire.handle_timeout(200) > 0, "a status")
 
     def command(self, what):
         self.sequence += 1

@@ -57,18 +57,19 @@ def test_complete_after_a_cut_and_nothing_twice(net):
     wait(lambda: say() or region.on("OLS_BEARING_alfa"), "bearings at the region")
     say_for(1.0)
     net.link.cut()
-    before = len(region.on("OLS_BEARING_alfa"))
+    before = len(sent)
     say_for(CUT_S)
-    last = [data for name, data in sent.items() if re.fullmatch(r"alfa:7:\d+", name)][-1]
-    wait(lambda: last in site.on("OLS_BEARING_alfa"), "the site goes on")
-    assert len(region.on("OLS_BEARING_alfa")) <= before + 2, "the link was cut"
+    cut = [data for name, data in [*sent.items()][before:] if re.fullmatch(r"alfa:7:\d+", name)]
+    wait(lambda: cut[-1] in site.on("OLS_BEARING_alfa"), "the site goes on")
+    assert not set(cut) & set(region.on("OLS_BEARING_alfa")), "the link was cut"
     net.link.mend()
-    wait(lambda: say() or len(region.on("OLS_BEARING_alfa")) > before + 2, "live again", 60.0)
+    before = len(region.on("OLS_BEARING_alfa"))
+    wait(lambda: say() or len(region.on("OLS_BEARING_alfa")) > before + 2, "live again")
     say_for(0.5)
 
     watcher = Watcher(4222)
     info = "$JS.hub.API.STREAM.INFO.OLS_r"
-    wait(lambda: watcher.request(info, {})["state"]["messages"] >= len(sent), "all of them", 60.0)
+    wait(lambda: watcher.request(info, {})["state"]["messages"] >= len(sent), "all of them")
     stored = watcher.stored("hub", "OLS_r")
     names = [name for _, name, _ in stored]
     assert sorted(names) == sorted(sent), "each once"
@@ -116,11 +117,9 @@ def test_a_sites_own_targets_go_on_without_the_link(net, tmp_path, monkeypatch):
         processes.start_and_wait("fusion", fusion, "ready")
         wait(lambda: say() or targets(), "a target")
         net.link.cut()
-        before, cut_s = len(targets()), time.time()
-        wait(lambda: say() or time.time() > cut_s + CUT_S, "the cut", CUT_S + 30.0)
-        after = targets()[before:]
-        assert len(after) > 5.0 * CUT_S
-        assert {target.target_id for target in after} == {targets()[0].target_id}
-        assert after[-1].utime > 1e6 * (time.time() - 2.0)
+        cut_s = time.time()
+        goes_on = lambda: targets()[-1].utime > 1e6 * (cut_s + CUT_S)  # noqa: E731
+        wait(lambda: say() or goes_on(), "targets after the cut", CUT_S + 60.0)
+        assert len({target.target_id for target in targets()}) == 1
         net.link.mend()
         assert processes.stop("fusion") == 0

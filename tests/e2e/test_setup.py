@@ -1,10 +1,8 @@
 """ols-setup from answers: a centre and a station that joins it by one command on each side, with a
 simulated PTU on its line; what a person has changed outlasts the next run."""
 
-import time
-
 import pytest
-from conftest import BIN, ROOT, finished
+from conftest import BIN, ROOT, finished, wait
 from helpers import Listener
 from ols_demo.bus import LIVE_URL
 from ols_demo.site import Site
@@ -67,11 +65,7 @@ def ptu(tmp_path):
     line = tmp_path / "ptu"
     with Site(tmp_path / "ptu-logs") as site:
         site.start("ptu", [str(BIN / "ols-sim-ptu"), "--link", str(line), "--no-home"])
-        end = time.monotonic() + 20.0
-        while not line.exists():
-            site.check()
-            assert time.monotonic() < end, "no line"
-            time.sleep(0.01)
+        wait(lambda: site.check() or line.exists(), "a line")
         yield line
 
 

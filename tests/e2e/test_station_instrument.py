@@ -11,7 +11,7 @@ from pathlib import Path
 
 import ols_msg
 import pytest
-from conftest import BIN, finished
+from conftest import BIN, finished, wait
 from helpers import DEADLINE_S, Listener, StopSwitch, addressed, point, station_without_devices
 from ols_demo.site import Site
 
@@ -56,13 +56,10 @@ class Manager:
         self._drained.clear()
         with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as sender:
             sender.sendto(DRAINED, self.path)
-        assert self._drained.wait(20.0)
+        assert self._drained.wait(DEADLINE_S)
 
-    def wait(self, line, deadline_s=20.0):
-        end = time.monotonic() + deadline_s
-        while not any(heard.startswith(line) for heard in self.lines):
-            assert time.monotonic() < end, f"no {line} in {self.lines}"
-            time.sleep(0.02)
+    def wait(self, line):
+        wait(lambda: any(heard.startswith(line) for heard in list(self.lines)), line)
 
 
 class Tool(Listener):

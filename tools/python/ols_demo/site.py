@@ -8,7 +8,7 @@ import time
 from dataclasses import dataclass, field
 from pathlib import Path
 
-READY_S = 60.0
+READY_S = 180.0
 END_S = 30.0
 
 
