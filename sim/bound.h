@@ -1,7 +1,7 @@
-// The Cramer-Rao bound of a target's position at one instant, one exposure of each station: from
-// the true geometry, the scenario's error sigmas and the actual pixel noise. The effect of each
-// error on the pixel comes from differences of the projection, not from the product's covariances,
-// so that the bound (geometry/precision.h) can judge them.
+// The Cramer-Rao bound of a target's position at one instant, from one exposure of each station:
+// with the true geometry, the scenario's error sigmas and the actual pixel noise. The effect of
+// each error on the pixel comes from differences of the projection, not from the product's
+// covariances, so that this bound can test geometry/precision.h.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,7 +15,7 @@ namespace ols::sim {
 struct MeasurementNoise {
   double pixel_sd_px = 0.3;        // white
   double designation_sd_px = 1.0;  // systematic
-  // Remaining share of the white noise; 0: averaged away, the bound that no smoothing beats.
+  // Remaining share of the white noise. 0: averaged away, a bound that no smoothing beats.
   double white_share = 1.0;
 };
 

@@ -1,9 +1,10 @@
-// Forged commands to one station, from an attacker who wants to keep the operator out. Most must be
-// refused by every station: stale, replayed, from the future, for another station, of another
-// schema, damaged, out of limits (these look fresh: always new senders, stamps somewhat ahead),
-// slews with maximum sequences. One in eighteen is fresh and well-formed, and without signatures it
-// is obeyed: it points the unit to alternate sides. Pure; deterministic by its seed and the times
-// it is given.
+// Forged commands to one station, from an attacker who wants to keep the operator out. Pure;
+// deterministic by its seed and the times it is given.
+//
+// Every station must refuse most of them: stale, replayed, from the future, for another station, of
+// another schema, damaged, out of limits (these look fresh: always new senders, stamps somewhat
+// ahead), slews with maximum sequence numbers. One in eighteen is fresh and well-formed. Without
+// signatures it is obeyed, and points the unit to alternate sides.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +15,7 @@
 
 namespace ols::sim {
 
-// Where the obeyed ones point at this instant: alternately +- kSwing_rad, for kSwing_us each.
+// Where the obeyed commands point at this instant: alternately +- kSwing_rad, for kSwing_us each.
 constexpr double kSwing_rad = 1.4;
 constexpr std::int64_t kSwing_us = 4'000'000;
 double swing_goal_rad(std::int64_t utime_us);

@@ -19,11 +19,11 @@ struct DroneView {
   double brightness = 0.2;  // of the body, 0..1
 };
 
-// Smallest upright box around the silhouette, without smear. Like all boxes it is given by pixel
-// edges, while (0, 0) of view.centre_px is a pixel centre: its middle is half a pixel further.
+// Smallest upright box around the silhouette, without smear. Boxes are given by pixel edges, while
+// (0, 0) of view.centre_px is a pixel centre: the box's middle is half a pixel further.
 cv::Rect2d drone_box(const DroneView& view);
 
-// What a target adds to an image: the background times (1 - covered), plus `colour`.
+// A target's contribution to an image: the background times (1 - covered), plus `colour`.
 struct DroneMatte {
   cv::Rect area;              // in the image; empty if no part of the target is inside
   cv::Mat1f colour, covered;  // of `area`; colour [gray levels] is premultiplied by `covered`

@@ -1,4 +1,4 @@
-// Where a unit's shafts stand during an exposure, by what the unit counts. Pure.
+// The angles of a unit's shafts during an exposure, from the unit's counts. Pure.
 #pragma once
 
 #include <functional>
@@ -17,11 +17,11 @@ class ExposedUnit {
         exact_(truth.exact),
         offset_s_(truth.exposure_offset_s) {}
 
-  // Sets the exposure's angles. `counted` gives the unit's angles at an instant of its clock, up to
-  // two seconds back; exposures come in time order. `mid_s`: of the exposure, on that clock.
+  // Sets the exposure's angles. `counted`: the unit's angles at an instant of its clock, up to two
+  // seconds back. `mid_s`: mid-exposure on that clock. Exposures come in time order.
   void expose(const std::function<PanTilt(double)>& counted, double mid_s, ExposureTruth& exposure);
 
-  // The unit is asked for angles this much after the exposure's end.
+  // How long after the exposure's end the unit is asked for its angles.
   double longest_wait_s() const { return offset_s_ > 0.0 ? offset_s_ : 0.0; }
 
  private:

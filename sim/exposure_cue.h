@@ -1,5 +1,5 @@
-// What the exposing thread of a simulated camera waits for: an instant, a trigger, a client, the
-// end. All methods from any thread.
+// The events for which the exposing thread of a simulated camera waits: an instant, a trigger, a
+// client, the end. All methods from any thread.
 #pragma once
 
 #include <chrono>
@@ -18,13 +18,13 @@ class ExposureCue {
   using Triggered = std::pair<Trigger, Clock::time_point>;
 
   void trigger(Trigger source);
-  // The client has sent a command: perhaps to start.
+  // The client has sent a command, perhaps to start.
   void client_spoke();
   void end();
 
   // Both return true when the camera is to end.
   bool wait_until(Clock::time_point time);
-  // Waits while no client streams; triggers are forgotten.
+  // Waits while no client streams. Forgets triggers.
   bool wait_for_client(Clock::duration longest);
   // Nullopt without a trigger, or at the end.
   std::optional<Triggered> wait_for_trigger(Clock::duration longest);

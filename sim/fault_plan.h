@@ -1,4 +1,4 @@
-// Which fault is active when: from a scenario's [[fault]] tables, and by command while the site
+// Which fault is active when: from a scenario's [[fault]] tables, and by commands while the site
 // runs. Pure; deterministic.
 #pragma once
 
@@ -21,7 +21,7 @@ struct Fault {
 
 std::vector<std::string> fault_kinds();
 
-// What is wrong with a fault, and with which of its keys; both empty for a valid one.
+// The error in a fault, and the key concerned; both empty for a valid one.
 struct FaultProblem {
   std::string key, what;
 };
@@ -29,15 +29,15 @@ FaultProblem check(const Fault& fault);
 
 class FaultPlan {
  public:
-  // Throws std::invalid_argument with what check() finds.
+  // Throws std::invalid_argument with the result of check().
   void add(const Fault& fault);
 
-  // By command: the same from now on. With for_s = 0 it ends the current and planned faults of this
-  // kind (kind "all": of every kind) at this station (station empty: at all of them).
+  // A command applies from now on. With for_s = 0 it ends the current and planned faults of this
+  // kind (kind "all": every kind) at this station (station empty: at all of them).
   void command(Fault fault, double now_s);
 
-  // The faults of one station at one moment. Of overlapping faults of one kind, the one that began
-  // last counts.
+  // The faults of one station at one instant. If several faults of one kind overlap, the last to
+  // begin counts.
   StationFaults at(std::string_view station, double time_s) const;
 
  private:

@@ -1,5 +1,5 @@
-// The faults of the simulated devices of one station at one moment. Each device gets its part by
-// set_faults(), from any thread; sim/fault_plan.h decides when. Pure.
+// The faults of the simulated devices of one station at one instant. Each device gets its part by
+// set_faults(), from any thread. sim/fault_plan.h decides when. Pure.
 #pragma once
 
 #include <optional>
@@ -23,7 +23,7 @@ struct CameraFaults {
   bool gone = false;         // answers nothing, as if unplugged
   double packet_loss = 0.0;  // share of image packets
   bool no_resend = false;    // a camera without packet resend
-  std::string pixel_format;  // that the camera enforces after the next connection; empty: none
+  std::string pixel_format;  // enforced by the camera after the next connection; empty: none
   bool operator==(const CameraFaults&) const = default;
 };
 
@@ -42,7 +42,7 @@ struct InclinometerFaults {
   bool operator==(const InclinometerFaults&) const = default;
 };
 
-// Not faults: what a person has put up before the camera, or on its lens.
+// Not faults: what a person has put in front of the camera, or on its lens.
 struct ByHand {
   bool level_line = false, cross = false, rulers = false;  // rectification targets: sim/boards.h
   bool sun_filter = false;

@@ -1,4 +1,4 @@
-// What the lockstep simulation leaves out, and the mistakes of its operators.
+// The simplifications of the lockstep simulation, and the mistakes of its operators.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,7 +8,7 @@
 
 namespace ols::sim {
 
-// A wrong designation by the operator at one station, in place of the first target.
+// A wrong designation by a station's operator, instead of the first target.
 struct Misdesignation {
   std::string station;
   std::size_t target = 0;                            // of the scenario; its box,
@@ -17,7 +17,7 @@ struct Misdesignation {
 };
 
 struct Fidelity {
-  bool pictures = true;  // false: the pixel is the truth plus noise with this sd
+  bool pictures = true;  // false: the pixel is the truth plus noise of this sd
   double pixel_sd_px = 0.3;
   std::vector<std::string> not_designated = {};  // stations without a designation
   std::vector<Misdesignation> misdesignated = {};

@@ -1,6 +1,6 @@
-// Foreign messages as on a shared or hostile network: unknown channels; the site's own channels
-// with random bytes, with a valid fingerprint and a damaged rest, and for stations that do not
-// exist. Pure; deterministic by its seed.
+// Foreign messages, as on a shared or hostile network: unknown channels, and the site's own
+// channels with random bytes, with a valid fingerprint and a damaged rest, or for stations that do
+// not exist. Pure; deterministic by its seed.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// What a bad line does to a text. Pure.
+// The effect of a bad line on a text. Pure.
 #pragma once
 
 #include <random>

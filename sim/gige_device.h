@@ -1,6 +1,6 @@
-// The registers of a simulated GigE Vision camera and the answers of its control channel.
+// The registers of a simulated GigE Vision camera, and the answers of its control channel.
 //
-// Aravis' fake camera does not suffice: it has no time latch and no trigger line, all its cameras
+// Aravis' fake camera is not sufficient: it has no time latch and no trigger line, all its cameras
 // expose at the same instant, and drawing an image blocks its control channel.
 #pragma once
 
@@ -55,25 +55,25 @@ class GigeDevice {
  public:
   explicit GigeDevice(const GigeDeviceConfig& config);
 
-  // A control packet from the client `peer` (address << 16
-  //  port); the camera's clock and the monotonic one.
+  // A control packet from the client `peer` (address << 16 | port), at these times of the camera's
+  // clock and the monotonic one.
   Answer handle(gige::Bytes packet, std::uint64_t peer, std::int64_t clock_ns, double time_s);
 
-  // What to stream; nullopt while no client streams. A client silent for longer than the heartbeat
-  // timeout is forgotten.
+  // The stream that is due; nullopt while no client streams. A client silent for longer than the
+  // heartbeat timeout is forgotten.
   std::optional<StreamSettings> streaming(double time_s);
 
   // Whether its clock already follows a PTP master.
   bool ptp_slave(double time_s);
 
-  // The camera forgets the set size, as after a reset.
+  // The camera forgets the configured size, as after a reset.
   void set_size(int width_px, int height_px);
-  // It forgets everything: off and on again.
+  // The camera forgets everything: off and on again.
   void power_cycle();
 
-  // Whether the camera claims to support packet resend; and the pixel format (by its GenICam name)
-  // that it enforces from the next connection on, whatever a client writes; empty: none. Throws
-  // std::invalid_argument for an unknown name.
+  // can_resend: whether the camera claims to support packet resend. pixel_format: the format
+  // (GenICam name) that it enforces from the next connection on, whatever a client writes; empty:
+  // none. Throws std::invalid_argument for an unknown name.
   void set_faults(bool can_resend, const std::string& pixel_format);
 
  private:

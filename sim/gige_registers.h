@@ -1,5 +1,5 @@
-// The registers of the simulated GigE Vision camera: the standard's bootstrap registers, and its
-// own.
+// The registers of the simulated GigE Vision camera: the standard's bootstrap registers, and the
+// camera's own.
 #pragma once
 
 #include <cstdint>

@@ -10,8 +10,8 @@ namespace ols::sim::gige {
 // OpenCV's type of an image of this format (PFNC code).
 int picture_type(std::uint32_t pixel_format);
 
-// `gray` with a tint (of red, green, blue) in this format. `raw` already has the right size and
-// type.
+// Converts `gray`, with a tint (red, green, blue), to this format. `raw` already has the right size
+// and type.
 void develop(const cv::Mat& gray, const std::array<double, 3>& tint, std::uint32_t pixel_format,
              cv::Mat& raw);
 

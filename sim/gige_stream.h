@@ -18,13 +18,13 @@ namespace ols::sim {
 
 class GigeStream {
  public:
-  // Sends from `address` (network byte order), in a thread of its own. Throws std::system_error.
+  // Sends from `address` (network byte order), in its own thread. Throws std::system_error.
   explicit GigeStream(std::uint32_t address);
   ~GigeStream();
   GigeStream(const GigeStream&) = delete;
   GigeStream& operator=(const GigeStream&) = delete;
 
-  // An image to draw into: one whose frame is no longer available for resend.
+  // An image to draw into, whose frame is no longer available for resend.
   cv::Mat blank(int width_px, int height_px, int type);
   // Sends the image at the client's rate and keeps it for resend(). Returns at once, unless the
   // client wants packets slower than images come.
@@ -32,7 +32,7 @@ class GigeStream {
             const cv::Mat& picture);
   void resend(const ResendRequest& request);
 
-  // The share of lost packets from now on, and whether lost ones are resent.
+  // The share of packets lost from now on, and whether lost ones are resent.
   void set_loss(double share, bool can_resend);
 
  private:
@@ -50,7 +50,7 @@ class GigeStream {
   std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<std::shared_ptr<const Sent>> waiting_;  // to be sent
-  std::deque<std::shared_ptr<const Sent>> sent_;     // or being sent; the newest last
+  std::deque<std::shared_ptr<const Sent>> sent_;     // or being sent; newest last
   bool stop_ = false;
 
   std::mutex loss_mutex_;

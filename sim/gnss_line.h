@@ -14,7 +14,8 @@ namespace ols::sim {
 struct GnssLineConfig {
   Geodetic antenna;       // true position
   double geoid_m = 44.0;  // height of the geoid above the ellipsoid there
-  // 1-sigma of the error, which wanders within a minute, like multipath; it is stated correctly.
+  // 1-sigma of the error, which wanders within a minute like multipath. The receiver states it
+  // correctly.
   double sd_horizontal_m = 0.01;  // of each of east and north
   double sd_up_m = 0.015;
   int quality = 4;  // of GGA: RTK fixed
@@ -23,7 +24,7 @@ struct GnssLineConfig {
 
 class GnssLine {
  public:
-  // `utime_us`: true UTC at this moment; called by the line's thread. `link`: as for Pty. Throws
+  // `utime_us`: true UTC now; called by the line's thread. `link`: as for Pty. Throws
   // std::system_error.
   GnssLine(const GnssLineConfig& config, std::function<std::int64_t()> utime_us, std::uint64_t seed,
            const std::string& link = "");

@@ -1,6 +1,6 @@
-// A DPG2 inclinometer on a pseudo terminal in real time: what ols-station opens as its serial
-// device. It streams from power-up; 's' stops it, 'S' starts it, 'R' asks for one reading, 'V' for
-// the version.
+// A DPG2 inclinometer on a pseudo terminal in real time; ols-station opens it as its serial device.
+// It streams from power-up. 's' stops the stream, 'S' starts it, 'R' requests one reading, 'V' the
+// version.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ namespace ols::sim {
 struct InclinometerLineConfig {
   // Of the tripod's head, as in the kinematic chain.
   double tilt_x_rad = 0.0, tilt_y_rad = 0.0;
-  double zero_sd_rad = 0.0;   // of the zero of each axis: drawn once
+  double zero_sd_rad = 0.0;   // of each axis' zero, drawn once
   double noise_sd_rad = 0.0;  // of each reading
   double rate_hz = 10.0;
 };

@@ -1,5 +1,4 @@
-// The simulated lens on a pseudo terminal in real time: what ols-station opens as its serial
-// device.
+// The simulated lens on a pseudo terminal in real time; ols-station opens it as its serial device.
 #pragma once
 
 #include <memory>

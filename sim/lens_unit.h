@@ -1,6 +1,6 @@
-// A simulated zoom lens that speaks VISCA, written from docs/overview.md and not with the
-// product's codec, so that a mistake in one is not also in the other. Pure: bytes and time in,
-// bytes and true positions out; sim/lens_line.* puts it on a pty.
+// A simulated zoom lens that speaks VISCA. It is written from docs/overview.md, without the
+// product's codec, so that a mistake in one is not in the other. Pure: bytes and time in, bytes and
+// true positions out. sim/lens_line.* puts it on a pty.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ namespace ols::sim {
 struct LensUnitConfig {
   double zoom_travel_s = 3.0;  // from end to end at full speed
   double focus_travel_s = 2.0;
-  double cycle_s = 1.0 / 60.0;  // it answers once a picture
+  double cycle_s = 1.0 / 60.0;  // it answers once per picture
   int baud = 9600;
   double start_zoom = 0.0;  // 0 widest .. 1 longest
 };
@@ -23,7 +23,7 @@ class LensUnit {
  public:
   explicit LensUnit(const LensUnitConfig& config, double power_up_s = 0.0);
 
-  // Bytes that have arrived. Time never decreases between calls of receive() and transmit().
+  // Takes bytes that have arrived. Time never decreases between calls of receive() and transmit().
   void receive(std::string_view bytes, double time_s);
   // Bytes that are on the line by then, each returned once.
   std::string transmit(double time_s);
@@ -36,12 +36,12 @@ class LensUnit {
   int iris() const { return iris_; }
 
  private:
-  // A drive's motion in straight pieces.
+  // A drive's motion in linear pieces.
   class Drive {
    public:
     Drive(double travel_s, double position, double time_s);
     void run(double rate, double time_s);          // share of full speed, signed
-    double go_to(double position, double time_s);  // when it arrives
+    double go_to(double position, double time_s);  // returns the time of arrival
     double at(double time_s) const;
 
    private:

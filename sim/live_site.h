@@ -1,6 +1,6 @@
-// The world in real time, behind real wires: a GigE Vision camera, and PTU, inclinometer and GNSS
-// receiver on ptys, for every station. The truth is published on channels that no product process
-// reads; faults come from the scenario and by OLS_SIM_FAULT.
+// The world in real time, behind real wires: for every station a GigE Vision camera, and PTU,
+// inclinometer and GNSS receiver on ptys. The truth is published on channels that no product
+// process reads. Faults come from the scenario and by OLS_SIM_FAULT.
 #pragma once
 
 #include <atomic>
@@ -31,8 +31,8 @@ class LiveSite {
   // OLS_SIM_TRUTH and OLS_SIM_PTU_<station>: targets and PTUs now, and since the last call.
   void publish_truth();
 
-  // Applies the currently active faults to every device. Call it every few milliseconds, in the
-  // thread that handles the bus.
+  // Applies the active faults to every device. Call every few milliseconds, in the thread that
+  // handles the bus.
   void apply_faults();
 
  private:

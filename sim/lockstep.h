@@ -1,5 +1,6 @@
 // The whole site in simulated time, in one process and without sockets: the product's stations and
-// fusion stepped in a fixed order. The same scenario and seed give the same result to the last bit.
+// fusion, stepped in a fixed order. The same scenario and seed give the same result to the last
+// bit.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +20,7 @@ namespace ols::sim {
 struct Fix {
   std::int64_t utime_us = 0;
   double time_s = 0.0;       // of the scenario
-  double published_s = 0.0;  // likewise
+  double published_s = 0.0;  // of the scenario
   Geodetic position;
   Eigen::Vector3d error_enu_m = Eigen::Vector3d::Zero();
   Eigen::Matrix3d covariance_enu_m2 = Eigen::Matrix3d::Zero();
@@ -48,9 +49,9 @@ class Lockstep {
            const std::vector<std::optional<StationCalibration>>& calibrations = {});
 
   void run(double duration_s);
-  // By name; there must be one.
+  // By name, which must exist.
   LockstepStation& station(const std::string& id) { return *stations_.at(index_of(id)); }
-  // Of a target that others know of; an operator's word on it.
+  // A target reported from outside; an operator's decision on it.
   void hear(const fusion::Cue& cue, double time_s);
   bool allow_cue(const std::string& id) { return fusion_.allow_cue(id, true); }
   const fusion::Fusion& fusion() const { return fusion_; }

@@ -1,5 +1,5 @@
 // The operator of one station in simulated time: points the camera roughly, and designates the
-// target as soon as it is in a stationary image.
+// target once it is in a stationary image.
 #pragma once
 
 #include <deque>
@@ -35,12 +35,12 @@ class LockstepOperator {
     ViewTruth view;
   };
 
-  // All but `fidelity` must outlive it.
+  // All arguments but `fidelity` must outlive this object.
   LockstepOperator(const World& world, std::size_t index, const Fidelity& fidelity,
                    LockstepNoise& noise, const PtuUnit& unit, station::Station& station);
 
   void see(const Seen& seen);
-  // The operator's action at this instant, with the PTU ready.
+  // The operator's action at this instant, once the PTU is ready.
   void act(double time_s);
 
   bool designated() const { return designated_; }

@@ -52,13 +52,13 @@ class LockstepStation {
   // Advances to this instant of true time (in steps of about a millisecond); returns the bearings.
   std::vector<station::Bearing> advance(double time_s);
 
-  // Of a bearing of the last advance, by its stamp: what the station tells of counts and pixel.
+  // The station's sightings (counts and pixel) for a bearing of the last advance, by its stamp.
   std::vector<station::Sighting> sightings(const station::Bearing& bearing, std::int64_t utime_us) {
     return told_.desk.take(bearing, utime_us, told_.unit);
   }
   station::Refusal slew(station::SlewCommand command, double time_s);
   const station::Station& station() const { return station_; }
-  // For whoever drives it by hand, between two advances; times are monotonic_s() of now.
+  // For a caller that drives it by hand, between two advances. Times are monotonic_s() of now.
   station::Station& station() { return station_; }
   // The truth about the newest picture.
   const ViewTruth& view() const { return views_.newest(); }
@@ -72,7 +72,7 @@ class LockstepStation {
     sim::LensUnit unit;
     lens::LensDriver driver;
   };
-  // The counts of each exposure, and which of them are told.
+  // The counts of each exposure, and which of them are published.
   struct Told {
     station::FrameService unit;
     station::SightingDesk desk = {};

@@ -1,6 +1,5 @@
-// Landmarks in the simulated landscape: round signs, white with a dark rim, so that they can be
-// found before sky and wood. Drawn with analytic edges: the centre is exact to a fraction of a
-// pixel.
+// Landmarks in the simulated landscape: round white signs with a dark rim, visible against sky and
+// wood. Drawn with analytic edges: the centre is exact to a fraction of a pixel.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,5 +1,5 @@
-// The background of the target: wooded slopes below a ridge line, sky and clouds above it. All at
-// infinity, so that it moves by a pure rotation's homography.
+// The background of the target: wooded slopes below a ridge line, with sky and clouds above.
+// Everything is at infinity, so that it moves by a pure rotation's homography.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,17 +12,17 @@
 
 namespace ols::sim {
 
-// The wood on the slopes, for cameras of this size; takes a second or so.
+// The wood on the slopes, for cameras of this size. Takes about a second.
 cv::Mat slopes_texture(const Landscape& landscape, const CameraIntrinsics& camera);
 
 class Panorama {
  public:
-  // One panorama per station, of about one texel per pixel of this camera. `slopes` is a texture
-  // from slopes_texture(), which stations share.
+  // One panorama per station, with about one texel per pixel of this camera. `slopes`: from
+  // slopes_texture(), shared by the stations.
   Panorama(const Landscape& landscape, const CameraIntrinsics& camera, const cv::Mat& slopes,
            std::uint64_t seed);
 
-  // Another focal length than the one that it was made for, from now on: coarser when longer.
+  // Changes the focal length from now on. A longer one than at construction looks coarser.
   void set_camera(const CameraIntrinsics& camera);
   // Draws the background of an image taken with this rotation (camera to east-north-up).
   void draw(const Eigen::Matrix3d& R_enu_cam, cv::Mat& gray);

@@ -13,11 +13,11 @@ namespace ols::sim {
 
 class PtuAnswers {
  public:
-  // Both must outlive it.
+  // `setup` and `motion` must outlive it.
   PtuAnswers(const PtuUnitConfig& config, const PtuSetup& setup, const PtuMotion& motion)
       : config_(config), setup_(setup), motion_(motion) {}
 
-  // Of one axis: the bare number, and with the selected verbosity. `what`: one of PORNXSDABUL.
+  // For one axis: the bare number, and with the selected verbosity. `what`: one of PORNXSDABUL.
   std::string number(int axis, char what, double time_s) const;
   std::string query(int axis, char what, double time_s) const;
 
@@ -25,7 +25,7 @@ class PtuAnswers {
   std::optional<std::string> information(std::string_view command) const;
   // Its output before it is ready.
   std::string banner() const;
-  // Its firmware has the preset commands.
+  // Whether its firmware has the preset commands.
   bool has_presets() const;
 
  private:

@@ -1,5 +1,5 @@
 // One axis of the simulated PTU: a stepper motor with trapezoidal speed profiles, in encoder
-// counts. It never loses steps by itself: PtuMotion::slip() does that to it. Motion is kept as
+// counts. It never loses steps by itself; PtuMotion::slip() makes it slip. Motion is kept as
 // closed-form segments, so that any instant can be evaluated without stepping.
 #pragma once
 
@@ -18,8 +18,8 @@ class PtuAxis {
 
   PtuAxis(double position_counts, double time_s);
 
-  // Moves to `target_counts` from now on, whatever the axis is doing; it ends there at rest.
-  // `time_s` may be in the future; plans after it are dropped.
+  // Moves to `target_counts`, whatever the axis is doing, and ends there at rest. `time_s` may be
+  // in the future; later plans are dropped.
   void move(double target_counts, const Profile& profile, double time_s);
 
   // Brakes to rest on the next whole count.
@@ -28,9 +28,12 @@ class PtuAxis {
   // The axis slips at this instant, and continues from there.
   void shift(double counts, double time_s);
 
-  double position(double time_s) const;                       // [counts], continuous
-  double velocity(double time_s) const;                       // [counts/s]
-  double rest_s() const { return segments_.back().start_s; }  // since or from when it is stationary
+  double position(double time_s) const;  // [counts], continuous
+  double velocity(double time_s) const;  // [counts/s]
+  double rest_s() const {
+    return segments_.back().start_s;
+  }  // since when, or from when on, it is
+     // stationary
   double target() const { return segments_.back().position; }
 
   // Drops the history before this instant.

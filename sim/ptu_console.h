@@ -1,4 +1,4 @@
-// The lines that ols-sim-ptu takes on its standard input. Pure.
+// The lines that ols-sim-ptu reads from its standard input. Pure.
 //
 //   fault KIND [SECONDS [VALUE]]   as in a scenario, KIND with or without its "ptu-"; without
 //                                  SECONDS until ended

@@ -1,5 +1,5 @@
 // The simulated PTU's command interpreter: one command in, one answer out, and the motion of both
-// axes. It does not know the serial line; ptu_unit.cpp gives it commands in time.
+// axes. It does not know the serial line; ptu_unit.cpp passes it commands in time.
 #pragma once
 
 #include <optional>
@@ -27,7 +27,7 @@ class PtuController {
   PtuController& operator=(const PtuController&) = delete;
 
   // Power-up: settings as saved, homing if selected. Returns the output at its end; banner() is the
-  // output before it.
+  // output before.
   PtuAnswer power_up(double time_s);
   // A short power failure: the unit loses its position.
   PtuAnswer power_cycle(double time_s);
@@ -40,7 +40,7 @@ class PtuController {
   void interrupt(double time_s) { scan_.interrupt(time_s); }
   bool scanning() const { return scan_.running(); }
 
-  // Advances the unit's own actions up to an instant: the legs of a scan.
+  // Advances the unit's own actions to an instant: the legs of a scan.
   void advance(double time_s) { scan_.advance(time_s); }
 
   // Limit hits up to an instant, each returned once, and when the next one is due.

@@ -13,8 +13,7 @@ class PtuDevice {
   // From any thread.
   virtual void set_faults(const PtuFaults& faults) = 0;
 
-  // Waits briefly until the angles at that instant of CLOCK_MONOTONIC [s] are known as well as they
-  // ever will be.
+  // Waits briefly until the angles at that instant of CLOCK_MONOTONIC [s] are final.
   virtual void await(double /*monotonic_s*/) {}
 
   // Shaft angles at an instant of CLOCK_MONOTONIC [s], from two seconds ago to now. From any

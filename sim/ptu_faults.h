@@ -1,4 +1,4 @@
-// The simulated PTU with the faults of the unit and of its line. Pure.
+// The simulated PTU, with the faults of the unit and of its line. Pure.
 #pragma once
 
 #include <cstdint>
@@ -19,14 +19,14 @@ class FaultyPtuUnit {
   void set_faults(const PtuFaults& faults, double time_s);
   bool line_gone() const { return faults_.line_gone; }
 
-  // As those of PtuUnit.
+  // As in PtuUnit.
   void set_master_baud(int baud) { unit_.set_master_baud(baud); }
   void receive(std::string_view bytes, double time_s);
   std::string transmit(double time_s);
   std::optional<double> next_output_s() const { return unit_.next_output_s(); }
   PanTilt angles_at(double time_s) const { return unit_.angles_at(time_s); }
 
-  // The unit's answers are still true; this is what the line made of them.
+  // The unit's answers are still true; this is the line's effect on them.
   const PtuReplyFaults& replies() const { return replies_; }
 
  private:

@@ -1,4 +1,4 @@
-// A simulated PTU on a pseudo terminal in real time: ols-station opens it as its serial device. The
+// A simulated PTU on a pseudo terminal in real time; ols-station opens it as its serial device. The
 // line outlives clients: one may close the device and another open it again.
 #pragma once
 

@@ -1,5 +1,5 @@
-// The motion of the simulated PTU: positions, speeds and the limits of both, homing, and its output
-// when it runs into a limit.
+// The motion of the simulated PTU: positions, speeds and their limits, homing, and its output when
+// it runs into a limit.
 #pragma once
 
 #include <array>
@@ -26,7 +26,7 @@ class PtuMotion {
 
   // Power-up: factory modes, no motion planned.
   void power_up();
-  // Power failure: it stops, and loses its position.
+  // Power failure: the unit stops, and loses its position.
   void power_off(double time_s);
 
   // The answer; nullopt: not a motion command.
@@ -40,7 +40,7 @@ class PtuMotion {
   void start(int axis, double target_counts, double time_s);
   void start_slaved(double time_s);
 
-  // Homes, tilt first. Without homing the counters start at the mechanism's position. Returns the
+  // Homes, tilt first. Without homing, the counters start at the mechanism's position. Returns the
   // time of the end.
   double home(bool pan, bool tilt, double time_s);
   double home_together(double time_s);
@@ -75,16 +75,16 @@ class PtuMotion {
 
  private:
   enum class Limits { kFactory, kUser, kOff };
-  // Positions of the mechanism are in the steps of PtuUnitConfig's resolution, from the middle of
-  // its travel; the unit's counts are `divisor` of them, from its assumed middle.
+  // Positions of the mechanism are in steps of PtuUnitConfig's resolution, from the middle of its
+  // travel. The unit's counts are `divisor` steps each, from its assumed middle.
   struct Axis {
     PtuAxis motion;
     int least, greatest;  // travel [steps]
     int divisor;          // steps per count
-    double origin;        // of the counts [steps]
+    double origin;        // origin of the counts [steps]
     bool homed;
     std::optional<double> slaved;  // target that waits for A or I [steps]
-    std::optional<double> hit_s;   // when the motion runs into its limit
+    std::optional<double> hit_s;   // when the motion hits its limit
   };
 
   bool e_series() const { return config_.model == PtuModel::kE46; }
@@ -107,7 +107,7 @@ class PtuMotion {
   bool velocity_mode_ = false;
   bool immediate_ = true;
   Limits limits_ = Limits::kFactory;
-  std::vector<PtuToken> tokens_;  // of homing, in order of time
+  std::vector<PtuToken> tokens_;  // from homing, in order of time
 };
 
 }  // namespace ols::sim

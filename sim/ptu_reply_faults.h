@@ -1,4 +1,4 @@
-// The effect of a bad line on a unit's replies: one wrong byte in some, and some lost. Pure.
+// The effect of a bad line on a unit's replies: some have one wrong byte, some are lost. Pure.
 #pragma once
 
 #include <cstdint>
@@ -13,9 +13,9 @@ class PtuReplyFaults {
  public:
   explicit PtuReplyFaults(std::uint64_t seed) : random_(seed) {}
 
-  // Share of the replies (lines) with one byte that is flipped in one bit, lost, or preceded by an
-  // extra one; and the interval of lost replies from `time_s` on (0: none). An unchanged value does
-  // not restart anything.
+  // garble_share: share of the replies (lines) with one byte flipped in one bit, lost, or preceded
+  // by an extra one. lost_every_s: interval of lost replies from `time_s` on (0: none). An
+  // unchanged value restarts nothing.
   void set(double garble_share, double lost_every_s, double time_s);
 
   // The bytes as they arrive. A reply may come in any number of pieces.

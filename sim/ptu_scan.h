@@ -22,7 +22,7 @@ class PtuScan {
 
   // The answer; nullopt: not a scan command.
   std::optional<std::string> execute(std::string_view command, bool e_series, double time_s);
-  // Between these [counts]: pan, or pan and tilt; empty: over the whole range of pan.
+  // Scans between these ends [counts]: pan, or pan and tilt; empty: the whole range of pan.
   std::string start(const std::vector<int>& ends, double time_s);
   // Ends the scan without returning home: another command needs the axis.
   void end(int axis) { sweeps_[at(axis)].reset(); }

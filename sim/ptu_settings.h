@@ -1,4 +1,4 @@
-// The simulated PTU's settings that DS saves.
+// The simulated PTU's settings that the command DS saves.
 #pragma once
 
 #include <array>

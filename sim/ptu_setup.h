@@ -21,7 +21,7 @@ class PtuSetup {
   // The answer; nullopt: not a settings command.
   std::optional<std::string> execute(std::string_view command);
 
-  // Of one axis, `what` without its letter: H or M, with or without a level.
+  // Of one axis. `what` is the command without its letter: H or M, with or without a level.
   std::string power(int axis, std::string_view what);
   // NU or XU, with or without a value [counts], which must lie within the factory's.
   std::string user_limit(int axis, std::string_view what, int factory_limit);

@@ -1,5 +1,6 @@
 // Hardware in the loop: a real PTU's serial device, with a pseudo terminal in between for the
-// station. Bytes pass both ways unchanged; the positions among them show where the unit points.
+// station. Bytes pass unchanged in both directions; the positions among them show where the unit
+// points.
 #pragma once
 
 #include <cstdint>
@@ -23,14 +24,14 @@ class PtuTap : public PtuDevice {
   PtuTap(const PtuTapConfig& config, std::uint64_t seed, const std::string& link);
   ~PtuTap() override;
 
-  // Faults of the line; faults of a real unit cannot be simulated.
+  // Faults of the line only: those of a real unit cannot be simulated.
   void set_faults(const PtuFaults& faults) override;
 
-  // A unit reports its position some thirty times a second: about half of the instants at which a
+  // A unit reports its position some thirty times a second. About half of the instants at which a
   // camera draws are later than its last report.
   void await(double monotonic_s) override;
 
-  // As far as the unit has reported.
+  // Based on the unit's reports so far.
   PanTilt angles_at(double monotonic_s) override;
 
   struct Counters {                              // only increase

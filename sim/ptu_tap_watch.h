@@ -1,5 +1,5 @@
-// Monitors the line between a master and a PTU, and derives from the position queries on it where
-// the unit points. Pure.
+// Monitors the line between a master and a PTU, and derives the unit's angles from the position
+// queries on it. Pure.
 #pragma once
 
 #include <array>
@@ -20,20 +20,19 @@ class PtuTapWatch {
   // `step_rad`: per count, until the unit has reported its resolution.
   explicit PtuTapWatch(double step_rad);
 
-  // The traffic, with an instant [s]: bytes of the master, by the time at which sending to the unit
-  // starts; bytes of the unit, by the time at which all had arrived. `byte_s`: duration of one on
-  // the unit's line.
+  // The traffic, with an instant [s]. For bytes of the master: when sending to the unit starts. For
+  // bytes of the unit: when all had arrived. `byte_s`: duration of one byte on the unit's line.
   void master_said(std::string_view bytes, double time_s, double byte_s);
   void unit_said(std::string_view bytes, double time_s, double byte_s);
 
   // The unit or its line was gone: pending queries will not be answered.
   void interrupted();
 
-  // Where the unit points, interpolated; extrapolated after the newest reading, and constant after
-  // a while without any.
+  // The unit's angles, interpolated; extrapolated after the newest reading, and constant after a
+  // while without any.
   PanTilt at(double time_s) const;
 
-  // The newest instant at which both axes were read; long ago if they were not.
+  // The newest instant at which both axes were read; far in the past if they were not.
   double known_until_s() const;
 
   struct Counters {                // only increase

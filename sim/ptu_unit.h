@@ -1,5 +1,5 @@
 // A simulated FLIR PTU-D46-70 or PTU-E46-70 behind its serial line: bytes and time in, bytes and
-// true angles out. Pure; sim/ptu_line.* puts it on a pty in real time, the lockstep simulation
+// true angles out. Pure: sim/ptu_line.* puts it on a pty in real time, the lockstep simulation
 // steps it. docs/ptu-conformance.md says which behaviour is documented, seen on real units or only
 // assumed.
 #pragma once
@@ -33,7 +33,7 @@ struct PtuUnitConfig {
   bool echo = true;                   // factory default
   bool verbose = true;                // factory default
   bool home_at_power_up = true;
-  bool homed_before = true;  // without homing at power-up: it was homed before the start
+  bool homed_before = true;  // without homing at power-up: whether it was homed before the start
   double home_speed_rad_s = 0.7;
 };
 
@@ -42,15 +42,15 @@ class PtuUnit {
   PtuUnit(const PtuUnitConfig& config, std::uint64_t seed, double power_up_s);
   ~PtuUnit();
 
-  // Bytes from the master; the first begins on the line at `time_s`. Time never decreases between
-  // calls of any method.
+  // Takes bytes from the master; the first begins on the line at `time_s`. Time never decreases
+  // between calls of any method.
   void receive(std::string_view bytes, double time_s);
 
   // Bytes whose last bit is on the line by `time_s`, each returned once.
   std::string transmit(double time_s);
 
-  // When transmit() will next return something, as far as known now; nullopt: the line stays silent
-  // until it receives.
+  // When transmit() will next return something, as far as known; nullopt: not before it receives
+  // something.
   std::optional<double> next_output_s() const;
 
   // A power cycle: everything that was not saved is lost, including the position.
@@ -62,7 +62,7 @@ class PtuUnit {
   // The pan mechanism slips, unnoticed by the unit.
   void slip(double pan_rad, double time_s);
 
-  // The rate of the master's port: with a rate other than the unit's every byte becomes noise. 0
+  // The rate of the master's port. With a rate other than the unit's, every byte becomes noise. 0
   // (default): always right.
   void set_master_baud(int baud);
 

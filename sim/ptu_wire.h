@@ -1,4 +1,4 @@
-// The simulated PTU's end of its serial line: which byte is on it when.
+// The simulated PTU's end of its serial line: which byte is on it at which time.
 #pragma once
 
 #include <cstdint>
@@ -35,7 +35,7 @@ class PtuWire {
   const std::deque<Byte>& input() const { return input_; }
   // When the first waiting command was complete.
   std::optional<double> command_s() const;
-  // Only if a command is waiting.
+  // Requires a waiting command.
   Command take_command();
 
   // Puts text on the line, in order, not before `time_s`.

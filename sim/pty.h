@@ -20,24 +20,24 @@ class Pty {
   // The slave, for example /dev/pts/3; empty while unplugged.
   const std::string& device() const;
 
-  // As when a USB adapter is unplugged and plugged in again: the link disappears, and a client that
-  // has the device open gets a hang-up; then there is a new device under the same link. Repeating
+  // Simulates unplugging a USB adapter and plugging it in again. The link disappears, and a client
+  // with the open device gets a hang-up; then there is a new device under the same link. Repeating
   // either has no effect.
   void unplug();
   void plug();
   bool plugged() const;
 
-  // Waits until a client has written something, but no longer than this.
+  // Waits until a client has written something, at most timeout_s.
   void wait(double timeout_s) const;
 
-  // The bytes that clients have written by now; does not wait. Empty while unplugged.
+  // The bytes written by clients so far; does not wait. Empty while unplugged.
   std::string read();
 
-  // The rate that the current or last client has set on its port; 0 while unplugged or for a rate
-  // that is unusual for serial ports.
+  // The rate that the current or last client has set on its port; 0 while unplugged, or for an
+  // unusual rate.
   int client_baud() const;
 
-  // Sends to a client that has the device open. Without a reader bytes are lost once the terminal's
+  // Sends to a client with the open device. Without a reader, bytes are lost once the terminal's
   // buffer is full; while unplugged, at once.
   void write(std::string_view bytes);
 

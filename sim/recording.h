@@ -1,4 +1,4 @@
-// What the stations of a lockstep run have told of their sightings, as ols-logger would record it.
+// The stations' sightings of a lockstep run, as ols-logger would record them.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// The image of one station's camera, at the true angles of its PTU, with the truth about it.
+// The image of one station's camera at the true angles of its PTU, with the truth about it.
 #pragma once
 
 #include <cstdint>
@@ -22,9 +22,9 @@ struct ExposureTruth {
   PanTilt start, mid, end;  // shaft angles [rad] at those instants, continuous
   std::uint64_t frame = 0;
   double zoom = 0.0;   // position of a zoom lens, 0 widest .. 1 longest
-  double light = 1.0;  // of exposure and gain, against the scenario's exposure without gain
+  double light = 1.0;  // of exposure and gain, relative to the scenario's exposure without gain
   ByHand by_hand;
-  std::optional<SunTruth> sun;  // nothing: it does not show
+  std::optional<SunTruth> sun;  // nullopt: it is not visible
 };
 
 struct ViewTruth {
@@ -36,7 +36,7 @@ struct ViewTruth {
 // The camera of a station during an exposure.
 CameraIntrinsics camera_of(const StationTruth& station, const ExposureTruth& exposure);
 
-// The truth about one image without drawing it; of the scenario's first target, or another one.
+// The truth about one image without drawing it, for the scenario's first target or another one.
 ViewTruth view_truth(const World& world, std::size_t station, const ExposureTruth& exposure,
                      std::size_t target = 0);
 
@@ -49,8 +49,8 @@ class Renderer {
   // `world` must outlive the renderer; `slopes` as for Panorama.
   Renderer(const World& world, std::size_t station, const cv::Mat& slopes);
 
-  // Draws the image; the same exposure gives the same image, but for the boards that a person has
-  // put up: they stand where the exposure looked in which they came.
+  // Draws the image. The same exposure gives the same image, except for boards that a person has
+  // put up: they stand where the exposure looked in which they appeared.
   ViewTruth draw(const ExposureTruth& exposure, cv::Mat& gray);
 
   const Panorama& panorama() const { return panorama_; }

@@ -19,16 +19,16 @@ struct EstimatorSummary {
 
 struct BoundSummary {
   double crb_rmse_m = 0.0;             // root of the mean trace, one exposure of each station
-  double crb_horizontal_rmse_m = 0.0;  // of its horizontal part
-  double crb_floor_rmse_m = 0.0;       // of the whole, with all white noise averaged away
+  double crb_horizontal_rmse_m = 0.0;  // the horizontal part
+  double crb_floor_rmse_m = 0.0;       // with all white noise averaged away
 };
 
 EstimatorSummary summarise(const std::vector<Fix>& fixes);
-// The bound at the epochs and with the stations of these fixes; every `stride`-th of them.
+// The bound at the epochs and with the stations of every `stride`-th of these fixes.
 BoundSummary summarise_bound(const World& world, const std::vector<Fix>& fixes,
                              const MeasurementNoise& noise, std::size_t stride = 10);
 
-// Of all pixels above min belief of all stations: the mean, and the white part (about the mean of
+// Over all pixels above min belief of all stations: the mean, and the white part (about the mean of
 // each station).
 struct PixelSummary {
   double white_sd_px = 0.0;

@@ -90,11 +90,11 @@ struct TargetScenario {
   double brightness = 0.22;  // 0 black .. 1 as bright as the sky
 };
 
-// How the stations find their headings: not at all, their errors are drawn (errors.heading); each
-// by sighting the other stations; or by sighting landmarks.
+// How the stations find their headings: not at all (errors.heading draws their errors), by sighting
+// the other stations, or by sighting landmarks.
 enum class StationingBy { kDrawn, kEachOther, kLandmarks };
 
-// With errors.heading switched off the landmarks are exact, and so are the operator's marks.
+// With errors.heading off, the landmarks and the operator's marks are exact.
 struct StationingScenario {
   struct Landmark {
     std::string id;
@@ -103,7 +103,7 @@ struct StationingScenario {
   };
   StationingBy by = StationingBy::kDrawn;
   double mark_sd_px = 0.5;             // of the operator's mark, each coordinate
-  double each_other_sd_m = 0.05;       // of the point of a station that the others sight, each axis
+  double each_other_sd_m = 0.05;       // of the point sighted on another station, each axis
   double highest_rad = radians(10.0);  // max elevation or depression of a sighting
   std::vector<Landmark> landmarks;
 };
@@ -112,7 +112,7 @@ struct StationingScenario {
 struct PtuScenario {
   int baud = 38400;
   double poll_interval_s = 0.025;
-  bool home_at_power_up = true;  // for about twenty seconds without answers
+  bool home_at_power_up = true;  // about twenty seconds without answers
 };
 
 // The inclinometer of every station.
@@ -125,14 +125,14 @@ struct InclinometerScenario {
 // The GNSS receiver of every station.
 struct GnssScenario {
   bool on = true;
-  double sd_m = 0.01;  // of each of east and north; half as much again of up
+  double sd_m = 0.01;  // of each of east and north; up: half as much again
   Eigen::Vector3d ground_to_antenna_enu_m{0.1, -0.2, 1.9};
   int gpsd_port = 2950;  // of the first station's gpsd; the others follow
 };
 
 // The emergency stop input of every station.
 struct GpioScenario {
-  bool on = false;  // without it a station's configuration has no stop input
+  bool on = false;  // false: the stations' configurations have no stop input
 };
 
 // The landscape around the site, at infinity.
@@ -142,7 +142,7 @@ struct Landscape {
   double cloudiness = 1.0;                 // 0: clear sky
   double haze = 0.4;                       // share of air light before the slopes
   int seed = 7;
-  bool sun = false;  // it shows, where it really stands; live only
+  bool sun = false;  // visible at its true position; live only
 };
 
 struct Scenario {
@@ -169,17 +169,17 @@ struct Scenario {
 };
 
 // Switches an error off by its name in the file ("heading", "tilt", ...). Throws
-// std::invalid_argument, listing the names, for an unknown one.
+// std::invalid_argument, with the names, for an unknown one.
 void switch_off(Errors& errors, const std::string& name);
 
-// "drawn", "each-other" or "landmarks". Throws std::invalid_argument, listing these, for another
-// one or if there are no landmarks.
+// "drawn", "each-other" or "landmarks". Throws std::invalid_argument, with these words, for another
+// one, or if there are no landmarks.
 void choose_stationing(StationingScenario& stationing, const std::string& by);
 
 // Keeps only this target. Throws std::invalid_argument for an unknown id.
 void keep_target(Scenario& scenario, const std::string& id);
 
-// The whole file; files named in it are relative to `folder`.
+// The whole file. Files named in it are relative to `folder`.
 config::Section scenario_section(Scenario& scenario, const std::string& folder);
 // Throws ConfigError naming file, line and key.
 Scenario load_scenario(const std::string& path);

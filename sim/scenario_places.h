@@ -1,4 +1,4 @@
-// The landmarks of a scenario, given in UTM as in a land register, and how the stations find their
+// The landmarks of a scenario, in UTM as in a land register, and how the stations find their
 // headings by sighting them.
 #pragma once
 

@@ -10,7 +10,7 @@
 
 namespace ols::sim {
 
-// Of a site whose origin has been read before; files are relative to `folder`.
+// For a site whose origin was read before. Files are relative to `folder`.
 struct TrajectoryPlace {
   const Geodetic& origin;
   std::string folder;

@@ -1,12 +1,12 @@
-// Seeds of unrelated random streams from one seed. Pure.
+// Derives seeds of unrelated random streams from one seed. Pure.
 #pragma once
 
 #include <cstdint>
 
 namespace ols::sim {
 
-// A seed for one purpose of one run: different tags give unrelated streams. SplitMix64, so that
-// neighbouring seeds do, too.
+// A seed for one purpose of one run. Different tags, and neighbouring seeds, give unrelated streams
+// (SplitMix64).
 inline std::uint64_t derived_seed(std::uint64_t seed, std::uint64_t tag) {
   std::uint64_t z = seed + 0x9e3779b97f4a7c15ULL * (tag + 1);
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;

@@ -1,5 +1,5 @@
-// The stationing of the world's stations, as by a field team: each station sights landmarks (or the
-// other stations), and the product's stationing finds its pose (geometry/stationing.h).
+// The stationing of the world's stations, as by a field team: each station sights landmarks or
+// other stations, and the product's stationing finds its pose (geometry/stationing.h).
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@
 namespace ols::sim {
 
 // Replaces `nominal` by the result. A landmark's error is the same for all stations; marks are
-// drawn for each. step_rad: of the PTUs' encoders. Throws std::invalid_argument if a landmark is
-// out of reach of a station.
+// drawn for each. step_rad: of the PTUs' encoders. Throws std::invalid_argument if a station cannot
+// reach a landmark.
 void find_headings(const Scenario& scenario, std::uint64_t seed, double step_rad,
                    std::vector<StationTruth>& stations);
 

@@ -1,6 +1,5 @@
-// A simulated GigE Vision camera on one local address; a callback draws its images, and its
-// faults leave out frames. One camera per
-// address (the control port is fixed).
+// A simulated GigE Vision camera on one local address. A callback draws its images; its faults
+// leave out frames. One camera per address, because the control port is fixed.
 #pragma once
 
 #include <array>
@@ -39,9 +38,9 @@ struct Exposure {
 
 class SimulatedCamera {
  public:
-  // `draw` fills an 8-bit gray image of the right size; in a Bayer or RGB format the camera sends
-  // it with a slightly warm colour (kTint). Called in the camera's own thread, once per frame,
-  // while a client streams. Throws std::system_error if the address is not available.
+  // `draw` fills an 8-bit gray image of the right size. It is called in the camera's own thread,
+  // once per frame, while a client streams. In a Bayer or RGB format the camera sends a slightly
+  // warm colour (kTint). Throws std::system_error if the address is not available.
   SimulatedCamera(const SimulatedCameraConfig& config,
                   std::function<void(const Exposure&, cv::Mat&)> draw);
   ~SimulatedCamera();
@@ -49,19 +48,18 @@ class SimulatedCamera {
   // Factors of red, green and blue on gray.
   static constexpr std::array<double, 3> kTint = {1.0, 0.9, 0.7};
 
-  // A pulse on one of the lines 1 to 4: an exposure, if the camera waits for a trigger on that
-  // line.
+  // A pulse on one of the lines 1 to 4: exposes, if the camera waits for a trigger on that line.
   void pulse(int line);
 
   // The camera forgets the size set by the client, as after a reset.
   void set_size(int width_px, int height_px);
-  // It is switched off and on, but answers without interruption.
+  // Switches it off and on; it answers without interruption.
   void power_cycle();
 
   // Faults of the camera from now on; from any thread.
   void set_faults(const CameraFaults& faults);
 
-  // Exposures skipped because drawing took too long. Only increases.
+  // Number of exposures skipped because drawing took too long. Only increases.
   std::uint64_t skipped() const;
 
  private:

@@ -1,5 +1,5 @@
-// Writes the configuration file of each station as a field team would: with the geometry as
-// surveyed and calibrated (not the true one) and the sigmas of its errors.
+// Writes the configuration file of each station as a field team would: with the surveyed and
+// calibrated geometry (not the true one) and the sigmas of its errors.
 #pragma once
 
 #include <optional>
@@ -31,7 +31,7 @@ void write_station_files(const World& world, const StationFileOptions& options,
 void write_calibration_rounds(const World& world, const StationFileOptions& options,
                               const std::string& folder);
 
-// The calibrations FOLDER/ID of `ols-calibrate adjust`, by station; nothing where there is none.
+// The calibrations FOLDER/ID of `ols-calibrate adjust`, by station; nullopt where there is none.
 // Throws as edge/calibration_folder.h.
 std::vector<std::optional<StationCalibration>> read_calibrations(const World& world,
                                                                  const std::string& folder);

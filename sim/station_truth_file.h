@@ -1,4 +1,4 @@
-// What is true of each simulated station, for whoever judges what a calibration has found.
+// The true values of each simulated station, to judge a calibration's results.
 #pragma once
 
 #include <string>
@@ -7,7 +7,8 @@
 
 namespace ols::sim {
 
-// One JSON object: angles in degrees (`_deg`), metres, pixels; the names of docs/calibration.md.
+// One JSON object: angles in degrees (`_deg`), metres, pixels; with the names of
+// docs/calibration.md.
 std::string station_truth(const StationTruth& station);
 
 // FOLDER/ID.json for every station; creates the folder. Throws std::system_error.

@@ -1,5 +1,6 @@
-// The sun over the simulated site: where it appears, and its disc in a picture, with a filter on
-// the lens or without. By ERFA's theory of the Earth's motion, not by the product's own sky. Pure.
+// The sun over the simulated site: its apparent direction, and its disc in a picture, with or
+// without a filter on the lens. By ERFA's theory of the Earth's motion, not by the product's own
+// sky. Pure.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,17 +12,18 @@
 namespace ols::sim {
 
 struct SunTruth {
-  Eigen::Vector3d enu = Eigen::Vector3d::UnitZ();  // where it appears, with the refraction in it
+  Eigen::Vector3d enu = Eigen::Vector3d::UnitZ();  // apparent, with refraction
   double radius_rad = 0.0;
 };
 
-// Over the air of sim/calibration_round.h. Good to 1 arc second from 10 degrees up.
+// With the air of sim/calibration_round.h. Accurate to 1 arc second from 10 degrees of elevation
+// up.
 SunTruth sun_over(const Geodetic& place, std::int64_t utime_us);
 
-// A black picture, as the sky and the land are through a filter for the sun.
+// A black picture: sky and land through a solar filter.
 void draw_filter(cv::Mat& gray);
 
-// With a filter an even disc; without one it is burnt out, and its glare lies over the picture.
+// With a filter an even disc. Without one the disc is burnt out, and its glare covers the picture.
 void draw_sun(const Eigen::Vector2d& centre_px, double radius_px, bool filtered, cv::Mat& gray);
 
 }  // namespace ols::sim

@@ -9,12 +9,12 @@
 namespace ols::sim {
 
 // Fractal noise, float, with zero mean and unit deviation. Wavelengths from `longest_px` down to
-// `shortest_px`, each octave with `roughness` times the amplitude of the one before. Periodic in
+// `shortest_px`; each octave has `roughness` times the amplitude of the one before. Periodic in
 // both directions.
 cv::Mat fractal_noise(cv::Size size, double longest_px, double shortest_px, double roughness,
                       std::mt19937_64& generator);
 
-// A periodic wood of this size: crowns of trees, lit from the upper left, and clearings.
+// A periodic wood of this size: tree crowns, lit from the upper left, and clearings.
 cv::Mat wood(int size, std::mt19937_64& generator);
 
 // Periodic tree tops along a line of `length` texels: heights in texels >= 0.

@@ -18,8 +18,8 @@ class Trajectory {
   virtual Motion at(double time_s) const = 0;
 };
 
-// centre + amplitude * sin(2 pi t / period + phase), per axis: a figure-eight if one horizontal
-// period is half of the other, a circle if they are equal and a quarter apart.
+// centre + amplitude * sin(2 pi t / period + phase), per axis. A figure-eight if one horizontal
+// period is half of the other; a circle if they are equal and a quarter apart.
 struct Lissajous final : Trajectory {
   Eigen::Vector3d centre_enu = Eigen::Vector3d::Zero();
   Eigen::Vector3d amplitude_m = Eigen::Vector3d::Zero();
@@ -37,7 +37,7 @@ struct Line final : Trajectory {
 // Natural cubic spline through points at given times; at rest before the first and after the last.
 class Spline final : public Trajectory {
  public:
-  // Needs at least two points and increasing times; throws std::invalid_argument otherwise.
+  // Throws std::invalid_argument for fewer than two points, or times that do not increase.
   Spline(std::vector<double> times_s, std::vector<Eigen::Vector3d> points_enu);
   Motion at(double time_s) const override;
 
@@ -47,7 +47,7 @@ class Spline final : public Trajectory {
   std::vector<Eigen::Vector3d> curvature_;  // second derivative at each point
 };
 
-// Spline through waypoints, with this mean speed on each leg.
+// A spline through waypoints, with this mean speed on each leg.
 std::unique_ptr<Trajectory> through_waypoints(const std::vector<Eigen::Vector3d>& points_enu,
                                               double speed_m_s);
 

@@ -1,6 +1,6 @@
-// A pan-tilt unit with camera as it really is: errors of gears, axes and lens, drawn from a seed;
-// some of them are in no model of the product. Written from docs/calibration.md, never with the
-// product's own model, so that a sign wrong in both does not cancel. Pure.
+// A real pan-tilt unit with camera: errors of gears, axes and lens, drawn from a seed. Some of them
+// are in no model of the product. Written from docs/calibration.md, without the product's own
+// model, so that a wrong sign in both does not cancel. Pure.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -11,19 +11,19 @@
 
 namespace ols::sim {
 
-// How large the errors are: none; what a workshop's calibration and the transport leave; a unit
-// that nobody has measured. The sizes are those of docs/calibration.md.
+// The size of the errors: none; those left after a workshop's calibration and the transport; those
+// of a unit that was never measured. The sizes are those of docs/calibration.md.
 enum class UnitErrors { kNone, kWorkshop, kNew };
 
 struct UnitErrorsScenario {
   UnitErrors size = UnitErrors::kNone;
-  // What no model has.
-  double wave_arcsec = 3.0;         // amplitude of the waves of the microsteps
-  double second_worm_arcsec = 2.0;  // amplitude of the second harmonic of the worms
+  // Errors that no model has.
+  double wave_arcsec = 3.0;         // amplitude of the microstep waves
+  double second_worm_arcsec = 2.0;  // amplitude of the worms' second harmonic
   double jitter_arcsec = 4.5;       // of each angle, new at each count, 1-sigma
 };
 
-// Of a shaft, over what its counts say.
+// The errors of a shaft against its counts.
 struct ShaftTruth {
   double cos1_rad = 0.0, sin1_rad = 0.0, cos2_rad = 0.0, sin2_rad = 0.0;
   double worm_cos_rad = 0.0, worm_sin_rad = 0.0;
@@ -33,40 +33,40 @@ struct ShaftTruth {
 };
 
 struct UnitTruth {
-  bool exact = true;  // the shafts stand at the reported angles, the tilt axis is square
+  bool exact = true;  // the shafts stand at the reported angles, and the tilt axis is square
   ShaftTruth pan, tilt;
   double trunnion_rad = 0.0;
-  double exposure_offset_s = 0.0;  // an exposure is this much later than counts of the same stamp
+  double exposure_offset_s = 0.0;  // exposure minus counts of the same stamp
   double jitter_rad = 0.0;
   std::uint64_t jitter_seed = 0;
 };
 
-// What was drawn for the mounting and the lens is added to these two.
+// Adds the drawn errors of mounting and lens to `chain` and `camera`.
 UnitTruth draw_unit(const UnitErrorsScenario& scenario, std::uint64_t seed, ChainParameters& chain,
                     CameraIntrinsics& camera);
 
-// 1-sigma of the camera's direction on a unit of this size, across and about the optical axis: what
-// an honest configuration without a calibration states.
+// 1-sigma of the camera's direction on a unit of this size, across and about the optical axis, as
+// an honest configuration without a calibration states it.
 struct MountSize {
   double across_rad = 0.0, roll_rad = 0.0;
 };
 MountSize stated_mount(const UnitErrorsScenario& scenario, const CameraIntrinsics& camera);
 
-// OpenCV's camera axes and the camera's centre in GROUND, with the shafts at these angles.
+// The pose of the camera (OpenCV's axes, camera centre) in GROUND, with the shafts at these angles.
 Eigen::Isometry3d camera_on(const ChainParameters& chain, double trunnion_rad,
                             const PanTilt& shafts);
 
-// Between what a unit counts and where its shafts stand.
+// Converts between a unit's counts and its shafts' angles.
 class UnitMechanics {
  public:
-  // `count_rad`: of the unit as it prints it; a turn has a whole number of counts.
+  // `count_rad`: as the unit prints it. A turn has a whole number of counts.
   UnitMechanics(const UnitTruth& truth, double count_rad);
 
-  // The unit is there now, by its counts. In time order and without gaps: the slack remembers.
+  // The unit is now at these counts. Call in time order and without gaps: the slack has a memory.
   void follow(const PanTilt& counted);
-  // Where the shafts stand at these counts, with the slack as it is now.
+  // The shafts' angles at these counts, with the present slack.
   PanTilt shafts(const PanTilt& counted) const;
-  // Of a unit that stands and came from this side (1, -1: the sign of its last motion).
+  // For a unit at rest that came from this side (1, -1: the sign of its last motion).
   PanTilt shafts_from(const PanTilt& counted, int side_pan, int side_tilt) const;
 
  private:
@@ -77,7 +77,7 @@ class UnitMechanics {
   double count_rad_;
   double counts_per_turn_;
   bool followed_ = false;
-  // How far each shaft is behind its motor; within half of the slack to both sides.
+  // How far each shaft is behind its motor, within half of the slack to either side.
   PanTilt behind_;
   PanTilt newest_;
 };

@@ -1,5 +1,5 @@
-// Replaces the visual tracker: measures the true pixel with drawn noise of the stated covariance,
-// for Monte Carlo runs without images.
+// Replaces the visual tracker in Monte Carlo runs without images: measures the true pixel, with
+// drawn noise of the stated covariance.
 #pragma once
 
 #include <cstdint>
@@ -11,11 +11,11 @@
 
 namespace ols::sim {
 
-// The truth about a station's recent frames, by their time stamps.
+// The truth about a station's recent frames, by time stamp.
 class ViewMemory {
  public:
   void add(double time_s, const ViewTruth& view);
-  // Nullopt without a frame of exactly this stamp.
+  // Null without a frame of exactly this stamp.
   const ViewTruth* at(double time_s) const;
   const ViewTruth& newest() const { return views_.back().second; }  // there must be one
 

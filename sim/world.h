@@ -1,4 +1,5 @@
-// The world of one run: the scenario with its errors drawn. Pure; the same seed, the same world.
+// The world of one run: the scenario with its errors drawn. Pure; the same seed gives the same
+// world.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,12 +17,11 @@ namespace ols::sim {
 
 struct StationTruth {
   std::string id;
-  // The geometry in the station's configuration, with its sigmas. After a stationing: the result of
-  // that.
+  // The geometry in the station's configuration, with its sigmas. After a stationing: its result.
   StationGeometry nominal;
-  StationGeometry truth;  // but for what `unit` adds
+  StationGeometry truth;  // without what `unit` adds
   UnitTruth unit;
-  // Of a zoom lens: the truth, and what its calibration says.
+  // For a zoom lens: the truth and its calibration.
   std::optional<ZoomTruth> zoom;
   std::vector<ZoomPoint> zoom_points;
   double clock_offset_s = 0.0;  // the station's UTC minus true UTC

@@ -1,4 +1,4 @@
-// A zoom lens as it really is, and what its calibration says of it. Pure.
+// A real zoom lens, and its calibration. Pure.
 #pragma once
 
 #include <array>
@@ -16,13 +16,13 @@ namespace ols::sim {
 struct ZoomScenario {
   std::array<double, 2> range_mm{};  // widest, longest; 0: a fixed lens
   double travel_s = 3.0;             // from end to end at full speed
-  double focal_sd = 0.002;           // 1-sigma of each calibrated focal length, of itself
+  double focal_sd = 0.002;           // 1-sigma of each calibrated focal length, relative
   bool is_fixed() const { return range_mm[0] == 0.0 && range_mm[1] == 0.0; }
 };
 
-// Its keys in a scenario's [[station]].
+// The keys of a zoom lens in a scenario's [[station]].
 std::vector<config::Row> zoom_rows(ZoomScenario& zoom);
-// What is wrong with them; empty: nothing.
+// The error in these keys; empty: none.
 std::string zoom_problem(const ZoomScenario& zoom, bool overview);
 
 class ZoomTruth {
@@ -32,7 +32,7 @@ class ZoomTruth {
 
   CameraIntrinsics camera_at(double position) const;
 
-  // The calibration: nine points, each with an error of its own.
+  // The calibration: nine points, each with its own error.
   std::vector<ZoomPoint> calibrated(double focal_sd, std::uint64_t seed) const;
 
  private:
