@@ -1,4 +1,4 @@
-"""Golden runs: recorded bearing logs and simulated sites in lockstep, and what came out of them
+"""Golden runs: bearing logs and simulated sites in lockstep, and what came out of them
 when a person last looked. `tools/goldens` runs and accepts them; test_goldens.py fails on any
 difference.
 
@@ -17,10 +17,11 @@ import subprocess
 from dataclasses import dataclass
 from pathlib import Path
 
+import make_log
+
 ROOT = Path(__file__).resolve().parents[2]
 FOLDER = Path(__file__).resolve().parent
 BUILD = Path(os.environ.get("OLS_BUILD", ROOT / "build/release"))
-LOG = FOLDER / "replay"
 TOLERANCE = 1e-5
 DEGREES_OF_A_MILLIMETRE = 1e-8
 # One row in so many is kept of a file; the counters have how many there are.
@@ -38,6 +39,7 @@ class Golden:
 
     def run(self, output: Path) -> None:
         output.mkdir(parents=True, exist_ok=True)
+        make_log.write(output)
         command = [part.replace("OUTPUT", str(output)) for part in self.command]
         done = subprocess.run(command, capture_output=True, text=True, timeout=300, check=False)
         if done.returncode != 0:
@@ -57,18 +59,19 @@ def lockstep(name: str, scenario: str, seconds: int, seed: int, *options: str) -
 
 
 def offline(name: str, *options: str) -> Golden:
-    files = [str(FOLDER / "offline" / part) for part in ("stations.csv", "bearings.csv")]
-    command = (str(BUILD / "bin/ols-fuse"), "--stations", files[0], "--bearings", files[1])
-    return Golden(
-        name, ("fixes.csv",), (*command, "--output", "OUTPUT/fixes.csv", "--rate", "3", *options)
-    )
+    command = (str(BUILD / "bin/ols-fuse"), "--stations", str(FOLDER / "offline_stations.csv"))
+    files = ("--bearings", "OUTPUT/clean.csv", "--output", "OUTPUT/fixes.csv")
+    return Golden(name, ("fixes.csv",), (*command, *files, "--rate", "3", *options))
 
 
 GOLDENS = (
     Golden(
         "two_drones",
         ("targets.csv", "slews.csv", "counters.csv"),
-        (str(BUILD / "tests/ols-golden-replay"), str(LOG), "OUTPUT"),
+        (
+            str(BUILD / "tests/ols-golden-replay"),
+            *(str(FOLDER / "stations.csv"), "OUTPUT/heard.csv", "OUTPUT"),
+        ),
     ),
     Golden("paper_mode", ("frames.csv",), (str(BUILD / "tests/ols-golden-paper-mode"), "OUTPUT")),
     offline("offline_filter"),

@@ -1,31 +1,22 @@
-"""Made the recorded bearing logs of the goldens, once; kept so that they can be understood.
-
-replay/*.csv are what a fusion hears, offline/*.csv the clean bearings of the drones for ols-fuse.
+"""The bearing logs that goldens begin with, the same at every run: what a fusion hears, and the
+clean bearings of the drones for ols-fuse. stations.csv and offline_stations.csv place the stations
+on the earth.
 
 Seven stations around a field follow two drones that cross 8 m apart, and the log has what a real
 site has: bearings out of order, doubled, stale, ahead of time, of low belief and not finite; a
 station whose clock is 0.8 s off; one that reboots; one that follows a bird; a drone that leaves.
-
-    python tests/golden/make_log.py FOLDER        (with the module `ols` on PYTHONPATH)
 """
 
 import math
-import sys
 from pathlib import Path
 
 import numpy as np
-import ols
 
 SEED = 20
 START_US = 1_700_000_000_000_000
 RATE_HZ, SECONDS = 5.0, 18.0
 PIXEL_RAD, HEADING_RAD = 7.5e-5, 3e-4
-FRAME = ols.LocalFrame(
-    ols.Geodetic(
-        latitude_rad=math.radians(49.2266), longitude_rad=math.radians(16.5969), height_m=310.0
-    )
-)
-STATIONS = {
+STATIONS = {  # metres east, north, up; and what they follow
     "alfa": ((-300.0, -250.0, 2.0), "a"),
     "bravo": ((320.0, -240.0, 4.0), "a"),
     "charlie": ((310.0, 260.0, 0.0), "a"),
@@ -89,43 +80,29 @@ def spoil(rows, random):
     return [row for _, row in sorted(arrivals, key=lambda arrival: arrival[0])]
 
 
-def write_replay(folder: Path, rows) -> None:
-    folder.mkdir(exist_ok=True)
-    stations = ["station,x_ecef_m,y_ecef_m,z_ecef_m"]
-    for station, (position, _) in STATIONS.items():
-        x, y, z = FRAME.to_ecef(np.array(position))
-        stations.append(f"{station},{x:.4f},{y:.4f},{z:.4f}")
-    bearings = [",".join(rows[0]).replace("utime", "utime_us")]
-    bearings += [",".join(map(str, row.values())) for row in rows]
-    (folder / "stations.csv").write_text("\n".join(stations) + "\n")
-    (folder / "bearings.csv").write_text("\n".join(bearings) + "\n")
+def write_heard(path: Path, rows) -> None:
+    lines = [",".join(rows[0]).replace("utime", "utime_us")]
+    lines += [",".join(map(str, row.values())) for row in rows]
+    path.write_text("\n".join(lines) + "\n")
 
 
-def write_offline(folder: Path, rows) -> None:
-    folder.mkdir(exist_ok=True)
-    stations = ["station,latitude_deg,longitude_deg,height_m,position_sd_m,pointing_sd_deg"]
-    for station, (position, _) in STATIONS.items():
-        at = ols.geodetic_from_ecef(FRAME.to_ecef(np.array(position)))
-        latitude_deg, longitude_deg = math.degrees(at.latitude_rad), math.degrees(at.longitude_rad)
-        stations.append(
-            f"{station},{latitude_deg:.9f},{longitude_deg:.9f},{at.height_m:.4f},0.02,0.017"
-        )
-    bearings = ["utime_us,station,azimuth_deg,elevation_deg,sigma_deg,belief,target"]
+def write_clean(path: Path, rows) -> None:
+    lines = ["utime_us,station,azimuth_deg,elevation_deg,sigma_deg,belief,target"]
     for row in rows:
         target = STATIONS[row["station"]][1]
         azimuth_deg, elevation_deg = (
             math.degrees(row[name]) for name in ("azimuth_rad", "elevation_rad")
         )
         if target != "bird" and row["station"] not in CLOCK_OFF_S:
-            bearings.append(
+            lines.append(
                 f"{row['utime']},{row['station']},{azimuth_deg:.6f},{elevation_deg:.6f},0.005,"
                 f"{row['belief']},{target}"
             )
-    (folder / "stations.csv").write_text("\n".join(stations) + "\n")
-    (folder / "bearings.csv").write_text("\n".join(bearings) + "\n")
+    path.write_text("\n".join(lines) + "\n")
 
 
-def main() -> None:
+def write(folder: Path) -> None:
+    """heard.csv and clean.csv."""
     random = np.random.default_rng(SEED)
     headings = {station: HEADING_RAD * random.standard_normal() for station in STATIONS}
     rows = []
@@ -135,12 +112,5 @@ def main() -> None:
             noise_rad = PIXEL_RAD * random.standard_normal(2)
             if seen(STATIONS[station][1], time_s) and random.random() > 0.02:
                 rows.append((time_s, bearing_row(station, time_s, noise_rad, headings[station])))
-    heard = spoil(rows, random)
-    folder = Path(sys.argv[1])
-    write_offline(folder / "offline", [row for _, row in rows])
-    write_replay(folder / "replay", heard)
-    print(f"seed {SEED}: {len(heard)} bearings")
-
-
-if __name__ == "__main__":
-    main()
+    write_clean(folder / "clean.csv", [row for _, row in rows])
+    write_heard(folder / "heard.csv", spoil(rows, random))

@@ -1,4 +1,4 @@
-// ols-golden-replay LOG FOLDER: a recorded bearing log through the messages and the fusion, as
+// ols-golden-replay STATIONS BEARINGS FOLDER: a bearing log through the messages and the fusion, as
 // ols-fusion takes it but in the log's own time. Writes targets.csv, slews.csv and counters.csv.
 #define CSV_IO_NO_THREAD
 #include <libfccp/csv.h>
@@ -118,9 +118,10 @@ class Output {
   std::ofstream targets_, slews_, counters_;
 };
 
-void run(const std::string& log, const std::filesystem::path& folder) {
-  const Places places = read_places(log + "/stations.csv");
-  io::CSVReader<7> rows(log + "/bearings.csv");
+void run(const std::string& stations, const std::string& bearings,
+         const std::filesystem::path& folder) {
+  const Places places = read_places(stations);
+  io::CSVReader<7> rows(bearings);
   rows.read_header(io::ignore_no_column, "utime_us", "station", "boot_id", "track_id", "belief",
                    "azimuth_rad", "elevation_rad");
   std::filesystem::create_directories(folder);
@@ -147,12 +148,12 @@ void run(const std::string& log, const std::filesystem::path& folder) {
 }  // namespace ols::golden
 
 int main(int argc, char** argv) {
-  if (argc != 3) {
-    std::cerr << "usage: ols-golden-replay LOG FOLDER\n";
+  if (argc != 4) {
+    std::cerr << "usage: ols-golden-replay STATIONS BEARINGS FOLDER\n";
     return 2;
   }
   try {
-    ols::golden::run(argv[1], argv[2]);
+    ols::golden::run(argv[1], argv[2], argv[3]);
   } catch (const std::exception& error) {
     std::cerr << "ols-golden-replay: " << error.what() << "\n";
     return 2;
