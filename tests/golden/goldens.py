@@ -24,8 +24,9 @@ FOLDER = Path(__file__).resolve().parent
 BUILD = Path(os.environ.get("OLS_BUILD", ROOT / "build/release"))
 TOLERANCE = 1e-5
 DEGREES_OF_A_MILLIMETRE = 1e-8
-# One row in so many is kept of a file; the counters have how many there are.
-KEPT_OF = {"slews.csv": 5, "frames.csv": 2}
+# One row in so many is kept of a file: filters and trackers carry a difference on, and the
+# counters have how many rows there are.
+KEPT_OF = {"targets.csv": 6, "slews.csv": 5, "frames.csv": 4, "fixes.csv": 3}
 
 
 @dataclass(frozen=True)
