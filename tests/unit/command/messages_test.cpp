@@ -5,6 +5,7 @@
 #include <string>
 
 #include "base/lcm_bus.h"
+#include "ols_msg/cue_order_t.hpp"
 #include "ols_msg/designate_t.hpp"
 #include "ols_msg/fusion_status_t.hpp"
 #include "ols_msg/ptu_command_t.hpp"
@@ -105,6 +106,28 @@ TEST(HeardOrder, IsForTheStationOfItsChannelAndOfAKnownKind) {
   EXPECT_FALSE(heard_order(on("OLS_STATUS_alfa", move)));
   move.command = 99;
   EXPECT_FALSE(heard_order(on("OLS_PTU_alfa", move)));
+}
+
+TEST(OrderSender, NumbersItsWordsOnCues) {
+  LcmBus bus("memq://");
+  std::vector<ols_msg::cue_order_t> heard;
+  bus.subscribe("OLS_CUE_ORDER", [&heard](const BusMessage& message) {
+    ols_msg::cue_order_t order;
+    if (decode_of_schema(message, order)) heard.push_back(order);
+  });
+  OrderSender sender(17);
+  sender.send(bus, {"tak.anna", true}, 1'000);
+  sender.send(bus, {"tak.anna", false}, 2'000);
+  while (heard.size() < 2) ASSERT_GT(bus.handle(5'000), 0);
+  std::int64_t number = 0;
+  for (const auto& order : heard) {
+    ++number;
+    EXPECT_EQ(order.boot_id, 17);
+    EXPECT_EQ(order.sequence, number);
+    EXPECT_EQ(order.utime, 1'000 * number);
+    EXPECT_EQ(order.cue, "tak.anna");
+    EXPECT_EQ(order.allow, number == 1);
+  }
 }
 
 }  // namespace

@@ -99,6 +99,17 @@ TEST(LeastSquares, SetsOneBadRayAside) {
   }
 }
 
+// Two of four rays pass the target ten metres away: no three of the four agree.
+TEST(LeastSquares, WhereNoSubsetAgreesTheWorstRaysCountLeast) {
+  const Vector3d target(50, 80, 120);
+  auto rays = rays_from(square(), target);
+  rays[0] = turned(rays[0], 0.03, 0.0);
+  rays[1] = turned(rays[1], 0.0, 0.05);
+  const Estimate estimate = least_squares(rays);
+  ASSERT_EQ(estimate.solution, Solution::kOk);
+  EXPECT_LT((estimate.position_ecef - site().to_ecef(target)).norm(), 3.0);
+}
+
 TEST(LeastSquares, TwoRaysThatMissEachOtherAreHonestAboutIt) {
   auto rays = rays_from({square()[0], square()[1]}, {50, 80, 120});
   const Estimate good = least_squares(rays);
