@@ -188,8 +188,7 @@ void write_picture(const std::string& folder, const BenchCase& which, std::uint6
 std::set<std::string> known_sweeps(const std::vector<std::string>& names,
                                    const std::vector<BenchCase>& cases) {
   for (const std::string& name : names) {
-    const auto is_it = [&](const BenchCase& which) { return which.sweep == name; };
-    if (std::none_of(cases.begin(), cases.end(), is_it)) {
+    if (std::ranges::find(cases, name, &BenchCase::sweep) == cases.end()) {
       throw std::runtime_error("--sweeps: no sweep is named " + name);
     }
   }

@@ -130,6 +130,7 @@ def reported(evidence: Evidence) -> list[Row]:
     lone = evidence.read("status-text-lone.txt")
     no_network = evidence.read("no-network.txt")
     explained = evidence.read("explained-lone.txt")
+    route_s = evidence.mark("route-back") - evidence.mark("route-gone")
     healed_s = evidence.mark("network-answers") - evidence.mark("network")
     corrected_s = evidence.mark("wrong-answers") - evidence.mark("wrong-failed")
     restarts_done = evidence.text.get("wrong-failed", "never failed")
@@ -137,11 +138,7 @@ def reported(evidence: Evidence) -> list[Row]:
         said("station with nothing attached runs", evidence.read("status-lone.txt"), "running"),
         said("and says that the camera is missing", lone, r"camera[^;,]*"),
         said("and says that the PTU is missing", lone, r"ptu[^;,]*"),
-        within(
-            "a route of the bus that goes comes back",
-            evidence.mark("route-back") - evidence.mark("route-gone"),
-            10.0,
-        ),
+        within("a route of the bus that goes comes back", route_s, 10.0),
         within("station starts without a network", took(evidence, "no-network-started"), 10.0),
         said("and says so", no_network, r"no bus"),
         within("and answers once there is one", healed_s, 10.0),
@@ -172,24 +169,14 @@ def exposure(units: Path) -> list[Row]:
         )
         match = re.search(r"Overall exposure level.*: ([\d.]+)", done.stdout)
         score = float(match.group(1)) if match else math.nan
-        rows.append(
-            Row(
-                f"exposure of {unit.name}",
-                f"<= {EXPOSURE_LIMIT}",
-                f"{score}",
-                score <= EXPOSURE_LIMIT,
-            )
-        )
+        limit, passed = f"<= {EXPOSURE_LIMIT}", score <= EXPOSURE_LIMIT
+        rows.append(Row(f"exposure of {unit.name}", limit, f"{score}", passed))
     return rows
 
 
 def main(out: Path, units: Path) -> int:
     if not (out / "events").exists():
-        print(
-            "boot test: the container did not come up; see build/boot-test/console.txt",
-            file=sys.stderr,
-        )
-        return 1
+        sys.exit("boot test: the container did not come up; see build/boot-test/console.txt")
     evidence = Evidence(out)
     parts: list[Callable[[Evidence], list[Row]]] = [starts, restarts, rest, reported]
     rows = [row for part in parts for row in part(evidence)] + exposure(units)

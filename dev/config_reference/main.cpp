@@ -108,26 +108,17 @@ std::string station_example() {
                             {"gpio.rearm_line", "18"}}));
 }
 
-config::Section one_output(ols::exports::ExportConfig& exports) {
-  config::Section output = ols::exports::output_section(exports);
-  output.name = "output";
-  output.sentence = "One receiver each.";
-  return {"", "", {}, {output}};
-}
-
-// An array of tables has its brackets twice.
-std::string as_array(std::string text, const std::string& name) {
+// One table of an array, which has its brackets twice; commented out.
+std::string one_of_array(config::Section table, const std::string& name,
+                         const std::string& sentence,
+                         const std::vector<std::pair<std::string, std::string>>& values) {
+  table.name = name;
+  table.sentence = sentence;
+  std::string text = config::example({"", "", {}, {table}}, values);
   const std::string single = "[" + name + "]";
   const auto at = text.find(single);
   if (at == std::string::npos) throw std::invalid_argument("no " + single + " in the example");
-  return text.replace(at, single.size(), "[" + single + "]");
-}
-
-config::Section one_input(ols::cues::CueConfig& cues) {
-  config::Section input = ols::cues::input_section(cues);
-  input.name = "input";
-  input.sentence = "One source each.";
-  return {"", "", {}, {input}};
+  return commented(text.replace(at, single.size(), "[" + single + "]"));
 }
 
 std::string cue_example() {
@@ -139,11 +130,10 @@ std::string cue_example() {
       example(head, ols::cues::cue_section,
               {{"lcm_url", kSiteBus}, {"status_file", "\"/run/ols/cue.json\""}}) +
       "\n# Tablets with TAK on this network:\n" +
-      commented(
-          as_array(config::example(one_input(cues), {{"input.name", "\"tak\""},
-                                                     {"input.format", "\"cot\""},
-                                                     {"input.from", "\"udp://239.2.3.1:6969\""}}),
-                   "input"));
+      one_of_array(ols::cues::input_section(cues), "input", "One source each.",
+                   {{"input.name", "\"tak\""},
+                    {"input.format", "\"cot\""},
+                    {"input.from", "\"udp://239.2.3.1:6969\""}});
   static_cast<void>(ols::cues::parse_cue_config(text, "example"));
   return text;
 }
@@ -160,11 +150,10 @@ std::string export_example() {
                {"site", "\"ols\""},
                {"status_file", "\"/run/ols/export.json\""}}) +
       "\n# Tablets with TAK on this network:\n" +
-      commented(as_array(
-          config::example(one_output(exports), {{"output.name", "\"tak\""},
-                                                {"output.format", "\"cot\""},
-                                                {"output.to", "\"udp://239.2.3.1:6969?ttl=1\""}}),
-          "output"));
+      one_of_array(ols::exports::output_section(exports), "output", "One receiver each.",
+                   {{"output.name", "\"tak\""},
+                    {"output.format", "\"cot\""},
+                    {"output.to", "\"udp://239.2.3.1:6969?ttl=1\""}});
   static_cast<void>(ols::exports::parse_export_config(text, "example"));
   return text;
 }

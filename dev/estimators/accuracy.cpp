@@ -1,5 +1,3 @@
-#include "dev/estimators/accuracy.h"
-
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
@@ -12,6 +10,7 @@
 
 #include "central/estimators/least_squares.h"
 #include "central/offline/offline_fusion.h"
+#include "dev/estimators/measures.h"
 #include "dev/estimators/posterior_bound.h"
 #include "dev/estimators/several_targets.h"
 #include "geometry/angles.h"

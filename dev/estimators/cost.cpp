@@ -1,5 +1,3 @@
-#include "dev/estimators/cost.h"
-
 #include <time.h>
 
 #include <algorithm>
@@ -10,6 +8,7 @@
 #include <vector>
 
 #include "dev/estimators/bearing_world.h"
+#include "dev/estimators/measures.h"
 
 namespace ols::bench {
 namespace {

@@ -1,14 +1,8 @@
 #include "dev/estimators/limits.h"
 
 #include <cstdio>
-#include <limits>
 
 namespace ols::bench {
-namespace {
-
-constexpr double kNone = std::numeric_limits<double>::infinity();
-
-}  // namespace
 
 void Limits::within(const std::string& what, double value, double least, double greatest) {
   const bool holds = value >= least && value <= greatest;  // not for NaN
@@ -17,14 +11,6 @@ void Limits::within(const std::string& what, double value, double least, double 
   if (least > -kNone) std::printf(", at least %.4g", least);
   if (greatest < kNone) std::printf(", at most %.4g", greatest);
   std::printf("\n");
-}
-
-void Limits::at_most(const std::string& what, double value, double greatest) {
-  within(what, value, -kNone, greatest);
-}
-
-void Limits::at_least(const std::string& what, double value, double least) {
-  within(what, value, least, kNone);
 }
 
 }  // namespace ols::bench

@@ -7,11 +7,8 @@
 #include <string>
 
 #include "base/command_line.h"
-#include "dev/estimators/accuracy.h"
-#include "dev/estimators/cost.h"
 #include "dev/estimators/long_recording.h"
-#include "dev/estimators/meteors.h"
-#include "dev/estimators/noise_only.h"
+#include "dev/estimators/measures.h"
 #include "dev/estimators/peer.h"
 
 using namespace ols;

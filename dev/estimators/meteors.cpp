@@ -1,5 +1,3 @@
-#include "dev/estimators/meteors.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -8,6 +6,7 @@
 #include <vector>
 
 #include "central/offline/offline_fusion.h"
+#include "dev/estimators/measures.h"
 #include "dev/estimators/recorded.h"
 #include "geometry/angles.h"
 

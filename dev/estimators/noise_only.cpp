@@ -1,11 +1,10 @@
-#include "dev/estimators/noise_only.h"
-
 #include <algorithm>
 #include <cstdio>
 #include <random>
 #include <utility>
 
 #include "central/offline/offline_fusion.h"
+#include "dev/estimators/measures.h"
 #include "dev/estimators/recorded.h"
 
 namespace ols::bench {

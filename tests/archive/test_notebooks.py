@@ -9,13 +9,10 @@ import ols
 import pandas as pd
 from archive_site import ROOT
 from conftest import finished
+from ols_demo.places import geodetic
 
 NOTEBOOKS = ROOT / "docs/notebooks"
-FRAME = ols.LocalFrame(
-    ols.Geodetic(
-        latitude_rad=np.radians(49.2266), longitude_rad=np.radians(16.5969), height_m=310.0
-    )
-)
+FRAME = ols.LocalFrame(geodetic(49.2266, 16.5969, 310.0))
 
 
 def run(name, *arguments):
@@ -39,11 +36,7 @@ def test_a_csv_is_triangulated(tmp_path):
     fixes, truth = pd.read_csv(tmp_path / "fixes.csv"), flown()
     off_m = []
     for fix in fixes.itertuples():
-        place = ols.Geodetic(
-            latitude_rad=np.radians(fix.latitude_deg),
-            longitude_rad=np.radians(fix.longitude_deg),
-            height_m=fix.height_m,
-        )
+        place = geodetic(fix.latitude_deg, fix.longitude_deg, fix.height_m)
         there = truth.place("a", (fix.utime - truth.START_US) * 1e-6)
         off_m.append(FRAME.to_enu(ols.ecef_from_geodetic(place)) - there)
     rms_m = np.sqrt(np.mean(np.square(off_m), axis=0))

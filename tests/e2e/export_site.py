@@ -2,6 +2,7 @@
 
 import itertools
 import json
+import shutil
 import signal
 import socket
 import struct
@@ -18,6 +19,8 @@ DEADLINE_S = 60.0
 HEIGHT_M = 100.0  # of the target above the ellipsoid
 LATITUDE_DEG, LONGITUDE_DEG = 47.5, 13.25
 COVARIANCE = [4.0, 1.0, 0.5, 9.0, -0.5, 25.0]
+MOSQUITTO = shutil.which("mosquitto") or "/usr/sbin/mosquitto"
+MQTT_PORT = 18830
 CE_M, LE_M = 3.03, 5.0  # of that covariance: the ellipse's larger semi-axis, and the height
 
 
@@ -155,3 +158,22 @@ def received(receiver, bytes_most=65536):
             found.append(receiver.recv(bytes_most))
         except BlockingIOError:
             return found
+
+
+class Broker:
+    """mosquitto without a disk: it forgets what was retained when it dies."""
+
+    def __init__(self, folder, users="allow_anonymous true\n"):
+        self._config = folder / "mosquitto.conf"
+        listener = f"listener {MQTT_PORT} 127.0.0.1"
+        self._config.write_text(f"user root\n{listener}\npersistence false\n{users}")
+        self.start()
+
+    def start(self):
+        command = [MOSQUITTO, "-c", str(self._config)]
+        quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+        self.process = subprocess.Popen(command, **quiet)
+
+    def kill(self):
+        self.process.kill()
+        self.process.wait()

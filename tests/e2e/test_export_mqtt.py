@@ -1,7 +1,6 @@
 """MQTT with mosquitto: what a broker, a subscriber and Home Assistant's discovery get."""
 
 import json
-import shutil
 import subprocess
 import threading
 
@@ -12,6 +11,8 @@ from export_site import (
     GEOID_M,
     HEIGHT_M,
     LATITUDE_DEG,
+    MQTT_PORT,
+    Broker,
     Exporter,
     Publisher,
     output,
@@ -21,9 +22,8 @@ from export_site import (
 from helpers import Babbler
 from ols_msg import target_t
 
-BROKER = shutil.which("mosquitto") or "/usr/sbin/mosquitto"
 pytestmark = pytest.mark.usefixtures("network")
-PORT, TLS_PORT = 18830, 18831
+TLS_PORT = 18831
 NUMBER = {"type": ["number", "null"]}
 TEXT = {"type": "string"}
 # Flat, and nothing in it that is not here.
@@ -56,29 +56,12 @@ DISCOVERY = {
 }
 
 
-class Broker:
-    """mosquitto without a disk: it forgets what was retained when it dies."""
-
-    def __init__(self, folder, users="allow_anonymous true\n"):
-        self._config = folder / "mosquitto.conf"
-        self._config.write_text(f"user root\nlistener {PORT} 127.0.0.1\npersistence false\n{users}")
-        self.start()
-
-    def start(self):
-        self.process = subprocess.Popen(
-            [BROKER, "-c", str(self._config)], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
-        )
-
-    def kill(self):
-        self.process.kill()
-        self.process.wait()
-
-
 class Subscriber:
     """mosquitto_sub: the newest payload of each topic."""
 
     def __init__(self, *login):
-        command = ["mosquitto_sub", "-h", "127.0.0.1", "-p", str(PORT), "-t", "#", "-v", *login]
+        command = ["mosquitto_sub", "-h", "127.0.0.1", "-p", str(MQTT_PORT)]
+        command += ["-t", "#", "-v", *login]
         self.topics = {}
 
         def connect():
@@ -121,7 +104,7 @@ def fixture_subscriber(broker):
 
 
 def mqtt(**keys):
-    return output("home", "mqtt", f"mqtt://127.0.0.1:{PORT}", **keys)
+    return output("home", "mqtt", f"mqtt://127.0.0.1:{MQTT_PORT}", **keys)
 
 
 def test_a_target_and_its_entities(tmp_path, subscriber):

@@ -1,7 +1,6 @@
 """The fusion with stations that exist only as messages: what it takes, refuses and withholds."""
 
 import itertools
-import math
 import signal
 import time
 
@@ -14,11 +13,10 @@ from conftest import BIN, wait
 from ols_demo.bus import LIVE_URL, counters, decode
 from ols_demo.keys import members_of_environment
 from ols_demo.observer import Observer
+from ols_demo.places import geodetic
 from ols_demo.site import Site
 
-PLACE = ols.Geodetic(
-    latitude_rad=math.radians(49.2), longitude_rad=math.radians(16.6), height_m=250.0
-)
+PLACE = geodetic(49.2, 16.6, 250.0)
 SITE = ols.LocalFrame(PLACE)
 CAMERAS = {"a": (-200.0, 0.0, 0.0), "b": (200.0, 0.0, 2.0), "c": (0.0, 250.0, -1.0)}
 TARGET_ENU = (30.0, 60.0, 90.0)

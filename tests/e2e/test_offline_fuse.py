@@ -11,6 +11,7 @@ import numpy as np
 import ols
 import pytest
 from conftest import BIN, finished, lines_said
+from ols_demo.places import geodetic
 
 STATIONS = """\
 station,latitude_deg,longitude_deg,height_m
@@ -73,9 +74,7 @@ def test_targets_are_kept_apart(folder):
     assert [fix["target"] for fix in csv.DictReader((folder / "fixes.csv").open())] == ["a", "b"]
 
 
-SITE = ols.LocalFrame(
-    ols.Geodetic(latitude_rad=math.radians(49.2), longitude_rad=math.radians(16.6), height_m=250.0)
-)
+SITE = ols.LocalFrame(geodetic(49.2, 16.6, 250.0))
 PLACES = {"a": (-200.0, 0.0, 0.0), "b": (200.0, 0.0, 2.0), "c": (0.0, 250.0, -1.0)}
 
 
@@ -121,11 +120,8 @@ def test_several_targets_without_names_are_those_of_the_live_tracks(tmp_path, op
     assert result.returncode == 0, result.stderr
     followed, errors_m = {}, []
     for fix in csv.DictReader((tmp_path / "fixes.csv").open()):
-        place = ols.Geodetic(
-            latitude_rad=math.radians(float(fix["latitude_deg"])),
-            longitude_rad=math.radians(float(fix["longitude_deg"])),
-            height_m=float(fix["height_m"]),
-        )
+        keys = ("latitude_deg", "longitude_deg", "height_m")
+        place = geodetic(*(float(fix[key]) for key in keys))
         at = SITE.to_enu(ols.ecef_from_geodetic(place))
         time_s = 1e-6 * (int(fix["utime_us"]) - 1_600_000_000_000_000)
         off_m = [float(np.linalg.norm(at - where(target, time_s))) for target in range(3)]

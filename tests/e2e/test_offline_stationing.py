@@ -8,6 +8,7 @@ import numpy as np
 import ols
 import pytest
 from conftest import BIN, finished, lines_said
+from ols_demo.places import geodetic
 
 CONFIG = """\
 id = "s1"
@@ -36,9 +37,7 @@ PLACES = {
     "mast": (-1500.0, -700.0, 90.0),
     "chimney": (200.0, -400.0, 5.0),
 }
-SITE = ols.Geodetic(
-    latitude_rad=math.radians(49.2), longitude_rad=math.radians(16.6), height_m=300.0
-)
+SITE = geodetic(49.2, 16.6, 300.0)
 
 
 def truth():

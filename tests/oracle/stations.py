@@ -2,6 +2,7 @@
 
 import numpy as np
 import ols
+from ols_demo.places import geodetic
 from reference import Camera, Station
 
 # The sensor of all of them.
@@ -12,9 +13,7 @@ def as_product(s, sd=None):
     """The reference's Station as the product's StationGeometry."""
     rad, c = np.radians, s.camera
     return ols.StationGeometry(
-        position=ols.Geodetic(
-            latitude_rad=rad(s.latitude), longitude_rad=rad(s.longitude), height_m=s.height_m
-        ),
+        position=geodetic(s.latitude, s.longitude, s.height_m),
         chain=ols.ChainParameters(
             heading_rad=rad(s.heading),
             tilt_x_rad=rad(s.tilt_x),

@@ -4,6 +4,7 @@ import numpy as np
 import ols
 import pytest
 import reference
+from ols_demo.places import geodetic
 from stations import as_product, pan_tilt, random_angles_deg, random_pixel, random_station
 
 STATIONS = 300
@@ -21,11 +22,7 @@ def angle_between(a, b):
 def test_wgs84(rng):
     for _ in range(STATIONS):
         latitude, longitude, height_m = rng.uniform([-89.9, -180, -500], [89.9, 180, 30e3])
-        position = ols.Geodetic(
-            latitude_rad=np.radians(latitude),
-            longitude_rad=np.radians(longitude),
-            height_m=height_m,
-        )
+        position = geodetic(latitude, longitude, height_m)
         p_ecef = reference.ecef(latitude, longitude, height_m)
         np.testing.assert_allclose(ols.ecef_from_geodetic(position), p_ecef, atol=1e-8, rtol=0)
         axes = reference.east_north_up(latitude, longitude)

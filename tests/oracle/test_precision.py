@@ -6,6 +6,7 @@ import numpy as np
 import ols
 import pytest
 import reference
+from ols_demo.places import geodetic
 
 TRIALS = 40
 SITE = ols.LocalFrame(ols.Geodetic(latitude_rad=0.86, longitude_rad=0.29, height_m=300.0))
@@ -100,11 +101,7 @@ def test_position_precision(rng, extent_m, height_m):
         } | {"position": rng.uniform(0, 0.1), "clock": rng.uniform(0, 0.02)}
         planned = [
             ols.PlannedStation(
-                place=ols.LocalFrame(
-                    ols.Geodetic(
-                        latitude_rad=np.radians(lat), longitude_rad=np.radians(lon), height_m=h
-                    )
-                ),
+                place=ols.LocalFrame(geodetic(lat, lon, h)),
                 white_rad=sigmas["white"],
                 calibration=ols.CalibrationSd(
                     heading_rad=sigmas["heading"],

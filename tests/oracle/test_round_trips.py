@@ -4,6 +4,7 @@ import numpy as np
 import ols
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
+from ols_demo.places import geodetic
 from reference import Camera, Station
 from stations import HEIGHT_PX, WIDTH_PX, as_product, pan_tilt
 
@@ -43,9 +44,7 @@ stations = st.builds(
 
 @given(latitudes, longitudes, st.floats(-500, 400e3))
 def test_geodetic(latitude, longitude, height_m):
-    position = ols.Geodetic(
-        latitude_rad=np.radians(latitude), longitude_rad=np.radians(longitude), height_m=height_m
-    )
+    position = geodetic(latitude, longitude, height_m)
     p_ecef = ols.ecef_from_geodetic(position)
     back = ols.geodetic_from_ecef(p_ecef)
     np.testing.assert_allclose(ols.ecef_from_geodetic(back), p_ecef, atol=1e-8, rtol=0)

@@ -79,15 +79,11 @@ def theory(folder: Path) -> dict[str, np.ndarray]:
         "the base's centre, as printed": paper["estimated_m"] / paper["paper_estimated_m"],
         "the first camera, with sides": paper["estimated_by_side_m"] / paper["paper_estimated_m"],
     }
-    rows = [
-        [
-            name,
-            f"{100 * np.abs(r - 1).max():.1f} %",
-            f"{100 * np.abs(r - 1).mean():.1f} %",
-            f"{100 * (r.mean() - 1):+.1f} %",
-        ]
-        for name, r in ratios.items()
-    ]
+    rows = []
+    for name, r in ratios.items():
+        off = 100 * np.abs(r - 1)
+        cells = [f"{off.max():.1f} %", f"{off.mean():.1f} %", f"{100 * (r.mean() - 1):+.1f} %"]
+        rows.append([name, *cells])
     header = ["distance from", "worst row", "mean of the rows' differences", "mean of the ratios"]
     replace_part("estimates", table(header, rows))
     return paper

@@ -4,6 +4,7 @@ import tomllib
 
 import numpy as np
 import ols
+from ols_demo.places import geodetic
 
 from ols_accuracy.runs import SCENARIOS
 
@@ -14,13 +15,7 @@ def scenario(name: str) -> dict:
 
 def site(content: dict) -> ols.LocalFrame:
     s = content["site"]
-    return ols.LocalFrame(
-        ols.Geodetic(
-            latitude_rad=np.radians(s["latitude_deg"]),
-            longitude_rad=np.radians(s["longitude_deg"]),
-            height_m=s["height_m"],
-        )
-    )
+    return ols.LocalFrame(geodetic(s["latitude_deg"], s["longitude_deg"], s["height_m"]))
 
 
 def landmark(trajectory: dict) -> ols.Geodetic:

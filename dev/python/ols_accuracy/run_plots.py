@@ -6,6 +6,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 import ols
 from matplotlib.axes import Axes
+from ols_demo.places import geodetic
 
 from ols_accuracy.runs import EACH_OTHER, LANDMARKS, RANDOM, Run, horizontal
 from ols_accuracy.style import OURS, PAPER, RANDOM_COLOUR, STATION, TRUTH, save
@@ -46,10 +47,7 @@ def figure9(rows: list[dict], output: Path) -> None:
 
 def local(site: ols.LocalFrame, table: dict[str, np.ndarray]) -> np.ndarray:
     keys = ("latitude_deg", "longitude_deg", "height_m")
-    places = [
-        ols.Geodetic(latitude_rad=np.radians(a), longitude_rad=np.radians(b), height_m=c)
-        for a, b, c in zip(*(table[key] for key in keys), strict=True)
-    ]
+    places = map(geodetic, *(table[key] for key in keys))
     return np.array([site.to_enu(ols.ecef_from_geodetic(place)) for place in places])
 
 

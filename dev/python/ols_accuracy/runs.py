@@ -68,28 +68,27 @@ class Run:
         if not self.made():
             subprocess.run(self.command(), cwd=SCENARIOS, check=True)
 
-    def summary(self) -> dict:
-        return json.loads((self.folder / "summary.json").read_text())
+    def bound_m(self) -> float | None:
+        return json.loads((self.folder / "summary.json").read_text())["crb_horizontal_rmse_m"]
 
     def errors_enu(self, estimator: str = "fixes") -> np.ndarray:
         """(n, 3) east, north, up errors of the fixes [m]."""
-        rows = self.fixes(estimator)
+        rows = self.rows(estimator)
         keys = ("error_east_m", "error_north_m", "error_up_m")
         return np.array([[float(row[key]) for key in keys] for row in rows]).reshape(-1, 3)
 
-    def fixes(self, estimator: str = "fixes") -> list[dict]:
-        with open(self.folder / f"{estimator}.csv", newline="") as file:
+    def rows(self, name: str) -> list[dict]:
+        with open(self.folder / f"{name}.csv", newline="") as file:
             return list(csv.DictReader(file))
 
     def frames_on_target(self) -> tuple[float, np.ndarray]:
         """Share of all stations' frames in which the target itself was tracked, and of each fix
         whether it was by all of them at that time."""
-        with open(self.folder / "frames.csv", newline="") as file:
-            rows = list(csv.DictReader(file))
+        rows = self.rows("frames")
         times = np.array([float(row["time_s"]) for row in rows])
         on = np.array([on_target(row) for row in rows])
         stations = np.array([row["station"] for row in rows])
-        fixes = [1e-6 * (int(row["utime_us"]) - START_UTIME_US) for row in self.fixes()]
+        fixes = [1e-6 * (int(row["utime_us"]) - START_UTIME_US) for row in self.rows("fixes")]
         by_all = np.ones(len(fixes), dtype=bool)
         for station in np.unique(stations):
             own = np.flatnonzero(stations == station)
@@ -128,11 +127,8 @@ def picture_run(folder: Path, kind: str, target: str, seed: int) -> Run:
 
 def budget_run(folder: Path, stationing: str, source: str, target: str, seed: int) -> Run:
     """One source alone ("none": not one of them, "all"), with drawn pixels."""
-    without = (
-        ()
-        if source == "all"
-        else tuple(error for name, errors in SOURCES.items() if name != source for error in errors)
-    )
+    others = [errors for name, errors in SOURCES.items() if source not in ("all", name)]
+    without = tuple(error for errors in others for error in errors)
     place = folder / "budget" / stationing / source / target / f"seed{seed}"
     return _run(place, target, seed, stationing=stationing, without=without, pictures=False)
 
@@ -148,14 +144,12 @@ def rms(values: np.ndarray) -> float:
 
 def usable(runs: Iterable[Run]) -> list[Run]:
     """Those that were made and have fixes of two stations: without such a fix there is no bound."""
-    made = [run for run in runs if run.made()]
-    return [run for run in made if run.summary()["crb_horizontal_rmse_m"] is not None]
+    return [run for run in runs if run.made() and run.bound_m() is not None]
 
 
 def left_out(runs: Iterable[Run]) -> list[Run]:
     """Those that were made and are not usable."""
-    made = [run for run in runs if run.made()]
-    return [run for run in made if run.summary()["crb_horizontal_rmse_m"] is None]
+    return [run for run in runs if run.made() and run.bound_m() is None]
 
 
 def mean_error(runs: Iterable[Run], estimator: str = "fixes") -> float:
@@ -167,5 +161,5 @@ def mean_error(runs: Iterable[Run], estimator: str = "fixes") -> float:
 
 def mean_bound(runs: Iterable[Run]) -> float:
     """The same of the Cramer-Rao bound at the runs' fixes."""
-    values = [run.summary()["crb_horizontal_rmse_m"] for run in usable(runs)]
+    values = [run.bound_m() for run in usable(runs)]
     return rms(np.array(values)) if values else np.nan

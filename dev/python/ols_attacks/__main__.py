@@ -11,13 +11,14 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+from ols_bench.processes import datagrams_dropped, resident_bytes
 from ols_demo.__main__ import Run
 from ols_demo.site import Site, SiteError, bring_up_loopback
-from ols_demo.wiring import Wiring
+from ols_demo.wiring import Wiring, add_site_options
 
 from ols_attacks.attacks import Attack, Known, all_attacks, stolen_key
-from ols_attacks.sender import drops, folder_of, send
-from ols_attacks.watch import Watch, resident_mb
+from ols_attacks.sender import folder_of, send
+from ols_attacks.watch import Watch
 
 ROOT = Path(__file__).resolve().parents[3]
 ITSELF_S = 60.0  # until the site must be itself again
@@ -38,12 +39,7 @@ def arguments(words: list[str] | None) -> argparse.Namespace:
     parser.add_argument("--most", type=float, default=100_000.0, help="messages a second")
     parser.add_argument("--names", type=int, default=100_000, help="invented names")
     parser.add_argument("--only", help="attacks whose name has this in it")
-    parser.add_argument(
-        "--scenario", type=Path, default=ROOT / "sim/scenarios/fig7.toml", help="TOML file"
-    )
-    parser.add_argument("--seed", type=int, default=1, help="of the simulated errors")
-    parser.add_argument("--output", type=Path, default=ROOT / "out/attacks", help="folder")
-    parser.add_argument("--bin", type=Path, default=ROOT / "build/release/bin", help="programs")
+    add_site_options(parser, "fig7", "attacks")
     parser.add_argument("--patience", type=float, default=90.0, help="until all track [s]")
     options = parser.parse_args(words)
     options.headless = True
@@ -66,7 +62,9 @@ class Bench:
         return folder_of(self._site.processes[name].pid)
 
     def memory(self) -> dict[str, float]:
-        return {name: resident_mb(self._folder(name)) for name in ("fusion", *self.stations)}
+        return {
+            name: resident_bytes(self._folder(name)) / 1e6 for name in ("fusion", *self.stations)
+        }
 
     def calm(self, name: str) -> dict[str, Any]:
         self.watch.begin()
@@ -87,7 +85,11 @@ class Bench:
 
     def suffer(self, attack: Attack) -> dict[str, Any]:
         folder, watch = self._folder(attack.victim), self.watch
-        before, lost, obeyed = watch.counted(attack.victim), drops(folder), watch.obeyed()
+        before, lost, obeyed = (
+            watch.counted(attack.victim),
+            datagrams_dropped(folder),
+            watch.obeyed(),
+        )
         sent = self._while_attacked(attack, folder)
         row = {"attack": attack.name, "sent": sent, **watch.figures()}
         if not attack.may_be_believed:  # else that name is silent until its key is revoked
@@ -100,7 +102,7 @@ class Bench:
                 for reason, count in after.items()
                 if count > before.get(reason, 0.0)
             }
-            row["dropped"] = drops(folder) - lost
+            row["dropped"] = datagrams_dropped(folder) - lost
             if sum(row["refused"].values()) + row["dropped"] >= sent or time.monotonic() > end:
                 break
         # What the kernel drops is others' too: some fewer than none may remain.

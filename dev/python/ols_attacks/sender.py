@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import lcm
+from ols_bench.processes import datagrams_dropped
 from ols_demo.bus import LIVE_URL
 
 Messages = list[tuple[str, bytes]]
@@ -35,20 +36,6 @@ def folder_of(pid: int) -> Path:
     raise ProcessLookupError(pid)
 
 
-def drops(folder: Path) -> int:
-    """Datagrams that the kernel had no room for in the sockets of this process."""
-    own = set()
-    for descriptor in (folder / "fd").iterdir():
-        try:
-            target = str(descriptor.readlink())
-        except FileNotFoundError:
-            continue  # closed meanwhile
-        if target.startswith("socket:["):
-            own.add(target[len("socket:[") : -1])
-    lines = (folder / "net/udp").read_text().splitlines()[1:]
-    return sum(int(f[-1]) for f in map(str.split, lines) if f[9] in own)
-
-
 def send(
     messages: Messages, seconds: float, most_hz: float, stated_hz: float, folder: Path, report: Any
 ) -> None:
@@ -59,7 +46,7 @@ def send(
     fixed = math.isfinite(stated_hz)
     rate, sent, due = most_hz if fixed else min(START_HZ, most_hz), 0, 0.0
     report.put("begins")
-    lost, begin = drops(folder), time.monotonic()
+    lost, begin = datagrams_dropped(folder), time.monotonic()
     now, look = begin, begin + LOOK_S
     while now < begin + seconds:
         before, now = now, time.monotonic()
@@ -71,7 +58,7 @@ def send(
             due -= 1.0
         if now >= look:
             look = now + LOOK_S
-            lost_now = drops(folder)
+            lost_now = datagrams_dropped(folder)
             if not fixed:
                 faster = min(most_hz, rate * FASTER)
                 rate = max(LEAST_HZ, rate * SLOWER) if lost_now > lost else faster

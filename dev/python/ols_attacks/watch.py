@@ -3,7 +3,6 @@
 import time
 from collections import deque
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import Any
 
 import lcm
@@ -37,13 +36,6 @@ def obeyed(status: Any) -> float:
         for name, value in counters(status).items()
         if name.endswith("_accepted") and not name.startswith("slew")
     )
-
-
-def resident_mb(folder: Path) -> float:
-    for line in (folder / "status").read_text().splitlines():
-        if line.startswith("VmRSS:"):
-            return int(line.split()[1]) / 1e3
-    raise RuntimeError(f"{folder}: it has no memory")
 
 
 @dataclass

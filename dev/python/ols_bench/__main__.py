@@ -3,6 +3,7 @@
 import argparse
 import os
 import platform
+import re
 import sys
 from pathlib import Path
 
@@ -125,11 +126,8 @@ def complete(tracker: str, folders: dict[str, list[Clip]], output: Path) -> bool
 
 def about(ran: list[str], shown: list[str], seeds: list[int]) -> str:
     core = ",".join(map(str, sorted(os.sched_getaffinity(0))))
-    model = "unknown processor"
-    for line in Path("/proc/cpuinfo").read_text().splitlines():
-        if line.startswith("model name"):
-            model = line.split(":", 1)[1].strip()
-            break
+    found = re.search(r"^model name\s*: (.*)", Path("/proc/cpuinfo").read_text(), re.M)
+    model = found[1] if found else "unknown processor"
     text = (
         f"One thread on core {core} of {platform.machine()}, {model}; OpenCV {cv2.__version__}'s "
         f"trackers; seed {seeds[0]}. Times are processor time inside the trackers' update alone, "

@@ -6,6 +6,7 @@ import os
 import re
 import subprocess
 import tempfile
+from contextlib import closing
 from pathlib import Path
 
 import bridge_site
@@ -79,13 +80,8 @@ def main() -> int:
     options = parser.parse_args()
     print(f"load before: {os.getloadavg()[0]:.2f}")
     bring_up_loopback([])
-    with tempfile.TemporaryDirectory() as folder:
-        net = Network(Path(folder))
-        try:
-            is_well = measure(net, options)
-        finally:
-            net.close()
-    return 0 if is_well else 1
+    with tempfile.TemporaryDirectory() as folder, closing(Network(Path(folder))) as net:
+        return 0 if measure(net, options) else 1
 
 
 if __name__ == "__main__":

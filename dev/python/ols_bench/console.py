@@ -14,9 +14,9 @@ from ols_demo.site import Site, bring_up_loopback
 
 from ols_bench import console_live
 from ols_bench.line import line
-from ols_bench.paper_video import BIT_PX, BITS, BOX_PX, CODE_Y_PX, FULL_PX, PaperVideo
+from ols_bench.paper_video import BIT_PX, BITS, CODE_Y_PX, FULL_PX, PaperVideo
 from ols_bench.plain_viewer import PlainViewer
-from ols_bench.processes import cpu_s, resident_kb
+from ols_bench.processes import cpu_s, resident_bytes
 
 ROOT = Path(__file__).resolve().parents[3]
 PAGE = ROOT / "build/release/console/page/files"
@@ -91,13 +91,7 @@ class Bench:
             page = chromium.new_page(viewport={"width": 1500, "height": 900})
             page.goto(self.address)
             page.wait_for_selector(".eye.large canvas[data-utime-us]", timeout=PATIENCE_S * 1000)
-            options = {
-                "full": FULL_PX,
-                "codeY": CODE_Y_PX,
-                "bit": BIT_PX,
-                "bits": BITS,
-                "box": BOX_PX,
-            }
+            options = {"full": FULL_PX, "codeY": CODE_Y_PX, "bit": BIT_PX, "bits": BITS}
             page.evaluate(WATCHER, options)
             page.wait_for_function(
                 "(n) => window.seen.length >= n", arg=frames, timeout=0, polling=500
@@ -182,12 +176,12 @@ class Bench:
             for viewer in viewers:
                 viewer.end()
             visits += len(viewers)
-            readings.append((time.monotonic(), resident_kb(self.pid), visits))
+            readings.append((time.monotonic(), resident_bytes(self.pid), visits))
         settled = np.array(readings[len(readings) // 3 :], float)
-        slope_kb = np.polyfit(settled[:, 2], settled[:, 1], 1)[0]  # a visit
+        slope = np.polyfit(settled[:, 2], settled[:, 1], 1)[0]  # a visit
         line(
             f"memory after {visits} visits in {seconds:.0f} s",
-            f"{readings[-1][1] / 1000:.1f} MB, {1000 * slope_kb:+.0f} B a visit",
+            f"{readings[-1][1] / 1e6:.1f} MB, {slope:+.0f} B a visit",
             "flat",
         )
 

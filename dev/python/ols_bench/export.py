@@ -2,9 +2,7 @@
 
 import argparse
 import re
-import shutil
 import socket
-import subprocess
 import tempfile
 import threading
 import time
@@ -17,7 +15,6 @@ from sapient_site import Receiver as SapientReceiver
 
 from ols_bench.processes import cpu_s
 
-BROKER_PORT = 18830
 LATITUDE = re.compile(rb'lat="([0-9.]+)"')
 
 
@@ -66,7 +63,8 @@ def outputs(folder: Path, port: int, rate_hz: float) -> str:
     stream = f"tcp://127.0.0.1:{server.getsockname()[1]}"
     text += export_site.output("stream", "cot-protobuf", stream, **every)
     text += export_site.output("hub", "sapient", f"tcp://127.0.0.1:{hub.port}", rate_hz=rate_hz)
-    text += export_site.output("home", "mqtt", f"mqtt://127.0.0.1:{BROKER_PORT}", **every)
+    broker = f"mqtt://127.0.0.1:{export_site.MQTT_PORT}"
+    text += export_site.output("home", "mqtt", broker, **every)
     for kind in ("geojson", "kml", "gpx", "courageous"):
         to = f"file://{folder}/site.{kind}"
         text += export_site.output(kind, kind, to, rate_hz=0.2, lines=True)
@@ -99,13 +97,7 @@ def main() -> None:
     print("load before:", Path("/proc/loadavg").read_text().split()[0])
     bring_up_loopback([])
     folder = Path(tempfile.mkdtemp())
-    (folder / "broker.conf").write_text(
-        f"user root\nlistener {BROKER_PORT} 127.0.0.1\nallow_anonymous true\n"
-    )
-    mosquitto = shutil.which("mosquitto") or "/usr/sbin/mosquitto"
-    broker = subprocess.Popen(
-        [mosquitto, "-c", str(folder / "broker.conf")], stderr=subprocess.DEVNULL
-    )
+    broker = export_site.Broker(folder)
     published: dict[str, float] = {}
     receiver = Receiver(published)
     publisher = export_site.Publisher()
@@ -124,7 +116,6 @@ def main() -> None:
             status = exporter.status()
     finally:
         broker.kill()
-        broker.wait()
     delays_ms = 1e3 * np.array(receiver.delays_s)
     print(f"published {sent / arguments.seconds:.0f} targets/s, received {len(delays_ms)}")
     print(f"publication to datagram: p50 {np.percentile(delays_ms, 50):.2f} ms, ", end="")

@@ -8,15 +8,14 @@ from dataclasses import dataclass
 import numpy as np
 import ols
 import ols_msg
+from ols_demo.places import geodetic
 
 START_US = 1_780_272_000_000_000  # 2026-06-01T00:00 UTC
 HOUR_S = 3600.0
 PIXEL_RAD, HEADING_RAD = 7.5e-5, 3e-4
 PLACE_SD_M, CLOCK_SD_S = 0.02, 5e-4
 BOOT = 100
-SITE = ols.Geodetic(
-    latitude_rad=math.radians(49.2266), longitude_rad=math.radians(16.5969), height_m=310.0
-)
+SITE = geodetic(49.2266, 16.5969, 310.0)
 FRAME = ols.LocalFrame(SITE)
 STATIONS = {
     "alfa": (-300.0, -250.0, 2.0),

@@ -12,13 +12,12 @@ import numpy as np
 import ols
 import ols_msg
 from ols_demo.bus import LIVE_URL, counters, decode
+from ols_demo.places import geodetic
 from ols_demo.site import Site, bring_up_loopback
 
 from ols_bench.processes import cpu_s
 
-SITE = ols.LocalFrame(
-    ols.Geodetic(latitude_rad=math.radians(49.2), longitude_rad=math.radians(16.6), height_m=250.0)
-)
+SITE = ols.LocalFrame(geodetic(49.2, 16.6, 250.0))
 NOISE_RAD, POSE_SD_RAD = 3e-4, 1e-3
 SETTLED_S = 3.0  # not judged: tracks are being initiated
 MOST_LATENCY_S, MOST_CORES = 0.020, 0.5

@@ -15,6 +15,7 @@ from pathlib import Path
 
 import numpy as np
 import ols
+from ols_demo.places import geodetic
 
 GAP_US = 500_000
 # Errors are alike for some seconds: a ratio is as sure as so many independent pieces make it.
@@ -35,11 +36,7 @@ def rows_of(path):
 
 
 def ecef(row):
-    place = ols.Geodetic(
-        latitude_rad=math.radians(float(row["latitude_deg"])),
-        longitude_rad=math.radians(float(row["longitude_deg"])),
-        height_m=float(row["height_m"]),
-    )
+    place = geodetic(*(float(row[key]) for key in ("latitude_deg", "longitude_deg", "height_m")))
     return ols.ecef_from_geodetic(place), place
 
 
@@ -161,14 +158,9 @@ def report(program, folder, options):
     good = True
     for name, own in errors.items():
         sizes, nees = figures_of(own, instants)
-        print(
-            f"  {name:14s}"
-            + "".join(f"{size:9.3f}" for size in sizes)
-            + " m  ratio"
-            + "".join(f"{ratio:6.2f}" for ratio in sizes / reference)
-            + "  NEES"
-            + "".join(f"{value:6.2f}" for value in nees)
-        )
+        shown = "".join(f"{size:9.3f}" for size in sizes) + " m  ratio"
+        shown += "".join(f"{ratio:6.2f}" for ratio in sizes / reference)
+        print(f"  {name:14s}{shown}  NEES" + "".join(f"{value:6.2f}" for value in nees))
         if name != "least squares":
             (low, high), blocks = ratio_interval(own, errors["least squares"], instants)
             told = blocks >= LEAST_BLOCKS

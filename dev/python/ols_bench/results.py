@@ -79,15 +79,9 @@ def spread(results: list[Result]) -> dict[str, dict | None]:
     rows = {}
     for name, figure in SPREAD.items():
         values = [figure(result) for result in results]
-        rows[name] = (
-            None
-            if any(value is None for value in values)
-            else {
-                "mean": float(np.mean(values)),
-                "least": float(min(values)),
-                "greatest": float(max(values)),
-            }
-        )
+        all_known = None not in values
+        kinds = {"mean": np.mean, "least": min, "greatest": max}
+        rows[name] = {k: float(of(values)) for k, of in kinds.items()} if all_known else None
     return rows
 
 

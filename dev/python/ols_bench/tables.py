@@ -146,23 +146,14 @@ def stage_table(results: Results, folder: str) -> str:
 
 
 def clip_table(results: Results, folder: str) -> str:
-    trackers = list(results)
-    clips = results[trackers[0]][folder].clips
-    rows = []
-    for clip in clips:
-        cells = [results[t][folder].clips[clip] for t in trackers]
-        rows.append(
-            [
-                clip,
-                *(
-                    ("**" if not c["lock"] else "")
-                    + text(c["p20"], ".2f")
-                    + ("**" if not c["lock"] else "")
-                    for c in cells
-                ),
-            ]
-        )
-    return table(["within 20 px", *trackers], rows)
+    of = [by_folder[folder].clips for by_folder in results.values()]
+    rows = [[clip, *(clip_cell(clips[clip]) for clips in of)] for clip in of[0]]
+    return table(["within 20 px", *results], rows)
+
+
+def clip_cell(figures: dict) -> str:
+    bold = "" if figures["lock"] else "**"
+    return bold + text(figures["p20"], ".2f") + bold
 
 
 def markdown(results: Results, about: str) -> str:

@@ -138,26 +138,23 @@ def run(program, build, figure, seed):
         return adjusted(program, site, folder, rows) or measure(figure, rows, folder / "out")
 
 
-def identification(results):
+def identification(row, identified):
     """What was not identified is a failure, and not a wrong one."""
-    identified = [r for r in results if not isinstance(r, str)]
-    row = {"runs": len(results), "failed": len(results) - len(identified)}
-    row["named"] = len(identified) / len(results)
+    row["named"] = len(identified) / row["runs"]
     # Two stars exchanged, and false detections that were taken for stars.
     row |= {key: sum(r[key] for r in identified) for key in ("right", "exchanged", "false")}
     row["ok"] = row["named"] >= 0.95 and row["exchanged"] == 0 and row["false"] == 0
-    failures = [r for r in results if isinstance(r, str)]
-    return row | ({"failure": failures[0]} if failures else {})
+    return row
 
 
 def judged(figure, limit, results):
-    if figure == "identified":
-        return identification(results)
     failures = [r for r in results if isinstance(r, str)]
     good = [r for r in results if not isinstance(r, str)]
     row = {"runs": len(results), "failed": len(failures), "limit": limit}
     if failures:
         row["failure"] = failures[0]
+    if figure == "identified":
+        return identification(row, good)
     if figure == "named":
         return row | {"named": sum(good) / len(results), "ok": sum(good) >= 0.95 * len(results)}
     if not good:
@@ -198,12 +195,17 @@ def write_site(arguments):
     print("ols-calibrate adjust", *command, "--output", arguments.write / "calibration")
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+def parser_of(doc):
+    parser = argparse.ArgumentParser(description=doc.splitlines()[0])
     parser.add_argument("--instruments", type=int, default=40, help="of each case")
     parser.add_argument("--seed", type=int, default=1, help="of the first")
     parser.add_argument("--case", help="only those whose name contains this")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
+    return parser
+
+
+def main():
+    parser = parser_of(__doc__)
     parser.add_argument("--program", type=Path, default=ROOT / "build/release/bin/ols-calibrate")
     parser.add_argument("--report", type=Path, help="write the figures as JSON")
     parser.add_argument("--write", type=Path, help="only write one site's files into this folder")

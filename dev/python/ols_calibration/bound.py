@@ -13,8 +13,6 @@ directions is left to them, too. Of both, the standard error over the instrument
     python -m ols_calibration.bound --case "5 landmarks" [--instruments 40]
 """
 
-import argparse
-import os
 from collections import defaultdict
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import replace
@@ -22,7 +20,7 @@ from functools import partial
 
 import numpy as np
 
-from .__main__ import HORIZON_COUNTS, volume
+from .__main__ import HORIZON_COUNTS, parser_of, volume
 from .cases import CASES
 from .model import ANGLE_SD, ARCSEC, PLAIN, Place, azimuth_elevation, refracted
 
@@ -239,12 +237,7 @@ def shown(of_each):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--instruments", type=int, default=40, help="of each case")
-    parser.add_argument("--seed", type=int, default=1, help="of the first")
-    parser.add_argument("--case", help="only those whose name contains this")
-    parser.add_argument("--jobs", type=int, default=os.cpu_count())
-    arguments = parser.parse_args()
+    arguments = parser_of(__doc__).parse_args()
     seeds = range(arguments.seed, arguments.seed + arguments.instruments)
     title = f"case, seeds {seeds[0]}..{seeds[-1]}"
     print(f"{title:44} {'bound':>14} {'without 2nd':>15} {'limit':>8}")

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass, field
 
+import erfa
 import numpy as np
 
 ARCSEC = np.pi / 648000
@@ -221,34 +222,9 @@ def refracted(point, k):
     )
 
 
-# ---- WGS84 ---------------------------------------------------------------------------------------
-
-MAJOR_M, FLATTENING = 6378137.0, 1 / 298.257223563
-ECCENTRICITY2 = FLATTENING * (2 - FLATTENING)
-
-
-def ecef(latitude, longitude, height):
-    """[rad, rad, m] -> [m]"""
-    n = MAJOR_M / np.sqrt(1 - ECCENTRICITY2 * np.sin(latitude) ** 2)
-    across = (n + height) * np.cos(latitude)
-    return np.array(
-        [
-            across * np.cos(longitude),
-            across * np.sin(longitude),
-            (n * (1 - ECCENTRICITY2) + height) * np.sin(latitude),
-        ]
-    )
-
-
 def geodetic(p):
-    """[m] -> latitude, longitude [rad], height [m]"""
-    longitude, level = np.arctan2(p[1], p[0]), np.hypot(p[0], p[1])
-    latitude = np.arctan2(p[2], level * (1 - ECCENTRICITY2))
-    for _ in range(8):
-        n = MAJOR_M / np.sqrt(1 - ECCENTRICITY2 * np.sin(latitude) ** 2)
-        latitude = np.arctan2(p[2] + ECCENTRICITY2 * n * np.sin(latitude), level)
-    n = MAJOR_M / np.sqrt(1 - ECCENTRICITY2 * np.sin(latitude) ** 2)
-    height = level * np.cos(latitude) + p[2] * np.sin(latitude) - MAJOR_M**2 / n
+    """[m] WGS84 -> latitude, longitude [rad], height [m]"""
+    longitude, latitude, height = erfa.gc2gd(1, p)
     return latitude, longitude, height
 
 
@@ -258,7 +234,7 @@ class Place:
     def __init__(self, latitude_deg, longitude_deg, height_m):
         self.latitude, self.longitude = np.radians([latitude_deg, longitude_deg])
         self.height = height_m
-        self.origin = ecef(self.latitude, self.longitude, height_m)
+        self.origin = erfa.gd2gc(1, self.longitude, self.latitude, height_m)  # WGS84
         sp, cp = np.sin(self.latitude), np.cos(self.latitude)
         sl, cl = np.sin(self.longitude), np.cos(self.longitude)
         self.axes = np.array([[-sl, cl, 0], [-sp * cl, -sp * sl, cp], [cp * cl, cp * sl, sp]])

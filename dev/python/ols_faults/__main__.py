@@ -9,7 +9,7 @@ import traceback
 from pathlib import Path
 
 from ols_demo.site import Site, SiteError, bring_up_loopback
-from ols_demo.wiring import Wiring
+from ols_demo.wiring import Wiring, add_site_options
 
 # Importing a module of cases registers them, in the order of the run.
 from ols_faults import (  # noqa: F401
@@ -37,7 +37,6 @@ from ols_faults.session import Session
 
 def arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog="tools/fault-run", description=__doc__)
-    root = Path(__file__).resolve().parents[3]
     parser.add_argument(
         "--only", action="append", default=[], metavar="NAME", help="this case; may be repeated"
     )
@@ -48,14 +47,7 @@ def arguments() -> argparse.Namespace:
         help="then alter what was heard, for each check in turn, as a broken product would have: "
         "every check must fail",
     )
-    parser.add_argument("--seed", type=int, default=1, help="of everything that is drawn")
-    parser.add_argument(
-        "--scenario", type=Path, default=root / "sim/scenarios/faults.toml", help="TOML file"
-    )
-    parser.add_argument(
-        "--output", type=Path, default=root / "out/faults", help="folder for table and logs"
-    )
-    parser.add_argument("--bin", type=Path, default=root / "build/release/bin")
+    add_site_options(parser, "faults", "faults")
     options = parser.parse_args()
     unknown = set(options.only) - CASES.keys()
     if unknown:

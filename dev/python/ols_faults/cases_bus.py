@@ -5,6 +5,7 @@ import subprocess
 import time
 from pathlib import Path
 
+from ols_bench.processes import datagrams_dropped, resident_bytes
 from ols_demo.bus import LIVE_URL
 
 from ols_faults import fragments, measure, mutations
@@ -12,7 +13,6 @@ from ols_faults.case import Mutation, Outcome, case
 from ols_faults.cases_network import FUSION, flooded
 from ols_faults.evidence import Evidence
 from ols_faults.judges import FRAME_HZ, judge_counted, judge_goes_on
-from ols_faults.processes import datagrams_dropped, resident_bytes
 from ols_faults.session import Session
 from ols_faults.wire import Sender
 

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from ols_bench.processes import resident_bytes
 from ols_demo.bus import LIVE_URL, counters
 from ols_demo.evaluate import JOINT
 from ols_demo.site import SiteError
@@ -17,7 +18,6 @@ from ols_faults import measure, mutations
 from ols_faults.case import Outcome, case
 from ols_faults.evidence import TWIN, Evidence
 from ols_faults.judges import FRAME_HZ, judge_counted
-from ols_faults.processes import resident_bytes
 from ols_faults.session import Session
 from ols_faults.wire import Ear
 

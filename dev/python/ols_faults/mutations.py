@@ -108,24 +108,14 @@ def bearings_turned(station: str, degrees: float, every: int, window: Window = A
             return bearing
         return put(bearing, elevation_rad=bearing.elevation_rad + np.radians(degrees))
 
-    what = (
-        f"every {every}. bearing is off by {degrees:g} deg"
-        if every > 1
-        else (f"bearings are off by {degrees:g} deg")
-    )
+    what = f"every {every}. bearing is off by {degrees:g} deg"
     return altering(what, f"OLS_BEARING_{station}", change, window)
 
 
 def sigmas_scaled(station: str, factor: float) -> Mutation:
     def change(bearing: Any) -> Any:
-        def scaled(values: Any) -> list[float]:
-            return [factor**2 * value for value in values]
-
-        return put(
-            bearing,
-            covariance_white_rad2=scaled(bearing.covariance_white_rad2),
-            covariance_systematic_rad2=scaled(bearing.covariance_systematic_rad2),
-        )
+        names = ("covariance_white_rad2", "covariance_systematic_rad2")
+        return put(bearing, **{n: [factor**2 * v for v in getattr(bearing, n)] for n in names})
 
     return altering(f"published sigmas are {factor:g} times", f"OLS_BEARING_{station}", change)
 
@@ -196,39 +186,41 @@ def moves_on(station: str, window: Window, deg_s: float) -> Mutation:
     return shafts_altered(f"the PTU moves at {deg_s:g} deg/s for {seconds:.2g} s", station, turn)
 
 
+def from_where_it_was(
+    what: str, station: str, window: Window, change: Callable[[Any, float, float], Any]
+) -> Mutation:
+    """`change`: of what the shafts did in the window, given pan and tilt of the window's start."""
+
+    def alter(evidence: Evidence) -> None:
+        before = [p for p in evidence.heard.ptus[station] if p.utime <= window[0]][-1]
+
+        def one(ptu: Any, at: int) -> list[tuple[Any, int]]:
+            if window[0] < ptu.utime <= window[1]:
+                ptu = change(ptu, before.pan_rad[-1], before.tilt_rad[-1])
+            return [(ptu, at)]
+
+        rewrite(evidence.heard, f"OLS_SIM_PTU_{station}", one)
+
+    return Mutation(what, alter)
+
+
 def goes_further(station: str, window: Window, factor: float) -> Mutation:
     """Scales all motion after the window's start by a factor."""
 
-    def alter(evidence: Evidence) -> None:
-        before = [p for p in evidence.heard.ptus[station] if p.utime <= window[0]]
-        start = before[-1].pan_rad[-1]
+    def change(ptu: Any, start: float, _: float) -> Any:
+        return put(ptu, pan_rad=start + factor * (np.asarray(ptu.pan_rad) - start))
 
-        def change(ptu: Any, at: int) -> list[tuple[Any, int]]:
-            if ptu.utime <= window[0]:
-                return [(ptu, at)]
-            return [(put(ptu, pan_rad=start + factor * (np.asarray(ptu.pan_rad) - start)), at)]
-
-        rewrite(evidence.heard, f"OLS_SIM_PTU_{station}", change)
-
-    return Mutation(f"the PTU goes {factor:g} times as far", alter)
+    what = f"the PTU goes {factor:g} times as far"
+    return from_where_it_was(what, station, (window[0], EVER), change)
 
 
 def stands(station: str, window: Window, what: str = "the PTU does not move") -> Mutation:
     """Freezes it at its state of the window's start."""
 
-    def alter(evidence: Evidence) -> None:
-        before = [p for p in evidence.heard.ptus[station] if p.utime <= window[0]]
-        pan_rad, tilt_rad = before[-1].pan_rad[-1], before[-1].tilt_rad[-1]
+    def change(ptu: Any, pan: float, tilt: float) -> Any:
+        return put(ptu, pan_rad=np.full(ptu.samples, pan), tilt_rad=np.full(ptu.samples, tilt))
 
-        def change(ptu: Any, at: int) -> list[tuple[Any, int]]:
-            if not window[0] <= ptu.utime <= window[1]:
-                return [(ptu, at)]
-            pan, tilt = (np.full(ptu.samples, angle) for angle in (pan_rad, tilt_rad))
-            return [(put(ptu, pan_rad=pan, tilt_rad=tilt), at)]
-
-        rewrite(evidence.heard, f"OLS_SIM_PTU_{station}", change)
-
-    return Mutation(what, alter)
+    return from_where_it_was(what, station, window, change)
 
 
 # A station's status.
@@ -282,12 +274,9 @@ def in_state(station: str, state: str, window: Window = ALWAYS) -> Mutation:
 
 def without_counter(channel: str, name: str, window: Window = ALWAYS) -> Mutation:
     """Keeps the counter at 0."""
-
-    def change(status: Any) -> Any:
-        both = zip(status.counter_name, status.counter_value, strict=True)
-        return put(status, counter_value=[0.0 if n == name else v for n, v in both])
-
-    return altering(f"{name} is not counted", channel, change, window)
+    return altering(
+        f"{name} is not counted", channel, lambda status: scaled_counter(status, name, 0.0), window
+    )
 
 
 def counter_more(channel: str, name: str, amount: float, window: Window) -> Mutation:
@@ -339,8 +328,8 @@ def rays(what: str, station: str, used: bool, window: Window = ALWAYS) -> Mutati
 
 def shafts_late(station: str, seconds: float) -> Mutation:
     """Delays the PTU's motion."""
-
-    def change(ptu: Any) -> Any:
-        return put(ptu, utime=ptu.utime + round(seconds * 1e6))
-
-    return altering(f"the PTU does it {seconds:g} s later", f"OLS_SIM_PTU_{station}", change)
+    return altering(
+        f"the PTU does it {seconds:g} s later",
+        f"OLS_SIM_PTU_{station}",
+        lambda ptu: put(ptu, utime=ptu.utime + round(seconds * 1e6)),
+    )

@@ -17,7 +17,6 @@ GAIN_MARGIN = 1.5
 STEP_S = 0.01  # shafts are looked at so often,
 HALF_S = 0.03  # and speeds taken over so much to both sides
 LAG_S = 0.4  # of what closes a distance: it was commanded for the distance of up to then
-FASTEST_DEG_S = 57.5  # ServoConfig::max_speed_rad_s
 
 
 def needed_deg(recording: Recording, station: str, times_us: np.ndarray) -> np.ndarray:

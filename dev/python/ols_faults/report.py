@@ -37,13 +37,8 @@ def as_json(outcome: Outcome) -> dict[str, object]:
         {name: getattr(check, name) for name in ("what", "measured", "limit", "passed")}
         for check in outcome.checks
     ]
-    return {
-        "passed": outcome.passed,
-        "checks": checks,
-        "recovery_s": outcome.recovery_s,
-        "seconds": outcome.seconds,
-        "error": outcome.error,
-    }
+    rest = {name: getattr(outcome, name) for name in ("recovery_s", "seconds", "error")}
+    return {"passed": outcome.passed, "checks": checks, **rest}
 
 
 def write(folder: Path, about: dict[str, object], outcomes: dict[str, Outcome]) -> Path:

@@ -10,13 +10,12 @@ from pathlib import Path
 
 import matplotlib
 import numpy as np
+from ols_bench.processes import open_files, resident_bytes, threads
 from ols_demo.bus import LIVE_URL, Bus, counters
 from ols_demo.observer import Observer
 from ols_demo.operator import Operator
 from ols_demo.site import Site, SiteError, bring_up_loopback
-from ols_demo.wiring import Wiring
-
-from ols_faults.processes import open_files, resident_bytes, threads
+from ols_demo.wiring import Wiring, add_site_options
 
 matplotlib.use("Agg")
 from matplotlib import pyplot  # noqa: E402
@@ -26,26 +25,16 @@ DESIGNATION_S = 120.0
 WARM_UP_SHARE = 0.2  # of the run, at least WARM_UP_S: caches fill, recordings begin
 WARM_UP_S = 60.0
 # "Flat": what a straight line through the samples after the warm-up grows over the judged time.
-GROWTH_MB = 2.0
-GROWTH_FILES = 0.5
-GROWTH_THREADS = 0.5
+LIMITS = {"memory_MB": 2.0, "files": 0.5, "threads": 0.5}
 LOST_SHARE = 0.01
 NOT_OURS = ("lcm-logger", "gpsd")
-QUANTITIES = ("memory_MB", "files", "threads")
-LIMITS = dict(zip(QUANTITIES, (GROWTH_MB, GROWTH_FILES, GROWTH_THREADS), strict=True))
 
 
 def arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog="tools/soak", description=__doc__)
-    root = Path(__file__).resolve().parents[3]
     parser.add_argument("--minutes", type=float, default=60.0, help="after designation")
-    parser.add_argument(
-        "--scenario", type=Path, default=root / "sim/scenarios/fig7.toml", help="TOML file"
-    )
-    parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--log", action="store_true", help="record the bus too (some GB an hour)")
-    parser.add_argument("--output", type=Path, default=root / "out/soak")
-    parser.add_argument("--bin", type=Path, default=root / "build/release/bin")
+    add_site_options(parser, "fig7", "soak")
     return parser.parse_args()
 
 
@@ -59,7 +48,7 @@ class Samples:
     def take(self, site: Site, elapsed_s: float) -> None:
         self.seconds.append(elapsed_s)
         for name, process in site.processes.items():
-            rows = self.values.setdefault(name, {quantity: [] for quantity in QUANTITIES})
+            rows = self.values.setdefault(name, {quantity: [] for quantity in LIMITS})
             rows["memory_MB"].append(resident_bytes(process.pid) / 1e6)
             rows["files"].append(open_files(process.pid))
             rows["threads"].append(threads(process.pid))
@@ -109,7 +98,7 @@ def judge(samples: Samples, frames: Frames) -> dict[str, object]:
     processes = {}
     for name, rows in samples.values.items():
         entry: dict[str, object] = {"judged": not name.startswith(NOT_OURS)}
-        for quantity in QUANTITIES:
+        for quantity, limit in LIMITS.items():
             values = np.array(rows[quantity])
             grown = fitted_growth(seconds[judged], values[judged])
             entry[quantity] = {
@@ -117,7 +106,7 @@ def judge(samples: Samples, frames: Frames) -> dict[str, object]:
                 "last": values[-1],
                 "greatest": float(values.max()),
                 "grown": grown,
-                "flat": bool(grown <= LIMITS[quantity]),
+                "flat": bool(grown <= limit),
             }
         processes[name] = entry
     stations = {station: frames.of(station) for station in sorted(frames.last)}
@@ -125,7 +114,7 @@ def judge(samples: Samples, frames: Frames) -> dict[str, object]:
         entry[quantity]["flat"]
         for entry in processes.values()
         if entry["judged"]
-        for quantity in QUANTITIES
+        for quantity in LIMITS
     )
     whole = all(
         s["lost_share"] <= LOST_SHARE and s["captured"] > 0 and s["restarts"] == 0
@@ -144,13 +133,13 @@ def judge(samples: Samples, frames: Frames) -> dict[str, object]:
 def table(result: dict[str, object]) -> str:
     lines = [
         f"{result['seconds'] / 60:.1f} min, judged the last {result['judged_s'] / 60:.1f} min; "
-        f"flat: grown by at most {GROWTH_MB:g} MB, {GROWTH_FILES:g} files or threads",
+        f"flat: grown by at most {LIMITS['memory_MB']:g} MB, {LIMITS['files']:g} files or threads",
         "",
         "| process | memory first, last, grown | files first, last | threads | flat |",
         "|---|---|---|---|---|",
     ]
     for name, entry in result["processes"].items():
-        memory, files, tasks = (entry[quantity] for quantity in QUANTITIES)
+        memory, files, tasks = (entry[quantity] for quantity in LIMITS)
         flat = all(q["flat"] for q in (memory, files, tasks))
         verdict = ("yes" if flat else "NO") if entry["judged"] else "not judged"
         lines.append(

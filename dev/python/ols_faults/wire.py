@@ -62,7 +62,6 @@ class Ear:
 
     def __init__(self, url: str, handler: Callable[[str, Any, int], None]):
         self.lcm = lcm.LCM(url)  # to publish: without a subscription it never listens
-        self.undecodable = 0
         self.stops_us: dict[str, list[int]] = {}  # by station: when a STOP was heard
         self._handler = handler
         self._queue: queue.SimpleQueue = queue.SimpleQueue()
@@ -116,7 +115,6 @@ class Ear:
             name = channel.decode()
             message = decode(name, payload)
         except (ValueError, struct.error):  # any program can send anything on any channel
-            self.undecodable += 1
             return
         if message is not None:
             self._handler(name, message, at_us)

@@ -1,15 +1,15 @@
 """tools/console-screenshot: the console's page in a browser, with the demo's site behind it."""
 
 import argparse
-import os
 import subprocess
 import sys
 import time
 from pathlib import Path
 
+from console_site import browser
 from ols_demo.site import Site, SiteError, bring_up_loopback
 from ols_demo.wiring import Wiring
-from playwright.sync_api import Page, expect, sync_playwright
+from playwright.sync_api import Page, expect
 
 ROOT = Path(__file__).resolve().parents[3]
 TRAIL_S = 25.0  # until the trail is long enough to see
@@ -63,18 +63,11 @@ def main() -> int:
     demo = start_demo(options, folder)
     try:
         wait_until_tracking(demo)
-        with Site(folder / "console-logs") as site, sync_playwright() as playwright:
+        with Site(folder / "console-logs") as site, browser() as chromium:
             address = wiring.start_console(site)
-            browser = playwright.chromium.launch(
-                executable_path="/usr/bin/chromium-headless-shell",
-                args=["--no-sandbox"] if os.geteuid() == 0 else [],
-            )
             scheme = "dark" if options.theme == "night" else "light"
-            page = browser.new_page(
-                viewport={"width": width, "height": height}, color_scheme=scheme
-            )
-            take(page, address, options.file)
-            browser.close()
+            size = {"width": width, "height": height}
+            take(chromium.new_page(viewport=size, color_scheme=scheme), address, options.file)
     except SiteError as error:
         print(f"tools/console-screenshot: {error}", file=sys.stderr)
         return 1

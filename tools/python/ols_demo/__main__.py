@@ -18,29 +18,19 @@ from ols_demo.live import Screen, at_work
 from ols_demo.observer import Observer
 from ols_demo.operator import Operator
 from ols_demo.site import Site, SiteError, bring_up_loopback
-from ols_demo.wiring import Wiring
+from ols_demo.wiring import Wiring, add_site_options
 
 DESIGNATION_S = 60.0
 
 
 def arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog="tools/demo", description=__doc__)
-    root = Path(__file__).resolve().parents[3]
     parser.add_argument("--seconds", type=float, default=60.0, help="to run after designation [s]")
     parser.add_argument(
         "--headless", action="store_true", help="neither console nor live picture in the terminal"
     )
     parser.add_argument("--report", type=Path, help="JSON file; a plot is written beside it")
-    parser.add_argument(
-        "--scenario", type=Path, default=root / "sim/scenarios/overview.toml", help="TOML file"
-    )
-    parser.add_argument("--seed", type=int, default=1, help="of the simulated errors")
-    parser.add_argument(
-        "--output", type=Path, default=root / "out/demo", help="folder for log, configuration, plot"
-    )
-    parser.add_argument(
-        "--bin", type=Path, default=root / "build/release/bin", help="folder of the programs"
-    )
+    add_site_options(parser, "overview", "demo")
     parser.add_argument(
         "--patience", type=float, default=DESIGNATION_S, help="until all stations track [s]"
     )

@@ -1,5 +1,6 @@
 """Which processes make a site, and with which configuration."""
 
+import argparse
 import os
 import re
 import shutil
@@ -12,6 +13,16 @@ from ols_demo.keys import make_keys
 from ols_demo.site import Site, SiteError
 
 GPSD = shutil.which("gpsd", path=os.environ["PATH"] + ":/usr/sbin")
+
+
+def add_site_options(parser: argparse.ArgumentParser, scenario: str, output: str) -> None:
+    """What every program that runs a simulated site is asked for."""
+    root = Path(__file__).resolve().parents[3]
+    file = root / f"sim/scenarios/{scenario}.toml"
+    parser.add_argument("--scenario", type=Path, default=file, help="TOML file")
+    parser.add_argument("--seed", type=int, default=1, help="of the simulated errors")
+    parser.add_argument("--output", type=Path, default=root / "out" / output, help="folder")
+    parser.add_argument("--bin", type=Path, default=root / "build/release/bin", help="programs")
 
 
 class Wiring:
