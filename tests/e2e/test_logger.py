@@ -1,5 +1,6 @@
 """The site's logger: quota, full and read-only disks, files taken away, forged datagrams, end."""
 
+import gzip
 import json
 import os
 import shutil
@@ -293,6 +294,17 @@ def test_a_log_is_verified_after_a_later_revocation(flight, tmp_path):
     done = ols_key("verify", log, folder=tmp_path)
     assert done.returncode == 0, done.stdout + done.stderr
     assert "20 good" in done.stdout
+    damaged, content = tmp_path / "damaged.lcmlog", log.read_bytes()
+    for kept, status, said in (
+        (content[:-7], 1, "the end is cut off"),
+        (b"noise" + content, 1, "5 bytes of the log are damaged, the first is byte 0"),
+        (gzip.compress(content), 2, "is compressed (gzip)"),
+        (b"nothing of the kind " * 9, 2, "is no LCM log: from byte 0"),
+    ):
+        damaged.write_bytes(kept)
+        done = ols_key("verify", damaged, folder=tmp_path)
+        assert done.returncode == status, said
+        assert said in done.stdout + done.stderr
 
 
 def ols_key(*words, folder):
