@@ -15,12 +15,12 @@ struct ChronyTracking {
   double root_delay_s = 0.0, root_dispersion_s = 0.0;
   int leap_s = 0;  // announced: +1 inserted, -1 deleted
 
-  // 1-sigma. chrony's manual states the bound |offset| + root dispersion + root delay / 2, which is
+  // 1-sigma. chrony's manual states the bound |offset| + root dispersion + root delay / 2. It is
   // taken as the half-width of a uniform distribution.
   double error_s() const;
 };
 
-// Nothing for any other line (without chronyd: "506 Cannot talk to daemon").
+// nullopt for any other line (without chronyd: "506 Cannot talk to daemon").
 std::optional<ChronyTracking> parse_chrony_tracking(std::string_view line);
 
 }  // namespace ols::clock

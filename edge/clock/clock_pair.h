@@ -1,4 +1,4 @@
-// Both clocks at one instant.
+// UTC and the monotonic clock at one instant.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,8 @@ struct ClockPair {
   std::int64_t utime_us = 0;
 };
 
-// Reads again if the process was interrupted between the two, which would look like a step.
+// Reads again if the process was interrupted between the two readings, which would look like a
+// step.
 ClockPair read_clock_pair();
 
 }  // namespace ols::clock

@@ -2,7 +2,8 @@
 //
 // chrony has precedence: without `rtcsync` it does not set the kernel's flag. Without chrony the
 // kernel's flag counts, which systemd-timesyncd, ntpd and ptp4l/phc2sys maintain. A service that
-// ran since boot leaves traces in the kernel: a frequency correction, an error estimate, an active
+// has run since boot leaves traces in the kernel: a frequency correction, an error estimate, an
+// active phase-locked loop.
 // phase-locked loop.
 #pragma once
 
@@ -13,17 +14,17 @@
 
 namespace ols::clock {
 
-// Of struct timex (adjtimex(2)).
+// From struct timex (adjtimex(2)).
 struct KernelClock {
   bool synchronised = false;                             // neither STA_UNSYNC nor TIME_ERROR
   bool loop = false;                                     // STA_PLL or STA_FLL
   double frequency = 0.0;                                // correction, parts of one
-  std::optional<double> estimated_error_s, max_error_s;  // nothing: 16 s, "not known"
+  std::optional<double> estimated_error_s, max_error_s;  // nullopt: 16 s, "not known"
   int leap_s = 0;
-  int tai_minus_utc_s = 0;  // 0: not known
+  int tai_minus_utc_s = 0;  // 0: unknown
 };
 
-// `service_seen`: in an earlier reading of this boot.
+// `service_seen`: an earlier reading of this boot showed a service.
 ClockReading make_clock_reading(const KernelClock& kernel,
                                 const std::optional<ChronyTracking>& chrony, bool service_seen);
 

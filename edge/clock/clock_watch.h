@@ -1,13 +1,16 @@
-// How good the station's UTC is. Pure: kernel and chrony are read by edge/clock/clock_source.h.
+// The accuracy of the station's UTC. Pure: edge/clock/clock_source.h reads kernel and chrony.
 //
 //   synchronised    a time service states so; the error is the service's own estimate
-//   unsynchronised  a time service has run since boot, but it is not (or no longer) synchronised or
-//                   has been silent for a while: the error grows from the last good one by the
-//                   drift of a free-running clock; or the clock was stepped and no service has
-//                   confirmed the new time
+//   unsynchronised  a time service has run since boot, but is not (or no longer) synchronised, or
+//   has
+//                   been silent for a while: the error grows from the last good one by the drift of
+//                   a
+//                   free-running clock. Also: the clock was stepped, and no service has confirmed
+//                   the
+//                   new time
 //   unknown         no trace of a time service since boot: the clock was set by hand, accurately or
-//   not.
-//                   The error is the one assumed by the configuration; the fusion compares stations
+//                   not. The error is the one assumed by the configuration; the fusion compares
+//                   stations
 //
 // A step is a jump of CLOCK_REALTIME against CLOCK_MONOTONIC. Slewing by the service (slow) and an
 // announced leap second are not steps. A suspend looks like a step and is treated as one: the time
@@ -24,16 +27,16 @@ namespace ols::clock {
 
 enum class ClockState { kUnknown, kSynchronised, kUnsynchronised };
 
-// The state of the kernel (ntp_adjtime) and of chrony at one moment.
+// The state of the kernel (ntp_adjtime) and of chrony at one instant.
 struct ClockReading {
   double monotonic_s = 0.0;
   std::int64_t utime_us = 0;  // the same instant by CLOCK_REALTIME
   bool service = false;       // a time service disciplines the clock, or did since boot
   bool synchronised = false;
-  std::optional<double> estimated_error_s;  // 1-sigma as the service states it
+  std::optional<double> estimated_error_s;  // 1-sigma, stated by the service
   std::optional<double> offset_s;           // chrony: system clock minus NTP time
   std::string source;                       // "chrony: PPS", "kernel"; empty: none
-  // UTC of the service's last measurement; a change means a new one.
+  // UTC of the service's last measurement. A change means a new measurement.
   std::optional<double> measured_utc_s;
   int leap_s = 0;                      // announced for the end of this day: +1, -1
   std::optional<int> tai_minus_utc_s;  // as the kernel states it
@@ -44,8 +47,8 @@ struct ClockQuality {
   double error_s = 0.0;     // 1-sigma of UTC
   std::uint64_t steps = 0;  // of CLOCK_REALTIME against CLOCK_MONOTONIC
   double last_step_s = 0.0;
-  std::string text;   // for people
-  std::string alarm;  // a condition that holds now: "clock: stepped by ..."; empty: none
+  std::string text;                    // for people
+  std::string alarm;                   // a current condition: "clock: stepped by ..."; empty: none
   std::optional<double> offset_s;      // of the last reading
   std::optional<int> tai_minus_utc_s;  // of the last reading
 };
@@ -54,23 +57,23 @@ class ClockWatch {
  public:
   struct Config {
     double assumed_sd_s = 1e-3;  // of a clock of unknown quality
-    double distrust_s = 60.0;    // after a step without a service that confirms the new time
-    double drift_per_s = 2e-5;   // of a free-running clock: the error grows
+    double distrust_s = 60.0;    // after a step that no service confirms
+    double drift_per_s = 2e-5;   // of a free-running clock: growth of the error
   };
   explicit ClockWatch(const Config& config) : config_(config) {}
 
   // Call in every cycle of the control loop, so that no frame is stamped across a step. Both clocks
   // must be read at one instant, as edge/clock/clock_pair.h does.
   void tick(double monotonic_s, std::int64_t utime_us);
-  // Call from time to time with a reading of the time service.
+  // Call from time to time, with a reading of the time service.
   void add(const ClockReading& reading);
 
   ClockQuality quality(double monotonic_s) const;
 
  private:
   struct Step {
-    double time_s;                         // of the last one that is not confirmed
-    double sum_s;                          // of all that are not confirmed
+    double time_s;                         // time of the last unconfirmed step
+    double sum_s;                          // sum of all unconfirmed steps
     std::optional<double> measured_utc_s;  // the service's last measurement before the first
   };
   // The last reading of a synchronised service.
@@ -88,7 +91,7 @@ class ClockWatch {
   double tick_s_ = 0.0;
   std::optional<ClockReading> reading_;
   std::optional<Good> good_;
-  std::optional<Step> step_;  // not confirmed
+  std::optional<Step> step_;  // unconfirmed steps
   double last_step_s_ = 0.0;
   std::uint64_t steps_ = 0;
 };

@@ -1,5 +1,5 @@
-// Compares views of the same scenery with those stored at the calibration: whether the tripod has
-// turned since, an axis has lost steps, or something else has moved. Pure.
+// Compares views of the scenery with those stored at the calibration: whether the tripod has
+// turned, an axis has lost steps, or something else has moved. Pure.
 #pragma once
 
 #include <cstddef>
@@ -10,40 +10,40 @@
 
 namespace ols::station {
 
-// One reference view: by how much the camera's direction has turned against the stored picture.
+// One reference view: the turn of the camera's direction against the stored picture.
 struct ViewOffset {
   PanTilt shafts;                       // of the view
   double left_rad = 0.0, up_rad = 0.0;  // on the tangent plane
-  double sd_rad = 0.0;                  // of each of the two
+  double sd_rad = 0.0;                  // of each component
 };
 
 enum class DriftCause {
   kNone,       // nothing beyond the views' own deviations
-  kTripod,     // all views turned as one
+  kTripod,     // all views turned as one body
   kScene,      // one view differs, the others do not
-  kLostSteps,  // an axis counts multiples of a motor's step beside where it stands
+  kLostSteps,  // an axis is off its counts by a multiple of a motor step
   kUnclear,    // the views agree on nothing
 };
 
 struct DriftFinding {
   DriftCause cause = DriftCause::kNone;
-  // The tripod's turn that explains the views best, in each case but kUnclear. Of kLostSteps at
-  // least what they amount to: heading for the pan, tilt for the tilt.
+  // The turn of the tripod that explains the views best, except for kUnclear. For kLostSteps, at
+  // least what the steps amount to: heading for the pan axis, tilt for the tilt axis.
   double heading_rad = 0.0;  // clockwise, as a heading
   double tilt_rad = 0.0;     // of the vertical, whatever its direction
   double heading_sd_rad = 0.0, tilt_sd_rad = 0.0;
-  std::size_t view = 0;  // kScene: which one
+  std::size_t view = 0;  // kScene: the view
   bool pan = false;  // kLostSteps: the axis, and how many steps its shaft is ahead of the counts
   int steps = 0;
 };
 
-// What an axis loses at once: a full step of its motor, at the shaft.
+// The unit of lost steps: a full step of the motor, at the shaft.
 struct MotorSteps {
   double pan_rad = 0.0, tilt_rad = 0.0;
 };
 MotorSteps motor_steps(const StationModel& model);
 
-// Three views or four, in different directions: fewer give kUnclear.
+// Needs three or four views in different directions; fewer give kUnclear.
 DriftFinding find_drift(const std::vector<ViewOffset>& views, const MotorSteps& steps);
 
 }  // namespace ols::station

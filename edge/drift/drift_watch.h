@@ -1,4 +1,4 @@
-// A station's drift, from check to check: a finding counts once a second check confirms it, and is
+// A station's drift, from check to check. A finding counts once a second check confirms it, and is
 // never used as a correction. Pure.
 #pragma once
 
@@ -17,26 +17,26 @@ class DriftWatch {
     double amber_rad = 20.0 * 3.14159265358979323846 / 648000.0;
     double red_rad = 40.0 * 3.14159265358979323846 / 648000.0;
   };
-  // `calibration_id`: of the calibration that the stored views belong to.
+  // `calibration_id`: of the calibration of the stored views.
   DriftWatch(const Config& config, std::int64_t calibration_id)
       : config_(config), calibration_id_(calibration_id) {}
 
-  // The result of a check. True: look again at once, before anything is said.
+  // Takes the result of a check. True: check again at once, before anything is reported.
   bool add(const DriftFinding& finding);
 
   DriftLevel level() const { return level_; }
-  // The views agreed on nothing: by how much it has turned is not known.
+  // The views agreed on nothing: the turn is unknown.
   bool is_unclear() const { return finding_.cause == DriftCause::kUnclear; }
-  // What bearings must allow for, 1-sigma; zero without an alarm.
+  // The 1-sigma that bearings must add; zero without an alarm.
   double heading_doubt_rad() const;
   double tilt_doubt_rad() const;
-  // Incremented when these have changed.
+  // Incremented at each change of the doubt.
   int revision() const { return revision_; }
-  // In words, with what to do; empty: nothing.
+  // In words, with what to do; empty: none.
   std::string alarm() const;
 
-  // One line, for a file; restore() takes it back if it is of the same calibration, and returns
-  // false for a line that it cannot read.
+  // One line for a file. restore() loads it if it is of the same calibration, and returns false for
+  // a line that it cannot read.
   std::string to_text() const;
   bool restore(const std::string& text);
 
@@ -49,9 +49,9 @@ class DriftWatch {
   Config config_;
   std::int64_t calibration_id_;
   DriftLevel level_ = DriftLevel::kNone;
-  DriftFinding finding_;  // that of level_
+  DriftFinding finding_;  // the finding of level_
   bool suspected_ = false;
-  int quiet_ = 0;  // checks in a row
+  int quiet_ = 0;  // consecutive checks without a finding
   int revision_ = 0;
 };
 

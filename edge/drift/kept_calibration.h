@@ -1,4 +1,4 @@
-// The calibration of a running station, and whether the station still stands as it did then.
+// The calibration of a running station, and whether the station has stayed in place since.
 #pragma once
 
 #include <cstdint>
@@ -18,28 +18,29 @@ namespace ols::station {
 
 class KeptCalibration {
  public:
-  using UtcNow = std::function<std::int64_t()>;  // [us]: where the sun stands
+  using UtcNow = std::function<std::int64_t()>;  // [us]: for the position of the sun
   explicit KeptCalibration(const StationSettings& configured, UtcNow now = clock_utime_us);
 
   const StationSettings& settings() const { return in_use_.settings(); }
-  // True if the calibration is of other devices and was dropped just now: settings() are others.
+  // True if the calibration belongs to other devices and was dropped just now: settings() has
+  // changed.
   bool refuses(const std::vector<device::DeviceReport>& devices);
-  // The same for what the unit says that a count is [rad].
+  // The same for the size of a count [rad] that the unit reports.
   bool refuses(const PanTilt& count_rad);
 
-  // True if another calibration, accepted meanwhile, was taken up just now: settings() are others.
-  // `idle`: no target, operator or slew would feel the jump.
+  // True if a newly accepted calibration was adopted just now: settings() has changed. `idle`: no
+  // target, operator or slew would notice the jump.
   bool adopts(double now_s, bool idle, const std::vector<device::DeviceReport>& devices,
               const PanTilt& count_rad);
 
   void set_limits(const ptu::PtuLimits& limits);
-  // In every turn: the goal of a check of the reference views, while the station is free.
+  // Call in every turn. The goal of a check of the reference views, while the station is free.
   std::optional<ptu::ServoGoal> step(const ViewTour::Situation& situation);
   void see(const camera::Frame& frame);
-  // A check soon: the unit has homed.
+  // Requests a check soon: the unit has homed.
   void note_homings(std::uint64_t homings);
 
-  // What bearings must allow for from now on; empty: as before.
+  // What bearings must add from now on; empty: no change.
   struct Doubt {
     double heading_rad = 0.0, tilt_rad = 0.0;
   };
@@ -53,7 +54,8 @@ class KeptCalibration {
   void begin();
 
   UtcNow now_;
-  NextCalibration next_;  // first: what changes while the folder is read is another one
+  NextCalibration next_;  // first, because a change while the folder is read counts as another
+                          // calibration
   CalibrationInUse in_use_;
   std::unique_ptr<ReferenceViews> views_;  // null: no calibration in use, or no checks configured
   int doubt_revision_ = 0;

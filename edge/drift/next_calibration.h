@@ -1,5 +1,5 @@
-// A calibration that was accepted while the station runs: noticed by the configured folder, which
-// is a link to another one then, and read in a thread of its own.
+// Notices a calibration that was accepted while the station runs: the configured folder is then a
+// link to another one. Reads it in its own thread.
 #pragma once
 
 #include <future>
@@ -13,16 +13,16 @@ namespace ols::station {
 
 class NextCalibration {
  public:
-  // `configured`: as the configuration file has it. What the folder is at this moment counts as
-  // read.
+  // `configured`: as in the configuration file. The folder's present content counts as read.
   explicit NextCalibration(const StationSettings& configured);
 
-  // In every turn: looks at the folder once a second.
+  // Call in every turn. Looks at the folder once a second.
   void look(double now_s);
-  // Read, whole, of this station and of its serial numbers; null: none waits.
+  // A calibration that was read completely, of this station and its serial numbers; null: none
+  // waits.
   const CalibrationFiles* waiting() const { return files_.get(); }
   void forget() { files_.reset(); }
-  // Marks it as unusable until another one is accepted.
+  // Marks the calibration as unusable until another one is accepted.
   void refuse(const std::string& why);
   std::string alarm() const;
 
@@ -31,7 +31,7 @@ class NextCalibration {
   void take_read();
 
   StationSettings configured_;
-  std::string seen_;  // which folder, and when it was written
+  std::string seen_;  // which folder, and its time of writing
   std::string refused_;
   std::future<Read> reading_;
   Read files_;

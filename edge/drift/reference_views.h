@@ -1,5 +1,5 @@
-// The stored pictures of a calibrated station's reference views, and what checks against them
-// found. Files, and a thread for pictures: a turn of the control loop waits for neither.
+// The stored pictures of a calibrated station's reference views, and the results of checks against
+// them. Files and pictures have their own thread: a turn of the control loop never waits.
 #pragma once
 
 #include <cstdint>
@@ -28,32 +28,32 @@ class ReferenceViews {
     std::int64_t calibration_id = 0;
     ViewTour::Config tour;
     DriftWatch::Config drift;
-    // Whether the sun stands there (reported angles), if the tripod may have turned by this [rad]
-    // since it was calibrated. Empty: it stands nowhere.
+    // Whether the sun is there (reported angles), if the tripod may have turned by this angle [rad]
+    // since its calibration. Empty: there is no sun.
     std::function<bool(const PanTilt&, double)> sun;
   };
   ReferenceViews(const Config& config, const StationCalibration& calibration);
-  ReferenceViews(const ReferenceViews&) = delete;  // its tour asks it where the sun stands
+  ReferenceViews(const ReferenceViews&) = delete;  // its tour asks it for the sun
 
-  // The unit's travel, once it is known. Begins to read the stored pictures.
+  // Sets the unit's travel, once it is known. Starts to read the stored pictures.
   void set_limits(const ptu::PtuLimits& limits);
   void request() { tour_.request(); }
   std::optional<ptu::ServoGoal> step(const ViewTour::Situation& situation);
   void see(const camera::Frame& frame);
 
-  // The stored pictures are read; asked in every turn.
+  // Whether the stored pictures are read; call in every turn.
   bool loaded();
   const DriftWatch& watch() const { return watch_; }
   bool stored() const { return stored_ == views(); }
   std::uint64_t checks() const { return tally_.checks; }
-  // Views in which the stored picture was not recognised: night, fog, another scene.
+  // Number of views in which the stored picture was not recognised: night, fog, another scene.
   std::uint64_t unrecognised() const { return tally_.unrecognised; }
-  // Views that rounds have left out because of the sun.
+  // Number of views that rounds have left out because of the sun.
   std::uint64_t left_out() const { return tally_.left_out; }
   std::vector<std::string> alarms() const;
 
  private:
-  // What a picture gave: an offset, or where none was stored itself, if it can serve.
+  // The result of a picture: an offset, or, if none was stored, whether it can be stored.
   struct Seen {
     std::optional<ViewOffset> offset;
     cv::Mat picture;
@@ -78,16 +78,16 @@ class ReferenceViews {
   ViewTour tour_;
   DriftWatch watch_;
   BackgroundFile file_;
-  std::vector<cv::Mat> pictures_;              // by view; empty: not stored yet
-  std::future<std::vector<cv::Mat>> loading_;  // the same, from files
+  std::vector<cv::Mat> pictures_;              // by view; empty: none stored yet
+  std::future<std::vector<cv::Mat>> loading_;  // the same, being read from files
   std::size_t stored_ = 0;
   CheckRecord record_;
   std::vector<Look> looks_;
   std::string unreadable_;
   Tally tally_;
   bool judged_ = true;
-  bool astray_ = false;           // the last round did not recognise what it had stored
-  std::optional<PanTilt> count_;  // once the views are planned
+  bool astray_ = false;           // the last round did not recognise its stored pictures
+  std::optional<PanTilt> count_;  // set once the views are planned
 };
 
 }  // namespace ols::station

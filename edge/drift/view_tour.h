@@ -1,5 +1,5 @@
-// The round over a station's reference views: when the station is free, the unit goes from one to
-// the next, always from the same side, and stands while a picture is taken. Pure.
+// The round over a station's reference views. While the station is free, the unit goes from view to
+// view, always from the same side, and stops while a picture is taken. Pure.
 #pragma once
 
 #include <cstddef>
@@ -15,42 +15,42 @@ namespace ols::station {
 class ViewTour {
  public:
   struct Config {
-    // Of idleness, from one check to the next; infinite: only on request.
+    // Idle time from one check to the next; infinite: only on request.
     double interval_s = std::numeric_limits<double>::infinity();
-    double settle_s = 1.0;  // it stands so long before mid-exposure
-    double leg_s = 40.0;    // a view that takes longer is out of reach: the round is given up
-    // Whether the unit must not look there now (reported angles): the sun stands there. Such a view
-    // is left out of the round; when it may be looked at again, a round is made. Empty: it may look
-    // everywhere.
+    double settle_s = 1.0;  // rest before mid-exposure
+    double leg_s = 40.0;    // a view that takes longer is unreachable: the round is given up
+    // Whether the unit must not look there now (reported angles) because of the sun. The round
+    // leaves such a view out. When it may be looked at again, another round follows. Empty: it may
+    // look everywhere.
     std::function<bool(const PanTilt&)> forbidden;
   };
   struct Situation {
     double now_s = 0.0;
     // No target, no operator, no slew, no stop, and a trusted reference. Otherwise the round ends
-    // at once, and begins anew when the station has been free for a while.
+    // at once. It begins anew when the station has been free for a while.
     bool free = false;
     std::optional<PanTilt> at;  // reported angles
   };
 
   explicit ViewTour(const Config& config) : config_(config) {}
 
-  // The views that this travel allows: four a quarter turn apart, or closer, or fewer than three
-  // (then no round is made). `count`: of the unit [rad].
+  // Plans the views that this travel allows: four a quarter turn apart, or closer; with fewer than
+  // three, no round is made. `count`: of the unit [rad].
   void plan(const ptu::PtuLimits& limits, const PanTilt& count);
   const std::vector<PanTilt>& views() const { return views_; }  // reported angles
-  // A check soon: after homing, on request, to confirm a finding.
+  // Requests a check soon: after homing, by command, or to confirm a finding.
   void request() { requested_ = true; }
-  // All views have been seen but those left out; asked once.
+  // True once when all views, except those left out, have been seen.
   bool take_finished();
-  // Of the last round that was finished.
+  // Of the last finished round.
   const std::vector<std::size_t>& left_out() const { return left_out_; }
-  // Rounds in a row that were given up because the unit did not come to a view in time.
+  // Consecutive rounds given up because the unit did not reach a view in time.
   int late() const { return late_; }
   bool under_way() const { return view_.has_value(); }
 
-  // In every turn. The unit's goal; empty: none of this round.
+  // Call in every turn. The unit's goal; nullopt: no round.
   std::optional<ptu::ServoGoal> step(const Situation& situation);
-  // The view that a frame of this mid-exposure is of; empty: of none, or not needed.
+  // The view of a frame with this mid-exposure; nullopt: none, or not needed.
   std::optional<std::size_t> see(double mid_exposure_s);
 
  private:
@@ -67,13 +67,14 @@ class ViewTour {
   PanTilt count_;
   bool requested_ = false, finished_ = false;
   std::optional<double> free_since_s_;
-  std::optional<double> ended_s_;    // the last round
-  std::optional<std::size_t> view_;  // under way
-  bool from_start_ = false;          // it has been where the view is approached from
+  std::optional<double> ended_s_;    // end of the last round
+  std::optional<std::size_t> view_;  // the current view
+  bool from_start_ = false;          // the unit has been at the point from which the view is
+                                     // approached
   std::optional<double> stands_since_s_;
   double leg_since_s_ = 0.0;
   int late_ = 0;
-  std::vector<std::size_t> left_out_, leaving_out_;  // of the last round; of the one under way
+  std::vector<std::size_t> left_out_, leaving_out_;  // of the last round; of the current one
   double looks_again_s_ = 0.0;
 };
 

@@ -1,8 +1,8 @@
 // The station's GPIO: a status LED, the inputs of emergency stop and re-arming, an optional camera
 // trigger. A thread waits for the edges. gpio_lines.h hides libgpiod.
 //
-// The emergency stop in software only assists a hardware stop that takes the power off the motors;
-// docs/field-guide.md says so.
+// The emergency stop in software only assists a hardware stop that cuts the power of the motors
+// (docs/field-guide.md).
 #pragma once
 
 #include <functional>
@@ -22,17 +22,17 @@ struct GpioConfig {
                        // process; empty: no GPIO
   int led_line = -1;   // -1: none
   int stop_line = -1;  // emergency stop; normally closed: a broken wire is a stop
-  // Whether the contact opens to a high level (it closes to ground, the line is pulled up) or to a
-  // low one (it closes to the supply, the line is pulled down).
+  // The level of the opened contact. False: high (it closes to ground, and the line is pulled up).
+  // True: low (it closes to the supply, and the line is pulled down).
   bool stop_active_low = false;
-  double stop_release_s = 0.05;  // a release counts when stable for so long; a press at once
+  double stop_release_s = 0.05;  // a release counts after this stable time; a press at once
   // The button at the station that re-arms it after an emergency stop; normally open.
   int rearm_line = -1;            // -1: none
-  bool rearm_active_low = true;   // it closes to ground (pulled up); false: to the supply
-  double rearm_hold_s = 1.0;      // it must be seen open, and then be held this long
-  bool rearm_over_bus = false;    // any program on the bus may re-arm it, too
-  int trigger_line = -1;          // camera trigger, one pulse a frame
-  double trigger_pulse_s = 1e-3;  // its length
+  bool rearm_active_low = true;   // closes to ground (pulled up); false: to the supply
+  double rearm_hold_s = 1.0;      // the button must be seen open, and then be held this long
+  bool rearm_over_bus = false;    // any program on the bus may re-arm the station, too
+  int trigger_line = -1;          // camera trigger, one pulse per frame
+  double trigger_pulse_s = 1e-3;  // length of the pulse
 
   bool has_stop() const { return !chip.empty() && stop_line >= 0; }
 };
@@ -41,19 +41,19 @@ config::Section gpio_section(GpioConfig& config);  // [gpio]
 
 class Gpio {
  public:
-  // `on_stop(pressed)` is called from Gpio's thread at every edge of the emergency stop and once
-  // for its first level; with a stop_line, missing or unreadable lines count as pressed.
-  // `on_rearm()` is called each time that the button was held while the stop is not pressed.
+  // `on_stop(pressed)` is called from Gpio's thread at every edge of the emergency stop, and once
+  // for its first level. With a stop_line, missing or unreadable lines count as pressed.
+  // `on_rearm()` is called each time the button was held while the stop is not pressed.
   Gpio(const GpioConfig& config, std::function<void(bool pressed)> on_stop,
        std::function<void()> on_rearm = {});
   ~Gpio();
   Gpio(const Gpio&) = delete;
   Gpio& operator=(const Gpio&) = delete;
 
-  // These may be called from any thread; none waits for the device.
+  // Call from any thread; none of these waits for the device.
   void show(LedPattern pattern);
   void trigger();  // a pulse on trigger_line
-  // True also as long as the first level is not known; false without a stop_line.
+  // True also while the first level is unknown. False without a stop_line.
   bool stop_pressed() const;
   device::DeviceReport report() const;
 

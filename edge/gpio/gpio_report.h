@@ -1,4 +1,4 @@
-// How the GPIO is, in the words of the status message. Pure.
+// The GPIO's state in the words of the status message. Pure.
 #pragma once
 
 #include <cstdint>
@@ -10,17 +10,17 @@
 
 namespace ols::gpio {
 
-// What the GPIO's thread knows.
+// The state known to the GPIO's thread.
 struct GpioFacts {
   bool open = false;
-  bool readable = false;          // a level has come since the lines were opened
-  std::optional<bool> pressed{};  // the emergency stop, as last called back
+  bool readable = false;          // a level was read since the lines were opened
+  std::optional<bool> pressed{};  // the emergency stop, as in the last callback
   std::optional<double> last_good_s{};
   std::string error{};
   std::uint64_t failures = 0, presses = 0, rearms = 0, triggers = 0;
 };
 
-// True also as long as the first level is not known; false without a stop_line.
+// True also while the first level is unknown. False without a stop_line.
 bool stop_pressed(const GpioConfig& config, const GpioFacts& facts);
 
 device::DeviceReport make_gpio_report(const GpioConfig& config, const GpioFacts& facts);

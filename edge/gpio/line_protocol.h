@@ -1,5 +1,4 @@
-// Parses the messages of a server of GPIO lines, byte by byte (gpio_lines.h has the protocol).
-// Pure.
+// Parses the messages of a server of GPIO lines, byte by byte (protocol: gpio_lines.h). Pure.
 #pragma once
 
 #include <cstddef>
@@ -22,8 +21,8 @@ class LineProtocol {
   // The lines of interest; levels of other lines are ignored.
   explicit LineProtocol(std::vector<int> inputs) : inputs_(std::move(inputs)) {}
 
-  // The levels that these bytes complete, oldest first; nothing if a message is not a level, which
-  // ends the connection and the use of this object.
+  // The levels that these bytes complete, oldest first. nullopt if a message is no level; the
+  // connection, and the use of this object, then ends.
   std::optional<std::vector<Level>> receive(std::string_view bytes);
 
  private:

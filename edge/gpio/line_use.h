@@ -1,4 +1,4 @@
-// Which lines a station's GPIO uses, and how its inputs are biased.
+// The lines of a station's GPIO, and the biases of its inputs.
 #pragma once
 
 #include "edge/gpio/gpio.h"
@@ -6,10 +6,10 @@
 
 namespace ols::gpio {
 
-// The emergency stop's line, which the configuration must have. Biased towards "pressed": a broken
-// wire then reads as an open contact.
+// The emergency stop's line, which must be configured. Biased towards "pressed": a broken wire then
+// reads as an open contact.
 LineInput stop_input_line(const GpioConfig& config);
-// All lines that are configured.
+// All configured lines.
 LineUse line_use(const GpioConfig& config);
 
 }  // namespace ols::gpio

@@ -1,5 +1,5 @@
-// The button that re-arms a station after an emergency stop: it must be seen open, and then be held
-// for a while, so that neither a stuck button nor a broken wire nor a passing touch does it. Pure.
+// The button that re-arms a station after an emergency stop. It must be seen open, and then be held
+// for a while: neither a stuck button nor a broken wire nor a brief touch re-arms. Pure.
 #pragma once
 
 #include <optional>
@@ -10,19 +10,19 @@ class RearmInput {
  public:
   explicit RearmInput(double hold_s) : hold_s_(hold_s) {}
 
-  // A level of the line with the time of the edge. In time order.
+  // Takes a level of the line with the time of its edge, in order of time.
   void level(bool closed, double time_s);
-  // The line cannot be read, or the stop was pressed: the time held so far does not count.
+  // The line cannot be read, or the stop was pressed: the time held so far is void.
   void interrupted();
-  // True once each time that it was held long enough.
+  // True once each time the button was held long enough.
   bool take(double now_s);
-  // When take() becomes true without another edge; nothing if it does not.
+  // When take() becomes true without another edge; nullopt: not.
   std::optional<double> due_s() const;
 
  private:
   double hold_s_;
-  bool seen_open_ = false;  // since the start, an interruption, or the last time it was held
-  std::optional<double> closed_s_;  // since when it is held
+  bool seen_open_ = false;          // since the start, an interruption, or the last re-arming
+  std::optional<double> closed_s_;  // since when the button is held
 };
 
 }  // namespace ols::gpio

@@ -1,5 +1,5 @@
-// Drives a lens over VISCA: one request at a time on the line, orders before questions. Pure: bytes
-// and time in, bytes and zoom samples out; edge/lens/lens_motor.* puts it on a serial port.
+// Drives a lens over VISCA: one request at a time, orders before questions. Pure: bytes and time
+// in, bytes and zoom samples out. edge/lens/lens_motor.* puts it on a serial port.
 #pragma once
 
 #include <deque>
@@ -17,27 +17,27 @@ class LensDriver {
  public:
   explicit LensDriver(double poll_interval_s) : poll_interval_s_(poll_interval_s) {}
 
-  // Bytes that had arrived at this instant of the monotonic clock.
+  // Takes bytes that had arrived at this instant of the monotonic clock.
   void receive(std::string_view bytes, double time_s);
-  // Advances time: what to write now, often nothing. Call it every few milliseconds.
+  // Advances time, and returns the bytes to write, often none. Call every few milliseconds.
   std::string step(double time_s);
 
-  // The newest order of an axis replaces the one before. A rate ends with its time, whatever
-  // happens to its sender; the position is then where it is.
+  // The newest order of an axis replaces the one before. A rate ends at its time, whatever happens
+  // to its sender; the axis then stays where it is.
   void order(const LensOrder& order);
 
-  // The port was opened again: everything is asked anew, orders are forgotten.
+  // The port was opened again: asks everything again, and forgets the orders.
   void restart();
-  // True once after the lens left so many requests in a row unanswered: open the port again.
+  // True once after the lens left several consecutive requests unanswered: open the port again.
   bool take_link_loss();
 
   std::vector<ZoomSample> take_samples();
   const LensState& state() const { return state_; }
   LensCounters counters() const;
 
-  static constexpr double kReply_s = 0.3;  // an acknowledgement takes a picture's time at most
+  static constexpr double kReply_s = 0.3;  // an acknowledgement takes at most one picture's time
   static constexpr int kSilent = 8;
-  static constexpr double kIrisStep_s = 0.15;  // between two steps, at the highest rate
+  static constexpr double kIrisStep_s = 0.15;  // between two iris steps at the highest rate
 
  private:
   enum class Question { kSetup, kVersion, kPosition, kOrder };
@@ -50,8 +50,8 @@ class LensDriver {
   struct Pending {
     AxisOrder order;
     bool sent = false;
-    double step_s = 0.0;  // the next step of the iris
-    int refusals = 0;     // to stand
+    double step_s = 0.0;  // when the next step of the iris is due
+    int refusals = 0;     // of the order to stop
   };
 
   static bool is_stand(const std::optional<Pending>& pending);
@@ -64,7 +64,7 @@ class LensDriver {
 
   double poll_interval_s_;
   visca::Packets packets_;
-  std::size_t setup_ = 0;  // how many of its steps are done
+  std::size_t setup_ = 0;  // number of completed steps
   std::optional<Request> waiting_;
   ByAxis<std::optional<Pending>> orders_;
   double polled_s_ = -1e9;

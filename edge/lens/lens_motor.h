@@ -1,5 +1,5 @@
-// The motorised lens on its serial line. A thread opens the port and opens it again after a
-// failure; report() states what is wrong; after construction nothing throws.
+// The motorised lens on its serial line. A thread opens the port, and reopens it after a failure.
+// report() states what is wrong. After construction nothing throws.
 #pragma once
 
 #include <memory>
@@ -20,8 +20,8 @@ struct LensMotorConfig {
   std::string device;  // serial device; empty: no motorised lens
   int baud = 9600;
   double poll_interval_s = 0.05;
-  double position_sd = 0.001;     // of a zoom position, its slack included
-  std::vector<ZoomPoint> points;  // of the calibration, by rising position
+  double position_sd = 0.001;     // of a zoom position, slack included
+  std::vector<ZoomPoint> points;  // of the calibration, ascending by position
 };
 
 config::Section lens_motor_section(LensMotorConfig& config);  // [lens_motor]
@@ -33,9 +33,9 @@ class LensMotor {
   LensMotor(const LensMotor&) = delete;
   LensMotor& operator=(const LensMotor&) = delete;
 
-  // From any thread, without waiting.
+  // From any thread; does not wait.
   void order(const LensOrder& order);
-  // Since the last call, oldest first.
+  // Samples since the last call, oldest first.
   std::vector<ZoomSample> take_samples();
   ByAxis<std::optional<double>> positions() const;
   device::DeviceReport report() const;

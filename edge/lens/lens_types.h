@@ -1,6 +1,6 @@
-// What a motorised lens is told and what it says. Positions are shares of the travel: zoom 0 widest
-// .. 1 longest, focus 0 far .. 1 near, iris 0 closed .. 1 open. Rates are shares of the motor's
-// highest speed, -1..1. Pure.
+// Orders to a motorised lens, and its reports. Positions are shares of the travel: zoom 0 widest ..
+// 1 longest, focus 0 far .. 1 near, iris 0 closed .. 1 open. Rates are shares of the motor's
+// maximum speed, -1..1. Pure.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@ namespace ols::lens {
 enum class Axis { kZoom, kFocus, kIris };
 inline constexpr std::array kAxes{Axis::kZoom, Axis::kFocus, Axis::kIris};
 
-// One value for each axis.
+// One value per axis.
 template <class T>
 struct ByAxis {
   T zoom{}, focus{}, iris{};
@@ -32,28 +32,28 @@ struct AxisOrder {
   double until_s = 0.0;
 };
 
-// Orders to the axes that it names; the others go on.
+// Orders to the named axes; the others continue.
 struct LensOrder {
   ByAxis<std::optional<AxisOrder>> axes;
 };
 
-// A zoom position, read between these two instants of the monotonic clock.
+// A zoom position, read at about this instant of the monotonic clock.
 struct ZoomSample {
-  double time_s = 0.0;     // the middle
+  double time_s = 0.0;     // middle of the reading
   double time_sd_s = 0.0;  // 1-sigma
   double position = 0.0;
 };
 
-// Only go up.
+// They only increase.
 struct LensCounters {
   std::uint64_t requests = 0, replies = 0;
   std::uint64_t timeouts = 0;  // requests without an answer in time
-  std::uint64_t refusals = 0;  // errors that the lens has answered
-  std::uint64_t garbled = 0;   // bytes that are no message
+  std::uint64_t refusals = 0;  // requests without a timely answer
+  std::uint64_t garbled = 0;   // errors in the lens's answers
 };
 
 struct LensState {
-  bool ready = false;  // it has said its version and its zoom position
+  bool ready = false;  // it has reported its version and its zoom position
   ByAxis<std::optional<double>> positions;
   std::string version;
   std::string last_error;

@@ -1,7 +1,6 @@
-// Sony's VISCA, the part that moves a lens (docs/overview.md has the sources): packets of 3
-// to 16 bytes, ended by FF; to device 1 they begin with 81, from it with 90. A command is answered
-// by an acknowledgement at once and a completion when it is done, an inquiry by its value alone.
-// Pure.
+// Sony's VISCA, the part that moves a lens (sources: docs/overview.md). Packets have 3 to 16 bytes
+// and end with FF. Those to device 1 begin with 81, those from it with 90. A command is answered by
+// an acknowledgement at once and a completion at its end, an inquiry by its value alone. Pure.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +13,7 @@
 
 namespace ols::lens::visca {
 
-// What a position of 1 is on the wire.
+// The position 1 on the wire.
 inline constexpr int kZoomLongest = 0x4000;  // optical; beyond is digital
 inline constexpr int kFocusFar = 0x1000, kFocusNear = 0xf000;
 inline constexpr int kIrisOpen = 0x11;
@@ -22,15 +21,15 @@ inline constexpr int kFastest = 7;  // of eight speeds, from 0
 
 std::string clear_interface();
 std::string ask_version();
-// Without these two the lens refuses commands to focus and iris.
+// Without these two commands, the lens refuses commands to focus and iris.
 std::string focus_by_hand();
 std::string exposure_by_hand();
 
 std::string ask_position(Axis axis);
 std::string go_to(Axis axis, double position);
-// Zoom and focus: at the nearest of eight speeds. The iris knows steps only: one.
+// Zoom and focus: at the nearest of eight speeds. The iris only makes steps: one.
 std::string go_on(Axis axis, double rate);
-// The iris stands between its steps: empty.
+// Empty for the iris, which stops after each step.
 std::string stand(Axis axis);
 
 enum class ReplyKind { kAcknowledged, kCompleted, kValue, kError };
@@ -39,15 +38,15 @@ struct Reply {
   std::string data;  // of a value, without head and end
   std::string text;  // of an error, in words
 };
-// A whole packet with its end. Nothing: not from device 1, or of no known form.
+// A whole packet with its end. nullopt: not from device 1, or of unknown form.
 std::optional<Reply> reply(std::string_view packet);
 
-// The share of the travel in an answer to ask_position(); nothing: of another form.
+// The share of the travel in an answer to ask_position(); nullopt: of another form.
 std::optional<double> position_in(Axis axis, std::string_view data);
 // "vendor 0020, model 0466, ROM 0105".
 std::optional<std::string> version_in(std::string_view data);
 
-// Cuts what arrives into packets; what is too long for one is garbled.
+// Cuts the received bytes into packets. An overlong one is garbled.
 class Packets {
  public:
   std::vector<std::string> receive(std::string_view bytes);

@@ -1,5 +1,5 @@
-// The camera behind a zoom lens at any recent instant: what the lens said of its zoom, and what a
-// calibration says that means. Pure.
+// The camera behind a zoom lens at any recent instant, from the lens's reported zoom and a
+// calibration. Pure.
 #pragma once
 
 #include <deque>
@@ -12,19 +12,19 @@ namespace ols::lens {
 
 class ZoomLens {
  public:
-  // `position_sd`: 1-sigma of a position that the lens says, its slack included.
+  // `position_sd`: 1-sigma of a reported position, slack included.
   ZoomLens(const ZoomTable& table, double position_sd) : table_(table), position_sd_(position_sd) {}
 
-  // In time order; another one is dropped.
+  // In order of time; a sample out of order is dropped.
   void add(const ZoomSample& sample);
 
-  // Nothing: the lens has said nothing about that time. While the zoom moves, its deviation grows
-  // with its speed and with how far from a sample the instant is.
+  // nullopt: no report near that time. While the zoom moves, the deviation grows with its speed and
+  // with the distance in time from a sample.
   std::optional<ZoomPoint> at(double time_s) const;
   std::optional<ZoomPoint> newest() const;
 
   static constexpr double kMemory_s = 3.0;
-  static constexpr double kSilent_s = 1.0;  // the newest position holds for so long
+  static constexpr double kSilent_s = 1.0;  // validity of the newest position
 
  private:
   ZoomTable table_;

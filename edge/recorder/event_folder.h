@@ -1,6 +1,6 @@
-// One event on the disk: raw PNG frames named by utime (the mosaic of a Bayer camera), and
-// frames.csv with `utime_us,number,file,mid_exposure_sd_s,pixel_format`. It is named NAME.partial
-// until it is complete.
+// One event on disk: raw PNG frames named by utime (the mosaic of a Bayer camera), and frames.csv
+// with `utime_us,number,file,mid_exposure_sd_s,pixel_format`. The folder is NAME.partial until it
+// is complete.
 #pragma once
 
 #include <cstddef>
@@ -17,17 +17,17 @@ inline constexpr const char* kPartial = ".partial";
 // cv::Exception.
 std::vector<unsigned char> encode_png(const RecordedFrame& frame);
 
-// All throw std::system_error with the path; what was written before stays.
+// All throw std::system_error with the path. Data written before stay.
 class EventFolder {
  public:
   EventFolder(const std::string& store, const std::string& name);
 
-  // Bytes written to the disk. A frame that could not be written leaves nothing behind.
+  // Returns the bytes written. A frame that could not be written leaves nothing behind.
   std::size_t write(const RecordedFrame& frame, const std::vector<unsigned char>& png);
   bool exists() const;
-  // Flushes to the disk and gives the event its name. May be retried.
+  // Flushes to disk and gives the event its final name. May be retried.
   void finish();
-  // Of an event without a frame.
+  // For an event without a frame.
   void discard();
 
  private:

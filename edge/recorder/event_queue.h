@@ -1,5 +1,5 @@
-// The recorder's memory: the frames of the last seconds, and the events being recorded with their
-// frames that wait to be written. Pure; not thread-safe.
+// The recorder's memory: the frames of the last seconds, and the current events with their frames
+// that wait to be written. Pure; not thread-safe.
 #pragma once
 
 #include <cstdint>
@@ -23,9 +23,9 @@ struct RecordedEvent {
   double expected_bytes = 0.0;  // still to be written
   bool closed = false;          // no more frames belong to it
   std::uint64_t written = 0;    // frames
-  std::string unfinished;       // why finishing failed; all its frames are on the disk
+  std::string unfinished;       // why finishing failed; all frames are on disk
   double retry_s = 0.0;         // when finishing is retried
-  std::string name;             // from here on: used by the writing thread only
+  std::string name;             // used by the writing thread only, as the following
   std::optional<EventFolder> folder;
 };
 
@@ -34,11 +34,11 @@ class EventQueue {
   explicit EventQueue(const RecorderConfig& config)
       : config_(config), memory_(config.memory_s, config.memory_max_bytes) {}
 
-  // The number of frames dropped because too much is waiting.
+  // Returns the number of frames dropped because too many are waiting.
   int add(const RecordedFrame& frame);
   // Why the command is refused, regardless of the disk; empty: accepted.
   std::string refusal(const RecordCommand& command, double now_s) const;
-  // The number of buffered frames that were dropped.
+  // Returns the number of buffered frames that were dropped.
   int begin(const RecordCommand& command, std::int64_t event_utime_us);
   // Maximum disk space of the command's frames, estimated from those in memory.
   double expected_bytes(const RecordCommand& command) const;
@@ -46,18 +46,18 @@ class EventQueue {
 
   // Ends the events whose last frame must have arrived.
   void close(double now_s);
-  // Retries at once the events that could not be finished.
+  // Retries the unfinished events at once.
   void retry_all();
   struct Job {
     RecordedEvent* event = nullptr;      // valid until remove()
-    std::optional<RecordedFrame> frame;  // empty: the event is to be finished
+    std::optional<RecordedFrame> frame;  // nullopt: the event is to be finished
   };
   std::optional<Job> next(double now_s);
   void remove(const RecordedEvent& event);
 
   bool work_waits() const;
   bool empty() const { return events_.empty(); }
-  std::set<std::string> names() const;  // an empty one: nothing written yet
+  std::set<std::string> names() const;  // an empty name: nothing written yet
   // Why an event could not be finished; empty: no such event.
   std::string unfinished() const;
 

@@ -1,7 +1,7 @@
 // The folder of all events: its size, the disk's free space, and which event may be removed.
 //
-// Any program on the bus can request recordings, so new ones must not displace the old: once in
-// `protect_s` one event older than that is removed for new ones, the oldest of the label that
+// Any program on the bus can request recordings, so new ones must not displace old ones freely.
+// Once in `protect_s` one event older than that is removed: the oldest one of the label that
 // occupies most space.
 #pragma once
 
@@ -34,8 +34,8 @@ class EventStore {
 
   explicit EventStore(Config config) : config_(std::move(config)) {}
 
-  // Checks the disk: creates the folder if missing, and counts events and free space. Throws
-  // std::system_error when it is not a folder, or cannot be written.
+  // Checks the disk: creates a missing folder, and counts events and free space. Throws
+  // std::system_error if it is no folder, or not writable.
   void survey();
   // The same, and writes a test file: for a disk that has failed before.
   void try_writing();
@@ -43,10 +43,10 @@ class EventStore {
   // An unused name.
   std::string free_name(std::int64_t utime_us, const std::string& label) const;
   // If `bytes` more do not fit into the quota, removes an event that may be removed, but none in
-  // `open`, whose frames are still arriving. Throws DiskFull when they still do not fit, or would
-  // use the disk's reserve. Ages are by UTC.
+  // `open`, whose frames are still arriving. Throws DiskFull if they still do not fit, or would use
+  // the disk's reserve. Ages are by UTC.
   void make_room(double bytes, const Names& open, std::int64_t now_utime_us);
-  // What fits into the quota, including events that may be removed.
+  // The free space in the quota, including events that may be removed.
   double room_bytes(const Names& open, std::int64_t now_utime_us) const;
   void add(const std::string& name, double bytes) { events_[name] += bytes; }
   void finished(const std::string& name);

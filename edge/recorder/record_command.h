@@ -1,4 +1,4 @@
-// The permitted commands to record.
+// Checks commands to record.
 #pragma once
 
 #include <string>
@@ -9,10 +9,11 @@ namespace ols::recorder {
 
 inline constexpr double kLateFrame_s = 1.0;  // maximum delay of a frame after its exposure
 
-// Why this configuration cannot carry it out, regardless of the frames in memory; empty: it can.
+// Why this configuration cannot carry out the command, regardless of the frames in memory; empty:
+// it can.
 std::string wrong_with(const RecordCommand& command, const RecorderConfig& config, double now_s);
 
-// Limits repeated requests: eight at once, then one more each 10 s.
+// Limits repeated requests: eight at once, then one every 10 s.
 class RecordRate {
  public:
   bool admit(double now_s);

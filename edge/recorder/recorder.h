@@ -1,5 +1,5 @@
 // Keeps the raw frames around an event, on demand: a ring in memory, and a thread that writes. A
-// frame never waits for the disk; a full or read-only disk is reported and affects nothing but the
+// frame never waits for the disk. A full or read-only disk is reported, and affects only the
 // recording.
 //
 // One event is one folder FOLDER/<UTC>_<label>/: PNG frames named by utime, and frames.csv.
@@ -19,9 +19,9 @@ namespace ols::recorder {
 
 struct RecorderConfig {
   std::string folder;     // empty: the station records nothing
-  double memory_s = 5.0;  // of frames in memory before an event
+  double memory_s = 5.0;  // frames in memory before an event
   double memory_max_bytes = 256e6;
-  double quota_bytes = 4e9;  // all events together
+  double quota_bytes = 4e9;  // for all events together
   // Once in this time one older event is removed for new ones; otherwise recordings that do not fit
   // are refused. A day, because a site and its alarms are checked that often.
   double protect_s = 86400.0;
@@ -44,9 +44,9 @@ class Recorder {
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
 
-  // Buffers the frame (shares its pixels), never waits. `utime_us`: its mid-exposure.
+  // Buffers the frame (shares its pixels); never waits. `utime_us`: its mid-exposure.
   void add(const camera::Frame& frame, std::int64_t utime_us);
-  // Empty: accepted; otherwise the reason.
+  // Empty: accepted; otherwise the reason for the refusal.
   std::string record(const RecordCommand& command);
   device::DeviceReport report() const;
 

@@ -1,10 +1,10 @@
-// Estimates a constant from repeated measurements: the position of a tripod, or its tilt. Pure.
+// Estimates a constant from repeated measurements: a tripod's position or tilt. Pure.
 //
 // Readings are averaged with weights 1/sd^2. Their errors are assumed fully correlated (multipath
-// and a sensor's zero last for hours), so the sd of the average is the weighted mean of the
-// readings' sds and does not shrink with their number. A reading that is inconsistent with the
-// average is rejected. Rejected readings that agree with each other are averaged separately, and
-// that average replaces the first one only where the configuration allows it.
+// and a sensor's zero last for hours). The sd of the average is therefore the weighted mean of the
+// readings' sds, and does not shrink with their number. A reading that is inconsistent with the
+// average is rejected. Rejected readings that agree with each other are averaged separately. That
+// average replaces the first one only if the configuration allows it.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,10 +21,10 @@ class ConstantEstimator {
 
   struct Config {
     double gate_sigma = 5.0;          // on each axis
-    double memory_s = 3600.0;         // the weight of a reading decays by e in this time
-    int settle_readings = 3;          // readings that agree, before there is an estimate
-    double accept_move_s = 0.0;       // a new value is adopted when it holds this long; 0: never
-    double replace_resumed_s = 60.0;  // the same for a resumed value that no reading confirmed
+    double memory_s = 3600.0;         // time in which the weight of a reading decays by e
+    int settle_readings = 3;          // number of agreeing readings before there is an estimate
+    double accept_move_s = 0.0;       // a new value is adopted after holding this long; 0: never
+    double replace_resumed_s = 60.0;  // the same for a resumed value that no reading has confirmed
   };
   struct Estimate {
     Vector value = Vector::Zero();
@@ -35,8 +35,8 @@ class ConstantEstimator {
   ConstantEstimator(const Config& config, const std::optional<Estimate>& survey)
       : config_(config), survey_(survey) {}
 
-  // Resumes the value from before a restart, until readings confirm it or agree on another value
-  // for replace_resumed_s. Call before the first reading; has no effect with a survey.
+  // Resumes the value from before a restart, until readings confirm it, or agree on another value
+  // for replace_resumed_s. Call before the first reading. Has no effect with a survey.
   void resume(double time_s, const Estimate& known) {
     if (survey_) return;
     average_ = {};
@@ -75,12 +75,13 @@ class ConstantEstimator {
     return average_.estimate();
   }
 
-  // The time of the last consistent reading, else of the first one; nothing before any reading.
+  // The time of the last consistent reading, otherwise of the first one; nullopt before any
+  // reading.
   std::optional<double> supported_until_s() const { return support_s_ ? support_s_ : first_s_; }
   // Since when every reading has been inconsistent.
   std::optional<double> disagrees_since_s() const { return disagrees_since_s_; }
   const Vector& distance() const { return distance_; }  // of the last inconsistent reading
-  // By how much the value changed when a new one was adopted.
+  // How far the value moved when a new one was adopted.
   std::optional<double> moved() const { return moved_; }
 
  private:
@@ -109,7 +110,7 @@ class ConstantEstimator {
     return ((value - kept.value).cwiseAbs().array() <= gate.array()).all();
   }
 
-  // Adds to the average of the readings that are not accepted (yet).
+  // Adds to the average of the readings that are not (yet) accepted.
   void gather(double time_s, const Vector& value, const Vector& sd) {
     if (candidate_.count > 0 && !agrees(candidate_.estimate(), value, sd)) candidate_ = {};
     candidate_.add(time_s, value, sd, config_.memory_s);

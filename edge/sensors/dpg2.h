@@ -1,6 +1,6 @@
-// The output of a TE (MEAS) DPG2 inclinometer: lines "X=+00.430" and "Y=-00.084", in degrees, with
-// neither checksum nor time. The parser checks the form to the last digit, that Y follows its X at
-// once, and the range. Pure: bytes and their arrival in, angles out; the values do not depend on
+// The output of a TE (MEAS) DPG2 inclinometer: lines "X=+00.430" and "Y=-00.084", in degrees,
+// without checksum or time. The parser checks the form to the last digit, that Y follows its X at
+// once, and the range. Pure: bytes and their arrival in, angles out. The values do not depend on
 // how the bytes are split.
 #pragma once
 
@@ -19,10 +19,10 @@ struct AxisAngles {
   double y_rad = 0.0;
 };
 
-// Only go up.
+// They only increase.
 struct Dpg2Counters {
   std::uint64_t readings = 0;
-  std::uint64_t garbled = 0;       // lines that are neither X nor Y nor the version
+  std::uint64_t garbled = 0;       // lines that are neither X, Y nor the version
   std::uint64_t unpaired = 0;      // an X without its Y or a Y without its X
   std::uint64_t out_of_range = 0;  // pairs
 };
@@ -34,11 +34,11 @@ class Dpg2Parser {
   // Takes bytes that arrived at `now_s`; returns the pairs that they complete.
   std::vector<AxisAngles> receive(std::string_view bytes, double now_s);
 
-  // What is written to the sensor: to send readings, and to say its version.
+  // Commands to the sensor: to send readings, and to report its version.
   static constexpr const char* kStart = "S";
   static constexpr const char* kAskVersion = "V";
 
-  // The next line that is not a reading is the answer to kAskVersion.
+  // The next line that is no reading is the answer to kAskVersion.
   void expect_version() { version_awaited_ = true; }
   const std::string& version() const { return version_; }
 

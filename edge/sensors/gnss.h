@@ -1,5 +1,5 @@
-// A GNSS receiver through gpsd (libgps). A thread connects to gpsd and reconnects when the
-// connection is lost. After construction nothing throws.
+// A GNSS receiver through gpsd (libgps). A thread connects to gpsd, and reconnects after a loss.
+// After construction nothing throws.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,12 +19,12 @@ struct GnssConfig {
   std::string host;  // of gpsd; empty: the station has no receiver
   bool has_receiver() const { return !host.empty(); }
   std::string port = "2947";
-  double stale_s = 5.0;              // without a report for this long: a fault
-  GnssFix least_fix = GnssFix::k3D;  // a worse one is not used for the position
+  double stale_s = 5.0;              // a fault after this time without a report
+  GnssFix least_fix = GnssFix::k3D;  // min fix for the position
   Eigen::Vector3d ground_to_antenna_enu_m = Eigen::Vector3d::Zero();
   double sd_floor_m = 0.01;    // a smaller stated 1-sigma is raised to this
-  double error_sigmas = 1.0;   // that gpsd's own errors stand for; used without GST
-  double accept_move_s = 0.0;  // a new position is adopted when it holds this long; 0: never
+  double error_sigmas = 1.0;   // number of sigmas in gpsd's own errors; used without GST
+  double accept_move_s = 0.0;  // a new position is adopted after holding this long; 0: never
 };
 
 config::Section gnss_section(GnssConfig& config);  // [gnss]

@@ -1,4 +1,4 @@
-// A reading of a GNSS receiver, with the fields that a station needs. Pure.
+// The fields of a GNSS receiver's reading that a station needs. Pure.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,9 +14,9 @@ const char* to_string(GnssFix fix);
 struct GnssReading {
   double time_s = 0.0;  // station's monotonic clock: arrival
   GnssFix fix = GnssFix::kNone;
-  // Of the antenna; only with k3D and better. Height above the ellipsoid.
+  // Of the antenna; only with k3D or better. Height above the ellipsoid.
   Geodetic antenna;
-  Eigen::Vector3d sd_enu_m = Eigen::Vector3d::Zero();  // 1-sigma as the receiver states it
+  Eigen::Vector3d sd_enu_m = Eigen::Vector3d::Zero();  // 1-sigma, stated by the receiver
   int satellites_used = 0;
 };
 

@@ -17,11 +17,11 @@ class GpsdLink {
   GpsdLink& operator=(const GpsdLink&) = delete;
 
   // Waits at most `timeout_s` for the next message; data().set says which it is. False: timeout.
-  // Throws std::runtime_error when gpsd has closed the connection.
+  // Throws std::runtime_error if gpsd has closed the connection.
   bool read(double timeout_s);
   const gps_data_t& data() const { return *data_; }
 
-  // Why there are no reports, from what gpsd stated and whether the device file exists.
+  // Why there are no reports, from gpsd's statements and whether the device file exists.
   enum class Silence { kNoReceiver, kDeviceMissing, kReceiverSilent };
   Silence silence() const;
 

@@ -1,5 +1,5 @@
-// A digital inclinometer (TE DPG2) on a serial line. A thread opens the device and opens it again
-// after a failure. report() states what is wrong; after construction nothing throws.
+// A digital inclinometer (TE DPG2) on a serial line. A thread opens the device, and reopens it
+// after a failure. report() states what is wrong. After construction nothing throws.
 #pragma once
 
 #include <memory>
@@ -19,10 +19,10 @@ struct InclinometerConfig {
   std::string device;  // serial device; empty: no inclinometer
   int baud = 9600;
   bool even_parity = false;  // BEI and AGS variants: 8E1
-  double stale_s = 3.0;      // without a good reading for this long: a fault
-  double stuck_s = 60.0;     // without any change of a digit for this long: stuck
-  // Sensor to ORIGIN: first the axes are swapped, then the zero (the reading when ORIGIN is level)
-  // is subtracted, then the sign is applied.
+  double stale_s = 3.0;      // a fault after this time without a good reading
+  double stuck_s = 60.0;     // stuck after this time without a change of any digit
+  // From the sensor's axes to ORIGIN: the axes are swapped, then the zero (the reading when ORIGIN
+  // is level) is subtracted, then the sign is applied.
   int x_sign = 1, y_sign = 1;
   bool swap_axes = false;
   double x_zero_rad = 0.0, y_zero_rad = 0.0;
@@ -32,9 +32,9 @@ struct InclinometerConfig {
 
 config::Section inclinometer_section(InclinometerConfig& config);  // [inclinometer]
 
-// The tilt of ORIGIN from the angles of the sensor's axes. Each axis of the sensor shows the
-// inclination of that axis to the horizontal, while tilt_y is applied after tilt_x in the chain: at
-// 10 degrees of tilt_x the difference is 1.5 % of tilt_y. Pure.
+// The tilt of ORIGIN from the angles of the sensor's axes. Each axis of the sensor shows its own
+// inclination to the horizontal, while in the chain tilt_y is applied after tilt_x. At 10 degrees
+// of tilt_x the difference is 1.5 % of tilt_y. Pure.
 TiltReading origin_tilt(const InclinometerConfig& config, const AxisAngles& shown);
 
 class Inclinometer {

@@ -1,4 +1,4 @@
-// The pose from the sensors as it is persisted over a restart, and its text in a file. Pure.
+// The pose from the sensors, as persisted over a restart, and its text in a file. Pure.
 //
 //   ols-pose 1
 //   position LATITUDE_deg LONGITUDE_deg HEIGHT_m SD_EAST_m SD_NORTH_m SD_UP_m UTIME_us

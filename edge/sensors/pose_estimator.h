@@ -1,11 +1,11 @@
-// The position and tilt of a station: from the survey in the configuration if it has one, else from
-// GNSS and inclinometer; and whether survey and sensors agree. Pure.
+// The position and tilt of a station: from the survey in the configuration, if any, otherwise from
+// GNSS and inclinometer. Also checks whether survey and sensors agree. Pure.
 //
 // A tripod is stationary, so readings are averaged. A reading that is inconsistent with the pose is
 // rejected: the pose is kept, its uncertainty grows, and an alarm states why. The uncertainty grows
 // from the last consistent reading until the next one; without a sensor it does not grow. A tripod
-// that was moved has lost its heading, too, so a new position is not adopted automatically (unless
-// accept_move_s allows it): the alarm asks to set up the station again.
+// that was moved has lost its heading, too. A new position is therefore not adopted automatically
+// (unless accept_move_s allows it): the alarm asks to set up the station again.
 #pragma once
 
 #include <Eigen/Core>
@@ -42,7 +42,7 @@ class PoseEstimator {
     double surveyed_tilt_sd_rad = 0.0;
 
     Eigen::Vector3d ground_to_antenna_enu_m = Eigen::Vector3d::Zero();
-    GnssFix least_fix = GnssFix::k3D;     // a worse one is not used
+    GnssFix least_fix = GnssFix::k3D;     // min fix
     double gnss_sd_floor_m = 0.01;        // a smaller stated 1-sigma is raised to this
     double gnss_memory_s = 3600.0;        // of the average
     double inclinometer_sd_rad = 2e-4;    // of its zero and mounting: not reduced by averaging
@@ -50,11 +50,11 @@ class PoseEstimator {
     double level_sd_rad = 0.05;           // of an unmeasured tilt
     double gnss_stale_s = 10.0;
     double inclinometer_stale_s = 3.0;
-    double stuck_s = 60.0;       // without any change of a digit for this long: stuck
-    double alarm_sigma = 5.0;    // a reading further off is inconsistent,
-    double alarm_after_s = 2.0;  // which is an alarm only when it lasts: not a gust or an outlier
-    double restation_s = 300.0;  // inconsistent for this long: the tripod was moved
-    double accept_move_s = 0.0;  // a new position is adopted when it holds this long; 0: never
+    double stuck_s = 60.0;          // stuck after this time without a change of any digit
+    double alarm_sigma = 5.0;       // a reading further off is inconsistent
+    double alarm_after_s = 2.0;     // alarm after this time: not for a gust or an outlier
+    double restation_s = 300.0;     // inconsistent for this time: the tripod was moved
+    double accept_move_s = 0.0;     // a new position is adopted after holding this long; 0: never
     double growth_m_sqrt_s = 0.01;  // of the position's 1-sigma without consistent readings
     double growth_rad_sqrt_s = 2e-5;
     double resume_s = 7 * 86400.0;  // an older persisted pose is not resumed
@@ -62,18 +62,18 @@ class PoseEstimator {
   explicit PoseEstimator(const Config& config);
   ~PoseEstimator();
 
-  // Resumes the pose from before a restart, where there is no survey; call before the first
-  // reading. Its sigmas grow with its age, and an alarm reports it until a sensor confirms it.
+  // Resumes the pose from before a restart, if there is no survey. Call before the first reading.
+  // Its sigmas grow with its age, and an alarm reports it until a sensor confirms it.
   void resume(const PersistedPose& known, double now_s, std::int64_t now_utime_us);
-  // The pose to persist over a restart: measured or confirmed by a sensor since the start.
+  // The pose to persist over a restart: measured, or confirmed by a sensor since the start.
   PersistedPose to_persist(double now_s, std::int64_t now_utime_us) const;
 
-  // In time order of each sensor; readings that are not in order or not finite are ignored.
+  // In order of time for each sensor. Readings that are out of order or not finite are ignored.
   void add(const GnssReading& reading);
   void add(const TiltReading& reading);
 
   StationPose pose(double now_s) const;
-  // Conditions that hold at this instant: "gnss: 103 m from the survey", "inclinometer: stuck".
+  // The current conditions: "gnss: 103 m from the survey", "inclinometer: stuck".
   std::vector<std::string> alarms(double now_s) const;
 
  private:

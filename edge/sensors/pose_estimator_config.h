@@ -1,4 +1,4 @@
-// The settings of the pose estimator that come from the sensors' configurations. Pure.
+// The settings of the pose estimator from the sensors' configurations. Pure.
 #pragma once
 
 #include "edge/sensors/gnss.h"

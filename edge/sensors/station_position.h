@@ -14,9 +14,9 @@ namespace ols::sensors {
 class StationPosition {
  public:
   explicit StationPosition(const PoseEstimator::Config& config);
-  // `age_s`: since it was measured.
+  // `age_s`: time since its measurement.
   void resume(const PersistedPose::Position& known, double now_s, double age_s);
-  // Measured or confirmed by a sensor since the start.
+  // Whether it was measured, or confirmed by a sensor, since the start.
   bool is_from_sensor() const;
   void add(const GnssReading& reading);
   void fill(StationPose& pose, double now_s) const;
@@ -28,7 +28,8 @@ class StationPosition {
   std::string disagreement(double now_s) const;
 
   PoseEstimator::Config config_;
-  std::optional<LocalFrame> frame_;            // of the survey, else of the first antenna position
+  std::optional<LocalFrame> frame_;            // of the survey, otherwise of the first antenna
+                                               // position
   std::optional<ConstantEstimator<3>> place_;  // of the antenna, east-north-up in frame_ [m]
   std::optional<GnssReading> last_;
   double known_s_ = 0.0;  // when the resumed position was measured

@@ -14,9 +14,9 @@ namespace ols::sensors {
 class StationTilt {
  public:
   explicit StationTilt(const PoseEstimator::Config& config);
-  // `age_s`: since it was measured.
+  // `age_s`: time since its measurement.
   void resume(const PersistedPose::Tilt& known, double now_s, double age_s);
-  // Measured or confirmed by a sensor since the start.
+  // Whether it was measured, or confirmed by a sensor, since the start.
   bool is_from_sensor() const;
   void add(const TiltReading& reading);
   void fill(StationPose& pose, double now_s) const;
@@ -30,7 +30,7 @@ class StationTilt {
   PoseEstimator::Config config_;
   ConstantEstimator<2> tilt_;  // x, y [rad]
   std::optional<TiltReading> last_;
-  double changed_s_ = 0.0;  // last time that a digit changed
+  double changed_s_ = 0.0;  // last change of a digit
   double known_s_ = 0.0;    // when the resumed tilt was measured
 };
 

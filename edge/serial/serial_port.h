@@ -1,5 +1,5 @@
-// A serial device, 8N1 or 8E1 and raw, without handshake. Plain termios, because libserialport
-// refuses devices that are not in sysfs, such as pseudo terminals.
+// A raw serial device, 8N1 or 8E1, without handshake. Plain termios, because libserialport refuses
+// devices that are not in sysfs, such as pseudo terminals.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@ enum class Parity { kNone, kEven };
 
 class SerialPort {
  public:
-  // Opens and locks the device and clears its buffers. `wakeup` may be null. Throws
+  // Opens and locks the device, and clears its buffers. `wakeup` may be null. Throws
   // std::system_error with the device's name: missing, no permission, not a terminal, in use,
   // unknown rate.
   SerialPort(const std::string& device, int baud, Parity parity = Parity::kNone,
@@ -22,19 +22,19 @@ class SerialPort {
   SerialPort(const SerialPort&) = delete;
   SerialPort& operator=(const SerialPort&) = delete;
 
-  // Waits for bytes at most `timeout_s` or until woken up, and returns them. Throws when the device
+  // Waits for bytes at most `timeout_s` or until woken up, and returns them. Throws if the device
   // has vanished.
   std::string read(double timeout_s);
 
-  // Writes all bytes; drops the rest if woken up. Throws when the device has vanished or accepts
+  // Writes all bytes; drops the rest if woken up. Throws if the device has vanished, or accepts
   // nothing for 0.2 s.
   void write(std::string_view bytes);
 
-  // Drops the bytes that are not on the line yet and writes these. Does not wait: false if the
+  // Drops the bytes that are not on the line yet, and writes these. Does not wait. False if the
   // device does not accept them now.
   bool write_first(std::string_view bytes);
 
-  // Changes the rate when all written bytes are on the line. Throws std::system_error.
+  // Changes the rate once all written bytes are on the line. Throws std::system_error.
   void set_baud(int baud);
 
   // Waits until all written bytes are on the line; false on timeout.

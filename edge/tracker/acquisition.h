@@ -1,6 +1,6 @@
 // Finds a target without a designation: a compact object near the expected pixel that moves against
-// the background as expected, or stands alone in front of a smooth one. Strict: a wrong object is
-// worse than none. Pure and deterministic.
+// the background as expected, or is alone in front of a smooth one. Strict, because a wrong object
+// is worse than none. Pure and deterministic.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,7 +11,7 @@
 namespace ols::tracker {
 
 struct AcquisitionConfig {
-  int frames = 3;                // consecutive, that must show the same object
+  int frames = 3;                // consecutive frames that must show the same object
   double gate_sigma = 4.0;       // search radius around the expected pixel
   double gate_most_px = 250.0;   // maximum search radius
   double threshold_sd = 8.0;     // minimum contrast, in the image's own fluctuations
@@ -35,9 +35,10 @@ struct AcquisitionView {
   cv::Mat gray;                 // 8-bit, one channel
   Eigen::Vector2d expected_px;  // of the target
   double expected_sd_px = 0.0;
-  // Where only a line is known on which the target is: the line's direction, a unit vector; the
-  // expected pixel is any on it, and the deviation that beside it. Its motion is not known then,
-  // but for how far it may move against the background from frame to frame: it must move evenly.
+  // If only a line is known on which the target is: the line's direction, a unit vector. The
+  // expected pixel is any point on it, and the deviation is that across it. The motion is then
+  // unknown, except how far the target may move against the background from frame to frame: it must
+  // move evenly.
   Eigen::Vector2d line = Eigen::Vector2d::Zero();
   double drift_px = 0.0;
   std::vector<AcquisitionReference> references;  // newest first
@@ -45,31 +46,31 @@ struct AcquisitionView {
 
 struct AcquisitionCandidate {
   cv::Rect2d box;  // [px] like cv::Rect: the origin is the top-left corner of the top-left pixel
-  double strength = 0.0;  // [grey levels * px] how strongly it stands out
+  double strength = 0.0;  // [grey levels * px] how strongly it contrasts
 };
 
 class Acquisition {
  public:
   explicit Acquisition(const AcquisitionConfig& config) : config_(config) {}
 
-  // The box of the only object that the last frames agree on, or empty.
+  // The box of the only object on which the last frames agree, or empty.
   std::optional<cv::Rect2d> look(const AcquisitionView& view);
   void clear() { tracks_.clear(); }
-  // The candidates of the last frame; several of them may be parts of one object.
+  // The candidates of the last frame. Several of them may be parts of one object.
   const std::vector<AcquisitionCandidate>& candidates() const { return candidates_; }
 
  private:
   struct Track {  // a candidate over several frames
     AcquisitionCandidate candidate;
-    // Of its centre in the first frame: the offset from the expected pixel; on a line the place, as
-    // the background has carried it into this frame.
+    // Of its centre in the first frame: the offset from the expected pixel. On a line: the
+    // position, carried by the background into this frame.
     Eigen::Vector2d first_px;
-    // Against the background, since the frame before.
+    // Motion against the background since the frame before.
     Eigen::Vector2d step_px = Eigen::Vector2d::Zero();
     int seen = 1;  // consecutive frames
   };
   Track continued(const AcquisitionCandidate& candidate, const AcquisitionView& view) const;
-  // Without those that stand, if only what moves counts.
+  // Without stationary candidates, if movers_only.
   std::optional<cv::Rect2d> sole(bool movers_only) const;
 
   AcquisitionConfig config_;

@@ -11,8 +11,8 @@ namespace ols::tracker {
 // The reduced pixels that an area of the full frame touches, within the image.
 cv::Rect reduced_area(const ReducedFrame& frame, const cv::Rect2d& area);
 
-// The earlier image as the camera would see it now; where it shows nothing, the present image is
-// copied. `now` is a part of the present image with its corner at `origin`; `to_present` maps the
+// The earlier image as the camera would see it now. Where it shows nothing, the present image is
+// copied. `now`: a part of the present image with its corner at `origin`. `to_present`: maps the
 // earlier image's pixels to those of the whole present one.
 cv::Mat brought_to_present(const cv::Mat& earlier, const Eigen::Matrix3d& to_present,
                            const cv::Mat& now, const cv::Point& origin);

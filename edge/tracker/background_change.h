@@ -1,4 +1,4 @@
-// Tells an object from the background in a box, by an earlier image that shows the background
+// Distinguishes an object in a box from the background, by an earlier image of the background
 // there: the background differs from it no more than the surroundings do.
 #pragma once
 
@@ -6,11 +6,11 @@
 
 namespace ols::tracker {
 
-// Natural logarithm of the mean difference from the reference inside `box` of the frame over that
-// of the boxes around it (their median): about 0 for a piece of background, however badly the two
-// images are aligned and however the light has changed, positive for an object that was not there.
-// The difference is the distance from the grey levels that the reference has within a sixteenth of
-// the box.
+// Natural logarithm of a ratio: the mean difference from the reference inside `box`, over that of
+// the boxes around it (median). It is about 0 for a piece of background, however badly the two
+// images are aligned and however the light has changed, and positive for an object that was not
+// there. The difference is the distance from the grey levels that the reference has within a
+// sixteenth of the box.
 double background_change(const cv::Mat& gray, const ReferenceFrames::Reference& reference,
                          const cv::Rect2d& box);
 

@@ -5,24 +5,23 @@
 
 namespace ols::tracker {
 
-constexpr double kBelieved = 0.5;  // above it the tracker counts as being on the target
+constexpr double kBelieved = 0.5;  // above it the tracker counts as on target
 
-// The evidence of one frame: the best candidate's similarity (eq. (5), 0..1) compared with what the
-// surrounding background reaches by chance, and the candidate's correlation and contrast with the
-// target's first image.
+// The evidence of one frame: the best candidate's similarity (eq. (5), 0..1), compared with what
+// the background reaches by chance; its correlation and contrast with the target's first image.
 struct FrameEvidence {
   double similarity = 0.0;
   double background_similarity = 0.0;
   double correlation = 0.0;
   double contrast = 1.0;
-  // LearntAppearance::recognised(), of a target that is followed by it.
+  // LearntAppearance::recognised(), if the target is followed by it.
   std::optional<double> recognised = {};
-  double standing_out = 1.0;    // from its surroundings, relative to what is usual for the target
-  double foreground = 1.0;      // share of the target's foreground that is foreground here,
+  double standing_out = 1.0;  // contrast with its surroundings, relative to the target's usual one
+  double foreground = 1.0;    // share of the target's foreground that is foreground here,
   bool by_subtraction = false;  // compared with an earlier image, not with a grey level
 };
 
-// The target's recent values: a sudden, much lower one means another object.
+// The target's recent values. A sudden, much lower value means another object.
 struct Typical {
   double correlation = 1.0;
   double correlation_variance = 0.0025;
@@ -31,7 +30,7 @@ struct Typical {
 
 double frame_belief(const FrameEvidence& evidence, const Typical& typical);
 
-// Smoothed over time, so that one poor frame does not lose the target; without the target it falls
+// Smoothed over time, so that one poor frame does not lose the target. Without the target it falls
 // below 0.5 within a third of a second.
 class Belief {
  public:
@@ -43,9 +42,9 @@ class Belief {
   void update(const FrameEvidence& evidence, double interval_s);
   double value() const { return value_; }
   // Whether the target's recent values make this evidence plausible. Stricter than similarity, for
-  // a target whose place gives no evidence.
+  // a target whose position is no evidence.
   bool usual(const FrameEvidence& evidence) const;
-  // The belief of this evidence alone; does not change the belief.
+  // The belief from this evidence alone; does not change the belief.
   double in_frame(const FrameEvidence& evidence) const { return frame_belief(evidence, typical_); }
   double of_frame() const { return of_frame_; }  // the newest frame alone
 

@@ -1,4 +1,4 @@
-// A picture in colour as the camera gives it. Only the part that is looked at is converted.
+// A colour picture as the camera delivers it. Only the part in use is converted.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -15,7 +15,7 @@ struct ColourPicture {
   bool empty() const { return image.empty(); }
   bool valid(const cv::Size& size) const;
 
-  // 8-bit blue, green, red; at least `area` as far as it lies in the picture.
+  // 8-bit blue, green, red; contains at least the part of `area` inside the picture.
   struct Part {
     cv::Mat bgr;
     cv::Point origin;  // top-left pixel

@@ -27,8 +27,8 @@ struct FollowedCorner {
   double correlation = -1.0;  // of its surroundings in both images; -1: not found
 };
 
-// Searches from `guess`. J.-Y. Bouguet, "Pyramidal implementation of the Lucas Kanade feature
-// tracker", Intel 2000. OpenCV's own version differentiates the whole image and uses a larger
+// Searches from `guess` (J.-Y. Bouguet, "Pyramidal implementation of the Lucas Kanade feature
+// tracker", Intel 2000). OpenCV's own version differentiates the whole image and uses a larger
 // window, which costs five times as much.
 FollowedCorner follow_corner(const ImagePyramid& previous, const ImagePyramid& current,
                              const cv::Point2f& corner, const cv::Point2f& guess);

@@ -8,7 +8,7 @@
 
 namespace ols::tracker {
 
-// The filter's response in a window of a frame, one value for each cell's shift of the target.
+// The filter's response in a window of a frame, one value per shift of the target by a cell.
 struct Response {
   struct Peak {
     Eigen::Vector2d pixel = Eigen::Vector2d::Zero();  // full frame, interpolated between cells
@@ -21,7 +21,7 @@ struct Response {
   // At a pixel of the full frame; bilinear, 0 outside the window.
   double at(const Eigen::Vector2d& pixel) const;
   Peak peak() const;
-  // The response there, from the mean of the response elsewhere, over its standard deviation
+  // The response there minus the mean of the response elsewhere, over its standard deviation
   // (peak-to-sidelobe ratio: D. S. Bolme et al., "Visual object tracking using adaptive correlation
   // filters", CVPR 2010).
   double prominence(const Eigen::Vector2d& pixel) const;
@@ -33,10 +33,10 @@ class CorrelationFilter {
   CorrelationFilter(const TrackerInput& frame, const Eigen::Vector2d& pixel,
                     const Eigen::Vector2d& size_px);
 
-  // In the window around `pixel`, four boxes wide; `size_px` is the target's present size.
+  // In the window around `pixel`, four boxes wide. `size_px`: the target's present size.
   Response respond(const TrackerInput& frame, const Eigen::Vector2d& pixel,
                    const Eigen::Vector2d& size_px) const;
-  // Learns that the target is there and nowhere else in its window; the filter changes as little as
+  // Learns that the target is there and nowhere else in its window. The filter changes as little as
   // this allows, so it hardly drifts.
   void learn(const TrackerInput& frame, const Eigen::Vector2d& pixel,
              const Eigen::Vector2d& size_px);
@@ -45,7 +45,7 @@ class CorrelationFilter {
   void fit(const Spectra& features, double inertia);
 
   Map support_{};    // 1 in the box, where the filter may differ from zero
-  Spectrum wanted_;  // response: a narrow peak without a shift
+  Spectrum wanted_;  // wanted response: a narrow peak without a shift
   Spectra filter_{};
 };
 

@@ -28,8 +28,8 @@ struct CornerMatches {
 };
 
 enum class HomographyFit {
-  kRansac,        // only RANSAC's own
-  kLeastSquares,  // of the corners that agree with one
+  kRansac,        // only RANSAC's result
+  kLeastSquares,  // of the corners that agree with one homography
 };
 
 class EgoMotionEstimator {
@@ -43,8 +43,8 @@ class EgoMotionEstimator {
 
   // The first frame: no motion yet.
   void start(const ReducedFrame& frame);
-  // `predicted` is the start of the flow search, and the prior where the corners do not determine
-  // the estimate. Corners inside `target_box` of the previous frame do not belong to the scene.
+  // `predicted`: the start of the flow search, and the prior where the corners do not determine the
+  // estimate. Corners inside `target_box` of the previous frame do not belong to the scene.
   Estimate step(const ReducedFrame& frame, const cv::Rect2d& target_box,
                 const std::optional<Eigen::Matrix3d>& predicted);
 
@@ -64,9 +64,9 @@ class EgoMotionEstimator {
   ReducedFrame previous_;
   ImagePyramid previous_pyramid_;
   ImagePyramid pyramid_;
-  std::vector<cv::Point2f> corners_;                    // in the previous frame, reduced pixels
-  std::size_t detected_ = 0;                            // their number when they were detected,
-  int followed_ = 0;                                    // this many frames ago
+  std::vector<cv::Point2f> corners_;  // in the previous frame, reduced pixels
+  std::size_t detected_ = 0;          // number of corners when they were detected,
+  int followed_ = 0;                  // this many frames ago
   Eigen::Matrix3d last_ = Eigen::Matrix3d::Identity();  // reduced pixels
   int corner_threshold_ = 15;                           // of FAST [grey levels]
 };
@@ -77,7 +77,7 @@ bool plausible_homography(const Eigen::Matrix3d& homography, const cv::Size& ima
 // An accumulated homography that can be inverted: finite, not nearly singular.
 bool aligns(const Eigen::Matrix3d& homography);
 
-// The homography that maps `previous` to `current`, by least squares; the prior draws its
+// The homography that maps `previous` to `current`, by least squares. The prior pulls its
 // correction to `guess` towards a pure shift, because corners on a strip of ground determine little
 // of the motion of the sky above it.
 Eigen::Matrix3d fit_homography(const std::vector<cv::Point2f>& previous,

@@ -1,5 +1,5 @@
-// The features of the correlation filter: histograms of oriented gradients, grey levels and colours
-// of cells.
+// The features of the correlation filter, per cell: histograms of oriented gradients, grey levels
+// and colours.
 #pragma once
 
 #include "edge/tracker/particle.h"
@@ -16,17 +16,17 @@ struct FeatureWindow {
   double cell_px = 1.0;                             // side of a cell
 };
 
-// Of each cell: histograms of 12 signed and 6 unsigned orientations relative to the gradients of
+// For each cell: histograms of 12 signed and 6 unsigned orientations relative to the gradients of
 // the neighbouring cells (P. F. Felzenszwalb et al., "Object detection with discriminatively
 // trained part-based models", PAMI 32(9), 2010), these gradients, the grey level, red against
-// green, yellow against blue. All are small, and tapered towards the window's edge. The image's
-// border is continued outside; colours are zero without a colour image.
+// green, yellow against blue. All are small, and tapered towards the window's edge. Outside the
+// image its border is continued. Colours are zero without a colour image.
 FeatureMap extract_features(const TrackerInput& frame, const FeatureWindow& window);
 
 inline constexpr int kCellSide = 4;       // [px] of a resampled image
 inline constexpr int kShapeChannels = 6;  // the unsigned orientations
-// The unsigned orientations alone, cell by cell, kShapeChannels for each of side x side cells of an
-// 8-bit image that has a border of one pixel more.
+// Only the unsigned orientations, cell by cell: kShapeChannels for each of side x side cells of an
+// 8-bit image that has a border of one more pixel.
 void add_shape(const cv::Mat& sampled, int side, float* features);
 
 }  // namespace ols::tracker

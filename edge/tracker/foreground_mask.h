@@ -37,12 +37,12 @@ class ReferenceFrames {
   std::deque<Reference> references_;
 };
 
-// Where no earlier image shows the background alone: |frame - `level`|, the grey level around the
+// If no earlier image shows the background alone: |frame - `level`|, with the grey level around the
 // target. Equivalent in front of a sky.
 FrameView foreground_mask(const cv::Mat& frame, double level, const cv::Rect& area,
                           const Template& target);
 
-// |frame - reference| inside `area` of the frame, 0..255 for a foreground of 0..1: `noise` grey
+// |frame - reference| inside `area` of the frame, 0..255 for a foreground of 0..1. `noise` grey
 // levels count as 0, half of `contrast` as 1.
 FrameView foreground_mask(const cv::Mat& frame, const ReferenceFrames::Reference& reference,
                           const cv::Rect& area, const Template& target);

@@ -1,4 +1,4 @@
-// The target's learnt appearance: the correlation filter, and what its response usually is.
+// The target's learnt appearance: the correlation filter, and its usual response.
 #pragma once
 
 #include <optional>
@@ -14,18 +14,19 @@ class LearntAppearance {
   LearntAppearance(const TrackerInput& frame, const Eigen::Vector2d& pixel,
                    const Eigen::Vector2d& size_px);
 
-  // Looks for the target in windows around these places of a new frame: the strongest response, if
-  // it is at least `least` of the usual one.
+  // Searches for the target in windows around these places of a new frame. Returns the strongest
+  // response, if it is at least `least` of the usual one.
   std::optional<Eigen::Vector2d> find(const TrackerInput& frame,
                                       const std::vector<Eigen::Vector2d>& places,
                                       const Eigen::Vector2d& size_px, double least);
-  // Looks around this place too, unless it is well inside what has been looked at: a window fades
+  // Also searches around this place, unless it is well inside a searched window: a window fades
   // towards its edge.
   void look_at(const TrackerInput& frame, const Eigen::Vector2d& pixel,
                const Eigen::Vector2d& size_px);
-  // The response there in the newest frame, relative to the usual one; 0 where nobody looked.
+  // The response there in the newest frame, relative to the usual one; 0 where nothing was
+  // searched.
   double recognised(const Eigen::Vector2d& pixel) const;
-  // The same response over the deviation of the response elsewhere; 0 where nobody looked.
+  // The same response over the deviation of the response elsewhere; 0 where nothing was searched.
   double prominence(const Eigen::Vector2d& pixel) const;
   // The target is there in the newest frame.
   void learn(const TrackerInput& frame, const Eigen::Vector2d& pixel,

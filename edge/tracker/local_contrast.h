@@ -1,5 +1,5 @@
-// How far a place stands out from its surroundings: this persists when a target changes its shape
-// with each wing beat.
+// The contrast of a place with its surroundings. It persists when a target changes its shape with
+// each wing beat.
 #pragma once
 
 #include <Eigen/Core>

@@ -17,23 +17,24 @@ struct CameraMotion {
   double interval_s = 0.0;
 };
 
-// The limits of the model: after a longer gap the target may be anywhere, and two exposures are
-// never closer.
+// Limits the interval: after a longer gap the target may be anywhere, and two exposures are never
+// closer.
 double usable_interval_s(double from_s, double to_s);
 
-// Limits the particle to within a frame's size of the frame, ten frame widths a second and the
-// frame's size, so that no clock, homography or hint makes pixels overflow.
+// Limits the particle's position to within a frame's size of the frame, its velocity to ten frame
+// widths a second, and its size to the frame's. So no clock, homography or hint makes pixels
+// overflow.
 Particle bounded(const Particle& particle, const cv::Size& frame);
 
 // Particles have velocities relative to the scene. Without a homography the camera is assumed to
-// keep turning; when it is known again, the difference is added to the velocities, so that the
-// particles' motion in the image stays continuous.
+// keep turning. When the homography is known again, the difference is added to the velocities, so
+// that the particles' motion in the image stays continuous.
 class MotionModel {
  public:
   explicit MotionModel(const TrackerConfig& config) : config_(config) {}
 
-  // Accounts for the camera's motion at `pixel` (of the previous frame) in the steps below.
-  // The change of the velocities relative to the scene [px/s].
+  // Accounts for the camera's motion at `pixel` (of the previous frame) in the steps below. Returns
+  // the change of the velocities relative to the scene [px/s].
   Eigen::Vector2d begin_frame(const CameraMotion& motion, const Eigen::Vector2d& pixel);
 
   // The particle's prediction without noise.
@@ -43,7 +44,7 @@ class MotionModel {
 
   const std::optional<Eigen::Matrix3d>& homography() const { return motion_.homography; }
   double interval_s() const { return motion_.interval_s; }
-  // The present place of the scene at this pixel of the previous frame.
+  // The present position of the scene at this pixel of the previous frame.
   Eigen::Vector2d still(const Eigen::Vector2d& pixel) const;
   // The velocity of an object that is stationary in the image.
   Eigen::Vector2d image_fixed_velocity() const { return -camera_rate_px_s_; }

@@ -25,12 +25,12 @@ struct MoverSearch {
   int most = 8;                 // maximum number, strongest first
 };
 
-// Differences from an earlier image of the same scene. The covariance covers the place of an object
-// that moved by three pixels or more; of a slower one perhaps only slivers differ. `to_present`
-// maps the earlier image's pixels (full frame) to those of `current`. Edges that are off by a pixel
-// are ignored. The mover's earlier place is not distinguished from its present one: use two earlier
-// images, or its appearance. Empty images, different sizes and homographies that are not finite
-// give no movers.
+// Finds differences from an earlier image of the same scene. The covariance covers the position of
+// an object that moved by three pixels or more; of a slower one, perhaps only slivers differ.
+// `to_present` maps the earlier image's pixels (full frame) to those of `current`. Edges that are
+// off by a pixel are ignored. The mover's earlier position is not distinguished from its present
+// one: use two earlier images, or its appearance. Empty images, different sizes and homographies
+// that are not finite give no movers.
 std::vector<MoverCandidate> detect_movers(const cv::Mat& earlier, const Eigen::Matrix3d& to_present,
                                           const ReducedFrame& current, const MoverSearch& search);
 

@@ -1,5 +1,5 @@
-// The object that a person points at: the compact thing at this pixel that stands out from what is
-// around it. Pure.
+// The object at which a person points: the compact object at this pixel that contrasts with its
+// surroundings. Pure.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,8 +8,8 @@
 
 namespace ols::tracker {
 
-// Its box in the image, or nothing: nothing there stands out, or what does is larger than 90 px.
-// Of several the one nearest to the pixel counts, at most 24 px away.
+// Its box in the image; nullopt if nothing there contrasts, or if the object is larger than 90 px.
+// Of several, the one nearest to the pixel counts, at most 24 px away.
 std::optional<cv::Rect2d> object_at(const cv::Mat& gray, const Eigen::Vector2d& pixel);
 
 }  // namespace ols::tracker

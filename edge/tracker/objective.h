@@ -28,9 +28,9 @@ struct Similarity {
 };
 
 // Eq. (5) divided by its maximum for this template, so 0..1. Each patch's intensities are relative
-// to their mean, in units of their deviation, unless that is far below the template's. So a faint
-// target is distinguished from the sky like a strong one, exposure and gradients of the sky do not
-// matter, and noise is not amplified into a target. An empty mask counts as all zero.
+// to their mean, in units of their deviation, unless that is far below the template's. A faint
+// target is therefore distinguished from the sky like a strong one, exposure and gradients of the
+// sky do not matter, and noise is not amplified into a target. An empty mask counts as all zero.
 class Objective {
  public:
   explicit Objective(const Template& target);

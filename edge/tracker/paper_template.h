@@ -22,8 +22,8 @@ class PaperTemplate {
 
   // The newest frame's ego-motion.
   void follow(const SceneMotion& scene);
-  // Makes the mask as soon as a frame shows the template's background: the target is now at
-  // `target`.
+  // Makes the mask as soon as a frame shows the template's background. `target`: the present
+  // position.
   void estimate_mask(const cv::Mat& gray, double time_s, const Particle& target);
 
   const Template& appearance() const { return appearance_; }

@@ -1,4 +1,4 @@
-// Only the tracker of the paper's section 5: mode = "paper". Comments quote the paper.
+// Only the paper's section 5: mode = "paper". Comments quote the paper.
 #pragma once
 
 #include <optional>
@@ -19,7 +19,7 @@ class PaperTracker {
   const std::optional<Eigen::Matrix3d>& image_homography() const {
     return scene_motion_.image_homography();
   }
-  // In the paper the operator designates the target again; here the particles go to the given
+  // In the paper the operator designates the target again. Here the particles move to the given
   // place.
   void search_near(const Eigen::Vector2d& pixel, double sd_px);
 

@@ -15,22 +15,23 @@ class ParticleFilter {
 
   // Advances every particle to this frame, without noise.
   void advance(const MotionModel& motion);
-  // Adds the motion model's noise to particles already advanced to this frame; remembers their
+  // Adds the motion model's noise to particles already advanced to this frame, and remembers their
   // predictions without it.
   void disturb(const MotionModel& motion, Random& random);
-  // Starts again around a target that was found otherwise: the next disturb() spreads them.
+  // Restarts around a target that was found otherwise; the next disturb() spreads the particles.
   void restart(const Particle& target);
   // A new target is either stationary relative to the scene, or was followed by the camera and is
   // stationary in the image.
   void guess_velocities(const MotionModel& motion, double sd_px_s, Random& random);
-  // An approaching target grows faster than the particles' noise: some get its usual size.
+  // An approaching target grows faster than the particles' noise, so some particles get its usual
+  // size.
   void propose_size(const Eigen::Vector2d& present_px, const Eigen::Vector2d& usual_px);
   // Adds this standard deviation to the prediction's uncertainty beyond that of its particles.
   void widen_prediction(double sd_px) {
     predicted_covariance_px2_ += sd_px * sd_px * Eigen::Matrix2d::Identity();
   }
 
-  // Every second one may instead have moved by this much more.
+  // Moves every second particle by this additional step.
   void move_half(const Eigen::Vector2d& step_px);
 
   // Weights from each particle's log-likelihood; all equal if none is finite.
@@ -47,8 +48,8 @@ class ParticleFilter {
   void set_weights(std::vector<double> weights) { weights_ = std::move(weights); }
   const std::vector<double>& weights() const { return weights_; }
 
-  // Index of the maximum a posteriori: likelihood times the predicted density at the particle,
-  // which distinguishes the target from a similar object elsewhere.
+  // Index of the maximum a posteriori: likelihood times the predicted density at the particle. The
+  // density distinguishes the target from a similar object elsewhere.
   std::size_t maximum_a_posteriori() const;
 
   Eigen::Vector2d mean_size_px() const;

@@ -14,8 +14,8 @@ inline constexpr int kPatchArea = kPatchSide * kPatchSide;
 using Patch = std::array<float, kPatchArea>;             // grey values 0..255
 using MaskPatch = std::array<std::uint8_t, kPatchArea>;  // foreground, 255 is certain
 
-// A part of a frame, reduced if the target is much larger than a patch, so that patches are sampled
-// without aliasing. Positions are in pixels of the full frame.
+// A part of a frame. It is reduced if the target is much larger than a patch, so that patches are
+// sampled without aliasing. Positions are in full-frame pixels.
 struct FrameView {
   cv::Mat image;  // 8-bit, one channel
   cv::Point origin{0, 0};
@@ -31,7 +31,8 @@ int reduction_for(const Eigen::Vector2d& size_px);
 FrameView make_view(const cv::Mat& frame, const cv::Rect& area, int reduction);
 
 // The part of the view inside `area` of the full frame, smoothed by one pixel of a patch for this
-// target size: small changes of its shape, and half a pixel between particles, then matter little.
+// target size. Small changes of the target's shape, and half a pixel between particles, then matter
+// little.
 FrameView smoothed(const FrameView& view, const cv::Rect& area, const Eigen::Vector2d& size_px);
 
 // Interpolated grey value, with the border continued outside; image coordinates.
@@ -52,8 +53,8 @@ struct Template {
   bool empty = false;     // only noise: any patch of sky is as similar
 };
 
-// Standard deviation of the noise [grey levels], from the residuals of a plane in 3x3 pixels; the
-// median, so that edges do not count.
+// Standard deviation of the noise [grey levels], from the residuals of a plane in 3x3 pixels. The
+// median is used, so that edges do not count.
 double pixel_noise(const cv::Mat& image);
 
 // Median grey level around a box.

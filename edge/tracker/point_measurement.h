@@ -7,7 +7,7 @@
 
 namespace ols::tracker {
 
-inline constexpr double kSamePattern = 0.5;  // correlation; below it the place is not measured
+inline constexpr double kSamePattern = 0.5;  // correlation; below it the position is not measured
 
 struct MeasuredPoint {
   Eigen::Vector2d pixel;
@@ -16,9 +16,9 @@ struct MeasuredPoint {
 
 class PointMeasurement {
  public:
-  // `placed` is the fit of the box with the filter's size; `place` is the point's, in sizes from
-  // the centre. Tracking uses a size that the particles agree on, because smeared images do not
-  // mislead it; the output uses the size that this image shows.
+  // `placed`: the fit of the box with the filter's size. `place`: the point's position, in sizes
+  // from the centre. Tracking uses the size on which the particles agree, because smeared images do
+  // not mislead it. The output uses the size that this image shows.
   MeasuredPoint measure(const TargetModel& target, const Scene& scene,
                         const RefinedPosition& placed, const Eigen::Vector2d& filter_size_px,
                         const Eigen::Vector2d& place, double interval_s);
@@ -26,7 +26,8 @@ class PointMeasurement {
   void miss() { size_px_.reset(); }
   // Another target, or a new start.
   void restart();
-  // Size of the first image in the newest frame; the box also follows the learnt appearance.
+  // Size from the first image, measured in the newest frame. The box also follows the learnt
+  // appearance.
   const std::optional<Eigen::Vector2d>& size_px() const { return size_px_; }
 
  private:

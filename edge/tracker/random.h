@@ -1,5 +1,5 @@
-// Random numbers that do not depend on the standard library: the standard fixes the engine, but not
-// its distributions.
+// Random numbers that are the same with every standard library: the standard fixes the engine, but
+// not its distributions.
 #pragma once
 
 #include <cmath>

@@ -1,5 +1,5 @@
-// Where a lost target is searched for, and which candidates are accepted. The order of the search
-// is TrackerCore::propose().
+// Where a lost target is searched for, and which candidates are accepted. TrackerCore::propose()
+// gives the order of the search.
 #pragma once
 
 #include <optional>
@@ -21,7 +21,7 @@ class Reacquisition {
     double sd_px = 0.0;
     double most_sd_px = 0.0;
     double since_s = 0.0;
-    bool told = false;  // by start_near(): the target may also be stationary there
+    bool told = false;  // from start_near(): the target may also be stationary there
   };
 
   Reacquisition(const TrackerConfig& config, const Particle& target, double time_s)
@@ -38,14 +38,14 @@ class Reacquisition {
   void restart(const Particle& target);
   // The target was seen and believed.
   void see(const Particle& target) { believed_ = target; }
-  // What was found elsewhere has lost its velocity: particles are drawn there with that of before,
-  // or with none. Once it has been measured in two successive frames, `target` gets what lies
-  // between them; `unmoved_px` is where it would be had it not moved.
+  // For a target found elsewhere, whose velocity is lost: particles are drawn there with the old
+  // velocity, or with none. Once it was measured in two successive frames, `target` gets the
+  // velocity between them. `unmoved_px`: its position if it had not moved.
   void learn_velocity(bool measured, const Eigen::Vector2d& unmoved_px, double interval_s,
                       Particle& target);
   // The target is believed: ends the search.
   void end();
-  // The target is lost: `sd_px` is the uncertainty of its expected place.
+  // The target is lost. `sd_px`: the uncertainty of its expected position.
   void start(double sd_px);
   // A caller reports the target near `pixel`.
   void start_near(const Eigen::Vector2d& pixel, double sd_px);
@@ -58,17 +58,17 @@ class Reacquisition {
   void predict(const MotionModel& motion, const SceneMotion& scene, bool placed);
   // Redraws a share of the particles over the region.
   void scatter(std::vector<Particle>& particles, Random& random) const;
-  // Detects movers, first near the expected place, then anywhere, and puts a share of the particles
-  // there.
+  // Detects movers, first near the expected position, then anywhere, and puts a share of the
+  // particles there.
   void look_for_movers(const SceneMotion& scene, const Eigen::Vector2d& size_px);
   void force_onto_movers(std::vector<Particle>& particles, Random& random) const;
   Particle drawn_near(const Eigen::Vector2d& pixel, double sd_px, Random& random) const;
 
-  // After a loss, a stationary object away from the prediction is not accepted, however similar: it
-  // is a twig, a window or a reticle.
+  // Whether the particle may be the target. After a loss, a stationary object away from the
+  // prediction is not accepted, however similar: it is a twig, a window or a reticle.
   bool may_be_it(const Particle& particle) const;
-  // An object found elsewhere is one of all similar movers, visible or hidden, and nothing
-  // distinguishes them.
+  // Shares the identity among candidates: an object found elsewhere is one of all similar movers,
+  // visible or hidden, and nothing distinguishes them.
   void identify(const Particle& found, const Scene& scene, const TargetModel& target,
                 const Belief& belief);
 

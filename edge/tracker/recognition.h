@@ -1,5 +1,5 @@
 // The target's learnt appearance, the judgement whether the followed object is still the target,
-// and the return to the target when it is not.
+// and the return to the target if it is not.
 #pragma once
 
 #include "edge/tracker/follow_judge.h"
@@ -22,19 +22,19 @@ class Recognition {
   // True: nothing is learnt, because it may be another object.
   bool doubts() const { return judge_.wary(); }
 
-  // A caller says where the target is: earlier doubts and memories are of another place.
+  // A caller states where the target is: earlier doubts and memories belong to another place.
   void restart();
-  // Memories, to the next frame.
+  // Advances the memories to the next frame.
   void advance(const MotionModel& motion, const cv::Size& frame) { sure_.advance(motion, frame); }
-  // Judges `followed` in this frame, which was searched last.
+  // Judges `followed` in this frame, which must have been searched last.
   void judge(const TrackerInput& frame, const ReferenceFrames& references, const Particle& followed,
              double interval_s);
   // Remembers the followed object if it is surely the target.
   void remember(const Particle& followed, double time_s);
-  // In doubt: returns to what had been learnt while it surely was the target, if that finds it
-  // here, where the target was then, or where it would be had it gone on. After long doubt a weaker
-  // response is enough; and it is looked for further and further away, where what is found must
-  // itself be judged the target.
+  // In doubt: returns to the appearance learnt while it surely was the target. It must find the
+  // target here, where the target was then, or where it would be had it continued. After long doubt
+  // a weaker response is enough. The search also extends further and further, where a candidate
+  // must itself be judged the target.
   std::optional<Particle> return_to_sure(const TrackerInput& frame,
                                          const ReferenceFrames& references,
                                          const Particle& followed);

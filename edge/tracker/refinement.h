@@ -1,4 +1,4 @@
-// Sub-pixel position of the target: least squares between its first image and this one.
+// Sub-pixel position of the target, by least squares between its first image and this one.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,11 +15,11 @@ struct RefinedPosition {
   // Of centre and size [px], due to image noise.
   Eigen::Matrix4d covariance_px2 = Eigen::Matrix4d::Identity();
   double correlation = 0.0;  // -1..1
-  // Factor by which the residuals of neighbouring pixels raise the uncertainty above that of
+  // Factor by which correlated residuals of neighbouring pixels raise the uncertainty above that of
   // independent noise: a background with another motion, a lens, a changed appearance.
   double shared_noise = 1.0;
 
-  // A point of the target: its place in the box, in sizes from the centre.
+  // A point of the target. `place`: its position in the box, in sizes from the centre.
   Eigen::Vector2d point(const Eigen::Vector2d& place) const {
     return centre + place.cwiseProduct(size_px);
   }
@@ -39,9 +39,9 @@ class PositionRefiner {
   // M_t: pixels that are not foreground have another motion, and get little weight from now on.
   void set_mask(const MaskPatch& mask);
 
-  // From the centre of a box within about a third of the target; empty: it does not converge there,
-  // the target has too little structure, or half of it is outside the image. The size is that of
-  // the box, or, if a likely one is given, estimated from it.
+  // Starts from the centre of a box within about a third of the target. nullopt: it does not
+  // converge there, the target has too little structure, or half of it is outside the image. The
+  // size is that of the box, or estimated from a likely one, if given.
   std::optional<RefinedPosition> refine(
       const FrameView& view, const Eigen::Vector2d& start, const Eigen::Vector2d& size_px,
       const std::optional<Eigen::Vector2d>& likely_size_px = std::nullopt) const;

@@ -1,6 +1,6 @@
-// How much larger or smaller the target has become, whatever it looks like by now: a
-// one-dimensional correlation filter over images of the box at neighbouring sizes. M. Danelljan,
-// G. Hager, F. S. Khan, M. Felsberg, "Discriminative scale space tracking", PAMI 39(8), 2017.
+// Measures how much the target has grown or shrunk, whatever its present appearance: a
+// one-dimensional correlation filter over images of the box at neighbouring sizes. M. Danelljan, G.
+// Hager, F. S. Khan, M. Felsberg, "Discriminative scale space tracking", PAMI 39(8), 2017.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,15 +15,15 @@ class ScaleFilter {
   static constexpr int kSizes = 17;
   static constexpr double kStep = 1.03;  // from one size to the next
   static constexpr int kFrequencies = kSizes / 2 + 1;
-  using Samples = Eigen::MatrixXf;   // a feature in each row, a size in each column
-  using Spectra = Eigen::MatrixXcf;  // a feature in each row, a frequency in each column
+  using Samples = Eigen::MatrixXf;   // one feature per row, one size per column
+  using Spectra = Eigen::MatrixXcf;  // one feature per row, one frequency per column
 
-  // The box at the neighbouring sizes. Empty: too few pixels to show a size, or a border of the box
-  // that shows hardly anything.
+  // The box at the neighbouring sizes. nullopt: too few pixels to show a size, or a border of the
+  // box with hardly any structure.
   static std::optional<Spectra> look_at(const cv::Mat& gray, const Eigen::Vector2d& pixel,
                                         const Eigen::Vector2d& size_px);
-  // Natural logarithm of the target's size over that of the box that `seen` shows; 0 before
-  // anything was learnt.
+  // Natural logarithm of the target's size over that of the box in `seen`; 0 before anything was
+  // learnt.
   double growth(const Spectra& seen) const;
   // The target is in `seen`, larger than the box by this growth.
   void learn(const Spectra& seen, double growth, double interval_s);

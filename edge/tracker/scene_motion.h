@@ -16,8 +16,8 @@ class SceneMotion {
   SceneMotion(const TrackerConfig& config, HomographyFit fit, const TrackerInput& frame,
               const cv::Rect2d& target_box);
 
-  // Adds the next frame; the target was in `target_box` of the previous one. If the image does not
-  // show the ego-motion, the predicted one is used.
+  // Adds the next frame; the target was in `target_box` of the previous one. The predicted
+  // ego-motion is used if the image does not show it.
   EgoMotion advance(const TrackerInput& frame, const cv::Rect2d& target_box, StageTimer& timer);
   // Keeps the newest frame, in which the target is in `target_box`, for later alignment.
   void remember(const cv::Mat& gray, const cv::Rect2d& target_box) {
@@ -40,7 +40,7 @@ class SceneMotion {
   bool alignment_lost() const { return unaligned_since_s_ == time_s_; }  // in the newest frame
   // The ego-motion was known up to the previous frame and is not now: perhaps a cut.
   bool may_be_cut() const { return may_be_cut_; }
-  // No aligned image of a moment ago exists.
+  // There is no aligned image from a moment ago.
   bool unknown_a_moment_ago() const { return a_moment_ago() == nullptr; }
   const ReferenceFrames::Reference* a_moment_ago() const;
 

@@ -12,7 +12,7 @@ inline constexpr int kSpectrumSize = kMapSide * kHalf;
 
 using Map = std::array<float, kMapArea>;  // row by row, like a spectrum
 
-// Real and imaginary parts apart, so that the compiler vectorises sums over them.
+// Real and imaginary parts are separate, so that the compiler vectorises sums over them.
 struct Spectrum {
   std::array<float, kSpectrumSize> re{};
   std::array<float, kSpectrumSize> im{};
@@ -24,7 +24,7 @@ using Spectra = std::array<Spectrum, kChannels>;
 
 // The unnormalised transforms of two maps.
 void transform(const Map& a, const Map& b, Spectrum& to_a, Spectrum& to_b);
-// The reverse: transform() and then this gives the maps again.
+// The inverse: transform() and then transform_back() give the original maps.
 void transform_back(const Spectrum& a, const Spectrum& b, Map& to_a, Map& to_b);
 // The sum over all channels of conj(a) b.
 Spectrum correlation(const Spectra& a, const Spectra& b);

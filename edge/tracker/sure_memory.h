@@ -1,5 +1,5 @@
 // The target's state when it was last followed with certainty. The tracker returns to it when it
-// turns out to follow something else, whose appearance it has learnt meanwhile.
+// finds that it follows something else, whose appearance it has learnt meanwhile.
 #pragma once
 
 #include <optional>
@@ -13,16 +13,17 @@ class SureMemory {
  public:
   struct State {
     LearntAppearance appearance;
-    // In the newest frame: had it gone on, and had it stopped in the scene.
+    // In the newest frame: if the target had continued, and if it had stopped in the scene.
     Particle moving, still;
-    Eigen::Vector2d seen_px;  // where it was in the image: a camera follows its target
+    Eigen::Vector2d seen_px;  // its position in the image: a camera follows its target
     double time_s = 0.0;
   };
 
   void clear() { newer_.reset(), older_.reset(); }
-  // Every half second; the doubt comes later than the mistake, so the newest one is not trusted.
+  // Stores a state every half second. Doubt comes later than the mistake, so the newest state is
+  // not trusted.
   void offer(const LearntAppearance& appearance, const Particle& target, double time_s);
-  // To the next frame.
+  // Advances to the next frame.
   void advance(const MotionModel& motion, const cv::Size& frame);
   const State* recall() const;
 

@@ -30,7 +30,7 @@ class TargetModel {
  public:
   TargetModel(const TrackerConfig& config, const cv::Mat& gray, const cv::Rect2d& box);
 
-  // `particles` are the places to evaluate; `expected` is the target's expected place.
+  // `particles`: the places to evaluate. `expected`: the target's expected place.
   Scene make_scene(const cv::Mat& gray, const std::vector<Particle>& particles,
                    const cv::Rect2d& expected, const ReferenceFrames& references) const;
 
@@ -38,14 +38,14 @@ class TargetModel {
                       const Eigen::Vector2d& size_px) const;
   // A high quantile of the similarity of boxes around `box` that are not the target.
   double background_similarity(const Scene& scene, const cv::Rect2d& box) const;
-  // How far a place stands out from its surroundings, relative to what is usual for the target.
+  // The contrast of a place with its surroundings, relative to the target's usual one.
   double standing_out(const Scene& scene, const Eigen::Vector2d& pixel,
                       const Eigen::Vector2d& size_px) const;
   // Share of the target's foreground that is foreground here.
   double foreground(const Scene& scene, const Eigen::Vector2d& pixel,
                     const Eigen::Vector2d& size_px) const;
-  // A log-likelihood from similarity compared with the background's, correlation, standing out, and
-  // the prior of the size.
+  // A log-likelihood from the similarity compared with the background's, the correlation, the
+  // contrast, and the prior of the size.
   double log_likelihood(const Similarity& likeness, double background, double standing_out,
                         const Eigen::Vector2d& size_px) const;
 
@@ -56,29 +56,29 @@ class TargetModel {
   void learn(const Scene& scene, const Eigen::Vector2d& pixel, const Eigen::Vector2d& size_px,
              double share);
 
-  // The target's present size, as a sharp image showed it.
+  // Learns the target's present size, from a sharp image.
   void learn_size(const Eigen::Vector2d& size_px, double share);
 
-  // The size of the target that is there in the frame: that of `target`, unless the first image has
-  // not `measured` it; then it has grown as its present look has.
+  // The size of the visible target: that of `target` if the first image has `measured` it;
+  // otherwise it grows as its present appearance does.
   Eigen::Vector2d follow_size(const cv::Mat& gray, const Particle& target,
                               const std::optional<Eigen::Vector2d>& measured, double interval_s);
-  // What has been followed since the target had this size was something else.
+  // Everything followed since the target had this size was another object.
   void restart_size(const Eigen::Vector2d& size_px);
 
-  // M_t, once: the candidate's foreground while it is certainly the target.
+  // Learns M_t, once: the candidate's foreground while it is certainly the target.
   void learn_mask(const Scene& scene, const Eigen::Vector2d& pixel, const Eigen::Vector2d& size_px);
 
-  // Where a box of this size fits best, from a start within about a third of the target.
+  // The best fit of a box of this size, from a start within about a third of the target.
   std::optional<RefinedPosition> place(const Scene& scene, const Eigen::Vector2d& start,
                                        const Eigen::Vector2d& size_px) const {
     return refiner_.refine(scene.view, start, size_px);
   }
-  // From there the sub-pixel position and size, from the full resolution.
+  // From that fit, the sub-pixel position and size in full resolution.
   std::optional<RefinedPosition> measure(const Scene& scene, const RefinedPosition& placed,
                                          const Eigen::Vector2d& likely_size_px) const;
   const Eigen::Vector2d& usual_size_px() const { return usual_size_px_; }
-  // Nothing stood out in the first box: there is nothing to recognise.
+  // Nothing was conspicuous in the first box: there is nothing to recognise.
   bool empty() const { return template_.empty; }
 
  private:

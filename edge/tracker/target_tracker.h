@@ -1,4 +1,4 @@
-// Measures the pixel of one target frame by frame: the visual tracker or a substitute (the Monte
+// Measures the pixel of one target, frame by frame: the visual tracker or a substitute (the Monte
 // Carlo simulation draws the pixel instead of rendering an image).
 #pragma once
 
@@ -12,9 +12,9 @@ namespace ols::tracker {
 
 struct TrackerInput {
   cv::Mat gray;       // 8-bit, one channel, full resolution; not modified, not kept by reference
-  double time_s = 0;  // of the exposure, any epoch, must increase from frame to frame
+  double time_s = 0;  // of the exposure, any epoch; must increase from frame to frame
   // Maps pixels of the previous frame to this one's (static scene at infinity), from the PTU
-  // angles. Empty: unknown. An impossible one (mirror image, zoom, most of the image gone) is not
+  // angles. nullopt: unknown. An impossible one (mirror image, zoom, most of the image gone) is not
   // used: see the output's `ego_motion`.
   std::optional<Eigen::Matrix3d> predicted_homography;
   // The same picture in colour, if there is one: it helps to recognise the target.
@@ -31,9 +31,9 @@ struct TrackerOutput {
   Eigen::Matrix2d covariance_px2;  // of `pixel`, white part
   double belief = 0.0;             // 0..1
   EgoMotion ego_motion = EgoMotion::kNone;
-  // [px] Distance at the target between the scene by the predicted homography and by the image's
-  // own, at most the image diagonal; empty: only one of them exists. A large one means wrong angles
-  // or times. An unused prediction is compared, too.
+  // [px] Distance at the target between two predictions of the scene: by the predicted homography,
+  // and by the image's own. At most the image diagonal. nullopt: only one of them exists. A large
+  // value means wrong angles or times. An unused prediction is compared, too.
   std::optional<double> prediction_error_px;
   bool prediction_dropped = false;  // there was one, but it is impossible
 };
@@ -42,7 +42,7 @@ enum class TrackerError {
   kNotInitialised,
   kEmptyFrame,
   kFrameFormat,  // not 8-bit single-channel
-  kFrameSize,    // differs from the frame it was initialised on
+  kFrameSize,    // differs from the frame of its initialisation
   kTime,         // not later than the previous frame, or not finite
   kHomography,   // the predicted one is not finite
   kBox,          // initial box outside the image, empty or not finite

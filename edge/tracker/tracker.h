@@ -31,7 +31,7 @@ class Tracker final : public TargetTracker {
 
   bool initialised() const { return followed_ != nullptr; }
 
-  // Without a clock no times are measured. They are those of the newest frame.
+  // Without a clock no times are measured. stage_times() are those of the newest frame.
   void set_stage_clock(StageClock clock) { timer_.set_clock(std::move(clock)); }
   const StageTimes& stage_times() const { return timer_.times(); }
 

@@ -11,14 +11,14 @@ enum class TrackerMode {
   kFull,
 };
 
-// Standard deviations of the noise of eq. (2)-(4) in the mode "paper", for each frame.
+// Standard deviations of the noise of eq. (2)-(4) in the mode "paper", per frame.
 struct PaperTrackerConfig {
   double position_sd_px = 2.0;
   double velocity_sd_px_s = 20.0;
   double size_sd_px = 0.2;
-  // Eq. (5) is a sum over 576 pixels, of which those of sky match everywhere, so a wrong patch
-  // weighs hardly less than the target. The paper gives no scale; weights are raised to this power.
-  // 1 is literal.
+  // Eq. (5) is a sum over 576 pixels. Those of sky match everywhere, so a wrong patch weighs hardly
+  // less than the target. The paper gives no scale; weights are raised to this power. 1 is the
+  // paper as printed.
   double weight_power = 100.0;
 };
 
@@ -45,7 +45,7 @@ struct TrackerConfig {
   // distinguishes them.
   double correlation_sharpness = 20.0;
 
-  // The same for a place that does not stand out from its surroundings like the target.
+  // The same for a place without the target's usual contrast.
   double contrast_sharpness = 6.0;
   // Time constant of learning the target's appearance.
   double learning_time_s = 0.5;
@@ -58,7 +58,7 @@ struct TrackerConfig {
   double unknown_motion_sd_px = 2.0;  // additional position noise without a homography
 
   // Share of the particles moved to the maxima of the frame difference, without a homography or
-  // while the target's velocity is unknown, up to the maximum leap.
+  // while the target's velocity is unknown. At most up to the maximum leap.
   double difference_fraction = 0.2;
   double leap_most_px_s = 1500.0;
   // Share redrawn over the search region while the target is not believed.

@@ -1,4 +1,4 @@
-// The tracker with a target: one step of the paper's section 5 for each frame. tracker.h checks the
+// The tracker with a target: one step of the paper's section 5 per frame. tracker.h checks the
 // input.
 #pragma once
 
@@ -68,7 +68,7 @@ class TrackerCore {
   Particle last_;  // best estimate in the newest frame
   Reacquisition reacquisition_;
   Velocity velocity_ = Velocity::kUnknown;
-  // From the image's prediction of the target to the mount's, if the two disagree.
+  // The step from the image's prediction of the target to the mount's, if the two disagree.
   std::optional<Eigen::Vector2d> other_step_px_;
   bool placed_ = false;  // particles and last_ are already advanced to the coming frame
 };
