@@ -1,5 +1,4 @@
-// Enters a user into the file of those who may log in, or gives a known one another role and
-// password.
+// Adds a user to the file of those who may log in, or changes a user's role and password.
 #pragma once
 
 #include <string>
@@ -8,16 +7,16 @@
 
 namespace ols::console {
 
-// The users of a file; none if there is no such file. Throws std::invalid_argument with the place
-// in the file, std::system_error if it cannot be read.
+// The users of a file; empty if there is no such file. Throws std::invalid_argument with the
+// position in the file, std::system_error if it cannot be read.
 Users read_users(const std::string& file);
 
 // The file appears whole or not at all, readable by its owner alone. Throws std::system_error.
 void write_users(const std::string& file, const Users& users);
 
-// Asks for the password: on a terminal twice and without echo, else the first line of standard
+// Asks for the password: on a terminal twice and without echo, otherwise the first line of standard
 // input. The file appears whole or not at all, readable by its owner alone. Throws
-// std::invalid_argument for what is refused, std::system_error.
+// std::invalid_argument for a refused name or password, std::system_error.
 void add_user(const std::string& file, const std::string& name, const std::string& role);
 
 }  // namespace ols::console

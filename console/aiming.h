@@ -1,4 +1,4 @@
-// Where a station's unit has to turn to look at a place. Pure.
+// The angles to which a station's unit must turn to look at a place. Pure.
 #pragma once
 
 #include <optional>
@@ -9,9 +9,9 @@
 
 namespace ols::console {
 
-// As the unit counts them, and within its travel. `station`: the fields of its last status
-// (docs/console.md). Nothing while it does not know where it looks, and for a place that is out of
-// reach.
+// In the unit's counted angles, within its travel. `station`: the fields of its last status
+// (docs/console.md). nullopt while the station does not know where it looks, and for an unreachable
+// place.
 std::optional<PanTilt> aim_at_place(const Json& station, const Geodetic& place);
 
 }  // namespace ols::console

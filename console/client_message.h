@@ -1,4 +1,4 @@
-// What a browser says over its WebSocket: parsed strictly, refused in words. Pure.
+// A browser's WebSocket messages: parsed strictly, refused in words. Pure.
 #pragma once
 
 #include <cstddef>
@@ -17,14 +17,14 @@
 
 namespace ols::console {
 
-// `number`: the browser's own, repeated in the answer; 0 if it gave none.
+// `number`: the browser's own, repeated in the answer; 0: none.
 struct CommandRequest {
   std::int64_t number = 0;
   command::Order order;
-  // The console's time that the browser heard last [us UTC]: its own clock may be wrong. Rates have
-  // it, others if it is given.
+  // The console's time that the browser heard last [us UTC], because its own clock may be wrong.
+  // Required with rates, optional otherwise.
   std::optional<std::int64_t> heard_utime_us;
-  std::optional<Geodetic> place = {};  // of kPoint: where to, instead of angles
+  std::optional<Geodetic> place = {};  // for kPoint: the place, instead of angles
 };
 struct StopAllRequest {
   std::int64_t number = 0;
@@ -32,27 +32,27 @@ struct StopAllRequest {
 struct ControlRequest {
   std::int64_t number = 0;
   std::string station;
-  bool take = true;                            // from whoever has it; false: give it up
+  bool take = true;                            // from its holder; false: give it up
   std::optional<std::int64_t> heard_utime_us;  // as with a command
 };
-// Pictures of these stations are wanted from now on; of no others.
+// From now on only pictures of these stations are wanted.
 struct WatchRequest {
   std::vector<std::string> stations;
   Codec codec = Codec::kJpeg;
 };
-// The browser has dealt with the last picture of these stations, or with the last state.
+// The browser has processed the last picture of these stations, or the last state.
 struct TakenRequest {
   std::vector<std::string> stations;
   bool state = false;
 };
-// Of a replay: where it is to go, whether it runs, how fast. What is missing stays.
+// Where a replay is to go, whether it runs, how fast. Missing values stay.
 struct ReplayRequest {
   std::int64_t number = 0;
   std::optional<std::int64_t> at_us;
   std::optional<bool> playing;
   std::optional<double> speed;
 };
-// To the question of a guided procedure.
+// The answer to a question of a guided procedure.
 struct AnswerRequest {
   std::int64_t number = 0;
   ProcedureAnswer answer;
@@ -64,12 +64,12 @@ struct CueRequest {
   CueOrder order;
   std::optional<std::int64_t> heard_utime_us;  // as with a command
 };
-// Somebody looks after an alarm: an event of that number.
+// Somebody handles an alarm: the event of that number.
 struct AcknowledgeRequest {
   std::int64_t number = 0;
   std::uint64_t event = 0;
 };
-// What operators call a target; empty: as the fusion does.
+// The operators' name for a target; empty: the fusion's.
 struct NameRequest {
   std::int64_t number = 0;
   std::string target;
@@ -87,7 +87,7 @@ using ClientMessage = std::variant<CommandRequest, StopAllRequest, ControlReques
 inline constexpr std::size_t kMostMessageBytes = 8192;
 inline constexpr std::size_t kMostWatched = 64;
 
-// docs/console.md has the messages.
+// The messages are in docs/console.md.
 ClientMessage parse_client_message(std::string_view text);
 
 }  // namespace ols::console

@@ -1,4 +1,4 @@
-// How many connections there may be, of all and of one address: no host can use up what all share.
+// Limits the connections in all and from one address: no host can use up the shared room.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@ namespace ols::console {
 
 class ConnectionLimit {
  public:
-  // To be kept for as long as the connection lasts; null: there is no room for it.
+  // Keep it for as long as the connection lasts; null: there is no room.
   using Place = std::shared_ptr<const void>;
   Place admit(const std::string& address);
 

@@ -1,4 +1,4 @@
-// The console on the bus: what is heard goes to the console, orders go out.
+// The console on the bus: messages go to the console, orders go out.
 #pragma once
 
 #include <string>
@@ -16,14 +16,14 @@ class ConsoleBus {
  public:
   ConsoleBus(const std::string& url, const trust::TrustConfig& trust, Console& console);
 
-  // Handles what has arrived, without waiting.
+  // Handles the messages that have arrived, without waiting.
   void turn(const Now& now);
   void send(const std::vector<command::Order>& orders, const Now& now);
   void send(const std::vector<ProcedureAnswer>& answers, const Now& now);
   void send(const std::vector<CueOrder>& orders, const Now& now);
-  // Why no order goes out; empty: it does.
+  // Why no order goes out; empty: orders go out.
   std::string trouble() const { return client_.trouble(); }
-  // For people: how the bus is.
+  // For people: the state of the bus.
   std::string in_one_line() const;
 
  private:

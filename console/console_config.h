@@ -1,4 +1,4 @@
-// What ols-console's configuration file holds: docs/configuration.md.
+// The contents of ols-console's configuration file: docs/configuration.md.
 #pragma once
 
 #include <string>
@@ -15,13 +15,14 @@ struct ConsoleConfig {
   std::string lcm_url = "udpm://239.255.76.67:7667?ttl=0";
   std::string address = "127.0.0.1";
   int port = 8080;
-  std::vector<std::string> host_names;  // beside the address, by which browsers may call it
+  std::vector<std::string> host_names;  // names by which browsers may call it, besides the address
   std::string certificate, key;         // PEM files; both empty: no TLS
   std::string users = "/var/lib/ols/console-users";
-  std::string maps_folder = "/var/lib/ols/maps";  // users' own maps; need not be there
+  std::string maps_folder = "/var/lib/ols/maps";  // users' own maps; need not exist
   double session_s = 12.0 * 3600.0;
   double control_timeout_s = 60.0;
-  // Of stations' video sockets: addresses come over the bus, where anybody may write.
+  // Networks of the stations' video sockets. The addresses come over the bus, where anybody may
+  // write.
   std::vector<std::string> video_networks = {"127.0.0.0/8",    "10.0.0.0/8", "172.16.0.0/12",
                                              "192.168.0.0/16", "::1/128",    "fc00::/7"};
   trust::TrustConfig trust;
@@ -30,16 +31,16 @@ struct ConsoleConfig {
 config::Section console_section(ConsoleConfig& config);  // the whole file
 // Throws ConfigError.
 ConsoleConfig load_console_config(const std::string& path);
-// The same from text, `name` standing for the path in errors.
+// The same from text. Errors give `name` instead of the path.
 ConsoleConfig parse_console_config(const std::string& text, const std::string& name);
 
 std::string address_problem(const std::string& address);  // empty: none
 bool is_loopback(const std::string& address);
-// What forbids serving on this address; empty: nothing. Away from loopback there must be TLS and
-// users.
+// Why the console must not serve on this address; empty: it may. Other than on loopback, TLS and
+// users are required.
 std::string serving_problem(const ConsoleConfig& config, bool has_users);
-// Whether a browser may call this console by this Host header: else any page in the world could by
-// a name that it makes point here.
+// Whether a browser may call this console by this Host header. Otherwise any page in the world
+// could, by a name that points here.
 bool is_own_host(const ConsoleConfig& config, const std::string& host);
 
 }  // namespace ols::console

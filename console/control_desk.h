@@ -1,5 +1,5 @@
-// Who holds control of which station: one viewer a station, until it gives up, another takes over,
-// or it has given no command for a while. Pure.
+// Which viewer controls which station. A viewer keeps control until it gives up, another takes
+// over, or it has given no command for a while. Pure.
 #pragma once
 
 #include <cstdint>
@@ -20,8 +20,8 @@ class ControlDesk {
  public:
   explicit ControlDesk(double timeout_s) : timeout_s_(timeout_s) {}
 
-  // A command of this viewer: takes control if nobody has it, and prolongs it. Why it may not:
-  // somebody else holds it.
+  // A command of this viewer: takes or prolongs control. Returns why it may not: another viewer has
+  // control.
   std::optional<std::string> use(const std::string& station, std::uint64_t viewer,
                                  const std::string& name, double now_s);
   void take(const std::string& station, std::uint64_t viewer, const std::string& name,
@@ -29,10 +29,10 @@ class ControlDesk {
   void give_up(const std::string& station, std::uint64_t viewer);
   void leave(std::uint64_t viewer);  // of all stations
 
-  // The viewer who has control of it; 0: nobody.
+  // The viewer that controls it; 0: none.
   std::uint64_t holder(const std::string& station, double now_s) const;
 
-  // Stations whose holder has changed since the last call, with the holder of now.
+  // Stations whose holder has changed since the last call, with the present holder.
   std::vector<std::pair<std::string, std::optional<Holder>>> changes(double now_s);
 
  private:

@@ -1,4 +1,4 @@
-// Operators' words on cues, on their way to the bus. Pure.
+// Operators' decisions on cues, on their way to the bus. Pure.
 #pragma once
 
 #include <string>
@@ -16,9 +16,9 @@ struct CueOrder {
 
 class CueOrders {
  public:
-  // Why it does not go out; empty: it does.
+  // Why the order does not go out; empty: it does.
   std::string give(const CueOrder& order, Role role, const std::string& bus_trouble);
-  // Those given since the last call.
+  // The orders given since the last call.
   std::vector<CueOrder> take() { return std::exchange(given_, {}); }
 
  private:

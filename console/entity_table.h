@@ -1,5 +1,5 @@
-// Entities of one kind by their ids, as JSON objects, each field with the revision at which it last
-// changed: so the news for a viewer are found without a queue for each viewer. Pure.
+// Entities of one kind by id, as JSON objects. Each field has the revision of its last change, so
+// that the news for a viewer need no queue per viewer. Pure.
 #pragma once
 
 #include <cstddef>
@@ -21,16 +21,16 @@ class EntityTable {
  public:
   explicit EntityTable(std::size_t most) : most_(most) {}
 
-  // Sets these fields; those that are not named stay. Touches no revision where nothing differs.
-  // False if the table is full and nothing in it is stale.
+  // Sets these fields; others stay. Changes no revision if nothing differs. False if the table is
+  // full and nothing in it is stale.
   bool set(const std::string& id, const Json& fields, double now_s, Revision& revision);
   // The same without counting as a sign of life.
   void mark(const std::string& id, const std::string& field, const Json& value, Revision& revision);
   void remove(const std::string& id, Revision& revision);
   void clear(Revision& revision);
 
-  // Marks what was not heard for stale_s ("stale": true), removes what was not for forget_s.
-  // Returns those that have just become stale.
+  // Marks entities silent for stale_s ("stale": true), removes those silent for forget_s. Returns
+  // those that have just become stale.
   std::vector<std::string> age(double now_s, double stale_s, double forget_s, Revision& revision);
 
   const Json* find(const std::string& id) const;
@@ -39,7 +39,7 @@ class EntityTable {
   std::vector<std::string> ids() const;
   Json all() const;                    // an array of whole objects, each with its "id"
   Json changed(Revision since) const;  // an array of objects: "id" and the changed fields
-  // Ids removed since; nothing when that is too long ago to be known.
+  // Ids removed since; nullopt if that is too long ago to be known.
   std::optional<Json> gone(Revision since) const;
 
  private:

@@ -1,4 +1,4 @@
-// The events at the site: errors, alarms, commands, each with who, when and the outcome. The newest
+// The events at the site (errors, alarms, commands), each with person, time and outcome. The newest
 // are kept. Pure.
 #pragma once
 
@@ -17,24 +17,24 @@ struct Event {
   std::string station;        // empty: the site
   std::string who;            // of a command
   std::string text;
-  std::string outcome;  // of a command: empty until it is known, "done", or the reason
+  std::string outcome;  // of a command: empty while unknown, "done", or the reason
 };
 
 class EventList {
  public:
-  // Its number, by which its outcome can be added. What repeats itself within kRepeat_us, but for
-  // commands, is counted and moves to the end, not listed again: it must not push out what else
-  // happened. An alarm stands until it is ended. An error that only explains an alarm or a refused
-  // command is not listed (0).
+  // Returns its number, by which its outcome can be added. An event, except a command, that is
+  // repeated within kRepeat_us is counted and moves to the end: it must not push out other events.
+  // An alarm stands until it is ended. An error that only explains an alarm or a refused command is
+  // not listed (0).
   std::uint64_t add(Event event, Revision& revision);
   void conclude(std::uint64_t number, const std::string& outcome, Revision& revision);
 
-  // The alarm of this text (its numbers may differ) holds no more.
+  // The alarm with this text (its numbers may differ) has ended.
   void end(const std::string& station, const std::string& text, std::int64_t utime_us,
            Revision& revision);
-  // All alarms of a station.
+  // All alarms of a station have ended.
   void end_all(const std::string& station, std::int64_t utime_us, Revision& revision);
-  // Somebody has seen this alarm and looks after it. False: there is no such alarm.
+  // Somebody has seen this alarm and handles it. False: there is no such alarm.
   bool acknowledge(std::uint64_t number, const std::string& who, Revision& revision);
 
   Json since(Revision revision) const;  // an array, oldest first
@@ -46,10 +46,10 @@ class EventList {
     std::uint64_t number;
     Revision changed;
     Event event;
-    std::string key;  // the text without its numbers
+    std::string key;  // the text without numbers
     int times = 1;
-    std::optional<std::int64_t> over_us;  // of an alarm; nothing: it holds
-    std::string acknowledged;             // by whom
+    std::optional<std::int64_t> over_us;  // of an alarm; nullopt: it stands
+    std::string acknowledged;             // the person
     bool holds() const { return event.kind == "alarm" && !over_us; }
   };
   std::deque<Kept>::iterator repeated(const Event& event, const std::string& key);

@@ -1,4 +1,4 @@
-// What the console hears on the bus, translated for its site model.
+// Messages of the bus, translated for the console's site model.
 #pragma once
 
 #include <compare>
@@ -14,9 +14,9 @@ namespace ols::console {
 
 struct StationHeard {
   std::string id;
-  Json fields;  // docs/console.md lists them
+  Json fields;  // listed in docs/console.md
   command::Reply reply;
-  std::string video_address;  // where its pictures are to be had; empty: nowhere
+  std::string video_address;  // of its video socket; empty: none
   std::vector<std::string> alarms;
   std::string last_error;
   std::int64_t last_error_utime_us = 0;
@@ -26,7 +26,7 @@ struct TargetHeard {
   enum class What { kPosition, kLine, kNoPosition, kDropped, kNothing };
   What what = What::kNothing;
   std::int64_t boot_id = 0;
-  std::string id;  // of the target; of a line: its station
+  std::string id;  // of the target; for a line: its station
   Json fields;
   double latitude_deg = 0.0, longitude_deg = 0.0, height_m = 0.0;
 };
@@ -38,28 +38,29 @@ struct FusionHeard {
   std::string last_error;
 };
 
-// How pictures are coded: each by itself, or each by what has changed since the one before.
+// How pictures are coded: each separately, or as the change from the one before.
 enum class Codec { kJpeg, kH264 };
 
 struct Picture {
   std::string station;
-  Json header;  // docs/console.md lists it
+  Json header;  // listed in docs/console.md
   std::string bytes;
   bool is_video = false;  // from the station's video socket, not the bus's preview
   Codec codec = Codec::kJpeg;
-  bool is_key = false;  // of H.264: it can be shown without those before it
+  bool is_key = false;  // of H.264: it can be shown without earlier ones
 };
 
-// Of H.264: so often a key frame is asked for, at which a browser begins that has missed something.
+// For H.264: a key frame is requested after this many units; a browser that has missed something
+// begins there.
 inline constexpr int kUnitsOfKeyFrame = 90;
 
-// A station's video that somebody looks at.
+// A station's video that somebody watches.
 struct WatchedVideo {
   std::string station;
   Codec codec = Codec::kJpeg;
   auto operator<=>(const WatchedVideo&) const = default;
 };
-// Where each is to be had: "10.0.0.11:7790".
+// The address of each video: "10.0.0.11:7790".
 using WatchedVideos = std::map<WatchedVideo, std::string>;
 
 }  // namespace ols::console

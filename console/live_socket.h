@@ -1,5 +1,4 @@
-// A browser's WebSocket: takes its messages, sends what is new for it, never more than one message
-// at a time.
+// A browser's WebSocket: takes its messages, and sends what is new for it, one message at a time.
 #pragma once
 
 #include <boost/beast/core.hpp>
@@ -77,7 +76,7 @@ class LiveSocket : public Live, public std::enable_shared_from_this<LiveSocket<S
     read();
   }
 
-  // Until it fails; then nothing holds this object any more, once what is being written has failed.
+  // Reads until it fails. Nothing holds this object then, once the current write has failed too.
   void read() {
     ws_.async_read(buffer_,
                    [self = this->shared_from_this()](boost::beast::error_code error, std::size_t) {

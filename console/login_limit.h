@@ -1,5 +1,5 @@
-// How often a password may be tried: a few times at once from one address, then slowly; and slowly
-// for all addresses together. Pure.
+// Limits the attempts to log in: a few at once from one address, then slowly; and slowly for all
+// addresses together. Pure.
 #pragma once
 
 #include <cstddef>

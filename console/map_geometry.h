@@ -1,4 +1,4 @@
-// What the page draws and measures on its map, computed where all other geometry is. Pure.
+// Geometry that the page draws and measures on its map, computed where all other geometry is. Pure.
 #pragma once
 
 #include <optional>
@@ -10,22 +10,22 @@
 
 namespace ols::console {
 
-// The numbers of a query after "NAME=" up to the next "&", separated by commas, four at most; empty
-// if there are others.
+// The numbers of a query after "NAME=" up to the next "&", separated by commas, at most four; empty
+// for anything else.
 std::vector<double> numbers_of(std::string_view query, std::string_view name);
 
-// Of a horizontal covariance [m^2] east-east, east-north, north-north: the ellipse that holds the
-// position with 95 % probability. {semi_major_m, semi_minor_m, azimuth_deg of the major axis}; null
-// for what is no covariance.
+// The ellipse that holds the position with 95 % probability, from a horizontal covariance [m^2]
+// east-east, east-north, north-north: {semi_major_m, semi_minor_m, azimuth_deg of the major axis};
+// null if it is no covariance.
 Json ellipse95(double ee, double en, double nn);
 
-// "?from=LATITUDE,LONGITUDE&to=..." [deg] -> {distance_m, azimuth_deg} on the ellipsoid; nothing if
-// it is not that.
+// "?from=LATITUDE,LONGITUDE&to=..." [deg] -> {distance_m, azimuth_deg} on the ellipsoid; nullopt
+// for any other query.
 std::optional<Json> measure(const std::string& query);
 
 // "?box=WEST,SOUTH,EAST,NORTH" [deg] -> {zone, step_m, lines: [{label, path: [[longitude,
-// latitude], ...]}]}: the lines of the UTM grid of the box's middle, at most a few dozen; nothing
-// if it is no box, is wider than a zone, or too near to a pole.
+// latitude], ...]}]}: the lines of the UTM grid of the box's centre, at most a few dozen. nullopt
+// if it is no box, is wider than a zone, or is too near to a pole.
 std::optional<Json> utm_grid(const std::string& query);
 
 }  // namespace ols::console

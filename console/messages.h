@@ -1,5 +1,6 @@
-// The bus's messages as the console's own values. Nothing for what cannot be decoded, is of another
-// schema, or not of the station of its channel. Texts are made safe to show (base/plain_text.h).
+// The bus's messages as the console's own values. nullopt for a message that cannot be decoded, is
+// of another schema, or is not from the station of its channel. Texts are made safe to show
+// (base/plain_text.h).
 #pragma once
 
 #include <optional>
@@ -14,7 +15,7 @@ namespace ols::console {
 std::optional<StationHeard> station_from(const BusMessage& message);
 // The station and the bearing.
 std::optional<std::pair<std::string, Json>> bearing_from(const BusMessage& message);
-// Nothing if it is of another channel: the paper's estimate is no target.
+// nullopt for another channel: the paper's estimate is no target.
 std::optional<TargetHeard> target_from(const BusMessage& message);
 std::optional<FusionHeard> fusion_from(const BusMessage& message);
 

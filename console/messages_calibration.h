@@ -1,4 +1,4 @@
-// What a station and the fusion say of a station's calibration, as the console's own values.
+// A station's calibration, from its own status and from the fusion's, as the console's own values.
 #pragma once
 
 #include "console/heard.h"
@@ -7,10 +7,10 @@
 
 namespace ols::console {
 
-// {state, id, utime_us, sd_deg}: "none", "in use", "refused" or "doubted"; its name; its last
-// observation, null if it is not stated; 1-sigma of an axis of a direction, null without one.
+// {state, id, utime_us, sd_deg}: "none", "in use", "refused" or "doubted"; its id; its last
+// observation, null if not stated; 1-sigma of a direction, each axis, null if there is none.
 Json calibration_of(const ols_msg::station_status_t& status);
-// The same without an id, as the fusion weighs the station at this place of its list.
+// The same without an id, from the fusion's report on the station at this index.
 Json calibration_of(const ols_msg::fusion_status_t& status, std::size_t station);
 
 }  // namespace ols::console

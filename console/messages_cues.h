@@ -6,7 +6,7 @@
 
 namespace ols::console {
 
-// An array, in the order of ids; empty for what is no fusion's status.
+// An array, in the order of ids; empty if it is no fusion status.
 Json cues_of(const BusMessage& message);
 
 }  // namespace ols::console

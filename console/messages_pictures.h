@@ -13,9 +13,9 @@ namespace ols::console {
 
 std::optional<Picture> picture_from(const BusMessage& message);
 
-// Of a station's video socket, not of the bus: a request and its answer.
+// For a station's video socket, not the bus: a request and its answer.
 std::vector<std::uint8_t> video_request(std::int64_t after_utime_us, int max_width_px, int quality);
-// The same for H.264; its answer is to be decodable without any before it if `key_frame`.
+// The same for H.264. key_frame: its answer must be decodable without earlier ones.
 std::vector<std::uint8_t> stream_request(std::int64_t after_utime_us, int max_width_px, int quality,
                                          bool key_frame);
 std::optional<Picture> video_picture_from(std::span<const std::uint8_t> bytes, Codec codec);

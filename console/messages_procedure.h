@@ -9,11 +9,11 @@
 
 namespace ols::console {
 
-// Nothing for what cannot be decoded, is of another schema, or not of the station of its channel.
-// Texts are made safe to show (base/plain_text.h).
+// nullopt for a message that cannot be decoded, is of another schema, or is not from the station of
+// its channel. Texts are made safe to show (base/plain_text.h).
 std::optional<ProcedureHeard> procedure_from(const BusMessage& message);
 
-// Sends answers under one boot id, each with a sequence of its own.
+// Sends answers under one boot id, each with its own sequence number.
 class AnswerSender {
  public:
   explicit AnswerSender(std::int64_t boot_id) : boot_id_(boot_id) {}

@@ -1,4 +1,4 @@
-// The page's files, embedded in the program: made by console/page/build from its sources.
+// The page's files, embedded in the program. console/page/build makes them from its sources.
 #pragma once
 
 #include <string_view>
@@ -11,7 +11,7 @@ struct PageFile {
   std::string_view gzipped;
 };
 
-// Nothing if there is no such file; "/" is "/index.html".
+// Null if there is no such file. "/" is "/index.html".
 const PageFile* page_file_at(std::string_view path);
 
 }  // namespace ols::console

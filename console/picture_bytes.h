@@ -1,4 +1,4 @@
-// A picture as a browser gets it (docs/console.md). Pure.
+// A picture in the form in which a browser receives it (docs/console.md). Pure.
 #pragma once
 
 #include <cstdint>

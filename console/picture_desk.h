@@ -1,5 +1,5 @@
-// The pictures that the console has, and which of them a browser is to be sent next: of each
-// station the newest, never a queue. Pure.
+// The console's pictures, and which one a browser is to be sent next: the newest of each station,
+// never a queue. Pure.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ namespace ols::console {
 
 class PictureDesk {
  public:
-  // What a browser looks at, and the number of what it was sent last of each station.
+  // The stations that a browser watches, and the number of the last picture sent to it for each.
   struct View {
     std::set<std::string> watched;
     Codec codec = Codec::kJpeg;
@@ -26,12 +26,12 @@ class PictureDesk {
   };
 
   void hear(Picture picture);
-  // Of the stations with a new picture the one that was sent longest ago: over a slow link each
-  // gets its turn. The message's bytes, docs/console.md; empty: nothing new.
+  // Of the stations with a new picture, the one that was sent longest ago: over a slow link each
+  // gets its turn. Returns the message's bytes (docs/console.md); nullopt: nothing new.
   std::optional<std::string> next(View& view) const;
   void keep_only(const std::function<bool(const std::string&)>& is_known);
 
-  // The newest single picture of each station; and these in the place of all that there are.
+  // The newest single picture of each station; show() replaces all pictures by these.
   std::map<std::string, Picture> newest() const;
   void show(const std::map<std::string, Picture>& pictures);
 

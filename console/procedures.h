@@ -1,6 +1,6 @@
-// The guided procedures of the stations (calibrations), as a browser shows and answers them: the
-// state of each goes into the site's, its picture is fetched by itself, an answer is judged by the
-// question that stands. Pure.
+// The stations' guided procedures (calibrations), for a browser. The state of each is part of the
+// site's state, its picture is fetched separately, and an answer is checked against the current
+// question. Pure.
 #pragma once
 
 #include <array>
@@ -18,10 +18,10 @@ namespace ols::console {
 
 struct ProcedureHeard {
   std::string station;
-  Json fields;                       // docs/console.md lists them
-  std::int64_t question = 0;         // 0: none stands
+  Json fields;                       // listed in docs/console.md
+  std::int64_t question = 0;         // 0: none
   std::vector<std::string> choices;  // of the question
-  std::string jpeg;                  // empty: without a picture
+  std::string jpeg;                  // empty: no picture
   bool is_at_work = true;            // false: it has ended
 };
 
@@ -35,17 +35,17 @@ struct ProcedureAnswer {
 
 class Procedures {
  public:
-  // What the site's state says of it: the fields, and `picture`, a number that is new with each
-  // picture; 0: there is none.
+  // Returns its part of the site's state: the fields, and `picture`, a number that changes with
+  // each picture; 0: none.
   Json hear(ProcedureHeard heard);
   // The newest picture (JPEG) of a station's procedure; null: there is none.
   const std::string* picture(const std::string& station) const;
 
   bool has(const std::string& station) const { return kept_.contains(station); }
   // Why this answer cannot be given; empty: it is on its way. One that ends the procedure ("abort")
-  // is taken whatever question stands.
+  // is accepted whatever the question.
   std::string answer(const ProcedureAnswer& answer);
-  // Answers to be sent now.
+  // The answers to be sent now.
   std::vector<ProcedureAnswer> take() { return std::exchange(answers_, {}); }
 
   void keep_only(const std::function<bool(const std::string&)>& is_known);

@@ -11,7 +11,7 @@
 
 namespace ols::console {
 
-// Null where it is unknown. Rounded: a browser needs no 17 digits, ten times a second.
+// Null if unknown. Rounded, because a browser does not need 17 digits ten times a second.
 inline Json rounded(double value, int decimals) {
   if (!std::isfinite(value) || std::abs(value) > 1e15) return nullptr;
   const double scale = std::pow(10.0, decimals);
@@ -26,7 +26,7 @@ Json rounded_all(const double (&values)[count], int decimals) {
   return result;
 }
 
-// No browser's number holds 64 bits.
+// As text, because a browser's numbers do not hold 64 bits.
 inline std::string number_text(std::int64_t number) { return std::to_string(number); }
 
 }  // namespace ols::console

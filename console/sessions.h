@@ -1,4 +1,4 @@
-// Who is logged in, by the token in the cookie. Pure: tokens come in.
+// The logged-in users, by the token in their cookie. Pure: tokens come in.
 #pragma once
 
 #include <cstddef>
@@ -19,11 +19,11 @@ struct Session {
 class Sessions {
  public:
   explicit Sessions(double length_s) : length_s_(length_s) {}
-  // Beyond kMost, that which ends first makes room.
+  // Beyond kMost, the session that would end first is removed.
   void begin(const std::string& token, const std::string& name, Role role, double now_s);
   std::optional<Session> find(const std::string& token, double now_s) const;
   void end(const std::string& token) { sessions_.erase(token); }
-  // Of a person, all of them.
+  // Ends all sessions of a person.
   void end_of(const std::string& name);
   // Names with their numbers of sessions.
   std::map<std::string, int> counts(double now_s) const;

@@ -1,6 +1,5 @@
 // The console's model of the site: stations, targets with their trails, lines of single stations,
-// the fusion, and what happened. Bounded in everything that comes in; what falls silent is marked.
-// Pure.
+// the fusion, and events. All inputs are bounded; silent entities are marked. Pure.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +15,7 @@
 
 namespace ols::console {
 
-// `monotonic_s`: of this host, for ages; `utime_us`: its UTC, for people.
+// `monotonic_s`: of this host, for ages. `utime_us`: its UTC, for people.
 struct Now {
   double monotonic_s = 0.0;
   std::int64_t utime_us = 0;
@@ -40,11 +39,11 @@ class SiteState {
   void conclude(std::uint64_t event, const std::string& outcome) {
     events_.conclude(event, outcome, revision_);
   }
-  // Somebody looks after an alarm. False: there is no such alarm.
+  // Somebody handles an alarm. False: there is no such alarm.
   bool acknowledge(std::uint64_t event, const std::string& who) {
     return events_.acknowledge(event, who, revision_);
   }
-  // What operators call a target, for as long as it lasts. False: there is no such target.
+  // The operators' name for a target, for as long as it lasts. False: there is no such target.
   bool name_target(const std::string& id, const std::string& name);
   // Who holds control of a station: {"by": NAME, "viewer": N}, or null.
   void set_holder(const std::string& station, const Json& holder);
@@ -52,7 +51,7 @@ class SiteState {
   Revision revision() const { return revision_; }
   // stations, targets (with trails), lines, fusion, events; for GET /api/state and a new viewer.
   Json snapshot() const;
-  // The same since a revision: changed fields only, and "gone". A snapshot when that is too long
+  // The changes since a revision: changed fields only, and "gone". A snapshot if that is too long
   // ago to be known.
   Json changes(Revision since) const;
   Json events_since(Revision since) const { return events_.since(since); }
@@ -60,7 +59,7 @@ class SiteState {
   Json counts() const;
   std::vector<std::string> station_ids() const { return stations_.ids(); }
   bool knows(const std::string& station) const { return fields_of(station) != nullptr; }
-  // As it says it last; null: unknown.
+  // From its last status; null: unknown.
   const Json* fields_of(const std::string& station) const { return stations_.find(station); }
   std::uint64_t refused() const { return refused_; }  // names for which there was no room
 
@@ -72,7 +71,7 @@ class SiteState {
   static constexpr std::size_t kMostStations = 200, kMostTargets = 500, kMostTrailPoints = 600;
 
  private:
-  struct Kept {  // of a station or, by the empty name, of the fusion
+  struct Kept {  // of a station or, with an empty name, the fusion
     AlarmChanges alarms;
     std::string last_error;
     std::int64_t last_error_utime_us = -1;
@@ -88,7 +87,7 @@ class SiteState {
   void note_error(const std::string& station, const std::string& error, std::int64_t error_utime_us,
                   std::int64_t utime_us);
   void add_to_trail(const TargetHeard& target, double now_s);
-  // Whether this is the fusion that counts; another one does once the old one is silent.
+  // Whether this is the fusion that counts. Another one counts once the old one is silent.
   bool is_of_fusion(std::int64_t boot_id, const Now& now);
 
   Revision revision_ = 0;

@@ -1,6 +1,6 @@
-// What a browser was sent and has not taken yet: the state of the site, pictures of stations. Of
-// each at most one is under way, so that a browser that is slower than the site gets less, and
-// nothing old: what is sent faster than it is taken waits in its queue. Pure.
+// What a browser was sent and has not taken yet: the site's state, stations' pictures. At most one
+// of each is under way: otherwise messages sent faster than they are taken would wait in its queue.
+// A browser that is slower than the site gets less, but nothing old. Pure.
 #pragma once
 
 #include <set>
@@ -13,7 +13,8 @@ class UnderWay {
   static constexpr const char* kState = "";  // stations' names are not empty
 
   void sent(const std::string& thing) { things_.insert(thing); }
-  // As the browser says. One that never says so is sent everything at the pace of its connection.
+  // Reported by the browser. A browser that never reports is sent everything at the pace of its
+  // connection.
   void taken(const std::string& thing) {
     is_paced_ = true;
     things_.erase(thing);

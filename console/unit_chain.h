@@ -1,7 +1,6 @@
-// The access units of a station's H.264 from its last key frame on. A browser is sent those that it
-// has not had, in one message: it needs them all to show the newest, and their header is the newest
-// one's. So one that does not keep up gets fewer and larger messages, and its picture is the newest
-// all the same. Pure.
+// The access units of a station's H.264 since its last key frame. A browser is sent all units that
+// it lacks in one message, because it needs them all to show the newest; the header is that of the
+// newest. A slow browser thus gets fewer and larger messages, but its picture is the newest. Pure.
 #pragma once
 
 #include <cstddef>
@@ -15,16 +14,16 @@ namespace ols::console {
 
 class UnitChain {
  public:
-  // Beyond these the units wait for a key frame that never comes: all are dropped, until one does.
+  // With more units than this, no key frame has come: all are dropped until one does.
   static constexpr std::size_t kMostUnits = 4 * kUnitsOfKeyFrame;
   static constexpr std::size_t kMostBytes = 16U << 20U;
 
-  // Numbers grow. What comes before the first key frame cannot be shown, and is dropped.
+  // Numbers ascend. Units before the first key frame cannot be shown, and are dropped.
   void add(const Picture& unit, std::uint64_t number);
-  // Of its newest unit; 0: it has none.
+  // The number of its newest unit; 0: none.
   std::uint64_t newest() const { return units_.empty() ? 0 : units_.back().number; }
   std::int64_t newest_utime_us() const { return units_.empty() ? 0 : units_.back().utime_us; }
-  // For a browser that was sent `had` last. Call only if there is a unit.
+  // The message for a browser that was last sent `had`. Requires a unit.
   std::string message_after(std::uint64_t had) const;
 
  private:
@@ -37,7 +36,7 @@ class UnitChain {
 
   std::vector<Unit> units_;
   std::size_t bytes_ = 0;
-  Json header_;  // of the newest
+  Json header_;  // of the newest unit
 };
 
 }  // namespace ols::console

@@ -1,5 +1,5 @@
-// The people who may log in: a file with a line "NAME ROLE HASH" each, made by
-// `ols-console --add-user`. Pure but for the hash, which takes a tenth of a second and 64 MB.
+// The people who may log in: a file with one line "NAME ROLE HASH" each, made by `ols-console
+// --add-user`. Pure, except for the hash, which takes a tenth of a second and 64 MB.
 #pragma once
 
 #include <map>
@@ -9,7 +9,7 @@
 
 namespace ols::console {
 
-// Each may do all that the one before may: look; command; manage the users.
+// Each role may do everything that the one before may: look; command; manage the users.
 enum class Role { kViewer, kOperator, kAdmin };
 std::string_view name(Role role);
 std::optional<Role> role_named(std::string_view name);
@@ -24,14 +24,15 @@ using Users = std::map<std::string, User>;
 // Throws std::invalid_argument: "FILE:LINE: what is wrong".
 Users parse_users(const std::string& text, const std::string& file);
 std::string users_text(const Users& users);
-// What is wrong with a list of users, such as one without an admin; empty: nothing.
+// The error in a list of users, such as a missing admin; empty: none.
 std::string users_problem(const Users& users);
-// What is wrong with a name or a password for a new user; empty: nothing.
+// The error in a name or a password for a new user; empty: none.
 std::string name_problem(std::string_view name);
 std::string password_problem(std::string_view password);
 
 std::string hash_password(const std::string& password);
-// Takes as long for an unknown user (empty hash) as for a known one: names cannot be found out.
+// Takes as long for an unknown user (empty hash) as for a known one, so that names cannot be
+// guessed.
 bool verify_password(const std::string& hash, const std::string& password);
 
 }  // namespace ols::console

@@ -1,6 +1,6 @@
-// The console's connection to one station's video socket (docs/video.md): asks for the newest
-// picture, its size and quality, again and again; connects again after a failure. Of one thread,
-// with the io_context's.
+// The console's connection to one station's video socket (docs/video.md): requests the newest
+// picture, its size and quality, again and again; reconnects after a failure. For one thread, that
+// of the io_context.
 #pragma once
 
 #include <boost/asio/ip/tcp.hpp>
@@ -17,11 +17,11 @@
 
 namespace ols::console {
 
-// What is asked of every station.
+// The request to every station.
 struct VideoWish {
   int max_width_px = 960;
   int quality = 65;
-  // Of H.264: a tenth of the JPEGs' rate in the demo.
+  // Quality of H.264: a tenth of the JPEGs' rate in the demo.
   int thin_quality = 45;
   double interval_s = 0.0;  // from one picture to the next request
   Codec codec = Codec::kJpeg;
@@ -29,8 +29,8 @@ struct VideoWish {
 
 class VideoLink : public std::enable_shared_from_this<VideoLink> {
  public:
-  // A whole video_frame_t, still encoded; its utime, so that the next request asks for a later one.
-  // Empty: it is none, and the connection ends.
+  // Receives a whole video_frame_t, still encoded. Returns its utime, so that the next request asks
+  // for a later one; nullopt: it is no frame, and the connection ends.
   using Take = std::function<std::optional<std::int64_t>(std::vector<std::uint8_t>)>;
 
   VideoLink(boost::asio::io_context& io, const boost::asio::ip::tcp::endpoint& endpoint,
@@ -50,7 +50,7 @@ class VideoLink : public std::enable_shared_from_this<VideoLink> {
   void receive_body(std::uint32_t length);
   void taken();
   void fail();
-  // Gives up the connection unless the next step begins in time.
+  // Closes the connection unless the next step begins in time.
   void expect_within(double seconds);
 
   const boost::asio::ip::tcp::endpoint endpoint_;

@@ -1,5 +1,5 @@
-// Pulls the pictures of the stations that somebody looks at, once each and codec, in a thread of
-// its own; of each station only the newest is kept, of H.264 what it takes to decode that.
+// Pulls the pictures of the watched stations, once for each codec, in its own thread. Only the
+// newest of each station is kept; for H.264, also what is needed to decode it.
 #pragma once
 
 #include <memory>
@@ -13,16 +13,16 @@ namespace ols::console {
 
 class VideoPuller {
  public:
-  // A station is asked only if its address lies in one of these networks: addresses come over the
+  // A station is asked only if its address is in one of these networks: addresses come over the
   // bus, where anybody may write. Throws std::invalid_argument.
   VideoPuller(const std::vector<std::string>& networks, const VideoWish& wish);
   ~VideoPuller();
   VideoPuller(const VideoPuller&) = delete;
   VideoPuller& operator=(const VideoPuller&) = delete;
 
-  // From now on these, and no others.
+  // From now on only these videos.
   void watch(const WatchedVideos& videos);
-  // Since the last call: the newest picture of each station; of H.264 all, the oldest first.
+  // Since the last call: the newest picture of each station; for H.264 all units, oldest first.
   std::vector<Picture> take();
 
  private:

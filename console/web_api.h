@@ -1,5 +1,5 @@
-// The console's HTTP interface without HTTP: what is answered to which request, who is logged in,
-// and who may open a WebSocket. Pure but for drawing session tokens.
+// The console's HTTP interface without HTTP: the answers to requests, the logged-in users, and who
+// may open a WebSocket. Pure, except for drawing session tokens.
 #pragma once
 
 #include <functional>
@@ -32,20 +32,20 @@ struct WebResponse {
   std::vector<std::pair<std::string, std::string>> headers;
 };
 
-// A log-in whose password has still to be verified: that takes long, and is done elsewhere.
+// A log-in whose password is still to be verified, which takes long and is done elsewhere.
 struct LoginTask {
   std::string name, password, hash;
 };
 
-// A user to be entered, or given another role or password: the hash takes long, too.
+// A user to be added or changed: the hash takes long, too.
 struct UserTask {
   std::string by, name, password;
   Role role = Role::kViewer;
 };
 
-// A question to the users' own maps, which takes a disk's time, and is answered elsewhere.
+// A request for the users' own maps, which waits for a disk and is answered elsewhere.
 struct MapTask {
-  std::string map = {};  // empty: the list of all
+  std::string map = {};  // empty: the list of maps
   TileAddress tile = {};
   bool accuracy = false;  // instead of a tile
 };
@@ -55,7 +55,7 @@ using WebAnswer = std::variant<WebResponse, LoginTask, UserTask, MapTask>;
 class WebApi {
  public:
   using DrawToken = std::function<std::string()>;  // 64 hexadecimal digits that nobody can guess
-  // Keeps the users where they come from; throws std::exception when that fails.
+  // Stores the users; throws std::exception on failure.
   using SaveUsers = std::function<void(const Users&)>;
   WebApi(const ConsoleConfig& config, Users users, Console& console, DrawToken draw_token,
          SaveUsers save_users);
@@ -64,16 +64,16 @@ class WebApi {
   WebResponse finish(const LoginTask& task, bool is_verified, const Now& now);
   WebResponse finish(const UserTask& task, const std::string& hash, const Now& now);
 
-  // Who may open a WebSocket with this request, or the response that refuses it.
+  // The session that may open a WebSocket with this request, or the response that refuses it.
   std::variant<Session, WebResponse> admit(const WebRequest& request, const Now& now) const;
 
-  // Whether the session of a WebSocket lasts: it ends by itself, and with the log-out.
+  // Whether the session of a WebSocket still lasts: it ends by itself, and with the log-out.
   bool lasts(const std::string& token, const Now& now) const {
     return is_open() || sessions_.find(token, now.monotonic_s).has_value();
   }
 
   bool is_open() const { return is_open_; }  // without log-in: on loopback, without users
-  // For every response: what a browser must not do with it.
+  // For every response: headers that restrict the browser.
   static std::vector<std::pair<std::string, std::string>> security_headers(bool is_tls);
 
  private:

@@ -1,6 +1,6 @@
-// Serves the console over HTTP, HTTPS and WebSockets (Boost.Beast). One thread: the caller's, but
-// for passwords, which are verified in one of their own. Nothing queues for a browser: it gets the
-// newest state when its last message is through.
+// Serves the console over HTTP, HTTPS and WebSockets (Boost.Beast). It uses the caller's thread;
+// passwords are verified in another one. Nothing queues for a browser: it gets the newest state
+// when its last message is through.
 #pragma once
 
 #include <memory>
@@ -21,10 +21,10 @@ class WebServer {
 
   int port() const;
   void serve_for(double seconds);
-  // Gives every browser that is ready for it what is new.
+  // Sends every ready browser what is new.
   void pump();
 
-  struct Shared;  // of the connections
+  struct Shared;  // shared by the connections
 
  private:
   std::unique_ptr<Shared> shared_;

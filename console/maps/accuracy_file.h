@@ -1,5 +1,5 @@
-// A map of the accuracy that `ols-precision map --geojson` has computed ahead, for sites as they
-// are planned: cells with their deviations, at one or more heights. Pure but for reading its file.
+// A map of the accuracy that `ols-precision map --geojson` has computed for planned sites: cells
+// with their deviations, at one or more heights. Pure, except for reading its file.
 #pragma once
 
 #include <string>
@@ -12,14 +12,13 @@ inline constexpr std::size_t kMostAccuracyBytes = 16'000'000;
 inline constexpr std::size_t kMostAccuracyCells = 100'000;
 
 // From the text of such a file: {heights: [{above_m, cells: [[sd_m, longitude, latitude, ...],
-// ...]}]}, with the heights above the stations in rising order, the corners of each cell in
-// degrees, and the root of the covariance's trace. Throws std::runtime_error that says what is
-// wrong.
+// ...]}]}: the heights above the stations in ascending order, the corners of each cell in degrees,
+// and the root of the covariance's trace. Throws std::runtime_error with the error.
 Json accuracy_cells(const std::string& geojson);
 
 class AccuracyFile {
  public:
-  // Throws std::runtime_error or std::system_error that says what is damaged.
+  // Throws std::runtime_error or std::system_error with the damage.
   explicit AccuracyFile(const std::string& path);
 
   const Json& heights_m() const { return heights_m_; }

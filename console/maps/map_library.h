@@ -1,6 +1,6 @@
-// The users' own maps, of pictures and of accuracy: every one in a folder, looked for again when
-// they are asked for. A damaged one is said, and leaves the others alone. For one thread, which may
-// wait for a disk.
+// The users' own maps, of pictures and of accuracy. They are in one folder, which is listed again
+// at each request. A damaged map is reported, and does not affect the others. For one thread, which
+// may wait for a disk.
 #pragma once
 
 #include <cstdint>
@@ -16,20 +16,20 @@ namespace ols::console {
 
 class MapLibrary {
  public:
-  // An empty name: there are no maps.
+  // Empty folder name: there are no maps.
   explicit MapLibrary(std::string folder) : folder_(std::move(folder)) {}
 
-  // The answer to a browser: the list of maps, a tile, or a map of the accuracy.
+  // The answer to a browser: the list of maps, a tile, or an accuracy map.
   WebResponse answer(const MapTask& task);
 
   static constexpr std::size_t kMostMaps = 32;
 
  private:
   struct Entry {
-    std::unique_ptr<TileStore> store;        // of pictures,
-    std::unique_ptr<AccuracyFile> accuracy;  // or this; without either it cannot be used
+    std::unique_ptr<TileStore> store;        // of pictures
+    std::unique_ptr<AccuracyFile> accuracy;  // or of accuracy; with neither, it is unusable
     std::string problem;                     // empty: none
-    std::int64_t changed_ns = 0;             // the file's
+    std::int64_t changed_ns = 0;             // time of the file's last change
   };
   void look();
   void open(const std::string& name, std::int64_t changed_ns);

@@ -1,5 +1,5 @@
-// A map in a PMTiles archive (pmtiles_directory.h). The console reads it and serves its tiles as
-// those of other maps, so that a browser needs neither ranges of a file nor a library for it.
+// A map in a PMTiles archive (pmtiles_directory.h). The console reads it and serves its tiles like
+// those of other maps, so that a browser needs neither file ranges nor a library.
 #pragma once
 
 #include <cstdio>
@@ -14,7 +14,7 @@ namespace ols::console {
 
 class Pmtiles : public TileStore {
  public:
-  // Throws std::runtime_error that says what is wrong with it.
+  // Throws std::runtime_error with the error.
   explicit Pmtiles(const std::string& path);
   const MapInfo& info() const override { return header_.info; }
   std::optional<std::string> tile(const TileAddress& address) override;
@@ -29,10 +29,10 @@ class Pmtiles : public TileStore {
   std::unique_ptr<std::FILE, Close> file_;
   PmtilesHeader header_;
   std::vector<PmtilesEntry> root_, leaf_;
-  std::uint64_t leaf_offset_ = 0;  // of leaf_, which was read last; 0: none
+  std::uint64_t leaf_offset_ = 0;  // of leaf_, the last one read; 0: none
 };
 
-// What gzip has compressed; throws std::runtime_error when it is damaged or larger than `most`.
+// Decompresses gzip. Throws std::runtime_error if the data are damaged or larger than `most`.
 std::string gunzipped(const std::string& bytes, std::size_t most);
 
 }  // namespace ols::console

@@ -14,24 +14,24 @@ namespace ols::console {
 inline constexpr std::size_t kPmtilesHeaderBytes = 127;
 
 struct PmtilesHeader {
-  std::uint64_t root_offset = 0, root_bytes = 0;      // of the directory at the top
+  std::uint64_t root_offset = 0, root_bytes = 0;      // of the top directory
   std::uint64_t leaves_offset = 0, leaves_bytes = 0;  // of the others
   std::uint64_t tiles_offset = 0, tiles_bytes = 0;
-  bool is_gzipped = false;  // the directories
-  MapInfo info;             // but for the name
+  bool is_gzipped = false;  // the directories are
+  MapInfo info;             // without the name
 };
-// Throws std::runtime_error that says what is wrong.
+// Throws std::runtime_error with the error.
 PmtilesHeader parse_pmtiles_header(std::span<const std::uint8_t> bytes);
 
 struct PmtilesEntry {
-  std::uint64_t tile = 0;    // the first
-  std::uint64_t offset = 0;  // from the beginning of the tiles, or of the leaves
+  std::uint64_t tile = 0;    // the first tile
+  std::uint64_t offset = 0;  // from the start of the tiles, or of the leaves
   std::uint32_t bytes = 0;
-  std::uint32_t run = 0;  // of equal tiles; 0: this is a leaf directory
+  std::uint32_t run = 0;  // number of equal tiles; 0: this is a leaf directory
 };
-// Of a directory that is not compressed any more. Throws std::runtime_error.
+// From a decompressed directory. Throws std::runtime_error.
 std::vector<PmtilesEntry> parse_pmtiles_directory(std::span<const std::uint8_t> bytes);
-// The entry in which a tile is, or the leaf directory that knows.
+// The entry of a tile, or of the leaf directory that contains it.
 std::optional<PmtilesEntry> find_tile(const std::vector<PmtilesEntry>& directory,
                                       std::uint64_t tile);
 // The number of a tile: along a Hilbert curve, zoom level after zoom level.

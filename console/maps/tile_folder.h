@@ -10,7 +10,7 @@ namespace ols::console {
 
 class TileFolder : public TileStore {
  public:
-  // Throws std::runtime_error if there is no zoom level in it.
+  // Throws std::runtime_error if it has no zoom level.
   explicit TileFolder(const std::string& path);
   const MapInfo& info() const override { return info_; }
   std::optional<std::string> tile(const TileAddress& address) override;

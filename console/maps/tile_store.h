@@ -1,5 +1,5 @@
-// A map of a user's own: square pictures in the Web Mercator tiling, by zoom level, column from the
-// west and row from the north.
+// A user's own map: square pictures in the Web Mercator tiling, by zoom level, column from the west
+// and row from the north.
 #pragma once
 
 #include <array>
@@ -25,16 +25,16 @@ class TileStore {
  public:
   virtual ~TileStore() = default;
   virtual const MapInfo& info() const = 0;
-  // A picture as a browser shows it; nothing where the map has none. Throws std::runtime_error that
-  // says what is damaged.
+  // A picture that a browser can show; nullopt where the map has none. Throws std::runtime_error
+  // with the damage.
   virtual std::optional<std::string> tile(const TileAddress& address) = 0;
 };
 
 // Whether there is such a tile in the tiling.
 bool is_address(const TileAddress& address);
-// "image/png" and the like by a picture's first bytes; empty: it is none that browsers show.
+// "image/png" or similar, from a picture's first bytes; empty: browsers cannot show it.
 std::string picture_type(const std::string& bytes);
-// Brings into range what a file says of itself.
+// Limits a file's statements about itself to possible values.
 MapInfo plausible(MapInfo info);
 
 }  // namespace ols::console

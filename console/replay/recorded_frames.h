@@ -1,5 +1,5 @@
-// The frames that a station's recorder kept (docs/field-guide.md): folders of events with
-// frames.csv and PNG files.
+// The frames kept by a station's recorder (docs/field-guide.md): event folders with frames.csv and
+// PNG files.
 #pragma once
 
 #include <cstddef>
@@ -15,14 +15,14 @@ namespace ols::console {
 
 class RecordedFrames {
  public:
-  // Takes up the events in a recorder's folder. Throws std::invalid_argument that names it; a row
-  // or an event that is damaged is left out and said in problems().
+  // Adds the events in a recorder's folder. Throws std::invalid_argument that names it. A damaged
+  // row or event is left out and reported in problems().
   void add(const std::string& station, const std::string& folder);
 
-  // The newest frame of a station at an instant, unless it is more than kOld_us old or the one
+  // The newest frame of a station at an instant; nullopt if it is more than kOld_us old, or was
   // given last.
   std::optional<Picture> newest(const std::string& station, std::int64_t utime_us);
-  // What was given last may be given again.
+  // Allows the frame given last to be given again.
   void give_again() {
     for (auto& [station, frames] : stations_) frames.given_us = 0;
   }
@@ -49,7 +49,7 @@ class RecordedFrames {
   std::size_t frames_ = 0;
 };
 
-// Width and height of a PNG file by its header; nothing if it is none.
+// Width and height from the header of a PNG file; nullopt if it is none.
 std::optional<std::pair<int, int>> png_size(const std::string& png);
 
 }  // namespace ols::console

@@ -1,7 +1,7 @@
-// Shows a recorded log on the console as if it were now: plays, pauses, jumps. Reads the whole log
-// once beside that, a little in each turn, for the timeline and for snapshots; a jump rebuilds the
-// state from the nearest snapshot before, out of sight, and shows it when it is complete. No clock:
-// time comes in.
+// Shows a recorded log on the console as if it were now: plays, pauses, jumps. It also reads the
+// whole log once, a little in each turn, for the timeline and for snapshots. A jump rebuilds the
+// state from the nearest earlier snapshot, out of sight, and shows it when it is complete. No
+// clock: time comes in.
 #pragma once
 
 #include <cstdint>
@@ -17,14 +17,14 @@ namespace ols::console {
 
 class Replay {
  public:
-  // Throws std::invalid_argument that names the file if there is no message of a site in it.
+  // Throws std::invalid_argument that names the file if it contains no message of a site.
   Replay(const std::string& log, RecordedFrames frames, Console& console);
 
-  // Call often: reads, plays, does what viewers have asked.
+  // Call often: reads, plays, carries out viewers' requests.
   void turn(double monotonic_s);
   std::string in_one_line() const;
 
-  static constexpr int kScannedAtOnce = 1500;  // messages a turn, of which each takes some 20 us
+  static constexpr int kScannedAtOnce = 1500;  // messages per turn; each takes some 20 us
   static constexpr int kPlayedAtOnce = 1500;
 
  private:
@@ -33,7 +33,7 @@ class Replay {
     double speed = 1.0, at_us = 0.0;
   };
   struct Told {
-    bool is_urgent = true;  // there is something that viewers are to hear at once
+    bool is_urgent = true;                      // viewers are to receive it at once
     std::uint64_t changes = ~std::uint64_t{0};  // of the timeline
     double timeline_s = -1e9;
   };
@@ -45,7 +45,7 @@ class Replay {
   void tell();
   void tell_timeline();
   std::string problem() const;
-  // Hears what the log has up to an instant; false when there is more than for one turn.
+  // Processes the log up to an instant; false if there is more than for one turn.
   bool catch_up(Console& console, std::int64_t until_us);
 
   const std::string log_;
@@ -53,9 +53,9 @@ class Replay {
   LogReader scanner_, player_;
   RecordedFrames frames_;
   Timeline timeline_;
-  std::unique_ptr<Console> scanned_;   // what the scanner has heard
-  std::unique_ptr<Console> ahead_;     // the state that a jump rebuilds; null: none is under way
-  std::optional<BusMessage> waiting_;  // the player's next
+  std::unique_ptr<Console> scanned_;   // the scanner's state
+  std::unique_ptr<Console> ahead_;     // the state that a jump rebuilds; null: none
+  std::optional<BusMessage> waiting_;  // the player's next message
   bool is_scanned_ = false;
   double turned_s_ = -1.0;
   Playback playback_;

@@ -1,6 +1,6 @@
 // What a replay knows of a whole recording: snapshots from which the state at any instant is
-// rebuilt, and the events for its timeline. Bounded: when the snapshots are too large together,
-// every second one goes. Pure.
+// rebuilt, and the events of its timeline. Bounded: if all snapshots together are too large, every
+// second one is dropped. Pure.
 #pragma once
 
 #include <cstdint>
@@ -14,21 +14,21 @@ namespace ols::console {
 
 struct Snapshot {
   std::int64_t utime_us = 0;
-  std::uint64_t offset = 0;  // in the log, of what follows
+  std::uint64_t offset = 0;  // in the log, of the following message
   std::size_t bytes = 0;     // as text
   Moment moment;
 };
 
 class Timeline {
  public:
-  // Everything up to this instant and offset has been heard by this console.
+  // This console has heard everything up to this instant and offset.
   void reach(std::int64_t utime_us, std::uint64_t offset, const Console& console);
-  // There is no more.
+  // The end of the log.
   void end(const Console& console) { add_marks(console); }
   // A target's beginning or end is an event too.
   void hear(const TargetHeard& target, std::int64_t utime_us);
 
-  // The last one at or before the instant; null before the first.
+  // The last snapshot at or before the instant; null before the first.
   const Snapshot* before(std::int64_t utime_us) const;
   std::int64_t first_us() const { return first_us_; }
   std::int64_t last_us() const { return last_us_; }
@@ -36,7 +36,7 @@ class Timeline {
   // first_us, last_us, marks (utime_us, kind, station, who, text, outcome; in order),
   // marks_left_out.
   Json json() const;
-  std::uint64_t changes() const { return changes_; }  // grows with each mark, or change of one
+  std::uint64_t changes() const { return changes_; }  // grows with each new or changed mark
 
   static constexpr std::size_t kMostMarks = 5000;
   static constexpr std::size_t kMostTargets = 10'000;  // alive at once; a forged log has more
@@ -55,7 +55,7 @@ class Timeline {
   std::int64_t first_us_ = 0, last_us_ = 0, looked_us_ = 0;
   Revision seen_ = 0;
   std::vector<Json> marks_;
-  std::map<std::uint64_t, std::size_t> of_event_;  // the mark of an event, by its number
+  std::map<std::uint64_t, std::size_t> of_event_;  // the mark of each event, by event number
   std::uint64_t left_out_ = 0, changes_ = 0;
   std::set<std::string> alive_;
   std::int64_t fusion_boot_ = 0;

@@ -1,6 +1,6 @@
-// One viewer's pictures as a stream of H.264, for thin links: each access unit refers to the one
-// before it, so all of them must reach the viewer, in order. Which pictures become units is the
-// caller's: none is made that is not sent. Pure: the same pictures give the same bytes.
+// One viewer's pictures as a stream of H.264, for thin links. Each access unit refers to the one
+// before it, so all of them must reach the viewer, in order. The caller decides which pictures
+// become units, and must send each. Pure: the same pictures give the same bytes.
 #pragma once
 
 #include <cstdint>
@@ -16,9 +16,9 @@ class H264Encoder {
  public:
   H264Encoder() = default;
 
-  // The next picture (8-bit, one channel, even sides) as an access unit (Annex B). `quality` as of
-  // JPEG. A key frame if `key_frame`, if it is the first, or if size or quality have changed.
-  // Empty: the encoder cannot.
+  // Encodes the next picture (8-bit, one channel, even sides) as an access unit (Annex B).
+  // `quality`: as for JPEG. It is a key frame if `key_frame` is set, if it is the first, or if size
+  // or quality have changed. Empty: the encoder cannot.
   std::vector<std::uint8_t> encode(const cv::Mat& gray, int quality, bool key_frame,
                                    std::int64_t utime_us);
 

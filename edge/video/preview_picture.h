@@ -1,4 +1,4 @@
-// A frame as small as a datagram has room for.
+// A frame, reduced to fit into a datagram.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ struct PreviewPicture {
   std::vector<std::uint8_t> jpeg;
 };
 
-// The largest of some widths at which it fits; nullopt: it does not fit at any.
+// The largest of some widths that fits; nullopt: none fits.
 std::optional<PreviewPicture> preview_picture(const cv::Mat& gray);
 
 }  // namespace ols::video

@@ -1,4 +1,4 @@
-// What a viewer of a station's camera gets and asks for. Pure.
+// The requests of a station's viewers, and what they receive. Pure.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,17 +18,17 @@ struct CameraView {
   CameraIntrinsics intrinsics;
 };
 
-// A frame as the station saw it, with what its tracker said of it.
+// A frame, with its tracker's result.
 struct VideoFrame {
   std::int64_t utime_us = 0;      // mid-exposure
   cv::Mat gray;                   // 8-bit, one channel; its pixels are shared and never written
-  std::optional<cv::Rect2d> box;  // [px] of the tracker in this frame
+  std::optional<cv::Rect2d> box;  // [px] the tracker's, in this frame
   double belief = 0.0;
   std::int64_t track_id = 0;
   std::optional<CameraView> camera;  // empty while the PTU's angles are unknown
 };
 
-// Who sends it.
+// The sender of the frames.
 struct VideoSender {
   std::string station;
   std::int64_t boot_id = 0;
@@ -40,17 +40,16 @@ struct VideoRequest {
   std::int64_t after_utime_us = 0;
   int max_width_px = 0;
   int quality = 0;         // 1..100, of JPEG
-  cv::Rect2d region = {};  // [px]; without width: the whole frame
+  cv::Rect2d region = {};  // [px]; zero width: the whole frame
   VideoCodec codec = VideoCodec::kJpeg;
-  bool key_frame = false;  // of H.264: decodable without what came before
+  bool key_frame = false;  // of H.264: decodable without earlier units
 };
 
-// The part of a frame that a request means, in whole pixels and within the frame; at least one
-// pixel.
+// The requested part of a frame, in whole pixels and within the frame; at least one pixel.
 cv::Rect region_of(const VideoRequest& request, const cv::Size& frame);
 
-// How large the picture of such a region becomes: never larger than the region, but for H.264,
-// whose pictures have even sides of at least 16 pixels, and at most 1920.
+// The size of the picture of this region: never larger than the region, except for H.264, whose
+// pictures have even sides of 16 to 1920 pixels.
 cv::Size picture_size(const VideoRequest& request, const cv::Size& region);
 
 }  // namespace ols::video

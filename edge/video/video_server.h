@@ -1,7 +1,7 @@
-// Serves a station's pictures to whoever is allowed to look, over TCP (docs/video.md): each request
-// is answered by the newest frame that the viewer has not had. So nothing queues, however slow a
-// viewer or its network is, and nothing is compressed when nobody asks. A thread of its own serves;
-// the control loop only leaves a reference to its frame.
+// Serves a station's pictures to permitted viewers, over TCP (docs/video.md). Each request is
+// answered by the newest frame that the viewer has not had. Nothing queues, however slow a viewer
+// or its network is, and nothing is compressed without a request. A thread of its own serves; the
+// control loop only leaves a reference to its frame.
 #pragma once
 
 #include <memory>
@@ -20,7 +20,7 @@ struct VideoConfig {
   // IP address and port, "10.0.0.11:7790", "[fd00::11]:7790"; empty: no video. Viewers find it in
   // the station's status.
   std::string address;
-  // Networks of the viewers, "10.0.0.0/24"; whoever else connects is turned away.
+  // Networks of the viewers, "10.0.0.0/24"; other connections are refused.
   std::vector<std::string> allow = {"127.0.0.0/8", "::1/128"};
 };
 
@@ -28,7 +28,7 @@ config::Section video_section(VideoConfig& config);  // [video]
 
 class VideoServer {
  public:
-  // More viewers than these are turned away.
+  // Further viewers are refused.
   static constexpr int kMaxViewers = 8;
 
   // Throws std::invalid_argument for a bad address or network. An address that the computer does
@@ -38,12 +38,12 @@ class VideoServer {
   VideoServer(const VideoServer&) = delete;
   VideoServer& operator=(const VideoServer&) = delete;
 
-  // These may be called from any thread; none waits.
-  // Whether anybody is connected: if not, there is no use in offering frames.
+  // Call from any thread; none of these waits.
+  // Whether anybody is connected; otherwise frames need not be offered.
   bool has_viewers() const;
   // In time order.
   void offer(VideoFrame frame);
-  // Its text is the address where it listens.
+  // The report's text is the listening address.
   device::DeviceReport report() const;
 
  private:

@@ -1,4 +1,4 @@
-// One viewer of a station's video. Used by the video server's thread only.
+// One viewer of a station's video. Used only by the video server's thread.
 #pragma once
 
 #include <array>
@@ -21,10 +21,10 @@ class VideoSession : public std::enable_shared_from_this<VideoSession> {
   using Bytes = std::shared_ptr<const std::vector<std::uint8_t>>;
   enum class End {
     kGone,       // closed by the viewer, or the connection is lost
-    kIdle,       // asked for nothing
-    kStalled,    // took nothing
-    kMalformed,  // sent what is no request
-    kUncoded,    // asked for a picture that cannot be coded
+    kIdle,       // made no request
+    kStalled,    // read nothing
+    kMalformed,  // sent an invalid request
+    kUncoded,    // requested a picture that cannot be coded
   };
   struct Callbacks {
     // A request has come: answer() it, now or later.
@@ -36,13 +36,13 @@ class VideoSession : public std::enable_shared_from_this<VideoSession> {
   VideoSession(boost::asio::ip::tcp::socket socket, Callbacks callbacks);
 
   void begin() { read_request(); }
-  // The request that waits for an answer; empty: none.
+  // The request that waits for an answer; nullopt: none.
   const std::optional<VideoRequest>& request() const { return request_; }
   void answer(const Bytes& message);
-  // The number of the last frame that it was sent; -1: none yet.
+  // The number of the last frame sent to it; -1: none yet.
   std::int64_t had() const { return had_; }
   void note_had(std::int64_t frame) { had_ = frame; }
-  // Of this connection: every unit that it makes must be sent here, and nowhere else.
+  // The encoder of this connection: every unit that it makes must be sent here, and nowhere else.
   H264Encoder& stream() { return stream_; }
   void close(End end);
 
