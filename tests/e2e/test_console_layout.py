@@ -2,17 +2,20 @@
 it is cut or covered; what is large is a choice, and so are units and positions."""
 
 import math
+import re
+import tomllib
 from pathlib import Path
 
 import ols_msg
 import pytest
-from conftest import wait
+from conftest import ROOT, wait
 from console_page import picture, region, watched_page
 from playwright.sync_api import expect
 
 pytest_plugins = ["console_fixtures"]
 
 CUT_TEXT = Path(__file__).with_name("cut_text.js").read_text()
+DRAWN_TEXT = Path(__file__).with_name("drawn_text.js").read_text()
 SIZES = [(1500, 900), (1280, 720), (1024, 768), (768, 1024), (390, 844)]
 STATUS = ols_msg.station_status_t
 
@@ -20,6 +23,8 @@ STATUS = ols_msg.station_status_t
 @pytest.fixture
 def busy(page, paper):
     """The page with what takes the most room: a station and a target open, an alarm."""
+    page.add_init_script(DRAWN_TEXT)
+    page.reload()
     paper.states |= {"alfa": STATUS.STATE_TRACKING, "bravo": STATUS.STATE_STOPPED}
     paper.alarms["charlie"] = ["ptu: supply voltage low (11.2 V)"]
     region(page, "Stations").get_by_role("button", name="charlie").click()
@@ -45,6 +50,65 @@ def test_no_text_is_cut_or_covered(busy):
     languages.select_option("de")
     expect(busy.get_by_role("complementary", name="Ziel 7")).to_be_visible()
     assert found_at_each_size(busy) == {}
+
+
+WORD = re.compile(r"[A-Za-zÄÖÜäöüß]{3,}")
+NAMES = {"alfa", "bravo", "charlie", "made", "paper", "gpiochip", "srv", "Esc"}
+
+
+def words_of(page):
+    """All that is written on it, and what a screen reader says."""
+    texts = page.evaluate(
+        """() => [...document.querySelectorAll("body *")].flatMap((one) => [
+             ...[...one.childNodes].filter((node) => node.nodeType === 3).map((node) => node.data),
+             ...["aria-label", "title", "alt"].map((name) => one.getAttribute(name) ?? ""),
+           ])"""
+    )
+    return {word for text in texts for word in WORD.findall(text)}
+
+
+def german_words():
+    """Of the page's own texts and of what programs say: those that are the same in English, too."""
+    page = ROOT / "console/page"
+    pairs = re.findall(
+        r'^  "?[\w ]+"?: \["(.*?)", "(.*)"\],$', (page / "src/words.ts").read_text(), re.M
+    )
+    table = tomllib.loads((page / "conditions.toml").read_text())
+    texts = [german for _, german in pairs]
+    texts += [
+        one
+        for row in table["alarm"]
+        for one in (*row["text"].values(), row["meaning"], row["action"])
+    ]
+    texts += [german for part in ("phrases", "words", "names") for german in table[part].values()]
+    return {word for text in texts for word in WORD.findall(text)}
+
+
+def test_no_english_stays_on_the_german_page(busy, paper):
+    """Of a station with rare texts of devices, counters, and alarms with what stands in them."""
+    paper.devices["charlie"] = {
+        "inclinometer": "waiting for readings",
+        "recorder": "12 events in /srv, recording",
+        "lens": "not executable now",
+        "gpio": "gpiochip0, stop pressed",
+    }
+    paper.counters["charlie"] |= {"frames_captured": 7, "refused_no_lens": 1, "seconds_tracking": 3}
+    paper.readings["charlie"] = {"ptu_supply_V": 11.2, "turn_p99_s": 0.01}
+    paper.alarms["charlie"] = [
+        "ptu: halted, no plausible position: positions that contradict each other",
+        "calibration: not checked for 26.0 h: the unit does not come to its reference views",
+    ]
+    expect(region(busy, "Stations")).to_contain_text("contradict each other")
+    expect(region(busy, "Stations")).to_contain_text("refused no lens")
+    english = words_of(busy)
+    busy.get_by_label("Language").select_option("de")
+    expect(region(busy, "Stationen")).to_contain_text("widersprechen")
+    german = words_of(busy)
+    assert len(english) > 150
+    assert (english & german) - german_words() - NAMES == set()
+    for of in (paper.devices, paper.readings, paper.counters):
+        of.pop("charlie", None)
+    paper.counters["charlie"] = {}
 
 
 def test_what_is_large_is_a_choice_and_is_remembered(busy):

@@ -183,10 +183,13 @@ def test_a_station_that_tracks_has_a_ray(page, paper, chart):
 
 
 def off_middle_px(page):
-    """How far the target's symbol is from the middle of the map."""
-    shown = image(page)
+    """How far the target's symbol is from the middle of the map, beside the panel."""
+    shown, panel = image(page), page.locator(".map-panel")
+    free_px = shown.shape[1]
+    if panel.count():
+        free_px = panel.bounding_box()["x"] - page.locator(".map-canvas").bounding_box()["x"]
     rows, columns = np.argwhere(is_target(*np.moveaxis(shown, 2, 0))).T
-    return abs(np.median(columns) - shown.shape[1] / 2), abs(np.median(rows) - shown.shape[0] / 2)
+    return abs(np.median(columns) - free_px / 2), abs(np.median(rows) - shown.shape[0] / 2)
 
 
 @pytest.mark.parametrize("is_selected", [True, False])

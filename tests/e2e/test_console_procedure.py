@@ -46,7 +46,8 @@ class PaperProcedure(threading.Thread):
         m.schema_version, m.station, m.boot_id = m.SCHEMA_VERSION, "alfa", 5
         m.sequence = next(self._sequences)
         m.procedure, m.state, m.step, m.progress = "field", self.state, "spire: where is it?", 0.4
-        m.question, m.text = self.question, "Point at spire.\nOr turn the unit."
+        m.question = self.question
+        m.text = "Point at spire; or turn the unit, if it is not in the picture.\nNot measured: x"
         m.choice, m.choices = list(self.choices), len(self.choices)
         m.has_crosshair = self.crosshair is not None
         m.crosshair_px = list(self.crosshair or (0.0, 0.0))
@@ -96,7 +97,7 @@ def answer_after(procedure, count):
 
 def test_a_person_points_confirms_turns_and_aborts(procedure, panel):
     expect(panel).to_contain_text("field: spire: where is it?")
-    expect(panel).to_contain_text("Or turn the unit.")
+    expect(panel).to_contain_text("or turn the unit, if it is not in the picture.")
     image = panel.get_by_role("img", name="spire: where is it?")
     wait(lambda: image.evaluate("image => image.naturalWidth") == 320, "its picture")
     for answer in ("Abort", "Skip", "Exactly here", "Turn by"):
@@ -129,6 +130,13 @@ def test_a_person_points_confirms_turns_and_aborts(procedure, panel):
     )
     turned = next(answer for answer in procedure.answers if answer.question == 3)
     assert (turned.choice, list(turned.turn_deg)) == ("turn", [-3.5, 0.5])
+
+    panel.page.get_by_label("Language").select_option("de")
+    german = panel.page.get_by_role("region", name="Kalibrierung", exact=True)
+    expect(german).to_contain_text("im Feld: spire: wo ist es?")
+    expect(german).to_contain_text("oder die Einheit drehen, wenn es nicht im Bild ist.")
+    expect(german).to_contain_text("Nicht gemessen: x")
+    panel.page.get_by_label("Sprache").select_option("en")
 
     panel.get_by_role("button", name="Abort").click()
     panel.get_by_role("group", name="Abort?").get_by_role("button", name="Abort").click()

@@ -88,6 +88,15 @@ class Person:
         self.escape()
         expect(field).not_to_be_focused()
 
+    def look_at_a_target(self):
+        region(self.page, "Targets").get_by_role("row").nth(1).click()
+        panel = self.page.get_by_role("complementary", name="Target 7")
+        panel.get_by_role("button", name="Name it").click()
+        self.escape()
+        expect(panel.get_by_role("textbox")).to_be_hidden()
+        self.escape()
+        expect(panel).to_be_hidden()
+
     def choose(self):
         region(self.page, "Targets").get_by_label("Filter").focus()
         self.escape()
@@ -140,6 +149,7 @@ class Person:
             "Escape cancels a box of the keyboard": self.draw_by_key_and_leave,
             "Escape leaves a field": self.write,
             "Escape leaves a choice": self.choose,
+            "Escape leaves a name, and closes a panel": self.look_at_a_target,
             "Escape with Shift is the browser's": lambda: page.keyboard.press("Shift+Escape"),
             "Escape takes the hand away": self.take_in_hand_and_leave,
             "a click": lambda: page.mouse.click(*self.at()),

@@ -116,13 +116,22 @@ def fixture_page_says(conditions, tmp_path_factory):
     script, source = folder / "said.ts", ROOT / "console/page/src"
     script.write_text(
         "globalThis.document = { documentElement: {} };\n"
-        f'import {{ conditionOf, inWords }} from "{source}/conditions";\n'
+        "globalThis.localStorage = { getItem: () => null, setItem: () => {} };\n"
+        f'import {{ conditionOf, inWords, nameInWords }} from "{source}/conditions";\n'
         f'import {{ gridName, inMetres }} from "{source}/format";\n'
         f'import {{ sidesOf }} from "{source}/labels";\n'
+        f'import {{ runsOf }} from "{source}/heights";\n'
+        f'import {{ measures, ringName, roundStep }} from "{source}/measures";\n'
         f'import {{ setLanguage }} from "{source}/words";\n'
         'setLanguage("de");\n'
-        "const sides = (names, before) => [...sidesOf(names, new Map(before))];\n"
-        "const known = { conditionOf, inWords, gridName, inMetres, sides };\n"
+        "const sides = (names, before, over) => [...sidesOf(names, new Map(before), over)];\n"
+        "const rings = (units, least_m) => {\n"
+        "  measures.units = units;\n"
+        "  const step_m = roundStep(least_m);\n"
+        "  return [step_m >= least_m - 1e-6, ringName(step_m, 1), ringName(step_m, 3)];\n"
+        "};\n"
+        "const known = { conditionOf, inWords, nameInWords, gridName, inMetres, sides, rings,\n"
+        "  runsOf };\n"
         "const [name, calls] = process.argv.slice(2);\n"
         "console.log(JSON.stringify(JSON.parse(calls).map((call) => known[name](...call))));\n"
     )
@@ -152,6 +161,155 @@ def test_sentences_with_their_numbers_in_german(page_says):
         "what nobody knows": "what nobody knows",
     }
     assert page_says("inWords", [[text] for text in sentences]) == list(sentences.values())
+
+
+# Whose texts the page shows, as far as a person on it would read them.
+SPOKEN = (
+    *("calibration/procedure/*.cpp", "tools/calibrate/awaited_picture.cpp"),
+    *("tools/calibrate/view_stage.cpp", "calibration/acceptance.cpp", "calibration/calibrate.cpp"),
+    *("tools/calibrate/adjust_command.cpp", "calibration/contradiction_cause.cpp"),
+    *(f"calibration/pictures/{one}.cpp" for one in ("cross_finding", "landmark_snap")),
+    *(f"calibration/pictures/{one}.cpp" for one in ("level_lines", "ruler_reading", "sun_disc")),
+    *(
+        "edge/camera/camera_*.cpp",
+        "edge/camera/picture.cpp",
+        "edge/clock/clock_watch.cpp",
+        "edge/drift/*.cpp",
+        "edge/gpio/*.cpp",
+    ),
+    *("edge/lens/*.cpp", "edge/ptu/*.cpp", "edge/recorder/*.cpp", "edge/sensors/*.cpp"),
+    *("edge/serial/*.cpp", "edge/device/*.cpp", "edge/messages_bus.cpp", "edge/frame_service.cpp"),
+    *("edge/persisted_station_state.cpp", "edge/host_monitor.cpp", "edge/kept_pose.cpp"),
+)
+# Written to files, to the journal or to the terminal, or thrown where no page is.
+UNSPOKEN = re.compile(
+    r"remark\(.*?\);|invalid_argument\(\s*\"--.*?\);|config::|_section\(|write_to_journal\(.*?\);"
+    r"|R\"\(.*?\)\"|#include.*|//.*|static_assert.*",
+    flags=re.S,
+)
+
+# The same, in the midst of what is spoken.
+TOLD_ELSEWHERE = {
+    *("a procedure without stages", "it stands", "degrees high", "not a span of time"),
+    *("below 10 the refraction is not known well enough", "the unit cannot look there"),
+    *("the unit cannot look there, or not beside it", "the picture beside it is missing"),
+    *("up (1-sigma", "deg: the stored view is not recognised"),
+}
+
+
+def spoken_words() -> dict[str, str]:
+    """Every piece of a sentence in these sources -> its file; numbers and names stand outside."""
+    found = {}
+    for path in (path for pattern in SPOKEN for path in ROOT.glob(pattern)):
+        if re.search("config|settings|_file|store|preconditions|codec", path.name):
+            continue
+        source = re.sub(r"#include.*|//.*", "", path.read_text())
+        source = re.sub(r'"\s*\n\s*"', "", re.sub(UNSPOKEN, "", source))
+        for literal in re.findall(r'"((?:[^"\\\n]|\\.)*)"', source):
+            for piece in re.split(r"%[-+ 0-9.]*[lz]?[a-z]|%%|\\.", literal):
+                piece = piece.strip(" .,;:()'\"?!`")
+                if re.search(r"[a-z]{2,} [a-z(]+", piece) and piece not in TOLD_ELSEWHERE:
+                    found[piece] = path.name
+    return found
+
+
+def test_everything_that_is_said_on_the_page_has_german_words(conditions):
+    english = "\n".join([text for row in conditions["alarms"] for text in row["text"]])
+    english += "\n" + "\n".join(conditions["phrases"])
+    missing = {words: name for words, name in spoken_words().items() if words not in english}
+    assert missing == {}
+
+
+def english_in(german: list[str], conditions: dict) -> set[str]:
+    """Words of these texts that are English and not German, as far as the page's own texts tell."""
+    pairs = [pair for row in conditions["alarms"] for pair in row["text"].items()]
+    for part in ("phrases", "words", "names"):
+        pairs += conditions[part].items()
+    words = re.compile(r"[A-Za-zÄÖÜäöüß]{3,}")
+    known = {word for _, text in pairs for word in words.findall(text)}
+    foreign = {word for text, _ in pairs for word in words.findall(text.replace("_", " "))} - known
+    return {word for text in german for word in words.findall(text.replace("_", " "))} & foreign
+
+
+def test_every_counter_and_reading_has_a_german_name(conditions, page_says):
+    names = set(listed("Counters")) - {"seconds_STATE", "entered_STATE"}
+    names -= {"COMMAND_accepted", "COMMAND_refused", "protobuf_warnings"}
+    names -= set(re.findall("`([^`]+)`", fusion_counters()))  # they are not on the page
+    names |= {f"{what}_{one}" for what in ("refused", "messages_refused") for one in reasons()}
+    names |= {f"frames_refused_{one}" for one in listed("Refusals of images")}
+    names |= {f"bus_distrusted_{one}" for one in listed("Refusals of messages without")}
+    for path in (ROOT / "edge").rglob("*.cpp"):
+        names |= set(re.findall(r'readings\["(\w+)"\]', path.read_text()))
+        for block in re.findall(r"readings = \{(.*?)\};", path.read_text(), flags=re.S):
+            names |= set(re.findall(r'\{"(\w+)"', block))
+    assert len(names) > 150
+    german = dict(zip(names, page_says("nameInWords", [[one] for one in names]), strict=True))
+    assert {one for one, said in german.items() if "_" in said or said == one} == set()
+    assert english_in(list(german.values()), conditions) == set()
+
+
+def fusion_counters() -> str:
+    return (ROOT / "docs/troubleshooting.md").read_text().split("\nOf the fusion:\n")[-1]
+
+
+def reasons() -> list[str]:
+    return listed("Refusals of commands")
+
+
+def test_a_guided_calibration_speaks_german(conditions, page_says):
+    sentences = {
+        "spire: where is it?": "spire: wo ist es?",
+        "tower: back to the first, to close the round; spire would leave 3.0″ (tower 4.0″)": (
+            "tower: zurück zur ersten, um die Runde zu schließen; spire ließe 3.0″ (tower 4.0″)"
+        ),
+        "No crosshair: nothing stands out there. Point at spire; or turn the unit, if it is not "
+        "in the picture.": (
+            "Kein Fadenkreuz: dort hebt sich nichts ab. Auf spire zeigen; oder die Einheit drehen, "
+            "wenn es nicht im Bild ist."
+        ),
+        "cross: put it up": "Kreuz: aufstellen",
+        "Not measured: the nearer ruler: no ruler is there": (
+            "Nicht gemessen: der nähere Maßstab: dort ist kein Maßstab"
+        ),
+        "  BAD  landmark 'spire', first and last sighting: 59.00″, at most 12.00″": (
+            "  SCHLECHT  Landmarke 'spire', erste und letzte Anvisierung: 59.00″, höchstens 12.00″"
+        ),
+        "       backlash of pan: 3.10″, by +0.20″ from what was known, 0.40 sigma": (
+            "       Spiel des Schwenks: 3.10″, um +0.20″ anders als bekannt, 0.40 Sigma"
+        ),
+        "the observations contradict each other: at least as many of them disagree as agree: "
+        "landmark 'a', landmark 'b'; against landmark 'c'; all agree if landmarks 'a' and 'c' were "
+        "exchanged": (
+            "die Beobachtungen widersprechen sich: mindestens so viele stimmen nicht überein wie "
+            "übereinstimmen: Landmarke 'a', Landmarke 'b'; gegen Landmarke 'c'; alle stimmen "
+            "überein, wenn die Landmarken 'a' und 'c' vertauscht sind"
+        ),
+        "RED: calibration: pan is 3 motor steps off its counts: home the unit": (
+            "ROT: Kalibrierung: Schwenk ist 3 Motorschritte neben ihrer Zählung: Referenzfahrt"
+        ),
+    }
+    german = page_says("inWords", [[text] for text in sentences])
+    assert german == list(sentences.values())
+    assert english_in(german, conditions) == set()
+
+
+def test_what_stands_in_alarms_and_errors_is_german_too(conditions, page_says):
+    texts = [
+        "stop: state before the restart is unknown (/var/lib/ols/alfa.persisted: is damaged: wrong "
+        "checksum): check it, then ols-ctl alfa release",
+        "ptu: no serial port: /dev/ttyUSB0 cannot be opened",
+        "ptu: halted, no plausible position: positions that contradict each other",
+        "inclinometer: /dev/ttyUSB1 has vanished, tilt kept",
+        "gnss: no gpsd at localhost:2947: Connection refused",
+        "calibration: not checked for 26.0 h: the unit does not come to its reference views",
+        "recorder: RECORD refused: the event lies in the future",
+        "gpio: stop unreadable, taken as pressed: cannot be read",
+        "camera: frame refused: wrong size",
+        "video: cannot listen on 127.0.0.1:7790: Address already in use",
+    ]
+    german = page_says("inWords", [[text] for text in texts])
+    assert english_in(german, conditions) == set()
+    assert all(said != text for said, text in zip(german, texts, strict=True))
 
 
 def test_an_alarm_says_in_german_how_grave_it_is_and_what_to_do(page_says):
@@ -186,3 +344,31 @@ def test_names_near_one_another_do_not_cover_each_other(page_says):
     assert dict(found[1]) == {"a": "left", "b": "right"}, "each away from the other's point"
     assert [side for _, side in found[2]][-1] is None, "no room: rather none than one on another"
     assert dict(found[3])["a"] == "left", "it does not change sides without need"
+
+
+def test_a_name_is_not_written_below_what_covers_the_map(page_says):
+    name, panel = {"id": "a", "at": [0, 0], "width": 60}, [10, -50, 300, 100]
+    (found,) = page_says("sides", [[[name], [], [panel]]])
+    assert found == [["a", "left"]]
+
+
+def test_rings_are_round_in_the_chosen_units(page_says):
+    calls = {
+        ("m_s", 130): ("200 m", "600 m"),
+        ("km_h", 900): ("1 km", "3 km"),
+        ("nautical", 100): ("500 ft", "1500 ft"),
+        ("nautical", 1524): ("5000 ft", "15000 ft"),
+        ("nautical", 1600): ("1 NM", "3 NM"),
+        ("nautical", 9000): ("5 NM", "15 NM"),
+    }
+    found = page_says("rings", [list(call) for call in calls])
+    assert found == [[True, first, third] for first, third in calls.values()]
+
+
+def test_a_trail_is_cut_where_its_colour_changes_and_nowhere_else(page_says):
+    trail = [[0.0, 0.0, height] for height in (0, 4, 8, 40, 44, 8)]
+    (runs,) = page_says("runsOf", [[trail, [0, 60], 6]])
+    assert [run["step"] for run in runs] == [0, 2, 4, 2]
+    assert [len(run["places"]) for run in runs] == [3, 2, 2, 2]
+    for before, after in zip(runs, runs[1:], strict=False):
+        assert before["places"][-1] == after["places"][0]

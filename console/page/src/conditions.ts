@@ -5,6 +5,8 @@ import tables from "conditions.json";
 import type { SiteEvent } from "./site";
 import { inLanguage, isEnglish } from "./words";
 
+const MOST_REMEMBERED = 2000;
+
 export type Severity = "urgent" | "warning" | "notice";
 export type Condition = { severity: Severity; meaning: string; action: string };
 type Pair = [english: string, german: string];
@@ -19,10 +21,13 @@ function sentence(english: string, german: string, row?: Row): Sentence {
   return { english: new RegExp(`^${pattern}$`, "s"), german, goesOn: !!row && !isOpen, length: english.replace(/…/g, "").length, begin: parts[0].length, row };
 }
 
-const { alarms, phrases } = tables as { alarms: Row[]; phrases: Record<string, string> };
+type Dictionary = Record<string, string>;
+const { alarms, phrases, words, names } = tables as { alarms: Row[] } & Record<"phrases" | "words" | "names", Dictionary>;
+const sentences = (of: Dictionary) => Object.entries(of).map(([english, german]) => sentence(english, german));
 const ALARMS = alarms.flatMap((row) => Object.entries(row.text).map(([english, german]) => sentence(english, german, row)));
-const SENTENCES = [...ALARMS, ...Object.entries(phrases).map(([english, german]) => sentence(english, german))];
-for (const list of [ALARMS, SENTENCES]) list.sort((a, b) => b.length - a.length || b.begin - a.begin);
+const SENTENCES = [...ALARMS, ...sentences(phrases)];
+const NAMES = sentences(names);
+for (const list of [ALARMS, SENTENCES, NAMES]) list.sort((a, b) => b.length - a.length || b.begin - a.begin);
 
 export function conditionOf(alarm: string): Condition {
   const row = ALARMS.find((one) => one.english.test(alarm))?.row;
@@ -30,20 +35,45 @@ export function conditionOf(alarm: string): Condition {
   return { severity: row.severity, meaning: inLanguage(row.meaning), action: inLanguage(row.action) };
 }
 
-function germanOf(text: string): string {
-  const known = SENTENCES.find((one) => one.english.test(text));
+// What stands for "…" is translated by `partOf`.
+function germanBy(list: Sentence[], text: string, partOf: (part: string) => string): string {
+  const known = list.find((one) => one.english.test(text));
   if (!known) return text;
   const said = known.english.exec(text)!.slice(1);
   const rest = known.goesOn ? said.pop()! : "";
-  // A single word is a name or a number, but for the one who has none.
-  const parts = said.map((part) => (/\s/.test(part) || part === "operator" ? germanOf(part) : part));
+  const parts = said.map(partOf);
   const [first, ...more] = known.german.split("…");
   return first + more.map((after, i) => (parts[i] ?? "") + after).join("") + (rest && germanOf(rest));
 }
 
-// A sentence of a program, in the page's language.
+// A single word is a name or a number, but for a few.
+const germanPart = (part: string): string => (/\s/.test(part) ? germanOf(part) : (words[part] ?? part));
+const germanOf = (text: string): string => germanBy(SENTENCES, text, germanPart);
+const germanName = (name: string): string => germanBy(NAMES, name, germanName);
+
+// The page is drawn ten times a second, mostly with the same texts.
+function remembering(of: (text: string) => string): (text: string) => string {
+  const known = new Map<string, string>();
+  return (text) => {
+    if (!known.has(text)) {
+      if (known.size >= MOST_REMEMBERED) known.clear();
+      known.set(text, of(text));
+    }
+    return known.get(text)!;
+  };
+}
+
+const textInGerman = remembering((text) => text.replace(/\S.*/s, germanOf));
+const nameInGerman = remembering(germanName);
+
+// A sentence of a program, in the page's language; with the spaces before it.
 export function inWords(text: string): string {
-  return isEnglish() || !text ? text : germanOf(text);
+  return isEnglish() || !text ? text : textInGerman(text);
+}
+
+// What a counter counts, or a reading is of.
+export function nameInWords(name: string): string {
+  return isEnglish() ? name.replaceAll("_", " ") : nameInGerman(name);
 }
 
 // Which alarm a text is, whatever its numbers: as base/alarm_changes.cpp has it.

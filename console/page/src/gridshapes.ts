@@ -8,8 +8,8 @@ import { Stroke, Style } from "ol/style";
 import type { Coordinate } from "ol/coordinate";
 import { gridName } from "./format";
 import type { Link } from "./link";
-import { Colours, label, offset, shape, SMALL_FONT, stretch } from "./mapfeatures";
-import { distance } from "./measures";
+import { Colours, FONT, label, offset, shape, SMALL_FONT, stretch } from "./mapfeatures";
+import { ringName, roundStep } from "./measures";
 
 function siteMiddle(link: Link): { at: Coordinate; latitude: number } | null {
   const placed = [...link.site.stations.values()].filter((s) => s.latitude_deg != null && s.longitude_deg != null);
@@ -19,35 +19,43 @@ function siteMiddle(link: Link): { at: Coordinate; latitude: number } | null {
   return { at: fromLonLat([longitude, latitude]), latitude };
 }
 
-// Three to six circles in view, of round radii.
-export function ringShapes(link: Link, c: Colours, view_m: number): Feature[] {
+// Whether a label there, with its offset [px], can be read.
+export type HasRoom = (at: Coordinate, text: string, dx: number, dy: number) => boolean;
+
+// At the first of the places where it can be read, if there is one.
+function labelled(places: Coordinate[], text: string, [dx, dy]: [number, number], c: Colours, hasRoom: HasRoom, font = SMALL_FONT): Feature[] {
+  const at = places.find((place) => hasRoom(place, text, dx, dy));
+  return at ? [shape(new Point(at), new Style({ text: label(text, c["rule-text"], c.halo, dx, dy, font) }))] : [];
+}
+
+// Circles about the site, two to five of them within the view, of round radii.
+export function ringShapes(link: Link, c: Colours, view_m: number, hasRoom: HasRoom): Feature[] {
   const middle = siteMiddle(link);
   if (!middle) return [];
-  let step = 10 ** Math.floor(Math.log10(Math.max(view_m / 5, 1)));
-  for (const part of [2, 5]) if (view_m / (step * part) > 4) step *= part === 2 ? 2 : 2.5;
+  const step = roundStep(view_m / 8);
   const out: Feature[] = [];
   const scale = stretch(middle.latitude);
   for (let i = 1; i <= 6; i++) {
     const ring: Coordinate[] = [];
     for (let k = 0; k <= 96; k++) ring.push(offset(middle.at, (360 * k) / 96, step * i, scale));
     out.push(shape(new LineString(ring), new Style({ stroke: new Stroke({ color: c.ring, width: 1 }) })));
-    out.push(shape(new Point(offset(middle.at, 0, step * i, scale)), new Style({ text: label(distance(step * i), c["rule-text"], c.halo, 4, -7, SMALL_FONT) })));
+    const sides = [0, 90, 180, 270].map((azimuth) => offset(middle.at, azimuth, step * i, scale));
+    out.push(...labelled(sides, ringName(step, i), [4, -7], c, hasRoom));
   }
   return out;
 }
 
 export type Grid = { zone: number; northern: boolean; step_m: number; lines: { at_m: number; is_easting: boolean; path: [number, number][] }[]; squares: { name: string; at: [number, number] }[] };
 
-export function gridShapes(grid: Grid | null, c: Colours): Feature[] {
+export function gridShapes(grid: Grid | null, c: Colours, hasRoom: HasRoom): Feature[] {
   if (!grid) return [];
   const out: Feature[] = [];
   for (const line of grid.lines) {
     const path = line.path.map((place) => fromLonLat(place));
     out.push(shape(new LineString(path), new Style({ stroke: new Stroke({ color: c.grid, width: 1 }) })));
-    if (path.length < 3) continue;
     const text = gridName(line.at_m, grid.step_m) + (line.is_easting ? " E" : " N");
-    out.push(shape(new Point(path[1]), new Style({ text: label(text, c["rule-text"], c.halo, 3, -6, SMALL_FONT) })));
+    out.push(...labelled(path.slice(1, -1), text, [3, -6], c, hasRoom));
   }
-  for (const { name, at } of grid.squares) out.push(shape(new Point(fromLonLat(at)), new Style({ text: label(name, c["rule-text"], c.halo, 0, 0) })));
+  for (const { name, at } of grid.squares) out.push(...labelled([fromLonLat(at)], name, [0, 0], c, hasRoom, FONT));
   return out;
 }

@@ -2,7 +2,7 @@
 
 export type Named = { id: string; at: [number, number]; width: number }; // [px] the point, and its words
 export type Side = "right" | "left" | "below" | "above";
-type Box = [x: number, y: number, width: number, height: number];
+export type Box = [x: number, y: number, width: number, height: number]; // [px] its upper left corner, and its size
 
 const HEIGHT = 15;
 const POINT = 9; // half of the symbol's width
@@ -15,12 +15,13 @@ function boxOf({ at, width }: Named, side: Side): Box {
   return [at[0] + left, at[1] + dy - HEIGHT / 2, width, HEIGHT];
 }
 
-const meet = (a: Box, b: Box) => a[0] < b[0] + b[2] && b[0] < a[0] + a[2] && a[1] < b[1] + b[3] && b[1] < a[1] + a[3];
+export const meet = (a: Box, b: Box) => a[0] < b[0] + b[2] && b[0] < a[0] + a[2] && a[1] < b[1] + b[3] && b[1] < a[1] + a[3];
 
 // The first of them come first; null: there is no room. `before`: a name does not change sides without need.
-export function sidesOf(names: Named[], before: Map<string, Side | null>): Map<string, Side | null> {
+// `over`: what would cover it.
+export function sidesOf(names: Named[], before: Map<string, Side | null>, over: Box[] = []): Map<string, Side | null> {
   const symbols = names.map(({ id, at }) => ({ id, box: [at[0] - POINT, at[1] - POINT, 2 * POINT, 2 * POINT] as Box }));
-  const taken: Box[] = [];
+  const taken = [...over];
   const chosen = new Map<string, Side | null>();
   for (const name of names) {
     const last = before.get(name.id);

@@ -8,6 +8,7 @@ import XYZ from "ol/source/XYZ";
 import { fromLonLat, transformExtent } from "ol/proj";
 import { boundingExtent, type Extent } from "ol/extent";
 import type { Coordinate } from "ol/coordinate";
+import { shownExtent } from "./overlays";
 
 // With zoom levels it is of tiles, with heights of an accuracy that was computed ahead.
 export type UserMap = { id: string; name: string; problem: string; attribution?: string; zoom?: [number, number]; bounds_deg?: [number, number, number, number]; above_m?: number[] };
@@ -110,7 +111,7 @@ export class AccuracyLayer {
   }
 
   private async showSite(above_m: number): Promise<boolean> {
-    const extent = this.map.getView().calculateExtent();
+    const extent = shownExtent(this.map);
     const box = transformExtent(extent, "EPSG:3857", "EPSG:4326").map((v) => v.toFixed(6));
     const response = await fetch(`/api/accuracy?box=${box.join()}&above=${above_m}`).catch(() => null);
     if (!response?.ok) return false;

@@ -38,6 +38,26 @@ export function speed(m_s: Known, decimals = 0): string {
   return measures.units === "km_h" ? fixed(times(m_s, 3.6), decimals, " km/h") : fixed(m_s, decimals, " m/s");
 }
 
+// In which unit rings and grids of about this step are round, and its name.
+function unitOf(step_m: number): [unit_m: number, name: string] {
+  if (measures.units === "nautical") return step_m < MILE_M ? [FOOT_M, "ft"] : [MILE_M, "NM"];
+  return step_m < 1000 ? [1, "m"] : [1000, "km"];
+}
+
+// At least so long [m], and 1, 2 or 5 times a power of ten in the chosen unit. Between 5000 ft and a mile there is none.
+export function roundStep(least_m: number): number {
+  const [unit_m] = unitOf(measures.units === "nautical" && least_m > 5000 * FOOT_M ? Math.max(least_m, MILE_M) : least_m);
+  const least = Math.max(least_m, 1) / unit_m;
+  const power = 10 ** Math.floor(Math.log10(least));
+  return unit_m * [1, 2, 5, 10].map((part) => part * power).find((step) => step >= least * (1 - 1e-9))!;
+}
+
+// Of the n-th ring, in the unit of the first.
+export function ringName(step_m: number, n: number): string {
+  const [unit_m, name] = unitOf(step_m * (1 + 1e-9));
+  return `${Number(((n * step_m) / unit_m).toPrecision(6))} ${name}`;
+}
+
 export function distance(m: number): string {
   if (measures.units === "nautical") return m < MILE_M ? `${(m / FOOT_M).toFixed(0)} ft` : `${(m / MILE_M).toFixed(m < 10 * MILE_M ? 2 : 1)} NM`;
   return m < 1000 ? `${m.toFixed(m < 10 ? 1 : 0)} m` : `${(m / 1000).toFixed(m < 10_000 ? 2 : 1)} km`;

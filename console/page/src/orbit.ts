@@ -1,8 +1,9 @@
 // Where the site is looked at from, in three dimensions, and how a person turns about it.
 
 import { useRef, useState } from "preact/hooks";
+import { roundStep } from "./measures";
 import { Pinch, STILL_PX } from "./pointer";
-import { type Eye, roundStep, type Vector, type View } from "./scene3d";
+import type { Eye, Vector, View } from "./scene3d";
 
 type Turn = (azimuth: number, elevation: number, away?: number) => void;
 

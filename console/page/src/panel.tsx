@@ -3,6 +3,7 @@
 import { h, Fragment } from "preact";
 import { useState } from "preact/hooks";
 import { isAtWork } from "./byhand";
+import { useEscape } from "./escape";
 import type { Link } from "./link";
 import { position } from "./measures";
 import { t, type Word } from "./words";
@@ -13,6 +14,7 @@ export type OnPoint = (station: string, place: Place) => void;
 type FrameProps = { label: string; head: any; onClose: () => void; children: any };
 
 export function PanelFrame({ label, head, onClose, children }: FrameProps) {
+  useEscape(true, onClose);
   return (
     <aside class="map-panel" aria-label={label}>
       <header>

@@ -1,6 +1,7 @@
 // Guided procedures (calibrations): what each is at, its picture, its question, and a person's answer.
 
 import { h } from "preact";
+import { inWords } from "./conditions";
 import type { Link } from "./link";
 import type { Procedure, Station } from "./site";
 import { fixed, numberOf } from "./format";
@@ -60,7 +61,7 @@ function ProcedurePicture({ station, procedure, onPoint }: PictureProps) {
   };
   return (
     <div class={`procedure-picture ${onPoint ? "to-point" : ""}`} style={{ width: `min(100%, ${(HIGHEST_VH * width) / height}vh)` }} onClick={click}>
-      <img src={`/api/procedures/${encodeURIComponent(station)}?picture=${procedure.picture}`} alt={procedure.step} draggable={false} />
+      <img src={`/api/procedures/${encodeURIComponent(station)}?picture=${procedure.picture}`} alt={inWords(procedure.step)} draggable={false} />
       {cross && (
         <i
           class="crosshair"
@@ -100,14 +101,14 @@ function One({ station, procedure, mayCommand, onAnswer }: { station: Station; p
     <article class="open procedure">
       <div class="procedure-head">
         <h3>
-          <b>{station.id}</b> {procedure.procedure}: {procedure.step || named("p", procedure.state)}
+          <b>{station.id}</b> {named("m", procedure.procedure)}: {inWords(procedure.step) || named("p", procedure.state)}
         </h3>
         {mayCommand && isAtWork(procedure) && (
           <Sure word={named("c", "abort")} question={`${station.id}: ${t("abort_sure")}`} isDangerous onSure={abort} />
         )}
       </div>
       <progress max={1} value={procedure.progress ?? 0} aria-label={t("procedure")} />
-      {procedure.lines.length > 0 && <p class="procedure-text">{procedure.lines.join("\n")}</p>}
+      {procedure.lines.length > 0 && <p class="procedure-text">{procedure.lines.map(inWords).join("\n")}</p>}
       {procedure.picture > 0 && <ProcedurePicture station={station.id} procedure={procedure} onPoint={isAsking && procedure.choices.includes("point") ? point : null} />}
       {isAsking && <Question station={station.id} procedure={procedure} onAnswer={onAnswer} />}
     </article>

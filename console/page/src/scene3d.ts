@@ -1,9 +1,10 @@
 // What there is to see in three dimensions, in the east-north-up frame of the site's middle, and how it
 // is projected and drawn: a few hundred lines, which need no graphics processor.
 
-import { OFFSETS, type Side, sidesOf } from "./labels";
+import { heightRange, runsOf } from "./heights";
+import { type Box, OFFSETS, type Side, sidesOf } from "./labels";
 import { fineOutline } from "./marks";
-import { distance, length } from "./measures";
+import { length, ringName, roundStep } from "./measures";
 import { ecef } from "./projection";
 import { followed, nameOf, stretches, type Line, type Site, type Station, type Target } from "./site";
 
@@ -78,11 +79,6 @@ const along = (azimuth_deg: number, elevation_deg: number, m: number): Vector =>
   return [m * Math.cos(e) * Math.sin(a), m * Math.cos(e) * Math.cos(a), m * Math.sin(e)];
 };
 
-export function roundStep(size_m: number): number {
-  const power = 10 ** Math.floor(Math.log10(Math.max(size_m, 1)));
-  return [1, 2, 5, 10].map((part) => part * power).find((step) => step >= size_m)!;
-}
-
 export function groundStrokes(eye: Eye, colour: string): Stroke[] {
   const step = roundStep(eye.away_m / 12);
   const [e0, n0] = [Math.round(eye.at[0] / step) * step, Math.round(eye.at[1] / step) * step];
@@ -118,7 +114,8 @@ export class Scene {
 
   // All of the site's own; returns what it needs to be seen, and where the target is that is followed.
   addSite(site: Site, selected: string, layers: Layers): { whole: View; followed: Vector | null | undefined } {
-    const targets = [...site.targets.values()].map((target) => ({ target, at: this.addTarget(target, selected === `target:${target.id}`, layers.trails) }));
+    const targets = [...site.targets.values()].map((target) => ({ target, at: this.addTarget(target, selected === `target:${target.id}`) }));
+    if (layers.trails) this.addTrails([...site.targets.values()], selected);
     const placed = [...site.stations.values()].filter(isPlaced);
     const places = placed.map((s) => this.frame.place(s.latitude_deg!, s.longitude_deg!, s.height_m!));
     const whole = around([...places, ...targets.flatMap(({ at }) => (at ? [at] : []))]);
@@ -175,14 +172,26 @@ export class Scene {
     this.strokes.push({ points: [at, plus(at, along(line.azimuth_deg, line.elevation_deg, reach_m))], colour: this.colour("--map-born"), width: 1.5, dash: [8, 6] });
   }
 
-  private addTarget(target: Target, isSelected: boolean, trails: boolean): Vector | null {
+  // Each part in the colour of its height, as on the flat map.
+  private addTrails(targets: Target[], selected: string) {
+    const range = heightRange(targets);
+    if (!range) return;
+    const colours = this.colour("--map-heights").split(/\s+/);
+    for (const target of targets) {
+      const width = selected === `target:${target.id}` ? 2.5 : 1.5;
+      for (const stretch of target.latitude_deg == null ? [] : stretches(target)) {
+        for (const { step, places } of runsOf(stretch, range, colours.length)) {
+          const points = places.map(([longitude, latitude, height]) => this.frame.place(latitude, longitude, height));
+          this.strokes.push({ points, colour: colours[step], width });
+        }
+      }
+    }
+  }
+
+  private addTarget(target: Target, isSelected: boolean): Vector | null {
     if (target.latitude_deg == null) return null;
     const at = this.frame.place(target.latitude_deg, target.longitude_deg, target.height_m);
     const colour = this.colour(target.stale ? "--map-coasted" : "--map-target");
-    for (const stretch of trails ? stretches(target) : []) {
-      const points = stretch.map(([longitude, latitude, height]) => this.frame.place(latitude, longitude, height));
-      this.strokes.push({ points, colour: this.colour("--map-trail"), width: isSelected ? 2.5 : 1.5 });
-    }
     this.strokes.push({ points: [at, [at[0], at[1], 0]], colour: this.colour("--map-rule-text"), width: 1, dash: [3, 4] });
     for (const ring of ellipsoid(target.covariance_enu_m2, this.larger)) {
       this.strokes.push({ points: ring.map((point) => plus(at, point)), colour, width: isSelected ? 2 : 1.2, fill: 0.08 });
@@ -196,7 +205,7 @@ export class Scene {
       const round = Array.from({ length: 73 }, (_, k) => along(5 * k, 0, i * step_m));
       this.strokes.push({ points: round, colour: this.colour("--map-ring"), width: 1 });
       const north = i === RINGS ? "N   " : "";
-      this.names.push({ id: "", at: round[0], text: north + distance(i * step_m), colour: this.colour("--map-rule-text"), isPlain: true });
+      this.names.push({ id: "", at: round[0], text: north + ringName(step_m, i), colour: this.colour("--map-rule-text"), isPlain: true });
     }
   }
 
@@ -287,7 +296,8 @@ function paint(g: CanvasRenderingContext2D, stroke: Stroke, project: (place: Vec
   g.stroke();
 }
 
-export function draw(canvas: HTMLCanvasElement, scene: Scene, ground: Stroke[], eye: Eye, colour: (name: string) => string) {
+// `size`: the part of the canvas in whose middle the eye looks. `over`: what covers the canvas.
+export function draw(canvas: HTMLCanvasElement, scene: Scene, ground: Stroke[], eye: Eye, size: [number, number], over: Box[], colour: (name: string) => string) {
   const [width, height] = [canvas.clientWidth, canvas.clientHeight];
   canvas.width = Math.round(width * devicePixelRatio);
   canvas.height = Math.round(height * devicePixelRatio);
@@ -295,7 +305,7 @@ export function draw(canvas: HTMLCanvasElement, scene: Scene, ground: Stroke[], 
   g.scale(devicePixelRatio, devicePixelRatio);
   g.fillStyle = colour("--map-sea");
   g.fillRect(0, 0, width, height);
-  const project = projector(eye, width, height);
+  const project = projector(eye, ...size);
   for (const stroke of [...ground, ...scene.strokes]) paint(g, stroke, project);
   const names = scene.names.flatMap((name) => {
     const at = project(name.at);
@@ -304,7 +314,7 @@ export function draw(canvas: HTMLCanvasElement, scene: Scene, ground: Stroke[], 
   g.font = NAME_FONT;
   // What moves chooses first; names without a thing are rings.
   const placed = names.map(({ id, text, at }, i) => ({ id: `${id} ${i}`, at, width: g.measureText(text).width }));
-  const sides = sidesOf([...placed].sort((a, b) => rank(a.id) - rank(b.id)), scene.sides);
+  const sides = sidesOf([...placed].sort((a, b) => rank(a.id) - rank(b.id)), scene.sides, over);
   names.forEach((name, i) => write(g, name, sides.get(placed[i].id) ?? null, colour));
   scene.sides = sides;
 }

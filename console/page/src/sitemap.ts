@@ -17,12 +17,13 @@ import { fromLonLat, toLonLat, transformExtent } from "ol/proj";
 import { Circle, Fill, RegularShape, Stroke, Style, Text } from "ol/style";
 import type { Coordinate } from "ol/coordinate";
 import { bearing } from "./format";
-import { type Named, type Side, sidesOf } from "./labels";
-import { Grid, gridShapes, ringShapes } from "./gridshapes";
+import { Grid, gridShapes, type HasRoom, ringShapes } from "./gridshapes";
+import { type Box, meet, type Named, type Side, sidesOf } from "./labels";
 import type { Link } from "./link";
 import { Colours, FONT, heightColours, readColours, shape, SMALL_FONT, stretch } from "./mapfeatures";
 import { AccuracyChoice, AccuracyLayer, UserMap, UserMapLayers } from "./maplayers";
 import { distance, measures } from "./measures";
+import { beyond, boxesOver, shownExtent, takenByPanel } from "./overlays";
 import { placeOf } from "./placepanel";
 import { ScaleInMetres } from "./scale";
 import { followed } from "./site";
@@ -53,6 +54,7 @@ export class SiteMap {
   private userLayers: UserMapLayers;
   private accuracyShown: AccuracyChoice | null = null;
   private sides = new Map<string, Side | null>();
+  private over: Box[] = []; // what covers the map
   private pen = document.createElement("canvas").getContext("2d")!;
   options = { rings: true, grid: true, trails: true, views: true, limits: true, follow: false, measuring: false, placing: false };
   selected = "";
@@ -63,13 +65,13 @@ export class SiteMap {
 
   constructor(
     private link: Link,
-    element: HTMLElement,
+    private element: HTMLElement,
   ) {
     this.land = new VectorLayer({ source: new VectorSource(), declutter: false });
     this.map = new OlMap({
       target: element,
       layers: [this.land, new VectorLayer({ source: this.still, declutter: LABELS }), new VectorLayer({ source: this.moving, declutter: LABELS, updateWhileInteracting: true, updateWhileAnimating: true }), new VectorLayer({ source: this.measured })],
-      controls: [this.scale, new Attribution({ collapsible: false })],
+      controls: [this.scale, new Attribution({ collapsible: false, tipLabel: "" })],
       interactions: defaultInteractions({ altShiftDragRotate: false, pinchRotate: false, doubleClickZoom: false }).extend([this.doubleClick]),
       view: new View({ center: fromLonLat([15, 50]), zoom: 4, maxZoom: 24, enableRotation: false }),
     });
@@ -179,7 +181,7 @@ export class SiteMap {
     this.accuracyShown = choice;
     const shown = await this.accuracy.show(choice);
     const extent = this.accuracy.planExtent();
-    if (extent && !intersects(extent, this.map.getView().calculateExtent())) this.map.getView().fit(extent, { padding: [40, 40, 40, 40] });
+    if (extent && !intersects(extent, shownExtent(this.map))) this.map.getView().fit(extent, { padding: [40, 40, 40, 40] });
     return shown;
   }
 
@@ -187,7 +189,7 @@ export class SiteMap {
     this.drawStill();
     this.draw(); // what is drawn at the size of the view
     if (this.accuracyShown && this.accuracyShown.plan === undefined) void this.accuracy.show(this.accuracyShown);
-    const box = transformExtent(this.map.getView().calculateExtent(), "EPSG:3857", "EPSG:4326");
+    const box = transformExtent(shownExtent(this.map), "EPSG:3857", "EPSG:4326");
     const isSmall = box[2] - box[0] < 3 && box[3] - box[1] < 3;
     this.graticule?.setVisible(!isSmall || !this.options.grid);
     const response = isSmall && this.options.grid ? await fetch(`/api/grid?box=${box.map((v) => v.toFixed(7)).join()}`).catch(() => null) : null;
@@ -203,8 +205,8 @@ export class SiteMap {
 
   drawStill() {
     this.still.clear(true);
-    if (this.options.grid) this.still.addFeatures(gridShapes(this.grid, this.colours));
-    if (this.options.rings) this.still.addFeatures(ringShapes(this.link, this.colours, this.view_m()));
+    if (this.options.grid) this.still.addFeatures(gridShapes(this.grid, this.colours, this.hasRoom));
+    if (this.options.rings) this.still.addFeatures(ringShapes(this.link, this.colours, this.view_m(), this.hasRoom));
   }
 
   setOption(name: keyof SiteMap["options"], value: boolean) {
@@ -223,6 +225,32 @@ export class SiteMap {
     this.map.renderSync();
   }
 
+  private hasRoom: HasRoom = (at, text, dx, dy) => {
+    const pixel = this.map.getPixelFromCoordinate(at);
+    if (!pixel) return true;
+    this.pen.font = SMALL_FONT;
+    const box: Box = [pixel[0] + dx, pixel[1] + dy - 8, this.pen.measureText(text).width, 16];
+    return !this.over.some((other) => meet(box, other));
+  };
+
+  // The middle of what is looked at is the middle of what the panel leaves free; a target that is selected is not
+  // below its own panel.
+  private makeRoom() {
+    const over = [...boxesOver(this.element), ...beyond(this.element.clientWidth, this.element.clientHeight)];
+    if (String(over) === String(this.over)) return;
+    this.over = over;
+    const taken = takenByPanel(this.element);
+    const view = this.map.getView();
+    if (taken !== (view.padding?.[1] ?? 0)) {
+      view.padding = [0, taken, 0, 0]; // what is shown stays where it is
+      const one = this.link.site.targets.get(this.selected.replace("target:", ""));
+      const at = taken && one?.latitude_deg != null && fromLonLat([one.longitude_deg, one.latitude_deg]);
+      const pixel = at && this.map.getPixelFromCoordinate(at);
+      if (pixel && pixel[0] > this.map.getSize()![0] - taken - 20) view.setCenter([at[0], view.getCenter()![1]]);
+    }
+    this.drawStill();
+  }
+
   // What moves has its name on the side where there is room; what is selected, and targets, choose first.
   private placeNames() {
     const { site } = this.link;
@@ -236,11 +264,12 @@ export class SiteMap {
     for (const one of site.stations.values()) add(`station:${one.id}`, one.id, one.longitude_deg, one.latitude_deg);
     for (const one of site.fusion?.cues ?? []) add(`cue:${one.id}`, cueWords(one), one.longitude_deg, one.latitude_deg);
     names.sort((a, b) => Number(b.id === this.selected) - Number(a.id === this.selected));
-    this.sides = sidesOf(names, this.sides);
+    this.sides = sidesOf(names, this.sides, this.over);
   }
 
   draw() {
     const { site } = this.link;
+    this.makeRoom();
     this.placeNames();
     const features: Feature[] = [];
     const border_m = this.options.limits ? BORDER_PART * this.view_m() : null;

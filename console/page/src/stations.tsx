@@ -4,7 +4,7 @@ import { h, Fragment } from "preact";
 import { Alarms } from "./alarms";
 import { lostForAll } from "./byhand";
 import { calibrationText } from "./calibration";
-import { inWords } from "./conditions";
+import { inWords, nameInWords } from "./conditions";
 import { Fleet } from "./fleet";
 import { bearing, clockError, DASH, fixed, utc } from "./format";
 import { length, measures, position } from "./measures";
@@ -29,7 +29,7 @@ function Numbers({ word, values }: { word: Word; values: Record<string, number |
         <tbody>
           {Object.entries(values ?? {}).map(([name, value]) => (
             <tr key={name}>
-              <th scope="row">{name}</th>
+              <th scope="row">{nameInWords(name)}</th>
               <td>{value == null ? DASH : Number(value.toPrecision(8))}</td>
             </tr>
           ))}

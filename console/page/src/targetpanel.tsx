@@ -2,13 +2,14 @@
 
 import { h, Fragment } from "preact";
 import { useState } from "preact/hooks";
+import { useEscape } from "./escape";
 import { bearing, DASH, fixed } from "./format";
 import type { Link } from "./link";
+import { heightRange, stepOf } from "./heights";
 import { heightColours } from "./mapfeatures";
 import { length, speed } from "./measures";
 import { PanelFrame, PanelRow, PointThere, PositionRows, type OnPoint } from "./panel";
 import { nameOf, stretches, targetState, type Target } from "./site";
-import { heightRange, stepOf } from "./trailshapes";
 import { named, t } from "./words";
 
 const TRAIL_WIDTH = 240; // [px]
@@ -77,7 +78,7 @@ function SeenBy({ target }: { target: Target }) {
     <ul class="seen-by">
       {target.stations?.map((one) => (
         <li class={one.used ? "used" : ""}>
-          {one.id} {one.used ? fixed(one.age_s, 1, " s") : t("not_used")}
+          {one.id} {one.used ? fixed(one.age_s && Math.max(0, one.age_s), 1, " s") : t("not_used")}
         </li>
       ))}
     </ul>
@@ -87,6 +88,7 @@ function SeenBy({ target }: { target: Target }) {
 // What operators call it.
 function Name({ target, onName }: { target: Target; onName: ((name: string) => void) | null }) {
   const [draft, setDraft] = useState<string | null>(null);
+  useEscape(draft != null, () => setDraft(null));
   const submit = (event: Event) => {
     event.preventDefault();
     onName?.(draft!.trim());

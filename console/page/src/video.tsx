@@ -44,29 +44,30 @@ export function VideoView({ link, selected, mayCommand, arrangement, onSelect, o
       {stations.length === 0 && <p class="nothing">{t("no_station")}</p>}
       <div class={`eyes ${ids.length === 1 ? "one" : ids.length > 6 ? "many" : ""}`} style={{ "--across": `${Math.max(2, ids.length - 1)}fr`, "--rows": Math.max(1, ids.length - 1) }}>
         {stations.map((station) => (
-          <Eye
-            key={station.id}
-            link={link}
-            station={station}
-            picture={pictures.get(station.id)}
-            large={station.id === large}
-            isThin={thin.isThin}
-            mayCommand={mayCommand}
-            onSelect={() => onSelect(station.id)}
-            onDesignate={onDesignate}
-            onPoint={onPoint}
-            onWithheld={() => onWithheld(station.id)}
-            onRelease={() => onRelease(station.id)}
-          />
+          <div key={station.id} class={`cell ${station.id === large ? "large" : ""}`}>
+            <Eye
+              link={link}
+              station={station}
+              picture={pictures.get(station.id)}
+              large={station.id === large}
+              isThin={thin.isThin}
+              mayCommand={mayCommand}
+              onSelect={() => onSelect(station.id)}
+              onDesignate={onDesignate}
+              onPoint={onPoint}
+              onWithheld={() => onWithheld(station.id)}
+              onRelease={() => onRelease(station.id)}
+            />
+            {station.id === large && (
+              <div class="video-tools">
+                <ArrangementChoice {...arrangement} />
+                {!link.replay && <ThinLinkChoice {...thin} />}
+                {mayCommand && <p class="hint">{`${t("designate_hint")} ${t("hand_hint")}`}</p>}
+              </div>
+            )}
+          </div>
         ))}
       </div>
-      {stations.length > 0 && (
-        <div class="video-tools">
-          <ArrangementChoice {...arrangement} />
-          {!link.replay && <ThinLinkChoice {...thin} />}
-        </div>
-      )}
-      {mayCommand && stations.length > 0 && <p class="hint">{`${t("designate_hint")} ${t("hand_hint")}`}</p>}
     </section>
   );
 }

@@ -4,8 +4,9 @@
 import { h } from "preact";
 import { useLayoutEffect, useRef, useState } from "preact/hooks";
 import type { Link } from "./link";
-import { distance } from "./measures";
+import { ringName, roundStep } from "./measures";
 import { useOrbit, useTurning } from "./orbit";
+import { beyond, boxesOver, takenByPanel } from "./overlays";
 import { useRuler } from "./ruler3d";
 import { draw, frameOf, groundAt, groundStrokes, LARGER, type Layers, Scene } from "./scene3d";
 import { t } from "./words";
@@ -37,11 +38,14 @@ function Tools({ step_m, larger, onLarger, onFit }: ToolsProps) {
         </select>
       </label>
       <span>
-        {t("grid_step")} {distance(step_m)}
+        {t("grid_step")} {ringName(step_m, 1)}
       </span>
     </div>
   );
 }
+
+// What the panel leaves.
+const sizeOf = (canvas: HTMLCanvasElement): [number, number] => [canvas.clientWidth - takenByPanel(canvas), canvas.clientHeight];
 
 export function View3d({ link, version, theme, selected, options, onPick, onMeasured }: Props) {
   const canvas = useRef<HTMLCanvasElement>(null);
@@ -58,16 +62,18 @@ export function View3d({ link, version, theme, selected, options, onPick, onMeas
     if (drawn.current) scene.sides = drawn.current.sides;
     const { whole, followed } = scene.addSite(link.site, selected, options);
     orbit.look(whole, options.follow ? followed : null);
-    if (options.rings) scene.addRings(2 * orbit.step_m());
+    if (options.rings) scene.addRings(roundStep(2 * orbit.step_m()));
     if (options.measuring) ruler.drawOn(scene);
     drawn.current = scene;
     const eye = orbit.shown.current;
-    draw(canvas.current, scene, options.grid ? groundStrokes(eye, colour("--map-grid")) : [], eye, colour);
+    const over = [...boxesOver(canvas.current), ...beyond(canvas.current.clientWidth, canvas.current.clientHeight)];
+    const ground = options.grid ? groundStrokes(eye, colour("--map-grid")) : [];
+    draw(canvas.current, scene, ground, eye, sizeOf(canvas.current), over, colour);
   }, [version, orbit.eye, larger, theme, selected, options, ruler.ends]);
   const click = (event: PointerEvent) => {
     const rect = canvas.current!.getBoundingClientRect();
     const pixel: [number, number] = [event.clientX - rect.left, event.clientY - rect.top];
-    const size: [number, number] = [rect.width, rect.height];
+    const size = sizeOf(canvas.current!);
     const id = drawn.current?.thingAt(pixel, orbit.shown.current, size) ?? "";
     if (!options.measuring) return id && onPick(id);
     const at = drawn.current?.placeOf(id) ?? groundAt(pixel, orbit.shown.current, size);

@@ -261,6 +261,11 @@ const WORDS = {
   c_sight: ["Sight", "Anvisieren"],
   c_done: ["Done", "Fertig"],
   c_abort: ["Abort", "Abbrechen"],
+  m_field: ["field", "im Feld"],
+  m_workshop: ["workshop", "in der Werkstatt"],
+  m_rectify: ["rectify", "Ausrichtung der Kamera"],
+  m_sweep: ["sweep", "Rundblick"],
+  m_check: ["check", "Prüfung"],
   p_running: ["at work", "läuft"],
   p_asking: ["asks", "fragt"],
   p_accepted: ["accepted", "angenommen"],
@@ -307,7 +312,7 @@ export function inLanguage<T>(both: [T, T]): T {
 }
 
 // A word for a value that comes from the server; itself if there is none.
-export function named(prefix: "s" | "k" | "v" | "c" | "p" | "o" | "g" | "t", value: string): string {
+export function named(prefix: "s" | "k" | "v" | "c" | "p" | "o" | "g" | "t" | "m", value: string): string {
   const word = `${prefix}_${value}` as Word;
   return word in WORDS ? t(word) : value;
 }
