@@ -13,8 +13,7 @@ namespace ols::config {
 Row bus_url(std::string& field);
 Row status_file(std::string& field);
 
-// The words of a table's rows. Each row has a name and, among others, the value for which it
-// stands.
+// The words for the values of a table's rows. Each row has a name and a value, among other fields.
 template <class Row, class T>
 Words<T> words_of(const std::vector<Row>& rows, T Row::*value) {
   Words<T> words;

@@ -118,7 +118,8 @@ void read_header(Reader<kColumns>& reader, const std::string& path,
   }
 }
 
-// A file whose last line is ended, because the library reads past the end of an unended one.
+// A file whose last line always has a line end: without one, the library would read past the end of
+// the file.
 class EndedLines : public io::ByteSourceBase {
  public:
   explicit EndedLines(const std::string& path) : path_(path), file_(path, std::ios::binary) {
@@ -131,8 +132,8 @@ class EndedLines : public io::ByteSourceBase {
     if (file_.bad()) throw CsvError(path_ + ": cannot be read");
     auto count = static_cast<int>(file_.gcount());
     if (count > 0) last_ = buffer[count - 1];
-    // Together with the file's end, not after it: if the file fits into the buffer, nothing more is
-    // read.
+    // The line end is added together with the file's last bytes, not later: if the file fits into
+    // the buffer, the library reads nothing more.
     if (count < size && last_ != '\n') buffer[count++] = last_ = '\n';
     return count;
   }

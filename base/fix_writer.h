@@ -1,4 +1,4 @@
-// Writes fixes.csv row by row, because a million rows need not fit into memory.
+// Writes fixes.csv row by row, so that a million rows need not fit into memory.
 #pragma once
 
 #include <cstdint>

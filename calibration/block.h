@@ -38,7 +38,7 @@ using BlockPtr = std::shared_ptr<const Block>;
 class Block {
  public:
   virtual ~Block() = default;
-  virtual int degrees_of_freedom() const = 0;  // a nuisance without a prior costs its own
+  virtual int degrees_of_freedom() const = 0;  // a nuisance without a prior reduces them
   virtual Eigen::VectorXd initial(const State&) const { return Eigen::VectorXd(0); }
   // `damping`: of Levenberg and Marquardt, for the nuisance.
   virtual BlockEquations equations(const State& state, std::size_t block, double damping) const = 0;

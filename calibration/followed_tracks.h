@@ -29,7 +29,7 @@ using Instant = FollowedSighting;
 
 struct Instants {
   std::vector<Instant> instants;  // by station and time
-  std::size_t lonely = 0;         // sightings without another one across a whole second
+  std::size_t lonely = 0;         // sightings without a partner beyond the next whole second
   std::size_t unsure = 0;         // pairs whose approach is unknown or not the same
 };
 

@@ -13,7 +13,7 @@ struct ParameterChange {
   // False: the observations say almost nothing of the parameter.
   bool is_told = false;
   double sigmas() const;
-  // More than agreement explains with a probability of one in a thousand.
+  // Whether the change is too large for an agreement of prior and observations (level 0.001).
   bool is_large() const;
 };
 

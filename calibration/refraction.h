@@ -7,9 +7,9 @@
 
 namespace ols::calibration {
 
-// By how much a point appears lifted from the origin, for a refraction coefficient of 1: s^2 / R,
-// with the distance s, times the bend of the ray; across the line of sight [m]. `enu_m`: the point,
-// east, north, up.
+// The apparent lift of a point seen from the origin [m], across the line of sight, for a refraction
+// coefficient of 1: s^2 / R times the bend of the ray, at the distance s. `enu_m`: the point, east,
+// north, up.
 Eigen::Vector3d terrestrial_lift_m(const Eigen::Vector3d& enu_m);
 
 struct Air {

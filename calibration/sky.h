@@ -18,9 +18,10 @@ struct EarthRotation {
   double ut1_minus_utc_s = 0.0;
 };
 
-// Max error of a planet's direction, each axis (Simon et al. 1994). Their errors over 1800-2050 are
-// at most 5, 17, 71 and 81 arc seconds in heliocentric longitude (Venus, Mars, Jupiter, Saturn);
-// the value is as seen from the Earth at its nearest. The sun's is below 0.1.
+// The max error of a planet's direction, each axis, with the planet at its nearest to the Earth. It
+// follows from the errors of the theory (Simon et al. 1994) over 1800-2050: at most 5, 17, 71 and
+// 81 arc seconds in heliocentric longitude (Venus, Mars, Jupiter, Saturn). The sun's error is below
+// 0.1.
 enum class Planet { kVenus = 2, kMars = 4, kJupiter = 5, kSaturn = 6 };
 std::optional<Planet> planet_of(const std::string& name);  // "venus"
 double planet_sd_rad(Planet planet);

@@ -6,7 +6,6 @@
 // station's model with its priors is fitted to the best cells of all frames, and the stars that
 // then fall onto detections are counted. They are accepted if at least 12, and 60 % of the possible
 // ones, are matched, and no other heading matches half as many.
-// that could be are matched, and no other heading matches half as many.
 #pragma once
 
 #include <cstdint>

@@ -3,7 +3,6 @@
 //
 // The globals are one vector: kStationParameters for each station, then UT1 - UTC, then pan and
 // tilt of each shared pose.
-// tilt of each shared pose.
 #pragma once
 
 #include <Eigen/Core>

@@ -10,8 +10,9 @@ struct Motion {
   double gap_s = 0.0;  // between the two positions used; 0 at a position
 };
 
-// On the chord between the two positions around the instant; an instant at a position uses the next
-// one. Beyond the ends it extrapolates the last chord. Needs at least two positions.
+// The position on the chord between the two positions around the instant. At the instant of a
+// position, the chord to the next one is used. Beyond the ends the last chord is extrapolated.
+// Needs at least two positions.
 Motion motion_at(const Trajectory& trajectory, double utime_us);
 
 // After this time without a position, a drone or an aircraft may be anywhere.

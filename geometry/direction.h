@@ -1,8 +1,9 @@
 // Directions in a local east-north-up frame, and their tangent plane.
 //
 // Azimuth is clockwise from true north, elevation above the local horizontal plane. Small errors of
-// a direction are on its tangent plane. Its axes (cross-elevation, elevation) are the unit vectors
-// of growing azimuth and of growing elevation. Cross-elevation is azimuth times cos(elevation).
+// a direction are given on its tangent plane. The plane's axes (cross-elevation, elevation) are the
+// unit vectors of growing azimuth and of growing elevation. Cross-elevation is azimuth times
+// cos(elevation).
 #pragma once
 
 #include <Eigen/Core>

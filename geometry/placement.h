@@ -7,7 +7,6 @@
 // search can descend). The search starts from random choices. It improves each by exchanging one
 // place at a time for the best other one, until no exchange helps (V. Fedorov's exchange
 // algorithm).
-// one until none helps (V. Fedorov's exchange algorithm).
 #pragma once
 
 #include <cstddef>

@@ -11,7 +11,6 @@
 // axis. m: teeth of the worm wheel, one turn of the worm each. b: backlash. d = 1 or -1: sign of
 // the last motion in counts. The angles on the right are s q n + zero. The worm wheel closes on
 // itself, so there is no error of scale.
-// itself, so there is no error of scale.
 #pragma once
 
 #include <Eigen/Core>

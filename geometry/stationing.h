@@ -117,9 +117,9 @@ struct HorizonSd {
 };
 
 struct Stationing {
-  // With the adjusted chain. The remaining errors are strongly correlated, which separate
-  // deviations cannot express. Its sd has therefore no part for the mounting, and for heading and
-  // tilts the smallest values that cover every line of sight within `highest_rad` of the horizon.
+  // With the adjusted chain. The remaining errors are strongly correlated, and separate deviations
+  // cannot express that. Its sd therefore has a mounting of zero. Its heading and tilts are the
+  // smallest values that cover every line of sight within `highest_rad` of the horizon.
   StationGeometry station;
   // [rad^2] Includes the variance factor if the global test rejects the stated deviations.
   PoseCovariance covariance = PoseCovariance::Zero();

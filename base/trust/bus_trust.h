@@ -70,9 +70,9 @@ class BusTrust {
   // From the receiving thread.
   Judgement judge(std::string_view channel, Bytes message, std::int64_t utime_us, double now_s);
 
-  // The list or the settings, when it is time to publish them again. A process that does not
-  // publish the list still answers a member's older one: a restored centre does not know what was
-  // revoked.
+  // The list or the settings, if they are due for publication. A process that does not normally
+  // publish the list does so when a member publishes an older one: a restored centre does not know
+  // what was revoked.
   std::optional<std::string> list_to_tell(double now_s);
   std::optional<std::string> settings_to_tell(double now_s);
   static constexpr double kTell_s = 2.0;
@@ -144,7 +144,7 @@ class BusTrust {
   struct Telling {
     double due_s = 0.0;
     bool answers = false;      // a member has sent an older list
-    RateLimit strangers{5.0};  // limits non-members: verifying them must not keep from the members
+    RateLimit strangers{5.0};  // for non-members, whose verification must not delay the members
   };
   Telling telling_;  // of the list
   struct Watcher {

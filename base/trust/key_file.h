@@ -1,5 +1,5 @@
-// The files of private keys, readable by root alone: a member's, with the secret of the site tag
-// and the root's public key; and the root's own.
+// The files of private keys, which only the user root can read. A member's file also has the secret
+// of the site tag and the public key of the site's root:
 //
 //   name = "alfa"
 //   seed = "…64 hexadecimal digits…"   # never leaves this file

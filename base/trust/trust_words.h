@@ -14,7 +14,7 @@ std::array<std::uint8_t, 32> read_hex(ConfigTable& table, const char* key);
 // Accepts the same names as require_member_name().
 std::string read_name(ConfigTable& table, const char* key);
 
-// Throws std::invalid_argument: 1 to 32 letters, digits, - and _.
+// Throws std::invalid_argument unless the name is 1 to 32 letters, digits, - or _.
 void require_member_name(const std::string& name);
 
 }  // namespace ols::trust

@@ -12,7 +12,7 @@ struct RulerReading {
   enum class Refusal {
     kNone,
     kNothing,  // no bars
-    kScale,    // bars of another height than follows from the distance
+    kScale,    // the bars' height does not match the distance
     kNoZero,   // the zero is hidden or outside the picture
     kShort,    // the ruler does not reach the wanted row
     kUneven,   // the bars are not even: half hidden, blurred, or no ruler
@@ -20,7 +20,8 @@ struct RulerReading {
   Refusal refusal = Refusal::kNone;
   double scale = 1.0;    // height of a bar over the expected one
   double x_px = 0.0;     // column of the ruler
-  double bars = 0.0;     // the reading at the wanted row: heights of a bar above the zero's middle
+  double bars = 0.0;     // the reading at the wanted row, from the zero's middle, in units of a
+                         // bar's height
   double sd_px = 0.0;    // 1-sigma of the reading's position
   double zero_px = 0.0;  // row of the zero's middle
   explicit operator bool() const { return refusal == Refusal::kNone; }

@@ -1,6 +1,7 @@
-// Calibration with an RTK drone. It hovers at one point after the other, and a person says when.
-// The unit looks there. Once the drone's positions reach beyond the picture, the drone is found in
-// it. The next point is the one that helps most. Pure.
+// Calibration with an RTK drone. It hovers at one point after the other; at each, a person says
+// that it hovers. The unit looks there and takes a picture. Once the drone's recorded positions
+// extend beyond the picture's time, the drone is found in it. The next point is the one that helps
+// most. Pure.
 #pragma once
 
 #include <functional>

@@ -27,7 +27,7 @@ struct StationFacts {
 };
 
 struct Wanted {
-  double status_gap_s = 0.0;                    // max interval: a stop is heard of in time
+  double status_gap_s = 0.0;                    // max interval, so that a stop is noticed in time
   bool absolute_time = false;                   // stars, the sun, aircraft, drones
   bool sun_kept_out = false;                    // it is up, and must not come into the picture
   int image_width_px = 0, image_height_px = 0;  // as configured

@@ -21,8 +21,8 @@ struct Shot {
   int approach_pan = 1, approach_tilt = 1;
   bool may_detour = true;  // false: go straight there
   bool lossless = true;
-  // A picture of permanent scenery, with which later pictures are compared to see whether the
-  // tripod has moved.
+  // Whether the picture shows permanent scenery. Later pictures are compared with it to see whether
+  // the tripod has moved.
   bool is_view = false;
 };
 

@@ -1,4 +1,4 @@
-// Which bearings are admitted, in the order of docs/fusion.md, "Which bearings are taken". Pure.
+// Decides which bearings are admitted, in the order of docs/fusion.md, section 1. Pure.
 #pragma once
 
 #include <cstdint>

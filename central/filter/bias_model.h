@@ -81,8 +81,8 @@ struct BiasEstimate {
 class BiasModel {
  public:
   explicit BiasModel(const BiasModelConfig& config = {}) : config_(config) {}
-  // Evidence on top of `known`. Reads through to `known`, which must outlive it, and stores
-  // separately what bearings show. known.learn() adopts it.
+  // A model of evidence on top of `known`. It reads through to `known`, which must outlive it, and
+  // stores what bearings show separately. known.learn() adopts it.
   static BiasModel evidence_on(const BiasModel& known);
   void learn(const BiasModel& evidence);
 
@@ -138,7 +138,7 @@ class BiasModel {
                         const Eigen::Array2d& noise_rad2) const;
 
   BiasModelConfig config_;
-  const BiasModel* known_ = nullptr;  // of evidence: the model that it reads through to
+  const BiasModel* known_ = nullptr;  // for evidence: the model below
   std::map<std::string, Seen, std::less<>> stations_;
   // Over the stations that declare nothing: weights, and squared biases over the noise variance.
   Eigen::Array2d common_weight_ = Eigen::Array2d::Zero();

@@ -17,8 +17,8 @@ bool is_linear(const StationPart& part, const RayFrame& frame, double depth_m,
                const Eigen::Matrix2d& white);
 
 // Whether the bearing's information on the station's states exceeds the linearisation error. along:
-// the bearing's direction. G: the gain times the root of the innovation's covariance. off_share:
-// the prediction's error as a share of the residual, over the depth.
+// the bearing's direction. G: the gain times the root of the innovation's covariance. off_share
+// [1/m]: the share of the residual that is the prediction's error, divided by the depth.
 bool shows_bias(const FilterMatrix2& G, const FilterMatrix& P, const StationPart& part,
                 const Eigen::Vector3d& along, double off_share);
 

@@ -27,7 +27,8 @@ void propagate(const Eigen::Matrix3d& f, Eigen::Index n, const AxisColumns& colu
 void scale(const double* factors, Eigen::Index n, double* P);
 
 // One part of a mixture, from the diagonal on: a column of its covariance, and the offset of its
-// mean from the mixture's. Then its weight, alone and times the first element of that offset.
+// mean from the mixture's mean. `weighted_off` is the weight times the first element of that
+// offset.
 struct Part {
   const double *covariance, *off;
   double weight, weighted_off;

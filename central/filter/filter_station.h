@@ -31,8 +31,9 @@ struct FilterStation {
 };
 
 // Whether the stations' residuals can distinguish this station's errors from the target's motion.
-// Declared errors: always. Undeclared errors: only beside two other stations that deliver, because
-// the residuals of two stations have one dimension for the six of their biases and clocks.
+// For declared errors this always holds. For undeclared ones it holds only beside two other
+// delivering stations: the residuals of two stations have one dimension, but their biases and
+// clocks have six.
 bool is_redundant(const std::vector<FilterStation>& stations, const FilterStation& entry);
 
 }  // namespace ols::fusion

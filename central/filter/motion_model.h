@@ -54,7 +54,7 @@ struct Transition {
   Eigen::Matrix3d f = Eigen::Matrix3d::Identity();
   Eigen::Matrix3d q = Eigen::Matrix3d::Zero();
   Eigen::Matrix3d directions =
-      Eigen::Matrix3d::Identity();  // the noise in space, over that along the path
+      Eigen::Matrix3d::Identity();  // the noise in space, relative to that along the path
 };
 
 // 1-sigma of the acceleration that is possible at this velocity [m/s^2].

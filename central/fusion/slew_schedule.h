@@ -1,5 +1,5 @@
 // The rounds of slews. Each bearing triggers the slews of a part of the stations, so that no
-// bearing waits long for those of a thousand stations. Pure.
+// bearing is delayed by the slews of a thousand stations. Pure.
 #pragma once
 
 #include <cstdint>

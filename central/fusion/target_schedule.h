@@ -1,6 +1,5 @@
 // The order in which an epoch is published: targets, then bearing-only tracks, then the paper's
-// estimates. Each bearing triggers a part, so that no bearing waits long when there are many
-// targets. Pure.
+// estimates. Each bearing triggers a part, so that no bearing is delayed by many targets. Pure.
 #pragma once
 
 #include <cstdint>

@@ -61,8 +61,8 @@ struct RayUse {
   // expectation if all covariances are true.
   double squared = 0.0;
   double expected = 0.0;
-  // The same by component (cross-elevation, elevation): the residual, the variance that weighted
-  // it, and the share of that variance that a residual shows (0..1). A rejected ray can have a
+  // The same by component (cross-elevation, elevation): the residual, the variance used to weight
+  // it, and the share of that variance that appears in a residual (0..1). A rejected ray can have a
   // share above 1, because the position's own error adds to it.
   Eigen::Vector2d residual_rad = Eigen::Vector2d::Zero();
   Eigen::Vector2d variance_rad2 = Eigen::Vector2d::Zero();

@@ -2,9 +2,9 @@
 //
 // Two filters run forwards and backwards in time (Fraser and Potter, 1969). At each instant the
 // forward state, from the bearings up to it, is combined with the backward prediction, from those
-// after it. Both use the biases of the more certain one. A run before learns the undeclared errors
-// of the stations. A station that pointed away from the target in that run takes part in no track
-// initiation.
+// after it. Both use the biases of the more certain filter. An earlier run learns the undeclared
+// errors of the stations. A station that pointed away from the target in that run takes part in no
+// track initiation.
 #pragma once
 
 #include <cstdint>

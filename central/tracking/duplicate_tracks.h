@@ -1,10 +1,10 @@
 // Finds confirmed tracks that are duplicates: only noise distinguishes their bearings. Pure.
 //
-// A station that sees two objects has a bearing for each in most exposures. If it sees one object,
-// it has one bearing: both tracks explain it, or now the one and now the other. For each pair of
-// tracks that have explained the same bearing, three numbers are therefore counted per station:
-// exposures with one bearing for the two, how many of those bearings both tracks explain, and
-// exposures with more bearings.
+// A station that sees two objects has a bearing for each in most exposures. A station that sees one
+// object has one bearing, which both tracks explain, or sometimes one track and sometimes the
+// other. For each pair of tracks that have explained the same bearing, three numbers are therefore
+// counted per station: exposures with one bearing for the two, how many of those bearings both
+// tracks explain, and exposures with more bearings.
 //
 // A station that follows a single object never has more than one bearing. Two real objects then
 // differ from a duplicate in two ways: they are apart in some station's view, and the same track

@@ -15,7 +15,6 @@
 //  - two confirmed ones -> one: they have been duplicates for a second (duplicate_tracks.h).
 //  - A track confirmed at the predicted position of a deleted one takes over its identity.
 //    Otherwise it takes over that of the bearing-only track of one of its stations.
-//    otherwise that of the bearing-only track of one of its stations.
 #pragma once
 
 #include <cstdint>

@@ -18,7 +18,7 @@ struct TrackGlance {
   bool may_see(const BearingMeasurement& measurement, const Eigen::Vector3d& direction_ecef,
                double off_rad) const;
 };
-// By how much a direction may be off, from all its stated errors. The same for all tracks.
+// The max error of a direction, from all its stated errors. The same for all tracks.
 double may_be_off_rad(const LineOfSight& sight);
 TrackGlance summarise_track(const Track& track);
 

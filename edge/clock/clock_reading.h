@@ -4,7 +4,6 @@
 // kernel's flag counts, which systemd-timesyncd, ntpd and ptp4l/phc2sys maintain. A service that
 // has run since boot leaves traces in the kernel: a frequency correction, an error estimate, an
 // active phase-locked loop.
-// phase-locked loop.
 #pragma once
 
 #include <optional>

@@ -3,7 +3,6 @@
 //
 // `ce` and `le` are the schema's one-sigma errors: ce is the larger semi-axis of the horizontal
 // ellipse, le that of the height. The whole covariance is in <_ols_> of the detail.
-// horizontal ellipse, le that of the height. The whole covariance stands in <_ols_> of the detail.
 #pragma once
 
 #include <cstdint>
