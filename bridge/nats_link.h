@@ -1,6 +1,6 @@
-// The connection to a NATS server: publishes and receives, and reconnects by itself, unless it has
-// ended: the server has refused it twice, or is no NATS server. No message waits for a connection:
-// a message that cannot be sent now is lost and counted, because a queued command is a stale one.
+// The connection to a NATS server: publishes and receives, and reconnects by itself. It ends only
+// if the server has refused it twice, or is no NATS server. No message waits for a connection. A
+// message that cannot be sent now is lost and counted, because a queued command is a stale one.
 //
 // On an open connection the library collects up to 32 kB and writes them in its own thread. While
 // that thread waits, send() waits too. A server that does not read holds it up for kWrite_ms; then

@@ -57,7 +57,7 @@ const char* to_string(Refusal reason);
 struct PassageConfig {
   Role role = Role::kSite;
   std::string region = "region", site = "site";
-  std::vector<std::string> stations{};  // of a site, that go out; empty: all that are heard
+  std::vector<std::string> stations{};  // the site's stations that go out; empty: all
   std::vector<Selection> takes{};       // others' stations that come in
   std::vector<std::string> commands{};  // commands that cross
   bool targets = false;                 // whether targets of the fusion on this bus go out
@@ -80,7 +80,7 @@ struct Counts {
   std::string last_refusal{};
 };
 
-// Of a target that goes out, or whose command does: its id and epoch.
+// The id and epoch of a target that goes out itself, or whose commands do.
 struct Grant {
   std::string id;            // region-wide; empty: no target (a search)
   std::uint64_t epoch = 0;   // 0: without ownership

@@ -25,8 +25,8 @@ struct StreamPlan {
 // nullopt if no stream is configured.
 std::optional<StreamPlan> plan_stream(const BridgeConfig& config);
 
-// Whether an existing stream of that name, with these subjects and sources, is the planned one,
-// perhaps of an earlier configuration: everything that it keeps is of this region, or site.
+// Whether an existing stream of that name, with these subjects and sources, is the planned one, or
+// that of an earlier configuration. If so, everything that it keeps is of this region or site.
 bool is_same_stream(const BridgeConfig& config, const std::vector<std::string>& subjects,
                     const std::vector<std::string>& sources);
 

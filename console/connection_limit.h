@@ -1,4 +1,4 @@
-// Limits the connections in all and from one address: no host can use up the shared room.
+// Limits the connections, in total and per address, so that no host can use up the room of all.
 #pragma once
 
 #include <cstddef>

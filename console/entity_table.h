@@ -1,5 +1,5 @@
 // Entities of one kind by id, as JSON objects. Each field has the revision of its last change, so
-// that the news for a viewer need no queue per viewer. Pure.
+// that no viewer needs a queue of its own. Pure.
 #pragma once
 
 #include <cstddef>

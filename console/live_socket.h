@@ -76,7 +76,8 @@ class LiveSocket : public Live, public std::enable_shared_from_this<LiveSocket<S
     read();
   }
 
-  // Reads until it fails. Nothing holds this object then, once the current write has failed too.
+  // Reads until it fails. Then nothing keeps this object alive, once the current write has failed
+  // too.
   void read() {
     ws_.async_read(buffer_,
                    [self = this->shared_from_this()](boost::beast::error_code error, std::size_t) {

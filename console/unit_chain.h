@@ -14,7 +14,7 @@ namespace ols::console {
 
 class UnitChain {
  public:
-  // With more units than this, no key frame has come: all are dropped until one does.
+  // Beyond this number a key frame is missing. All units are dropped until one comes.
   static constexpr std::size_t kMostUnits = 4 * kUnitsOfKeyFrame;
   static constexpr std::size_t kMostBytes = 16U << 20U;
 

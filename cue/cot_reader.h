@@ -1,6 +1,7 @@
 // Cursor on Target: an event as XML, or as a message of the TAK protocol, version 1. Pure.
 //
-// ce and le count as one sigma, as in the schema. A source that means 90 % states more than needed.
+// ce and le count as one sigma, as in the schema. A source whose values mean 90 % thus states a
+// larger error than it has.
 #pragma once
 
 #include <string>

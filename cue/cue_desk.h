@@ -57,7 +57,7 @@ class CueDesk {
     std::int64_t until_us = 0;
   };
   void judge(std::size_t input, const Report& report, std::int64_t now_us);
-  // Removes expired cues, and those that a clock that was set back has left in the future.
+  // Removes expired cues, and cues in the future, left by a clock that was set back.
   void forget(std::int64_t now_us);
   bool is_full(std::size_t input) const;
   void refuse(std::size_t input, const Refused& refused);

@@ -30,10 +30,8 @@ class PtuAxis {
 
   double position(double time_s) const;  // [counts], continuous
   double velocity(double time_s) const;  // [counts/s]
-  double rest_s() const {
-    return segments_.back().start_s;
-  }  // since when, or from when on, it is
-     // stationary
+  // Since when, or from when on, it is at rest.
+  double rest_s() const { return segments_.back().start_s; }
   double target() const { return segments_.back().position; }
 
   // Drops the history before this instant.

@@ -72,12 +72,12 @@ class Ownership {
   // `by` wants to own it. A store may repeat an old wish: its revision tells.
   void learn_wish(const std::string& target, const std::string& by, std::uint64_t revision,
                   const Now& now);
-  // The answer to a request of step(); wishes are not answered. After a refusal, the store's actual
-  // record was learnt before, or is not known yet.
+  // The answer to a request of step(); wishes are not answered. After a refusal, learn() has
+  // already been called with the store's actual record, or that record is not known yet.
   void answer(const StoreRequest& request, StoreAnswer answer, std::uint64_t revision,
               const Now& now);
 
-  // Whether the store answers. After an outage renewals are missing: no owner is replaced for that.
+  // Whether the store answers. Renewals that an outage has prevented do not count against an owner.
   void feel_store(bool answers, const Now& now);
 
   // The requests that are due now. Call some 20 times a second.

@@ -24,7 +24,7 @@ class StopInput {
 
  private:
   double release_s_;
-  bool was_pressed_ = false;          // or lost; at any time
+  bool was_pressed_ = false;          // at any time; a lost line counts
   std::optional<double> released_s_;  // since when the line has been quietly released
 };
 

@@ -48,8 +48,8 @@ struct ZoomSample {
 struct LensCounters {
   std::uint64_t requests = 0, replies = 0;
   std::uint64_t timeouts = 0;  // requests without an answer in time
-  std::uint64_t refusals = 0;  // requests without a timely answer
-  std::uint64_t garbled = 0;   // errors in the lens's answers
+  std::uint64_t refusals = 0;  // errors in the lens's answers
+  std::uint64_t garbled = 0;   // bytes that are no message
 };
 
 struct LensState {

@@ -27,7 +27,7 @@ std::string exposure_by_hand();
 
 std::string ask_position(Axis axis);
 std::string go_to(Axis axis, double position);
-// Zoom and focus: at the nearest of eight speeds. The iris only makes steps: one.
+// Zoom and focus move at the nearest of eight speeds. The iris moves by one step.
 std::string go_on(Axis axis, double rate);
 // Empty for the iris, which stops after each step.
 std::string stand(Axis axis);
@@ -46,7 +46,7 @@ std::optional<double> position_in(Axis axis, std::string_view data);
 // "vendor 0020, model 0466, ROM 0105".
 std::optional<std::string> version_in(std::string_view data);
 
-// Cuts the received bytes into packets. An overlong one is garbled.
+// Cuts the received bytes into packets. An overlong one counts as garbled.
 class Packets {
  public:
   std::vector<std::string> receive(std::string_view bytes);

@@ -41,7 +41,7 @@ class PositionRefiner {
 
   // Starts from the centre of a box within about a third of the target. nullopt: it does not
   // converge there, the target has too little structure, or half of it is outside the image. The
-  // size is that of the box, or estimated from a likely one, if given.
+  // size is that of the box. If a likely size is given, the size is estimated, starting from that.
   std::optional<RefinedPosition> refine(
       const FrameView& view, const Eigen::Vector2d& start, const Eigen::Vector2d& size_px,
       const std::optional<Eigen::Vector2d>& likely_size_px = std::nullopt) const;

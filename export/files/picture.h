@@ -13,7 +13,7 @@ namespace ols::exports {
 
 struct PictureLimits {
   double history_s = std::numeric_limits<double>::infinity();
-  // For all tracks and lines together. Above it, each is thinned evenly in time.
+  // Limit for all tracks and lines together. Beyond it, each is thinned evenly in time.
   std::int64_t most_points = std::numeric_limits<std::int64_t>::max();
   // Leaves out what has no height above sea level: the format has no other height.
   bool needs_sea = false;
@@ -34,8 +34,8 @@ class Picture {
   void take(const Target& target);
   void take(const Station& station);
   void take(const Line& line);
-  // Removes points older than the history, except the newest of a live object; tracks that ended
-  // before it; and stations that were silent for five minutes. `utime_us`: now.
+  // Removes points older than the history, except the newest of a live object. Also removes tracks
+  // that ended before the history, and stations that were silent for five minutes. `utime_us`: now.
   void forget(std::int64_t utime_us);
 
   bool is_empty() const { return tracks_.empty() && stations_.empty() && lines_.empty(); }

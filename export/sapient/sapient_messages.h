@@ -24,8 +24,8 @@ std::string sapient_detection(const SapientSettings& settings, const Target& tar
 std::string sapient_task_refusal(const SapientSettings& settings, const std::string& task_id,
                                  const std::string& to, std::int64_t utime_us);
 
-// Detections with information of a type that begins with this come from ols-export: they are no
-// outside targets.
+// If the type of a detection's information begins with this, the detection comes from ols-export:
+// it is no outside target.
 inline constexpr const char* kSapientOwn = "ols.";
 
 }  // namespace ols::exports

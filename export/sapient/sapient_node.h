@@ -15,7 +15,7 @@ struct SapientSettings {
   double status_s = 5.0;  // interval of status reports
 };
 
-// The node's id of the site.
+// The id by which the site is known as a node.
 std::string node_id(const SapientSettings& settings);
 // A message of the node, still without content.
 sapient::SapientMessage message_of(const SapientSettings& settings, std::int64_t utime_us);

@@ -1,6 +1,6 @@
-// The instants for which targets are reported. SAPIENT receivers take reports of one node less than
-// 0.08 s after another, or before it, for a fault of its clock. They accept any number for one
-// instant. Pure.
+// The instants for which targets are reported. SAPIENT receivers report a clock fault if a node's
+// next report is earlier than the last, or less than 0.08 s later. They accept any number of
+// reports for one instant. Pure.
 #pragma once
 
 #include <cstdint>

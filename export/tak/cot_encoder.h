@@ -10,7 +10,7 @@ namespace ols::exports {
 
 class CotEncoder : public Encoder {
  public:
-  // framing: nullopt: XML.
+  // framing: nullopt means XML.
   CotEncoder(CotSettings settings, std::optional<TakFraming> framing)
       : settings_(std::move(settings)), framing_(framing) {}
 

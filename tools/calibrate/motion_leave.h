@@ -2,8 +2,8 @@
 // the station's status. Pure.
 //
 // Pointing and releasing end a stop, as an operator's own commands do. A person's stop must hold.
-// After a stop, the station refuses both for StationMode::kStopHold_s. A status "not stopped"
-// within that time therefore cannot have missed a stop.
+// After a stop, the station therefore refuses both for StationMode::kStopHold_s. A command sent on
+// a younger status "not stopped" cannot undo a stop that this status does not show yet.
 #pragma once
 
 #include "ols_msg/station_status_t.hpp"

@@ -42,7 +42,7 @@ class ProcedureRunner {
   void note(JournalEntry entry);
   // Approached from the wanted side. nullopt: aborted, or not reached.
   std::optional<FrameFile> picture_of(FieldProcedure& procedure, const Shot& shot);
-  // With the unit standing there. nullopt likewise.
+  // The same with the unit standing there.
   std::optional<FrameFile> picture_at(FieldProcedure& procedure, const PanTilt& angles,
                                       Arrival arrival, bool lossless);
   PanTilt before_approach(const Shot& shot) const;

@@ -25,9 +25,9 @@ class ProcedureSession {
   // line.
   void resume();
   bool is_replaying() const { return !replay_.empty(); }
-  // True, once, if the next event was a resumption.
+  // True, once, if the next recorded event was a resumption.
   bool take_resumed();
-  // [us] When the order whose result is replayed next was given; nullopt: there is none, or the
+  // [us] When the order was given whose result is replayed next. nullopt: there is none, or the
   // journal does not say.
   std::optional<std::int64_t> replayed_utime_us() const;
   // The recorded result of this order; only while replaying. Throws std::runtime_error if the

@@ -22,8 +22,8 @@ std::optional<std::int64_t> told_number(const Lists& lists, std::string_view cha
 
 class LogCheck {
  public:
-  // `lists` must contain `first`, under which the recording begins: the first list that it
-  // contains. Without the site's secret the tags are not checked; the signatures prove more.
+  // `lists` must contain the list of number `first`, the first one in the recording. Without the
+  // site's secret the tags are not checked; the signatures prove more.
   LogCheck(Lists lists, std::int64_t first);
 
   // One recorded message.
