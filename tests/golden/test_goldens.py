@@ -63,10 +63,25 @@ def test_accepting_makes_them_the_same(fixes, tmp_path, monkeypatch):
     assert goldens.differences(golden, output) == []
 
 
+def count(counter, value):
+    return {"of": "fusion", "counter": counter, "value": value}
+
+
 def test_a_count_must_be_equal_however_large():
-    was = [{"of": "fusion", "counter": "bearings", "value": "1000000"}]
-    now = [{"of": "fusion", "counter": "bearings", "value": "1000001"}]
+    was, now = [count("bearings", "1000000")], [count("bearings", "1000001")]
     assert len(goldens.file_differences("counters.csv", was, now)) == 1
+
+
+def test_a_counter_that_is_not_kept_was_zero_and_one_that_has_gone_is_missed():
+    was = goldens.kept("counters.csv", [count("late", "0"), count("bearings", "7")])
+    assert was == [count("bearings", "7")]
+    now = [count("late", "1"), count("bearings", "7")]
+    assert "late: value was 0, is 1" in differences_of(was, now)[0]
+    assert "2 rows, now 1" in differences_of(was, now[:1])[-1]
+
+
+def differences_of(was, now):
+    return goldens.file_differences("counters.csv", goldens.with_zeros(was, now), now)
 
 
 def test_a_new_column_is_a_difference(fixes):
