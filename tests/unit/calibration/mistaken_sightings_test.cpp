@@ -81,6 +81,22 @@ TEST(MistakenSightings, SomeByManyDegreesDoNotTakeTheHeadingAlong) {
   EXPECT_EQ(mistaken_sightings(network_of(problem)), (Indices{0, 1, 9, 13}));
 }
 
+// Of nine sightings three may be mistaken. Where four are, all are doubted, and none is named.
+TEST(MistakenSightings, MoreThanAThirdOfADroneAreLeftToTheTestOfItsGroup) {
+  for (const std::size_t wrong : {3U, 4U}) {
+    Problem problem = landmarks_around(crooked(), just_put_up(), 3);
+    const std::size_t first = problem.observations.size();
+    add_drone(problem, crooked(), 9);
+    Indices named;
+    for (std::size_t i = 0; i < wrong; ++i) {
+      const std::size_t one = first + 2 * i;
+      problem.observations[one].reading.pan.counts += 1500.0 + 100.0 * static_cast<double>(i);
+      if (wrong == 3) named.insert(one);
+    }
+    EXPECT_EQ(mistaken_sightings(network_of(problem)), named);
+  }
+}
+
 // Its positions are of a clock that is an hour off, or of another datum: that is not one sighting.
 TEST(MistakenSightings, ADroneThatIsWrongAltogetherIsLeftToTheTestOfItsGroup) {
   Problem problem = landmarks_around(crooked(), just_put_up(), 6);

@@ -111,6 +111,25 @@ TEST(PaperTracker, MakesTheTemplatesMaskOfFramesThatAlign) {
   EXPECT_GT(least, 0.8);
 }
 
+// The picture ends there, and what lies beyond looks like its last pixels.
+TEST(PaperTracker, DoesNotFollowATargetOutOfThePicture) {
+  for (const cv::Point2d& way : {cv::Point2d(-1.0, 0.0), cv::Point2d(1.0, 0.0),
+                                 cv::Point2d(0.0, -1.0), cv::Point2d(0.0, 1.0)}) {
+    SyntheticScene scene(Backdrop::kTextured, 5);
+    Tracker tracker(paper_mode(), 3);
+    const cv::Point2d start(320.0 + 300.0 * way.x, 240.0 + 220.0 * way.y);
+    ASSERT_FALSE(tracker.initialise(frame_at(0, scene.picture({400, 300}, start)),
+                                    SyntheticScene::box_around(start)));
+    for (int k = 1; k < 14; ++k) {
+      const auto output =
+          *tracker.track(frame_at(k, scene.picture({400, 300}, start + 3.0 * k * way))).output;
+      EXPECT_TRUE(
+          cv::Rect2d(-0.5, -0.5, 640.0, 480.0).contains({output.pixel.x(), output.pixel.y()}))
+          << way << k << ": " << output.pixel.transpose();
+    }
+  }
+}
+
 TEST(PaperTracker, IsToldAPixelOfTheFrameGivenNext) {
   SyntheticScene scene(Backdrop::kTextured, 7);
   Tracker tracker(paper_mode(), 3);
