@@ -57,7 +57,7 @@ struct Row {
 
   Row required() && { return with(Presence::kRequired); }
   Row required_with_section() && { return with(Presence::kWithSection); }
-  // A description, where the default depends on something else.
+  // Shows these words as the default, where it depends on something else.
   Row default_is(std::string words) && {
     fallback = std::move(words);
     return std::move(*this);

@@ -9,8 +9,9 @@
 
 namespace ols {
 
-// Writes the event once. If the standard error output is the journal, it writes fields (the journal
-// would take a line for another entry); otherwise a line. From any thread.
+// Writes the event once: with its fields if the standard error output is the journal, otherwise as
+// a line. With fields no line is written, because the journal would take it for another entry. From
+// any thread.
 void write_to_journal(const JournalEvent& event);
 
 // Whether systemd's JOURNAL_STREAM ("device:inode") names this file.

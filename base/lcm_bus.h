@@ -87,7 +87,7 @@ class LcmBus {
   static constexpr int kUnanswered = 2;  // self-tests in a row
   double checked_s_ = 0.0;
   std::uint64_t received_ = 0;  // at the last check
-  bool tested_ = false;         // at the last check: nothing had arrived since the one before
+  bool tested_ = false;         // whether the last check sent a self-test
   int unanswered_ = 0;
 };
 

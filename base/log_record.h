@@ -24,7 +24,7 @@ struct LogRecord {
 struct LogGarbage {
   std::size_t bytes = 0;
 };
-// Undecided: this many bytes are needed in all.
+// Too few bytes to decide: this many are needed in all.
 struct LogNeedsMore {
   std::size_t bytes = 0;
 };

@@ -130,7 +130,7 @@ class Passage {
   static constexpr std::size_t kMostChannels = 2 * PlaceBook::kMost + 1, kMostCommands = 10'000;
   using Judged = std::optional<Refusal>;
 
-  // Fill what is known so far.
+  // Why a message does not pass. nullopt: it passes, and the last argument is complete.
   Judged judge_out(std::string_view channel, Bytes bytes, const Now& now, const Owned& owned,
                    Outgoing& outgoing);
   Judged judge_in(std::string_view text, const Headers& headers, Bytes bytes, const Now& now,

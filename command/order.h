@@ -29,8 +29,9 @@ inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 struct Order {
   std::string station = {};
   Kind kind = Kind::kStop;
-  // kDesignate, kCentre, kLook: the frame's mid-exposure [us UTC], 0 for the newest, and the box,
-  // or only the point, [px] in the full-resolution frame. kLook designates the object at the point.
+  // kDesignate, kCentre, kLook: mid-exposure of the frame [us UTC], 0 for the newest. The box, or
+  // only the point, is in pixels of the full-resolution frame. kLook designates the object at the
+  // point.
   std::int64_t frame_utime_us = 0;
   double x_px = 0.0, y_px = 0.0, width_px = 0.0, height_px = 0.0;
   // kPoint: in the PTU's angles.
@@ -50,7 +51,8 @@ struct Order {
 inline constexpr double kLease_s = 2.0;
 // A station counts accepted and refused orders within this time: two status intervals.
 inline constexpr double kTwoIntervals_s = 1.2;
-// Interval at which a rate is repeated while the hand holds: two may get lost within its lease.
+// Interval at which a rate is repeated while the joystick is held. Within its lease two of them may
+// get lost.
 inline constexpr double kRateAgain_s = 0.1;
 // The maximum that a station accepts: kRateLease_s of geometry/slew_limits.h.
 inline constexpr double kJoystickLease_s = 0.3;

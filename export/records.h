@@ -70,7 +70,7 @@ struct Line {
   Place camera;
   double azimuth_deg = 0.0;
   double elevation_deg = 0.0;
-  // 1-sigma. Along the horizon it is that of the direction, which at elevation 0 is the azimuth's.
+  // 1-sigma, across: of the azimuth times the cosine of the elevation.
   double cross_sd_deg = 0.0;
   double elevation_sd_deg = 0.0;
   double belief = 1.0;        // 0..1

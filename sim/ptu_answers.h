@@ -17,8 +17,9 @@ class PtuAnswers {
   PtuAnswers(const PtuUnitConfig& config, const PtuSetup& setup, const PtuMotion& motion)
       : config_(config), setup_(setup), motion_(motion) {}
 
-  // For one axis: the bare number, and with the selected verbosity. `what`: one of PORNXSDABUL.
+  // The value of one axis, as the bare number. `what`: one of PORNXSDABUL.
   std::string number(int axis, char what, double time_s) const;
+  // The same with the selected verbosity.
   std::string query(int axis, char what, double time_s) const;
 
   // The answer; nullopt: the command is not an identification query.

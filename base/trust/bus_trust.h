@@ -31,7 +31,7 @@ struct Self {
   bool commands = false;     // shows and commands stations, even those with a wrong clock
   bool tells_list = false;   // publishes the trust list
   bool keeps_marks = false;  // its marks against replays survive a restart
-  SettingsCheck settings{};  // checks the site's settings for this program; none: it only passes
+  SettingsCheck settings{};  // checks the site's settings; none: it passes them on
                              // them on
   // Receives each list that is adopted, from any thread.
   std::function<void(const TrustList&)> list_taken{};

@@ -64,7 +64,8 @@ class Verifier {
     MessageHead head{};                 // of the same message; views into it
   };
 
-  // Without the site's secret the tags are not checked: for recordings, where no flood waits.
+  // Without the site's secret the tags are not checked. This is for recordings, which nobody
+  // floods.
   Verifier(Config config, const std::optional<SiteKey>& site, const TrustList& list);
 
   // `message`: as received, with its trailer.
@@ -78,7 +79,7 @@ class Verifier {
   struct Known {
     Member member;
     std::vector<RateLimit> rates;  // by rule
-    // Per enrolled station: for each rule with such a limit, and for stops.
+    // Per enrolled station: one for each rule with such a limit, and one for stops.
     std::map<std::tuple<std::size_t, bool, std::string>, RateLimit> station_rates{};
   };
   struct Judged;

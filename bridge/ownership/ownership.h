@@ -47,8 +47,8 @@ struct Sighting {
   std::uint64_t epoch = 0;
 };
 
-// To the store: this record, if its revision is still this one (0: no record). With `is_wish`: a
-// message to the owner that this fusion wants the target.
+// A request to the store: write this record if the stored revision is still this one (0: no
+// record). With `is_wish`: a message to the owner that this fusion wants the target.
 struct StoreRequest {
   std::string target;
   OwnerRecord record;
@@ -69,7 +69,7 @@ class Ownership {
              const Now& now);
   // The store has no record of it any more.
   void learn_gone(const std::string& target, const Now& now);
-  // `by` wants to own it. A store may repeat an old wish: its revision tells.
+  // `by` wants to own it. A store may repeat an old wish; its revision shows that it is old.
   void learn_wish(const std::string& target, const std::string& by, std::uint64_t revision,
                   const Now& now);
   // The answer to a request of step(); wishes are not answered. After a refusal, learn() has
@@ -110,7 +110,7 @@ class Ownership {
     double marked_s = -1e9;
     double changed_s = 0.0;  // when its record was heard here
     Sighting place;
-    double seen_s = -1e9;  // when the target was seen there
+    double seen_s = -1e9;  // when the target was at `place`
     std::string wished_by;
     double wished_s = -1e9;
     double due_s = 0.0;  // when the next request is due

@@ -12,8 +12,9 @@
 
 namespace ols::calibration {
 
-// One edge. The two points are one radius of gyration to either side of its middle: their errors
-// across the line are independent, and a line that the lens bends evenly passes through both.
+// One edge. The two points are one radius of gyration to either side of its middle. Their errors
+// across the line are therefore independent, and a line that the lens bends evenly passes through
+// both.
 struct LevelEdge {
   Eigen::Vector2d left_px = Eigen::Vector2d::Zero(), right_px = Eigen::Vector2d::Zero();
   double sd_px = 0.0;  // across the line, of each point

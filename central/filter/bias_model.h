@@ -122,7 +122,7 @@ class BiasModel {
 
  private:
   struct Seen {
-    // Of earlier biases. The current bias counts as one more, however new.
+    // The weights of earlier biases, and of the current one.
     Eigen::Array2d weight = Eigen::Array2d::Zero(), weight_now = Eigen::Array2d::Zero();
     Eigen::Array2d squared_rad2 = Eigen::Array2d::Zero(), squared_now_rad2 = Eigen::Array2d::Zero();
     Eigen::Array2d noise_rad2 = Eigen::Array2d::Zero();   // stated, of one recent bearing

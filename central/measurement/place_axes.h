@@ -20,7 +20,7 @@ class PlaceAxes {
   }
 
  private:
-  Eigen::Vector3d place_ecef_ = nan_vector();  // equal to none
+  Eigen::Vector3d place_ecef_ = nan_vector();  // of R_ecef_enu_; NaN: none yet
   Eigen::Matrix3d R_ecef_enu_ = nan_matrix();
 };
 

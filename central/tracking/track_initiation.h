@@ -59,9 +59,9 @@ class TrackInitiation {
   void forget(const std::string& station) { pool_.forget(station); }
   void clear() { *this = TrackInitiation(config_, filter_); }
   const UnassociatedBearings& pool() const { return pool_; }
-  // Why the last bearing began no track. Usually this is the result of its ray with the last other
-  // one. kRaysMiss: rays intersect, but the bearings of their stations do not agree. kTooFewRays:
-  // they agree but more are needed, or there was no other ray.
+  // Why the last bearing began no track. Usually this is the reason why its ray and the last other
+  // ray give no position. kRaysMiss: rays intersect, but the bearings of their stations do not
+  // agree. kTooFewRays: they agree but more are needed, or there was no other ray.
   Solution why_no_track() const { return failure_; }
   // Why there is no track: from the stations with unassociated bearings at this instant. If there
   // are several, the last failure.

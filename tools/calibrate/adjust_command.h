@@ -23,8 +23,7 @@ struct Adjusted {
   Calibration found;
   std::vector<StationResult> results;
   Acceptance acceptance;                                      // of the first station
-  std::vector<std::pair<std::string, GroupTest>> references;  // the references that a person has
-                                                              // pointed at
+  std::vector<std::pair<std::string, GroupTest>> references;  // those that a person pointed at
   std::vector<RectifiedAngle> angles;                         // of the first station
   std::vector<std::string> notes;                             // remarks and warnings, as sentences
 };
