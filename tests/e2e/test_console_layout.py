@@ -69,16 +69,15 @@ def words_of(page):
 
 def german_words():
     """Of the page's own texts and of what programs say: those that are the same in English, too."""
-    page = ROOT / "console/page"
-    pairs = re.findall(
-        r'^  "?[\w ]+"?: \["(.*?)", "(.*)"\],$', (page / "src/words.ts").read_text(), re.M
-    )
-    table = tomllib.loads((page / "conditions.toml").read_text())
+    words = (ROOT / "console/page/src/words.ts").read_text()
+    pairs = re.findall(r'^  "?[\w ]+"?: \["(.*?)", "(.*)"\],$', words, re.M)
+    table = tomllib.loads((ROOT / "conditions/conditions.toml").read_text())
     texts = [german for _, german in pairs]
     texts += [
-        one
-        for row in table["alarm"]
-        for one in (*row["text"].values(), row["meaning"], row["action"])
+        german
+        for group in table["group"]
+        for row in group["alarm"]
+        for _, german in (*row["says"].values(), row["meaning"], row["action"])
     ]
     texts += [german for part in ("phrases", "words", "names") for german in table[part].values()]
     return {word for text in texts for word in WORD.findall(text)}

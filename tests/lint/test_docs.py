@@ -4,12 +4,16 @@ import fnmatch
 import functools
 import re
 import shutil
+import sys
 from pathlib import Path
 
 import pytest
 from conftest import finished
 
 ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "conditions"))
+import table  # noqa: E402
+
 TROUBLESHOOTING = ROOT / "docs/troubleshooting.md"
 SOURCES = sorted(
     p
@@ -252,6 +256,28 @@ def test_every_alarm_is_in_troubleshooting():
         p for p in alarms_of_the_sources() if not any(re.fullmatch(p + ".*", a) for a in alarms)
     ]
     assert sorted(missing) == []
+
+
+def test_every_alarm_has_its_words_in_two_languages():
+    rows = table.alarms(table.table())
+    ids = [name for row in rows for name in row["says"]]
+    assert sorted(ids) == sorted(set(ids))
+    assert {row["severity"] for row in rows} == {"urgent", "warning", "notice"}
+    for row in rows:
+        parameters = set()
+        for english, german in row["says"].values():
+            names = [name for name, _ in table.PARAMETER.findall(english)]
+            assert names == [name for name, _ in table.PARAMETER.findall(german)], english
+            assert german != english
+            parameters |= set(names)
+        assert set(row.get("subject", [])) <= parameters, row["says"]
+        for english, german in (row["meaning"], row["action"]):
+            assert bool(english) == bool(german), row["says"]
+
+
+def test_troubleshooting_has_the_alarms_of_the_table():
+    document = TROUBLESHOOTING.read_text()
+    assert table.of_the_documents(document) == document, "run conditions/table.py docs"
 
 
 def test_troubleshooting_knows_no_other_alarm():

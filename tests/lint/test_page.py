@@ -1,7 +1,5 @@
 """The console's page in the eyes of the TypeScript compiler; the bundler only strips the types."""
 
-import importlib.machinery
-import importlib.util
 import json
 import os
 import re
@@ -10,7 +8,7 @@ from pathlib import Path
 
 import pytest
 from conftest import finished
-from test_docs import listed
+from test_docs import listed, table
 
 ROOT = Path(__file__).resolve().parents[2]
 COMPILER = ROOT / "build/page-libraries/node_modules/typescript"
@@ -55,30 +53,9 @@ def test_a_function_that_is_longer_is_found(tmp_path):
 # ---- what programs say, in both languages --------------------------------------------------------
 
 
-def page_build():
-    loader = importlib.machinery.SourceFileLoader("page_build", str(ROOT / "console/page/build"))
-    module = importlib.util.module_from_spec(importlib.util.spec_from_loader("page_build", loader))
-    loader.exec_module(module)
-    return module
-
-
 @pytest.fixture(name="conditions", scope="module")
 def fixture_conditions() -> dict:
-    return page_build().conditions()
-
-
-def test_every_alarm_has_a_severity_and_german_words(conditions):
-    known = {text for row in conditions["alarms"] for text in row["text"]}
-    missing = set(listed("Alarm(?!s of the bridge)")) - known
-    assert missing == set()
-    own = {"no status any more", "the fusion has fallen silent"}
-    assert known - set(listed("Alarm")) == own, "an alarm that no program has any more"
-    assert {row["severity"] for row in conditions["alarms"]} == {"urgent", "warning", "notice"}
-    for row in conditions["alarms"]:
-        for english, german in row["text"].items():
-            assert german != english and german.count("…") == english.count("…"), english
-        for english, german in (row["meaning"], row["action"]):
-            assert bool(english) == bool(german), row["text"]
+    return table.of_the_page()
 
 
 def refusals_of_the_sources() -> set[str]:

@@ -1,5 +1,5 @@
 // What programs say, in the page's language: how grave an alarm is, what it means, what to do. The words
-// come with the build, from docs/troubleshooting.md and conditions.toml.
+// come with the build, from conditions/conditions.toml.
 
 import tables from "conditions.json";
 import type { SiteEvent } from "./site";
