@@ -1,5 +1,5 @@
-// The console without its sockets: the site's state, the viewers and what each is to be sent next,
-// and the commands. Pure: time, messages and texts come in, orders and texts go out.
+// The console without its sockets: the site's state, the viewers, what each is sent next, and the
+// commands. Pure: time, messages and texts come in, orders and texts go out.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +28,7 @@ struct Outgoing {
   std::string bytes;
 };
 
-// What a replay keeps of an instant.
+// The state of a replay at one instant.
 struct Moment {
   SiteState site;
   CommandDesk desk;
@@ -37,8 +37,8 @@ struct Moment {
 
 // Who gives an order.
 struct Person {
-  std::string name;          // empty: nobody of this console
-  std::uint64_t viewer = 0;  // the browser; 0: none that is known
+  std::string name;          // empty: nobody known to this console
+  std::uint64_t viewer = 0;  // the browser; 0: unknown
 };
 
 class Console {
@@ -52,20 +52,20 @@ class Console {
   void hear(Picture picture);
   void hear(ProcedureHeard procedure);
 
-  // An order that somebody gave, in a recording: a replay's history, and what came of it.
+  // Somebody's order in a recording, for the events of a replay.
   void hear(const command::Order& order, const Now& now);
 
   // The newest picture (JPEG) of a station's guided procedure; null: there is none.
   const std::string* procedure_picture(const std::string& station) const {
     return procedures_.picture(station);
   }
-  // What people have answered to procedures since the last call.
+  // People's answers to procedures since the last call.
   std::vector<ProcedureAnswer> take_answers() { return procedures_.take(); }
 
-  // Operators' words on cues since the last call.
+  // Operators' decisions on cues since the last call.
   std::vector<CueOrder> take_cue_orders() { return cues_.take(); }
 
-  // The videos that somebody looks at.
+  // The videos that somebody watches.
   WatchedVideos watched_video() const;
 
   // The alarms of the console itself.
@@ -73,37 +73,38 @@ class Console {
     site_.hear_own(alarms, now);
   }
 
-  // A browser that has opened its WebSocket; its number. A second one of the same name is "ana 2".
+  // A browser has opened its WebSocket; returns its number. A second one of the same name is "ana
+  // 2".
   std::uint64_t open(const std::string& name, Role role);
   void close(std::uint64_t viewer);
   void take(std::uint64_t viewer, std::string_view text, const Now& now);
-  // What this viewer is to be sent next, now that the last message is through; nothing: nothing
-  // new. The newest state, never a queue.
+  // The next message for this viewer, once the last one is through; nullopt: nothing new. It holds
+  // the newest state, never a queue.
   std::optional<Outgoing> next(std::uint64_t viewer, const Now& now);
 
-  // Why no order can go out; empty: it can.
+  // Why no order goes out; empty: orders go out.
   void bus_is(const std::string& trouble) { bus_trouble_ = trouble; }
   const std::string& bus_trouble() const { return bus_trouble_; }
 
-  // Stops every station; those that are first heard within the next seconds too. Their ids. All
-  // viewers are told which do not confirm it.
+  // Stops every station, also those that are first heard within the next seconds. Returns their
+  // ids. All viewers are told which stations do not confirm it.
   std::vector<std::string> stop_all(const Person& by, const Ticket& ticket, const Now& now);
-  // Who asks outside of the WebSocket: this browser, if it is one of that name's.
+  // Who makes a request outside of the WebSocket: this browser, if it belongs to that name.
   Person person(const std::string& name, std::uint64_t viewer) const;
 
   // Call often: outcomes, control, ages. Returns the orders to be sent now.
   std::vector<command::Order> turn(const Now& now);
 
-  // Of a replay. From now on no order goes out, and every message says so: its state, what its
-  // timeline shows, and whether viewers are to hear of it at once.
+  // This console shows a replay. From now on no order goes out, and every message has the replay's
+  // state. `is_urgent`: viewers get it at once.
   void replay_is(const Json& state, bool is_urgent);
   void timeline_is(const Json& timeline) { replay_.timeline = timeline; }
   bool is_replay() const { return !replay_.state.is_null(); }
   const Json& timeline() const { return replay_.timeline; }
-  // What viewers have asked of the replay since the last call.
+  // Viewers' requests to the replay since the last call.
   std::vector<ReplayRequest> take_replay_requests() { return std::exchange(replay_.requests, {}); }
   Moment moment() const;
-  // Every viewer is sent all of it.
+  // Shows this moment to every viewer, as a whole.
   void show(const Moment& moment);
   Json events_since(Revision revision) const { return site_.events_since(revision); }
   Revision revision() const { return site_.revision(); }
@@ -114,7 +115,7 @@ class Console {
             const Now& now);
   std::size_t viewers() const { return viewers_.size(); }
 
-  // 20 Hz, with a turn's jitter: at 10 Hz a new position would wait for up to 0.1 s.
+  // 20 Hz, less a turn's jitter. At 10 Hz a new position would wait for up to 0.1 s.
   static constexpr double kDeltaPeriod_s = 0.045;
 
  private:
@@ -128,7 +129,7 @@ class Console {
     std::deque<std::string> answers;
   };
   struct ReplayDesk {
-    Json state, timeline;  // null: what is shown is now
+    Json state, timeline;  // null: this is no replay
     std::vector<ReplayRequest> requests;
   };
 
@@ -150,7 +151,7 @@ class Console {
   void begin_stop(const std::string& station, const std::string& name, Ticket ticket,
                   const Now& now);
   std::string distinct(const std::string& name) const;
-  // Whoever has control of one of these stations is told what another has done there.
+  // Tells whoever controls one of these stations what another person has done there.
   void tell_holders(const std::vector<std::string>& stations, const char* what, const Person& by,
                     const Now& now);
   void forget_gone();

@@ -1,5 +1,5 @@
-// Limits the attempts to log in: a few at once from one address, then slowly; and slowly for all
-// addresses together. Pure.
+// Limits the attempts to log in, per address and for all addresses together. A few are allowed at
+// once, then one after each interval. Pure.
 #pragma once
 
 #include <cstddef>

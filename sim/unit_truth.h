@@ -45,8 +45,8 @@ struct UnitTruth {
 UnitTruth draw_unit(const UnitErrorsScenario& scenario, std::uint64_t seed, ChainParameters& chain,
                     CameraIntrinsics& camera);
 
-// 1-sigma of the camera's direction on a unit of this size, across and about the optical axis, as
-// an honest configuration without a calibration states it.
+// 1-sigma of the camera's direction with unit errors of this size, across and about the optical
+// axis, as a correct configuration without a calibration states it.
 struct MountSize {
   double across_rad = 0.0, roll_rad = 0.0;
 };

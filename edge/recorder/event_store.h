@@ -1,8 +1,8 @@
 // The folder of all events: its size, the disk's free space, and which event may be removed.
 //
-// Any program on the bus can request recordings, so new ones must not displace old ones freely.
-// Once in `protect_s` one event older than that is removed: the oldest one of the label that
-// occupies most space.
+// Any program on the bus can request recordings, so new ones must not displace old ones freely. In
+// each `protect_s` at most one event is removed, and only one that is older than `protect_s`: the
+// oldest of the label that occupies most space.
 #pragma once
 
 #include <cstdint>

@@ -36,9 +36,8 @@ struct AcquisitionView {
   Eigen::Vector2d expected_px;  // of the target
   double expected_sd_px = 0.0;
   // If only a line is known on which the target is: the line's direction, a unit vector. The
-  // expected pixel is any point on it, and the deviation is that across it. The motion is then
-  // unknown, except how far the target may move against the background from frame to frame: it must
-  // move evenly.
+  // expected pixel is any point on it, and the deviation is that across it. Of the motion, only its
+  // limit from frame to frame against the background is then known. The target must move evenly.
   Eigen::Vector2d line = Eigen::Vector2d::Zero();
   double drift_px = 0.0;
   std::vector<AcquisitionReference> references;  // newest first

@@ -43,7 +43,8 @@ class Objective {
   Similarity operator()(const Patch& gray, const MaskPatch& candidate_mask) const;
 
  private:
-  // A warm target in front of a warming sky turns from bright to dark: equally similar, but rarer.
+  // Similarity of an inverted patch. A warm target in front of a warming sky turns from bright to
+  // dark, but this is rare.
   static constexpr float kInverted = 0.9F;
   static constexpr Patch ones() {
     Patch patch{};

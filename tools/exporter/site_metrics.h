@@ -17,8 +17,8 @@ namespace ols::exporter {
 
 class SiteMetrics {
  public:
-  // Max number of stations. A station that is silent for kForget_s is dropped. That it is enrolled
-  // is still reported, so that alerts last.
+  // Max number of stations. A station that is silent for kForget_s is dropped, but still reported
+  // as enrolled, so that alerts about it last.
   static constexpr std::size_t kMostStations = 1000;
   static constexpr double kForget_s = 86400.0;
   // Max number of names (readings, counters, devices) per message.
