@@ -30,7 +30,7 @@ class InputReader {
   Framer framer_;
   SbsReader sbs_;
   SapientReader sapient_;
-  int overlong_ = 0;  // of the framer's count, already reported
+  int overlong_ = 0;  // how much of the framer's count has been reported
 };
 
 }  // namespace ols::cues

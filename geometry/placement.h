@@ -19,8 +19,8 @@
 
 namespace ols {
 
-// The error assumed for a point whose position the stations do not determine. The place of a chosen
-// station is then not counted.
+// The error assumed where the stations do not determine the position. Such a point is left out if a
+// chosen station stands on it.
 inline constexpr double kUndetermined_m = 1e6;
 
 // The default is the worst point. Where stations may stand anywhere around the area, it gives the

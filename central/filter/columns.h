@@ -26,9 +26,9 @@ void propagate(const Eigen::Matrix3d& f, Eigen::Index n, const AxisColumns& colu
 // Multiplies each row and each column by its own factor.
 void scale(const double* factors, Eigen::Index n, double* P);
 
-// One part of a mixture, from the diagonal on: a column of its covariance, and the offset of its
-// mean from the mixture's mean. `weighted_off` is the weight times the first element of that
-// offset.
+// One part of a mixture. `covariance`: a column of its covariance, from the diagonal on. `off`: the
+// offset of its mean from the mixture's mean. `weighted_off`: the weight times the first element of
+// that offset.
 struct Part {
   const double *covariance, *off;
   double weight, weighted_off;

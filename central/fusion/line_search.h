@@ -46,7 +46,7 @@ struct LineSearchConfig {
   double near_m = 30.0;  // the ends of the line
   double far_m = 20e3;
   double view_s = 0.5;  // time in which a sweep crosses the narrower field of view
-  // Of the pan-tilt units under the servo, to predict when one has reached its start.
+  // What the servo reaches with a pan-tilt unit, to predict when a unit has reached its start.
   double acceleration_rad_s2 = 0.8, speed_rad_s = 1.0, settle_s = 0.3;
 };
 
@@ -82,7 +82,7 @@ class LineSweep {
   // axis: where the camera looks when the search begins, if known.
   LineSweep(const CueRay& ray, const StationTraits& station, const SweepStart& start,
             const LineSearchConfig& config);
-  // searched_s after the search has begun.
+  // `searched_s`: time since the beginning of the search.
   LineLook look(const CueRay& ray, const StationTraits& station, double searched_s) const;
 
  private:

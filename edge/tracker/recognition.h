@@ -33,8 +33,8 @@ class Recognition {
   void remember(const Particle& followed, double time_s);
   // In doubt: returns to the appearance learnt while it surely was the target. It must find the
   // target here, where the target was then, or where it would be had it continued. After long doubt
-  // a weaker response is enough. The search also extends further and further, where a candidate
-  // must itself be judged the target.
+  // a weaker response is enough. It also searches in ever wider rings; a candidate found there must
+  // itself be judged the target.
   std::optional<Particle> return_to_sure(const TrackerInput& frame,
                                          const ReferenceFrames& references,
                                          const Particle& followed);
