@@ -125,8 +125,8 @@ class Passage {
   }
 
  private:
-  // For bearings and statuses: as many stations as the place book holds. For commands, separately:
-  // they name stations that need not exist.
+  // Limits for bearings and statuses: twice as many as the place book holds stations. Limit for
+  // commands: separate, because they name stations that need not exist.
   static constexpr std::size_t kMostChannels = 2 * PlaceBook::kMost + 1, kMostCommands = 10'000;
   using Judged = std::optional<Refusal>;
 

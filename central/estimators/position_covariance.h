@@ -18,8 +18,8 @@ std::optional<Eigen::Matrix3d> covariance_from(const Eigen::Matrix3d& informatio
 bool is_covariance(const Eigen::Matrix3d& covariance);
 
 // The same estimate with impossible parts removed. If the position's covariance is not positive
-// definite: "parallel rays", no position. If the velocity's is not: no velocity. Negative variances
-// that rounding left in the white part, a difference, are cut.
+// definite: "parallel rays", no position. If the velocity's is not: no velocity. The white part is
+// a difference; negative variances that rounding has left in it become 0.
 Estimate checked(Estimate estimate);
 
 }  // namespace ols::fusion

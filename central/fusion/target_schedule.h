@@ -45,9 +45,9 @@ class TargetSchedule {
   struct Epoch {
     std::optional<std::int64_t> utime_us{};
     std::int64_t paper_us = 0;           // of the paper's estimates
-    std::deque<std::int64_t> targets{};  // pending; then the bearing-only tracks,
+    std::deque<std::int64_t> targets{};  // the ids that are still to be published
     bool bearing_only_reported = true;
-    std::deque<std::int64_t> papers{};  // then the paper's estimates
+    std::deque<std::int64_t> papers{};  // the same for the paper's estimates
 
     bool is_over() const { return bearing_only_reported && papers.empty(); }
   };

@@ -10,11 +10,13 @@ namespace ols::key {
 // List number 1, without members. Throws std::invalid_argument for a bad name.
 trust::TrustList new_list(const std::string& site, const trust::PublicKey& root);
 
-// Has the next number. If the member already has a key, it gets the new one, and the old one is
-// revoked. Throws std::invalid_argument if the name has another role, or if the key is known.
+// Returns the next list, with this member. If the member already has a key, it gets the new one,
+// and the old one is revoked. Throws std::invalid_argument if the name has another role, or if the
+// key is known.
 trust::TrustList enrol(const trust::TrustList& list, const trust::Member& member);
 
-// Has the next number. Throws std::invalid_argument if there is no such member.
+// Returns the next list, with this member's keys revoked. Throws std::invalid_argument if there is
+// no such member.
 trust::TrustList revoke(const trust::TrustList& list, const std::string& name);
 
 // A table for a person.
