@@ -5,7 +5,8 @@ import math
 import os
 
 import ols_msg
-from conftest import finished
+from conftest import BIN, finished
+from ols_demo import __main__ as demo
 from ols_demo.inside import write_in_site
 from ols_demo.live import Screen, at_work, station_lines, target_lines
 from ols_demo.observer import Observer
@@ -74,6 +75,16 @@ def test_a_file_gets_no_control_characters(capsys):
         screen.draw(f"4 of 4 stations track, {left_s} s left", heard(target()))
     said = capsys.readouterr().out
     assert said.count("4 of 4 stations track") == 2 and "\x1b" not in said
+
+
+def test_a_demo_that_fails_leaves_no_report_of_an_earlier_one(tmp_path, monkeypatch, capsys):
+    for name in ("report.json", "report.png"):
+        (tmp_path / name).write_text("of an earlier run")
+    words = ["--output", tmp_path, "--bin", BIN, "--scenario", tmp_path / "none.toml"]
+    monkeypatch.setattr("sys.argv", ["demo", *map(str, words)])
+    assert demo.main() == 1
+    assert capsys.readouterr().err.startswith("tools/demo: ")
+    assert list(tmp_path.glob("report.*")) == []
 
 
 def test_a_command_runs_in_the_network_of_the_demo(tmp_path):

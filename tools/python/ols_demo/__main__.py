@@ -88,6 +88,14 @@ def doorway() -> int | None:
     return int(number) if number else None
 
 
+def report_of(options: argparse.Namespace) -> Path:
+    return options.report or options.output / "report.json"
+
+
+def plot_of(options: argparse.Namespace) -> Path:
+    return report_of(options).with_suffix(".png")
+
+
 def write_report(options: argparse.Namespace, window: tuple[int, int], log: Path) -> dict:
     recorded = recording.read(log)
     result = {
@@ -95,7 +103,7 @@ def write_report(options: argparse.Namespace, window: tuple[int, int], log: Path
         "seed": options.seed,
         **evaluate.report(recorded, window),
     }
-    report = options.report or options.output / "report.json"
+    report, plotted = report_of(options), plot_of(options)
     report.parent.mkdir(parents=True, exist_ok=True)
     report.write_text(json.dumps(result, indent=1) + "\n")
     title = f"{options.scenario.stem}, seed {options.seed}"
@@ -103,8 +111,9 @@ def write_report(options: argparse.Namespace, window: tuple[int, int], log: Path
         title += (
             f": RMS error {result['rmse_m']:.3f} m, predicted {result['predicted_rmse_m']:.3f} m"
         )
-        plot.save(report.with_suffix(".png"), recorded, window, title)
-    print(f"report {report}\nplot   {report.with_suffix('.png')}\nlog    {log}")
+        plot.save(plotted, recorded, window, title)
+    print(f"report {report}")
+    print(f"plot   {plotted if result['fixes'] else 'none: there is no fix'}\nlog    {log}")
     return result
 
 
@@ -154,6 +163,8 @@ def main() -> int:
     if options.console_only:
         return replay(options)
     wiring = Wiring(options.bin, options.scenario, options.seed, options.output, signed=True)
+    for former in (report_of(options), plot_of(options)):
+        former.unlink(missing_ok=True)  # of a run that fails nothing is to be read
     try:
         bring_up_loopback(wiring.prepare())
         with Site(options.output / "logs") as site:
