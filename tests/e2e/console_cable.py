@@ -36,7 +36,7 @@ class Cable(threading.Thread):
         """When: after this instant nothing passes."""
         self._idle.clear()
         self._whole.clear()
-        assert self._idle.wait(5.0), "the cable does not end"
+        assert self._idle.wait(60.0), "the cable does not end"
         return time.time()
 
     def mend(self) -> None:

@@ -1,6 +1,7 @@
 """A person at the console's page, with a simulated site behind it: draws a box on a station's
 picture, looks at what is in it. The simulator says where the object is in each frame."""
 
+from console_page import SwiftMouse
 from ols_demo.observer import Observer
 from ols_demo.operator import Operator
 
@@ -58,6 +59,7 @@ class Hand:
 
     def __init__(self, page, views, bus, operator):
         self._page, self._views, self._bus, self._operator = page, views, bus, operator
+        self._mouse = SwiftMouse(page)
         self._lag_us = 100_000.0  # from the picture that was looked at to the pressed one
 
     def turn(self, *stations):
@@ -74,11 +76,11 @@ class Hand:
     def _seen_utime_us(self, station):
         return int(self._canvas(station).get_attribute("data-utime-us") or 0)
 
-    def _go(self, station, x, y):
+    def _on_page(self, station, x, y):
         place = self._canvas(station).bounding_box()
         status = self._views.status[station]
         across = place["x"] + x / status.image_width_px * place["width"]
-        self._page.mouse.move(across, place["y"] + y / status.image_height_px * place["height"])
+        return across, place["y"] + y / status.image_height_px * place["height"]
 
     def _shown(self, station):
         """Where the object will be in the picture that a press holds, and the time of the one that
@@ -109,18 +111,17 @@ class Hand:
         (left, upper, width, height), seen_us = shown
         beside, above = (max(LEAST_MARGIN_PX, MARGIN * size) for size in (width, height))
         left, upper = left - beside, upper - above
-        self._go(station, left, upper)
-        self._page.mouse.down()
-        # At once, as a person does: a press that rests is a joystick.
-        self._go(station, left + AWAY_PX, upper + AWAY_PX)
+        began = self._on_page(station, left, upper)
+        self._mouse.press(*began)
+        self._mouse.move(*self._on_page(station, left + AWAY_PX, upper + AWAY_PX))
         held = self._pressed(station, seen_us)
         is_around = held is not None and (
             0 <= held[0] - left <= 2 * beside and 0 <= held[1] - upper <= 2 * above
         )
         if is_around:
             x, y, width, height = held
-            self._go(station, x + width + beside, y + height + above)
+            self._mouse.move(*self._on_page(station, x + width + beside, y + height + above))
         else:  # there and back: no box, and no click, which would turn the unit
-            self._go(station, left, upper)
-        self._page.mouse.up()
+            self._mouse.move(*began)
+        self._mouse.let_go()
         return is_around

@@ -46,7 +46,7 @@ def closed(paper, tmp_path_factory):
         trust = ssl.create_default_context(cafile=str(folder / "tls/site-ca.pem"))
 
         def connect():
-            return http.client.HTTPSConnection("localhost", port, timeout=15, context=trust)
+            return http.client.HTTPSConnection("localhost", port, timeout=60, context=trust)
 
         yield connect
         assert site.stop("ols-console") == 0
@@ -117,7 +117,7 @@ def test_foreign_requests_are_refused(api, headers, status):
 
 def upgrade(address, origin):
     """The status of opening the WebSocket from a page of this origin."""
-    connection = http.client.HTTPConnection(urlsplit(address).netloc, timeout=15)
+    connection = http.client.HTTPConnection(urlsplit(address).netloc, timeout=60)
     headers = {"Upgrade": "websocket", "Connection": "Upgrade", "Sec-WebSocket-Version": "13"}
     headers |= {"Sec-WebSocket-Key": "dGhlIHNhbXBsZSBub25jZQ==", "Origin": origin}
     connection.request("GET", "/api/live", headers=headers)
@@ -135,7 +135,7 @@ def test_what_is_too_long_or_no_http_is_refused_and_nothing_ends(api):
     assert api.ask("/api/session", b"x" * 10_000)[0] == 413
     place = urlsplit(api.address)
     for garbage in (b"\x16\x03\x01\x02\x00", b"GET /" + b"a" * 20_000, b"\0" * 100 + b"\r\n\r\n"):
-        with socket.create_connection((place.hostname, place.port), timeout=15) as connection:
+        with socket.create_connection((place.hostname, place.port), timeout=60) as connection:
             connection.sendall(garbage)
             with contextlib.suppress(OSError):  # it has hung up
                 connection.shutdown(socket.SHUT_WR)

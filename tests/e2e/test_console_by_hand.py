@@ -6,7 +6,7 @@ import time
 
 import pytest
 from conftest import wait
-from console_page import axe_finds, picture, place, region
+from console_page import axe_finds, drag, picture, place, region
 from console_site import DEADLINE_S, FULL_PX, PASSWORD, add_user, address_of, console_command
 from ols_demo.site import Site
 from playwright.sync_api import expect
@@ -115,16 +115,8 @@ def test_a_wheel_magnifies_the_picture_and_a_box_on_it_is_where_it_was_drawn(pag
     page.mouse.move(*place(canvas, 0.5, 0.5))
     page.mouse.wheel(0, -400 * math.log(2))
     expect(caption(canvas)).to_contain_text("2.0×")
-
-    def drawn():
-        page.mouse.move(*place(canvas, 0.4, 0.4))
-        page.mouse.down()
-        page.mouse.move(*place(canvas, 0.6, 0.6), steps=4)
-        page.mouse.up()
-        page.wait_for_timeout(500)
-        return paper.designations
-
-    sent = wait(drawn, "the designation")[-1]
+    drag(page, canvas, 0.4, 0.6)
+    (sent,) = wait(lambda: paper.designations, "the designation")
     assert sent.x_px == pytest.approx(0.45 * FULL_PX[0], abs=8)
     assert sent.y_px == pytest.approx(0.45 * FULL_PX[1], abs=8)
     assert sent.width_px == pytest.approx(0.10 * FULL_PX[0], abs=8)

@@ -24,7 +24,7 @@ ACCELERATION_RAD_S2 = 1.0  # acceleration_deg_s2 of docs/configuration.md
 STANDING_RAD_S = 0.002  # a twentieth of the rate that is held
 BY_S = 0.02  # over which a rate of the shaft is taken
 RUNS = 3
-PATIENCE_S = 30.0
+PATIENCE_S = 60.0
 
 
 class Shaft(Observer):

@@ -14,7 +14,7 @@ from playwright.sync_api import expect
 
 STATION = "alfa"
 SCENARIO = ROOT / "sim/scenarios/small.toml"  # its target is slow, as a busy machine needs it
-PATIENCE_S = 60.0
+PATIENCE_S = 180.0
 
 
 @pytest.fixture

@@ -6,7 +6,7 @@ import re
 
 import pytest
 from conftest import wait
-from console_page import picture, place, region
+from console_page import SwiftMouse, picture, place, region
 from console_site import DEADLINE_S, STATUS
 from playwright.sync_api import expect
 
@@ -71,12 +71,12 @@ class Person:
         expect(button).to_be_focused()
 
     def drag_and_leave(self):
-        self.page.mouse.move(*self.at(0.3, 0.3))
-        self.page.mouse.down()
-        self.page.mouse.move(*self.at(0.6, 0.6), steps=4)
+        mouse = SwiftMouse(self.page)
+        mouse.press(*self.at(0.3, 0.3))
+        mouse.move(*self.at(0.6, 0.6), steps=4)
         self.escape()
-        self.page.mouse.move(*self.at(0.7, 0.7))
-        self.page.mouse.up()
+        mouse.move(*self.at(0.7, 0.7))
+        mouse.let_go()
 
     def draw_by_key_and_leave(self):
         self.press("Enter")
@@ -121,11 +121,11 @@ class Person:
             self.page.wait_for_function("(before) => window.looks > before + 2", arg=looks)
 
     def slip_and_come_back(self):
-        self.page.mouse.move(*self.at(0.3, 0.3))
-        self.page.mouse.down()
-        self.page.mouse.move(*self.at(0.5, 0.5))
-        self.page.mouse.move(*self.at(0.3, 0.3))
-        self.page.mouse.up()
+        mouse = SwiftMouse(self.page)
+        mouse.press(*self.at(0.3, 0.3))
+        mouse.move(*self.at(0.5, 0.5))
+        mouse.move(*self.at(0.3, 0.3))
+        mouse.let_go()
 
     def choose_by_double_click(self):
         """The second click is on what the first has changed."""

@@ -28,7 +28,7 @@ def exporter(network, tmp_path):
 
 
 def samples(address):
-    with urllib.request.urlopen(address, timeout=10) as page:
+    with urllib.request.urlopen(address, timeout=60) as page:
         text = page.read().decode()
     return {(name, labels): float(value) for name, labels, value in TOLD.findall(text)}
 
