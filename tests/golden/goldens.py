@@ -26,7 +26,7 @@ TOLERANCE = 1e-5
 DEGREES_OF_A_MILLIMETRE = 1e-8
 # One row in so many is kept of a file: filters and trackers carry a difference on, and the
 # counters have how many rows there are.
-KEPT_OF = {"targets.csv": 6, "slews.csv": 15, "frames.csv": 4, "fixes.csv": 3}
+KEPT_OF = {"targets.csv": 6, "slews.csv": 15, "frames.csv": 8, "fixes.csv": 3}
 
 
 @dataclass(frozen=True)
