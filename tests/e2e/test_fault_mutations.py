@@ -42,43 +42,28 @@ def test_a_check_that_fails_under_its_mutation_is_well():
     assert trial.measured == "3 s"
 
 
-def test_a_check_without_a_mutation_is_reported():
-    trials = trials_of(lambda evidence, outcome: outcome.holds("it works", True))
-    assert not trials["it works"].failed_as_it_must
-    assert "no mutation" in trials["it works"].verdict
+def in_time(outcome, seconds, limit, broken_by):
+    outcome.at_most("in time", seconds, limit, "s", broken_by=broken_by)
 
 
-def test_a_check_that_cannot_fail_is_reported():
-    def judge(evidence, outcome):
-        limit = evidence["seconds"] * 2  # a limit that follows what it limits
-        outcome.at_most("in time", evidence["seconds"], limit, "s", broken_by=slower(100.0))
-
+@pytest.mark.parametrize(
+    ("judge", "verdict"),
+    [
+        (lambda e, o: o.holds("in time", True), "no mutation is named"),
+        # A limit that follows what it limits.
+        (lambda e, o: in_time(o, e["seconds"], 2 * e["seconds"], slower(100.0)), "still passes"),
+        (lambda e, o: in_time(o, e["seconds"], 0.5, slower(3.0)), "fails without it"),
+        (lambda e, o: in_time(o, 1.0 / e["seconds"], 2.0, slower(0.0)), "ZeroDivisionError"),
+        (
+            lambda e, o: e["seconds"] < 2.0 and in_time(o, e["seconds"], 2.0, slower(3.0)),
+            "the check is gone",
+        ),
+    ],
+)
+def test_a_check_that_cannot_fail_or_fails_otherwise_is_reported(judge, verdict):
     trial = trials_of(judge)["in time"]
     assert not trial.failed_as_it_must
-    assert trial.verdict == "still passes"
-
-
-def test_a_check_that_fails_anyway_proves_nothing():
-    def judge(evidence, outcome):
-        outcome.at_most("in time", evidence["seconds"], 0.5, "s", broken_by=slower(3.0))
-
-    assert trials_of(judge)["in time"].verdict == "fails without it"
-
-
-def test_a_judge_that_stumbles_has_not_judged():
-    def judge(evidence, outcome):
-        value = 1.0 / evidence["seconds"]
-        outcome.at_most("rate", value, 2.0, "Hz", broken_by=slower(0.0))
-
-    assert "ZeroDivisionError" in trials_of(judge)["rate"].verdict
-
-
-def test_a_check_that_is_not_made_any_more_has_not_failed():
-    def judge(evidence, outcome):
-        if evidence["seconds"] < 2.0:
-            outcome.at_most("in time", evidence["seconds"], 2.0, broken_by=slower(3.0))
-
-    assert trials_of(judge)["in time"].verdict == "the check is gone"
+    assert verdict in trial.verdict
 
 
 def test_two_checks_of_one_name_are_reported():

@@ -16,6 +16,8 @@ from fnmatch import fnmatch
 from functools import cache
 from pathlib import Path
 
+import pytest
+
 ROOT = Path(__file__).resolve().parents[2]
 
 # Folder of the project -> folders that it may include, besides itself.
@@ -231,28 +233,11 @@ def branches_on_simulation(name: str, text: str) -> list[str]:
     ]
 
 
-def in_the_tree(rule) -> list[str]:
-    return [what for name, text in sources().items() for what in rule(name, text)]
-
-
-def test_includes_point_downwards():
-    assert in_the_tree(upward) == []
-
-
-def test_pure_code_touches_nothing_outside():
-    assert in_the_tree(impure) == []
-
-
-def test_only_messages_main_and_the_bus_see_generated_messages():
-    assert in_the_tree(sees_messages) == []
-
-
-def test_only_the_camera_sees_aravis():
-    assert in_the_tree(sees_aravis) == []
-
-
-def test_no_branch_on_simulation_in_the_product():
-    assert in_the_tree(branches_on_simulation) == []
+@pytest.mark.parametrize(
+    "rule", [upward, impure, sees_messages, sees_aravis, branches_on_simulation]
+)
+def test_the_tree_keeps_the_rule(rule):
+    assert [what for name, text in sources().items() for what in rule(name, text)] == []
 
 
 # ---- the rules themselves -----------------------------------------------------------------------

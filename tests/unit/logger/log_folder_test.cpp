@@ -47,23 +47,16 @@ TEST(LogFolder, TheOldestGoFirstAndNoMoreThanMust) {
   EXPECT_EQ(logs.bytes(), 200.0);
 }
 
-TEST(LogFolder, TheFileThatIsWrittenStaysEvenWhenItLooksOldest) {
-  const TemporaryFolder folder;
-  folder.put(kOld, 100, 1);
-  folder.put(kMiddle, 100, 2);
-  LogFolder logs(folder.path(), "site");
-  logs.survey();
-  logs.remove_oldest(0.0, 0.0, 0.0, folder / kOld);
-  EXPECT_THAT(folder.names(), ElementsAre(kOld));
-}
-
-TEST(LogFolder, TheFileThatIsWrittenStaysHoweverItsFolderIsSpelt) {
-  const TemporaryFolder folder;
-  folder.put(kOld, 100, 1);
-  LogFolder logs(folder.path() + "/", "site");
-  logs.survey();
-  logs.remove_oldest(0.0, 0.0, 0.0, folder.path() + "//" + kOld);
-  EXPECT_THAT(folder.names(), ElementsAre(kOld));
+TEST(LogFolder, TheFileThatIsWrittenStaysEvenWhenItLooksOldestHoweverItsFolderIsSpelt) {
+  for (const char* slash : {"", "/"}) {
+    const TemporaryFolder folder;
+    folder.put(kOld, 100, 1);
+    folder.put(kMiddle, 100, 2);
+    LogFolder logs(folder.path() + slash, "site");
+    logs.survey();
+    logs.remove_oldest(0.0, 0.0, 0.0, folder.path() + "/" + slash + kOld);
+    EXPECT_THAT(folder.names(), ElementsAre(kOld)) << slash;
+  }
 }
 
 TEST(LogFolder, TheOldestGoForTheDisksReserveToo) {

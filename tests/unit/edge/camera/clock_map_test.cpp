@@ -10,9 +10,19 @@
 namespace ols::camera {
 namespace {
 
-double error_s(const ClockMap& map, const CameraWorld& world, double time_s) {
-  return map.from_latches(world.device_ns(time_s))->time_s - time_s;
-}
+class ClockMapTest : public testing::Test {
+ protected:
+  double error_s(double time_s) const {
+    return map.from_latches(world.device_ns(time_s))->time_s - time_s;
+  }
+  // A latch a second, from this second to before that one.
+  void latch(int from, int to, double mean_extra_s = 100e-6) {
+    for (int i = from; i < to; ++i) map.add_latch(world.latch(world.start_s + i, mean_extra_s));
+  }
+
+  CameraWorld world;
+  ClockMap map{ClockMap::Config{}};
+};
 
 TEST(ClockMap, KnowsNothingBeforeTheFirstSample) {
   const ClockMap map(ClockMap::Config{});
@@ -20,14 +30,12 @@ TEST(ClockMap, KnowsNothingBeforeTheFirstSample) {
   EXPECT_FALSE(map.from_arrivals(1, 0.0));
 }
 
-TEST(ClockMap, FindsOffsetAndRate) {
-  CameraWorld world;
-  ClockMap map(ClockMap::Config{});
+TEST_F(ClockMapTest, FindsOffsetAndRate) {
   for (int i = 0; i < 60; ++i) ASSERT_TRUE(map.add_latch(world.latch(world.start_s + i)));
   EXPECT_NEAR(map.rate_error(), 50e-6, 3e-6);
-  EXPECT_NEAR(error_s(map, world, world.start_s + 60.0), 0.0, 100e-6);
+  EXPECT_NEAR(error_s(world.start_s + 60.0), 0.0, 100e-6);
   // The rate alone would make 1 ms of the 20 s ahead.
-  EXPECT_NEAR(error_s(map, world, world.start_s + 80.0), 0.0, 200e-6);
+  EXPECT_NEAR(error_s(world.start_s + 80.0), 0.0, 200e-6);
 }
 
 TEST(ClockMap, UncertaintyIsHonest) {
@@ -56,10 +64,8 @@ TEST(ClockMap, UncertaintyIsHonest) {
   EXPECT_LT(beyond, count / 100);
 }
 
-TEST(ClockMap, UncertaintyCoversAnUnevenWay) {
+TEST_F(ClockMapTest, UncertaintyCoversAnUnevenWay) {
   // All of the delay lies on the way back: the worst that an interval can hide.
-  CameraWorld world;
-  ClockMap map(ClockMap::Config{});
   for (int i = 0; i < 60; ++i) {
     const double time_s = world.start_s + i;
     map.add_latch(
@@ -70,45 +76,39 @@ TEST(ClockMap, UncertaintyCoversAnUnevenWay) {
   EXPECT_LT(std::abs(mapped.time_s - at_s), 2.0 * mapped.sd_s);
 }
 
-TEST(ClockMap, UncertaintyGrowsAwayFromTheSamples) {
-  CameraWorld world;
-  ClockMap map(ClockMap::Config{});
-  for (int i = 0; i < 3; ++i) map.add_latch(world.latch(world.start_s + i));
+TEST_F(ClockMapTest, UncertaintyGrowsAwayFromTheSamples) {
+  latch(0, 3);
   const auto near = *map.from_latches(world.device_ns(world.start_s + 3.0));
   const auto far = *map.from_latches(world.device_ns(world.start_s + 60.0));
   EXPECT_GT(far.sd_s, 5.0 * near.sd_s);
 }
 
-TEST(ClockMap, OneBadLatchChangesNothing) {
-  CameraWorld world;
-  ClockMap map(ClockMap::Config{});
-  for (int i = 0; i < 20; ++i) map.add_latch(world.latch(world.start_s + i));
+TEST_F(ClockMapTest, OneBadLatchChangesNothing) {
+  latch(0, 20);
   LatchSample bad = world.latch(world.start_s + 20.0);
   bad.device_ns += 30'000'000;
   map.add_latch(bad);
-  for (int i = 21; i < 30; ++i) map.add_latch(world.latch(world.start_s + i));
-  EXPECT_NEAR(error_s(map, world, world.start_s + 30.0), 0.0, 150e-6);
+  latch(21, 30);
+  EXPECT_NEAR(error_s(world.start_s + 30.0), 0.0, 150e-6);
   EXPECT_EQ(map.latches(), 29);
 }
 
-TEST(ClockMap, AStepOfTheCamerasClockBeginsAnew) {
+TEST_F(ClockMapTest, AStepOfTheCamerasClockBeginsAnew) {
   for (const std::int64_t step_ns : {5'000'000LL, -5'000'000LL, -1'600'000'000'000'000'000LL}) {
-    CameraWorld world;
-    ClockMap map(ClockMap::Config{});
-    for (int i = 0; i < 20; ++i) map.add_latch(world.latch(world.start_s + i));
+    world = {};
+    map = ClockMap(ClockMap::Config{});
+    latch(0, 20);
     world.start_ns += step_ns;
-    for (int i = 20; i < 22; ++i) map.add_latch(world.latch(world.start_s + i));
-    EXPECT_NEAR(error_s(map, world, world.start_s + 22.0), 0.0, 300e-6) << step_ns;
+    latch(20, 22);
+    EXPECT_NEAR(error_s(world.start_s + 22.0), 0.0, 300e-6) << step_ns;
     EXPECT_EQ(map.latches(), 2);
   }
 }
 
-TEST(ClockMap, WideIntervalsCountLittle) {
-  CameraWorld world;
-  ClockMap map(ClockMap::Config{});
-  for (int i = 0; i < 10; ++i) map.add_latch(world.latch(world.start_s + i, 50e-6));
-  for (int i = 10; i < 40; ++i) map.add_latch(world.latch(world.start_s + i, 20e-3));
-  EXPECT_NEAR(error_s(map, world, world.start_s + 40.0), 0.0, 3e-3);
+TEST_F(ClockMapTest, WideIntervalsCountLittle) {
+  latch(0, 10, 50e-6);
+  latch(10, 40, 20e-3);
+  EXPECT_NEAR(error_s(world.start_s + 40.0), 0.0, 3e-3);
 }
 
 TEST(ClockMap, RefusesWhatIsNoInterval) {
@@ -118,9 +118,7 @@ TEST(ClockMap, RefusesWhatIsNoInterval) {
   EXPECT_EQ(map.latches(), 0);
 }
 
-TEST(ClockMap, ArrivalsGiveTheLowerEnvelope) {
-  CameraWorld world;
-  ClockMap map(ClockMap::Config{});
+TEST_F(ClockMapTest, ArrivalsGiveTheLowerEnvelope) {
   std::exponential_distribution<double> extra(1.0 / 5e-3);
   for (int i = 0; i < 300; ++i) {
     const double at_s = world.start_s + i / 15.0;
@@ -131,9 +129,7 @@ TEST(ClockMap, ArrivalsGiveTheLowerEnvelope) {
   EXPECT_LT(std::abs(mapped.time_s - at_s), 2.0 * mapped.sd_s);
 }
 
-TEST(ClockMap, ArrivalsSurviveAStepBackOfTheCamerasClock) {
-  CameraWorld world;
-  ClockMap map(ClockMap::Config{});
+TEST_F(ClockMapTest, ArrivalsSurviveAStepBackOfTheCamerasClock) {
   for (int i = 0; i < 30; ++i) {
     if (i == 20) world.start_ns -= 3'600'000'000'000;
     const double at_s = world.start_s + i / 15.0;
