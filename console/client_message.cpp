@@ -22,23 +22,24 @@ constexpr double kMostPixels = 1e5;
 constexpr double kMostRecord_s = 3600.0;
 
 // What is wrong with a message, in words; the parser's own.
-class Wrong : public std::runtime_error {
+class FormError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
 double number_of(const Json& value, const std::string& what, double least, double greatest) {
-  if (!value.is_number()) throw Wrong(what + " must be a number");
+  if (!value.is_number()) throw FormError(what + " must be a number");
   const double number = value.get<double>();
   if (!(number >= least && number <= greatest)) {
-    throw Wrong(what + " must be within " + Json(least).dump() + " and " + Json(greatest).dump());
+    throw FormError(what + " must be within " + Json(least).dump() + " and " +
+                    Json(greatest).dump());
   }
   return number;
 }
 
 const Json& field(const Json& message, const char* key) {
   const auto found = message.find(key);
-  if (found == message.end()) throw Wrong(std::string(key) + " is missing");
+  if (found == message.end()) throw FormError(std::string(key) + " is missing");
   return *found;
 }
 
@@ -47,11 +48,11 @@ double number(const Json& message, const char* key, double least, double greates
 }
 
 std::string name_of(const Json& value, const std::string& what) {
-  if (!value.is_string()) throw Wrong(what + " must be a text");
+  if (!value.is_string()) throw FormError(what + " must be a text");
   const auto name = value.get<std::string>();
   const bool printable = std::ranges::all_of(name, [](char c) { return c > ' ' && c < 127; });
   if (name.empty() || name.size() > kMostNameBytes || !printable) {
-    throw Wrong(what + " must be 1 to 64 printable characters without spaces");
+    throw FormError(what + " must be 1 to 64 printable characters without spaces");
   }
   return name;
 }
@@ -64,7 +65,7 @@ constexpr Keys kNoKeys{};
 void refuse_unknown(const Json& message, Keys known, Keys more = kNoKeys) {
   for (const auto& [key, value] : message.items()) {
     if (std::ranges::find(known, key) == known.end() && std::ranges::find(more, key) == more.end())
-      throw Wrong("unknown key " + Json(key).dump());
+      throw FormError("unknown key " + Json(key).dump());
   }
 }
 
@@ -75,7 +76,7 @@ void refuse_others(const Json& message, Keys own) {
 
 std::int64_t whole(const Json& message, const char* key) {
   const Json& value = field(message, key);
-  if (!value.is_number_integer()) throw Wrong(std::string(key) + " must be a whole number");
+  if (!value.is_number_integer()) throw FormError(std::string(key) + " must be a whole number");
   return static_cast<std::int64_t>(number_of(value, key, 0.0, 9e15));
 }
 
@@ -88,7 +89,7 @@ std::optional<std::int64_t> heard(const Json& message) {
 void read_box(const Json& message, command::Order& order) {
   refuse_others(message, {"frame_utime_us", "box_px"});
   const Json& box = field(message, "box_px");
-  if (!box.is_array() || box.size() != 4) throw Wrong("box_px must be [x, y, width, height]");
+  if (!box.is_array() || box.size() != 4) throw FormError("box_px must be [x, y, width, height]");
   order.x_px = number_of(box[0], "box_px", -kMostPixels, kMostPixels);
   order.y_px = number_of(box[1], "box_px", -kMostPixels, kMostPixels);
   order.width_px = number_of(box[2], "box_px", 0.5, kMostPixels);
@@ -100,7 +101,7 @@ void read_box(const Json& message, command::Order& order) {
 void read_point(const Json& message, command::Order& order) {
   refuse_others(message, {"frame_utime_us", "point_px"});
   const Json& point = field(message, "point_px");
-  if (!point.is_array() || point.size() != 2) throw Wrong("point_px must be [x, y]");
+  if (!point.is_array() || point.size() != 2) throw FormError("point_px must be [x, y]");
   order.x_px = number_of(point[0], "point_px", -kMostPixels, kMostPixels);
   order.y_px = number_of(point[1], "point_px", -kMostPixels, kMostPixels);
   if (message.contains("frame_utime_us")) order.frame_utime_us = whole(message, "frame_utime_us");
@@ -136,7 +137,7 @@ double axis(const Json& message, const char* key, bool is_rate) {
 void read_lens(const Json& message, CommandRequest& request) {
   refuse_others(message, {"is_rate", "zoom", "focus", "iris"});
   const Json& is_rate = field(message, "is_rate");
-  if (!is_rate.is_boolean()) throw Wrong("is_rate must be true or false");
+  if (!is_rate.is_boolean()) throw FormError("is_rate must be true or false");
   command::Order& order = request.order;
   order.lens_rates = is_rate.get<bool>();
   order.zoom = axis(message, "zoom", order.lens_rates);
@@ -155,7 +156,7 @@ CommandRequest read_command(const Json& message, std::int64_t number) {
   CommandRequest request{.number = number};
   request.order.station = text(message, "station");
   const auto kind = command::kind_named(text(message, "command"));
-  if (!kind) throw Wrong("unknown command");
+  if (!kind) throw FormError("unknown command");
   request.order.kind = *kind;
   switch (*kind) {
     case Kind::kDesignate:
@@ -192,7 +193,7 @@ CommandRequest read_command(const Json& message, std::int64_t number) {
 std::vector<std::string> stations_of(const Json& message) {
   const Json& pictures = field(message, "pictures");
   if (!pictures.is_array() || pictures.size() > kMostWatched) {
-    throw Wrong("pictures must be a list of at most 64 stations");
+    throw FormError("pictures must be a list of at most 64 stations");
   }
   std::vector<std::string> stations;
   for (const Json& station : pictures) stations.push_back(name_of(station, "pictures"));
@@ -202,7 +203,7 @@ std::vector<std::string> stations_of(const Json& message) {
 TakenRequest read_taken(const Json& message) {
   refuse_unknown(message, {"do", "number", "pictures", "state"});
   const Json& state = field(message, "state");
-  if (!state.is_boolean()) throw Wrong("state must be true or false");
+  if (!state.is_boolean()) throw FormError("state must be true or false");
   return {stations_of(message), state.get<bool>()};
 }
 
@@ -212,7 +213,7 @@ WatchRequest read_watch(const Json& message) {
   request.stations = stations_of(message);
   if (!message.contains("codec")) return request;
   const Json& codec = message.at("codec");
-  if (codec != "jpeg" && codec != "h264") throw Wrong("codec must be jpeg or h264");
+  if (codec != "jpeg" && codec != "h264") throw FormError("codec must be jpeg or h264");
   request.codec = codec == "h264" ? Codec::kH264 : Codec::kJpeg;
   return request;
 }
@@ -224,7 +225,7 @@ ReplayRequest read_replay(const Json& message, std::int64_t of_browser) {
     request.at_us = static_cast<std::int64_t>(number(message, "at_us", 0.0, 9e15));
   }
   if (message.contains("playing")) {
-    if (!message.at("playing").is_boolean()) throw Wrong("playing must be true or false");
+    if (!message.at("playing").is_boolean()) throw FormError("playing must be true or false");
     request.playing = message.at("playing").get<bool>();
   }
   if (message.contains("speed")) request.speed = number(message, "speed", 0.1, 100.0);
@@ -236,7 +237,7 @@ std::optional<std::array<double, 2>> pair(const Json& message, const char* key, 
   if (!message.contains(key)) return std::nullopt;
   const Json& value = message.at(key);
   if (!value.is_array() || value.size() != 2)
-    throw Wrong(std::string(key) + " must be two numbers");
+    throw FormError(std::string(key) + " must be two numbers");
   return std::array{number_of(value[0], key, -most, most), number_of(value[1], key, -most, most)};
 }
 
@@ -259,8 +260,8 @@ AnswerRequest read_answer(const Json& message, std::int64_t of_browser) {
 std::string words_of(const Json& message, const char* key, std::size_t most) {
   const Json& value = field(message, key);
   if (!value.is_string() || value.get_ref<const std::string&>().size() > most) {
-    throw Wrong(std::string(key) + " must be a text of at most " + std::to_string(most) +
-                " characters");
+    throw FormError(std::string(key) + " must be a text of at most " + std::to_string(most) +
+                    " characters");
   }
   return plain_text(value.get_ref<const std::string&>());
 }
@@ -277,10 +278,10 @@ CueRequest read_cue(const Json& message, std::int64_t number) {
   const Json& cue = field(message, "cue");
   constexpr std::size_t kMostCueBytes = 100;
   if (!cue.is_string() || cue.get_ref<const std::string&>().size() > kMostCueBytes) {
-    throw Wrong("cue must be a text of at most 100 characters");
+    throw FormError("cue must be a text of at most 100 characters");
   }
   const Json& allow = field(message, "allow");
-  if (!allow.is_boolean()) throw Wrong("allow must be true or false");
+  if (!allow.is_boolean()) throw FormError("allow must be true or false");
   return {number, {cue.get<std::string>(), allow.get<bool>()}, heard(message)};
 }
 
@@ -305,7 +306,7 @@ ClientMessage read(const Json& message, std::int64_t number) {
     refuse_unknown(message, {"do", "number", "station", "heard_us"});
     return ControlRequest{number, text(message, "station"), what == "take", heard(message)};
   }
-  throw Wrong(
+  throw FormError(
       "do must be command, stop_all, take, give_up, watch, taken, answer, cue, name, acknowledge "
       "or "
       "replay");
@@ -329,8 +330,8 @@ ClientMessage parse_client_message(std::string_view text) {
   }
   try {
     return read(message, number);
-  } catch (const Wrong& wrong) {
-    return Refused{number, wrong.what()};
+  } catch (const FormError& error) {
+    return Refused{number, error.what()};
   }
 }
 

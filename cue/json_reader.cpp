@@ -9,29 +9,29 @@ namespace {
 
 using Json = nlohmann::json;
 
-class Wrong : public std::runtime_error {
+class FormError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
 double number_of(const Json& value, const std::string& key) {
-  if (!value.is_number()) throw Wrong(key + " must be a number");
+  if (!value.is_number()) throw FormError(key + " must be a number");
   return value.get<double>();
 }
 
 std::string text_of(const Json& value, const std::string& key) {
-  if (!value.is_string()) throw Wrong(key + " must be a text");
+  if (!value.is_string()) throw FormError(key + " must be a text");
   return value.get<std::string>();
 }
 
 std::array<double, 3> three_of(const Json& value, const std::string& key) {
-  if (!value.is_array() || value.size() != 3) throw Wrong(key + " must be three numbers");
+  if (!value.is_array() || value.size() != 3) throw FormError(key + " must be three numbers");
   return {number_of(value[0], key), number_of(value[1], key), number_of(value[2], key)};
 }
 
 std::int64_t time_of(const Json& value, const std::string& key) {
   const double time_s = number_of(value, key);
-  if (!(time_s > 0.0 && time_s < 9e9)) throw Wrong(key + " must be seconds since 1970");
+  if (!(time_s > 0.0 && time_s < 9e9)) throw FormError(key + " must be seconds since 1970");
   return std::llround(1e6 * time_s);
 }
 
@@ -58,7 +58,7 @@ void read(Report& report, const std::string& key, const Json& value) {
   } else if (key == "velocity_sd_m_s") {
     report.velocity_sd_m_s = number_of(value, key);
   } else {
-    throw Wrong("unknown key " + key);
+    throw FormError("unknown key " + key);
   }
 }
 
@@ -71,11 +71,11 @@ Reading json_reading(const std::string& line, std::int64_t now_us) {
   report.utime_us = now_us;
   try {
     for (const char* key : {"id", "latitude_deg", "longitude_deg"}) {
-      if (!json.contains(key)) throw Wrong(std::string(key) + " is missing");
+      if (!json.contains(key)) throw FormError(std::string(key) + " is missing");
     }
     for (const auto& [key, value] : json.items()) read(report, key, value);
-  } catch (const Wrong& wrong) {
-    return Refused{Refusal::kMalformed, wrong.what()};
+  } catch (const FormError& error) {
+    return Refused{Refusal::kMalformed, error.what()};
   }
   if (report.name.empty()) return Refused{Refusal::kMalformed, "id is empty"};
   if (!json.contains("height_m")) return Refused{Refusal::kNoHeight, report.name};

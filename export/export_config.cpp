@@ -87,7 +87,7 @@ config::Section cot_section(CotSettings& c) {
        config::number("line_m", c.line_m, {10.0, 1e6}, "m", "How far lines and cones are drawn.")}};
 }
 
-config::Section mqtt_section(HomeSettings& h) {
+config::Section mqtt_section(MqttSettings& h) {
   return {
       "mqtt",
       "MQTT with Home Assistant's discovery.",
@@ -231,7 +231,7 @@ config::Section export_section(ExportConfig& c) {
                       "Older data, by this host's clock, are not sent."),
        config::number("history_min", c.history_min, {0.0, 1440.0}, "min",
                       "How far back the tracks in a file go.")},
-      {outputs_section(c), cot_section(c.cot), mqtt_section(c.home), asterix_section(c.asterix),
+      {outputs_section(c), cot_section(c.cot), mqtt_section(c.mqtt), asterix_section(c.asterix),
        courageous_section(c.courageous), sapient_section(c.sapient), trust::trust_section(c.trust)},
       [&c](ConfigTable& root) {
         c.has_own_geoid = root.has("geoid");

@@ -9,7 +9,7 @@
 #include "export/asterix/categories.h"
 #include "export/files/courageous.h"
 #include "export/gate.h"
-#include "export/home/home_settings.h"
+#include "export/mqtt/mqtt_settings.h"
 #include "export/sapient/sapient_node.h"
 #include "export/tak/cot_event.h"
 
@@ -50,7 +50,7 @@ struct ExportConfig {
   std::deque<OutputConfig>
       outputs;  // a deque, because the configuration's table refers to its elements
   CotSettings cot;
-  HomeSettings home;
+  MqttSettings mqtt;
   AsterixSettings asterix;
   CourageousSettings courageous;
   SapientSettings sapient;  // without the site, which is above

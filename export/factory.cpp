@@ -9,7 +9,7 @@
 #include "export/files/geojson.h"
 #include "export/files/gpx.h"
 #include "export/files/kml.h"
-#include "export/home/home_encoder.h"
+#include "export/mqtt/mqtt_encoder.h"
 #include "export/outlet/file_link.h"
 #include "export/outlet/mqtt_link.h"
 #include "export/outlet/queued_outlet.h"
@@ -71,7 +71,7 @@ std::unique_ptr<Encoder> make_encoder(const OutputConfig& output, const ExportCo
                                           is_mesh ? TakFraming::kMesh : TakFraming::kStream);
     }
     case Format::kMqtt:
-      return std::make_unique<HomeEncoder>(config.home, config.site);
+      return std::make_unique<MqttEncoder>(config.mqtt, config.site);
     case Format::kAsterix:
       return std::make_unique<AsterixEncoder>(config.asterix);
     case Format::kSapient:
@@ -88,7 +88,7 @@ std::unique_ptr<Link> make_link(const Address& address, const OutputConfig& outp
     case Scheme::kMqtt:
     case Scheme::kMqtts: {
       const MqttLogin login{"ols-export-" + config.site + "-" + output.name, output.user,
-                            output.password_file, status_topic(config.home, config.site)};
+                            output.password_file, status_topic(config.mqtt, config.site)};
       return std::make_unique<MqttLink>(address, files, login);
     }
     case Scheme::kFile:

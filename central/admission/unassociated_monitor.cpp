@@ -13,7 +13,7 @@ constexpr double kGap_s = 3.0;  // a longer silence restarts the count
 
 }  // namespace
 
-void UnassociatedMonitor::unassociated(const std::string& station, std::int64_t utime_us) {
+void UnassociatedMonitor::unexplained(const std::string& station, std::int64_t utime_us) {
   const auto [position, is_new] = stations_.try_emplace(station, Span{utime_us, utime_us});
   Span& span = position->second;
   if (std::abs(seconds(utime_us - span.to_us)) > kGap_s) span = {utime_us, utime_us};

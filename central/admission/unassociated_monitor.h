@@ -19,9 +19,9 @@ class UnassociatedMonitor {
   explicit UnassociatedMonitor(const UnassociatedConfig& config = {}) : config_(config) {}
 
   // A bearing that no existing target explains; in the station's own time.
-  void unassociated(const std::string& station, std::int64_t utime_us);
+  void unexplained(const std::string& station, std::int64_t utime_us);
   // A bearing that a target explains, or that cannot be compared because there is no target.
-  void agrees(const std::string& station) { stations_.erase(station); }
+  void explained(const std::string& station) { stations_.erase(station); }
   // The alarm for a station, as text; empty: none. now_us: the fusion's time.
   std::string alarm(const std::string& station, std::int64_t now_us) const;
   void forget(const std::string& station) { stations_.erase(station); }

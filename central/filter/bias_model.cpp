@@ -151,7 +151,7 @@ BiasPrior BiasModel::prior(const std::string& station, const LineOfSight& sight,
   Eigen::Array2d stated_pose = Eigen::Array2d::Zero();
   if (declared) stated_pose = pose.max(least * noise);
   const Eigen::Array3d unseen = rotation_variance(stated_pose, elevation_rad);
-  prior.shown = (1.0 - unseen / prior.rotation.max(kNone)).max(0.0);
+  prior.empirical = (1.0 - unseen / prior.rotation.max(kNone)).max(0.0);
   prior.time_s.setConstant(declared ? config_.stated_time_s : config_.undeclared_time_s);
   // The heading's excess over a tilt existed from the start: all axes drift alike.
   constexpr double kLongest = 100.0;

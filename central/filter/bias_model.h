@@ -67,7 +67,7 @@ struct BiasPrior {
   Eigen::Array3d place_m2 = Eigen::Array3d::Zero();      // stationary variances: east, north, up
   double place_time_s = 1.0;                             // correlation time of the position error
   // Empirical share of the rotation's variances: the part that no station declares.
-  Eigen::Array3d shown = Eigen::Array3d::Zero();
+  Eigen::Array3d empirical = Eigen::Array3d::Zero();
 };
 
 // A station's bias [rad] (cross-elevation, elevation), each axis with its posterior and prior

@@ -14,9 +14,9 @@ namespace ols::fusion {
 
 class ColouredNoise {
  public:
-  // Reports to `shown` how far the middle one of three bearings is from the line between its
+  // Reports to `evidence` how far the middle one of three bearings is from the line between its
   // neighbours. Returns the factor by which the bearing's stated variance is to be multiplied.
-  double observe(const BearingMeasurement& measurement, const RayFrame& frame, BiasModel& shown);
+  double observe(const BearingMeasurement& measurement, const RayFrame& frame, BiasModel& evidence);
 
  private:
   // The two bearings before the next one.

@@ -26,7 +26,7 @@ SystematicPart systematic_part(const Eigen::Ref<const Eigen::MatrixXd>& P,
   part.all_m2 = moves * own * moves.transpose();
   Eigen::Index at = 0;
   for (const BiasPrior& prior : priors) {
-    moves.middleCols<3>(at) *= prior.shown.matrix().asDiagonal();
+    moves.middleCols<3>(at) *= prior.empirical.matrix().asDiagonal();
     moves.middleCols(at + 3, states_of(prior) - 3).setZero();
     at += states_of(prior);
   }

@@ -130,10 +130,10 @@ Innovation TrackFilter::innovation(const BearingMeasurement& measurement,
 
 FilterUpdate TrackFilter::update(const BearingMeasurement& measurement, const BiasModel& priors,
                                  const Innovation* known) {
-  FilterUpdate update{.shown = BiasModel::evidence_on(priors)};
+  FilterUpdate update{.evidence = BiasModel::evidence_on(priors)};
   constexpr double kLatestS = 2.0;  // a bearing later than this is not compared any more
   if (seconds(utime_us() - measurement.utime_us) > kLatestS) return update;
-  predict(measurement.utime_us, update.shown);
+  predict(measurement.utime_us, update.evidence);
   take(measurement, known, update);
   refresh();
   return update;
@@ -187,13 +187,13 @@ int TrackFilter::station_of(const BearingMeasurement& measurement, const BiasMod
 // At the state's own instant, or for a late bearing.
 void TrackFilter::take(const BearingMeasurement& measurement, const Innovation* known,
                        FilterUpdate& update) {
-  const int station = station_of(measurement, update.shown);
+  const int station = station_of(measurement, update.evidence);
   if (station < 0) {
     take_without_states(measurement, update);
     return;
   }
   const Eigen::Matrix2d white =
-      measurement.sight.covariance_white * update.shown.noise_scale(measurement.station);
+      measurement.sight.covariance_white * update.evidence.noise_scale(measurement.station);
   const bool at_hand = known != nullptr && known->state == state_;
   const Innovation own = at_hand ? Innovation() : compare(measurement, station);
   const Innovation& seen = at_hand ? *known : own;
@@ -201,7 +201,7 @@ void TrackFilter::take(const BearingMeasurement& measurement, const Innovation* 
   update.use = BearingUse::kBehindCamera;
   if (!judged) return;
   update.nis = judged->nis;
-  update.shown.observe_residual(measurement.station, judged->noise);
+  update.evidence.observe_residual(measurement.station, judged->noise);
   FilterStation& entry = stations_[static_cast<std::size_t>(station)];
   ++state_;
   update.use = BearingUse::kRejected;
@@ -219,9 +219,9 @@ void TrackFilter::take(const BearingMeasurement& measurement, const Innovation* 
                 summary_.covariance.topLeftCorner<3, 3>(), models_[0].covariance, white);
   // Without redundancy, coloured noise looks like motion: what is not new in each bearing counts as
   // bias, and does not smooth the track.
-  const double coloured = entry.noise.observe(measurement, seen.frame, update.shown);
+  const double coloured = entry.noise.observe(measurement, seen.frame, update.evidence);
   const double inflation =
-      redundant ? coloured : update.shown.greatest_white_share(measurement.station);
+      redundant ? coloured : update.evidence.greatest_white_share(measurement.station);
   correct(seen, white * (inflation / entry.weight), may_learn ? &seen.frame.direction : nullptr);
 }
 
@@ -242,16 +242,16 @@ void TrackFilter::take_without_states(const BearingMeasurement& measurement, Fil
   const Innovation seen = compare(measurement, -1);
   const double range_m = (position() - measurement.sight.origin_ecef).norm();
   Eigen::Matrix2d bias =
-      update.shown.prior(measurement.station, measurement.sight, range_m).covariance;
+      update.evidence.prior(measurement.station, measurement.sight, range_m).covariance;
   const Eigen::Vector2d clock = seen.models[0].J * velocity() * measurement.clock_sd_s;
   bias += clock * clock.transpose();
   const Eigen::Matrix2d white =
-      measurement.sight.covariance_white * update.shown.noise_scale(measurement.station);
+      measurement.sight.covariance_white * update.evidence.noise_scale(measurement.station);
   update.use = BearingUse::kBehindCamera;
   const auto judged = judge(seen, models_.size(), white + bias, config_.gate_nis);
   if (!judged) return;
   update.nis = judged->nis;
-  update.shown.observe_residual(measurement.station, judged->noise);
+  update.evidence.observe_residual(measurement.station, judged->noise);
   update.use = BearingUse::kRejected;
   if (!(judged->nis <= config_.gate_nis)) {
     ++entry.rejected;
@@ -317,7 +317,7 @@ void TrackFilter::inflate(double time_s, const Eigen::Matrix3d& along) {
   models_.inflate(time_s, along, velocity());
 }
 
-void TrackFilter::predict(std::int64_t utime_us, BiasModel& shown) {
+void TrackFilter::predict(std::int64_t utime_us, BiasModel& evidence) {
   if (utime_us <= models_.utime_us()) return;
   ++state_;
   models_.predict(utime_us);
@@ -325,12 +325,12 @@ void TrackFilter::predict(std::int64_t utime_us, BiasModel& shown) {
   if (since_s < config_.mixing_s) return;
   mixed_us_ = utime_us;
   refresh();
-  move_biases(since_s, shown);
+  move_biases(since_s, evidence);
   models_.interact(since_s);
 }
 
 // Each station's bias estimate is reported as evidence, then propagated by its prior.
-void TrackFilter::move_biases(double dt_s, BiasModel& shown) {
+void TrackFilter::move_biases(double dt_s, BiasModel& evidence) {
   for (std::size_t i = 0; i < stations_.size(); ++i) {
     FilterStation& station = stations_[i];
     const int index = static_cast<int>(i);
@@ -338,16 +338,17 @@ void TrackFilter::move_biases(double dt_s, BiasModel& shown) {
     const double range_m = (position() - station.sight.origin_ecef).norm();
     if (station.last_used.age_s(utime_us()) < 2.0 * config_.mixing_s + dt_s) {
       const StationBias now = bias(i);
-      shown.observe(station.station, station.sight,
-                    {now.bias_rad, now.covariance_rad2.diagonal(), now.prior_rad2.diagonal()}, dt_s,
-                    range_m);
-      shown.observe_clock(station.station, now.clock_s, std::pow(now.clock_sd_s, 2),
-                          std::pow(now.clock_prior_sd_s, 2), std::pow(station.stated_clock_sd_s, 2),
-                          dt_s);
+      evidence.observe(station.station, station.sight,
+                       {now.bias_rad, now.covariance_rad2.diagonal(), now.prior_rad2.diagonal()},
+                       dt_s, range_m);
+      evidence.observe_clock(station.station, now.clock_s, std::pow(now.clock_sd_s, 2),
+                             std::pow(now.clock_prior_sd_s, 2),
+                             std::pow(station.stated_clock_sd_s, 2), dt_s);
     }
-    priors_[i] = shown.prior(station.station, station.sight, range_m, priors_[i].position_states);
+    priors_[i] =
+        evidence.prior(station.station, station.sight, range_m, priors_[i].position_states);
   }
-  fade_biases(dt_s, shown.clock_time_s());
+  fade_biases(dt_s, evidence.clock_time_s());
 }
 
 // The station gets position states: a target has come nearer.

@@ -63,12 +63,12 @@ struct FilterConfig {
 // What became of a bearing.
 enum class BearingUse { kUsed, kRejected, kBehindCamera, kTooLate };
 
-// The result of an update. `shown`: the evidence on the stations' errors, on top of the given
+// The result of an update. `evidence`: the evidence on the stations' errors, on top of the given
 // priors.
 struct FilterUpdate {
   BearingUse use = BearingUse::kTooLate;
   double nis = std::numeric_limits<double>::infinity();  // infinite if the bearing was not compared
-  BiasModel shown;
+  BiasModel evidence;
 };
 
 class TrackFilter {
@@ -86,10 +86,10 @@ class TrackFilter {
                                     const Innovation* known = nullptr);
   // Propagates the state without a bearing; returns the evidence on the biases.
   [[nodiscard]] BiasModel advance(std::int64_t utime_us, const BiasModel& priors) {
-    BiasModel shown = BiasModel::evidence_on(priors);
-    predict(utime_us, shown);
+    BiasModel evidence = BiasModel::evidence_on(priors);
+    predict(utime_us, evidence);
     refresh();
-    return shown;
+    return evidence;
   }
   // Linearises the bearings' equations about this motion instead of the current estimate, for
   // another iteration over the same bearings while the estimate is vague.
@@ -149,8 +149,8 @@ class TrackFilter {
   double weight_of(double nis) const {
     return nis > config_.robust_nis ? config_.robust_nis / nis : 1.0;
   }
-  void predict(std::int64_t utime_us, BiasModel& shown);
-  void move_biases(double dt_s, BiasModel& shown);
+  void predict(std::int64_t utime_us, BiasModel& evidence);
+  void move_biases(double dt_s, BiasModel& evidence);
   void fade_biases(double dt_s, double clock_time_s);
   void reject(FilterStation& entry);
   void inflate(double time_s, const Eigen::Matrix3d& along);

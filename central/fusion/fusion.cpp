@@ -135,11 +135,11 @@ void Fusion::note_unassociated(const BearingMeasurement& measurement, const Asso
       result.kind == Association::Kind::kUnexplained || result.kind == Association::Kind::kRejected;
   if (!by_none) {
     const bool by_tentative = result.kind == Association::Kind::kTrack && result.track_id == 0;
-    if (!by_tentative) unassociated_.agrees(measurement.station);
+    if (!by_tentative) unassociated_.explained(measurement.station);
   } else if (!std::ranges::any_of(tracks_.tracks(), is_established)) {
-    unassociated_.agrees(measurement.station);
+    unassociated_.explained(measurement.station);
   } else if (measurement.track_id != 0) {
-    unassociated_.unassociated(measurement.station, measurement.utime_us);
+    unassociated_.unexplained(measurement.station, measurement.utime_us);
   }
 }
 

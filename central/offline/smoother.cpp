@@ -288,14 +288,14 @@ Smoothed Smoother::at(std::int64_t epoch_us, Passed& past, Passed& future) const
     fix.located.estimate.solution = past.why_none;
     return fix;
   }
-  BiasModel shown = BiasModel::evidence_on(learnt_.errors());
+  BiasModel evidence = BiasModel::evidence_on(learnt_.errors());
   std::optional<Side> from_past, from_future;
   if (past.filter) {
-    shown.learn(past.filter->advance(epoch_us, shown));
+    evidence.learn(past.filter->advance(epoch_us, evidence));
     from_past.emplace(*past.filter);
   }
   if (future.filter) {
-    shown.learn(future.filter->advance(about_us_ - epoch_us, shown));
+    evidence.learn(future.filter->advance(about_us_ - epoch_us, evidence));
     from_future.emplace(*future.filter);
   }
   const TrackFilter& any = past.filter ? *past.filter : *future.filter;

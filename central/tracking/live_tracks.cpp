@@ -70,7 +70,7 @@ void LiveTracks::note_duplicates(const BearingMeasurement& measurement,
 Association LiveTracks::initiate(const BearingMeasurement& measurement) {
   auto start = initiation_.add(measurement, errors_, false);
   if (!start) return {};
-  errors_.learn(start->shown);
+  errors_.learn(start->evidence);
   Track& begun = begin(std::move(start->track));
   consider(begun);
   // It may be one of a station that has waited for its search.

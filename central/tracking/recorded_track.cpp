@@ -91,7 +91,7 @@ void RecordedTrack::confirm_by_initiation(const BearingMeasurement& measurement)
   if (none || is_better(start->track)) {
     if (accept_two_rays) errors_before_ = errors_;
     if (on_trial) errors_ = errors_before_;
-    errors_.learn(start->shown);
+    errors_.learn(start->evidence);
     explains_.clear();
     if (none) {
       begin(std::move(start->track));

@@ -128,14 +128,14 @@ struct Explained {
 
 // Runs the filter over the frames: each contributes its nearest bearing, if that is in the gate.
 std::map<std::string, Explained> explain(const std::vector<Frame>& frames, TrackFilter& filter,
-                                         BiasModel& shown) {
+                                         BiasModel& evidence) {
   std::map<std::string, Explained> stations;
   for (const Frame& frame : frames) {
     const BearingMeasurement* best = nullptr;
     Innovation least;
     least.nis = filter.config().gate_nis;
     for (const BearingMeasurement* measurement : frame.bearings) {
-      Innovation seen = filter.innovation(*measurement, shown);
+      Innovation seen = filter.innovation(*measurement, evidence);
       if (seen.nis >= least.nis) continue;
       least = std::move(seen);
       best = measurement;
@@ -144,8 +144,8 @@ std::map<std::string, Explained> explain(const std::vector<Frame>& frames, Track
     ++station.frames;
     station.misfit += least.nis;
     if (best == nullptr) continue;
-    const FilterUpdate update = filter.update(*best, shown, &least);
-    shown.learn(update.shown);
+    const FilterUpdate update = filter.update(*best, evidence, &least);
+    evidence.learn(update.evidence);
     if (update.use != BearingUse::kUsed) continue;
     station.bearings.push_back(*best);
   }
@@ -243,7 +243,7 @@ std::optional<TrackInitiation::Hypothesis> TrackInitiation::run(const RayMeeting
         TrackStart{Track(TrackFilter(filter_, now_us, from)), BiasModel::evidence_on(errors)}});
     TrackFilter& filter = begun->start.track.filter;
     if (about) filter.linearise_about(*about);
-    stations = explain(frames, filter, begun->start.shown);
+    stations = explain(frames, filter, begun->start.evidence);
     filter.linearise_about_itself();
     const KinematicState found = filter.at(now_us);
     if (!found.mean.allFinite()) return std::nullopt;

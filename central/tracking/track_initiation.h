@@ -36,7 +36,7 @@ struct InitiationConfig {
 // A new track, and the evidence of its bearings on the stations' errors.
 struct TrackStart {
   Track track;
-  BiasModel shown;
+  BiasModel evidence;
 };
 
 class TrackInitiation {

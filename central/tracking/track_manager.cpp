@@ -32,7 +32,7 @@ void TrackManager::replace(Track& track, Track by) {
 Association TrackManager::give_to(Track& track, const BearingMeasurement& measurement,
                                   const Innovation* seen) {
   const FilterUpdate update = track.filter.update(measurement, errors_, seen);
-  errors_.learn(update.shown);
+  errors_.learn(update.evidence);
   glances_[static_cast<std::size_t>(&track - tracks_.data())] = summarise_track(track);
   if (update.use != BearingUse::kUsed) {
     ++track.misses;

@@ -43,7 +43,7 @@ PURE_FOLDERS = (
     *("geometry/", "calibration/", "edge/tracker/", "bridge/ownership/"),
     *("central/admission/", "central/cues/", "central/estimators/", "central/filter/"),
     *("central/fusion/", "central/measurement/", "central/offline/", "central/tracking/"),
-    *("export/asterix/", "export/files/", "export/home/", "export/sapient/", "export/tak/"),
+    *("export/asterix/", "export/files/", "export/mqtt/", "export/sapient/", "export/tak/"),
 )
 FIRST_WORDS = {"messages", "bus", "aravis", "gige", "kept"}
 LAST_WORDS = {

@@ -38,7 +38,7 @@ inline std::vector<BearingMeasurement> flight(double seconds, double sigma_rad =
 inline BearingUse feed(TrackFilter& filter, const BearingMeasurement& measurement,
                        BiasModel& errors) {
   const FilterUpdate update = filter.update(measurement, errors);
-  errors.learn(update.shown);
+  errors.learn(update.evidence);
   return update.use;
 }
 

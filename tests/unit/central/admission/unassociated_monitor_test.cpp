@@ -8,7 +8,7 @@ namespace {
 constexpr std::int64_t kStart = 1'600'000'000'000'000;
 
 void follow(UnassociatedMonitor& monitor, int from_s, int to_s) {
-  for (int s = from_s; s <= to_s; ++s) monitor.unassociated("a", kStart + s * 1'000'000LL);
+  for (int s = from_s; s <= to_s; ++s) monitor.unexplained("a", kStart + s * 1'000'000LL);
 }
 
 TEST(UnassociatedMonitor, NamesWhoFollowsNoTargetForLong) {
@@ -24,7 +24,7 @@ TEST(UnassociatedMonitor, NamesWhoFollowsNoTargetForLong) {
 TEST(UnassociatedMonitor, OneBearingOfATargetOrASilenceBeginsTheCountAnew) {
   UnassociatedMonitor monitor({.alarm_s = 10.0});
   follow(monitor, 0, 9);
-  monitor.agrees("a");
+  monitor.explained("a");
   follow(monitor, 10, 15);
   EXPECT_EQ(monitor.alarm("a", kStart + 15'000'000), "");
   follow(monitor, 20, 29);

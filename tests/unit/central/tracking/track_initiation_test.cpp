@@ -94,7 +94,7 @@ TEST(TrackInitiation, AStartThatIsRejectedTeachesNothing) {
   for (const BearingMeasurement& measurement : watch("abcd", 1.0, 5e-4, off_by('c', 0.0))) {
     const auto start = initiation.add(measurement, errors, false);
     begun = start.has_value();
-    if (begun) errors.learn(start->shown);
+    if (begun) errors.learn(start->evidence);
     if (begun) break;
     for (const char* station : {"a", "b", "c", "d"}) {
       EXPECT_EQ(errors.noise_scale(station), 1.0);

@@ -1,10 +1,10 @@
-#include "export/home/discovery.h"
+#include "export/mqtt/discovery.h"
 
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "export/home/home_encoder.h"
+#include "export/mqtt/mqtt_encoder.h"
 #include "export/text.h"
 
 namespace ols::exports {
@@ -14,7 +14,7 @@ using Json = nlohmann::ordered_json;
 
 // What the entities of one device have in common.
 struct Device {
-  const HomeSettings& settings;
+  const MqttSettings& settings;
   const std::string& site;
   std::string id, name, topic;
 };
@@ -72,7 +72,7 @@ std::string slot_topic(const std::string& prefix, std::size_t slot) {
   return prefix + "/target/" + std::to_string(slot + 1);
 }
 
-Packets discover_slot(const HomeSettings& settings, const std::string& site, std::size_t slot) {
+Packets discover_slot(const MqttSettings& settings, const std::string& site, std::size_t slot) {
   const std::string number = std::to_string(slot + 1);
   const Device device{settings, site, topic_word(site) + "_target_" + number,
                       site + " target " + number, slot_topic(site_prefix(settings, site), slot)};
@@ -89,7 +89,7 @@ Packets discover_slot(const HomeSettings& settings, const std::string& site, std
       sensor(device, "gps_accuracy", "Accuracy", "m", "distance")};
 }
 
-Packets discover_station(const HomeSettings& settings, const std::string& site,
+Packets discover_station(const MqttSettings& settings, const std::string& site,
                          const std::string& word, const std::string& name) {
   const Device device{settings, site, topic_word(site) + "_station_" + word, site + " " + name,
                       site_prefix(settings, site) + "/station/" + word};

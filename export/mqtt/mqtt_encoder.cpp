@@ -1,11 +1,11 @@
-#include "export/home/home_encoder.h"
+#include "export/mqtt/mqtt_encoder.h"
 
 #include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "export/home/discovery.h"
+#include "export/mqtt/discovery.h"
 #include "export/text.h"
 #include "export/uncertainty.h"
 
@@ -96,11 +96,11 @@ Packet free_slot(const std::string& topic) { return retained(topic, {{"state", "
 
 }  // namespace
 
-std::string site_prefix(const HomeSettings& settings, const std::string& site) {
+std::string site_prefix(const MqttSettings& settings, const std::string& site) {
   return settings.prefix + "/" + topic_word(site);
 }
 
-std::string status_topic(const HomeSettings& settings, const std::string& site) {
+std::string status_topic(const MqttSettings& settings, const std::string& site) {
   return site_prefix(settings, site) + "/status";
 }
 
@@ -113,13 +113,13 @@ std::string topic_word(const std::string& name) {
   return word;
 }
 
-HomeEncoder::HomeEncoder(HomeSettings settings, std::string site)
+MqttEncoder::MqttEncoder(MqttSettings settings, std::string site)
     : settings_(std::move(settings)),
       site_(std::move(site)),
       prefix_(site_prefix(settings_, site_)),
       slots_(static_cast<std::size_t>(settings_.slots)) {}
 
-Packets HomeEncoder::encode(const Target& target) {
+Packets MqttEncoder::encode(const Target& target) {
   const bool has_ended = target.state == TrackState::kEnded;
   const Json fields = json_of(target);
   const std::string all = prefix_ + "/targets";
@@ -131,7 +131,7 @@ Packets HomeEncoder::encode(const Target& target) {
   return packets;
 }
 
-Packets HomeEncoder::encode(const Station& station) {
+Packets MqttEncoder::encode(const Station& station) {
   Packets packets;
   const std::string word = topic_word(station.name);
   if (told_stations_.size() < kMostStations && told_stations_.insert(word).second) {
@@ -141,12 +141,12 @@ Packets HomeEncoder::encode(const Station& station) {
   return packets;
 }
 
-Packets HomeEncoder::encode(const Line& line) {
+Packets MqttEncoder::encode(const Line& line) {
   const std::string topic = prefix_ + "/line/" + topic_word(line.station);
   return {{topic, text_of(json_of(line)), topic}};
 }
 
-bool HomeEncoder::is_free_slot_due(std::int64_t utime_us) const {
+bool MqttEncoder::is_free_slot_due(std::int64_t utime_us) const {
   if (!slots_are_told_) return true;
   if (settings_.stale_s <= 0.0) return false;
   // A clock that was set back must not silence them.
@@ -154,7 +154,7 @@ bool HomeEncoder::is_free_slot_due(std::int64_t utime_us) const {
   return early_s <= 0.0 || early_s > settings_.stale_s / kSaidInTime;
 }
 
-Packets HomeEncoder::turn(std::int64_t utime_us) {
+Packets MqttEncoder::turn(std::int64_t utime_us) {
   Packets packets;
   if (!is_free_slot_due(utime_us)) return packets;
   free_due_us_ = utime_us + std::llround(1e6 * settings_.stale_s / kSaidInTime);
@@ -170,7 +170,7 @@ Packets HomeEncoder::turn(std::int64_t utime_us) {
   return packets;
 }
 
-void HomeEncoder::begin_again() {
+void MqttEncoder::begin_again() {
   slots_are_told_ = false;
   told_stations_.clear();
 }

@@ -1,4 +1,4 @@
-#include "export/home/target_slots.h"
+#include "export/mqtt/target_slots.h"
 
 #include <gtest/gtest.h>
 

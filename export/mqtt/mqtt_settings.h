@@ -5,7 +5,7 @@
 
 namespace ols::exports {
 
-struct HomeSettings {
+struct MqttSettings {
   std::string prefix = "ols";
   std::string discovery_prefix = "homeassistant";
   double stale_s = 30.0;  // after this time without news an entity is unavailable; 0: never

@@ -16,14 +16,14 @@
 #include <string>
 
 #include "export/encoder.h"
-#include "export/home/home_settings.h"
-#include "export/home/target_slots.h"
+#include "export/mqtt/mqtt_settings.h"
+#include "export/mqtt/target_slots.h"
 
 namespace ols::exports {
 
-class HomeEncoder : public Encoder {
+class MqttEncoder : public Encoder {
  public:
-  HomeEncoder(HomeSettings settings, std::string site);
+  MqttEncoder(MqttSettings settings, std::string site);
 
   Packets encode(const Target& target) override;
   Packets encode(const Station& station) override;
@@ -34,7 +34,7 @@ class HomeEncoder : public Encoder {
  private:
   bool is_free_slot_due(std::int64_t utime_us) const;
 
-  HomeSettings settings_;
+  MqttSettings settings_;
   std::string site_, prefix_;
   TargetSlots slots_;
   bool slots_are_told_ = false;
@@ -43,9 +43,9 @@ class HomeEncoder : public Encoder {
 };
 
 // The beginning of the site's topics.
-std::string site_prefix(const HomeSettings& settings, const std::string& site);
+std::string site_prefix(const MqttSettings& settings, const std::string& site);
 // The topic of its availability: that of the last will.
-std::string status_topic(const HomeSettings& settings, const std::string& site);
+std::string status_topic(const MqttSettings& settings, const std::string& site);
 // A name as a level of a topic: everything but letters, digits, - and _ becomes "_".
 std::string topic_word(const std::string& name);
 

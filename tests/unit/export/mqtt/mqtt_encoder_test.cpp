@@ -1,4 +1,4 @@
-#include "export/home/home_encoder.h"
+#include "export/mqtt/mqtt_encoder.h"
 
 #include <gtest/gtest.h>
 
@@ -13,8 +13,8 @@ namespace {
 
 nlohmann::json json_of(const Packet& packet) { return nlohmann::json::parse(packet.bytes); }
 
-TEST(HomeEncoder, ATargetHasASlotAsLongAsItIsThere) {
-  HomeEncoder encoder({.slots = 1}, "brno");
+TEST(MqttEncoder, ATargetHasASlotAsLongAsItIsThere) {
+  MqttEncoder encoder({.slots = 1}, "brno");
   const Packets first = encoder.encode(made_target(1));
   ASSERT_EQ(first.size(), 2U);
   EXPECT_EQ(first[0].where, "ols/brno/targets");
@@ -30,8 +30,8 @@ TEST(HomeEncoder, ATargetHasASlotAsLongAsItIsThere) {
   EXPECT_EQ(encoder.encode(made_target(2)).size(), 2U);
 }
 
-TEST(HomeEncoder, EntitiesAreToldOnceAndAgainToANewBroker) {
-  HomeEncoder encoder({.slots = 2}, "brno");
+TEST(MqttEncoder, EntitiesAreToldOnceAndAgainToANewBroker) {
+  MqttEncoder encoder({.slots = 2}, "brno");
   const Packets told = encoder.turn(0);
   ASSERT_EQ(told.size(), 14U);  // six entities and the free slot, twice
   EXPECT_EQ(told[0].where, "homeassistant/device_tracker/brno_target_1/config");
@@ -45,8 +45,8 @@ TEST(HomeEncoder, EntitiesAreToldOnceAndAgainToANewBroker) {
   EXPECT_EQ(encoder.encode(made_station()).size(), 5U);
 }
 
-TEST(HomeEncoder, WhatIsOldNewsBecomesUnavailable) {
-  HomeEncoder encoder({.stale_s = 12.0, .slots = 1}, "brno");
+TEST(MqttEncoder, WhatIsOldNewsBecomesUnavailable) {
+  MqttEncoder encoder({.stale_s = 12.0, .slots = 1}, "brno");
   Packets told = encoder.turn(0);
   for (Packet& packet : encoder.encode(made_station())) told.push_back(std::move(packet));
   int expiring = 0;
@@ -57,13 +57,13 @@ TEST(HomeEncoder, WhatIsOldNewsBecomesUnavailable) {
     expiring += json_of(packet).value("expire_after", 0) == 12 ? 1 : 0;
   }
   EXPECT_EQ(expiring, 9);
-  HomeEncoder never({.stale_s = 0.0, .slots = 1}, "brno");
+  MqttEncoder never({.stale_s = 0.0, .slots = 1}, "brno");
   EXPECT_FALSE(json_of(never.turn(0)[1]).contains("expire_after"));
   EXPECT_TRUE(never.turn(3'600'000'000).empty());
 }
 
-TEST(HomeEncoder, AFreeSlotIsSaidAgainBeforeItIsOldNews) {
-  HomeEncoder encoder({.stale_s = 12.0, .slots = 2}, "brno");
+TEST(MqttEncoder, AFreeSlotIsSaidAgainBeforeItIsOldNews) {
+  MqttEncoder encoder({.stale_s = 12.0, .slots = 2}, "brno");
   encoder.turn(0);
   encoder.encode(made_target());
   EXPECT_TRUE(encoder.turn(3'900'000).empty());
@@ -75,10 +75,10 @@ TEST(HomeEncoder, AFreeSlotIsSaidAgainBeforeItIsOldNews) {
   EXPECT_EQ(encoder.turn(-3'600'000'000).size(), 1U) << "the clock was set back";
 }
 
-TEST(HomeEncoder, TwoSitesOnOneBrokerShareNoTopic) {
+TEST(MqttEncoder, TwoSitesOnOneBrokerShareNoTopic) {
   std::set<std::string> of_one, of_both;
   for (const char* site : {"brno", "wien"}) {
-    HomeEncoder encoder({}, site);
+    MqttEncoder encoder({}, site);
     Packets told = encoder.turn(0);
     for (const auto& packets :
          {encoder.encode(made_target()), encoder.encode(made_station()),
@@ -91,8 +91,8 @@ TEST(HomeEncoder, TwoSitesOnOneBrokerShareNoTopic) {
   EXPECT_EQ(of_both.size(), 2 * of_one.size());
 }
 
-TEST(HomeEncoder, EntitiesSayWhatTheyMeasureAndKeepTheirNames) {
-  HomeEncoder encoder({.slots = 1}, "Brno.1");
+TEST(MqttEncoder, EntitiesSayWhatTheyMeasureAndKeepTheirNames) {
+  MqttEncoder encoder({.slots = 1}, "Brno.1");
   Packets told = encoder.turn(0);
   for (Packet& packet : encoder.encode(made_station())) told.push_back(std::move(packet));
   std::map<std::string, std::string> classes;
@@ -123,16 +123,16 @@ TEST(HomeEncoder, EntitiesSayWhatTheyMeasureAndKeepTheirNames) {
                                                 {"Brno_1_station_alfa_problem", "problem"}}));
 }
 
-TEST(HomeEncoder, NamesAreMadeFitForTopics) {
+TEST(MqttEncoder, NamesAreMadeFitForTopics) {
   EXPECT_EQ(topic_word("al/fa +#"), "al_fa___");
   Station station = made_station();
   station.name = "a/b";
-  HomeEncoder encoder({}, "brno");
+  MqttEncoder encoder({}, "brno");
   EXPECT_EQ(encoder.encode(station).back().where, "ols/brno/station/a_b");
 }
 
-TEST(HomeEncoder, JsonIsFlat) {
-  HomeEncoder encoder({}, "brno");
+TEST(MqttEncoder, JsonIsFlat) {
+  MqttEncoder encoder({}, "brno");
   for (const Packet& packet :
        {encoder.encode(made_target())[0], encoder.encode(made_station()).back(),
         encoder.encode(made_line())[0]}) {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "export/encoder.h"
-#include "export/home/home_settings.h"
+#include "export/mqtt/mqtt_settings.h"
 
 namespace ols::exports {
 
@@ -13,9 +13,9 @@ namespace ols::exports {
 std::string slot_topic(const std::string& prefix, std::size_t slot);
 
 // A place on the map, with height, speed and state as sensors.
-Packets discover_slot(const HomeSettings& settings, const std::string& site, std::size_t slot);
+Packets discover_slot(const MqttSettings& settings, const std::string& site, std::size_t slot);
 // State and direction as sensors, and whether the station has an alarm. `word`: its name in topics.
-Packets discover_station(const HomeSettings& settings, const std::string& site,
+Packets discover_station(const MqttSettings& settings, const std::string& site,
                          const std::string& word, const std::string& name);
 
 }  // namespace ols::exports
