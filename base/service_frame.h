@@ -29,8 +29,8 @@ Config configuration_of(const ServiceOptions& options, Config (*load)(const std:
 // What caused an std::invalid_argument: bad input of the caller, or a failure of the program.
 enum class InvalidArgument { kBadInput, kFailure };
 
-// Runs `act`, and logs under the program's name. Returns act's exit status; 2 after bad input,
-// which no restart helps, with one line that says what; 1 after a failure.
+// Runs `act`, and logs under the program's name. Returns act's exit status; 1 after a failure; 2
+// after bad input, with one line that names it (a restart would not help).
 int run_service(const std::string& program, InvalidArgument invalid,
                 const std::function<int()>& act);
 

@@ -58,7 +58,8 @@ class LockstepStation {
   }
   station::Refusal slew(station::SlewCommand command, double time_s);
   const station::Station& station() const { return station_; }
-  // For a caller that drives it by hand, between two advances. Times are monotonic_s() of now.
+  // For a caller that gives the station orders between two advances. Times are monotonic_s() of
+  // now.
   station::Station& station() { return station_; }
   // The truth about the newest picture.
   const ViewTruth& view() const { return views_.newest(); }
