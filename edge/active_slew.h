@@ -15,13 +15,14 @@ class ActiveSlew {
   void clear() { command_.reset(); }
   void expire(double now_s);
 
-  // Empty: no slew is active.
+  // nullopt: no slew is active.
   const std::optional<SlewCommand>& command() const { return command_; }
-  // Such a slew goes on without what the station has found: that is looked at standing.
+  // A search along a line continues whatever the station has found. The station stops only to look
+  // at a find.
   bool searches_line() const { return command_ && command_->searches_line(); }
-  // Also empty where the unit cannot point.
+  // nullopt: no slew is active, or the unit cannot point there.
   std::optional<ptu::ServoGoal> goal(const PointingModel& pointing, double now_s) const;
-  // More than one fusion slews this station.
+  // Whether more than one fusion slews this station.
   bool has_several_senders(double now_s) const { return senders_.are_several(now_s); }
 
  private:

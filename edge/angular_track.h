@@ -25,12 +25,12 @@ class AngularTrack {
 
   explicit AngularTrack(const Config& config) : config_(config) {}
 
-  // `angles`: those that would put the target on the optical axis, and their 1-sigma. Ignored
+  // `angles`: those that would put the target on the optical axis, with their 1-sigma. Ignored
   // unless later than the last update.
   void update(double time_s, const PanTilt& angles, double sd_rad);
   void clear() { state_.reset(); }
 
-  // The state of the last update; empty before the first.
+  // The state of the last update; nullopt before the first.
   std::optional<State> state() const { return state_; }
 
   // Extrapolated to an instant.

@@ -1,4 +1,4 @@
-// Pixels that wait for the PTU angles of their exposure, and the bearings made of them. Pure.
+// Pixels that wait for the PTU angles of their exposure, and the bearings computed from them. Pure.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +28,7 @@ struct PixelMeasurement {
 struct MadeBearing {
   Bearing bearing;
   PanTilt reported;     // of the unit at the exposure
-  bool to_send = true;  // false: no position, or too old: only for following the target
+  bool to_send = true;  // false: no position, or too old; used only to follow the target
 };
 
 class BearingQueue {
@@ -39,7 +39,7 @@ class BearingQueue {
   void add(const PixelMeasurement& pixel) { waiting_.push_back(pixel); }
   void clear() { waiting_.clear(); }
 
-  // The pixels whose angles are known, or that have waited long enough.
+  // The pixels whose angles are known, and those that have waited long enough.
   std::vector<MadeBearing> take(const PointingModel& pointing, double now_s);
 
   double frame_latency_s() const { return frame_latency_s_; }  // mid-exposure to bearing, smoothed

@@ -1,5 +1,5 @@
-// Where a unit may not point, as directions on the sky: the border of its travel, and of each
-// keep-out region, for people to see on a map and in a picture. Pure.
+// The borders of where a unit may point, as directions on the sky: of its travel, and of each
+// keep-out region. People see them on a map and in a picture. Pure.
 #pragma once
 
 #include <array>
@@ -14,13 +14,13 @@ namespace ols::station {
 inline constexpr int kBorderPoints = 16;
 
 struct Border {
-  bool is_keep_out = false;  // inside is forbidden; else outside is
-  // Of the optical axis, once round the region, beginning at its least pan and tilt: four from each
-  // corner to the next.
+  bool is_keep_out = false;  // the inside is forbidden; false: the outside is
+  // Directions of the optical axis once round the region, from its least pan and tilt: four on each
+  // side.
   std::array<AzimuthElevation, kBorderPoints> outline;
 };
 
-// The travel first, when it is known; then what of each keep-out region lies within it.
+// The travel first, if it is known; then the part of each keep-out region inside it.
 std::vector<Border> borders(const ChainParameters& chain, const ptu::PtuLimits& limits,
                             bool is_travel_known);
 

@@ -1,4 +1,4 @@
-// A unit with a calibration: from what it reports to the angles of one without errors, and back.
+// A pan-tilt unit with a calibration: converts between the angles that it reports and ideal angles.
 // Pure.
 #pragma once
 
@@ -13,14 +13,13 @@ class CalibratedUnit {
   explicit CalibratedUnit(const StationCalibration& calibration);
 
   const StationCalibration& calibration() const { return calibration_; }
-  // More is unknown of heading and tilts than the calibration says, by so much: a station that was
-  // knocked.
+  // Adds variances to those of the calibration's heading and tilts: the station was knocked.
   void doubt_setup(double heading_variance_rad2, double tilt_variance_rad2);
 
-  // What the unit says that a count is [rad]. It rounds: a count is the exact fraction of a turn,
-  // and what the unit says only tells how many counts a reported angle is.
+  // The size of a count [rad] as the unit reports it, rounded. It only serves to convert reported
+  // angles to counts: a count is an exact fraction of a turn.
   void set_count(const PanTilt& count_rad);
-  // Whether a turn has as many counts as the calibration says: the step mode is the same.
+  // Whether a turn has as many counts as in the calibration: the step mode is the same.
   bool fits() const { return fits_; }
 
   // In time order.
@@ -31,14 +30,15 @@ class CalibratedUnit {
   PanTilt corrected(const UnitReading& reading) const {
     return corrected_angles(calibration_.model, reading);
   }
-  // The reported angles at which the unit, coming straight from `here`, stands as one without
-  // errors would. `corrected` is the turn of pan that it goes to: of two that differ by a whole
-  // one, the unit comes to each from its own side.
+  // The reported angles at which the unit, coming straight from `here`, stands at ideal angles.
+  // `corrected` states the turn of pan, too: the unit comes to angles a whole turn apart from
+  // different sides.
   PanTilt reported(const PanTilt& corrected, const PanTilt& here) const;
 
  private:
   StationCalibration calibration_;
-  Eigen::Vector2d doubt_rad2_ = Eigen::Vector2d::Zero();  // in its covariance: heading, each tilt
+  Eigen::Vector2d doubt_rad2_ = Eigen::Vector2d::Zero();  // added to its covariance: heading, each
+                                                          // tilt
   PanTilt count_rad_;
   bool fits_ = true;
   ptu::ApproachHistory approach_;

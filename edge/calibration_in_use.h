@@ -1,5 +1,5 @@
-// The calibration that a station works with, and why not with the configured one: a station whose
-// calibration cannot be used keeps working with its configuration's own values.
+// The calibration that a station works with, or why the configured one is not used. Without a
+// usable calibration, a station works with its configuration's own values.
 #pragma once
 
 #include <cstdint>
@@ -21,28 +21,28 @@ class CalibrationInUse {
 
   // The settings that the station works with; always the same object.
   const StationSettings& settings() const { return settings_; }
-  // Serial numbers are known only once the devices are open. True if the calibration belongs to
-  // other devices and was dropped just now: settings() have changed then.
+  // True if the calibration belongs to other devices and was dropped just now: settings() has
+  // changed. Serial numbers are known only once the devices are open.
   bool refuses(const std::vector<device::DeviceReport>& devices);
-  // The same for the size of a count that the unit reports [rad]; zero: not known yet. A unit in
-  // another step mode has other errors than the calibrated ones, of which only the configuration
-  // says anything. This holds until a restart or another calibration.
+  // The same for the size of a count [rad] that the unit reports; 0: not known yet. A unit in
+  // another step mode has other errors than the calibrated ones. The calibration stays dropped
+  // until a restart or another calibration.
   bool refuses(const PanTilt& count_rad);
 
-  // Why these files do not belong to the open devices or to such counts; empty: nothing contradicts
-  // that they do.
+  // Why these files do not belong to the open devices or to counts of this size; empty: nothing
+  // speaks against it.
   static std::string conflict(const CalibrationFiles& files,
                               const std::vector<device::DeviceReport>& devices,
                               const PanTilt& count_rad);
-  // Of each device that says another serial number than is configured; the serial numbers of an
-  // instrument are the configured ones.
+  // One sentence for each device whose serial number is not the configured one. An instrument gets
+  // the configured serial numbers.
   static std::vector<std::string> other_devices(const InstrumentSerials& configured,
                                                 const std::vector<device::DeviceReport>& devices);
-  // From now on the station works with these: settings() are others.
+  // Works with these files from now on: settings() changes.
   void adopt(const CalibrationFiles& files);
 
   CalibrationStatus status() const;
-  // Why it is not used, and what to do; empty where there is nothing to say.
+  // Why the calibration is not used, and what to do; empty: nothing to report.
   std::vector<std::string> alarms() const;
 
  private:

@@ -1,4 +1,4 @@
-// What a station says of its calibration. Pure.
+// A station's report on its calibration. Pure.
 #pragma once
 
 #include <cstdint>
@@ -6,17 +6,17 @@
 namespace ols::station {
 
 enum class CalibrationState {
-  kNone,     // none is configured: heading, mounting and their deviations as configured
-  kInUse,    // the bearings' systematic part is that of an adjustment
+  kNone,     // none is configured: heading, mounting and deviations as configured
+  kInUse,    // the bearings' systematic part is from an adjustment
   kRefused,  // configured, but not used: an alarm says why
-  kDoubted,  // in use, and its reference views have moved: the deviations have grown by that
+  kDoubted,  // in use, but its reference views have moved: the deviations are larger by that
 };
 
 struct CalibrationStatus {
   CalibrationState state = CalibrationState::kNone;
   std::int64_t id = 0;
   std::int64_t observed_utime_us = 0;  // of its last observation; 0: not stated
-  double rms_rad = 0.0;                // of a direction, of an axis, doubt included; 0: none
+  double rms_rad = 0.0;                // of a direction, per axis, doubt included; 0: none
 };
 
 }  // namespace ols::station

@@ -1,11 +1,12 @@
 // Accepts each command once, and only while it is fresh. Pure.
 //
 // The bus may be without signatures (base/trust/), and LCM has no replay protection. The gate
-// remembers a command by its sender's boot id, its sequence and its stamp for longer than it can
-// stay fresh. A command is fresh while its stamp, by the station's UTC, is not older than its lease
-// plus a margin for the difference of the two clocks. Sequences are never compared, and the stamps
-// of one sender never block another: without signatures anybody may use any name. If the station's
-// clock is set back by more than a lease, forgotten commands may pass again, as after a restart.
+// remembers each command by its sender's boot id, its sequence and its stamp, for longer than it
+// can stay fresh. A command is fresh while its stamp, by the station's UTC, is not older than its
+// lease plus a margin for the difference of the two clocks. Sequences are never compared, and
+// stamps of one sender never block another: without signatures, anybody may use any name. If the
+// station's clock is set back by more than a lease, forgotten commands may pass again, as after a
+// restart.
 #pragma once
 
 #include <cstddef>
@@ -31,21 +32,21 @@ const char* to_string(GateRefusal refusal);
 class CommandGate {
  public:
   struct Config {
-    double clock_margin_s = 0.5;  // two clocks may differ by this much
+    double clock_margin_s = 0.5;  // max difference of the two clocks
     double lease_max_s = 10.0;
-    // This many are remembered however old they are, because setting the clock back makes them
-    // fresh again: four minutes of slews.
+    // Number of commands that are remembered, however old they are, because setting the clock back
+    // makes them fresh again: four minutes of slews.
     std::size_t kept = 4096;
-    // The maximum. Forged commands with the latest stamp block others only if more than this arrive
-    // within the margin: 130 000 a second, more than a station can read.
+    // Max number of remembered commands. Forged commands with the latest stamp block others only if
+    // more than this arrive within the margin: 130 000 a second, more than a station can read.
     std::size_t most = 65536;
   };
-  // A command stamped before `began_utime_us` is refused as replayed: the previous process may have
-  // accepted it.
+  // Commands stamped before `began_utime_us` are refused as replayed: the previous process may have
+  // accepted them.
   CommandGate(const Config& config, std::int64_t began_utime_us)
       : config_(config), began_utime_us_(began_utime_us) {}
 
-  // Empty: the command may pass, and is now remembered.
+  // nullopt: the command may pass, and is now remembered.
   std::optional<GateRefusal> admit(const CommandStamp& stamp, std::int64_t now_utime_us);
 
   std::size_t remembered() const { return passed_.size(); }
@@ -63,7 +64,7 @@ class CommandGate {
   std::int64_t latest_utime_us_ =
       std::numeric_limits<std::int64_t>::min();  // "now" of the last call
   std::set<Passed> passed_;
-  // The latest stamp among the accepted commands that were forgotten.
+  // The latest stamp of the accepted commands that were forgotten.
   std::optional<std::int64_t> forgotten_utime_us_;
 };
 

@@ -15,14 +15,14 @@ struct Situation {
   double now_s = 0.0;  // station's monotonic clock
 };
 
-// kNone: permitted. A designation also needs its frame and that the tracker accepts it; a point
-// command, that the unit reaches its angles.
+// kNone: permitted. In addition, a designation needs its frame and the tracker's acceptance; a
+// point command, angles that the unit reaches.
 Refusal judge(const DesignateCommand& command, const Situation& situation);
 Refusal judge(const SlewCommand& command, const Situation& situation);
 Refusal judge(const PointCommand& command, const Situation& situation);
 Refusal judge(const RateCommand& command, const Situation& situation);
 Refusal judge(const LensCommand& command, const Situation& situation);
-// A command that the operator may give now, and that moves the unit.
+// For a command by which an operator moves the unit.
 Refusal judge_motion(const Situation& situation);
 Refusal judge_home(const Situation& situation);
 Refusal judge_reference_ok(const Situation& situation);

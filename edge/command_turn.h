@@ -1,6 +1,6 @@
-// The operator's commands of one turn of the control loop. Of several designations in a turn only
-// the newest is carried out, because the tracker must process all frames since each; a stop never
-// waits for a designation. Pure.
+// The operator's commands of one turn of the control loop. Only the newest designation of a turn is
+// carried out, because the tracker must process all frames since its image. A stop never waits for
+// a designation. Pure.
 #pragma once
 
 #include <atomic>
@@ -16,15 +16,15 @@ class CommandTurn {
   // The station must outlive it.
   explicit CommandTurn(Station& station) : station_(station) {}
 
-  // From any thread, does not wait. end() carries it out.
+  // From any thread; does not wait. end() carries it out.
   void stop() { stop_ = true; }
 
   // Carried out at the end of the turn, or before another command.
   void designate(const DesignateCommand& command);
-  // Before another operator command: carries out the pending designation, unless one was carried
-  // out in this turn already. So there are at most two in a turn.
+  // Call before another operator command. Carries out the pending designation, unless one was
+  // carried out in this turn already: so there are at most two per turn.
   Refusal before_other_command(double now_s);
-  // After the turn's last command. Returns why the designation was refused.
+  // Call after the turn's last command. Returns why the designation was refused.
   Refusal end(double now_s);
 
   // Designations dropped because of a newer one or a stop.

@@ -1,4 +1,4 @@
-// The content of a station's configuration file: docs/configuration.md.
+// The contents of a station's configuration file: docs/configuration.md.
 #pragma once
 
 #include <cstdint>
@@ -27,24 +27,24 @@ struct Section;
 }
 namespace ols::station {
 
-// Of the parts that a calibration belongs to; empty: not stated.
+// Serial numbers of the parts of an instrument; empty: not stated.
 struct InstrumentSerials {
   std::string camera, lens, ptu;
 };
 
-// What a station has of its site's settings.
+// A station's share of its site's settings.
 struct SiteChoice {
-  std::string file;              // of the station's own configuration; empty: none was read
-  std::int64_t number = 0;       // of the settings that are in use; 0: none
-  std::vector<std::string> own;  // the site's keys that the station's file states otherwise
+  std::string file;              // the station's own configuration; empty: none was read
+  std::int64_t number = 0;       // of the settings in use; 0: none
+  std::vector<std::string> own;  // the site's keys for which the station's file states other values
 };
 
 struct StationSettings {
   std::string id;  // letters, digits, - and _; at most 32, because it is part of the channel names
   std::string lcm_url = "udpm://239.255.76.67:7667?ttl=0";
-  std::string state_folder;  // for the state that survives a restart; empty: none is saved
+  std::string state_folder;  // of the persisted state; empty: nothing is persisted
   std::int64_t calibration_id = 0;
-  double view_check_s = 600.0;     // of idleness between two checks of the reference views; 0: none
+  double view_check_s = 600.0;     // idle time between two checks of the reference views; 0: none
   std::string calibration_folder;  // of `ols-calibrate adjust`; empty: none
   InstrumentSerials serials;
   std::uint64_t tracker_seed = 1;
@@ -72,15 +72,15 @@ struct StationSettings {
 config::Section station_section(StationSettings& settings);  // the whole file
 // Throws ConfigError ("file:line: key: what").
 StationSettings load_station_settings(const std::string& path);
-// The same with the site's settings in place of the defaults of keys that the file does not have.
+// The same with the site's settings as defaults of keys that are missing in the file.
 StationSettings load_station_settings(const std::string& path, const trust::SiteSettings& site);
-// The keys that a site's settings may have in [station]: those that are the same on all stations.
+// The keys of [station] in a site's settings: those that are the same on all stations.
 config::Section site_section(StationSettings& settings);
 
 // Checks whether the station with this configuration file can use the site's settings.
 trust::SettingsCheck site_check(const std::string& path);
 
-// What is configured, one line a subject, for --check-config.
+// The configuration for --check-config, one line per subject.
 std::vector<std::string> describe(const StationSettings& settings);
 
 }  // namespace ols::station

@@ -1,5 +1,5 @@
-// The newest fault of a station and its time: it stays after its alarm has gone. Also the news,
-// good and bad, for the journal. Pure.
+// The newest fault of a station and its time, which stay after its alarm has ended. Also the
+// entries, good and bad, for the journal. Pure.
 #pragma once
 
 #include <cstdint>
@@ -15,24 +15,25 @@ namespace ols::station {
 
 class FaultLog {
  public:
-  // The present error of a source, and a count that distinguishes a new error from an old one with
-  // the same text. A repeated text (a device that is absent, retried each second) is one fault, so
-  // that it does not hide others.
+  // `what`: the present error of a source. `number`: how many it has had; a new number marks a new
+  // error with the same text. A text that is repeated within a minute (a device that is absent,
+  // retried each second) is one fault, so that it does not hide others.
   void note(const std::string& source, const std::string& what, std::uint64_t number,
             std::int64_t utime_us);
-  // The same for the result of an operator's action: each one is a new fault.
+  // The same for the result of an operator's action: each is a new fault.
   void note_event(const std::string& source, const std::string& what, std::uint64_t number,
                   std::int64_t utime_us);
-  // An error that is none: the device is only coming up.
+  // An error that does not count: the device is only starting.
   void pass_over(const std::string& source, const std::string& what, std::uint64_t number,
                  std::int64_t utime_us) {
     noted_[source] = {what, number, utime_us};
   }
-  // The alarms that hold now. A new alarm is a fault. A changed number ("silent for 5 s") does not
-  // make it a new one.
+  // The present alarms. A new alarm is a fault. A changed number ("silent for 5 s") does not make
+  // an alarm new.
   void note_alarms(const std::vector<std::string>& alarms, std::int64_t utime_us);
 
-  // The state of a source that always has one. A changed state is news; changed `details` are not.
+  // The state of a source that always has one. A changed state is an entry; changed `details` are
+  // not.
   struct State {
     std::string name, details;
     bool bad = false;
@@ -40,7 +41,7 @@ class FaultLog {
   };
   void note_state(const std::string& source, const State& state);
 
-  // What began or ended since the last call, in order.
+  // The beginnings and ends since the last call, in order.
   std::vector<News> take_event() { return std::exchange(news_, {}); }
 
   const std::string& text() const { return text_; }  // empty: no fault yet

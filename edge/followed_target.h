@@ -1,5 +1,5 @@
-// The target that the station's tracker follows: one that the operator designated, or one acquired
-// along a slew, which is on trial until the tracker believes in it. During a trial the station's
+// The target that the station's tracker follows: designated by the operator, or acquired along a
+// slew. An acquired one is on trial until the tracker believes in it. During a trial the station's
 // own target is set aside.
 #pragma once
 
@@ -21,7 +21,7 @@ class FollowedTarget {
   FollowedTarget(const StationConfig& config, std::unique_ptr<tracker::TargetTracker> tracker)
       : config_(config), tracker_(std::move(tracker)) {}
 
-  // Starts with the box. On an error (the tracker refuses it) nothing has changed.
+  // Starts with the box. If the tracker refuses it, nothing changes.
   std::optional<tracker::TrackerError> designate(const camera::Frame& frame, const cv::Rect2d& box);
   // The same on trial, with the own target set aside.
   bool try_found(const camera::Frame& frame, const cv::Rect2d& box);
@@ -31,13 +31,13 @@ class FollowedTarget {
   // Ends a trial that takes too long.
   Dropped drop_unproven(double time_s);
 
-  // Empty: the tracker refused the frame. The predicted motion comes from the PTU's angles.
+  // nullopt: the tracker refused the frame. The predicted motion comes from the PTU's angles.
   std::optional<tracker::TrackerOutput> track(const camera::Frame& frame,
                                               const PointingModel& pointing);
   void search_near(const Eigen::Vector2d& pixel, double sd_px) {
     tracker_->search_near(pixel, sd_px);
   }
-  // The PTU's angles up to now are not comparable with later ones.
+  // Earlier angles of the PTU are not comparable with later ones.
   void forget_angles();
 
   bool exists() const { return kind_ != Kind::kNone; }
@@ -45,11 +45,11 @@ class FollowedTarget {
   std::int64_t track_id() const { return track_id_; }
   double centring_sd_px() const;  // of the box on the target
   const std::optional<tracker::TrackerOutput>& last_output() const { return last_output_; }
-  // Of this very frame; null: the tracker has not had it.
+  // For exactly this frame; null: the tracker has not had it.
   const tracker::TrackerOutput* output_of(double mid_exposure_s) const {
     return last_output_ && tracked_s_ == mid_exposure_s ? &*last_output_ : nullptr;
   }
-  // In consecutive frames the image motion has contradicted the PTU's angles.
+  // The image motion has contradicted the PTU's angles in consecutive frames.
   bool motion_disagrees() const { return disagreeing_in_a_row_ >= config_.disagreeing_frames; }
   const std::map<std::string, double>& counters() const { return counters_; }
 

@@ -1,5 +1,5 @@
-// What of the unit's counts goes out: requested frames on their way, from the request to the parts
-// that fit into datagrams; and sightings.
+// The outputs that contain the unit's counts: requested frames, from the request to parts that fit
+// into datagrams; and sightings.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ namespace ols::station {
 
 struct FramePart {
   std::shared_ptr<const EncodedFrame> frame;
-  std::int64_t utime_us = 0;  // mid-exposure; of all parts the same, by which they are put together
+  std::int64_t utime_us = 0;  // mid-exposure; the same in all parts, to join them
   std::size_t part = 0, parts = 0;
   std::size_t first_byte = 0, bytes = 0;
 };
@@ -30,10 +30,10 @@ class FrameDesk {
   explicit FrameDesk(const ptu::AngleHistory::Config& history) : service_(history) {}
 
   FrameService& service() { return service_; }
-  // Passes on what is complete; never waits.
+  // Passes on completed frames; never waits.
   void look(const clock::ClockPair& now);
   std::optional<FramePart> next();
-  // In time order; what is to be told now.
+  // In time order. Returns the sightings to be published now.
   std::vector<Sighting> sightings(const Bearing& bearing, std::int64_t utime_us) {
     return sightings_.take(bearing, utime_us, service_);
   }

@@ -1,6 +1,6 @@
 // The frames of the last seconds: an operator designates in an image that is not the newest, and
-// acquisition compares images. Bounded by its span: of 1280 x 960 at 30 Hz a second is 37 MB in
-// grey, as much again with a Bayer mosaic beside it. Pure.
+// acquisition compares images. Limited by its span: at 1280 x 960 and 30 Hz a second takes 37 MB in
+// grey, and as much again with a Bayer mosaic. Pure.
 #pragma once
 
 #include <cstddef>
@@ -18,10 +18,11 @@ class FrameHistory {
 
   // False: ignored, because it is not later than the newest one.
   bool add(const camera::Frame& frame);
-  // Without a time: the newest. Null: no frame of that instant.
+  // Without a time: the newest frame. Null: no frame of that instant.
   const camera::Frame* find(const std::optional<double>& mid_exposure_s) const;
-  // Those after this instant, oldest first: all, or every second, third, ... so that there are at
-  // most kMostSince, the newest among them: the control loop waits while they are looked at.
+  // The frames after this instant, oldest first: all, or every second, third, ... so that there are
+  // at most kMostSince. Includes the newest. The limit is needed because the control loop waits
+  // while they are processed.
   std::vector<const camera::Frame*> since(double mid_exposure_s) const;
   static constexpr std::size_t kMostSince = 33;
   // Oldest first.

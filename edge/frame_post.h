@@ -1,4 +1,4 @@
-// Makes picture files of requested frames in a thread of its own: an encoder takes tens of
+// Encodes requested frames as picture files in its own thread: an encoder takes tens of
 // milliseconds, for which the control loop must not wait.
 #pragma once
 
@@ -23,11 +23,11 @@ struct EncodedFrame {
 class FramePost {
  public:
   FramePost();
-  ~FramePost() = default;  // waits for the frame at work
+  ~FramePost() = default;  // waits for the current frame
   FramePost(const FramePost&) = delete;
   FramePost& operator=(const FramePost&) = delete;
 
-  // False: too many wait; it is dropped, and asked for again by whoever wants it.
+  // False: too many are waiting. The frame is dropped, and must be requested again.
   bool put(RequestedFrame frame);
   std::optional<EncodedFrame> take();
 

@@ -1,5 +1,5 @@
-// Frames at full resolution for a calibration, on request: each with what the unit reported at its
-// exposure, once the unit stands as asked. Pure.
+// Full-resolution frames for a calibration, on request. Each has the unit's readings at its
+// exposure, and is taken once the unit stands as requested. Pure.
 #pragma once
 
 #include <cstdint>
@@ -16,19 +16,19 @@ namespace ols::station {
 
 struct FrameRequest {
   std::int64_t boot_id = 0, sequence = 0;  // of the request
-  std::optional<PanTilt> at;               // reported angles; empty: wherever it stands
+  std::optional<PanTilt> at;               // reported angles; nullopt: wherever the unit stands
   double tolerance_rad = 0.0;
-  double still_s = 0.0;  // the unit has stood so long at mid-exposure; 0: it may move
+  double still_s = 0.0;  // time for which the unit has stood at mid-exposure; 0: it may move
   bool lossless = true;
   double expires_s = 0.0;  // station's monotonic clock
 };
 
-// What the unit reported of one exposure.
+// The unit's readings at one exposure.
 struct ExposedCounts {
   double pan = 0.0, tilt = 0.0;      // [counts]
   double pan_s = 0.0, tilt_s = 0.0;  // [counts/s]
   ptu::Approach approach;
-  PanTilt count;  // [rad] as the unit says
+  PanTilt count;  // [rad] as the unit reports it
 };
 
 struct RequestedFrame {
@@ -42,21 +42,21 @@ class FrameService {
   explicit FrameService(const ptu::AngleHistory::Config& history)
       : history_(history), approach_({history.step_rad, history.step_rad}) {}
 
-  // What the unit says that a count is [rad]; without it no request can be answered.
+  // The size of a count [rad] as the unit reports it; without it no request can be answered.
   void set_count(const PanTilt& count_rad);
-  // Empty: accepted; otherwise why not. A sender has one request at a time: a newer one replaces
-  // it.
+  // Returns why the request is refused; empty: accepted. A sender has one request at a time: a
+  // newer one replaces it.
   std::string request(const FrameRequest& wanted);
-  // Whether angles are in the unit's reference. Until they are, samples and frames are dropped;
-  // those of before are forgotten: earlier and later ones are not in the same frame of reference.
+  // Whether angles are in the unit's reference. While they are not, samples and frames are dropped,
+  // and earlier ones are forgotten: they are not in the same frame of reference as later ones.
   void set_trusted(bool trusted);
   // In time order.
   void on_angles(const ptu::AngleSample& sample);
   void on_frame(const camera::Frame& frame);
 
-  // The answers that are complete: the unit has reported angles on both sides of the exposure.
+  // The complete answers: the unit has reported angles before and after the exposure.
   std::vector<RequestedFrame> take(double now_s);
-  // Nothing where it has not, or where nobody knows what a count is.
+  // nullopt: the unit has not reported such angles, or the size of a count is unknown.
   std::optional<ExposedCounts> counts_at(double time_s) const;
 
  private:
@@ -68,7 +68,7 @@ class FrameService {
   ptu::AngleHistory history_;
   ptu::ApproachHistory approach_;
   PanTilt count_rad_;
-  std::deque<camera::Frame> frames_;  // while anything is asked for
+  std::deque<camera::Frame> frames_;  // kept while there is a request
   std::deque<FrameRequest> requests_;
 };
 

@@ -1,5 +1,5 @@
-// The station's computer: processor temperature, free disk space, overlong turns of the control
-// loop. It reads in its own thread, because a network disk that hangs must not block the loop.
+// The station's computer: processor temperature, free disk space, slow turns of the control loop.
+// Reads in its own thread, because a network disk that hangs must not block the loop.
 #pragma once
 
 #include <cstddef>
@@ -15,11 +15,11 @@ namespace ols::station {
 
 struct HostConfig {
   std::string thermal_folder = "/sys/class/thermal";
-  std::string disk_folder = "/";  // the file system to watch
+  std::string disk_folder = "/";  // the file system to be watched
   double cpu_alarm_degC = 85.0;
   double disk_alarm_bytes = 5e8;
   double interval_s = 2.0;  // between two readings
-  double silence_s = 10.0;  // without a reading: an alarm
+  double silence_s = 10.0;  // alarm after this time without a reading
 };
 
 struct HostReport {
@@ -27,7 +27,7 @@ struct HostReport {
   std::vector<std::string> alarms;
 };
 
-// A value that cannot be read is empty.
+// A value that cannot be read is nullopt.
 struct HostReading {
   std::optional<double> cpu_degC;
   std::optional<double> disk_free_bytes;
@@ -47,7 +47,7 @@ class HostMonitor {
   HostMonitor(const HostMonitor&) = delete;
   HostMonitor& operator=(const HostMonitor&) = delete;
 
-  // How long it took, without `waited_s` in it, in which it waited for a frame.
+  // Duration of a turn, without the `waited_s` in which it waited for a frame.
   void note_turn(double seconds, double waited_s = 0.0);
   // The newest reading; never waits. `now_s`: CLOCK_MONOTONIC.
   HostReport look(double now_s);
@@ -62,7 +62,7 @@ class HostMonitor {
   HostConfig config_;
   std::shared_ptr<Shared> shared_;
   double slowest_s_ = 0.0;       // since the last report
-  std::vector<double> turns_s_;  // the last of them, the oldest at turns_ % kKept
+  std::vector<double> turns_s_;  // the last turns; the oldest is at turns_ % kKept
   std::uint64_t turns_ = 0;
   std::uint64_t slow_turns_ = 0;
 };

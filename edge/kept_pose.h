@@ -1,5 +1,5 @@
-// The station's pose from survey and sensors, as it was before the restart until they have told
-// anew (pose_store.h has the file).
+// The station's pose from survey and sensors. After a restart it is the persisted one until the
+// sensors report (file: pose_store.h).
 #pragma once
 
 #include <optional>
@@ -15,11 +15,11 @@ namespace ols::station {
 
 class KeptPose {
  public:
-  // Restores the persisted pose, as far as the station still has the sensors.
+  // Restores the persisted pose, for the sensors that the station still has.
   KeptPose(const StationSettings& settings, double now_s);
 
   sensors::StationPose pose(double now_s) const { return estimator_.pose(now_s); }
-  // In every turn. Returns the pose when it is due. Does not wait for the disk.
+  // Call in every turn. Returns the pose when it is due. Does not wait for the disk.
   std::optional<sensors::StationPose> look(DeviceSet& devices, double now_s);
   std::vector<std::string> alarms(double now_s) const;
 

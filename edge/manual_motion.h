@@ -1,5 +1,5 @@
-// What the operator's hand wants of the unit: angles to stand at, or rates while their lease lasts.
-// Pure.
+// The motion that the operator commands: angles at which the unit is to stand, or rates while their
+// lease lasts. Pure.
 #pragma once
 
 #include <optional>
@@ -15,11 +15,11 @@ class ManualMotion {
   void turn(const RateCommand& command);
   void clear();
 
-  // Whether a later rate of the same sender is in force: this one was overtaken on its way.
+  // Whether a later rate of the same sender is already in force: this one was overtaken on its way.
   bool overtakes(const RateCommand& command, double now_s) const;
 
-  // Empty: halt. A unit that is told to halt brakes for v/a, so the halt comes before the lease is
-  // over: kInForce of it.
+  // nullopt: halt. A unit that is halted brakes for v/a. The halt therefore comes after the share
+  // kInForce of the lease.
   std::optional<ptu::ServoGoal> goal(double now_s) const;
 
   static constexpr double kInForce = 0.8;

@@ -1,4 +1,4 @@
-// Translation between the station's types and the LCM messages, without any decision.
+// Converts between the station's types and LCM messages. Decides nothing.
 #pragma once
 
 #include <cstdint>
@@ -57,7 +57,7 @@ SlewCommand from_message(const ols_msg::slew_t& message, const Sender& sender, d
 PointCommand from_message(const ols_msg::ptu_command_t& message);
 CentreCommand centre_from_message(const ols_msg::ptu_command_t& message, const Sender& sender);
 RateCommand rate_from_message(const ols_msg::ptu_command_t& message, double now_s);
-// Empty when its times are not valid: not finite, negative, or too large.
+// nullopt if its times are not finite, negative, or too large.
 std::optional<recorder::RecordCommand> from_message(const ols_msg::record_t& message,
                                                     const Sender& sender, double now_s);
 

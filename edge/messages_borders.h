@@ -1,4 +1,4 @@
-// The borders of where a unit may point, into a station's status.
+// Writes the borders of where a unit may point into a station's status.
 #pragma once
 
 #include <vector>
@@ -11,7 +11,7 @@ namespace ols::station {
 
 void fill_borders(const std::vector<Border>& borders, ols_msg::station_status_t& message);
 
-// Of a unit that stands as its station's pose says.
+// For a unit that stands as in its station's pose.
 void fill_borders(ChainParameters chain, const StationReport& report,
                   ols_msg::station_status_t& message);
 

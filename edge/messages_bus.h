@@ -37,18 +37,18 @@ class StationBus {
   StationBus(const StationSettings& settings, std::int64_t boot_id, Station& station,
              CommandTurn& turn, Record recorder, FrameWanted frame_wanted = {});
 
-  // The present clocks, for everything until the next call.
+  // The present clocks, until the next call.
   void set_time(const clock::ClockPair& now, const clock::ClockQuality& quality);
 
   // Connects; waits at most this long.
   void connect(double wait_s);
-  // Passes the waiting commands to the station. Without a connection it starts an attempt and does
-  // not wait for it.
+  // Passes the waiting commands to the station. Without a connection, starts an attempt without
+  // waiting for it.
   void receive();
   void take(const BusMessage& message);
-  // True: the message is a stop, from any thread; end_turn() carries it out.
+  // True: the message is a stop. From any thread; end_turn() carries it out.
   bool take_stop(const BusMessage& message);
-  // After the datagrams of a turn.
+  // Call after the datagrams of a turn.
   void end_turn();
 
   // Why there is no connection; empty: connected.
@@ -56,10 +56,10 @@ class StationBus {
   // The last refused command as text, and the number of refused commands.
   const std::string& last_refusal() const { return refused_.last(); }
   std::uint64_t refusals() const { return refused_.number(); }
-  // Conditions of the bus that a person should know: commands that keep being refused as not fresh,
-  // invalid datagrams, newer settings of the site.
+  // Conditions of the bus for a person: commands that are repeatedly refused as not fresh, invalid
+  // datagrams, newer settings of the site.
   std::vector<std::string> alarms() const;
-  // Messages refused before they reached the station, and messages not sent; part of each status.
+  // Messages refused before they reached the station, and messages not sent. Part of each status.
   std::map<std::string, double> counters() const;
 
   void send(const Bearing& bearing);
@@ -86,7 +86,8 @@ class StationBus {
   const StationSettings& settings_;
   Station& station_;
   CommandTurn& turn_;
-  // Fixed at construction: the bus's thread reads it while the control loop may replace settings.
+  // Fixed at construction: the bus's thread reads it while the control loop may replace the
+  // settings.
   struct Given {
     CommandGate::Config gate;
     Record record;

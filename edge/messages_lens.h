@@ -1,4 +1,4 @@
-// Translation between the lens' types and the LCM messages, without any decision.
+// Converts between the lens's types and LCM messages. Decides nothing.
 #pragma once
 
 #include "edge/station_types.h"
@@ -8,7 +8,7 @@
 namespace ols::station {
 
 LensCommand from_message(const ols_msg::lens_command_t& message, double now_s);
-// What a status says of the lens; NaN for what is not known.
+// The lens's part of a status; NaN: not known.
 void fill_lens(const StationSnapshot& snapshot, ols_msg::station_status_t& message);
 
 }  // namespace ols::station

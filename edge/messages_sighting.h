@@ -1,4 +1,4 @@
-// What a sighting tells of counts and pixel, as an LCM message; without any decision.
+// Writes a sighting's counts and pixel into an LCM message. Decides nothing.
 #pragma once
 
 #include "edge/sighting_desk.h"
@@ -6,7 +6,7 @@
 
 namespace ols::station {
 
-// All but who sends it, when, and how its clock is kept.
+// Everything but the sender, the time and the state of its clock.
 void fill_sighting(const Sighting& sighting, ols_msg::sighting_t& message);
 
 }  // namespace ols::station

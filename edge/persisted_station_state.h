@@ -1,5 +1,5 @@
-// The state in which a station ended, across a restart or a power failure: whether it was permitted
-// to move, and whether its PTU's reference was in doubt. A station whose state is unknown starts
+// The last state of a station, kept over a restart or a power failure: whether it was permitted to
+// move, and whether its PTU's reference was in doubt. A station whose state is unknown starts
 // stopped, with its reference in doubt, and raises an alarm.
 #pragma once
 
@@ -20,17 +20,17 @@ class PersistedStationState {
   // `has_stop`: the station has an emergency stop; a damaged file may have recorded one.
   PersistedStationState(const std::string& folder, const std::string& id, bool has_stop);
 
-  // The state to begin in: kIdle, kStopped or kEmergency.
+  // The state at the start: kIdle, kStopped or kEmergency.
   StationState begin() const { return begin_; }
   // The doubt about the PTU's reference at the end of the previous process.
   const std::optional<ptu::PtuReferenceDoubt>& doubt() const { return begin_doubt_; }
 
-  // Saves the present state; in every turn, does not wait for the disk. Once the station has left
-  // the state in which it began, a person has acted, and the state is no longer unknown.
+  // Call in every turn with the present state, to be saved. Does not wait for the disk. Once the
+  // station has left its first state, a person has acted, and the state is no longer unknown.
   void remember(StationState state, const std::optional<ptu::PtuReferenceDoubt>& doubt,
                 ptu::PtuReference reference);
 
-  // What is unknown and what to do; what cannot be saved.
+  // What is unknown or cannot be saved, and what to do.
   std::vector<std::string> alarms() const;
 
  private:
@@ -41,7 +41,7 @@ class PersistedStationState {
   bool hold_unknown_ = false, doubt_unknown_ = false;
 };
 
-// Whether the operator or the emergency stop holds the station: if so, it begins stopped next time.
+// Whether the operator or the emergency stop holds the station. If so, it starts stopped next time.
 bool is_held(StationState state);
 
 }  // namespace ols::station

@@ -1,5 +1,5 @@
-// From directions to PTU angles and back: the station's position and tilt, the reported angles of
-// the PTU, its errors where a calibration knows them, and its travel. Pure.
+// Converts between directions and PTU angles, with the station's position and tilt, the PTU's
+// reported angles, its calibrated errors, and its travel. Pure.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,7 +17,7 @@ namespace ols::station {
 
 // The unit at one instant.
 struct UnitAngles {
-  PanTilt angles;  // for the chain; of a calibrated unit corrected for its errors
+  PanTilt angles;  // for the chain; of a calibrated unit, corrected for its errors
   PanTilt reported;
   PanTilt rate;                // [rad/s]
   Eigen::Matrix2d covariance;  // [rad^2] (pan, tilt), white
@@ -26,8 +26,8 @@ struct UnitAngles {
   double time_s = 0.0;
 };
 
-// "Reported" angles are the unit's own, of its samples, goals and limits. Where nothing else is
-// said, angles are the chain's; without a calibration they are the same.
+// "Reported" angles are the unit's own: those of its samples, goals and limits. All other angles
+// are the chain's. Without a calibration both are the same.
 class PointingModel {
  public:
   // The pose is the configured one until set_pose().
@@ -44,11 +44,13 @@ class PointingModel {
   // Earlier and later angles are not in the same frame of reference.
   void forget_angles();
 
-  // Another geometry from now on, with a calibration or without one. The pose is the geometry's.
+  // Uses another geometry from now on, with or without a calibration. The pose is that of the
+  // geometry.
   void use(const StationGeometry& geometry, const std::optional<StationCalibration>& calibration);
-  // More is unknown of the setup than the calibration says, by so much. Nothing without one.
+  // Adds these errors to those of the calibration's setup. No effect without a calibration.
   void doubt_setup(double heading_sd_rad, double tilt_sd_rad);
-  // A calibration is in use. It is not while the unit has other counts than it says.
+  // Whether a calibration is in use. It is not while the size of the unit's counts differs from the
+  // calibrated one.
   bool calibrated() const { return unit_ && unit_->fits(); }
 
   // With the present pose.
@@ -58,35 +60,35 @@ class PointingModel {
   std::int64_t pose_revision() const { return pose_revision_; }
 
   std::optional<UnitAngles> angles_at(double time_s) const;
-  // Of the newest sample; zero before the first.
+  // Of the newest sample; 0 before the first.
   PanTilt angles_now() const;
   std::optional<ptu::AngleSample> newest_angles() const { return history_.newest(); }
   std::optional<PanTilt> reported_angles() const {
     const auto newest = history_.newest();
     return newest ? std::optional(newest->angles) : std::nullopt;
   }
-  // Where the camera is and looks at an instant; empty: the unit's angles are not known.
+  // Where the camera is and looks at an instant; nullopt: the unit's angles are not known.
   std::optional<video::CameraView> camera_at(double time_s) const;
-  // The camera with its deviations at an instant; empty: the zoom is not known.
+  // The camera with its deviations at an instant; nullopt: the zoom is not known.
   std::optional<ZoomPoint> zoom_at(double time_s) const;
-  // Reported angles that bring a pixel of this instant to the middle of the picture; the travel is
-  // not looked at.
+  // Reported angles that bring a pixel of this instant to the middle of the picture. The travel is
+  // ignored.
   std::optional<PanTilt> centring(const Eigen::Vector2d& pixel, double time_s) const;
   // Maps pixels at one instant to pixels at another, for a scene at infinity.
   std::optional<Eigen::Matrix3d> homography(double from_s, double to_s) const;
-  // The line of sight of a pixel, whose angles and their covariance are those of the unit.
+  // The line of sight of a pixel, with angles and their covariance from the unit.
   std::optional<LineOfSight> sight(PixelSight pixel, const UnitAngles& unit) const;
   // The pixel of a direction at infinity.
   std::optional<Eigen::Vector2d> pixel_of(const PanTilt& angles,
                                           const AzimuthElevation& direction) const;
   bool in_picture(const Eigen::Vector2d& pixel) const;
 
-  // Reported angles: the same direction as the counts that the unit reaches on the shortest way,
-  // from its position or from `here`; empty: it cannot point there.
+  // Converts reported angles to those of the same direction that the unit reaches on the shortest
+  // way, from its position or from `here`. nullopt: it cannot point there.
   std::optional<PanTilt> reachable(const PanTilt& angles) const;
   std::optional<PanTilt> reachable_from(const PanTilt& here, PanTilt angles) const;
-  // The reported angles that put a direction on the optical axis; empty: the unit cannot point
-  // there. The second one knows no travel and comes from the reported angles `here`.
+  // The reported angles that put a direction on the optical axis; nullopt: the unit cannot point
+  // there. The second form ignores the travel, and comes from the reported angles `here`.
   std::optional<PanTilt> aim(const AzimuthElevation& direction) const;
   std::optional<PanTilt> aim_from(const PanTilt& here, const AzimuthElevation& direction) const;
 

@@ -5,7 +5,7 @@
 namespace ols::station {
 
 void install_rearm_handler();
-// True if the signal came since the last call.
+// True if the signal has come since the last call.
 bool take_rearm_signal();
 
 }  // namespace ols::station

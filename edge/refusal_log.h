@@ -1,5 +1,5 @@
-// The messages refused before or by the station: their number, the last one as text, and an alarm
-// when commands keep being refused as not fresh. Pure.
+// The messages refused before or by the station: their number, the text of the last one, and an
+// alarm when commands are repeatedly refused as not fresh. Pure.
 #pragma once
 
 #include <cstdint>

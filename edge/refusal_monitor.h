@@ -1,4 +1,4 @@
-// Raises an alarm when commands keep being refused before they reach the station: a legitimate
+// Raises an alarm when commands are repeatedly refused before they reach the station: a legitimate
 // sender is locked out and should learn why. Pure.
 #pragma once
 

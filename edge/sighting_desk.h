@@ -1,6 +1,6 @@
-// Which of a station's bearings are told with the counts and the pixel that they are made of: the
-// two around each whole second of UTC, so that whoever reads them knows several stations' sightings
-// at the same instants. Pure.
+// Chooses the bearings that are published together with their raw pixel and counts: the two around
+// each whole second of UTC. Several stations' sightings can then be interpolated to the same
+// instants. Pure.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ struct Sighting {
 
 class SightingDesk {
  public:
-  // In time order; what is to be told now.
+  // In time order. Returns the sightings to be published now.
   std::vector<Sighting> take(const Bearing& bearing, std::int64_t utime_us,
                              const FrameService& unit);
 

@@ -11,9 +11,9 @@ namespace ols::station {
 
 class SlewConflictMonitor {
  public:
-  // The boot id of the fusion whose slew was accepted; the station's monotonic clock.
+  // `boot_id`: of the fusion whose slew was accepted. `now_s`: the station's monotonic clock.
   void note(std::int64_t boot_id, double now_s);
-  // Two fusions have slewed within the last seconds.
+  // Whether two fusions have slewed within the last seconds.
   bool are_several(double now_s) const;
 
  private:

@@ -1,4 +1,4 @@
-// Where and how a slewed station looks for its target: with the template of an earlier track, or
+// Where and how a slewed station searches for its target: with the template of an earlier track, or
 // for any object that behaves as the slew predicts. Pure.
 #pragma once
 
@@ -24,49 +24,52 @@ class SlewSearch {
   explicit SlewSearch(const StationConfig& config)
       : config_(config), acquisition_(config.acquisition) {}
 
-  // The station enters another state; `found`: it tracks.
+  // The station enters another state. `found`: it now tracks.
   void restart(bool found);
-  // Each frame in which the station is slewed.
+  // Call with each frame in which the station is slewed.
   void note_in_view(const camera::Frame& frame, const PointingModel& pointing, const Slew& slew);
 
   struct Place {
     Eigen::Vector2d pixel;
     double sd_px = 0.0;
   };
-  // Where to send the tracker to look for its target. Empty: it was sent a moment ago, or the PTU
+  // Where the tracker is to search for its target. nullopt: it was sent a moment ago, or the PTU
   // has not arrived yet.
   std::optional<Place> send_tracker(const camera::Frame& frame, const PointingModel& pointing,
                                     const Slew& slew);
-  // An object elsewhere that looks like the target is not the one that the other stations see.
+  // Whether an output is near the slew's place. A similar object elsewhere is not the one that the
+  // other stations see.
   bool is_where_slewed(const camera::Frame& frame, const tracker::TrackerOutput& output,
                        const PointingModel& pointing, const Slew& slew) const;
 
-  // After own_target_s without its own target at the slew, a station acquires whatever is there,
-  // like a station without a target: what it was designated may never have been the target.
+  // Whether any object at the slew is acquired. A station without a target does so; one with a
+  // target does so after own_target_s without seeing it there, because the designation may have
+  // been wrong.
   bool looks_for_anything(const FollowedTarget& target) const;
   // The box of the object that behaves as the slew predicts in these frames, oldest first.
   std::optional<cv::Rect2d> acquire(const std::deque<camera::Frame>& frames,
                                     const PointingModel& pointing, const Slew& slew);
-  // When the trial of an acquired target began; it failed, and the own target is looked for again.
+  // The trial of an acquired target begins; the trial has failed, and the own target is searched
+  // for again.
   void begin_trial(double time_s) { searched_s_ = time_s; }
   void end_trial(double time_s);
 
-  // An alarm about a slew to a place known well enough to be in the image; empty: none.
+  // The alarm about a slew to a place that is known well enough to be in the image; empty: none.
   std::string unacquired_alarm(const Slew& slew) const;
   const std::map<std::string, double>& counters() const { return counters_; }
 
  private:
   static constexpr double kNever = -std::numeric_limits<double>::infinity();
-  // The time, by frames, during which the slew's place was in the image.
+  // For how long, by frames, the slew's place has been in the image.
   struct InView {
     double from_s = 0.0, to_s = kNever;
-    double own_from_s = kNever;  // since when the own target has been looked for
+    double own_from_s = kNever;  // since when the own target has been searched for
   };
   struct Expected {  // the slew's target in a frame
     Eigen::Vector2d pixel;
     PanTilt angles;
-    // Of a search along a line: its direction, a unit vector; the pixel is its nearest to the
-    // middle.
+    // In a search along a line: the line's direction, a unit vector. `pixel` is then the point of
+    // the line that is nearest to the middle.
     Eigen::Vector2d line = Eigen::Vector2d::Zero();
   };
   static std::optional<Expected> expected(const camera::Frame& frame, const PointingModel& pointing,

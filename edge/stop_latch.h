@@ -1,5 +1,5 @@
-// Carries the emergency stop from the thread that sees its edges to the control loop, without
-// missing a press shorter than a turn of the loop.
+// Passes the emergency stop from the thread that sees its edges to the control loop. Does not miss
+// a press shorter than a turn of the loop.
 #pragma once
 
 #include <atomic>

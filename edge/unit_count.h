@@ -5,10 +5,10 @@
 
 namespace ols::station {
 
-// [rad], exactly.
+// [rad], exact.
 double count_of(const AxisModel& axis);
-// Whether a count that the unit printed [rad] is of an axis with so many to a turn: its step mode
-// is the one that it was calibrated in.
+// Whether a printed size of a count [rad] matches an axis with so many counts per turn: the step
+// mode is then the calibrated one.
 bool is_count_of(const AxisModel& axis, double printed_rad);
 
 }  // namespace ols::station

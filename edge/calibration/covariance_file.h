@@ -7,11 +7,11 @@
 
 namespace ols::calibration {
 
-// The instrument's part of a covariance, from the units of the file. CsvError "FILE:LINE: key:
-// what" unless every parameter has one row and one column, and the matrix is a covariance:
-// symmetric, and its correlations positive definite. A variance of 0 is a value that is known.
+// The instrument's part of a covariance, in internal units. Throws CsvError "FILE:LINE: key: what"
+// unless every parameter has one row and one column, and the matrix is a covariance: symmetric,
+// with positive definite correlations. A variance of 0: the value is known exactly.
 InstrumentMatrix read_covariance(const std::string& path);
-// The same of all parameters of a station.
+// The same for all parameters of a station.
 StationMatrix read_station_covariance(const std::string& path);
 
 }  // namespace ols::calibration

@@ -1,5 +1,5 @@
-// instrument.toml: camera, lens and pan-tilt unit as one thing with its serial numbers, and how
-// well each of its parameters is known.
+// instrument.toml: camera, lens and pan-tilt unit as one instrument, with its serial numbers, its
+// parameters and their deviations.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace ols::calibration {
 
-// Constants of the lens model and of the unit under which the values were found; no adjustment
+// Constants of the lens model and of the unit with which the values were found. No adjustment
 // changes them.
 struct FixedValues {
   double skew = 0.0, p1 = 0.0, p2 = 0.0, k3 = 0.0;
@@ -20,32 +20,33 @@ struct FixedValues {
 struct Instrument {
   station::InstrumentSerials serials;
   FixedValues fixed;
-  AxisModel pan, tilt;  // their counts and teeth; the errors are among the values
+  AxisModel pan, tilt;  // their counts and teeth; their errors are among the values
   double angle_sd_rad = 5.0 * EIGEN_PI / 648000.0;  // of each angle of a pose, new with every pose
-  std::string covariance_file;                      // beside this file; empty: [sd] is all there is
+  std::string covariance_file;                      // beside this file; empty: there is only [sd]
   InstrumentVector values = InstrumentVector::Zero();
   InstrumentMatrix covariance = InstrumentMatrix::Zero();
 };
 
-// As a station's configuration describes it: a new unit, with the deviations of
-// calibration/parameters.h, those of the mounting at least as large as [calibration.sd] has them.
+// A new unit, from a station's configuration. Deviations are those of calibration/parameters.h; the
+// mounting's are at least those of [calibration.sd].
 Instrument new_instrument(const station::StationSettings& settings);
 
-// Keys that are missing stay as in `fallback`. ConfigError or CsvError, naming file, line and key.
+// Missing keys keep the values of `fallback`. Throws ConfigError or CsvError, naming file, line and
+// key.
 Instrument read_instrument(const std::string& path, const Instrument& fallback);
 
-// Of a configuration or an instrument: std::invalid_argument, naming file and key, for a serial
-// number with a quote, a backslash or a control character, which no file could give back.
+// Throws std::invalid_argument, naming file and key, if a serial number contains a quote, a
+// backslash or a control character: a file could not hold it.
 void check_plain(const station::InstrumentSerials& serials, const std::string& path);
 
-// Throws std::invalid_argument, naming the part, for serial numbers that differ.
+// Throws std::invalid_argument, naming the part, if serial numbers differ.
 void check_serials(const station::InstrumentSerials& configured,
                    const station::InstrumentSerials& calibrated, const std::string& path);
-// Which parts state a serial number on one side only, and so were not compared; empty: none.
+// The parts whose serial number only one side states, so that they were not compared; empty: none.
 std::string uncompared_serials(const station::InstrumentSerials& configured,
                                const station::InstrumentSerials& calibrated);
 
-// The station's model with the instrument in it.
+// The station's model with this instrument.
 StationModel with_instrument(const StationGeometry& geometry, const Instrument& instrument);
 
 std::string instrument_text(const Instrument& instrument);
