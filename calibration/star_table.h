@@ -20,8 +20,8 @@ struct TableStar {
   std::int32_t magnitude_tenths = 0;
 };
 
-// The positions include proper motion up to this year; the table has none after it. For these stars
-// it is 0.04 arc seconds a year in the median, and above 0.3 for one in a hundred.
+// The positions include proper motion up to this year, and none after it. The motion is 0.04 arc
+// seconds a year in the median, and above 0.3 for one star in a hundred.
 inline constexpr double kStarTableEpoch = 2024.0;
 
 // Ascending by number.

@@ -32,8 +32,8 @@ class FaultPlan {
   // Throws std::invalid_argument with the result of check().
   void add(const Fault& fault);
 
-  // A command applies from now on. With for_s = 0 it ends the current and planned faults of this
-  // kind (kind "all": every kind) at this station (station empty: at all of them).
+  // A command applies from now on. With for_s = 0 it ends the current and planned faults of its
+  // kind ("all": of every kind) at its station (empty: at all stations).
   void command(Fault fault, double now_s);
 
   // The faults of one station at one instant. If several faults of one kind overlap, the last to
