@@ -10,6 +10,7 @@ namespace ols {
 inline constexpr std::string_view kBearingChannel = "OLS_BEARING_";
 inline constexpr std::string_view kSightingChannel = "OLS_SIGHTING_";
 inline constexpr std::string_view kStatusChannel = "OLS_STATUS_";
+inline constexpr std::string_view kReplyChannel = "OLS_REPLY_";
 inline constexpr std::string_view kPreviewChannel = "OLS_PREVIEW_";
 inline constexpr std::string_view kSlewChannel = "OLS_SLEW_";
 inline constexpr std::string_view kPtuChannel = "OLS_PTU_";
@@ -27,6 +28,7 @@ inline constexpr std::string_view kPaperTargetChannel = "OLS_TARGET_PAPER";
 inline constexpr std::string_view kFusionStatusChannel = "OLS_FUSION_STATUS";
 inline constexpr std::string_view kCueChannel = "OLS_CUE";
 inline constexpr std::string_view kCueOrderChannel = "OLS_CUE_ORDER";
+inline constexpr std::string_view kCueReplyChannel = "OLS_CUE_REPLY";
 
 inline std::string station_channel(std::string_view channel, std::string_view station) {
   return std::string(channel).append(station);

@@ -25,12 +25,14 @@ std::string regex_of(const std::vector<std::string>& names) {
   return regex + ")";
 }
 
-// A boot's bearings and statuses are counted each by itself, and one stream holds both.
+// A boot's bearings, statuses and replies are counted each by itself, and one stream holds them.
 std::string id_of(const Content& content, const trust::MessageHead& head) {
   const std::string who = content.kind == Kind::kTarget ? "target" : content.station;
   const std::string id =
       who + ":" + std::to_string(head.boot_id) + ":" + std::to_string(head.sequence);
-  return content.kind == Kind::kStatus ? id + ":status" : id;
+  return content.kind == Kind::kStatus  ? id + ":status"
+         : content.kind == Kind::kReply ? id + ":reply"
+                                        : id;
 }
 
 // Of a bridge: the name of a fusion, its start, a number.
@@ -242,7 +244,9 @@ Passage::Judged Passage::judge_in(std::string_view text, const Headers& headers,
     const Judged refusal = judge_age(content, head, now);
     return refusal ? refusal : obey(*subject, headers, now);
   }
-  const char* const kind = subject->kind == Kind::kBearing ? "" : " (status)";
+  const char* const kind = subject->kind == Kind::kBearing ? ""
+                           : subject->kind == Kind::kReply ? " (reply)"
+                                                           : " (status)";
   gaps_.hear(subject->station + kind, head.boot_id, head.sequence, now.monotonic_s);
   return judge_age(content, head, now);
 }
@@ -282,7 +286,7 @@ std::string Passage::channels() const {
     wanted.append(wanted.empty() ? "" : "|").append(more);
   };
   if (config_.role == Role::kSite) {
-    add("OLS_(BEARING|STATUS)_" + regex_of(config_.stations));
+    add("OLS_(BEARING|STATUS|REPLY)_" + regex_of(config_.stations));
     return wanted;
   }
   for (const std::string& command : config_.commands) {
@@ -298,6 +302,7 @@ std::vector<std::string> Passage::subjects() const {
     const std::string station = "ols.v1." + one.region + "." + one.site + "." + one.station;
     wanted.push_back(station + ".bearing");
     wanted.push_back(station + ".status");
+    wanted.push_back(station + ".reply");
   }
   if (config_.role == Role::kRegion) return wanted;
   for (const std::string& command : config_.commands) {

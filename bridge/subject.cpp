@@ -22,6 +22,15 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 5> kCommands
      {kDesignateChannel, "designate"},
      {kRecordChannel, "record"}}};
 
+// What a station says.
+struct Report {
+  Kind kind;
+  std::string_view channel, word;
+};
+constexpr std::array<Report, 3> kReports{{{Kind::kBearing, kBearingChannel, "bearing"},
+                                          {Kind::kStatus, kStatusChannel, "status"},
+                                          {Kind::kReply, kReplyChannel, "reply"}}};
+
 std::vector<std::string_view> parts_of(std::string_view text) {
   std::vector<std::string_view> parts;
   while (true) {
@@ -72,17 +81,19 @@ std::optional<Subject> parse_subject(std::string_view text) {
     subject.command = parts[4];
     return subject;
   }
-  if (parts[3] != "bearing" && parts[3] != "status") return std::nullopt;
-  if (parts[3] == "status") subject.kind = Kind::kStatus;
+  const auto* report = std::ranges::find(kReports, parts[3], &Report::word);
+  if (report == kReports.end()) return std::nullopt;
+  subject.kind = report->kind;
   return subject;
 }
 
 std::string to_text(const Subject& subject) {
   const std::string region = std::string(kPrefix) + subject.region;
   if (subject.kind == Kind::kTarget) return region + ".target";
-  const std::string station = region + "." + subject.site + "." + subject.station;
+  std::string station = region + "." + subject.site + "." + subject.station;
   if (subject.kind == Kind::kCommand) return station + ".cmd." + subject.command;
-  return station + (subject.kind == Kind::kBearing ? ".bearing" : ".status");
+  const auto* report = std::ranges::find(kReports, subject.kind, &Report::kind);
+  return station.append(".").append(report->word);
 }
 
 std::optional<Content> content_of(std::string_view channel) {
@@ -92,8 +103,8 @@ std::optional<Content> content_of(std::string_view channel) {
   if (name == kTargetChannel) return Content{Kind::kTarget, "", ""};
   if (!is_name(known->station)) return std::nullopt;
   const std::string station(known->station);
-  if (name == kBearingChannel) return Content{Kind::kBearing, station, ""};
-  if (name == kStatusChannel) return Content{Kind::kStatus, station, ""};
+  const auto* report = std::ranges::find(kReports, name, &Report::channel);
+  if (report != kReports.end()) return Content{report->kind, station, ""};
   for (const auto& [command, word] : kCommands) {
     if (name == command) return Content{Kind::kCommand, station, std::string(word)};
   }
@@ -101,16 +112,9 @@ std::optional<Content> content_of(std::string_view channel) {
 }
 
 std::string channel_of(const Subject& subject) {
-  switch (subject.kind) {
-    case Kind::kBearing:
-      return station_channel(kBearingChannel, subject.station);
-    case Kind::kStatus:
-      return station_channel(kStatusChannel, subject.station);
-    case Kind::kTarget:
-      return std::string(kTargetChannel);
-    case Kind::kCommand:
-      break;
-  }
+  if (subject.kind == Kind::kTarget) return std::string(kTargetChannel);
+  const auto* report = std::ranges::find(kReports, subject.kind, &Report::kind);
+  if (report != kReports.end()) return station_channel(report->channel, subject.station);
   const auto* row = std::ranges::find(kCommands, std::string_view(subject.command),
                                       &decltype(kCommands)::value_type::second);
   return station_channel(row->first, subject.station);

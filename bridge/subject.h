@@ -1,6 +1,6 @@
 // The subjects between sites, and the bus channel behind each. Pure.
 //
-//   ols.v1.<region>.<site>.<station>.bearing | status | cmd.<command>
+//   ols.v1.<region>.<site>.<station>.bearing | status | reply | cmd.<command>
 //   ols.v1.<region>.target
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace ols::bridge {
 
-enum class Kind { kBearing, kStatus, kCommand, kTarget };
+enum class Kind { kBearing, kStatus, kReply, kCommand, kTarget };
 
 struct Subject {
   Kind kind = Kind::kTarget;

@@ -15,7 +15,7 @@ namespace ols::console {
 namespace {
 
 using Json = nlohmann::json;
-using command::Kind;
+using wire::Kind;
 
 constexpr std::size_t kMostNameBytes = 64;
 constexpr double kMostPixels = 1e5;
@@ -86,7 +86,7 @@ std::optional<std::int64_t> heard(const Json& message) {
   return whole(message, "heard_us");
 }
 
-void read_box(const Json& message, command::Order& order) {
+void read_box(const Json& message, wire::Order& order) {
   refuse_others(message, {"frame_utime_us", "box_px"});
   const Json& box = field(message, "box_px");
   if (!box.is_array() || box.size() != 4) throw FormError("box_px must be [x, y, width, height]");
@@ -98,7 +98,7 @@ void read_box(const Json& message, command::Order& order) {
   order.frame_utime_us = whole(message, "frame_utime_us");
 }
 
-void read_point(const Json& message, command::Order& order) {
+void read_point(const Json& message, wire::Order& order) {
   refuse_others(message, {"frame_utime_us", "point_px"});
   const Json& point = field(message, "point_px");
   if (!point.is_array() || point.size() != 2) throw FormError("point_px must be [x, y]");
@@ -115,7 +115,7 @@ Geodetic read_place(const Json& message) {
           number(message, "height_m", kLowest_m, kHighest_m)};
 }
 
-void read_angles(const Json& message, command::Order& order) {
+void read_angles(const Json& message, wire::Order& order) {
   refuse_others(message, {"pan_deg", "tilt_deg"});
   const double pan = degrees(kPointPanLimit_rad), tilt = degrees(kPointTiltLimit_rad);
   order.pan_rad = radians(number(message, "pan_deg", -pan, pan));
@@ -130,7 +130,7 @@ void read_rate(const Json& message, CommandRequest& request) {
 }
 
 double axis(const Json& message, const char* key, bool is_rate) {
-  if (!message.contains(key)) return command::kNaN;
+  if (!message.contains(key)) return wire::kNaN;
   return number(message, key, is_rate ? -1.0 : 0.0, 1.0);
 }
 
@@ -138,14 +138,14 @@ void read_lens(const Json& message, CommandRequest& request) {
   refuse_others(message, {"is_rate", "zoom", "focus", "iris"});
   const Json& is_rate = field(message, "is_rate");
   if (!is_rate.is_boolean()) throw FormError("is_rate must be true or false");
-  command::Order& order = request.order;
+  wire::Order& order = request.order;
   order.lens_rates = is_rate.get<bool>();
   order.zoom = axis(message, "zoom", order.lens_rates);
   order.focus = axis(message, "focus", order.lens_rates);
   order.iris = axis(message, "iris", order.lens_rates);
 }
 
-void read_record(const Json& message, command::Order& order) {
+void read_record(const Json& message, wire::Order& order) {
   refuse_others(message, {"before_s", "after_s", "label"});
   order.before_s = number(message, "before_s", 0.0, kMostRecord_s);
   order.after_s = number(message, "after_s", 0.0, kMostRecord_s);
@@ -155,7 +155,7 @@ void read_record(const Json& message, command::Order& order) {
 CommandRequest read_command(const Json& message, std::int64_t number) {
   CommandRequest request{.number = number};
   request.order.station = text(message, "station");
-  const auto kind = command::kind_named(text(message, "command"));
+  const auto kind = wire::kind_named(text(message, "command"));
   if (!kind) throw FormError("unknown command");
   request.order.kind = *kind;
   switch (*kind) {
@@ -186,7 +186,7 @@ CommandRequest read_command(const Json& message, std::int64_t number) {
       refuse_others(message, {});
   }
   request.heard_utime_us =
-      command::is_joystick(request.order) ? whole(message, "heard_us") : heard(message);
+      wire::is_joystick(request.order) ? whole(message, "heard_us") : heard(message);
   return request;
 }
 

@@ -9,18 +9,18 @@
 #include <variant>
 #include <vector>
 
-#include "command/order.h"
 #include "console/cue_orders.h"
 #include "console/heard.h"
 #include "console/procedures.h"
 #include "geometry/wgs84.h"
+#include "wire/order.h"
 
 namespace ols::console {
 
 // `number`: the browser's own, repeated in the answer; 0: none.
 struct CommandRequest {
   std::int64_t number = 0;
-  command::Order order;
+  wire::Order order;
   // The console's time that the browser heard last [us UTC], because its own clock may be wrong.
   // Required with rates, optional otherwise.
   std::optional<std::int64_t> heard_utime_us;

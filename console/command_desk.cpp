@@ -1,17 +1,32 @@
 #include "console/command_desk.h"
 
 #include <algorithm>
+#include <utility>
+
+#include "wire/refusal_words.h"
 
 namespace ols::console {
 
-using command::Kind;
+using wire::Kind;
 
-void CommandDesk::hear(const std::string& station, const command::Reply& reply) {
-  replies_[station] = reply;
+void CommandDesk::hear(const std::string& station, bool is_stopped) {
+  stopped_[station] = is_stopped;
+}
+
+// A stop is confirmed when the unit stands, not before: it may cross another order.
+void CommandDesk::hear(const wire::Reply& reply) {
+  const auto known = stopped_.find(reply.station);
+  if (known == stopped_.end()) return;
+  if (reply.is_stopped) known->second = true;  // its next status is no news
+  for (Pending& pending : pending_) {
+    if (pending.order.station != reply.station || !pending.sent.contains(reply.order)) continue;
+    const bool is_stop = pending.order.kind == Kind::kStop;
+    if (!is_stop || (reply.is_accepted && reply.is_stopped)) pending.reply = reply;
+  }
 }
 
 void CommandDesk::keep_only(const std::function<bool(const std::string&)>& is_known) {
-  std::erase_if(replies_, [&](const auto& reply) { return !is_known(reply.first); });
+  std::erase_if(stopped_, [&](const auto& station) { return !is_known(station.first); });
   std::erase_if(holds_s_, [&](const auto& hold) { return !is_known(hold.first.first); });
 }
 
@@ -22,36 +37,45 @@ std::optional<std::string> CommandDesk::join(Pending& stop, const Ticket& ticket
   return std::nullopt;
 }
 
-std::optional<std::string> CommandDesk::begin(const command::Order& order, const Ticket& ticket,
+std::optional<std::string> CommandDesk::begin(const wire::Order& order, const Ticket& ticket,
                                               double now_s) {
-  const auto known = replies_.find(order.station);
-  const bool is_stop = order.kind == Kind::kStop, is_hold = command::is_joystick(order);
-  if (known == replies_.end()) return "refused: no such station is heard";
+  const bool is_stop = order.kind == Kind::kStop, is_hold = wire::is_joystick(order);
+  if (!stopped_.contains(order.station)) return "refused: no such station is heard";
   if (is_hold) holds_s_[{order.station, order.kind}] = now_s;
   const auto waits = std::ranges::find_if(pending_, [&](const Pending& p) {
-    return p.order.station == order.station && p.order.kind == order.kind;
+    return p.order.station == order.station && p.order.kind == order.kind && !p.reply;
   });
-  if (waits != pending_.end()) {
-    if (is_stop) return join(*waits, ticket, now_s);
-    if (is_hold) {
-      waits->order = order;
-      waits->sent_s = -1e9;
-      return std::nullopt;
-    }
-    return "refused: the station has not answered the same command yet";
+  if (waits != pending_.end() && is_stop) return join(*waits, ticket, now_s);
+  if (waits != pending_.end() && is_hold) {
+    waits->order = order;
+    waits->sent_s = -1e9;
+    return std::nullopt;
   }
   const auto others =
       std::ranges::count_if(pending_, [](const Pending& p) { return p.order.kind != Kind::kStop; });
   if (!is_stop && static_cast<std::size_t>(others) >= kMostPending) {
     return "refused: too many commands are on their way";
   }
-  pending_.push_back({order, {{ticket, now_s}}, known->second, -1e9});
+  Pending pending{.order = order, .waiting = {{ticket, now_s}}};
+  if (ticket.is_watched) {
+    pending.is_watched = true;
+    pending.sent.insert(order.id);
+    pending.sent_s = now_s;
+  }
+  pending_.push_back(std::move(pending));
   return std::nullopt;
 }
 
-bool CommandDesk::is_held(const command::Order& order, double now_s) const {
+void CommandDesk::watch_again(const wire::Order& order) {
+  for (Pending& pending : pending_) {
+    const bool is_it = pending.order.station == order.station && pending.order.kind == order.kind;
+    if (is_it && pending.sent.size() < kMostSent) pending.sent.insert(order.id);
+  }
+}
+
+bool CommandDesk::is_held(const wire::Order& order, double now_s) const {
   const auto hold = holds_s_.find({order.station, order.kind});
-  return command::is_joystick(order) && hold != holds_s_.end() && now_s - hold->second < kHold_s;
+  return wire::is_joystick(order) && hold != holds_s_.end() && now_s - hold->second < kHold_s;
 }
 
 std::uint64_t CommandDesk::stop_event(const std::string& station, const std::string& who) const {
@@ -71,41 +95,22 @@ bool CommandDesk::is_stopping(const std::string& station) const {
 }
 
 bool CommandDesk::is_stopped(const std::string& station) const {
-  const auto known = replies_.find(station);
-  return known != replies_.end() && known->second.stopped;
+  const auto known = stopped_.find(station);
+  return known != stopped_.end() && known->second;
 }
 
-std::vector<command::Order> CommandDesk::due(double now_s) {
-  std::vector<command::Order> orders;
+std::vector<wire::Order> CommandDesk::due(double now_s) {
+  std::vector<wire::Order> orders;
   for (Pending& pending : pending_) {
     const bool is_stop = pending.order.kind == Kind::kStop;
-    const bool again = is_stop && now_s >= pending.sent_s + command::kStopAgain_s;
-    if (pending.sent_s >= 0.0 && !again) continue;
+    const bool again = is_stop && now_s >= pending.sent_s + wire::kStopAgain_s;
+    if (pending.is_watched || pending.reply || (pending.sent_s >= 0.0 && !again)) continue;
     pending.sent_s = now_s;
+    pending.order.id = {.sequence = ++sequence_};
+    pending.sent.insert(pending.order.id);
     orders.push_back(pending.order);
   }
   return orders;
-}
-
-std::optional<command::Outcome> CommandDesk::judge(const Pending& pending, double begun_s,
-                                                   double now_s) const {
-  const bool is_stop = pending.order.kind == Kind::kStop;
-  const double patience_s = is_stop ? kStopPatience_s : command::kLease_s;
-  const bool is_over = now_s > begun_s + patience_s;
-  const auto known = replies_.find(pending.order.station);
-  if (known == replies_.end()) {
-    return is_over ? std::optional(command::Outcome{false, "no answer"}) : std::nullopt;
-  }
-  const command::Reply& now = known->second;
-  if (is_stop) {
-    if (confirms_stop(pending.before, now)) return command::Outcome{true, ""};
-    return is_over ? std::optional(command::Outcome{false, "sent repeatedly, no answer"})
-                   : std::nullopt;
-  }
-  if (auto known_outcome = command::outcome(pending.before, now, pending.order.kind)) {
-    return known_outcome;
-  }
-  return is_over ? std::optional(command::without_answer(pending.before, now)) : std::nullopt;
 }
 
 // Those who have joined a stop later wait for longer.
@@ -113,10 +118,19 @@ std::vector<Verdict> CommandDesk::finished(double now_s) {
   std::vector<Verdict> verdicts;
   std::erase_if(pending_, [&](Pending& pending) {
     if (pending.sent_s < 0.0) return false;
+    const bool is_stop = pending.order.kind == Kind::kStop;
+    const double patience_s = is_stop ? kStopPatience_s : wire::kLease_s;
+    Verdict verdict{.ticket = {}, .station = pending.order.station, .why = {}};
+    if (!pending.reply) {
+      verdict.why = is_stop ? "sent repeatedly, no answer" : "no answer";
+    } else if (!pending.reply->is_accepted) {
+      verdict.why = wire::refusal_in_words(*pending.reply);
+    }
     std::erase_if(pending.waiting, [&](const Waiting& waiting) {
-      const auto outcome = judge(pending, waiting.begun_s, now_s);
-      if (outcome) verdicts.push_back({waiting.ticket, pending.order.station, *outcome});
-      return outcome.has_value();
+      if (!pending.reply && now_s <= waiting.begun_s + patience_s) return false;
+      verdict.ticket = waiting.ticket;
+      if (pending.reply || !pending.is_watched) verdicts.push_back(verdict);
+      return true;
     });
     return pending.waiting.empty();
   });

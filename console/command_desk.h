@@ -5,11 +5,11 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
-#include "command/order.h"
-#include "command/outcome.h"
+#include "wire/order.h"
 
 namespace ols::console {
 
@@ -20,30 +20,36 @@ struct Ticket {
   std::uint64_t event = 0;   // in the list of events
   std::string who = {};
   bool is_for_all = false;  // of a stop of the whole site
+  bool is_watched = false;  // of an order that somebody else has sent, in a log
 };
 
 struct Verdict {
   Ticket ticket;
   std::string station;
-  command::Outcome outcome;
+  std::string why;  // it was refused, or not answered, in words; empty: it is carried out
 };
 
 class CommandDesk {
  public:
-  // The newest status of a station. It decides the outcome of the station's orders.
-  void hear(const std::string& station, const command::Reply& reply);
-  // Forgets the replies of all stations but these.
+  // Of a station's newest status.
+  void hear(const std::string& station, bool is_stopped);
+  // To an order that was sent.
+  void hear(const wire::Reply& reply);
+  // Forgets all stations but these.
   void keep_only(const std::function<bool(const std::string&)>& is_known);
 
-  // Accepts an order to be sent, or returns why not: the station is unknown, or has not yet
-  // answered an order of the same kind (its counter would be taken for the new order's). A stop of
-  // a known station is always accepted. If one is pending, it is sent again at once, and has one
-  // more ticket to answer. A joystick's order that is not answered yet is replaced by the next.
-  std::optional<std::string> begin(const command::Order& order, const Ticket& ticket, double now_s);
+  // Accepts an order to be sent, or returns why not: the station is unknown, or too many orders are
+  // pending. A stop of a known station is always accepted. If one is pending, it is sent again at
+  // once, and has one more ticket to answer. A joystick's order that is not answered yet is
+  // replaced by the next.
+  std::optional<std::string> begin(const wire::Order& order, const Ticket& ticket, double now_s);
+
+  // A stop that is watched was repeated under another id.
+  void watch_again(const wire::Order& order);
 
   // Whether a joystick's order of this kind was given a moment ago: the next one continues the same
   // hold.
-  bool is_held(const command::Order& order, double now_s) const;
+  bool is_held(const wire::Order& order, double now_s) const;
 
   // The event of a stop of this person that is still pending; 0: none.
   std::uint64_t stop_event(const std::string& station, const std::string& who) const;
@@ -53,13 +59,16 @@ class CommandDesk {
   // Whether it is stopped, by its newest status.
   bool is_stopped(const std::string& station) const;
 
-  // The orders to be sent now: each once, but a stop again and again until it is confirmed.
-  std::vector<command::Order> due(double now_s);
-  // Orders whose outcome is known, or whose time is over.
+  // The orders to be sent now, each under its own sequence number and the boot 0: each once, but a
+  // stop again and again until it is confirmed.
+  std::vector<wire::Order> due(double now_s);
+  // Orders that are answered, or whose time is over. Of a watched one nothing is told without an
+  // answer: a log of before may have none.
   std::vector<Verdict> finished(double now_s);
 
   static constexpr std::size_t kMostPending = 500;  // without stops: one per known station
   static constexpr std::size_t kMostTickets = 64;   // of a stop
+  static constexpr std::size_t kMostSent = 500;     // of an order
   static constexpr double kStopPatience_s = 3.0;
   static constexpr double kHold_s = 1.0;
 
@@ -69,17 +78,19 @@ class CommandDesk {
     double begun_s = 0.0;
   };
   struct Pending {
-    command::Order order;
+    wire::Order order;
     std::vector<Waiting> waiting;  // never empty; only a stop has several
-    command::Reply before;
+    std::set<wire::OrderId> sent;  // each time under another
     double sent_s = -1e9;
+    bool is_watched = false;
+    std::optional<wire::Reply> reply;
   };
   std::optional<std::string> join(Pending& stop, const Ticket& ticket, double now_s);
-  std::optional<command::Outcome> judge(const Pending& pending, double begun_s, double now_s) const;
 
-  std::map<std::string, command::Reply> replies_;
+  std::int64_t sequence_ = 0;            // of the last order that was sent
+  std::map<std::string, bool> stopped_;  // the stations that are heard
   std::vector<Pending> pending_;
-  std::map<std::pair<std::string, command::Kind>, double> holds_s_;  // the newest order of each
+  std::map<std::pair<std::string, wire::Kind>, double> holds_s_;  // the newest order of each
 };
 
 }  // namespace ols::console

@@ -29,9 +29,9 @@ bool is_late(const std::optional<std::int64_t>& heard_utime_us, const Now& now,
   return heard_utime_us && now.utime_us - *heard_utime_us > limit_us;
 }
 
-std::string words(const command::Order& order) {
-  std::string text(command::name(order.kind));
-  if (order.kind == command::Kind::kRecord) text += " " + order.label;
+std::string words(const wire::Order& order) {
+  std::string text(wire::name(order.kind));
+  if (order.kind == wire::Kind::kRecord) text += " " + order.label;
   return text;
 }
 
@@ -41,9 +41,9 @@ void Console::hear(const StationHeard& station, const Now& now) {
   const bool is_new = !site_.knows(station.id);
   site_.hear(station, now);
   if (!site_.knows(station.id)) return;  // no room: a flood of invented names
-  const bool is_news = station.reply.stopped && !is_new && !desk_.is_stopped(station.id);
+  const bool is_news = station.is_stopped && !is_new && !desk_.is_stopped(station.id);
   if (is_news && !desk_.is_stopping(station.id)) tell_holders({station.id}, "stop", {}, now);
-  desk_.hear(station.id, station.reply);
+  desk_.hear(station.id, station.is_stopped);
   if (station.video_address.empty()) {
     video_addresses_.erase(station.id);
   } else {
@@ -53,6 +53,8 @@ void Console::hear(const StationHeard& station, const Now& now) {
     begin_stop(station.id, stopped_by_, {.is_for_all = true}, now);
   }
 }
+
+void Console::hear(const wire::Reply& reply) { desk_.hear(reply); }
 
 void Console::hear_bearing(const std::string& station, const Json& bearing) {
   site_.hear_bearing(station, bearing);
@@ -69,12 +71,14 @@ void Console::hear(ProcedureHeard procedure) {
   site_.set_procedure(station, procedures_.hear(std::move(procedure)));
 }
 
-void Console::hear(const command::Order& order, const Now& now) {
+void Console::hear(const wire::Order& order, const Now& now) {
   const bool is_repeated =
-      order.kind == command::Kind::kStop && desk_.stop_event(order.station, "") != 0;
-  if (is_repeated || !site_.knows(order.station)) return;
+      order.kind == wire::Kind::kStop && desk_.stop_event(order.station, "") != 0;
+  if (is_repeated) return desk_.watch_again(order);
+  if (!site_.knows(order.station)) return;
   const auto event = site_.note({now.utime_us, "command", order.station, "", words(order), ""});
-  if (const auto refusal = desk_.begin(order, {.event = event}, now.monotonic_s)) {
+  if (const auto refusal =
+          desk_.begin(order, {.event = event, .is_watched = true}, now.monotonic_s)) {
     site_.conclude(event, *refusal);
   }
 }
@@ -248,9 +252,9 @@ void Console::act(std::uint64_t id, const ControlRequest& request, const Now& no
 
 void Console::act(std::uint64_t id, const CommandRequest& request, const Now& now) {
   const Viewer& viewer = viewers_.at(id);
-  command::Order order = request.order;
+  wire::Order order = request.order;
   if (is_replay()) return answer(id, request.number, order.station, kReplay);
-  if (order.kind == command::Kind::kStop) {
+  if (order.kind == wire::Kind::kStop) {
     if (!site_.knows(order.station)) {
       return answer(id, request.number, order.station, "refused: no such station is heard");
     }
@@ -264,7 +268,7 @@ void Console::act(std::uint64_t id, const CommandRequest& request, const Now& no
   if (!site_.knows(order.station)) {
     return answer(id, request.number, order.station, "refused: no such station is heard");
   }
-  const std::int64_t late_us = command::is_joystick(order) ? kLateRate_us : kLateCommand_us;
+  const std::int64_t late_us = wire::is_joystick(order) ? kLateRate_us : kLateCommand_us;
   if (is_late(request.heard_utime_us, now, late_us)) {
     return answer(id, request.number, order.station, kTooLate);
   }
@@ -300,7 +304,7 @@ void Console::act(std::uint64_t id, const StopAllRequest& request, const Now& no
 
 void Console::begin_stop(const std::string& station, const std::string& name, Ticket ticket,
                          const Now& now) {
-  const command::Order order{.station = station, .kind = command::Kind::kStop};
+  const wire::Order order{.station = station, .kind = wire::Kind::kStop};
   ticket.who = name;
   ticket.event = desk_.stop_event(station, name);
   if (ticket.event == 0) {
@@ -361,11 +365,9 @@ void Console::tell_all(const Json& message) {
 void Console::tell_outcomes(const Now& now) {
   std::set<std::string> unconfirmed;
   for (const Verdict& verdict : desk_.finished(now.monotonic_s)) {
-    const std::string said = verdict.outcome.accepted ? "done" : verdict.outcome.why;
-    site_.conclude(verdict.ticket.event, said);
-    answer(verdict.ticket.viewer, verdict.ticket.number, verdict.station,
-           verdict.outcome.accepted ? "" : said);
-    if (verdict.ticket.is_for_all && !verdict.outcome.accepted) unconfirmed.insert(verdict.station);
+    site_.conclude(verdict.ticket.event, verdict.why.empty() ? "done" : verdict.why);
+    answer(verdict.ticket.viewer, verdict.ticket.number, verdict.station, verdict.why);
+    if (verdict.ticket.is_for_all && !verdict.why.empty()) unconfirmed.insert(verdict.station);
   }
   if (!unconfirmed.empty()) tell_all({{"kind", "stop_unconfirmed"}, {"stations", unconfirmed}});
 }
@@ -389,7 +391,7 @@ void Console::show(const Moment& moment) {
   }
 }
 
-std::vector<command::Order> Console::turn(const Now& now) {
+std::vector<wire::Order> Console::turn(const Now& now) {
   site_.look(now);
   forget_gone();
   tell_outcomes(now);

@@ -53,7 +53,9 @@ class Console {
   void hear(ProcedureHeard procedure);
 
   // Somebody's order in a recording, for the events of a replay.
-  void hear(const command::Order& order, const Now& now);
+  void hear(const wire::Order& order, const Now& now);
+  // To an order: of turn(), whose boot is 0, or of the log.
+  void hear(const wire::Reply& reply);
 
   // The newest picture (JPEG) of a station's guided procedure; null: there is none.
   const std::string* procedure_picture(const std::string& station) const {
@@ -93,7 +95,7 @@ class Console {
   Person person(const std::string& name, std::uint64_t viewer) const;
 
   // Call often: outcomes, control, ages. Returns the orders to be sent now.
-  std::vector<command::Order> turn(const Now& now);
+  std::vector<wire::Order> turn(const Now& now);
 
   // This console shows a replay. From now on no order goes out, and every message has the replay's
   // state. `is_urgent`: viewers get it at once.

@@ -44,6 +44,12 @@ void ConsoleBus::subscribe(LcmBus& bus) {
   bus.subscribe(std::string(kFusionStatusChannel), [this](const BusMessage& message) {
     if (auto heard = fusion_from(message)) console_.hear(*heard, now_);
   });
+  bus.subscribe(station_channel(kReplyChannel, ".+"), [this](const BusMessage& message) {
+    auto reply = wire::heard_reply(message);
+    if (!reply || reply->order.boot_id != boot_id_) return;
+    reply->order.boot_id = 0;  // as the console numbers its orders
+    console_.hear(*reply);
+  });
   bus.subscribe(
       station_channel(kPreviewChannel, ".+"),
       [this](const BusMessage& message) {
@@ -77,9 +83,9 @@ void ConsoleBus::note_alarms() {
   console_.hear_own(alarms_, now_);
 }
 
-void ConsoleBus::send(const std::vector<command::Order>& orders, const Now& now) {
+void ConsoleBus::send(const std::vector<wire::Order>& orders, const Now& now) {
   if (client_.bus() == nullptr) return;
-  for (const command::Order& order : orders) {
+  for (const wire::Order& order : orders) {
     if (!sender_.send(*client_.bus(), order, now.utime_us)) send_failed_ = true;
   }
 }
@@ -94,7 +100,7 @@ void ConsoleBus::send(const std::vector<ProcedureAnswer>& answers, const Now& no
 void ConsoleBus::send(const std::vector<CueOrder>& orders, const Now& now) {
   if (client_.bus() == nullptr) return;
   for (const auto& [cue, allow] : orders) {
-    if (!sender_.send(*client_.bus(), command::CueOrder{cue, allow}, now.utime_us))
+    if (!sender_.send(*client_.bus(), wire::CueOrder{cue, allow}, sender_.next_id(), now.utime_us))
       send_failed_ = true;
   }
 }

@@ -6,9 +6,9 @@
 
 #include "base/bus_client.h"
 #include "base/trust/trust_config.h"
-#include "command/messages.h"
 #include "console/console.h"
 #include "console/messages_procedure.h"
+#include "wire/orders.h"
 
 namespace ols::console {
 
@@ -18,7 +18,7 @@ class ConsoleBus {
 
   // Handles the messages that have arrived, without waiting.
   void turn(const Now& now);
-  void send(const std::vector<command::Order>& orders, const Now& now);
+  void send(const std::vector<wire::Order>& orders, const Now& now);
   void send(const std::vector<ProcedureAnswer>& answers, const Now& now);
   void send(const std::vector<CueOrder>& orders, const Now& now);
   // Why no order goes out; empty: orders go out.
@@ -34,7 +34,7 @@ class ConsoleBus {
   Console& console_;
   const std::int64_t boot_id_;
   BusClient client_;
-  command::OrderSender sender_;
+  wire::OrderSender sender_;
   AnswerSender answer_sender_;
   Now now_;  // of this turn, for the handlers
   std::vector<std::string> alarms_;

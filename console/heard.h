@@ -7,16 +7,15 @@
 #include <string>
 #include <vector>
 
-#include "command/outcome.h"
 #include "console/entity_table.h"
 
 namespace ols::console {
 
 struct StationHeard {
   std::string id;
-  Json fields;  // listed in docs/console.md
-  command::Reply reply;
-  std::string video_address;  // of its video socket; empty: none
+  Json fields;  // docs/console.md lists them
+  bool is_stopped = false;
+  std::string video_address;  // where its pictures are to be had; empty: nowhere
   std::vector<std::string> alarms;
   std::string last_error;
   std::int64_t last_error_utime_us = 0;

@@ -4,9 +4,6 @@
 #include <cmath>
 
 #include "base/channel_names.h"
-#include "base/lcm_bus.h"
-#include "base/plain_text.h"
-#include "command/messages.h"
 #include "console/map_geometry.h"
 #include "console/messages_calibration.h"
 #include "console/messages_cues.h"
@@ -17,6 +14,11 @@
 #include "ols_msg/bearing_t.hpp"
 #include "ols_msg/fusion_status_t.hpp"
 #include "ols_msg/target_t.hpp"
+#include "wire/fusion_status.h"
+#include "wire/read.h"
+#include "wire/refusal_words.h"
+#include "wire/station_status.h"
+#include "wire/target.h"
 
 namespace ols::console {
 namespace {
@@ -31,7 +33,7 @@ constexpr std::size_t kMostListed = 300;  // of counters and the like; a forged 
 Json named(const std::vector<std::string>& names, const std::vector<double>& values) {
   Json result = Json::object();
   for (std::size_t i = 0; i < std::min(names.size(), kMostListed); ++i) {
-    result[plain_text(names[i])] = rounded(values[i], 6);
+    result[names[i]] = rounded(values[i], 6);
   }
   return result;
 }
@@ -40,7 +42,7 @@ Json devices_of(const Status& s) {
   Json devices = Json::array();
   for (std::size_t i = 0; i < std::min(s.device_name.size(), kMostListed); ++i) {
     devices.push_back({{"name", s.device_name[i]},
-                       {"state", command::device_name(s.device_state[i])},
+                       {"state", wire::device_name(s.device_state[i])},
                        {"text", s.device_text[i]},
                        {"age_s", rounded(s.device_age_s[i], 1)}});
   }
@@ -57,15 +59,8 @@ Json lens_of(const Status& s) {
           {"focal_length_sd_px", rounded(s.focal_length_sd_px, 2)}};
 }
 
-const char* source_name(std::int8_t source) {
-  return source == Status::POSE_SURVEYED ? "surveyed"
-         : source == Status::POSE_SENSOR ? "sensor"
-                                         : "unknown";
-}
-
-std::vector<std::string> plain(std::vector<std::string> texts) {
+std::vector<std::string> first_of(std::vector<std::string> texts) {
   if (texts.size() > kMostListed) texts.resize(kMostListed);
-  for (std::string& text : texts) text = plain_text(text);
   return texts;
 }
 
@@ -87,13 +82,13 @@ void add_pose(const Status& s, Json& fields) {
                              rounded(s.camera_ecef_m[2], 3)};
   fields["position_sd_m"] = {rounded(s.position_sd_m[0], 3), rounded(s.position_sd_m[1], 3),
                              rounded(s.position_sd_m[2], 3)};
-  fields["position_source"] = source_name(s.position_source);
+  fields["position_source"] = wire::source_name(s.position_source);
   fields["heading_deg"] = angle_deg(s.heading_rad);
   fields["heading_sd_deg"] = angle_deg(s.heading_sd_rad);
   fields["tilt_x_deg"] = angle_deg(s.tilt_x_rad);
   fields["tilt_y_deg"] = angle_deg(s.tilt_y_rad);
   fields["tilt_sd_deg"] = angle_deg(s.tilt_sd_rad);
-  fields["tilt_source"] = source_name(s.tilt_source);
+  fields["tilt_source"] = wire::source_name(s.tilt_source);
 }
 
 // [{keep_out, outline: [[azimuth_deg, elevation_deg], ...]}]
@@ -132,50 +127,12 @@ void add_pointing(const Status& s, Json& fields) {
                                  angle_deg(s.field_of_view_rad[1])};
 }
 
-const char* track_name(std::int8_t state) {
-  return state == Target::TRACK_BORN        ? "born"
-         : state == Target::TRACK_CONFIRMED ? "confirmed"
-         : state == Target::TRACK_COASTED   ? "coasted"
-                                            : "dropped";
-}
-
-const char* solution_name(std::int8_t solution) {
-  switch (solution) {
-    case Target::SOLUTION_OK:
-      return "ok";
-    case Target::SOLUTION_TOO_FEW_RAYS:
-      return "too-few-rays";
-    case Target::SOLUTION_PARALLEL_RAYS:
-      return "parallel-rays";
-    case Target::SOLUTION_BEHIND_CAMERA:
-      return "behind-camera";
-    case Target::SOLUTION_TOO_FAR:
-      return "too-far";
-    case Target::SOLUTION_NOT_CONVERGED:
-      return "not-converged";
-    case Target::SOLUTION_BEARING_ONLY:
-      return "bearing-only";
-    case Target::SOLUTION_RAYS_MISS:
-      return "rays-miss";
-    default:
-      return "unknown";
-  }
-}
-
-const char* class_name(std::int8_t object_class) {
-  return object_class == Target::CLASS_DRONE      ? "drone"
-         : object_class == Target::CLASS_BIRD     ? "bird"
-         : object_class == Target::CLASS_AIRCRAFT ? "aircraft"
-         : object_class == Target::CLASS_OTHER    ? "other"
-                                                  : "unknown";
-}
-
 // Null for what is not known.
 void add_appearance(const Target& t, Json& fields) {
   const auto known = [](double value, int digits) {
     return value > 0.0 ? Json(rounded(value, digits)) : Json(nullptr);
   };
-  fields["class"] = class_name(t.object_class);
+  fields["class"] = wire::class_name(t.object_class);
   fields["class_probability"] = known(t.class_probability, 2);
   fields["size_m"] = known(t.size_m, 2);
   fields["size_sd_m"] = known(t.size_sd_m, 2);
@@ -185,7 +142,7 @@ void add_appearance(const Target& t, Json& fields) {
 Json stations_of(const Target& t) {
   Json stations = Json::array();
   for (std::size_t i = 0; i < std::min(t.station.size(), kMostListed); ++i) {
-    stations.push_back({{"id", plain_text(t.station[i])},
+    stations.push_back({{"id", t.station[i]},
                         {"used", t.used[i] != 0},
                         {"weight", rounded(t.weight[i], 2)},
                         {"age_s", rounded(t.age_s[i], 2)}});
@@ -194,10 +151,7 @@ Json stations_of(const Target& t) {
 }
 
 void add_motion(const Target& t, Json& fields) {
-  const Eigen::Vector3d velocity =
-      R_ecef_enu(Geodetic{radians(t.latitude_deg), radians(t.longitude_deg), t.height_m})
-          .transpose() *
-      Eigen::Vector3d(t.velocity_ecef_m_s[0], t.velocity_ecef_m_s[1], t.velocity_ecef_m_s[2]);
+  const Eigen::Vector3d velocity = wire::velocity_enu(t);
   fields["velocity_enu_m_s"] = {rounded(velocity.x(), 2), rounded(velocity.y(), 2),
                                 rounded(velocity.z(), 2)};
   fields["speed_m_s"] = rounded(velocity.norm(), 2);
@@ -221,21 +175,16 @@ void add_position(const Target& t, Json& fields) {
   add_motion(t, fields);
 }
 
-bool has_position(const Target& t) {
-  return std::abs(t.latitude_deg) <= 90.0 && std::abs(t.longitude_deg) <= 360.0 &&
-         std::isfinite(t.height_m);
-}
-
 Json fusion_stations(const ols_msg::fusion_status_t& f) {
   Json stations = Json::array();
   for (std::size_t i = 0; i < std::min(f.station.size(), kMostListed); ++i) {
-    stations.push_back({{"id", plain_text(f.station[i])},
+    stations.push_back({{"id", f.station[i]},
                         {"bearings", f.bearings[i]},
                         {"rate_hz", rounded(f.rate_hz[i], 1)},
                         {"age_s", rounded(f.age_s[i], 2)},
                         {"residual", rounded(f.residual[i], 2)},
                         {"clock_offset_s", rounded(f.clock_offset_s[i], 4)},
-                        {"quarantine", plain_text(f.quarantine[i])},
+                        {"quarantine", f.quarantine[i]},
                         {"calibration", calibration_of(f, i)}});
   }
   return stations;
@@ -254,39 +203,37 @@ std::string video_address_of(const Status& s) {
 }  // namespace
 
 std::optional<StationHeard> station_from(const BusMessage& message) {
-  const auto status = command::heard_status(message);
+  const auto status = wire::heard_status(message);
   if (!status) return std::nullopt;
   const Status& s = *status;
-  const std::string error = command::error_in_words(plain_text(s.last_error));
+  const std::string error = wire::error_in_words(s.last_error);
   Json fields{
       {"boot", number_text(s.boot_id)},
       {"utime_us", s.utime},
-      {"state", command::state_name(s.state)},
+      {"state", wire::state_name(s.state)},
       {"track_id", number_text(s.track_id)},
       {"belief", rounded(s.belief, 3)},
       {"devices", devices_of(s)},
       {"clock",
-       {{"state", command::clock_name(s.clock_state)}, {"error_s", rounded(s.clock_error_s, 6)}}},
+       {{"state", wire::clock_name(s.clock_state)}, {"error_s", rounded(s.clock_error_s, 6)}}},
       {"calibration", calibration_of(s)},
       {"frame_latency_s", rounded(s.frame_latency_s, 3)},
-      {"alarms", plain(s.alarm)},
+      {"alarms", first_of(s.alarm)},
       {"readings", named(s.reading_name, s.reading_value)},
       {"counters", named(s.counter_name, s.counter_value)},
       {"last_error", error},
       {"last_error_utime_us", s.last_error_utime}};
   add_pose(s, fields);
   add_pointing(s, fields);
-  return StationHeard{s.station,           std::move(fields), command::reply_of(s),
-                      video_address_of(s), plain(s.alarm),    error,
+  return StationHeard{s.station,           std::move(fields), wire::is_stopped(s.state),
+                      video_address_of(s), first_of(s.alarm), error,
                       s.last_error_utime};
 }
 
 std::optional<std::pair<std::string, Json>> bearing_from(const BusMessage& message) {
-  ols_msg::bearing_t b;
-  if (!decode_of_schema(message, b) ||
-      message.channel != station_channel(kBearingChannel, b.station)) {
-    return std::nullopt;
-  }
+  const auto heard = wire::read<ols_msg::bearing_t>(kBearingChannel, message);
+  if (!heard) return std::nullopt;
+  const ols_msg::bearing_t& b = *heard;
   const double variance = (b.covariance_white_rad2[0] + b.covariance_systematic_rad2[0] +
                            b.covariance_white_rad2[2] + b.covariance_systematic_rad2[2]) /
                           2;
@@ -299,14 +246,15 @@ std::optional<std::pair<std::string, Json>> bearing_from(const BusMessage& messa
 
 std::optional<TargetHeard> target_from(const BusMessage& message) {
   using What = TargetHeard::What;
-  Target t;
-  if (message.channel != kTargetChannel || !decode_of_schema(message, t)) return std::nullopt;
+  const auto content = wire::heard_target(message);
+  if (!content) return std::nullopt;
+  const Target& t = *content;
   TargetHeard heard{.what = What::kNothing,
                     .boot_id = t.boot_id,
                     .id = number_text(t.target_id),
                     .fields = Json::object()};
   heard.fields["utime_us"] = t.utime;
-  heard.fields["solution"] = solution_name(t.solution);
+  heard.fields["solution"] = wire::solution_name(t.solution);
   if (t.solution == Target::SOLUTION_BEARING_ONLY) {
     if (t.station.empty()) return std::nullopt;
     heard.what = What::kLine;
@@ -318,12 +266,12 @@ std::optional<TargetHeard> target_from(const BusMessage& message) {
     return heard;
   }
   if (t.target_id == 0) return heard;
-  heard.fields["state"] = track_name(t.track_state);
+  heard.fields["state"] = wire::track_name(t.track_state);
   if (t.track_state == Target::TRACK_DROPPED) {
     heard.what = What::kDropped;
-  } else if (t.solution == Target::SOLUTION_OK && has_position(t)) {
+  } else if (wire::has_position(t)) {
     heard.what = What::kPosition;
-    heard.fields["estimator"] = plain_text(t.estimator);
+    heard.fields["estimator"] = t.estimator;
     heard.latitude_deg = t.latitude_deg;
     heard.longitude_deg = t.longitude_deg;
     heard.height_m = t.height_m;
@@ -335,17 +283,15 @@ std::optional<TargetHeard> target_from(const BusMessage& message) {
 }
 
 std::optional<FusionHeard> fusion_from(const BusMessage& message) {
-  ols_msg::fusion_status_t f;
-  if (message.channel != kFusionStatusChannel || !decode_of_schema(message, f)) return std::nullopt;
-  Json fields{{"boot", number_text(f.boot_id)},
-              {"utime_us", f.utime},
-              {"stations", fusion_stations(f)},
-              {"cues", cues_of(message)},
-              {"latency_s", rounded(f.latency_s, 4)},
-              {"counters", named(f.counter_name, f.counter_value)},
-              {"alarms", plain(f.alarm)},
-              {"last_error", plain_text(f.last_error)}};
-  return FusionHeard{f.boot_id, std::move(fields), plain(f.alarm), plain_text(f.last_error)};
+  const auto heard = wire::heard_fusion_status(message);
+  if (!heard) return std::nullopt;
+  const ols_msg::fusion_status_t& f = *heard;
+  Json fields{
+      {"boot", number_text(f.boot_id)},       {"utime_us", f.utime},
+      {"stations", fusion_stations(f)},       {"cues", cues_of(f)},
+      {"latency_s", rounded(f.latency_s, 4)}, {"counters", named(f.counter_name, f.counter_value)},
+      {"alarms", first_of(f.alarm)},          {"last_error", f.last_error}};
+  return FusionHeard{f.boot_id, std::move(fields), first_of(f.alarm), f.last_error};
 }
 
 }  // namespace ols::console

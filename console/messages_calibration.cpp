@@ -1,14 +1,14 @@
 #include "console/messages_calibration.h"
 
-#include "command/messages.h"
 #include "console/rounded.h"
+#include "wire/station_status.h"
 
 namespace ols::console {
 namespace {
 
 Json calibration(std::int8_t state, std::int64_t utime_us, double sd_rad) {
   constexpr int kArcsecTenths = 6;  // of a degree
-  return {{"state", command::calibration_name(state)},
+  return {{"state", wire::calibration_name(state)},
           {"utime_us", utime_us > 0 ? Json(utime_us) : Json(nullptr)},
           {"sd_deg", rounded(degrees(sd_rad), kArcsecTenths)}};
 }

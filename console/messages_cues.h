@@ -1,12 +1,12 @@
 // The cues of a fusion's status as the console's own values.
 #pragma once
 
-#include "base/bus_inbox.h"
 #include "console/heard.h"
+#include "ols_msg/fusion_status_t.hpp"
 
 namespace ols::console {
 
-// An array, in the order of ids; empty if it is no fusion status.
-Json cues_of(const BusMessage& message);
+// An array, in the order of ids.
+Json cues_of(const ols_msg::fusion_status_t& status);
 
 }  // namespace ols::console

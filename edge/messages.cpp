@@ -322,6 +322,19 @@ ols_msg::frame_part_t to_message(const FramePart& part, const Sender& sender,
   return message;
 }
 
+ols_msg::command_reply_t to_message(const Answer& answer, const Sender& sender, double now_s,
+                                    std::int64_t sequence) {
+  ols_msg::command_reply_t message;
+  stamp(message, sender, sender.utime_us(now_s), sequence);
+  message.order_boot_id = answer.command.boot_id;
+  message.order_sequence = answer.command.sequence;
+  message.accepted = answer.reason.empty() ? 1 : 0;
+  message.reason = answer.reason;
+  message.detail = answer.detail;
+  message.state = state_code(answer.state);
+  return message;
+}
+
 FrameRequest from_message(const ols_msg::frame_request_t& message, double now_s) {
   FrameRequest request;
   request.boot_id = message.boot_id;

@@ -6,12 +6,14 @@
 #include <string>
 
 #include "edge/clock/clock_watch.h"
+#include "edge/command_turn.h"
 #include "edge/config.h"
 #include "edge/frame_desk.h"
 #include "edge/station.h"
 #include "edge/station_report.h"
 #include "edge/video/preview_picture.h"
 #include "ols_msg/bearing_t.hpp"
+#include "ols_msg/command_reply_t.hpp"
 #include "ols_msg/designate_t.hpp"
 #include "ols_msg/frame_part_t.hpp"
 #include "ols_msg/frame_request_t.hpp"
@@ -51,6 +53,15 @@ ols_msg::preview_t to_message(const video::PreviewPicture& picture, const camera
 
 ols_msg::frame_part_t to_message(const FramePart& part, const Sender& sender,
                                  std::int64_t sequence);
+
+// What is said to a command. `reason`: of its refusal, as it is counted; empty: it is carried out.
+struct Answer {
+  CommandId command;
+  std::string reason{}, detail{};
+  StationState state = StationState::kIdle;  // after it
+};
+ols_msg::command_reply_t to_message(const Answer& answer, const Sender& sender, double now_s,
+                                    std::int64_t sequence);
 
 DesignateCommand from_message(const ols_msg::designate_t& message, const Sender& sender);
 SlewCommand from_message(const ols_msg::slew_t& message, const Sender& sender, double now_s);

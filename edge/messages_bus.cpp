@@ -43,26 +43,22 @@ StationBus::StationBus(const StationSettings& settings, std::int64_t boot_id, St
   sender_.station = settings.id;
   sender_.boot_id = boot_id;
   on_command<ols_msg::designate_t>(kDesignateChannel, [this](const ols_msg::designate_t& message) {
-    turn_.designate(from_message(message, sender_));
-    return Refusal::kNone;
+    turn_.designate(from_message(message, sender_), {message.boot_id, message.sequence});
+    return Verdict{.is_open = true};
   });
   on_command<ols_msg::slew_t>(kSlewChannel, [this](const ols_msg::slew_t& message) {
-    return station_.slew(from_message(message, sender_, now_s_), now_s_);
+    return verdict("SLEW", station_.slew(from_message(message, sender_, now_s_), now_s_));
   });
   on_command<ols_msg::ptu_command_t>(
       kPtuChannel, [this](const ols_msg::ptu_command_t& message) { return command_ptu(message); });
   on_command<ols_msg::lens_command_t>(kLensChannel, [this](const ols_msg::lens_command_t& message) {
     return command_lens(message);
   });
-  on_command<ols_msg::record_t>(kRecordChannel, [this](const ols_msg::record_t& message) {
-    record(message);
-    return Refusal::kNone;
-  });
-  on_command<ols_msg::frame_request_t>(kFrameRequestChannel,
-                                       [this](const ols_msg::frame_request_t& message) {
-                                         want_frame(message);
-                                         return Refusal::kNone;
-                                       });
+  on_command<ols_msg::record_t>(
+      kRecordChannel, [this](const ols_msg::record_t& message) { return record(message); });
+  on_command<ols_msg::frame_request_t>(
+      kFrameRequestChannel,
+      [this](const ols_msg::frame_request_t& message) { return want_frame(message); });
 }
 
 void StationBus::connect(double wait_s) {
@@ -96,8 +92,13 @@ bool StationBus::take_stop(const BusMessage& message) {
   const bool is_stop = decode_exactly(message, command) &&
                        command.command == ols_msg::ptu_command_t::COMMAND_STOP &&
                        (message.addressed || is_leased(command, message.received_utime_us));
-  if (is_stop) turn_.stop();
-  return is_stop;
+  if (!is_stop) return false;
+  turn_.stop();
+  const std::lock_guard lock(stops_mutex_);
+  if (stops_.size() < kMostStoppers || stops_.contains(command.boot_id)) {
+    stops_[command.boot_id] = command.sequence;
+  }
+  return true;
 }
 
 // In the bus's thread.
@@ -121,38 +122,68 @@ void StationBus::publish(const std::string& channel, const Message& message) {
   if (bus_) disconnect("sending fails: the network is down");
 }
 
-void StationBus::end_turn() { note("DESIGNATE", turn_.end(now_s_)); }
+void StationBus::end_turn() {
+  std::map<std::int64_t, std::int64_t> stops;  // those that the turn's end carries out
+  {
+    const std::lock_guard lock(stops_mutex_);
+    stops.swap(stops_);
+  }
+  turn_.end(now_s_);
+  answer_designations();
+  for (const auto& [boot_id, sequence] : stops) answer({boot_id, sequence}, {});
+}
 
-Refusal StationBus::command_ptu(const ols_msg::ptu_command_t& message) {
-  note("DESIGNATE", turn_.before_other_command(now_s_));
-  switch (message.command) {
-    case ols_msg::ptu_command_t::COMMAND_POINT:
-      return station_.point(from_message(message), now_s_);
-    case ols_msg::ptu_command_t::COMMAND_CENTRE:
-      return station_.centre(centre_from_message(message, sender_), now_s_);
-    case ols_msg::ptu_command_t::COMMAND_RATE:
-      return station_.rate(rate_from_message(message, now_s_), now_s_);
-    case ols_msg::ptu_command_t::COMMAND_RELEASE:
-      return station_.release(now_s_);
-    case ols_msg::ptu_command_t::COMMAND_REARM:
-      return station_.rearm_over_bus(now_s_);
-    case ols_msg::ptu_command_t::COMMAND_HOME:
-      return station_.home(now_s_);
-    case ols_msg::ptu_command_t::COMMAND_REFERENCE_OK:
-      return station_.reference_ok(now_s_);
-    default:
-      refused_.refuse("PTU", "unknown_command");
-      return Refusal::kNone;
+// What was dropped for a later command is no error of the station.
+void StationBus::answer_designations() {
+  for (const Decision& one : turn_.take_decisions()) {
+    const bool dropped = one.refusal == Refusal::kOvertaken || one.refusal == Refusal::kStopped;
+    answer(one.command,
+           dropped ? Verdict{.reason = to_string(one.refusal)} : verdict("DESIGNATE", one.refusal));
   }
 }
 
-Refusal StationBus::command_lens(const ols_msg::lens_command_t& message) {
+// A flood of commands must not make as many answers. Refusals have a limit of their own, so that
+// forged commands leave no real one without its answer.
+void StationBus::answer(const CommandId& command, const Verdict& verdict) {
+  if (verdict.is_open) return;
+  trust::RateLimit& limit = verdict.reason.empty() ? accepted_sent_ : refused_sent_;
+  if (!limit.has(now_s_)) return;
+  limit.spend();
+  answers_.push_back({command, verdict.reason, verdict.detail, station_.state()});
+}
+
+StationBus::Verdict StationBus::command_ptu(const ols_msg::ptu_command_t& message) {
+  turn_.before_other_command(now_s_);
+  answer_designations();
+  const auto judged = [this](Refusal refusal) { return verdict("PTU", refusal); };
+  switch (message.command) {
+    case ols_msg::ptu_command_t::COMMAND_POINT:
+      return judged(station_.point(from_message(message), now_s_));
+    case ols_msg::ptu_command_t::COMMAND_CENTRE:
+      return judged(station_.centre(centre_from_message(message, sender_), now_s_));
+    case ols_msg::ptu_command_t::COMMAND_RATE:
+      return judged(station_.rate(rate_from_message(message, now_s_), now_s_));
+    case ols_msg::ptu_command_t::COMMAND_RELEASE:
+      return judged(station_.release(now_s_));
+    case ols_msg::ptu_command_t::COMMAND_REARM:
+      return judged(station_.rearm_over_bus(now_s_));
+    case ols_msg::ptu_command_t::COMMAND_HOME:
+      return judged(station_.home(now_s_));
+    case ols_msg::ptu_command_t::COMMAND_REFERENCE_OK:
+      return judged(station_.reference_ok(now_s_));
+    default:
+      refused_.refuse("PTU", "unknown_command");
+      return {.reason = "unknown_command"};
+  }
+}
+
+StationBus::Verdict StationBus::command_lens(const ols_msg::lens_command_t& message) {
   using M = ols_msg::lens_command_t;
   if (message.command == M::COMMAND_POSITION || message.command == M::COMMAND_RATE) {
-    return station_.lens(from_message(message, now_s_), now_s_);
+    return verdict("LENS", station_.lens(from_message(message, now_s_), now_s_));
   }
   refused_.refuse("LENS", "unknown_command");
-  return Refusal::kNone;
+  return {.reason = "unknown_command"};
 }
 
 void StationBus::take(const BusMessage& message) {
@@ -164,47 +195,62 @@ void StationBus::take(const BusMessage& message) {
 
 template <class Message>
 void StationBus::on_command(std::string_view channel,
-                            const std::function<Refusal(const Message&)>& execute) {
+                            const std::function<Verdict(const Message&)>& execute) {
   const std::string kind = message_kind(channel);
   gates_.emplace(kind, CommandGate(given_.gate, clock_utime_us()));
-  const auto receive = [this, kind, execute](const BusMessage& received) {
+  const bool is_answered = channel != kSlewChannel;  // the fusion goes by the station's state
+  const auto judge = [this, kind, execute](const BusMessage& received,
+                                           const Message& message) -> Verdict {
+    const auto refuse = [&](const char* why) {
+      refused_.refuse(kind, why);
+      return Verdict{.reason = why};
+    };
+    if (!received.addressed) return refuse("other_boot");
+    if (message.schema_version != Message::SCHEMA_VERSION) return refuse("schema");
+    if (message.station != settings_.id) return refuse("other_station");
+    const auto refusal = gates_.at(kind).admit(stamp_of(message), sender_.utime_us(now_s_));
+    if (!refusal) return execute(message);
+    refused_.refuse_at_gate(kind, to_string(*refusal), now_s_);
+    return {.reason = to_string(*refusal)};
+  };
+  const auto receive = [this, kind, is_answered, judge](const BusMessage& received) {
     Message message;
     if (!decode_exactly(received, message)) return refused_.refuse(kind, "malformed");
-    if (!received.addressed) return refused_.refuse(kind, "other_boot");
-    if (message.schema_version != Message::SCHEMA_VERSION) return refused_.refuse(kind, "schema");
-    if (message.station != settings_.id) return refused_.refuse(kind, "other_station");
-    const auto refusal = gates_.at(kind).admit(stamp_of(message), sender_.utime_us(now_s_));
-    if (refusal) return refused_.refuse_at_gate(kind, to_string(*refusal), now_s_);
-    note(kind, execute(message));
+    const Verdict verdict = judge(received, message);
+    if (is_answered) answer({message.boot_id, message.sequence}, verdict);
   };
   subscriptions_.emplace_back(station_channel(channel, settings_.id), receive);
 }
 
-void StationBus::record(const ols_msg::record_t& message) {
+StationBus::Verdict StationBus::record(const ols_msg::record_t& message) {
   const auto command = from_message(message, sender_, now_s_);
   const std::string refusal = command ? given_.record(*command) : "not a span of time";
   if (refusal.empty()) {
     counters_["record_accepted"] += 1;
-  } else {
-    refused_.refuse("RECORD", "recorder");
-    refused_.note("RECORD refused: " + refusal);
+    return {};
   }
+  refused_.refuse("RECORD", "recorder");
+  refused_.note("RECORD refused: " + refusal);
+  return {"recorder", refusal};
 }
 
-void StationBus::want_frame(const ols_msg::frame_request_t& message) {
+StationBus::Verdict StationBus::want_frame(const ols_msg::frame_request_t& message) {
   const std::string refusal = given_.frame_wanted
                                   ? given_.frame_wanted(from_message(message, now_s_))
                                   : "this station sends no frames";
   if (refusal.empty()) {
     counters_["frame_requests_accepted"] += 1;
-  } else {
-    refused_.refuse("FRAME_REQUEST", "frame_service");
-    refused_.note("FRAME_REQUEST refused: " + refusal);
+    return {};
   }
+  refused_.refuse("FRAME_REQUEST", "frame_service");
+  refused_.note("FRAME_REQUEST refused: " + refusal);
+  return {"frame_service", refusal};
 }
 
-void StationBus::note(const std::string& kind, Refusal refusal) {
-  if (refusal != Refusal::kNone) refused_.note(kind + " refused: " + to_string(refusal));
+StationBus::Verdict StationBus::verdict(const std::string& kind, Refusal refusal) {
+  if (refusal == Refusal::kNone) return {};
+  refused_.note(kind + " refused: " + to_string(refusal));
+  return {.reason = to_string(refusal)};
 }
 
 void StationBus::set_time(const clock::ClockPair& now, const clock::ClockQuality& quality) {
@@ -222,6 +268,10 @@ void StationBus::receive() {
     if (bus_->is_deaf()) disconnect("no messages arrive any more, not even this station's own");
   }
   end_turn();
+  for (const Answer& answer : take_answers()) {
+    publish(station_channel(kReplyChannel, settings_.id),
+            to_message(answer, sender_, now_s_, ++sequences_["reply"]));
+  }
 }
 
 std::vector<std::string> StationBus::alarms() const {

@@ -1,5 +1,6 @@
-// A station on the bus: receives commands, sends bearings, status and previews. Decodes, checks the
-// addressee and the freshness of a command, and counts what it refuses; decides nothing else. The
+// A station on the bus: receives commands and answers them, sends bearings, status and previews.
+// Decodes, checks the addressee and the freshness of a command, and counts what it refuses; decides
+// nothing else. The
 // station also runs without a network: the bus retries the connection every second.
 #pragma once
 
@@ -7,6 +8,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -15,6 +17,7 @@
 
 #include "base/bus_connector.h"
 #include "base/bus_monitor.h"
+#include "base/trust/rate_limit.h"
 #include "edge/clock/clock_pair.h"
 #include "edge/command_turn.h"
 #include "edge/config.h"
@@ -50,6 +53,8 @@ class StationBus {
   bool take_stop(const BusMessage& message);
   // Call after the datagrams of a turn.
   void end_turn();
+  // To the commands since the last call; receive() sends them.
+  std::vector<Answer> take_answers() { return std::exchange(answers_, {}); }
 
   // Why there is no connection; empty: connected.
   const std::string& trouble() const { return trouble_; }
@@ -69,19 +74,28 @@ class StationBus {
   void send_preview(const camera::Frame& frame, const std::optional<cv::Rect2d>& box);
 
  private:
+  // What becomes of a command. `reason`: of its refusal, as it is counted.
+  struct Verdict {
+    std::string reason{}, detail{};
+    bool is_open = false;  // decided at the turn's end
+  };
+
   template <class Message>
   void publish(const std::string& channel, const Message& message);
   template <class Message>
-  void on_command(std::string_view channel, const std::function<Refusal(const Message&)>& execute);
+  void on_command(std::string_view channel, const std::function<Verdict(const Message&)>& execute);
   void subscribe();
   void disconnect(const std::string& why);
   std::string ptu_channel() const;
   bool is_leased(const ols_msg::ptu_command_t& stop, std::int64_t utime_us) const;
-  Refusal command_ptu(const ols_msg::ptu_command_t& message);
-  Refusal command_lens(const ols_msg::lens_command_t& message);
-  void record(const ols_msg::record_t& message);
-  void want_frame(const ols_msg::frame_request_t& message);
-  void note(const std::string& kind, Refusal refusal);
+  Verdict command_ptu(const ols_msg::ptu_command_t& message);
+  Verdict command_lens(const ols_msg::lens_command_t& message);
+  Verdict record(const ols_msg::record_t& message);
+  Verdict want_frame(const ols_msg::frame_request_t& message);
+  // Notes a refusal.
+  Verdict verdict(const std::string& kind, Refusal refusal);
+  void answer(const CommandId& command, const Verdict& verdict);
+  void answer_designations();
 
   const StationSettings& settings_;
   Station& station_;
@@ -106,6 +120,14 @@ class StationBus {
   RefusalLog refused_;
   std::map<std::string, double> counters_;
   std::map<std::string, std::int64_t> sequences_;
+  std::vector<Answer> answers_;
+  // Several people each repeat a stop 50 times a second.
+  static constexpr double kAccepted_Hz = 300.0, kRefused_Hz = 50.0;
+  trust::RateLimit accepted_sent_{kAccepted_Hz}, refused_sent_{kRefused_Hz};
+  // Stops to be answered: the last of each sender. Shared with the bus's thread.
+  static constexpr std::size_t kMostStoppers = 16;  // forged ones bring any number
+  std::mutex stops_mutex_;
+  std::map<std::int64_t, std::int64_t> stops_;  // sender's boot -> sequence
 };
 
 }  // namespace ols::station

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "base/channel_names.h"
-#include "base/lcm_bus.h"
 #include "base/plain_text.h"
 #include "export/identity.h"
 #include "geometry/angles.h"
@@ -12,6 +11,9 @@
 #include "ols_msg/bearing_t.hpp"
 #include "ols_msg/station_status_t.hpp"
 #include "ols_msg/target_t.hpp"
+#include "wire/read.h"
+#include "wire/station_status.h"
+#include "wire/target.h"
 
 namespace ols::exports {
 namespace {
@@ -21,33 +23,12 @@ using Status = ols_msg::station_status_t;
 using TargetMessage = ols_msg::target_t;
 
 constexpr std::size_t kMostStations = 64;  // named with a target
-constexpr double kMostHeight_m = 1e6;
-constexpr double kMostEarth_m = 1e8;  // of an ECEF component
-
-template <class Message>
-std::optional<Message> decoded(const BusMessage& message) {
-  Message content{};
-  if (!decode_of_schema(message, content)) return std::nullopt;
-  return content;
-}
-
-bool is_place(double latitude_deg, double longitude_deg, double height_m) {
-  return std::abs(latitude_deg) <= 90.0 && std::abs(longitude_deg) <= 360.0 &&
-         std::abs(height_m) <= kMostHeight_m;
-}
+constexpr double kMostEarth_m = 1e8;       // of an ECEF component
 
 Place place_of(double latitude_deg, double longitude_deg, double height_m,
                const SiteContext& site) {
   const double longitude = degrees(wrap_pi(radians(longitude_deg)));
   return {latitude_deg, longitude, height_m, site.geoid_m(latitude_deg, longitude)};
-}
-
-std::array<double, 3> velocity_of(const TargetMessage& t) {
-  const Eigen::Vector3d enu =
-      R_ecef_enu(Geodetic{radians(t.latitude_deg), radians(t.longitude_deg), t.height_m})
-          .transpose() *
-      Eigen::Vector3d(t.velocity_ecef_m_s[0], t.velocity_ecef_m_s[1], t.velocity_ecef_m_s[2]);
-  return {enu.x(), enu.y(), enu.z()};
 }
 
 TrackState state_of(const TargetMessage& t) {
@@ -89,22 +70,15 @@ void add_appearance(const TargetMessage& t, Target& target) {
 std::vector<std::string> used_stations(const TargetMessage& t) {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < std::min(t.station.size(), kMostStations); ++i) {
-    if (t.used[i] != 0) names.push_back(plain_text(t.station[i]));
+    if (t.used[i] != 0) names.push_back(t.station[i]);
   }
   return names;
-}
-
-const char* state_name(std::int8_t state) {
-  const auto index = static_cast<std::size_t>(state);
-  return state >= 0 && index < kStationStates.size() ? kStationStates[index]
-                                                     : kStationStates.back();
 }
 
 }  // namespace
 
 std::optional<Target> target_from(const BusMessage& message, const SiteContext& site) {
-  if (message.channel != kTargetChannel) return std::nullopt;
-  const auto content = decoded<TargetMessage>(message);
+  const auto content = wire::heard_target(message);
   if (!content || content->target_id == 0) return std::nullopt;
   const TargetMessage& t = *content;
   Target target;
@@ -117,29 +91,26 @@ std::optional<Target> target_from(const BusMessage& message, const SiteContext& 
     target.velocity_enu_m_s.fill(kUnknown);
     return target;
   }
-  if (t.solution != TargetMessage::SOLUTION_OK ||
-      !is_place(t.latitude_deg, t.longitude_deg, t.height_m)) {
-    return std::nullopt;
-  }
+  if (!wire::has_position(t)) return std::nullopt;
   target.place = place_of(t.latitude_deg, t.longitude_deg, t.height_m, site);
   std::ranges::copy(t.position_covariance_enu_m2, target.covariance_m2.begin());
   std::ranges::copy(t.velocity_covariance_enu_m2_s2, target.velocity_covariance_m2_s2.begin());
-  target.velocity_enu_m_s = velocity_of(t);
+  Eigen::Vector3d::Map(target.velocity_enu_m_s.data()) = wire::velocity_enu(t);
   target.stations = used_stations(t);
   add_appearance(t, target);
   return target;
 }
 
 std::optional<Station> station_from(const BusMessage& message, const SiteContext& site) {
-  const auto content = decoded<Status>(message);
-  if (!content || message.channel != station_channel(kStatusChannel, content->station) ||
-      !is_place(content->latitude_deg, content->longitude_deg, content->height_m)) {
+  const auto content = wire::heard_status(message);
+  if (!content ||
+      !wire::is_place(content->latitude_deg, content->longitude_deg, content->height_m)) {
     return std::nullopt;
   }
   const Status& s = *content;
   Station station;
   station.utime_us = s.utime;
-  station.name = plain_text(s.station);
+  station.name = s.station;
   station.uid = station_uid(site.site, station.name);
   station.place = place_of(s.latitude_deg, s.longitude_deg, s.height_m, site);
   std::ranges::copy(s.position_sd_m, station.position_sd_m.begin());
@@ -149,7 +120,7 @@ std::optional<Station> station_from(const BusMessage& message, const SiteContext
     const double field_deg = degrees(s.field_of_view_rad[i]);
     station.field_of_view_deg[i] = field_deg > 0.0 && field_deg < 360.0 ? field_deg : 0.0;
   }
-  station.state = state_name(s.state);
+  station.state = wire::state_name(s.state);
   station.alarms = s.alarm.size();
   station.is_well = s.alarm.empty();
   station.clock_is_good = s.clock_state == Bearing::CLOCK_SYNCHRONISED;
@@ -157,10 +128,8 @@ std::optional<Station> station_from(const BusMessage& message, const SiteContext
 }
 
 std::optional<Line> line_from(const BusMessage& message, const SiteContext& site) {
-  const auto content = decoded<Bearing>(message);
-  if (!content || message.channel != station_channel(kBearingChannel, content->station)) {
-    return std::nullopt;
-  }
+  const auto content = wire::read<Bearing>(kBearingChannel, message);
+  if (!content) return std::nullopt;
   const Bearing& b = *content;
   const Eigen::Vector3d camera(b.camera_ecef_m[0], b.camera_ecef_m[1], b.camera_ecef_m[2]);
   if (!(camera.cwiseAbs().maxCoeff() < kMostEarth_m) || !std::isfinite(b.azimuth_rad) ||
@@ -186,9 +155,8 @@ std::optional<Line> line_from(const BusMessage& message, const SiteContext& site
 }
 
 bool is_understood(const BusMessage& message) {
-  if (message.channel == kTargetChannel) return decoded<TargetMessage>(message).has_value();
-  if (message.channel.starts_with(kStatusChannel)) return decoded<Status>(message).has_value();
-  return message.channel.starts_with(kBearingChannel) && decoded<Bearing>(message).has_value();
+  return wire::heard_target(message) || wire::heard_status(message) ||
+         wire::read<Bearing>(kBearingChannel, message);
 }
 
 bool is_read(const std::string& channel) {

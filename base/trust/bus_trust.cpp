@@ -182,14 +182,17 @@ std::vector<std::uint8_t> BusTrust::sign(const std::string& channel, Bytes paylo
 
 bool BusTrust::wants(std::string_view channel) const {
   return channel == kTrustChannel || channel == kSiteChannel ||
-         (!self_.is_station && channel.starts_with(kStatusChannel));
+         (!self_.is_station &&
+          (channel.starts_with(kStatusChannel) || channel.starts_with(kReplyChannel)));
 }
 
 BusTrust::Learned BusTrust::judge_and_learn(std::string_view channel, Bytes message,
                                             const Arrival& arrival) {
   const std::lock_guard lock(mutex_);
   auto verdict = verifier_->judge(channel, message, arrival);
-  if (!verdict.distrust && verdict.rule->name == kStatusChannel) {
+  const bool tells_boot = !verdict.distrust && (verdict.rule->name == kStatusChannel ||
+                                                verdict.rule->name == kReplyChannel);
+  if (tells_boot) {
     const bool fresh = verdict.head.utime_us > 0 &&
                        std::abs(verdict.head.utime_us - arrival.utime_us) <= tolerance_us_;
     book_.hear(verdict.head.station, verdict.head.boot_id, fresh, arrival.monotonic_s);

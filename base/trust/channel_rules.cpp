@@ -9,6 +9,8 @@ namespace ols::trust {
 namespace {
 
 constexpr double kTracker_Hz = 400.0, kStatus_Hz = 20.0, kPictures_Hz = 100.0;
+constexpr double kReplies_Hz =
+    1000.0;  // a stop is repeated fifty times a second, by several people
 constexpr double kFrameParts_Hz = 2000.0;  // a whole frame is sent as fast as the loop turns
 constexpr double kSite_Hz = 20'000.0;      // slews to a thousand stations
 constexpr double kTargets_Hz = 2000.0;
@@ -40,6 +42,7 @@ constexpr auto kRules = numbered(std::array{
     of_station(kSightingChannel, kStatus_Hz),
     // A station whose clock is wrong must still be seen, and be stopped.
     of_station(kStatusChannel, kStatus_Hz, false),
+    of_station(kReplyChannel, kReplies_Hz, false),
     of_station(kPreviewChannel, kPictures_Hz),
     of_station(kFrameChannel, kFrameParts_Hz),
     command(kSlewChannel, Role::kFusion, kSite_Hz, kSlew_Hz),
@@ -60,6 +63,8 @@ constexpr auto kRules = numbered(std::array{
     // To the fusion, which needs no boot named: an allowance ends with its cue.
     ChannelRule{kCueOrderChannel, false, Role::kOperator, HeadForm::kBootFirst, false, true,
                 kHand_Hz},
+    ChannelRule{kCueReplyChannel, false, Role::kFusion, HeadForm::kStationFirst, false, true,
+                kReplies_Hz},
     // Anybody may pass the trust list and the site's settings on: the root has signed them.
     ChannelRule{kTrustChannel, false, Role::kListener, HeadForm::kBootFirst, false, false,
                 kStatus_Hz},

@@ -16,6 +16,11 @@ std::vector<RateLimit> fresh_rates() {
   return rates;
 }
 
+// Whether a station whose clock may be wrong speaks of itself: of its state, or of an order.
+bool is_own_account(const ChannelRule& rule) {
+  return rule.name == kStatusChannel || rule.name == kReplyChannel;
+}
+
 }  // namespace
 
 const char* to_string(Distrust reason) {
@@ -110,16 +115,16 @@ std::optional<Distrust> Verifier::judge_origin(Judged& judged) {
   return std::nullopt;
 }
 
-// Only an order to the unit may name no boot, and of these the station obeys stops alone: a stop
-// must not wait for the station's status.
+// An order may name no boot when its sender has not heard the station yet. The station obeys stops
+// alone of these, and answers the others: from the answer the sender learns the boot.
 std::optional<Distrust> Verifier::judge_address(Judged& judged) const {
   const bool mine = judged.channel.rule->is_command && !config_.station.empty() &&
                     judged.channel.station == config_.station;
   if (!mine) return std::nullopt;
   const std::int64_t audience = judged.message.trailer.audience;
   judged.addressed = audience == config_.boot_id && audience != 0;
-  const bool may_stop = audience == 0 && judged.channel.rule->name == kPtuChannel;
-  if (!judged.addressed && !may_stop) return Distrust::kOtherBoot;
+  const bool is_answered = audience == 0 && judged.channel.rule->name != kSlewChannel;
+  if (!judged.addressed && !is_answered) return Distrust::kOtherBoot;
   return std::nullopt;
 }
 
@@ -132,11 +137,11 @@ bool Verifier::is_fresh(const Judged& judged) const {
 std::optional<Distrust> Verifier::judge_time(const Judged& judged) const {
   const ChannelRule& rule = *judged.channel.rule;
   const bool may_be_stale =
-      judged.addressed || (rule.name == kStatusChannel
-                               ? config_.takes_stale_statuses &&
-                                     statuses_.may_be_own(judged.head.station, judged.head.boot_id,
-                                                          judged.arrival.monotonic_s)
-                               : !rule.must_be_fresh);
+      judged.addressed ||
+      (is_own_account(rule) ? config_.takes_stale_statuses &&
+                                  statuses_.may_be_own(judged.head.station, judged.head.boot_id,
+                                                       judged.arrival.monotonic_s)
+                            : !rule.must_be_fresh);
   if (!may_be_stale && !is_fresh(judged)) return Distrust::kStale;
   if (rule.head != HeadForm::kUtimeOnly && is_replayed(judged)) return Distrust::kReplayed;
   return std::nullopt;
@@ -154,8 +159,8 @@ bool Verifier::is_replayed(const Judged& judged) const {
   const KeyId& key = judged.message.trailer.key;
   const std::string channel(judged.channel_name);
   if (!marks_.is_replayed(key, channel, judged.head)) return false;
-  const bool is_status = judged.channel.rule->name == kStatusChannel;
-  const bool may_be_earlier = is_fresh(judged) ? stops(judged) : is_status;
+  const bool may_be_earlier =
+      is_fresh(judged) ? stops(judged) : is_own_account(*judged.channel.rule);
   return !may_be_earlier || marks_.is_heard(key, channel, judged.head);
 }
 
@@ -163,7 +168,7 @@ bool Verifier::is_replayed(const Judged& judged) const {
 // stamp from the future must not make later messages look stale.
 void Verifier::note(const Judged& judged) {
   MessageHead head = judged.head;
-  if (judged.channel.rule->name == kStatusChannel && !is_fresh(judged)) head.utime_us = 0;
+  if (is_own_account(*judged.channel.rule) && !is_fresh(judged)) head.utime_us = 0;
   marks_.note(judged.message.trailer.key, std::string(judged.channel_name), head);
 }
 
@@ -199,7 +204,7 @@ Verifier::Verdict Verifier::judge(std::string_view channel, Bytes message, const
     return {Distrust::kSignature, sender};
   }
   for (RateLimit* rate : rates) rate->spend();
-  if (judged.channel.rule->name == kStatusChannel) {
+  if (is_own_account(*judged.channel.rule)) {
     statuses_.hear(judged.head.station, judged.head.boot_id, is_fresh(judged), arrival.monotonic_s);
   }
   if (judged.channel.rule->head != HeadForm::kUtimeOnly) note(judged);

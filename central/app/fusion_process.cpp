@@ -130,7 +130,6 @@ void FusionProcess::on_cue(const BusMessage& message) {
   publish(fusion_.add(cue, options_.replay ? cue.utime_us : clock_utime_us()));
 }
 
-// Each order counts once and only while it is fresh, so that a recorded one has no effect.
 void FusionProcess::on_cue_order(const BusMessage& message) {
   const auto decoded =
       cue_order_from(message.payload.data(), static_cast<int>(message.payload.size()));
@@ -138,6 +137,12 @@ void FusionProcess::on_cue_order(const BusMessage& message) {
     return refuse(*refusal, message.channel);
   }
   const auto& order = std::get<CueOrder>(decoded);
+  bus_.send(kCueReplyChannel, to_message({order.boot_id, order.sequence, obey(order)},
+                                         bus_.next_stamp(kCueReplyChannel), clock_utime_us()));
+}
+
+// Each order counts once and only while it is fresh, so that a recorded one has no effect.
+std::string FusionProcess::obey(const CueOrder& order) {
   constexpr double kLongestLease_s = 5.0;
   const double age_s =
       1e-6 * (static_cast<double>(clock_utime_us()) - static_cast<double>(order.utime_us));
@@ -145,14 +150,18 @@ void FusionProcess::on_cue_order(const BusMessage& message) {
       options_.replay || std::abs(age_s) <= std::min(order.lease_s, kLongestLease_s);
   const auto last = cue_orders_.find(order.boot_id);
   const bool is_new = last == cue_orders_.end() || order.sequence > last->second;
-  if (!is_fresh || !is_new) return refuse(MessageRefusal::kOutOfRange, message.channel);
+  if (!is_fresh || !is_new) {
+    refuse(MessageRefusal::kOutOfRange, std::string(kCueOrderChannel));
+    return is_fresh ? "replayed" : "stale";
+  }
   constexpr std::size_t kSenders = 1000;  // forged ones bring any number
   if (cue_orders_.size() >= kSenders) cue_orders_.clear();
   cue_orders_[order.boot_id] = order.sequence;
   write_to_journal(
       {.text = "cue " + order.cue + ": an operator " + (order.allow ? "allows" : "forbids") + " it",
        .id = event::kCueOrder});
-  fusion_.allow_cue(order.cue, order.allow);
+  if (fusion_.allow_cue(order.cue, order.allow)) return {};
+  return settings_.fusion.cues.allow == CueAllowance::kNever ? "cues_not_allowed" : "no_cue";
 }
 
 void FusionProcess::refuse(MessageRefusal refusal, const std::string& channel) {

@@ -39,6 +39,8 @@ class FusionProcess {
   void on_fusion_status(const BusMessage& message);
   void on_cue(const BusMessage& message);
   void on_cue_order(const BusMessage& message);
+  // Why it is refused, as it is told; empty: it is taken.
+  std::string obey(const CueOrder& order);
   std::int64_t present_us() const;
   void refuse(MessageRefusal refusal, const std::string& channel);
   bool is_present(std::int64_t utime_us, const char* counter);

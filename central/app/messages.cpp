@@ -5,8 +5,8 @@
 #include <iterator>
 #include <limits>
 #include <span>
+#include <utility>
 
-#include "base/lcm_bus.h"
 #include "base/message_stamp.h"
 #include "base/plain_text.h"
 #include "central/admission/bearing_check.h"
@@ -16,6 +16,7 @@
 #include "ols_msg/cue_order_t.hpp"
 #include "ols_msg/cue_t.hpp"
 #include "ols_msg/station_status_t.hpp"
+#include "wire/read.h"
 
 namespace ols::fusion {
 namespace {
@@ -25,21 +26,15 @@ constexpr std::size_t kLongestError = 500;  // in a status
 constexpr std::size_t kLongestId = 100;     // of a cue
 
 template <class Message>
-std::optional<MessageRefusal> decode(const void* data, int bytes, Message& message) {
-  if (!decode_exactly(data, bytes, message)) return MessageRefusal::kMalformed;
-  if (message.schema_version != Message::SCHEMA_VERSION) return MessageRefusal::kSchema;
-  return std::nullopt;
-}
-
-// Checks that apply to every message of a station.
-template <class Message>
-std::optional<MessageRefusal> decode_from_station(std::string_view prefix,
-                                                  const std::string& channel, const void* data,
-                                                  int bytes, Message& message) {
-  if (const auto refusal = decode(data, bytes, message)) return refusal;
-  if (message.station.empty() || channel != std::string(prefix) + message.station) {
-    return MessageRefusal::kOtherStation;
+std::optional<MessageRefusal> decode(std::string_view channel, std::string_view on,
+                                     const void* data, int bytes, Message& message) {
+  auto found = wire::read<Message>(channel, on, data, bytes);
+  if (const auto* why = std::get_if<wire::Unread>(&found)) {
+    return *why == wire::Unread::kMalformed ? MessageRefusal::kMalformed
+           : *why == wire::Unread::kSchema  ? MessageRefusal::kSchema
+                                            : MessageRefusal::kOtherStation;
   }
+  message = std::move(std::get<Message>(found));
   return std::nullopt;
 }
 
@@ -174,7 +169,7 @@ const char* to_string(MessageRefusal refusal) {
 std::variant<BearingMeasurement, MessageRefusal> measurement_from(const std::string& channel,
                                                                   const void* data, int bytes) {
   ols_msg::bearing_t message;
-  const auto refusal = decode_from_station(kBearingChannel, channel, data, bytes, message);
+  const auto refusal = decode(kBearingChannel, channel, data, bytes, message);
   if (refusal) return *refusal;
   BearingMeasurement measurement;
   measurement.station = message.station;
@@ -196,7 +191,7 @@ std::variant<BearingMeasurement, MessageRefusal> measurement_from(const std::str
 std::variant<StationPlace, MessageRefusal> station_place_from(const std::string& channel,
                                                               const void* data, int bytes) {
   ols_msg::station_status_t message;
-  const auto refusal = decode_from_station(kStatusChannel, channel, data, bytes, message);
+  const auto refusal = decode(kStatusChannel, channel, data, bytes, message);
   if (refusal) return *refusal;
   StationPlace place{message.station, {}};
   place.traits.calibration = {calibration_state(message.calibration_state),
@@ -229,13 +224,14 @@ std::variant<StationPlace, MessageRefusal> station_place_from(const std::string&
 
 std::variant<std::int64_t, MessageRefusal> fusion_boot_from(const void* data, int bytes) {
   ols_msg::fusion_status_t message;
-  if (const auto refusal = decode(data, bytes, message)) return *refusal;
+  constexpr auto kChannel = kFusionStatusChannel;
+  if (const auto refusal = decode(kChannel, kChannel, data, bytes, message)) return *refusal;
   return message.boot_id;
 }
 
 std::variant<Cue, MessageRefusal> cue_from(const void* data, int bytes) {
   ols_msg::cue_t message;
-  if (const auto refusal = decode(data, bytes, message)) return *refusal;
+  if (const auto refusal = decode(kCueChannel, kCueChannel, data, bytes, message)) return *refusal;
   if (message.id.size() > kLongestId) return MessageRefusal::kMalformed;
   Cue cue;
   cue.id = plain_text(message.id);
@@ -252,7 +248,8 @@ std::variant<Cue, MessageRefusal> cue_from(const void* data, int bytes) {
 
 std::variant<CueOrder, MessageRefusal> cue_order_from(const void* data, int bytes) {
   ols_msg::cue_order_t message;
-  if (const auto refusal = decode(data, bytes, message)) return *refusal;
+  constexpr auto kChannel = kCueOrderChannel;
+  if (const auto refusal = decode(kChannel, kChannel, data, bytes, message)) return *refusal;
   if (!(message.lease_s > 0.0) || message.cue.size() > kLongestId) {
     return MessageRefusal::kOutOfRange;
   }
@@ -279,6 +276,17 @@ ols_msg::target_t to_message(const FusedTarget& target, const MessageStamp& stam
     message.weight.push_back(station.weight);
     message.age_s.push_back(station.age_s);
   }
+  return message;
+}
+
+ols_msg::command_reply_t to_message(const CueReply& reply, const MessageStamp& stamp,
+                                    std::int64_t utime_us) {
+  ols_msg::command_reply_t message{};
+  stamp_message(message, utime_us, stamp.boot_id, stamp.sequence);
+  message.order_boot_id = reply.boot_id;
+  message.order_sequence = reply.sequence;
+  message.accepted = reply.reason.empty() ? 1 : 0;
+  message.reason = reply.reason;
   return message;
 }
 

@@ -10,6 +10,7 @@
 
 #include "base/channel_names.h"
 #include "central/fusion/fusion.h"
+#include "ols_msg/command_reply_t.hpp"
 #include "ols_msg/fusion_status_t.hpp"
 #include "ols_msg/slew_t.hpp"
 #include "ols_msg/target_t.hpp"
@@ -50,6 +51,12 @@ struct CueOrder {
 std::variant<Cue, MessageRefusal> cue_from(const void* data, int bytes);
 std::variant<CueOrder, MessageRefusal> cue_order_from(const void* data, int bytes);
 
+// What is said to it. `reason`: of its refusal, as wire/refusal_words.h explains it; empty: taken.
+struct CueReply {
+  std::int64_t boot_id = 0, sequence = 0;  // of the order
+  std::string reason{};
+};
+
 // The sender, and the message's sequence number on its channel in this boot.
 struct MessageStamp {
   std::int64_t boot_id = 0;
@@ -57,6 +64,8 @@ struct MessageStamp {
 };
 
 ols_msg::target_t to_message(const FusedTarget& target, const MessageStamp& stamp);
+ols_msg::command_reply_t to_message(const CueReply& reply, const MessageStamp& stamp,
+                                    std::int64_t utime_us);
 ols_msg::slew_t to_message(const Slew& slew, const MessageStamp& stamp);
 ols_msg::fusion_status_t to_message(const FusionHealth& health, double latency_s,
                                     const MessageStamp& stamp);

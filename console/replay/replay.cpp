@@ -8,9 +8,9 @@
 
 #include "base/channel_names.h"
 #include "base/plain_text.h"
-#include "command/messages.h"
 #include "console/messages.h"
 #include "console/messages_pictures.h"
+#include "wire/orders.h"
 
 namespace ols::console {
 namespace {
@@ -36,8 +36,10 @@ bool hear(Console& console, const BusMessage& message, Timeline* timeline) {
     console.hear(*fusion, now);
   } else if (auto picture = picture_from(message)) {
     console.hear(std::move(*picture));
-  } else if (const auto order = command::heard_order(message)) {
+  } else if (const auto order = wire::heard_order(message)) {
     console.hear(*order, now);
+  } else if (const auto reply = wire::heard_reply(message)) {
+    console.hear(*reply);
   } else {
     return false;
   }
@@ -46,8 +48,8 @@ bool hear(Console& console, const BusMessage& message, Timeline* timeline) {
 
 // Channels whose messages are shown.
 bool is_shown(const std::string& channel) {
-  constexpr std::array kShown{kStatusChannel, kBearingChannel,   kPreviewChannel,
-                              kPtuChannel,    kDesignateChannel, kRecordChannel};
+  constexpr std::array kShown{kStatusChannel, kBearingChannel,   kPreviewChannel, kPtuChannel,
+                              kReplyChannel,  kDesignateChannel, kRecordChannel};
   return channel == kTargetChannel || channel == kFusionStatusChannel ||
          std::ranges::any_of(kShown, [&](std::string_view c) { return channel.starts_with(c); });
 }

@@ -107,19 +107,24 @@ class PaperSite(threading.Thread):
         counters = self.counters[station]
         counters[name] = counters.get(name, 0) + 1
 
-    def _judge(self, station: str, name: str) -> bool:
-        reason = self.refusing.get(station)
-        if reason and name != "stop":
-            self._count(station, f"refused_{reason}")
-            return False
-        self._count(station, f"{name}_accepted")
-        return True
+    def _judge(self, order: Any, name: str) -> bool:
+        """Whether the station of this order carries it out; it counts that, and answers."""
+        reason = self.refusing.get(order.station, "") if name != "stop" else ""
+        self._count(order.station, f"refused_{reason}" if reason else f"{name}_accepted")
+        if not reason:
+            self.states[order.station] = self._state_after(order.station, name)
+        m = ols_msg.command_reply_t()
+        m.utime, m.schema_version = self.utime_us(), m.SCHEMA_VERSION
+        m.station, m.boot_id, m.state = order.station, 5, self.states[order.station]
+        m.order_boot_id, m.order_sequence = order.boot_id, order.sequence
+        m.accepted, m.reason = not reason, reason
+        self._publish(f"OLS_REPLY_{order.station}", m)
+        return not reason
 
     def _designated(self, _channel: str, data: bytes) -> None:
         message = ols_msg.designate_t.decode(data)
         self.designations.append(message)
-        if self._judge(message.station, "designate"):
-            self.states[message.station] = STATUS.STATE_TRACKING
+        if self._judge(message, "designate"):
             self.track_ids[message.station] += 1
 
     def _commanded(self, _channel: str, data: bytes) -> None:
@@ -129,12 +134,15 @@ class PaperSite(threading.Thread):
         name = COMMANDS[message.command]
         self.commands.append((message.station, name))
         self.ptu_commands.append(message)
-        if self._judge(message.station, name):
-            self.states[message.station] = self._state_after(message.station, name)
+        self._judge(message, name)
 
     def _state_after(self, station: str, name: str) -> int:
         if name in ("rate", "centre", "point"):
             return STATUS.STATE_MANUAL
+        if name == "designate":
+            return STATUS.STATE_TRACKING
+        if name in ("lens", "record"):
+            return self.states[station]
         followed = STATUS.STATE_LOST if self.track_ids[station] else STATUS.STATE_IDLE
         return STATUS.STATE_STOPPED if name == "stop" else followed
 
@@ -146,7 +154,7 @@ class PaperSite(threading.Thread):
     def _lens_moved(self, _channel: str, data: bytes) -> None:
         message = ols_msg.lens_command_t.decode(data)
         self.lens_commands.append(message)
-        if self._judge(message.station, "lens") and message.command == message.COMMAND_POSITION:
+        if self._judge(message, "lens") and message.command == message.COMMAND_POSITION:
             wanted = (message.zoom, message.focus, message.iris)
             now = self.lenses[message.station]
             self.lenses[message.station] = [
@@ -155,7 +163,7 @@ class PaperSite(threading.Thread):
 
     def _recorded(self, _channel: str, data: bytes) -> None:
         self.records.append(ols_msg.record_t.decode(data))
-        self._judge(self.records[-1].station, "record")
+        self._judge(self.records[-1], "record")
 
     def _send_status(self, station: str) -> None:
         m = STATUS()
@@ -291,9 +299,9 @@ class PaperSite(threading.Thread):
             if middle:
                 m = PTU()
                 m.schema_version, m.station, m.command = m.SCHEMA_VERSION, "alfa", PTU.COMMAND_STOP
+                m.boot_id, m.sequence = 8, 1
                 self.lcm.publish("OLS_PTU_alfa", m.encode())
-                self._judge("alfa", "stop")
-                self.states["alfa"] = STATUS.STATE_STOPPED
+                self._judge(m, "stop")
             self._send_all()
         log.close()
         return start_us

@@ -259,7 +259,7 @@ def test_an_operators_word_leads_a_station_to_a_cue(rig):
     assert rig.slews == []
     code, table = rig.operator("cues")
     assert code == 0 and "json.J1" in table and "waiting" in table
-    assert rig.operator("allow", "json.J2") == (1, "json.J2: the fusion has no such cue\n")
+    assert rig.operator("allow", "json.J2") == (1, "json.J2: refused: the fusion has no such cue\n")
     assert rig.slews == []
     assert rig.operator("allow", "json.J1") == (0, "json.J1: done\n")
     rig.until(lambda: len(rig.slews) > 5, "slews", ("json", line))

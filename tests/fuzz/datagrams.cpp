@@ -9,11 +9,11 @@
 #include "base/plain_text.h"
 #include "central/app/messages.h"
 #include "central/fusion/fusion.h"
-#include "command/messages.h"
 #include "edge/messages_bus.h"
 #include "tests/fuzz/fuzz_input.h"
 #include "tests/fuzz/no_tracker.h"
 #include "tools/logger/log_writer.h"
+#include "wire/station_status.h"
 
 namespace {
 
@@ -55,7 +55,7 @@ void to_fusion(ols::fusion::Fusion& fusion, const ols::BusMessage& message) {
 }
 
 void to_person(const ols::BusMessage& message) {
-  const auto status = ols::command::heard_status(message);
+  const auto status = ols::wire::heard_status(message);
   if (!status) return;
   for (const auto* texts : {&status->device_name, &status->device_text, &status->alarm,
                             &status->reading_name, &status->counter_name}) {

@@ -9,11 +9,11 @@
 #include "base/config_section.h"
 #include "base/lcm_bus.h"
 #include "base/toml_config.h"
-#include "command/messages.h"
 #include "ols_msg/fusion_status_t.hpp"
 #include "tests/fuzz/fuzz_input.h"
 #include "tools/exporter/exporter_config.h"
 #include "tools/exporter/site_metrics.h"
+#include "wire/station_status.h"
 
 namespace {
 
@@ -25,7 +25,7 @@ void hear(SiteMetrics& metrics, bool is_fusion, const std::string& station, std:
   message.channel = is_fusion ? "OLS_FUSION_STATUS" : "OLS_STATUS_" + station;
   message.payload.assign(bytes.begin(), bytes.end());
   if (!is_fusion) {
-    if (const auto status = ols::command::heard_status(message)) metrics.hear(*status, now_s);
+    if (const auto status = ols::wire::heard_status(message)) metrics.hear(*status, now_s);
     return;
   }
   ols_msg::fusion_status_t status;

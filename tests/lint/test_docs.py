@@ -297,7 +297,7 @@ def reasons_of_the_sources() -> set[str]:
             flags=re.M | re.S,
         ):
             found |= set(re.findall(r'return "([^"]+)";', body))
-        found |= set(re.findall(r'\brefuse\((?:kind|"\w+"), "(\w+)"\)', source))
+        found |= set(re.findall(r'\brefuse\((?:kind, |"\w+", )?"(\w+)"\)', source))
     return found - {"none", "ok", "unknown"}
 
 

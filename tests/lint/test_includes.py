@@ -26,16 +26,16 @@ ALLOWED = {
     "geometry": set(),
     "base": set(),
     "calibration": {"geometry"},
-    "command": {"base"},
+    "wire": {"geometry", "base"},
     "edge": {"calibration", "geometry", "base"},
-    "central": {"geometry", "base"},
-    "console": {"command", "geometry", "base"},
-    "export": {"geometry", "base"},
+    "central": {"wire", "geometry", "base"},
+    "console": {"wire", "geometry", "base"},
+    "export": {"wire", "geometry", "base"},
     "cue": {"export", "geometry", "base"},
     "bridge": {"geometry", "base"},
     "sim": {"edge", "central", "geometry", "base"},
-    "tools": {*PRODUCT, "command", "geometry", "base"},
-    "dev": {*PRODUCT, "tools", "sim", "geometry", "base"},
+    "tools": {*PRODUCT, "wire", "geometry", "base"},
+    "dev": {*PRODUCT, "tools", "sim", "wire", "geometry", "base"},
 }
 NOT_JUDGED = {"tools", "dev"}  # programs of users and developers, which may touch anything
 
@@ -83,6 +83,10 @@ OTHER_DEVICES = [
     "sim/report.cpp",
     "sim/station_*file*.cpp",
     "sim/stepped_clock.cpp",
+    "wire/*_status.*",
+    "wire/orders.*",
+    "wire/read.h",
+    "wire/target.*",
 ]
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^">]+)[">]')
@@ -206,7 +210,7 @@ def impure(name: str, text: str) -> list[str]:
 
 
 def sees_messages(name: str, text: str) -> list[str]:
-    if not is_judged(name) or name.startswith("sim/") or MAY_SEE_MESSAGES.search(name):
+    if not is_judged(name) or name.startswith(("sim/", "wire/")) or MAY_SEE_MESSAGES.search(name):
         return []
     return [
         f"{name}:{line}: only messages*, main.cpp and the bus see generated messages"

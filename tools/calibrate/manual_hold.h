@@ -10,15 +10,16 @@ namespace ols::calibration {
 
 class ManualHold {
  public:
-  // The procedure has pointed the unit, which takes the station into manual operation.
+  // The procedure points the unit, which takes the station into manual operation ..
   void point() { pointed_ = true; }
+  // .. once the station has answered that it does.
+  void accept() { held_ = pointed_; }
   // Whether the procedure has begun the manual operation: only then does it end it.
   bool has_pointed() const { return pointed_; }
   // The station's reported state: station_status_t's STATE_*.
   void hear(std::int8_t state) {
     const bool manual = state == ols_msg::station_status_t::STATE_MANUAL;
     lost_ = lost_ || (!manual && held_);  // for good: a later manual operation is somebody else's
-    held_ = held_ || (manual && pointed_);
   }
   // Somebody else has taken it back: the procedure must not point it any more.
   bool is_lost() const { return lost_; }

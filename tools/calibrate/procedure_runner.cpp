@@ -160,6 +160,7 @@ std::optional<FrameFile> ProcedureRunner::picture_at(FieldProcedure& procedure,
       return frame;
     }
     const double now_s = clock_monotonic_s();
+    if (!station_.refusal().empty()) break;
     if (now_s > station_.awaited().progress_s() + kPatience_s) break;
     // All messages of the meantime are handled first: a stop that has arrived must count.
     const bool due =
@@ -196,7 +197,10 @@ void ProcedureRunner::shoot(FieldProcedure& procedure, const Order& order) {
   if (!why.empty()) return miss(procedure, order, why);
   auto frame = picture_of(procedure, order.shot);
   if (frame && !sides_known_) frame = picture_of(procedure, order.shot);
-  if (!frame) return miss(procedure, order, station_.awaited().missing());
+  if (!frame) {
+    const std::string& refusal = station_.refusal();
+    return miss(procedure, order, refusal.empty() ? station_.awaited().missing() : refusal);
+  }
   if (!sides_known_) {
     return miss(procedure, order, "the station does not know from which side the unit came");
   }

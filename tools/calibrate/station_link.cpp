@@ -9,12 +9,14 @@
 #include "base/channel_names.h"
 #include "base/clocks.h"
 #include "base/message_stamp.h"
-#include "command/messages.h"
 #include "geometry/angles.h"
 #include "ols_msg/bearing_t.hpp"
 #include "ols_msg/frame_request_t.hpp"
 #include "ols_msg/ptu_command_t.hpp"
 #include "tools/calibrate/motion_leave.h"
+#include "wire/orders.h"
+#include "wire/refusal_words.h"
+#include "wire/station_status.h"
 
 namespace ols::calibration {
 namespace {
@@ -42,6 +44,10 @@ StationLink::StationLink(LcmBus& bus, std::string station)
       awaited_(boot_id_, {}, clock_monotonic_s()) {
   bus_.subscribe(station_channel(kStatusChannel, station_),
                  [this](const BusMessage& message) { hear_status(message); });
+  bus_.subscribe(station_channel(kReplyChannel, station_), [this](const BusMessage& message) {
+    const auto reply = wire::heard_reply(message);
+    if (reply && reply->order.boot_id == boot_id_) hear(*reply);
+  });
   constexpr QueueLimits kFrames{.messages = 400, .bytes = 20'000'000};
   bus_.subscribe(
       station_channel(kFrameChannel, station_),
@@ -58,7 +64,7 @@ void StationLink::address(Message& message, double lease_s) {
 }
 
 void StationLink::hear_status(const BusMessage& message) {
-  auto status = command::heard_status(message);
+  auto status = wire::heard_status(message);
   if (!status) return;
   status_ = std::move(*status);
   heard_s_ = clock_monotonic_s();
@@ -89,13 +95,21 @@ void StationLink::check_not_stopped() const {
   }
 }
 
-void StationLink::command(std::int8_t what, const PanTilt& angles) {
+void StationLink::hear(const wire::Reply& reply) {
+  if (reply.order.sequence == released_sequence_) released_ = reply.is_accepted;
+  if (reply.order.sequence != pointed_sequence_) return;
+  if (reply.is_accepted) hold_.accept();
+  refusal_ = reply.is_accepted ? "" : wire::refusal_in_words(reply);
+}
+
+std::int64_t StationLink::command(std::int8_t what, const PanTilt& angles) {
   ols_msg::ptu_command_t message;
   address(message, kCommandLease_s);
   message.command = what;
   message.pan_rad = angles.pan_rad;
   message.tilt_rad = angles.tilt_rad;
   bus_.publish(station_channel(kPtuChannel, station_), message);
+  return message.sequence;
 }
 
 // By when it arrived: it may have waited in the queue while something was computed.
@@ -131,11 +145,12 @@ double StationLink::status_gap_s() {
 void StationLink::set_out(const PanTilt& angles) {
   awaited_ = {boot_id_, angles, clock_monotonic_s()};
   frame_.reset();
+  refusal_.clear();
 }
 
 void StationLink::point() {
   hold_.point();
-  command(ols_msg::ptu_command_t::COMMAND_POINT, awaited_.at());
+  pointed_sequence_ = command(ols_msg::ptu_command_t::COMMAND_POINT, awaited_.at());
 }
 
 bool StationLink::release() {
@@ -143,8 +158,12 @@ bool StationLink::release() {
   status(kReliedOn_s);
   const bool may = status_ && !hold_.is_lost() && may_release(*status_, status_age_s());
   hold_ = {};
-  if (may) command(ols_msg::ptu_command_t::COMMAND_RELEASE, {});
-  return may;
+  if (!may) return false;
+  released_.reset();
+  released_sequence_ = command(ols_msg::ptu_command_t::COMMAND_RELEASE, {});
+  const double end_s = clock_monotonic_s() + kCommandLease_s;
+  while (!released_ && clock_monotonic_s() < end_s) bus_.handle(kPoll_ms);
+  return released_.value_or(false);
 }
 
 void StationLink::ask_frame(Arrival arrival, bool lossless) {
@@ -203,8 +222,8 @@ void StationLink::hear_answer(const BusMessage& message) {
 StationFacts facts_of(const ols_msg::station_status_t& status) {
   using M = ols_msg::station_status_t;
   StationFacts facts;
-  facts.camera_works = std::string(command::device_state(status, "camera")) == "ok";
-  facts.unit_works = std::string(command::device_state(status, "ptu")) == "ok";
+  facts.camera_works = std::string(wire::device_state(status, "camera")) == "ok";
+  facts.unit_works = std::string(wire::device_state(status, "ptu")) == "ok";
   facts.limits_known = std::isfinite(status.pan_limits_rad[0]) && std::isfinite(status.pan_rad);
   facts.stopped = status.state == M::STATE_STOPPED;
   facts.held_by_hand = status.state == M::STATE_MANUAL;

@@ -17,6 +17,7 @@
 #include "tools/calibrate/answer_box.h"
 #include "tools/calibrate/awaited_picture.h"
 #include "tools/calibrate/manual_hold.h"
+#include "wire/order.h"
 
 namespace ols::calibration {
 
@@ -57,9 +58,11 @@ class StationLink {
   void set_out(const PanTilt& angles);
   // Turns the unit to where it is wanted, and stops there. Only if may_point().
   void point();
-  // Releases the unit if this procedure has pointed it and a fresh status says that it is under
-  // manual operation: otherwise the release would end a person's stop, or another operator's hold.
-  // False: not sent.
+  // Why the station does not turn there, in words; empty: nothing is known against it.
+  const std::string& refusal() const { return refusal_; }
+  // Gives the unit back that it has pointed, if a fresh status says that it is under manual
+  // operation: a release would end a person's stop, or another operator's hold. Waits for the
+  // answer; false: not released.
   bool release();
   // [s] The least interval between consecutive statuses; infinite if none came.
   double status_gap_s();
@@ -84,7 +87,9 @@ class StationLink {
   void hear_part(const BusMessage& message);
   void hear_answer(const BusMessage& message);
   double status_age_s() const;
-  void command(std::int8_t what, const PanTilt& angles);
+  void hear(const wire::Reply& reply);
+  // Its number.
+  std::int64_t command(std::int8_t what, const PanTilt& angles);
   void complete(std::vector<std::uint8_t> file, const ols_msg::frame_part_t& any);
   template <class Message>
   void address(Message& message, double lease_s);
@@ -98,6 +103,9 @@ class StationLink {
   std::int64_t arrived_utime_us_ = 0;  // of the newest status
   AwaitedPicture awaited_;
   ManualHold hold_;
+  std::int64_t pointed_sequence_ = 0, released_sequence_ = 0;  // of the last such command
+  std::string refusal_;
+  std::optional<bool> released_;  // what the station answered
   std::optional<FrameFile> frame_;
   AnswerBox answers_;
   std::optional<PanTilt> count_;

@@ -15,10 +15,10 @@
 #include "calibration/pictures/scene_tracks.h"
 #include "calibration/procedure/sun_keep_out.h"
 #include "calibration/zoom_fit.h"
-#include "command/messages.h"
 #include "tools/calibrate/calibrate_case.h"
 #include "tools/calibrate/procedure_stages.h"
 #include "tools/calibrate/station_link.h"
+#include "wire/orders.h"
 
 namespace ols::calibration {
 namespace {
@@ -115,8 +115,9 @@ class ZoomRun {
     double sent_s = -1e9, before = std::numeric_limits<double>::quiet_NaN();
     while (clock_monotonic_s() < end_s) {
       if (clock_monotonic_s() > sent_s + kAskAgain_s) {
-        command::Order order{.station = station_.settings.id, .kind = command::Kind::kLens};
+        wire::Order order{.station = station_.settings.id, .kind = wire::Kind::kLens};
         order.zoom = position;
+        order.id = sender_.next_id();
         sender_.send(bus_, order, clock_utime_us());
         sent_s = clock_monotonic_s();
       }
@@ -151,7 +152,8 @@ class ZoomRun {
     if (!sun.empty()) throw std::runtime_error(sun);
     link_.set_out(at);
     std::optional<double> asked_s;
-    while (clock_monotonic_s() < link_.awaited().progress_s() + kPatience_s) {
+    while (link_.refusal().empty() &&
+           clock_monotonic_s() < link_.awaited().progress_s() + kPatience_s) {
       turn();
       if (auto frame = link_.take_frame()) return std::move(frame->taken);
       const bool due =
@@ -184,7 +186,7 @@ class ZoomRun {
   const StationFiles& station_;
   LcmBus& bus_;
   StationLink link_;
-  command::OrderSender sender_;
+  wire::OrderSender sender_;
   ZoomTable table_;
   StationModel model_;
   SunKeepOut sun_;

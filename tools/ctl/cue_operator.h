@@ -7,7 +7,8 @@
 
 #include "base/lcm_bus.h"
 #include "base/trust/trust_config.h"
-#include "command/messages.h"
+#include "wire/fusion_status.h"
+#include "wire/orders.h"
 
 namespace ols::ctl {
 
@@ -16,17 +17,17 @@ class CueOperator {
   // Throws BusError, or ConfigError if it cannot sign.
   CueOperator(const std::string& lcm_url, const trust::TrustConfig& trust);
 
-  // The fusion's next status; nullopt within this time: there is no fusion.
-  std::optional<command::FusionCues> listen(double timeout_s);
-  // Sends the order and waits for the status that shows it. nullopt if it was accepted, otherwise
-  // why not.
-  std::optional<std::string> give(const command::CueOrder& order, double timeout_s);
+  // The fusion's next status; nothing within this time: there is no fusion.
+  std::optional<ols_msg::fusion_status_t> listen(double timeout_s);
+  // Waits for the answer. Nothing if it was taken, otherwise why not.
+  std::optional<std::string> give(const wire::CueOrder& order, double timeout_s);
 
  private:
   const std::int64_t boot_id_;
   LcmBus bus_;
-  command::OrderSender sender_;
-  std::optional<command::FusionCues> said_;
+  wire::OrderSender sender_;
+  std::optional<ols_msg::fusion_status_t> said_;
+  std::optional<wire::Reply> reply_;
 };
 
 }  // namespace ols::ctl

@@ -3,22 +3,26 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "wire/fusion_status.h"
+
 namespace ols::ctl {
 
-std::string cue_table(const command::FusionCues& said) {
-  if (said.cues.empty()) return "no cues\n";
+std::string cue_table(const ols_msg::fusion_status_t& s) {
+  if (s.cue_id.empty()) return "no cues\n";
   std::string table =
       "cue                  state      target   age s   latitude deg  longitude deg   height m  "
       "1-sigma m  label\n";
-  for (const command::FusionCue& cue : said.cues) {
+  for (std::size_t i = 0; i < s.cue_id.size(); ++i) {
+    const std::int64_t target = s.cue_target_id[i];
     char row[160];
-    std::snprintf(
-        row, sizeof row, " %-9s %7s %7.1f  %13.6f  %13.6f  %9.1f  %4.0f %4.0f  ", cue.state.c_str(),
-        cue.target_id == 0 ? "-" : std::to_string(cue.target_id).c_str(), cue.age_s,
-        cue.latitude_deg, cue.longitude_deg, cue.height_m, cue.horizontal_sd_m, cue.vertical_sd_m);
-    std::string name = cue.id;
+    std::snprintf(row, sizeof row, " %-9s %7s %7.1f  %13.6f  %13.6f  %9.1f  %4.0f %4.0f  ",
+                  wire::cue_state_name(s.cue_state[i]),
+                  target == 0 ? "-" : std::to_string(target).c_str(), s.cue_age_s[i],
+                  s.cue_latitude_deg[i], s.cue_longitude_deg[i], s.cue_height_m[i],
+                  s.cue_horizontal_sd_m[i], s.cue_vertical_sd_m[i]);
+    std::string name = s.cue_id[i];
     name.resize(std::max<std::size_t>(20, name.size()), ' ');
-    table.append(name).append(row).append(cue.label).append("\n");
+    table.append(name).append(row).append(s.cue_label[i]).append("\n");
   }
   return table;
 }

@@ -3,10 +3,10 @@
 
 #include <string>
 
-#include "command/messages.h"
+#include "ols_msg/fusion_status_t.hpp"
 
 namespace ols::ctl {
 
-std::string cue_table(const command::FusionCues& said);
+std::string cue_table(const ols_msg::fusion_status_t& status);
 
 }  // namespace ols::ctl

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "command/messages.h"
 #include "ols_msg/bearing_t.hpp"
+#include "wire/station_status.h"
 
 namespace ols::ctl {
 namespace {
@@ -32,7 +32,7 @@ std::string age_at(const station_status_t& s, std::int64_t utime_us) {
 
 std::string calibration(const station_status_t& s) {
   if (s.calibration_state == station_status_t::CALIBRATION_NONE) return "-";
-  const std::string words = command::calibration_name(s.calibration_state);
+  const std::string words = wire::calibration_name(s.calibration_state);
   const bool is_used = s.calibration_state != station_status_t::CALIBRATION_REFUSED;
   return is_used && s.calibration_utime > 0 ? words + ", " + age_at(s, s.calibration_utime) : words;
 }
@@ -78,7 +78,7 @@ std::string fleet_table(const std::map<std::string, station_status_t>& statuses,
   std::string table =
       text(kLine, "station", "state", "version", "calibration", "clock", "disk", "cpu") + "alarm\n";
   for (const auto& [id, s] : statuses) {
-    table += text(kLine, id.c_str(), command::state_name(s.state), command::software(s).c_str(),
+    table += text(kLine, id.c_str(), wire::state_name(s.state), wire::software(s).c_str(),
                   calibration(s).c_str(), clock(s).c_str(), disk(s).c_str(), warmth(s).c_str()) +
              alarm(s) + "\n";
   }

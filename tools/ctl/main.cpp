@@ -43,7 +43,7 @@ void warn_when_full(const ols::ctl::Operator& hand) {
       stderr,
       "ols-ctl: more than %zu stations are heard, not all are shown: name the one that you "
       "mean\n",
-      ols::command::kMostStationsHeard);
+      ols::wire::kMostStationsHeard);
 }
 
 // Returns after the stop's hold (Station::kStopHold_s), so that a following release is obeyed.
@@ -66,6 +66,7 @@ int stop(const std::string& url, const ols::trust::TrustConfig& trust, const std
 int run(const std::string& url, const ols::trust::TrustConfig& trust, const std::string& station,
         const std::optional<ols::ctl::Send>& send, ols::ctl::Look look) {
   ols::ctl::Operator hand(url, trust, station);
+  if (send && station != "all") return send_to_each(hand, {station}, *send);
   const auto& statuses = hand.listen(kPatience_s);
   if (look == ols::ctl::Look::kFleet && (!statuses.empty() || !hand.enrolled().empty())) {
     std::fputs(ols::ctl::fleet_table(statuses, hand.enrolled()).c_str(), stdout);

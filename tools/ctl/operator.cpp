@@ -6,6 +6,7 @@
 #include "base/boot_id.h"
 #include "base/channel_names.h"
 #include "base/clocks.h"
+#include "wire/refusal_words.h"
 
 namespace ols::ctl {
 namespace {
@@ -32,6 +33,10 @@ Operator::Operator(const std::string& lcm_url, const trust::TrustConfig& trust, 
   const std::string which = station_ == "all" ? ".*" : station_;
   bus_.subscribe(station_channel(kStatusChannel, which),
                  [this](const BusMessage& message) { hear(message); });
+  bus_.subscribe(station_channel(kReplyChannel, which), [this](const BusMessage& message) {
+    const auto reply = wire::heard_reply(message);
+    if (reply && reply->order.boot_id == boot_id_) replies_[reply->order] = *reply;
+  });
 }
 
 std::vector<std::string> Operator::enrolled() const {
@@ -41,14 +46,18 @@ std::vector<std::string> Operator::enrolled() const {
   return stations;
 }
 
-void Operator::send(const command::Order& order) { sender_.send(bus_, order, clock_utime_us()); }
+wire::OrderId Operator::send(wire::Order order) {
+  order.id = sender_.next_id();
+  sender_.send(bus_, order, clock_utime_us());
+  return order.id;
+}
 
 void Operator::send_stop(const std::string& station) {
-  send({.station = station, .kind = command::Kind::kStop});
+  send({.station = station, .kind = wire::Kind::kStop});
 }
 
 void Operator::hear(const BusMessage& message) {
-  auto status = command::heard_status(message);
+  auto status = wire::heard_status(message);
   if (!status) return;
   // Any station counts as heard, even if the table is full.
   if (stopping_) send_stop(status->station);
@@ -59,37 +68,38 @@ void Operator::hear(const BusMessage& message) {
 const Operator::Statuses& Operator::listen(double timeout_s) {
   const double start_s = clock_monotonic_s();
   const bool all = station_ == "all";
-  const double end_s = start_s + (all ? command::kTwoIntervals_s : timeout_s);
+  const double end_s = start_s + (all ? wire::kTwoIntervals_s : timeout_s);
   while (clock_monotonic_s() < end_s && (all || statuses_.empty())) bus_.handle(kPoll_ms);
   return statuses_;
 }
 
-std::optional<std::string> Operator::give(const command::Order& order) {
-  const command::Reply before = command::reply_of(statuses_[order.station]);
-  send(order);
-  const double end_s = clock_monotonic_s() + command::kLease_s;
-  command::Reply now;
-  while (clock_monotonic_s() < end_s) {
-    bus_.handle(kPoll_ms);
-    now = command::reply_of(statuses_[order.station]);
-    if (const auto known = command::outcome(before, now, order.kind)) {
-      return known->accepted ? std::nullopt : std::optional(known->why);
-    }
-  }
-  return command::without_answer(before, now).why;
+std::optional<wire::Reply> Operator::wait_for_reply(wire::OrderId order) {
+  const double end_s = clock_monotonic_s() + wire::kLease_s;
+  while (!replies_.contains(order) && clock_monotonic_s() < end_s) bus_.handle(kPoll_ms);
+  const auto reply = replies_.find(order);
+  return reply == replies_.end() ? std::nullopt : std::optional(reply->second);
 }
 
-std::optional<std::string> Operator::hold_rate(command::Order order, double seconds) {
-  const command::Reply before = command::reply_of(statuses_[order.station]);
+std::optional<std::string> Operator::give(wire::Order order) {
+  auto reply = wait_for_reply(send(order));
+  // An order must name the station's start, which a first answer tells where no status has.
+  if (reply && reply->reason == "other_boot") reply = wait_for_reply(send(order));
+  if (!reply) return "no answer";
+  return reply->is_accepted ? std::nullopt : std::optional(wire::refusal_in_words(*reply));
+}
+
+std::optional<std::string> Operator::hold_rate(wire::Order order, double seconds) {
+  if (auto refusal = give(order)) return refusal;
+  replies_.clear();
   const double end_s = clock_monotonic_s() + seconds;
   double due_s = 0.0;
   for (double now_s = end_s - seconds; now_s < end_s; now_s = clock_monotonic_s()) {
     if (now_s >= due_s) send(order);
-    if (now_s >= due_s) due_s = now_s + command::kRateAgain_s;
+    if (now_s >= due_s) due_s = now_s + wire::kRateAgain_s;
     bus_.handle(kPoll_ms);
-    const command::Reply now = command::reply_of(statuses_[order.station]);
-    const auto known = command::outcome(before, now, order.kind);
-    if (known && !known->accepted) return known->why;
+    for (const auto& [id, reply] : replies_) {
+      if (!reply.is_accepted) return wire::refusal_in_words(reply);
+    }
   }
   order.pan_rate_rad_s = order.tilt_rate_rad_s = 0.0;
   return give(order);
@@ -98,39 +108,31 @@ std::optional<std::string> Operator::hold_rate(command::Order order, double seco
 std::map<std::string, bool> Operator::stop(double timeout_s) {
   constexpr double kMostRate = 2000;  // [1/s] of stops to all stations together
   constexpr int kTurn_ms = 10;
-  struct Addressed {
-    double sent_s = -1.0;
-    std::optional<command::Reply> before;  // the first heard of its boot
-    bool stopped = false;
-  };
   const bool all = station_ == "all";
   stopping_ = all;
-  std::map<std::string, Addressed> addressed;
-  if (!all) addressed[station_] = {};
+  std::map<std::string, bool> stopped;
+  std::map<std::string, double> sent_s;
+  if (!all) stopped[station_] = false;
   const double start_s = clock_monotonic_s();
   for (double now_s = start_s; now_s < start_s + timeout_s; now_s = clock_monotonic_s()) {
-    for (const auto& [id, status] : statuses_) {
-      Addressed& one = addressed[id];
-      const command::Reply now = command::reply_of(status);
-      if (!one.before || one.before->boot_id != now.boot_id) one.before = now;
-      one.stopped = command::confirms_stop(*one.before, now);
+    for (const auto& [id, status] : statuses_) stopped.try_emplace(id, false);
+    for (const auto& [id, reply] : replies_) {
+      if (reply.is_accepted && reply.is_stopped) stopped[reply.station] = true;
     }
     const double again_s =
-        std::max(command::kStopAgain_s, static_cast<double>(addressed.size()) / kMostRate);
-    for (auto& [id, one] : addressed) {
-      if (one.stopped || now_s < one.sent_s + again_s) continue;
+        std::max(wire::kStopAgain_s, static_cast<double>(stopped.size()) / kMostRate);
+    for (const auto& [id, stands] : stopped) {
+      const auto sent = sent_s.find(id);
+      if (stands || (sent != sent_s.end() && now_s < sent->second + again_s)) continue;
       send_stop(id);
-      one.sent_s = now_s;
+      sent_s[id] = now_s;
     }
-    const bool every =
-        std::ranges::all_of(addressed, [](const auto& a) { return a.second.stopped; });
-    if (every && !addressed.empty() && (!all || now_s > start_s + command::kTwoIntervals_s)) break;
+    const bool every = std::ranges::all_of(stopped, [](const auto& one) { return one.second; });
+    if (every && !stopped.empty() && (!all || now_s > start_s + wire::kTwoIntervals_s)) break;
     bus_.handle(kTurn_ms);
   }
   stopping_ = false;
-  std::map<std::string, bool> result;
-  for (const auto& [id, one] : addressed) result[id] = one.stopped;
-  return result;
+  return stopped;
 }
 
 }  // namespace ols::ctl

@@ -1,5 +1,4 @@
-// The operator's side of the bus: sends an order to a station, and reads the outcome from its
-// status.
+// The operator's side of the bus: sends an order to a station and waits for the answer.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +9,9 @@
 #include <vector>
 
 #include "base/lcm_bus.h"
-#include "command/messages.h"
 #include "ols_msg/station_status_t.hpp"
+#include "wire/orders.h"
+#include "wire/station_status.h"
 
 namespace ols::ctl {
 
@@ -30,28 +30,30 @@ class Operator {
   // its status arrives, at most timeout_s. For all: two status intervals.
   const Statuses& listen(double timeout_s);
   // The table of stations is full: forged statuses may hide real stations.
-  bool is_full() const { return statuses_.size() >= command::kMostStationsHeard; }
+  bool is_full() const { return statuses_.size() >= wire::kMostStationsHeard; }
 
   // The addressed stations of the trust list, heard or not; empty where signatures are off.
   std::vector<std::string> enrolled() const;
 
-  // Sends stops repeatedly to the addressed station, or to each station as soon as it is heard,
-  // until its status confirms one or timeout_s is over: a stop needs no status, and may get lost.
-  // Returns whether each station confirmed.
+  // Sends stops repeatedly to the addressed station, or to each as soon as it is heard, until it
+  // answers that it stands or timeout_s is over: a stop needs no status, and may get lost. Returns
+  // whether each station confirmed.
   std::map<std::string, bool> stop(double timeout_s);
 
-  // Sends the order and waits for the status that counts it. Returns nullopt if it was accepted,
-  // otherwise the station's reason. Homing takes half a minute: only its acceptance is awaited; the
-  // status shows its result.
-  std::optional<std::string> give(const command::Order& order);
+  // Sends the order and waits for the answer; no status is needed. Returns nullopt if it was
+  // accepted, otherwise why not. Homing: acceptance only, it takes half a minute; the status shows
+  // its result.
+  std::optional<std::string> give(wire::Order order);
 
-  // Turns the unit for this time, then halts it: sends the rate repeatedly, each with its lease.
-  // Returns at once if the station refuses.
-  std::optional<std::string> hold_rate(command::Order order, double seconds);
+  // Turns the unit for so long, then halts it: sends the rate again and again, each with its lease.
+  // Ends at once with the station's refusal.
+  std::optional<std::string> hold_rate(wire::Order order, double seconds);
 
  private:
   void hear(const BusMessage& message);
-  void send(const command::Order& order);
+  // Under an id of its own.
+  wire::OrderId send(wire::Order order);
+  std::optional<wire::Reply> wait_for_reply(wire::OrderId order);
   void send_stop(const std::string& station);
 
   std::string station_;
@@ -59,8 +61,9 @@ class Operator {
   const std::shared_ptr<trust::BusTrust> trust_;
   LcmBus bus_;
   Statuses statuses_;
-  command::OrderSender sender_;
-  bool stopping_ = false;  // every station that is heard
+  wire::OrderSender sender_;
+  std::map<wire::OrderId, wire::Reply> replies_;  // to this process
+  bool stopping_ = false;                         // every station that is heard
 };
 
 }  // namespace ols::ctl

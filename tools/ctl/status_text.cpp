@@ -6,15 +6,17 @@
 
 #include "geometry/angles.h"
 #include "ols_msg/bearing_t.hpp"
+#include "wire/station_status.h"
 
 namespace ols::ctl {
 namespace {
 
-using command::clock_name;
-using command::counter;
-using command::device_name;
-using command::device_state;
-using command::state_name;
+using wire::clock_name;
+using wire::counter;
+using wire::device_name;
+using wire::device_state;
+using wire::source_name;
+using wire::state_name;
 
 template <class... Values>
 std::string line(const char* format, Values... values) {
@@ -32,11 +34,6 @@ std::string shown(double value, int decimals) {
 }
 
 std::string shown_deg(double rad, int decimals) { return shown(degrees(rad), decimals); }
-
-const char* source_name(std::int8_t source) {
-  using M = ols_msg::station_status_t;
-  return source == M::POSE_SURVEYED ? "surveyed" : source == M::POSE_SENSOR ? "sensor" : "unknown";
-}
 
 std::string pose_text(const ols_msg::station_status_t& s) {
   std::string text;

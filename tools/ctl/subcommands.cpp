@@ -34,7 +34,7 @@ void add_rate_command(CLI::App& app, Words& words) {
     for (const double rate_deg_s : words.rates_deg_s) require_rate(rate_deg_s);
     words.send = [&words](Operator& hand, const std::string& id) {
       return hand.hold_rate({.station = id,
-                             .kind = command::Kind::kRate,
+                             .kind = wire::Kind::kRate,
                              .pan_rate_rad_s = radians(words.rates_deg_s[0]),
                              .tilt_rate_rad_s = radians(words.rates_deg_s[1])},
                             words.seconds);
@@ -51,9 +51,9 @@ void add_lens_command(CLI::App& app, Words& words) {
   lens->require_option(1, 3);
   lens->callback([&words] {
     words.send = [&words](Operator& hand, const std::string& id) {
-      command::Order order = words.lens;
+      wire::Order order = words.lens;
       order.station = id;
-      order.kind = command::Kind::kLens;
+      order.kind = wire::Kind::kLens;
       return hand.give(order);
     };
   });
@@ -61,7 +61,7 @@ void add_lens_command(CLI::App& app, Words& words) {
 
 // At a pixel of the newest frame.
 void add_point_commands(CLI::App& app, Words& words) {
-  const auto at_point = [&](const char* name, const char* help, command::Kind kind) {
+  const auto at_point = [&](const char* name, const char* help, wire::Kind kind) {
     auto* command = app.add_subcommand(name, help);
     command->add_option("point", words.point, "X Y [px] in the full-resolution frame")
         ->expected(2)
@@ -73,11 +73,11 @@ void add_point_commands(CLI::App& app, Words& words) {
       };
     });
   };
-  at_point("centre", "Turn until a pixel is in the middle of the picture", command::Kind::kCentre);
+  at_point("centre", "Turn until a pixel is in the middle of the picture", wire::Kind::kCentre);
   at_point("look",
            "Follow the object at a pixel, and lead the other stations along that line of sight "
            "until they see it",
-           command::Kind::kLook);
+           wire::Kind::kLook);
 }
 
 void add_ptu_commands(CLI::App& app, Words& words) {
@@ -90,12 +90,12 @@ void add_ptu_commands(CLI::App& app, Words& words) {
     require_angle("TILT", words.angles_deg[1], degrees(kPointTiltLimit_rad));
     words.send = [&words](Operator& hand, const std::string& id) {
       return hand.give({.station = id,
-                        .kind = command::Kind::kPoint,
+                        .kind = wire::Kind::kPoint,
                         .pan_rad = radians(words.angles_deg[0]),
                         .tilt_rad = radians(words.angles_deg[1])});
     };
   });
-  const auto simple = [&](const char* name, const char* help, command::Kind kind) {
+  const auto simple = [&](const char* name, const char* help, wire::Kind kind) {
     app.add_subcommand(name, help)->callback([&words, kind] {
       words.send = [kind](Operator& hand, const std::string& id) {
         return hand.give({.station = id, .kind = kind});
@@ -104,16 +104,16 @@ void add_ptu_commands(CLI::App& app, Words& words) {
   };
   app.add_subcommand("stop", "Halt the PTU; it stays stopped until the next command")
       ->callback([&words] { words.stop = true; });
-  simple("release", "Give the PTU back to automatic control", command::Kind::kRelease);
+  simple("release", "Give the PTU back to automatic control", wire::Kind::kRelease);
   simple(
       "rearm",
       "End the emergency after the stop button is released; the PTU stays stopped. Only where the "
       "site permits it remotely",
-      command::Kind::kRearm);
+      wire::Kind::kRearm);
   simple("home", "Home the PTU: it sweeps its whole travel, clear the way first",
-         command::Kind::kHome);
+         wire::Kind::kHome);
   simple("reference-ok", "Confirm the PTU's angles, after checking them or homing by hand",
-         command::Kind::kReferenceOk);
+         wire::Kind::kReferenceOk);
 }
 
 // Of the fusion, not of a station.
@@ -130,7 +130,7 @@ void add_cue_commands(CLI::App& app, Words& words) {
     command->add_option("cue", words.label, "Its name, as shown by cues")->required();
     command->callback([&words, of_fusion, name, allow] {
       of_fusion(name);
-      words.cue_order = command::CueOrder{words.label, allow};
+      words.cue_order = wire::CueOrder{words.label, allow};
     });
   };
   word("allow", "Let stations be led to a cue (ols-ctl fusion allow CUE)", true);
@@ -147,7 +147,7 @@ void add_other_commands(CLI::App& app, Words& words) {
   designate->callback([&words] {
     words.send = [&words](Operator& hand, const std::string& id) {
       return hand.give({.station = id,
-                        .kind = command::Kind::kDesignate,
+                        .kind = wire::Kind::kDesignate,
                         .x_px = words.box[0],
                         .y_px = words.box[1],
                         .width_px = words.box[2],
@@ -163,7 +163,7 @@ void add_other_commands(CLI::App& app, Words& words) {
   record->callback([&words] {
     words.send = [&words](Operator& hand, const std::string& id) {
       return hand.give({.station = id,
-                        .kind = command::Kind::kRecord,
+                        .kind = wire::Kind::kRecord,
                         .before_s = words.before_s,
                         .after_s = words.after_s,
                         .label = words.label});

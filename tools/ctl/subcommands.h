@@ -9,8 +9,8 @@
 
 #include "base/lcm_url.h"
 #include "base/trust/trust_options.h"
-#include "command/order.h"
 #include "tools/ctl/operator.h"
+#include "wire/order.h"
 
 namespace ols::ctl {
 
@@ -29,14 +29,14 @@ struct Words {
   std::vector<double> angles_deg;
   std::vector<double> rates_deg_s;
   double seconds = 1.0;
-  command::Order lens;
+  wire::Order lens;
   double before_s = 0.0, after_s = 0.0;
   std::string label;
   trust::TrustConfig trust;
   Look look = Look::kTable;
   bool stop = false;
   bool cues = false;  // cues instead of a station
-  std::optional<command::CueOrder> cue_order;
+  std::optional<wire::CueOrder> cue_order;
   std::optional<Send> send;  // nullopt: stop or status
 };
 

@@ -11,12 +11,13 @@
 #include "base/command_output.h"
 #include "base/lcm_bus.h"
 #include "base/lcm_url.h"
-#include "command/messages.h"
 #include "ols_msg/bearing_t.hpp"
 #include "ols_msg/fusion_status_t.hpp"
 #include "ols_msg/station_status_t.hpp"
 #include "tools/ctl/status_text.h"
 #include "tools/doctor/judge_host.h"
+#include "wire/fusion_status.h"
+#include "wire/station_status.h"
 
 namespace ols::doctor {
 namespace {
@@ -58,7 +59,7 @@ std::shared_ptr<trust::BusTrust> open_trust(const trust::TrustConfig& config,
 StationHeard station_from(const ols_msg::station_status_t& status) {
   StationHeard station;
   station.id = status.station;
-  station.state = command::state_name(status.state);
+  station.state = wire::state_name(status.state);
   for (std::size_t i = 0; i < status.device_name.size(); ++i) {
     device::DeviceReport device;
     device.name = status.device_name[i];
@@ -128,19 +129,19 @@ BusHeard listen(const std::string& lcm_url, const trust::TrustConfig& trust, dou
     heard.is_verified = signatures != nullptr;
     LcmBus bus(lcm_url, signatures);
     bus.subscribe(station_channel(kStatusChannel, ".*"), [&](const BusMessage& message) {
-      const auto status = command::heard_status(message);
+      const auto status = wire::heard_status(message);
       if (!status) return;
       const bool known = heard.stations.contains(status->station) || status->station == own;
-      if (!known && heard.stations.size() >= command::kMostStationsHeard) return;
+      if (!known && heard.stations.size() >= wire::kMostStationsHeard) return;
       std::set<std::int64_t>& of_station = boots[status->station];
       if (of_station.size() < kMostBoots) of_station.insert(status->boot_id);
       heard.stations[status->station] = station_from(*status);
     });
     bus.subscribe(std::string(kFusionStatusChannel), [&](const BusMessage& message) {
-      ols_msg::fusion_status_t status;
-      if (!decode_exactly(message, status)) return;
-      if (fusions.size() < kMostBoots) fusions.insert(status.boot_id);
-      heard.fusion_alarms = status.alarm;
+      const auto status = wire::heard_fusion_status(message);
+      if (!status) return;
+      if (fusions.size() < kMostBoots) fusions.insert(status->boot_id);
+      heard.fusion_alarms = status->alarm;
     });
     if (signatures) wait_for_list(bus, *signatures);
     const BusTraffic before = bus.traffic();

@@ -23,10 +23,11 @@
 #include "base/service_notifier.h"
 #include "base/shutdown.h"
 #include "base/small_file.h"
-#include "command/messages.h"
 #include "tools/exporter/bridge_metrics.h"
 #include "tools/exporter/exporter_config.h"
 #include "tools/exporter/site_metrics.h"
+#include "wire/fusion_status.h"
+#include "wire/station_status.h"
 
 namespace {
 
@@ -90,11 +91,10 @@ std::shared_ptr<ols::trust::BusTrust> open_trust(const ols::trust::TrustConfig& 
 void listen(ols::LcmBus& bus, Told& told) {
   bus.subscribe(ols::station_channel(ols::kStatusChannel, ".*"),
                 [&told](const ols::BusMessage& message) {
-                  if (const auto status = ols::command::heard_status(message)) told.hear(*status);
+                  if (const auto status = ols::wire::heard_status(message)) told.hear(*status);
                 });
   bus.subscribe(std::string(ols::kFusionStatusChannel), [&told](const ols::BusMessage& message) {
-    ols_msg::fusion_status_t status;
-    if (ols::decode_exactly(message, status)) told.hear(status);
+    if (const auto status = ols::wire::heard_fusion_status(message)) told.hear(*status);
   });
 }
 

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <utility>
 
-#include "command/messages.h"
 #include "ols_msg/bearing_t.hpp"
 #include "tools/exporter/metric_collection.h"
+#include "wire/station_status.h"
 
 namespace ols::exporter {
 namespace {
@@ -25,7 +25,7 @@ void add_state(MetricCollection& all, const std::string& id, const station_statu
   all.gauge("ols_station_status_age_seconds", "Since its last status was heard.", {{"station", id}},
             age_s);
   all.gauge("ols_station_state", "1 for what the station does now.",
-            {{"station", id}, {"state", command::state_name(s.state)}}, 1.0);
+            {{"station", id}, {"state", wire::state_name(s.state)}}, 1.0);
   all.gauge("ols_station_alarms", "Alarms that are active.", {{"station", id}},
             static_cast<double>(s.alarm.size()));
   all.gauge("ols_station_frame_latency_seconds", "Mid-exposure to bearing, smoothed.",
@@ -40,7 +40,7 @@ void add_state(MetricCollection& all, const std::string& id, const station_statu
 // One at a time for each station: after an update the former is not told any more.
 void add_version(MetricCollection& all, const std::string& id, const station_status_t& s) {
   all.gauge("ols_station_build_info", "1; the version of the station's program.",
-            {{"station", id}, {"version", command::software(s)}}, 1.0);
+            {{"station", id}, {"version", wire::software(s)}}, 1.0);
   if (s.last_error.empty()) return;
   all.gauge("ols_station_last_error_age_seconds", "Since the newest error in its status.",
             {{"station", id}}, seconds_since(s.last_error_utime, s.utime));

@@ -11,35 +11,25 @@ import time
 from urllib.parse import urlparse
 
 
-class PlainViewer(threading.Thread):
-    def __init__(self, address: str, stations: list[str], rate_hz: float | None = None):
-        """rate_hz: None: as fast as they come."""
-        super().__init__(daemon=True)
-        self._period_s = 1.0 / rate_hz if rate_hz else None
-        self._stations = stations
+class LiveSocket:
+    """The console's WebSocket, open."""
+
+    def __init__(self, address: str):
         where = urlparse(address)
-        self.bytes = 0
-        self._socket = socket.create_connection((where.hostname, where.port))
+        self.socket = socket.create_connection((where.hostname, where.port))
         key = base64.b64encode(os.urandom(16)).decode()
-        self._socket.sendall(
+        self.socket.sendall(
             f"GET /api/live HTTP/1.1\r\nHost: {where.netloc}\r\nUpgrade: websocket\r\n"
             f"Connection: Upgrade\r\nSec-WebSocket-Key: {key}\r\nSec-WebSocket-Version: 13\r\n\r\n"
             "".encode()
         )
         said = b""
         while b"\r\n\r\n" not in said:
-            said += self._socket.recv(1)
+            said += self.socket.recv(1)
         if b" 101 " not in said:
             raise ConnectionError(said.decode(errors="replace"))
-        self._say({"do": "watch", "pictures": stations})
-        if self._period_s:
-            self._socket.settimeout(self._period_s)
-            self._take()
 
-    def _take(self) -> None:
-        self._say({"do": "taken", "pictures": self._stations, "state": True})
-
-    def _say(self, message: dict) -> None:
+    def say(self, message: dict) -> None:
         text = json.dumps(message).encode()
         mask = os.urandom(4)
         masked = bytes(byte ^ mask[i % 4] for i, byte in enumerate(text))
@@ -49,7 +39,50 @@ class PlainViewer(threading.Thread):
             if len(text) < 126
             else struct.pack(">BH", 0x80 | 126, len(text))
         )
-        self._socket.sendall(b"\x81" + length + mask + masked)
+        self.socket.sendall(b"\x81" + length + mask + masked)
+
+    def _read(self, count: int) -> bytes:
+        data = b""
+        while len(data) < count:
+            more = self.socket.recv(count - len(data))
+            if not more:
+                raise ConnectionError("the console has closed the connection")
+            data += more
+        return data
+
+    def heard(self) -> dict | None:
+        """The next message; None for one that is no text."""
+        kind, length = self._read(2)
+        if length >= 126:
+            length = int.from_bytes(self._read(2 if length == 126 else 8))
+        content = self._read(length)
+        return json.loads(content) if kind & 0x0F == 1 else None
+
+    def answer_to(self, message: dict) -> dict:
+        self.say(message)
+        while True:
+            heard = self.heard()
+            is_answer = heard and heard["kind"] == "answer"
+            if is_answer and heard["number"] == message["number"]:
+                return heard
+
+
+class PlainViewer(threading.Thread):
+    def __init__(self, address: str, stations: list[str], rate_hz: float | None = None):
+        """rate_hz: None: as fast as they come."""
+        super().__init__(daemon=True)
+        self._period_s = 1.0 / rate_hz if rate_hz else None
+        self._stations = stations
+        self.bytes = 0
+        self._live = LiveSocket(address)
+        self._socket = self._live.socket
+        self._live.say({"do": "watch", "pictures": stations})
+        if self._period_s:
+            self._socket.settimeout(self._period_s)
+            self._take()
+
+    def _take(self) -> None:
+        self._live.say({"do": "taken", "pictures": self._stations, "state": True})
 
     def _receive(self) -> bytes | None:
         """None: nothing for a period."""

@@ -18,7 +18,7 @@ from .sites import Site, chosen_order, sites
 
 FOLDERS = (
     *("geometry", "central", "edge/tracker", "edge/ptu", "base", "base/trust", "calibration"),
-    "command",
+    "wire",
 )
 LEAST_LIMIT_S = 10.0
 LIMIT_OF_USUAL = 5.0

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "ols_msg/command_reply_t.hpp"
 #include "ols_msg/ptu_command_t.hpp"
 #include "ols_msg/station_status_t.hpp"
 #include "ols_msg/target_t.hpp"
@@ -61,6 +62,16 @@ inline std::string logged_stop(std::int64_t utime_us) {
   command.station = "alfa";
   command.command = ols_msg::ptu_command_t::COMMAND_STOP;
   return log_record(utime_us, "OLS_PTU_alfa", payload_of(command));
+}
+
+// Its station's answer to it.
+inline std::string logged_reply(std::int64_t utime_us) {
+  ols_msg::command_reply_t reply{};
+  reply.schema_version = ols_msg::command_reply_t::SCHEMA_VERSION;
+  reply.station = "alfa";
+  reply.accepted = 1;
+  reply.state = ols_msg::station_status_t::STATE_STOPPED;
+  return log_record(utime_us, "OLS_REPLY_alfa", payload_of(reply));
 }
 
 inline std::string logged_target(std::int64_t utime_us, double latitude_deg,

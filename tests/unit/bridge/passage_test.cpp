@@ -318,14 +318,14 @@ TEST(Passage, GapsOfWhatComesInAreWatched) {
 }
 
 TEST(Passage, SubscribesToWhatMayPassAndToNothingElse) {
-  EXPECT_EQ(Passage(site()).channels(), "OLS_(BEARING|STATUS)_.*");
+  EXPECT_EQ(Passage(site()).channels(), "OLS_(BEARING|STATUS|REPLY)_.*");
   EXPECT_THAT(Passage(site()).subjects(),
               ElementsAre("ols.v1.r.border.*.bearing", "ols.v1.r.border.*.status",
-                          "ols.v1.r.s.*.cmd.slew"));
+                          "ols.v1.r.border.*.reply", "ols.v1.r.s.*.cmd.slew"));
   PassageConfig some = site();
   some.stations = {"alfa", "bravo"};
   some.takes.clear();
-  EXPECT_EQ(Passage(some).channels(), "OLS_(BEARING|STATUS)_(alfa|bravo)");
+  EXPECT_EQ(Passage(some).channels(), "OLS_(BEARING|STATUS|REPLY)_(alfa|bravo)");
   EXPECT_THAT(Passage(some).subjects(),
               ElementsAre("ols.v1.r.s.alfa.cmd.slew", "ols.v1.r.s.bravo.cmd.slew"));
   EXPECT_EQ(Passage(region()).channels(), "OLS_TARGET|OLS_SLEW_.*");

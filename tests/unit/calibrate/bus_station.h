@@ -8,6 +8,7 @@
 #include "base/channel_names.h"
 #include "base/clocks.h"
 #include "base/lcm_bus.h"
+#include "ols_msg/command_reply_t.hpp"
 #include "ols_msg/frame_part_t.hpp"
 #include "ols_msg/frame_request_t.hpp"
 #include "ols_msg/procedure_t.hpp"
@@ -24,6 +25,7 @@ class BusStation {
       command.decode(message.payload.data(), 0, static_cast<int>(message.payload.size()));
       commands.push_back(command.command);
       if (on_command) on_command();
+      answer(command);
     });
   }
 
@@ -39,6 +41,20 @@ class BusStation {
     bus.publish(station_channel(kStatusChannel, "alfa"), status);
   }
 
+  void answer(const ols_msg::ptu_command_t& command) {
+    ols_msg::command_reply_t reply{};
+    reply.utime = 1;
+    reply.schema_version = ols_msg::command_reply_t::SCHEMA_VERSION;
+    reply.station = "alfa";
+    reply.boot_id = 1;
+    reply.sequence = ++sequence_;
+    reply.order_boot_id = command.boot_id;
+    reply.order_sequence = command.sequence;
+    reply.reason = refusal;
+    reply.accepted = refusal.empty() ? 1 : 0;
+    bus.publish(station_channel(kReplyChannel, "alfa"), reply);
+  }
+
   virtual ~BusStation() = default;
   BusStation(const BusStation&) = delete;
   BusStation& operator=(const BusStation&) = delete;
@@ -47,6 +63,7 @@ class BusStation {
   std::vector<std::int8_t> commands;
   std::function<void()> on_command;
   double pan_rad = 0.0;  // that it says
+  std::string refusal;   // of all commands; empty: none
 
  private:
   std::int64_t sequence_ = 0;

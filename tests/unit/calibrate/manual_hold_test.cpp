@@ -13,6 +13,7 @@ TEST(ManualHold, AReleaseBySomebodyElseEndsIt) {
   hold.point();
   hold.hear(Status::STATE_IDLE);  // said before the command arrived
   EXPECT_FALSE(hold.is_lost());
+  hold.accept();
   hold.hear(Status::STATE_MANUAL);
   EXPECT_FALSE(hold.is_lost());
   for (const auto state : {Status::STATE_IDLE, Status::STATE_LOST, Status::STATE_SLEWED}) {
@@ -26,6 +27,7 @@ TEST(ManualHold, TakenAgainByAnOperatorItStaysLost) {
   for (const auto between : {Status::STATE_IDLE, Status::STATE_STOPPED}) {
     ManualHold hold;
     hold.point();
+    hold.accept();
     for (const auto state : {Status::STATE_MANUAL, between, Status::STATE_MANUAL}) hold.hear(state);
     EXPECT_TRUE(hold.is_lost()) << int{between};
   }

@@ -45,6 +45,7 @@ TEST_F(StationLinkTest, AnOperatorsManualOperationIsNotReleased) {
   station.say(Status::STATE_MANUAL);
   EXPECT_FALSE(link.release());
   link.point();
+  handle();
   station.say(Status::STATE_MANUAL);
   station.say(Status::STATE_IDLE);
   station.say(Status::STATE_MANUAL);  // taken by somebody else, meanwhile
@@ -52,6 +53,18 @@ TEST_F(StationLinkTest, AnOperatorsManualOperationIsNotReleased) {
   EXPECT_FALSE(link.release());
   handle();
   EXPECT_EQ(station.commands, std::vector<std::int8_t>{Command::COMMAND_POINT});
+}
+
+TEST_F(StationLinkTest, ARefusalIsToldUntilTheUnitIsWantedElsewhere) {
+  station.refusal = "unreachable";
+  link.set_out({});
+  link.point();
+  handle();
+  EXPECT_EQ(link.refusal(), "refused: outside the travel, or in a keep-out region");
+  link.set_out({0.1, 0.0});
+  EXPECT_EQ(link.refusal(), "");
+  station.say(Status::STATE_MANUAL);
+  EXPECT_FALSE(link.release()) << "the station has refused it";
 }
 
 TEST_F(StationLinkTest, WithoutAStatusNothingMoves) { EXPECT_FALSE(link.may_point()); }

@@ -19,7 +19,7 @@ TEST(ClientMessage, ABoxOnAFrameIsADesignation) {
                            R"("frame_utime_us":1700000000123456,"box_px":[10.5,20,30,40]})");
   const auto& request = std::get<CommandRequest>(message);
   EXPECT_EQ(request.number, 7);
-  EXPECT_EQ(request.order.kind, command::Kind::kDesignate);
+  EXPECT_EQ(request.order.kind, wire::Kind::kDesignate);
   EXPECT_EQ(request.order.station, "alfa");
   EXPECT_EQ(request.order.frame_utime_us, 1700000000123456);
   EXPECT_EQ(request.order.x_px, 10.5);
@@ -101,7 +101,7 @@ TEST(ClientMessage, APointIsCentredOrLookedAt) {
   const auto message = parse_client_message(
       R"({"do":"command","station":"o","command":"look","point_px":[10,20.5],"frame_utime_us":5})");
   const auto& order = std::get<CommandRequest>(message).order;
-  EXPECT_EQ(order.kind, command::Kind::kLook);
+  EXPECT_EQ(order.kind, wire::Kind::kLook);
   EXPECT_EQ(order.x_px, 10.0);
   EXPECT_EQ(order.y_px, 20.5);
   EXPECT_EQ(order.width_px, 0.0);

@@ -5,62 +5,106 @@
 namespace ols::console {
 namespace {
 
-using command::Kind;
-using command::Order;
-using command::Reply;
+using wire::Kind;
+using wire::Order;
+using wire::Reply;
 
 Order order(Kind kind, const std::string& station = "alfa") {
   return {.station = station, .kind = kind};
 }
 
-TEST(CommandDesk, AnOrderIsSentOnceAndJudgedByTheStationsCounts) {
+// To the order that was sent as this one.
+Reply answer(std::int64_t sequence, const std::string& reason = "", bool stopped = false) {
+  return {.station = "alfa",
+          .order = {0, sequence},
+          .is_accepted = reason.empty(),
+          .reason = reason,
+          .is_stopped = stopped};
+}
+
+TEST(CommandDesk, AnOrderIsSentOnceAndItsAnswerIsTold) {
   CommandDesk desk;
-  desk.hear("alfa", Reply{.counters = {{"home_accepted", 1}}});
+  desk.hear("alfa", false);
   EXPECT_FALSE(desk.begin(order(Kind::kHome), {.viewer = 4, .number = 5}, 10.0));
   EXPECT_EQ(desk.due(10.0).size(), 1U);
   EXPECT_TRUE(desk.due(10.1).empty());
   EXPECT_TRUE(desk.finished(10.2).empty());
-  desk.hear("alfa", Reply{.counters = {{"home_accepted", 2}}});
+  desk.hear(answer(1));
   const auto verdicts = desk.finished(10.3);
   ASSERT_EQ(verdicts.size(), 1U);
-  EXPECT_TRUE(verdicts[0].outcome.accepted);
+  EXPECT_EQ(verdicts[0].why, "");
   EXPECT_EQ(verdicts[0].ticket.viewer, 4U);
   EXPECT_EQ(verdicts[0].ticket.number, 5);
   EXPECT_TRUE(desk.finished(10.4).empty());
 }
 
-TEST(CommandDesk, ARefusalComesInTheStationsWords) {
+TEST(CommandDesk, EachOfTwoOrdersOnTheirWayHasItsOwnAnswer) {
   CommandDesk desk;
-  desk.hear("alfa", {});
-  static_cast<void>(desk.begin(order(Kind::kPoint), {}, 0.0));
+  desk.hear("alfa", false);
+  for (const std::int64_t number : {1, 2}) {
+    EXPECT_FALSE(desk.begin(order(Kind::kDesignate), {.number = number}, 0.0));
+  }
+  EXPECT_EQ(desk.due(0.0).size(), 2U);
+  desk.hear(answer(2, "emergency"));
+  auto verdicts = desk.finished(0.1);
+  ASSERT_EQ(verdicts.size(), 1U);
+  EXPECT_EQ(verdicts[0].ticket.number, 2);
+  EXPECT_EQ(verdicts[0].why, "refused: the emergency stop holds; release it and re-arm first");
+  desk.hear(answer(1));
+  verdicts = desk.finished(0.2);
+  ASSERT_EQ(verdicts.size(), 1U);
+  EXPECT_EQ(verdicts[0].ticket.number, 1);
+  EXPECT_EQ(verdicts[0].why, "");
+}
+
+TEST(CommandDesk, AnswersToOthersOrdersAndOfOtherStationsAreNone) {
+  CommandDesk desk;
+  desk.hear("alfa", false);
+  desk.hear("bravo", false);
+  static_cast<void>(desk.begin(order(Kind::kHome), {}, 0.0));
   static_cast<void>(desk.due(0.0));
-  desk.hear("alfa", Reply{.counters = {{"refused_emergency", 1}}});
-  EXPECT_EQ(desk.finished(0.1).at(0).outcome.why,
-            "refused: the emergency stop holds; release it and re-arm first");
+  for (Reply reply : {answer(1), answer(1), answer(2)}) {
+    if (reply.order.sequence == 1) reply.order.boot_id = 7;
+    desk.hear(reply);
+    reply = answer(1);
+    reply.station = "bravo";
+    desk.hear(reply);
+  }
+  EXPECT_TRUE(desk.finished(0.1).empty());
+}
+
+// As a log has it.
+TEST(CommandDesk, OfAnOrderThatIsOnlyWatchedTheAnswerIsToldIfThereIsOne) {
+  CommandDesk desk;
+  desk.hear("alfa", false);
+  Order stop = order(Kind::kStop);
+  stop.id = {9, 1};
+  static_cast<void>(desk.begin(stop, {.event = 3, .is_watched = true}, 0.0));
+  stop.id = {9, 2};
+  desk.watch_again(stop);
+  EXPECT_TRUE(desk.due(1.0).empty());
+  Reply reply = answer(2, "", true);
+  reply.order.boot_id = 9;
+  desk.hear(reply);
+  ASSERT_EQ(desk.finished(1.0).size(), 1U);
+  Order home = order(Kind::kHome);
+  home.id = {9, 3};
+  static_cast<void>(desk.begin(home, {.is_watched = true}, 2.0));
+  EXPECT_TRUE(desk.finished(2.0 + wire::kLease_s + 0.1).empty());
 }
 
 TEST(CommandDesk, WithoutAnAnswerItEndsWithTheLease) {
   CommandDesk desk;
-  desk.hear("alfa", {});
+  desk.hear("alfa", false);
   static_cast<void>(desk.begin(order(Kind::kPoint), {}, 0.0));
   static_cast<void>(desk.due(0.0));
-  EXPECT_TRUE(desk.finished(command::kLease_s).empty());
-  EXPECT_EQ(desk.finished(command::kLease_s + 0.01).at(0).outcome.why, "no answer");
-}
-
-TEST(CommandDesk, RefusesWhatItCouldNotJudge) {
-  CommandDesk desk;
-  EXPECT_EQ(desk.begin(order(Kind::kHome), {}, 0.0), "refused: no such station is heard");
-  desk.hear("alfa", {});
-  EXPECT_FALSE(desk.begin(order(Kind::kHome), {}, 0.0));
-  EXPECT_EQ(desk.begin(order(Kind::kHome), {}, 0.0),
-            "refused: the station has not answered the same command yet");
-  EXPECT_FALSE(desk.begin(order(Kind::kPoint), {}, 0.0));
+  EXPECT_TRUE(desk.finished(wire::kLease_s).empty());
+  EXPECT_EQ(desk.finished(wire::kLease_s + 0.01).at(0).why, "no answer");
 }
 
 TEST(CommandDesk, ARateReplacesTheOneThatIsNotAnsweredYet) {
   CommandDesk desk;
-  desk.hear("alfa", {});
+  desk.hear("alfa", false);
   Order rate = order(Kind::kRate);
   EXPECT_FALSE(desk.is_held(rate, 10.0));
   for (int i = 1; i <= 3; ++i) {
@@ -74,33 +118,24 @@ TEST(CommandDesk, ARateReplacesTheOneThatIsNotAnsweredYet) {
   EXPECT_TRUE(desk.is_held(rate, 10.4));
   EXPECT_FALSE(desk.is_held(rate, 11.4));
   EXPECT_FALSE(desk.is_held({.station = "alfa", .kind = Kind::kLens, .lens_rates = true}, 10.4));
-  desk.hear("alfa", Reply{.counters = {{"rate_accepted", 3}}});
-  EXPECT_EQ(desk.finished(10.5).size(), 1U);
+  desk.hear(answer(2));
+  EXPECT_EQ(desk.finished(10.5).size(), 1U) << "to any of them";
 }
 
 TEST(CommandDesk, AStopIsRepeatedUntilTheUnitStands) {
   CommandDesk desk;
-  desk.hear("alfa", Reply{.counters = {{"stop_accepted", 3}}});
+  desk.hear("alfa", false);
   EXPECT_FALSE(desk.begin(order(Kind::kStop), {}, 0.0));
   EXPECT_EQ(desk.due(0.0).size(), 1U);
   EXPECT_TRUE(desk.due(0.01).empty());
   EXPECT_EQ(desk.due(0.03).size(), 1U);
-  desk.hear("alfa", Reply{.counters = {{"stop_accepted", 4}}});
-  EXPECT_TRUE(desk.finished(0.1).empty()) << "counted, but it does not stand yet";
-  desk.hear("alfa", Reply{.counters = {{"stop_accepted", 4}}, .stopped = true});
-  EXPECT_TRUE(desk.finished(0.2).at(0).outcome.accepted);
+  desk.hear(answer(1, "other_boot"));
+  desk.hear(answer(1));
+  EXPECT_TRUE(desk.finished(0.1).empty()) << "it does not stand yet";
+  desk.hear(answer(2, "", true));
+  EXPECT_EQ(desk.finished(0.2).at(0).why, "");
+  EXPECT_TRUE(desk.is_stopped("alfa")) << "its next status is no news";
   EXPECT_TRUE(desk.due(0.3).empty());
-}
-
-TEST(CommandDesk, ARecordingOfAnotherBootConfirmsNoStop) {
-  CommandDesk desk;
-  desk.hear("alfa", Reply{.counters = {{"stop_accepted", 3}}, .boot_id = 2});
-  EXPECT_FALSE(desk.begin(order(Kind::kStop), {}, 0.0));
-  static_cast<void>(desk.due(0.0));
-  desk.hear("alfa", Reply{.counters = {{"stop_accepted", 9}}, .stopped = true, .boot_id = 1});
-  EXPECT_TRUE(desk.finished(0.1).empty());
-  desk.hear("alfa", Reply{.counters = {{"stop_accepted", 4}}, .stopped = true, .boot_id = 2});
-  EXPECT_TRUE(desk.finished(0.2).at(0).outcome.accepted);
 }
 
 TEST(CommandDesk, AStopOfAStationThatNobodyKnowsIsRefused) {
@@ -112,7 +147,7 @@ TEST(CommandDesk, AStopOfAStationThatNobodyKnowsIsRefused) {
 
 TEST(CommandDesk, AStopThatIsOnItsWayAlreadyIsJoinedAndSentAtOnce) {
   CommandDesk desk;
-  desk.hear("alfa", {});
+  desk.hear("alfa", false);
   EXPECT_FALSE(desk.begin(order(Kind::kStop), {.number = 1, .event = 7, .who = "ana"}, 0.0));
   EXPECT_EQ(desk.due(0.0).size(), 1U);
   EXPECT_EQ(desk.stop_event("alfa", "ana"), 7U);
@@ -125,17 +160,17 @@ TEST(CommandDesk, AStopThatIsOnItsWayAlreadyIsJoinedAndSentAtOnce) {
   const auto first = desk.finished(CommandDesk::kStopPatience_s + 0.1);
   ASSERT_EQ(first.size(), 1U) << "each waits for its own time";
   EXPECT_EQ(first[0].ticket.number, 1);
-  EXPECT_FALSE(first[0].outcome.accepted);
-  desk.hear("alfa", Reply{.counters = {{"stop_accepted", 1}}, .stopped = true});
+  EXPECT_EQ(first[0].why, "sent repeatedly, no answer");
+  desk.hear(answer(1, "", true));
   const auto rest = desk.finished(CommandDesk::kStopPatience_s + 0.2);
   ASSERT_EQ(rest.size(), 2U);
-  EXPECT_TRUE(rest[0].outcome.accepted && rest[1].outcome.accepted);
+  EXPECT_TRUE(rest[0].why.empty() && rest[1].why.empty());
 }
 
 TEST(CommandDesk, AStationThatIsForgottenIsNotKnownAnyMore) {
   CommandDesk desk;
-  desk.hear("alfa", {});
-  desk.hear("bravo", {});
+  desk.hear("alfa", false);
+  desk.hear("bravo", false);
   desk.keep_only([](const std::string& id) { return id == "bravo"; });
   EXPECT_TRUE(desk.begin(order(Kind::kHome), {}, 0.0));
   EXPECT_FALSE(desk.begin(order(Kind::kHome, "bravo"), {}, 0.0));
@@ -145,7 +180,7 @@ TEST(CommandDesk, StopsAreNeitherRefusedNorHeapedUp) {
   CommandDesk desk;
   for (std::size_t i = 0; i < CommandDesk::kMostPending; ++i) {
     const std::string id = std::to_string(i);
-    desk.hear(id, {});
+    desk.hear(id, false);
     EXPECT_FALSE(desk.begin(order(Kind::kHome, id), {}, 0.0));
   }
   EXPECT_EQ(desk.begin(order(Kind::kPoint, "0"), {}, 0.0),

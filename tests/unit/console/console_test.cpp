@@ -5,13 +5,17 @@
 namespace ols::console {
 namespace {
 
-StationHeard station(const std::string& id, double stops = 0, bool stopped = false) {
+StationHeard station(const std::string& id, bool stopped = false) {
   StationHeard heard;
   heard.id = id;
   heard.fields = {{"state", "tracking"}};
-  heard.reply.counters["stop_accepted"] = stops;
-  heard.reply.stopped = stopped;
+  heard.is_stopped = stopped;
   return heard;
+}
+
+// What a station says to the console's order of this number.
+wire::Reply stands(const std::string& id, std::int64_t sequence) {
+  return {.station = id, .order = {0, sequence}, .is_accepted = true, .is_stopped = true};
 }
 
 // Has heard alfa.
@@ -109,9 +113,7 @@ TEST(Console, ACommandIsAnsweredWithTheStationsOwnWord) {
   console.take(viewer, R"({"do":"command","number":4,"station":"alfa","command":"home"})",
                {1.0, 9});
   ASSERT_EQ(console.turn({1.0, 9}).size(), 1U);
-  StationHeard refuses = station("alfa");
-  refuses.reply.counters["refused_keep_out"] = 1;
-  console.hear(refuses, {1.2, 9});
+  console.hear({.station = "alfa", .order = {0, 1}, .reason = "keep_out"});
   static_cast<void>(console.turn({1.2, 9}));
   const Json answer = answer_in(received(console, viewer, {1.2, 9}));
   EXPECT_EQ(answer.at("number"), 4);
@@ -196,12 +198,14 @@ TEST(Console, WhoHoldsAStationIsToldThatAnotherProgramStoppedItButNotOfTheirOwnS
   const auto ana = console.open("ana", Role::kOperator);
   console.take(ana, R"({"do":"take","station":"alfa"})", {0.0, 0});
   console.take(ana, R"({"do":"command","station":"alfa","command":"stop"})", {0.1, 0});
-  console.hear(station("alfa", 1, true), {0.2, 0});
-  EXPECT_TRUE(told_of_hands(console, ana, {0.2, 0}).empty());
+  static_cast<void>(console.turn({0.1, 0}));
+  console.hear(stands("alfa", 1));
   static_cast<void>(console.turn({0.2, 0}));
+  console.hear(station("alfa", true), {0.2, 0});
+  EXPECT_TRUE(told_of_hands(console, ana, {0.2, 0}).empty());
   static_cast<void>(console.turn({0.3, 0}));
-  console.hear(station("alfa", 1, false), {0.4, 0});
-  console.hear(station("alfa", 2, true), {0.5, 0});
+  console.hear(station("alfa", false), {0.4, 0});
+  console.hear(station("alfa", true), {0.5, 0});
   const auto told = told_of_hands(console, ana, {0.5, 0});
   ASSERT_EQ(told.size(), 1U);
   EXPECT_EQ(told[0].at("by"), "");
@@ -225,12 +229,12 @@ TEST(Console, AnAcknowledgementIsSeenByAllAndGivenByOperatorsOnly) {
 
 TEST(Console, StopAllStopsEachStationUntilItStandsAndThoseHeardSoonAfter) {
   Console console(60.0);
-  console.hear(station("alfa", 2), {0.0, 0});
-  console.hear(station("bravo", 0), {0.0, 0});
+  console.hear(station("alfa"), {0.0, 0});
+  console.hear(station("bravo"), {0.0, 0});
   EXPECT_EQ(console.stop_all({"ana"}, {}, {1.0, 0}), (std::vector<std::string>{"alfa", "bravo"}));
   EXPECT_EQ(console.turn({1.0, 0}).size(), 2U);
-  console.hear(station("alfa", 3, true), {1.1, 0});
-  console.hear(station("charlie", 0), {1.1, 0});
+  console.hear(stands("alfa", 1));
+  console.hear(station("charlie"), {1.1, 0});
   std::vector<std::string> again;
   static_cast<void>(console.turn({1.1, 0}));
   for (const auto& order : console.turn({1.2, 0})) again.push_back(order.station);
@@ -245,7 +249,7 @@ TEST(Console, AStopOfAllThatIsNotConfirmedIsToldToEverybody) {
   console.take(ana, R"({"do":"stop_all","number":3})", {1.0, 0});
   EXPECT_EQ(console.turn({1.0, 0}).size(), 2U);
   EXPECT_EQ(console.state({1.0, 0}).at("events").size(), 2U) << "one person's stop is one event";
-  console.hear(station("alfa", 1, true), {2.0, 0});
+  console.hear(stands("alfa", 1));
   static_cast<void>(console.turn({2.0, 0}));
   static_cast<void>(console.turn({4.1, 0}));
   for (const auto viewer : {ana, ben}) {

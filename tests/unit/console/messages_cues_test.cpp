@@ -4,6 +4,7 @@
 
 #include "ols_msg/fusion_status_t.hpp"
 #include "tests/unit/on_the_bus.h"
+#include "wire/fusion_status.h"
 
 namespace ols::console {
 namespace {
@@ -22,7 +23,7 @@ TEST(MessagesCues, AreWhatTheFusionSays) {
   status.cue_height_m = {400.04, 1.0};
   status.cue_horizontal_sd_m = {5.0, 6.0};
   status.cue_vertical_sd_m = {9.0, 6.0};
-  const Json cues = cues_of(on("OLS_FUSION_STATUS", status));
+  const Json cues = cues_of(*wire::heard_fusion_status(on("OLS_FUSION_STATUS", status)));
   ASSERT_EQ(cues.size(), 2U);
   EXPECT_EQ(cues[0]["id"], "adsb.3c6444");
   EXPECT_EQ(cues[0]["label"], "DLH9LF");
@@ -35,13 +36,6 @@ TEST(MessagesCues, AreWhatTheFusionSays) {
   EXPECT_EQ(cues[1]["target"], "");
   EXPECT_TRUE(cues[1]["latitude_deg"].is_null());
   EXPECT_EQ(cues[1]["id"].get<std::string>().find('\x1b'), std::string::npos);
-}
-
-TEST(MessagesCues, OfSomethingElseThereAreNone) {
-  EXPECT_TRUE(cues_of({}).empty());
-  ols_msg::fusion_status_t status{};
-  status.schema_version = 1;
-  EXPECT_TRUE(cues_of(on("OLS_FUSION_STATUS", status)).empty());
 }
 
 }  // namespace

@@ -72,6 +72,16 @@ class StationBusTest : public testing::Test {
     send("OLS_PTU_a", message);
   }
 
+  // What was answered since the last call: sequence of the order and reason ("": carried out).
+  std::vector<std::pair<std::int64_t, std::string>> answered() {
+    std::vector<std::pair<std::int64_t, std::string>> said;
+    for (const Answer& answer : bus->take_answers()) {
+      EXPECT_TRUE(answer.command.boot_id == 3 || answer.command.boot_id == 9);
+      said.emplace_back(answer.command.sequence, answer.reason);
+    }
+    return said;
+  }
+
   StationSettings settings;
   std::vector<double> boxes;
   std::unique_ptr<Station> station;
@@ -133,6 +143,44 @@ TEST_F(StationBusTest, AStopIsNeverRefused) {
   EXPECT_EQ(bus->refusals(), 0U);
 }
 
+using Said = std::vector<std::pair<std::int64_t, std::string>>;
+
+TEST_F(StationBusTest, EachOrderIsAnsweredInTheTurnInWhichItIsDecided) {
+  designate(3);
+  EXPECT_TRUE(answered().empty()) << "not decided yet";
+  designate(4);
+  command(Ptu::COMMAND_POINT);
+  EXPECT_EQ(answered(), (Said{{1, "overtaken"}, {2, ""}, {3, ""}}));
+  command(99);
+  command(Ptu::COMMAND_REARM);
+  EXPECT_EQ(answered(), (Said{{4, "unknown_command"}, {5, "rearm_needs_a_hand"}}));
+  designate(5);
+  command(Ptu::COMMAND_STOP);
+  command(Ptu::COMMAND_STOP);
+  EXPECT_TRUE(answered().empty());
+  bus->end_turn();
+  EXPECT_EQ(answered(), (Said{{6, "stopped"}, {8, ""}})) << "of repeated stops the last";
+  bus->end_turn();
+  EXPECT_TRUE(answered().empty());
+}
+
+TEST_F(StationBusTest, TheAnswerToAStopSaysThatTheStationStands) {
+  command(Ptu::COMMAND_STOP);
+  bus->end_turn();
+  const auto answers = bus->take_answers();
+  ASSERT_EQ(answers.size(), 1U);
+  EXPECT_EQ(answers[0].state, StationState::kStopped);
+}
+
+TEST_F(StationBusTest, AFloodOfRefusedOrdersIsNotAnsweredAsFast) {
+  for (int i = 0; i < 2000; ++i) command(99);
+  const std::size_t refusals = answered().size();
+  EXPECT_GT(refusals, 10U);
+  EXPECT_LT(refusals, 100U);
+  command(Ptu::COMMAND_RELEASE);
+  EXPECT_EQ(answered().size(), 1U) << "what is carried out always is";
+}
+
 // Where signatures are required: only a stop may do without the station's boot.
 TEST_F(StationBusTest, ACommandThatNamesNoBootIsRefusedUnlessItIsAFreshStop) {
   addressed = false;
@@ -140,6 +188,8 @@ TEST_F(StationBusTest, ACommandThatNamesNoBootIsRefusedUnlessItIsAFreshStop) {
   command(Ptu::COMMAND_POINT);
   command(Ptu::COMMAND_RELEASE);
   bus->end_turn();
+  EXPECT_EQ(answered(), (Said{{1, "other_boot"}, {2, "other_boot"}, {3, "other_boot"}}))
+      << "from the answer its sender learns the boot";
   EXPECT_EQ(bus->counters().at("messages_refused_other_boot"), 3.0);
   EXPECT_TRUE(boxes.empty());
   Ptu old{};
@@ -228,6 +278,7 @@ TEST_F(StationBusTest, StaleReplayedAndOverlongRatesAreRefused) {
   publish("OLS_PTU_a", message);
   EXPECT_EQ(bus->counters().at("messages_refused_replayed"), 1.0);
   EXPECT_EQ(bus->counters().at("messages_refused_stale"), 1.0);
+  EXPECT_EQ(answered(), (Said{{0, ""}, {0, "replayed"}, {2, "stale"}}));
   message.utime = kNow_us;
   message.lease_s = 2.0;
   publish("OLS_PTU_a", message);

@@ -136,6 +136,10 @@ TEST_F(VerifierTest, ACommandNamesThisBoot) {
   const auto stop = judge("OLS_PTU_alfa", order(3, 0));
   EXPECT_EQ(stop.distrust, std::nullopt) << "it may be a stop";
   EXPECT_FALSE(stop.addressed);
+  const auto other = sign(kSite.anna, "OLS_DESIGNATE_alfa", payload(kNow_us, 1, 1), 0);
+  const auto unaddressed = judge("OLS_DESIGNATE_alfa", other);
+  EXPECT_EQ(unaddressed.distrust, std::nullopt) << "the answer tells its sender the boot";
+  EXPECT_FALSE(unaddressed.addressed);
   const auto slew = sign(kSite.fusion, "OLS_SLEW_alfa", payload(kNow_us, 1, 1), 0);
   EXPECT_EQ(judge("OLS_SLEW_alfa", slew).distrust, Distrust::kOtherBoot) << "it is no stop";
   const auto for_bravo = sign(kSite.anna, "OLS_PTU_bravo", payload(kNow_us, 1, 1), 5);

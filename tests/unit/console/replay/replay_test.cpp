@@ -22,7 +22,7 @@ std::string two_minutes() {
     const double latitude_deg = static_cast<double>(tenth) / 600.0;
     log += logged_target(utime_us, latitude_deg);
     log += logged_target(utime_us, latitude_deg + 0.5, false, "OLS_TARGET_PAPER");
-    if (tenth == 600) log += logged_stop(utime_us);
+    if (tenth == 600) log += logged_stop(utime_us) + logged_reply(utime_us);
   }
   return log + logged_target(kStart_us + 120'050'000, 2.0, true);
 }

@@ -53,12 +53,11 @@ TEST(Timeline, MarksEventsOnceAndWithTheirOutcome) {
   station.alarms = {"ptu: hot"};
   console.hear(station, at(kSecond_us));
   timeline.reach(kSecond_us, 0, console);
-  console.hear(command::Order{.station = "alfa", .kind = command::Kind::kRelease},
+  console.hear(wire::Order{.station = "alfa", .kind = wire::Kind::kRelease, .id = {9, 1}},
                at(2 * kSecond_us));
   static_cast<void>(console.turn(at(2 * kSecond_us)));
   timeline.reach(2 * kSecond_us, 0, console);
-  station.reply.counters["release_accepted"] = 1.0;
-  console.hear(station, at(3 * kSecond_us));
+  console.hear(wire::Reply{.station = "alfa", .order = {9, 1}, .is_accepted = true});
   static_cast<void>(console.turn(at(3 * kSecond_us)));
   timeline.end(console);
   const Json marks = timeline.json().at("marks");

@@ -1,9 +1,9 @@
-#include "command/order.h"
+#include "wire/order.h"
 
 #include <array>
 #include <utility>
 
-namespace ols::command {
+namespace ols::wire {
 namespace {
 
 constexpr std::array<std::pair<Kind, std::string_view>, 12> kNames{{
@@ -36,10 +36,6 @@ std::string_view name(Kind kind) {
   return "";
 }
 
-std::string_view counted_as(Kind kind) {
-  return name(kind == Kind::kLook ? Kind::kDesignate : kind);
-}
-
 std::optional<Kind> kind_named(std::string_view name) {
   for (const auto& [kind, text] : kNames) {
     if (text == name) return kind;
@@ -47,4 +43,4 @@ std::optional<Kind> kind_named(std::string_view name) {
   return std::nullopt;
 }
 
-}  // namespace ols::command
+}  // namespace ols::wire

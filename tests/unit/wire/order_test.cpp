@@ -1,8 +1,8 @@
-#include "command/order.h"
+#include "wire/order.h"
 
 #include <gtest/gtest.h>
 
-namespace ols::command {
+namespace ols::wire {
 namespace {
 
 TEST(Order, EachKindHasANameThatLeadsBackToIt) {
@@ -25,4 +25,4 @@ TEST(Order, ARateHasTheLeaseOfAJoystick) {
 }
 
 }  // namespace
-}  // namespace ols::command
+}  // namespace ols::wire

@@ -1,13 +1,14 @@
 // An operator's command to one station, as plain values.
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
 
-namespace ols::command {
+namespace ols::wire {
 
 enum class Kind {
   kDesignate,
@@ -24,11 +25,18 @@ enum class Kind {
   kLook
 };
 
+// Names an order among all: random number of its sender's start, and a number of its own in it.
+struct OrderId {
+  std::int64_t boot_id = 0, sequence = 0;
+  auto operator<=>(const OrderId&) const = default;
+};
+
 inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 struct Order {
   std::string station = {};
   Kind kind = Kind::kStop;
+  OrderId id = {};
   // kDesignate, kCentre, kLook: mid-exposure of the frame [us UTC], 0 for the newest. The box, or
   // only the point, is in pixels of the full-resolution frame. kLook designates the object at the
   // point.
@@ -46,10 +54,26 @@ struct Order {
   std::string label = {};
 };
 
+// An operator's word on a cue, to the fusion.
+struct CueOrder {
+  std::string cue;
+  bool allow = false;
+};
+
+// What a station said to an order, or the fusion to one on a cue.
+struct Reply {
+  std::string station = {};  // empty: the fusion
+  OrderId order = {};
+  bool is_accepted = false;
+  std::string reason = {};  // of a refusal, as it is counted: "no_frame"
+  std::string detail = {};  // more about it, for a person
+  bool is_stopped = false;  // the station, after the order
+};
+
 // How long a station obeys an order after its creation, and therefore how long the sender waits for
 // the answer.
 inline constexpr double kLease_s = 2.0;
-// A station counts accepted and refused orders within this time: two status intervals.
+// Within this time every station is heard: two status intervals.
 inline constexpr double kTwoIntervals_s = 1.2;
 // Interval at which a rate is repeated while the joystick is held. Within its lease two of them may
 // get lost.
@@ -65,8 +89,6 @@ double lease_s(const Order& order);
 
 // "reference_ok".
 std::string_view name(Kind kind);
-// The prefix of the station's counters for this order.
-std::string_view counted_as(Kind kind);
 std::optional<Kind> kind_named(std::string_view name);
 
-}  // namespace ols::command
+}  // namespace ols::wire

@@ -1,0 +1,27 @@
+#include "wire/fusion_status.h"
+
+#include "base/plain_text.h"
+#include "wire/read.h"
+
+namespace ols::wire {
+
+std::optional<ols_msg::fusion_status_t> heard_fusion_status(const BusMessage& message) {
+  auto status = read<ols_msg::fusion_status_t>(kFusionStatusChannel, message);
+  if (!status) return std::nullopt;
+  status->last_error = plain_text(status->last_error);
+  for (auto* texts : {&status->station, &status->quarantine, &status->counter_name, &status->alarm,
+                      &status->cue_id, &status->cue_label}) {
+    for (std::string& text : *texts) text = plain_text(text);
+  }
+  return status;
+}
+
+const char* cue_state_name(std::int8_t state) {
+  using M = ols_msg::fusion_status_t;
+  return state == M::CUE_WAITING    ? "waiting"
+         : state == M::CUE_SEARCHED ? "searched"
+         : state == M::CUE_FOUND    ? "found"
+                                    : "forbidden";
+}
+
+}  // namespace ols::wire

@@ -1,0 +1,18 @@
+// What the fusion says of itself, as everybody who reads it understands it.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "base/bus_inbox.h"
+#include "ols_msg/fusion_status_t.hpp"
+
+namespace ols::wire {
+
+// nullopt if it is not a fusion's status. Its texts are made safe for a terminal.
+std::optional<ols_msg::fusion_status_t> heard_fusion_status(const BusMessage& message);
+
+// "waiting", "searched", "found", "forbidden".
+const char* cue_state_name(std::int8_t state);
+
+}  // namespace ols::wire

@@ -1,0 +1,40 @@
+// Operators' orders and the replies to them, as messages of the bus.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "base/bus_inbox.h"
+#include "base/lcm_bus.h"
+#include "wire/order.h"
+
+namespace ols::wire {
+
+// An order that was sent by whoever; nothing if it is none, or not for the station of its channel.
+std::optional<Order> heard_order(const BusMessage& message);
+
+// nullopt if it is no reply, or not of the station of its channel. Its texts are made safe for a
+// terminal (base/plain_text.h).
+std::optional<Reply> heard_reply(const BusMessage& message);
+
+// Sends orders under one boot id.
+class OrderSender {
+ public:
+  explicit OrderSender(std::int64_t boot_id) : boot_id_(boot_id) {}
+
+  // The id of the next order that gets none from elsewhere.
+  OrderId next_id() { return {boot_id_, ++sequence_}; }
+  // `order.id`: of its own, of this sender. `utime_us`: this host's UTC. False if the network is
+  // down.
+  bool send(LcmBus& bus, const Order& order, std::int64_t utime_us) const;
+  bool send(LcmBus& bus, const CueOrder& order, OrderId id, std::int64_t utime_us) const;
+
+ private:
+  template <class Message>
+  void address(Message& message, const Order& order, std::int64_t utime_us) const;
+
+  std::int64_t boot_id_;
+  std::int64_t sequence_ = 0;
+};
+
+}  // namespace ols::wire

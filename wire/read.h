@@ -1,0 +1,49 @@
+// Reads a message of the bus: the one place that decides whether bytes are a whole message of this
+// schema, on the channel of its station. Values are judged by whoever uses them.
+#pragma once
+
+#include <concepts>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+
+#include "base/channel_names.h"
+#include "base/lcm_bus.h"
+
+namespace ols::wire {
+
+enum class Unread { kMalformed, kSchema, kOtherStation };
+
+// `channel`: of all stations (kStatusChannel), followed by the message's own station; or one of the
+// site.
+template <class Message>
+std::variant<Message, Unread> read(std::string_view channel, std::string_view on, const void* data,
+                                   int bytes) {
+  Message message{};
+  if (!decode_exactly(data, bytes, message)) return Unread::kMalformed;
+  if (message.schema_version != Message::SCHEMA_VERSION) return Unread::kSchema;
+  std::string expected(channel);
+  if constexpr (requires {
+                  { message.station } -> std::same_as<std::string&>;
+                }) {
+    if (message.station.empty() && channel.ends_with('_')) return Unread::kOtherStation;
+    expected += message.station;
+  }
+  if (on != expected) return Unread::kOtherStation;
+  return message;
+}
+
+// The same; nothing if it cannot be read.
+template <class Message>
+std::optional<Message> read(std::string_view channel, const BusMessage& message) {
+  // Most messages are of other channels; decoding them all would cost too much.
+  if (!message.channel.starts_with(channel)) return std::nullopt;
+  auto found = read<Message>(channel, message.channel, message.payload.data(),
+                             static_cast<int>(message.payload.size()));
+  auto* const content = std::get_if<Message>(&found);
+  return content ? std::optional(std::move(*content)) : std::nullopt;
+}
+
+}  // namespace ols::wire

@@ -1,0 +1,39 @@
+// What a station says of itself, as everybody who reads it understands it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "base/bus_inbox.h"
+#include "ols_msg/station_status_t.hpp"
+
+namespace ols::wire {
+
+// Limits the memory that forged statuses with invented names can use.
+inline constexpr std::size_t kMostStationsHeard = 2000;
+
+// nullopt if it is not a status or not from the station of its channel. Its texts are made safe for
+// a terminal (base/plain_text.h).
+std::optional<ols_msg::station_status_t> heard_status(const BusMessage& message);
+
+// The value of a counter in a status; 0 if it is missing.
+double counter(const ols_msg::station_status_t& status, const std::string& name);
+
+const char* state_name(std::int8_t state);
+// Stopped by a person, or by the emergency stop: station_status_t::STATE_*.
+bool is_stopped(std::int8_t state);
+const char* device_name(std::int8_t device);
+// The state of a device by its name; "-" when the station has no such device.
+const char* device_state(const ols_msg::station_status_t& status, const std::string& name);
+// The version of the station's program, cut to a line; "-" if it does not say it.
+std::string software(const ols_msg::station_status_t& status);
+// "surveyed", "sensor", "unknown": where a pose comes from.
+const char* source_name(std::int8_t source);
+// "synchronised", "unsynchronised", "unknown".
+const char* clock_name(std::int8_t state);
+// "none", "in use", "refused", "doubted".
+const char* calibration_name(std::int8_t state);
+
+}  // namespace ols::wire

@@ -1,0 +1,32 @@
+// A target, as everybody who reads it understands it.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+
+#include "base/bus_inbox.h"
+#include "ols_msg/target_t.hpp"
+
+namespace ols::wire {
+
+// Of the estimator that the site goes by; nothing if it is none. Its texts are made safe for a
+// terminal.
+std::optional<ols_msg::target_t> heard_target(const BusMessage& message);
+
+// Whether there is an object, at a place on or near the earth.
+bool has_position(const ols_msg::target_t& target);
+// [m/s] east, north, up at the target; NaN where it is not estimated.
+Eigen::Vector3d velocity_enu(const ols_msg::target_t& target);
+
+// A latitude, a longitude and a height that can be drawn; [deg] WGS84, [m].
+bool is_place(double latitude_deg, double longitude_deg, double height_m);
+
+// "born", "confirmed", "coasted", "dropped".
+const char* track_name(std::int8_t state);
+// "ok", "too-few-rays", ..
+const char* solution_name(std::int8_t solution);
+// "unknown", "drone", "bird", "aircraft", "other".
+const char* class_name(std::int8_t object_class);
+
+}  // namespace ols::wire
