@@ -106,7 +106,7 @@ def restart(tripod, site, config):
     )
     tripod.ready()
     ok = ols_msg.station_status_t.DEVICE_OK
-    tripod.listener.wait(lambda: tripod.listener.device("alfa", "video")[0] == ok, "video", 30.0)
+    tripod.listener.wait(lambda: tripod.listener.device("alfa", "video")[0] == ok, "video")
 
 
 def point(tripod, pan_deg, tilt_deg):
@@ -118,7 +118,7 @@ def point(tripod, pan_deg, tilt_deg):
         off = np.degrees([status.pan_rad, status.tilt_rad]) - [pan_deg, tilt_deg]
         return np.all(np.abs(off) < 0.01)
 
-    tripod.listener.wait(there, f"the unit at {pan_deg}, {tilt_deg} deg", 60.0)
+    tripod.listener.wait(there, f"the unit at {pan_deg}, {tilt_deg} deg")
 
 
 def place_of(name):
@@ -221,7 +221,7 @@ def test_a_loss_of_power_leaves_the_old_one_and_is_named(tripod, accepted):
             (path / "journal.jsonl").exists() for path in tripod.store.glob("*-field.running")
         )
 
-    tripod.listener.wait(lambda: at_work() or process.poll() is not None, "a picture", 60.0)
+    tripod.listener.wait(lambda: at_work() or process.poll() is not None, "a picture")
     assert process.poll() is None, tripod.log.read_text()
     process.send_signal(signal.SIGKILL)
     process.wait()
@@ -271,10 +271,10 @@ def test_a_sweep_that_was_interrupted_goes_on_to_an_instrument_and_is_compared_w
             (path / "journal.jsonl").exists() for path in tripod.store.glob("*-sweep.running")
         )
 
-    tripod.listener.wait(lambda: at_work() or process.poll() is not None, "a picture", 60.0)
+    tripod.listener.wait(lambda: at_work() or process.poll() is not None, "a picture")
     assert process.poll() is None, tripod.log.read_text()
     process.send_signal(signal.SIGINT)
-    tripod.listener.wait(lambda: process.poll() is not None, "its end", 30.0)
+    tripod.listener.wait(lambda: process.poll() is not None, "its end")
     assert "to resume it: the same command with --resume" in tripod.log.read_text()
     assert not (tripod.store / "instrument").exists()
     done, folder = sweep(tripod, "accept", "--resume")
@@ -341,11 +341,11 @@ def test_history_and_revert_which_the_running_station_follows(tripod, calibrated
         status = tripod.listener.observer.status["alfa"]
         return status.calibration_id == int(calibration)
 
-    tripod.listener.wait(lambda: works_with(second), "the new calibration in the status", 30.0)
+    tripod.listener.wait(lambda: works_with(second), "the new calibration in the status")
     done = tripod.run("revert")
     assert done.returncode == 0, done.stderr
     assert os.readlink(tripod.store / "current") == first
-    tripod.listener.wait(lambda: works_with(first), "the old one again", 30.0)
+    tripod.listener.wait(lambda: works_with(first), "the old one again")
     history = tripod.run("history").stdout
     assert f"{first}" in history and f"{second}" in history
     assert "reverted" in history and "(in use)" in history

@@ -206,16 +206,16 @@ class Rig:
         while self.lcm.handle_timeout(timeout_ms) > 0:
             timeout_ms = 0
 
-    def until(self, condition, what, *says, deadline_s=DEADLINE_S):
+    def until(self, condition, what, *says):
         """`says`: pairs of an input and what it is sent in each turn."""
-        end = time.monotonic() + deadline_s
+        end = time.monotonic() + DEADLINE_S
         while True:
             for name, words in says:
                 self.udp.sendto(words(), ("127.0.0.1", self.ports[name]))
             self.turn()
             if found := condition():
                 return found
-            assert time.monotonic() < end, f"not within {deadline_s:.0f} s: {what}"
+            assert time.monotonic() < end, f"not within {DEADLINE_S:.0f} s: {what}"
 
     def cue(self, name):
         """Its state in the fusion's status."""
@@ -371,7 +371,7 @@ def test_a_server_that_dies_is_found_again(rig):
     rig.until(lambda: rig.cue("server.TCP") is not None, "a cue")
     rig.tak.close()
     rig.until(lambda: rig.status()["inputs"]["server"]["trouble"], "its end is said")
-    rig.until(lambda: rig.cue("server.TCP") is None, "its cue ends", deadline_s=30.0)
+    rig.until(lambda: rig.cue("server.TCP") is None, "its cue ends")
     assert rig.cue("sbs.abcdef") is not None
     rig.tak.open_again()
     rig.until(lambda: rig.cue("server.TCP") is not None, "it is back")

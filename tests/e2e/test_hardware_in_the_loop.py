@@ -49,7 +49,7 @@ class Unit:
 
     def end(self):
         self.process.terminate()
-        assert self.process.wait(30.0) == 0
+        assert self.process.wait(60.0) == 0
 
 
 @pytest.fixture(scope="module")
@@ -145,7 +145,7 @@ def restart(loop):
 
 def ctl(*words):
     command = [BIN / "ols-ctl", STATION, *words]
-    return subprocess.run(command, capture_output=True, timeout=30, check=False).returncode
+    return subprocess.run(command, capture_output=True, timeout=60, check=False).returncode
 
 
 def wait_for_alarm(loop, words):

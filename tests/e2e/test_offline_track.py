@@ -211,7 +211,7 @@ def test_a_signal_leaves_nothing_half_written(pictures, tmp_path, number):
         while not list(tmp_path.glob("*.partial")):
             assert process.poll() is None
         process.send_signal(number)
-        assert process.wait(timeout=30) == -number
+        assert process.wait(timeout=60) == -number
     assert list(tmp_path.iterdir()) == [clip]
 
 

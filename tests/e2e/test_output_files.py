@@ -55,5 +55,5 @@ def test_a_signal_leaves_nothing_half_written(folder, number):
         while not (folder / "out.csv.partial").exists():
             assert process.poll() is None
         process.send_signal(number)
-        assert process.wait(timeout=30) == -number
+        assert process.wait(timeout=60) == -number
     assert not list(folder.glob("out.csv*"))

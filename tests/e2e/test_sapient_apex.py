@@ -92,7 +92,7 @@ class Apex:
 
     def stop(self):
         self._process.send_signal(signal.SIGINT)
-        self._process.wait(30.0)
+        self._process.wait(60.0)
 
     def messages(self):
         """What it has kept: kind, its complaint, the message. It must have stopped."""
@@ -153,7 +153,7 @@ class CueInput:
 
     def stop(self):
         self._process.send_signal(signal.SIGTERM)
-        assert self._process.wait(30.0) == 0
+        assert self._process.wait(60.0) == 0
 
 
 @pytest.fixture(name="apex")

@@ -123,7 +123,7 @@ class Tripod:
             state = dict(zip(status.device_name, status.device_state, strict=True))
             return state["camera"] == state["ptu"] == ols_msg.station_status_t.DEVICE_OK
 
-        self.listener.wait(works, "camera and unit", 60.0)
+        self.listener.wait(works, "camera and unit")
 
     def command(self, name, *options):
         # Without a sun in the scenery it is overcast, whatever the time of day.
