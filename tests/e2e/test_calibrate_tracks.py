@@ -147,6 +147,18 @@ def test_nothing_is_overwritten_and_a_bad_recording_is_named(site, tmp_path):
     assert not (tmp_path / "new.jsonl").exists()
 
 
+def test_a_damaged_recording_is_named_and_what_is_left_is_used(site, tmp_path):
+    whole = site / "flight/sightings.lcm"
+    cut = tmp_path / "cut.lcm"
+    cut.write_bytes(whole.read_bytes()[:-7])
+    configurations = [part for s in KNOWN for part in ("--station", site / f"round/{s}.toml")]
+    output = tmp_path / "cut.jsonl"
+    done = run(CALIBRATE, "tracks", *configurations, "--recording", cut, "--output", output)
+    assert done.returncode == 1, done.stderr
+    assert f"{cut}: " in done.stderr and "the end is cut off" in done.stderr
+    assert output.read_text()
+
+
 def test_one_station_alone_has_no_track(site, tmp_path):
     done = tracks(site, tmp_path / "tracks.jsonl", stations=(NEW,))
     assert done.returncode == 2

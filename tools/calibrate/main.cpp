@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <iostream>
 #include <new>
+#include <utility>
 
 #include "base/atomic_file.h"
 #include "base/command_line.h"
@@ -99,6 +100,8 @@ void add_tracks_options(CLI::App& app, calibration::TracksOptions& o) {
   app.add_option("--output", o.output, "JSON lines for --observations; it must be new")->required();
 }
 
+constexpr int kExitDamaged = 1;  // an input; the result is of the rest of it
+
 // Nothing that stands there is overwritten: another calibration, an input.
 fs::path output_folder(const calibration::CaseOptions& o) {
   if (o.output.empty()) return calibration::checked_folder(o.output);
@@ -159,16 +162,20 @@ int main(int argc, char** argv) {
     if (!procedure.name.empty()) return calibration::run_procedure(procedure);
     if (zooms->parsed()) return calibration::run_zoom(zoom);
     std::vector<std::string> remarks;
+    bool is_damaged = false;
     if (heard->parsed()) {
       remarks = calibration::write_aircraft(aircraft, ols::Progress("ols-calibrate", "bytes"));
     } else if (followed->parsed()) {
-      remarks = calibration::write_tracks(tracks);
+      calibration::TracksReport report = calibration::write_tracks(tracks);
+      remarks = std::move(report.remarks);
+      is_damaged = report.is_damaged;
     } else if (boards->parsed()) {
       remarks = calibration::write_camera(camera);
     } else {
       return adjust(options);
     }
     for (const std::string& line : remarks) std::cerr << "ols-calibrate: " << line << '\n';
+    if (is_damaged) return kExitDamaged;
   } catch (const std::bad_alloc&) {
     std::cerr << "ols-calibrate: the memory does not suffice for so many observations: leave some "
                  "of them out\n";

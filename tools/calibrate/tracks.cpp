@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <stdexcept>
+#include <utility>
 
 #include "base/atomic_file.h"
 #include "base/output_check.h"
@@ -39,7 +40,7 @@ std::vector<std::string> remarks_of(const SightingLog& log, const Instants& inst
 
 }  // namespace
 
-std::vector<std::string> write_tracks(const TracksOptions& options) {
+TracksReport write_tracks(const TracksOptions& options) {
   check(options);
   const Case stations = read_stations(options.stations);
   const Problem& problem = stations.problem;
@@ -63,7 +64,7 @@ std::vector<std::string> write_tracks(const TracksOptions& options) {
     file.stream() << observation_lines({one}, problem.names[one.station]);
   }
   file.commit();
-  return remarks;
+  return {std::move(remarks), !log.damage.empty()};
 }
 
 }  // namespace ols::calibration

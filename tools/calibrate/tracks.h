@@ -16,7 +16,12 @@ struct TracksOptions {
   std::string output;
 };
 
-// Writes; returns remarks for a person. Throws std::runtime_error naming file or option.
-std::vector<std::string> write_tracks(const TracksOptions& options);
+struct TracksReport {
+  std::vector<std::string> remarks;  // for a person
+  bool is_damaged = false;           // a recording; what is left of it was used
+};
+
+// Writes. Throws std::runtime_error naming file or option.
+TracksReport write_tracks(const TracksOptions& options);
 
 }  // namespace ols::calibration
