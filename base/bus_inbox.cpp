@@ -1,7 +1,6 @@
 #include "base/bus_inbox.h"
 
 #include <algorithm>
-#include <chrono>
 #include <utility>
 #include <variant>
 
@@ -109,8 +108,8 @@ BusInbox::Subscription* BusInbox::first_waiting() {
 std::optional<BusInbox::Taken> BusInbox::take(int timeout_ms) {
   std::unique_lock lock(mutex_);
   if (timeout_ms > 0) {
-    arrived_.wait_for(lock, std::chrono::milliseconds(timeout_ms),
-                      [this] { return first_waiting() != nullptr; });
+    time_source().wait(lock, arrived_, 1e-3 * timeout_ms,
+                       [this] { return first_waiting() != nullptr; });
   }
   Subscription* const first = first_waiting();
   if (first == nullptr) return std::nullopt;

@@ -4,6 +4,8 @@
 
 #include <array>
 #include <cerrno>
+#include <map>
+#include <mutex>
 #include <system_error>
 
 #include "base/clocks.h"
@@ -12,12 +14,18 @@
 namespace ols {
 namespace {
 
-std::unique_ptr<MulticastSocket> open_socket(const std::string& url) {
+BusAddress address_of(const std::string& url) {
   try {
-    const BusAddress address = parse_lcm_url(url);
-    return address.group ? std::make_unique<MulticastSocket>(address) : nullptr;
+    return parse_lcm_url(url);
   } catch (const std::invalid_argument& problem) {
     throw BusError(problem.what());
+  }
+}
+
+std::unique_ptr<MulticastSocket> open_socket(const std::string& url) {
+  const BusAddress address = address_of(url);
+  try {
+    return address.group ? std::make_unique<MulticastSocket>(address) : nullptr;
   } catch (const std::system_error& problem) {
     throw BusError(url + ": no route for multicast (" + problem.code().message() +
                    "); bring the interface up, or on one host: ip link set lo multicast on; "
@@ -27,10 +35,50 @@ std::unique_ptr<MulticastSocket> open_socket(const std::string& url) {
 
 }  // namespace
 
-LcmBus::LcmBus(const std::string& url, std::shared_ptr<trust::BusTrust> trust)
-    : url_(url), trust_(std::move(trust)), socket_(open_socket(url)), inbox_(trust_) {}
+// As multicast does, it gives a sender its own messages too.
+class LcmBus::InProcess {
+ public:
+  // Null: of no name.
+  static std::shared_ptr<InProcess> of(const std::string& name) {
+    static std::mutex mutex;
+    static std::map<std::string, std::weak_ptr<InProcess>> all;
+    if (name.empty()) return nullptr;
+    const std::lock_guard lock(mutex);
+    auto found = all[name].lock();
+    if (!found) all[name] = found = std::make_shared<InProcess>();
+    return found;
+  }
+  void join(BusInbox& inbox) {
+    const std::lock_guard lock(mutex_);
+    inboxes_.push_back(&inbox);
+  }
+  void leave(BusInbox& inbox) {
+    const std::lock_guard lock(mutex_);
+    std::erase(inboxes_, &inbox);
+  }
+  void put(std::span<const std::uint8_t> datagram) {
+    const std::lock_guard lock(mutex_);
+    for (BusInbox* inbox : inboxes_) inbox->put(datagram, clock_utime_us());
+  }
 
-LcmBus::~LcmBus() { stop_listening(); }
+ private:
+  std::mutex mutex_;
+  std::vector<BusInbox*> inboxes_;
+};
+
+LcmBus::LcmBus(const std::string& url, std::shared_ptr<trust::BusTrust> trust)
+    : url_(url),
+      trust_(std::move(trust)),
+      socket_(open_socket(url)),
+      inbox_(trust_),
+      others_(InProcess::of(address_of(url).name)) {
+  if (others_) others_->join(inbox_);
+}
+
+LcmBus::~LcmBus() {
+  stop_listening();
+  if (others_) others_->leave(inbox_);
+}
 
 void LcmBus::stop_listening() {
   end_.set();
@@ -100,7 +148,7 @@ bool LcmBus::send(const std::string& channel, std::span<const std::uint8_t> payl
     return true;
   }
   if (!socket_) {
-    inbox_.put(datagram, clock_utime_us());
+    others_ ? others_->put(datagram) : inbox_.put(datagram, clock_utime_us());
     return true;
   }
   const std::error_code failure = socket_->send(datagram);

@@ -77,8 +77,10 @@ class LcmBus {
 
   std::string url_;
   std::shared_ptr<trust::BusTrust> trust_;
+  class InProcess;                           // the connections with one name
   std::unique_ptr<MulticastSocket> socket_;  // null: within this process
   BusInbox inbox_;
+  std::shared_ptr<InProcess> others_;  // null: this connection alone
   std::uint32_t sequence_ = 0;
   std::uint64_t unsendable_ = 0;
   Wakeup end_;

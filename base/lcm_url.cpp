@@ -62,7 +62,10 @@ void set_option(BusAddress& address, std::string_view option) {
 
 BusAddress parse_lcm_url(const std::string& url) {
   BusAddress address;
-  if (url == kInProcess) return address;
+  if (url.starts_with(kInProcess)) {
+    address.name = url.substr(kInProcess.size());
+    return address;
+  }
   if (!url.starts_with(kMulticast)) {
     throw std::invalid_argument("\"" + url +
                                 "\" is not the URL of a bus (udpm://ADDRESS:PORT?ttl=0)");

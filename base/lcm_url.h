@@ -1,5 +1,6 @@
-// The address of a bus, in LCM's notation: udpm://ADDRESS:PORT?ttl=N, or memq:// for a bus within
-// one process. LCM's other kinds (tcpq, file, mpudpm) are not supported.
+// The address of a bus, in LCM's notation: udpm://ADDRESS:PORT?ttl=N, or within one process memq://
+// (this connection alone) or memq://NAME (all connections with that name). LCM's other kinds (tcpq,
+// file, mpudpm) are not supported.
 #pragma once
 
 #include <netinet/in.h>
@@ -11,6 +12,7 @@ namespace ols {
 
 struct BusAddress {
   std::optional<sockaddr_in> group;      // nullopt: within this process
+  std::string name;                      // of the bus within this process; empty: one connection
   int ttl = 0;                           // hops; 0: it does not leave this host
   int receive_buffer_bytes = 8'388'608;  // requested; the kernel grants at most net.core.rmem_max
 };

@@ -1,15 +1,17 @@
 // The devices of a station, each with its own thread. Any of them may be absent.
 #pragma once
 
+#include <functional>
+#include <memory>
 #include <optional>
 #include <vector>
 
-#include "edge/camera/aravis_camera.h"
+#include "edge/camera/camera.h"
 #include "edge/config.h"
 #include "edge/device/device_report.h"
 #include "edge/gpio/gpio.h"
 #include "edge/lens/lens_motor.h"
-#include "edge/ptu/ptu_thread.h"
+#include "edge/ptu/ptu_handover.h"
 #include "edge/recorder/recorder.h"
 #include "edge/sensors/gnss.h"
 #include "edge/sensors/inclinometer.h"
@@ -19,14 +21,23 @@
 
 namespace ols::station {
 
+// What turns and sees.
+struct Head {
+  std::unique_ptr<camera::Camera> camera;
+  std::unique_ptr<ptu::PtuHandover> ptu;
+};
+using OpenHead = std::function<Head(const StationSettings&)>;
+// On the wires that are configured.
+Head wired_head(const StationSettings& settings);
+
 class DeviceSet {
  public:
-  DeviceSet(const StationSettings& settings, std::int64_t boot_id);
+  DeviceSet(const StationSettings& settings, std::int64_t boot_id, Head head);
   DeviceSet(const DeviceSet&) = delete;
   DeviceSet& operator=(const DeviceSet&) = delete;
 
-  camera::AravisCamera& camera() { return camera_; }
-  ptu::PtuThread& ptu() { return ptu_; }
+  camera::Camera& camera() { return *head_.camera; }
+  ptu::PtuHandover& ptu() { return *head_.ptu; }
   // Null if not configured.
   std::optional<gpio::Gpio>& gpio() { return gpio_; }
   std::optional<lens::LensMotor>& lens() { return lens_; }
@@ -53,10 +64,9 @@ class DeviceSet {
   std::optional<lens::LensMotor> lens_;
   std::optional<sensors::Inclinometer> inclinometer_;
   std::optional<sensors::Gnss> gnss_;
-  camera::AravisCamera camera_;
-  // Destroyed before the camera, which may block: the PTU's destructor halts the unit. The GPIO
-  // thread uses the PTU and is destroyed first.
-  ptu::PtuThread ptu_;
+  // The PTU is destroyed before the camera, which may block: its destructor halts the unit. The
+  // GPIO thread uses the PTU and is destroyed first.
+  Head head_;
   std::optional<gpio::Gpio> gpio_;
 };
 

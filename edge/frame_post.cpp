@@ -2,6 +2,7 @@
 
 #include <opencv2/imgcodecs.hpp>
 
+#include "base/time_source.h"
 #include "edge/device/behind_control_loop.h"
 
 namespace ols::station {
@@ -33,7 +34,9 @@ bool FramePost::put(RequestedFrame frame) {
 }
 
 std::optional<EncodedFrame> FramePost::take() {
-  const std::lock_guard lock(mutex_);
+  std::unique_lock lock(mutex_);
+  encoded_.wait_for(lock, time_source().for_work(),
+                    [this] { return waiting_.empty() || !done_.empty(); });
   if (done_.empty()) return std::nullopt;
   EncodedFrame frame = std::move(done_.front());
   done_.pop_front();
@@ -51,6 +54,7 @@ void FramePost::work(const std::stop_token& stop) {
     lock.lock();
     waiting_.pop_front();
     done_.push_back({std::move(frame), std::move(file)});
+    encoded_.notify_one();
   }
 }
 

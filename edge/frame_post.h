@@ -36,6 +36,7 @@ class FramePost {
 
   std::mutex mutex_;
   std::condition_variable_any arrived_;
+  std::condition_variable encoded_;
   std::deque<RequestedFrame> waiting_;
   std::deque<EncodedFrame> done_;
   std::jthread thread_;  // last: it uses the others

@@ -1,13 +1,20 @@
 #include "edge/station_clock.h"
 
 #include <cmath>
+#include <memory>
+
+#include "edge/clock/clock_source.h"
 
 namespace ols::station {
+
+TimeService host_time_service() {
+  return [source = std::make_shared<clock::ClockSource>()] { return source->take(); };
+}
 
 clock::ClockPair StationClock::look() {
   const clock::ClockPair now = clock::read_clock_pair();
   watch_.tick(now.monotonic_s, now.utime_us);
-  if (const auto reading = source_.take()) watch_.add(*reading);
+  if (const auto reading = service_()) watch_.add(*reading);
   utc_minus_monotonic_us_ = now.utime_us - std::llround(now.monotonic_s * 1e6);
   return now;
 }

@@ -2,16 +2,23 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <optional>
 
 #include "edge/clock/clock_pair.h"
-#include "edge/clock/clock_source.h"
 #include "edge/clock/clock_watch.h"
 
 namespace ols::station {
 
+// What has a service said of the clock since the last call?
+using TimeService = std::function<std::optional<clock::ClockReading>()>;
+// Kernel and chrony of this host, asked every few seconds.
+TimeService host_time_service();
+
 class StationClock {
  public:
-  explicit StationClock(const clock::ClockWatch::Config& config) : watch_(config) {}
+  StationClock(const clock::ClockWatch::Config& config, TimeService service)
+      : watch_(config), service_(std::move(service)) {}
 
   // In every turn, before anything is published.
   clock::ClockPair look();
@@ -20,10 +27,8 @@ class StationClock {
   std::int64_t utime_us(double monotonic_s) const;
 
  private:
-  static constexpr double kInterval_s = 5.0;  // between two queries of kernel and chrony
-
   clock::ClockWatch watch_;
-  clock::ClockSource source_{kInterval_s};
+  TimeService service_;
   std::int64_t utc_minus_monotonic_us_ = 0;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "base/clocks.h"
@@ -38,9 +39,10 @@ gpio::LedPattern led_pattern(const StationReport& report) {
 
 }  // namespace
 
-StationProcess::StationProcess(const StationSettings& configured, std::int64_t boot_id)
+StationProcess::StationProcess(const StationSettings& configured, std::int64_t boot_id,
+                               Outside outside)
     : calibration_(configured),
-      clock_(settings().clock),
+      clock_(settings().clock, std::move(outside.time_service)),
       pose_(std::in_place, settings(), clock_monotonic_s()),
       station_(settings().station,
                std::make_unique<tracker::Tracker>(settings().tracker, settings().tracker_seed)),
@@ -52,7 +54,7 @@ StationProcess::StationProcess(const StationSettings& configured, std::int64_t b
       host_(settings().host),
       persisted_(settings().state_folder, settings().id, settings().gpio.has_stop()),
       journal_(settings().id, write_to_journal),
-      devices_(settings(), boot_id),
+      devices_(settings(), boot_id, outside.open_head(settings())),
       frames_(settings().ptu.history) {
   const double now_s = clock_monotonic_s();
   station_.set_pose(pose_->pose(now_s));

@@ -19,20 +19,28 @@
 
 namespace ols::station {
 
+// What the process asks of its surroundings.
+struct Outside {
+  OpenHead open_head;
+  TimeService time_service;
+};
+
 class StationProcess {
  public:
   // Does not need a network or devices: retries those that are absent.
-  StationProcess(const StationSettings& configured, std::int64_t boot_id);
+  StationProcess(const StationSettings& configured, std::int64_t boot_id,
+                 Outside outside = {wired_head, host_time_service()});
 
   // Runs until `ends` returns true; notifies systemd. Ready after the first turn, whatever devices
   // are present.
   void run(const std::function<bool()>& ends);
 
- private:
   // One turn of the control loop: commands, PTU angles, the newest frame, bearings, the PTU's goal,
   // and at intervals a status and a preview. Takes a few milliseconds, or as long as the tracker
   // needs for a frame.
   void turn();
+
+ private:
   clock::ClockPair look_at_clocks();
   void resume_hold(double now_s);
   void heed_emergency_stop(double now_s);

@@ -47,8 +47,6 @@ LONGEST = [
     "test_faults.py",
     "test_attacks.py",
     "test_console_station.py",
-    "test_field_sky.py",
-    "test_rectify.py",
     "test_hardware_in_the_loop.py",
     "test_calibrate_zoom.py",
     "test_console_cut_link.py",

@@ -4,7 +4,6 @@
 #include <thread>
 #include <utility>
 
-#include "base/clocks.h"
 #include "edge/camera/aravis_device.h"
 #include "edge/camera/aravis_session.h"
 #include "edge/camera/camera_handover.h"
@@ -12,7 +11,7 @@
 namespace ols::camera {
 
 struct AravisCamera::Impl {
-  explicit Impl(const CameraConfig& config) : config_(config) {
+  explicit Impl(Camera& camera) : config_(camera.config()), handover_(camera.handover()) {
     thread_ = std::thread([this] { run(); });
   }
   ~Impl() {
@@ -23,8 +22,8 @@ struct AravisCamera::Impl {
   void run();
   void close(std::unique_ptr<AravisDevice> device);
 
-  const CameraConfig config_;
-  CameraHandover handover_;
+  const CameraConfig& config_;
+  CameraHandover& handover_;
   FrameNumbers numbers_;
   std::future<void> closing_;  // destroys the last device, which may take seconds
   std::thread thread_;
@@ -53,27 +52,8 @@ void AravisCamera::Impl::close(std::unique_ptr<AravisDevice> device) {
   closing_ = std::async(std::launch::async, [gone = std::move(device)]() mutable { gone.reset(); });
 }
 
-AravisCamera::AravisCamera(const CameraConfig& config) : impl_(std::make_unique<Impl>(config)) {}
+AravisCamera::AravisCamera(const CameraConfig& config)
+    : Camera(config), impl_(std::make_unique<Impl>(*this)) {}
 AravisCamera::~AravisCamera() = default;
-
-std::optional<Frame> AravisCamera::next(double timeout_s) {
-  return impl_->handover_.next(timeout_s);
-}
-
-void AravisCamera::set_region(const std::optional<cv::Rect2d>& target_box) {
-  impl_->handover_.set_region(target_box);
-}
-
-void AravisCamera::trigger() { impl_->handover_.ask_trigger(); }
-
-device::DeviceReport AravisCamera::report() const {
-  return make_camera_report(impl_->config_, impl_->handover_.facts(), clock_monotonic_s());
-}
-
-CameraState AravisCamera::state() const { return impl_->handover_.facts().state; }
-
-CameraCounters AravisCamera::counters() const { return impl_->handover_.facts().counters; }
-
-std::string AravisCamera::last_error() const { return impl_->handover_.facts().last_error; }
 
 }  // namespace ols::camera

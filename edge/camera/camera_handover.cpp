@@ -1,14 +1,11 @@
 #include "edge/camera/camera_handover.h"
 
-#include <chrono>
 #include <utility>
 
 #include "base/clocks.h"
 
 namespace ols::camera {
 namespace {
-
-using Seconds = std::chrono::duration<double>;
 
 constexpr const char* kIncomplete =
     "frame incomplete: packets were lost (net.core.rmem_max too small? see packet_spread)";
@@ -17,7 +14,7 @@ constexpr const char* kIncomplete =
 
 std::optional<Frame> CameraHandover::next(double timeout_s) {
   std::unique_lock lock(mutex_);
-  changed_.wait_for(lock, Seconds(timeout_s), [this] { return newest_.has_value(); });
+  time_source().wait(lock, changed_, timeout_s, [this] { return newest_.has_value(); });
   return std::exchange(newest_, std::nullopt);
 }
 
@@ -51,7 +48,7 @@ bool CameraHandover::ended() const {
 
 void CameraHandover::wait(double duration_s) {
   std::unique_lock lock(mutex_);
-  changed_.wait_for(lock, Seconds(duration_s), [this] { return ended_; });
+  time_source().wait(lock, changed_, duration_s, [this] { return ended_; });
 }
 
 std::optional<cv::Rect2d> CameraHandover::region() const {

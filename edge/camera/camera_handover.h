@@ -15,7 +15,7 @@ namespace ols::camera {
 
 class CameraHandover {
  public:
-  // For the callers; documented in AravisCamera.
+  // For the callers; documented in Camera.
   std::optional<Frame> next(double timeout_s);
   void set_region(const std::optional<cv::Rect2d>& target_box);
   void ask_trigger();

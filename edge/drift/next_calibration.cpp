@@ -1,8 +1,9 @@
 #include "edge/drift/next_calibration.h"
 
-#include <chrono>
 #include <exception>
 #include <filesystem>
+
+#include "base/time_source.h"
 
 namespace ols::station {
 namespace {
@@ -50,7 +51,7 @@ void NextCalibration::look(double now_s) {
 }
 
 void NextCalibration::take_read() {
-  if (reading_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
+  if (reading_.wait_for(time_source().for_work()) != std::future_status::ready) return;
   try {
     files_ = reading_.get();
   } catch (const std::exception& problem) {

@@ -1,12 +1,12 @@
 #include "edge/drift/reference_views.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
 
 #include "base/small_file.h"
+#include "base/time_source.h"
 #include "calibration/pictures/view_registration.h"
 #include "edge/drift/view_offset.h"
 #include "geometry/angles.h"
@@ -111,7 +111,7 @@ void ReferenceViews::set_limits(const ptu::PtuLimits& limits) {
 // Until the stored pictures are read, no round begins.
 bool ReferenceViews::loaded() {
   if (!loading_.valid()) return count_.has_value();
-  if (loading_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return false;
+  if (loading_.wait_for(time_source().for_work()) != std::future_status::ready) return false;
   pictures_ = loading_.get();
   stored_ = static_cast<std::size_t>(
       std::ranges::count_if(pictures_, [](const cv::Mat& one) { return !one.empty(); }));
@@ -171,9 +171,8 @@ std::vector<ViewOffset> ReferenceViews::take_looks() {
 }
 
 void ReferenceViews::finish() {
-  using std::chrono::seconds;
   for (const Look& look : looks_) {
-    if (look.result.wait_for(seconds(0)) != std::future_status::ready) return;
+    if (look.result.wait_for(time_source().for_work()) != std::future_status::ready) return;
   }
   judged_ = true;
   const std::uint64_t unrecognised = tally_.unrecognised;

@@ -1,7 +1,8 @@
 // A PTU in the words of every device. Pure.
 #pragma once
 
-#include "edge/ptu/ptu_thread.h"
+#include "edge/device/device_report.h"
+#include "edge/ptu/ptu_status.h"
 
 namespace ols::ptu {
 

@@ -2,9 +2,6 @@
 a console who sees the procedure's pictures and answers over the bus."""
 
 import io
-import json
-import math
-import os
 import subprocess
 import time
 import tomllib
@@ -14,7 +11,6 @@ import ols
 import ols_msg
 from conftest import BIN, ROOT, finished
 from helpers import Listener, addressed, at_frame_rate
-from ols_calibration.model import rx, ry, rz
 from ols_demo.places import geodetic
 from ols_demo.wiring import Wiring
 from PIL import Image
@@ -24,7 +20,6 @@ DEADLINE_S = 150.0
 AGAIN_S = 3.0
 FRAMES_HZ = 8.0
 SIGNS = ("spire", "mast", "gable", "chimney")  # enough for a short test
-CHRONY = "50505300,PPS,1,{now:.9f},0.0,0.0,1e-7,-1.8,0.0,0.016,1e-9,1e-5,16.0,Normal"
 
 
 def references(path, names=SIGNS, scenario=SCENARIO):
@@ -51,19 +46,16 @@ def references(path, names=SIGNS, scenario=SCENARIO):
 class Tripod:
     """Simulator and station, and the command that calibrates it."""
 
-    def __init__(self, folder, site, scenario=SCENARIO, seed=5, timed=False, station="alfa"):
-        """`timed`: a time service says that the clock is right."""
+    def __init__(self, folder, site, scenario=SCENARIO, seed=5, station="alfa"):
         self.folder, self.station = folder, station
         self.wiring = Wiring(BIN, at_frame_rate(scenario, FRAMES_HZ, folder), seed, folder)
         self.wiring.prepare()
         site.start_and_wait("ols-sim", self.wiring._sim(), "ready")
-        self.wiring.start_station(site, station, self._time_service() if timed else None)
+        self.wiring.start_station(site, station)
         self.config = self.wiring.configs[station]
         self.store = folder / "calibrations"
         self.listener = Listener()
         self.listener.bus.lcm.subscribe(f"OLS_PROCEDURE_{station}", self._procedure)
-        self.views = {}  # what the simulator says of each picture, by its stamp
-        self.listener.bus.lcm.subscribe(f"OLS_SIM_VIEW_{station}", self._view)
         self.state, self.begun_us = None, 0
         self.answered = 0
         self.sequence = int(time.time())
@@ -72,46 +64,6 @@ class Tripod:
         state = ols_msg.procedure_t.decode(data)
         if state.utime >= self.begun_us:  # not what has waited since an earlier procedure
             self.state = state
-
-    def _view(self, _channel, data):
-        view = ols_msg.truth_view_t.decode(data)
-        self.views[view.stamp_utime] = view
-
-    def _time_service(self):
-        """An environment in which chronyc answers for a receiver's pulse."""
-        programs = self.folder / "programs"
-        programs.mkdir()
-        chronyc = programs / "chronyc"
-        line = CHRONY.replace("{now:.9f}", "$(date +%s.%N)")
-        chronyc.write_text(f"#!/bin/sh\necho {line}\n")
-        chronyc.chmod(0o755)
-        return {"PATH": f"{programs}:{os.environ['PATH']}"}
-
-    def truth(self):
-        """What the simulator knows of this station."""
-        folder = self.folder / "truth"
-        subprocess.run(self.wiring._sim("--write-truth", str(folder)), check=True)
-        return json.loads((folder / f"{self.station}.json").read_text())
-
-    def fault(self, kind, is_on=True):
-        """What a person does beside the tripod: puts a target up, a filter on."""
-        message = ols_msg.sim_fault_t()
-        message.utime = time.time_ns() // 1000
-        message.kind, message.station = kind, self.station
-        message.duration_s, message.value = math.inf if is_on else 0.0, math.nan
-        self.listener.publish("OLS_SIM_FAULT", message.encode())
-
-    def view_of(self, frame):
-        """The truth of a line of frames.jsonl."""
-        stamp = min(self.views, key=lambda utime: abs(utime - frame["utime_us"]))
-        assert abs(stamp - frame["utime_us"]) < 20_000, "no such picture"
-        return self.views[stamp]
-
-    def frames(self, pattern):
-        """The pictures of the newest folder of the store that fits, oldest first."""
-        [*_, newest] = sorted(self.store.glob(pattern))
-        lines = (newest / "frames.jsonl").read_text().splitlines()
-        return [json.loads(line) for line in lines]
 
     def ready(self):
         """Camera and unit work, and a picture has come."""
@@ -127,8 +79,7 @@ class Tripod:
 
     def command(self, name, *options):
         # Without a sun in the scenery it is overcast, whatever the time of day.
-        overcast = name in {"field", "sweep", "check"} and "--sun" not in options
-        sun = ["--overcast"] if overcast else []
+        sun = ["--overcast"] if name == "field" else []
         return [
             *(str(BIN / "ols-calibrate"), name, "--station", str(self.config)),
             *("--state", str(self.store), *sun, *map(str, options)),
@@ -154,14 +105,13 @@ class Tripod:
                 stderr=subprocess.STDOUT,
             )
 
-    def answer(self, choice, pixel=None, turn=(0.0, 0.0)):
+    def answer(self, choice, pixel=None):
         self.answered = self.state.question
         self.given = {
             "question": self.state.question,
             "choice": choice,
             "has_pixel": pixel is not None,
             "pixel_px": list(pixel) if pixel is not None else [0.0, 0.0],
-            "turn_deg": list(turn),
         }
         self.send_answer()
 
@@ -201,16 +151,13 @@ class Tripod:
         right = self.state.has_crosshair and np.linalg.norm(crosshair - sign) < 3.0
         self.answer("confirm" if right else "point", None if right else sign)
 
-    def operate(self, process, decide, react=None, deadline_s=DEADLINE_S):
-        """A person at a console, until the procedure ends; `decide` answers the result, `react`
-        does what else is asked for."""
+    def operate(self, process, decide, deadline_s=DEADLINE_S):
+        """A person at a console, until the procedure ends; `decide` answers the result."""
 
         def over():
             if self.is_asking():
                 if "accept" in self.state.choice or "keep" in self.state.choice:
                     self.answer(decide(self.state))
-                elif react:
-                    react()
                 else:
                     self.point_and_confirm()
             return process.poll() is not None
@@ -221,36 +168,3 @@ class Tripod:
             print(f"{self.state.step}: {self.state.text!r}\n{self.log.read_text()}")
             raise
         return process.returncode
-
-
-def head_and_camera(truth, shafts):
-    """Axes of the unit's head (X ahead, Y left) and of the camera on it (X right, Y down, Z ahead)
-    in east, north, up."""
-    angle = {name: np.radians(truth[name]) for name in truth if name.endswith("_deg")}
-    head = (
-        rz(np.pi / 2 - angle["heading_deg"]) @ rx(angle["tilt_x_deg"]) @ ry(angle["tilt_y_deg"])
-    ) @ (rz(shafts[0]) @ rx(angle["trunnion_deg"]) @ ry(-shafts[1]))
-    mount = rz(angle["mount_z_deg"]) @ rx(angle["mount_x_deg"]) @ ry(angle["mount_y_deg"])
-    axes = head @ mount
-    return head, np.column_stack([-axes[:, 1], -axes[:, 2], axes[:, 0]])
-
-
-def middle_ray(truth):
-    """Of the picture, in the camera's axes; the lens bends it by nothing that counts there."""
-    x = (319.5 - truth["cx_px"]) / truth["focal_px"]
-    y = (239.5 - truth["cy_px"]) / (truth["focal_px"] * truth["aspect"])
-    ray = np.array([x, y, 1.0])
-    return ray / np.linalg.norm(ray)
-
-
-def heading_of_picture_deg(values):
-    """Azimuth of the picture's middle where the unit counts zero pan and stands level: heading,
-    mounting and principal point together."""
-    aside = np.arctan((319.5 - values["cx_px"]) / values["focal_px"])
-    return values["heading_deg"] - values["mount_z_deg"] + np.degrees(aside)
-
-
-def found_values(folder):
-    """What a calibration has found, by the names of the truth."""
-    instrument = tomllib.loads((folder / "instrument.toml").read_text())["values"]
-    return instrument | tomllib.loads((folder / "setup.toml").read_text())["pose"]

@@ -29,7 +29,11 @@ TEST(LcmUrl, HasOptions) {
   EXPECT_EQ(both.receive_buffer_bytes, 9);
 }
 
-TEST(LcmUrl, ABusWithinTheProcessHasNoGroup) { EXPECT_FALSE(parse_lcm_url("memq://").group); }
+TEST(LcmUrl, ABusWithinTheProcessHasNoGroup) {
+  EXPECT_FALSE(parse_lcm_url("memq://").group);
+  EXPECT_EQ(parse_lcm_url("memq://").name, "");
+  EXPECT_EQ(parse_lcm_url("memq://site").name, "site");
+}
 
 TEST(LcmUrl, TheDefaultLeavesAHostOfASiteOnly) {
   const std::string bus_env = temp_dir() + "bus.env";

@@ -8,7 +8,7 @@ namespace ols::station {
 namespace {
 
 TEST(StationClock, GivesTheUtcOfAMonotonicInstant) {
-  StationClock clock({});
+  StationClock clock({}, [] { return std::nullopt; });
   const std::int64_t before_us = clock_utime_us();
   const clock::ClockPair now = clock.look();
   const std::int64_t after_us = clock_utime_us();

@@ -1,0 +1,65 @@
+// A station's whole process in simulated time: the control loop and the bus of ols-station, with a
+// simulated unit that is connected by bytes and a simulated camera that is connected by frames.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "edge/station_process.h"
+#include "sim/exposed_unit.h"
+#include "sim/ptu_faults.h"
+#include "sim/renderer.h"
+#include "sim/simulated_time.h"
+#include "sim/world.h"
+
+namespace ols::sim {
+
+class SimulatedStation {
+ public:
+  // A picture that the camera has sent, and the truth about it.
+  struct Sent {
+    std::int64_t utime_us = 0;  // as the station stamps it
+    ExposureTruth exposure;
+    ViewTruth view;
+  };
+
+  // What is configured beside camera and unit must be none. A time service says that its clock is
+  // right. World and time must outlive it.
+  SimulatedStation(const World& world, std::size_t index, station::StationSettings settings,
+                   SimulatedTime& time);
+  ~SimulatedStation();
+
+  // Ends the process and starts it again; camera and unit stay as they are.
+  void restart();
+  void set_faults(const StationFaults& faults);
+  const StationFaults& faults() const { return faults_; }
+  PanTilt angles() const;  // of the unit, now
+  const std::vector<Sent>& sent() const { return sent_; }
+
+ private:
+  class UnitInHand;
+  station::Head head(const station::StationSettings& settings);
+  void step(double time_s);
+  void exchange_bytes();
+  void expose(double time_s);
+
+  const World& world_;
+  std::size_t index_;
+  station::StationSettings settings_;
+  FaultyPtuUnit unit_;
+  ExposedUnit exposed_;
+  std::unique_ptr<Renderer> renderer_;
+  StationFaults faults_;
+  std::int64_t exposures_ = 0, boots_ = 0, steps_ = 0;
+  std::vector<Sent> sent_;
+  // Of the process.
+  UnitInHand* ptu_ = nullptr;
+  camera::Camera* camera_ = nullptr;
+  camera::FrameStatistics statistics_;
+  std::unique_ptr<station::StationProcess> process_;
+};
+
+}  // namespace ols::sim
