@@ -1,19 +1,10 @@
 #include "base/alarm_changes.h"
 
-#include <cctype>
 #include <utility>
 
-namespace ols {
+#include "conditions/alarm.h"
 
-// Without its digits, but for the words before the first colon: "station s2" is not "station s1".
-// Behind a semicolon stands what is said besides, such as the newest of many causes.
-std::string alarm_key(const std::string& alarm) {
-  const std::size_t colon = alarm.find(": ");
-  const std::size_t begin = colon == std::string::npos ? 0 : colon;
-  std::string text = alarm.substr(begin, alarm.find(';', begin) - begin);
-  std::erase_if(text, [](unsigned char c) { return std::isdigit(c) != 0; });
-  return alarm.substr(0, begin) + text;
-}
+namespace ols {
 
 std::vector<AlarmChanges::Change> AlarmChanges::look(const std::vector<std::string>& alarms) {
   std::vector<Change> changes;

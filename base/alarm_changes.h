@@ -7,10 +7,6 @@
 
 namespace ols {
 
-// The identity of an alarm, whatever its numbers: "ptu: silent for 5 s" and "... for 6 s" have one
-// key.
-std::string alarm_key(const std::string& alarm);
-
 class AlarmChanges {
  public:
   struct Change {
@@ -18,7 +14,7 @@ class AlarmChanges {
     std::string alarm;
     bool begins = false;
   };
-  // Takes the current alarms. A changed number ("silent for 5 s") does not make an alarm new.
+  // Takes the current alarms. alarm_key() tells which are the same: "silent for 5 s", "for 6 s".
   std::vector<Change> look(const std::vector<std::string>& alarms);
 
  private:

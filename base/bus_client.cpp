@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/journal.h"
+#include "conditions/alarms.h"
 
 namespace ols {
 
@@ -61,7 +62,7 @@ void BusClient::turn(double now_s, int wait_ms) {
 
 std::string BusClient::trouble() const {
   if (bus_) return "";
-  return "no bus: " + (trouble_.empty() ? "connecting" : trouble_);
+  return alarm::no_bus(trouble_.empty() ? "connecting" : trouble_);
 }
 
 std::vector<std::string> BusClient::all_alarms(double now_s) const {

@@ -1,5 +1,7 @@
 #include "base/bus_monitor.h"
 
+#include "conditions/alarms.h"
+
 namespace ols {
 namespace {
 
@@ -65,18 +67,15 @@ void BusMonitor::count(std::map<std::string, double>& counters) const {
 std::string BusMonitor::alarm(double now_s) const {
   if (is_calm(now_s)) return {};
   const BusTraffic all = total();
-  return "bus: " + std::to_string(all.fragments - calm_.fragments) + " fragments and " +
-         std::to_string(all.malformed - calm_.malformed) + " malformed datagrams refused, " +
-         std::to_string(all.overflowed - calm_.overflowed) +
-         " messages displaced by newer ones: a flood, or a foreign program on the bus";
+  return alarm::bus_flooded(all.fragments - calm_.fragments, all.malformed - calm_.malformed,
+                            all.overflowed - calm_.overflowed);
 }
 
 std::string BusMonitor::trust_alarm(double now_s) const {
   if (!current_.trust_trouble.empty()) return current_.trust_trouble;
   if (!distrusted_s_ || now_s - *distrusted_s_ > kAlarm_s) return {};
   const BusTraffic all = total();
-  return "trust: messages not believed: " + reasons(all, trusting_) +
-         "; the last: " + all.distrusted_last;
+  return alarm::messages_not_believed(reasons(all, trusting_), all.distrusted_last);
 }
 
 std::vector<std::string> BusMonitor::alarms(double now_s) const {

@@ -4,6 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "conditions/alarms.h"
+
 namespace ols::bridge {
 namespace {
 
@@ -39,23 +41,23 @@ std::string direction(const char* name, const Counts& counts) {
 
 std::vector<std::string> alarms(const BridgeStatus& status) {
   std::vector<std::string> all = status.bus_alarms;
-  if (!status.link.is_open) all.push_back("bridge: no server: " + status.link.trouble);
+  if (!status.link.is_open) all.push_back(alarm::bridge_no_server(status.link.trouble));
   if (!status.link.refusal.empty()) {
-    all.push_back("bridge: the server refuses: " + status.link.refusal);
+    all.push_back(alarm::bridge_refused(status.link.refusal));
   }
-  if (!status.gap.empty()) all.push_back("bridge: messages are missing: " + status.gap);
-  if (!status.late.empty()) all.push_back("bridge: what comes late is dropped: " + status.late);
+  if (!status.gap.empty()) all.push_back(alarm::bridge_messages_missing(status.gap));
+  if (!status.late.empty()) all.push_back(alarm::bridge_late(status.late));
   if (status.archive.is_wanted && !status.archive.is_kept) {
-    all.push_back("bridge: the archive does not work: " + status.archive.trouble);
+    all.push_back(alarm::bridge_archive_fails(status.archive.trouble));
   }
   for (const std::string& site : status.archive.standing) {
-    all.push_back("bridge: the archive of " + site + " stands still");
+    all.push_back(alarm::bridge_archive_stands(site));
   }
   if (status.ownership.is_wanted && !status.ownership.is_confirmed) {
-    all.push_back("bridge: the store of owners does not answer, no target changes its owner");
+    all.push_back(alarm::bridge_owners_silent());
   }
   if (status.ownership.is_wanted && status.ownership.delay_s > kLongestDelay_s) {
-    all.push_back("bridge: the store of owners is too slow for so many targets");
+    all.push_back(alarm::bridge_owners_slow());
   }
   return all;
 }

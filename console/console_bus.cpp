@@ -2,6 +2,7 @@
 
 #include "base/boot_id.h"
 #include "base/channel_names.h"
+#include "conditions/alarms.h"
 #include "console/messages.h"
 #include "console/messages_pictures.h"
 
@@ -65,7 +66,7 @@ void ConsoleBus::subscribe(LcmBus& bus) {
 }
 
 void ConsoleBus::note_trouble(const std::string& trouble) {
-  console_.note("console", "", trouble.empty() ? "the bus is back" : "no bus: " + trouble, now_);
+  console_.note("console", "", trouble.empty() ? "the bus is back" : alarm::no_bus(trouble), now_);
 }
 
 void ConsoleBus::turn(const Now& now) {

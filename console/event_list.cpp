@@ -1,14 +1,25 @@
 #include "console/event_list.h"
 
 #include <algorithm>
+#include <cctype>
 #include <utility>
 
-#include "base/alarm_changes.h"
+#include "conditions/alarm.h"
 
 namespace ols::console {
 namespace {
 
 constexpr std::int64_t kAnswer_us = 5'000'000;  // a refused command is answered within
+
+// Alarms are told apart by the table, and so is what repeats an alarm's words; other events are the
+// same whatever their numbers.
+std::string key_of(const Event& event) {
+  std::string key = alarm_key(event.text);
+  if (event.kind != "alarm" && key == event.text) {
+    std::erase_if(key, [](unsigned char c) { return std::isdigit(c) != 0; });
+  }
+  return key;
+}
 
 // "camera", of "camera: no frames for 3 s" and of "camera 10.0.0.3 does not answer".
 std::string subject(const std::string& text) { return text.substr(0, text.find_first_of(": ")); }
@@ -34,7 +45,7 @@ bool EventList::explains_another(const Event& error, const std::string& key) con
   if (error.kind != "error") return false;
   return std::ranges::any_of(events_, [&](const Kept& kept) {
     if (kept.event.station != error.station) return false;
-    if (kept.holds()) return kept.key == key || subject(kept.key) == subject(key);
+    if (kept.holds()) return kept.key == key || subject(kept.event.text) == subject(error.text);
     if (kept.over_us) return kept.key == key && error.utime_us - *kept.over_us < kRepeat_us;
     return kept.event.kind == "command" && is_refusal(error.text) &&
            error.utime_us - kept.event.utime_us < kAnswer_us;
@@ -48,7 +59,7 @@ void EventList::forget_oldest() {
 }
 
 std::uint64_t EventList::add(Event event, Revision& revision) {
-  const std::string key = alarm_key(event.text);
+  const std::string key = key_of(event);
   if (explains_another(event, key)) return 0;
   if (const auto known = repeated(event, key); known != events_.end()) {
     ++known->times;
@@ -111,6 +122,7 @@ Json EventList::since(Revision revision) const {
                       {"station", e.station},
                       {"who", e.who},
                       {"text", e.text},
+                      {"key", kept.key},
                       {"outcome", e.outcome},
                       {"over_us", kept.over_us ? Json(*kept.over_us) : Json(nullptr)},
                       {"acknowledged", kept.acknowledged},

@@ -29,7 +29,7 @@ class EventList {
   std::uint64_t add(Event event, Revision& revision);
   void conclude(std::uint64_t number, const std::string& outcome, Revision& revision);
 
-  // The alarm with this text (its numbers may differ) has ended.
+  // The alarm with this text, whatever its parameters, has ended.
   void end(const std::string& station, const std::string& text, std::int64_t utime_us,
            Revision& revision);
   // All alarms of a station have ended.
@@ -46,7 +46,7 @@ class EventList {
     std::uint64_t number;
     Revision changed;
     Event event;
-    std::string key;  // the text without numbers
+    std::string key;  // the same for what is the same event
     int times = 1;
     std::optional<std::int64_t> over_us;  // of an alarm; nullopt: it stands
     std::string acknowledged;             // the person

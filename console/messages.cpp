@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "base/channel_names.h"
+#include "base/plain_text.h"
+#include "conditions/alarm.h"
 #include "console/map_geometry.h"
 #include "console/messages_calibration.h"
 #include "console/messages_cues.h"
@@ -62,6 +64,13 @@ Json lens_of(const Status& s) {
 std::vector<std::string> first_of(std::vector<std::string> texts) {
   if (texts.size() > kMostListed) texts.resize(kMostListed);
   return texts;
+}
+
+// By which the page finds an alarm's event.
+std::vector<std::string> keys_of(const std::vector<std::string>& alarms) {
+  std::vector<std::string> keys = first_of(alarms);
+  for (std::string& key : keys) key = alarm_key(key);
+  return keys;
 }
 
 // Null for what is no place: a station's, while it does not know its own.
@@ -219,6 +228,7 @@ std::optional<StationHeard> station_from(const BusMessage& message) {
       {"calibration", calibration_of(s)},
       {"frame_latency_s", rounded(s.frame_latency_s, 3)},
       {"alarms", first_of(s.alarm)},
+      {"alarm_keys", keys_of(s.alarm)},
       {"readings", named(s.reading_name, s.reading_value)},
       {"counters", named(s.counter_name, s.counter_value)},
       {"last_error", error},
@@ -286,11 +296,15 @@ std::optional<FusionHeard> fusion_from(const BusMessage& message) {
   const auto heard = wire::heard_fusion_status(message);
   if (!heard) return std::nullopt;
   const ols_msg::fusion_status_t& f = *heard;
-  Json fields{
-      {"boot", number_text(f.boot_id)},       {"utime_us", f.utime},
-      {"stations", fusion_stations(f)},       {"cues", cues_of(f)},
-      {"latency_s", rounded(f.latency_s, 4)}, {"counters", named(f.counter_name, f.counter_value)},
-      {"alarms", first_of(f.alarm)},          {"last_error", f.last_error}};
+  Json fields{{"boot", number_text(f.boot_id)},
+              {"utime_us", f.utime},
+              {"stations", fusion_stations(f)},
+              {"cues", cues_of(f)},
+              {"latency_s", rounded(f.latency_s, 4)},
+              {"counters", named(f.counter_name, f.counter_value)},
+              {"alarms", first_of(f.alarm)},
+              {"alarm_keys", keys_of(f.alarm)},
+              {"last_error", f.last_error}};
   return FusionHeard{f.boot_id, std::move(fields), first_of(f.alarm), f.last_error};
 }
 

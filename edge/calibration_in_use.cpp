@@ -2,6 +2,7 @@
 
 #include <exception>
 
+#include "conditions/alarms.h"
 #include "edge/unit_count.h"
 
 namespace ols::station {
@@ -53,8 +54,7 @@ std::vector<std::string> CalibrationInUse::other_devices(
   for (const device::DeviceReport& device : devices) {
     if (other_serial(configured, device).empty()) continue;
     const std::string& there = device.name == "camera" ? configured.camera : configured.ptu;
-    alarms.push_back("calibration: another " + device.name + " than configured: it says '" +
-                     device.serial + "', [serials] has '" + there + "'");
+    alarms.push_back(alarm::other_device(device.name, device.serial, there));
   }
   return alarms;
 }
@@ -93,8 +93,7 @@ CalibrationStatus CalibrationInUse::status() const {
 
 std::vector<std::string> CalibrationInUse::alarms() const {
   if (refused_.empty()) return {};
-  return {"calibration: not used: " + refused_ +
-          ": the configuration's own values are; calibrate again"};
+  return {alarm::calibration_not_used(refused_)};
 }
 
 }  // namespace ols::station

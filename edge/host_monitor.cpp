@@ -6,7 +6,6 @@
 #include <chrono>
 #include <cmath>
 #include <condition_variable>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <mutex>
@@ -15,6 +14,7 @@
 #include <utility>
 
 #include "base/clocks.h"
+#include "conditions/alarms.h"
 
 namespace ols::station {
 namespace {
@@ -41,12 +41,6 @@ std::optional<double> free_bytes(const std::string& folder) {
   return static_cast<double>(disk.f_bavail) * static_cast<double>(disk.f_frsize);
 }
 
-std::string in_words(const char* format, double value) {
-  char text[96];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
-
 }  // namespace
 
 HostReading read_host(const HostConfig& config) {
@@ -58,14 +52,13 @@ HostReport report_on(const HostReading& reading, const HostConfig& config) {
   if (reading.cpu_degC) {
     report.readings["cpu_degC"] = *reading.cpu_degC;
     if (*reading.cpu_degC > config.cpu_alarm_degC) {
-      report.alarms.push_back(in_words("computer: processor at %.0f C", *reading.cpu_degC));
+      report.alarms.push_back(alarm::processor_hot(*reading.cpu_degC));
     }
   }
   if (reading.disk_free_bytes) {
     report.readings["disk_free_bytes"] = *reading.disk_free_bytes;
     if (*reading.disk_free_bytes < config.disk_alarm_bytes) {
-      report.alarms.push_back(
-          in_words("computer: %.0f MB left on the disk", *reading.disk_free_bytes * 1e-6));
+      report.alarms.push_back(alarm::disk_nearly_full(*reading.disk_free_bytes * 1e-6));
     }
   }
   return report;
@@ -137,8 +130,7 @@ HostReport HostMonitor::look(double now_s) {
   const bool silent = age_s > config_.silence_s;
   HostReport report = report_on(silent ? HostReading{} : reading, config_);
   if (silent) {
-    report.alarms.push_back("computer: disk " + config_.disk_folder +
-                            in_words(" does not answer for %.0f s", age_s));
+    report.alarms.push_back(alarm::disk_silent(config_.disk_folder, age_s));
   }
   report.readings["slowest_turn_s"] = slowest_s_;
   report.readings["turn_p99_s"] = turn_p99_s();

@@ -1,6 +1,7 @@
 #include "edge/kept_pose.h"
 
 #include "base/clocks.h"
+#include "conditions/alarms.h"
 
 namespace ols::station {
 namespace {
@@ -37,7 +38,7 @@ std::optional<sensors::StationPose> KeptPose::look(DeviceSet& devices, double no
 std::vector<std::string> KeptPose::alarms(double now_s) const {
   auto alarms = estimator_.alarms(now_s);
   if (estimator_.pose(now_s).position_source == sensors::PoseSource::kNone) {
-    alarms.emplace_back("pose: no position yet, no bearings");
+    alarms.push_back(alarm::no_position());
   }
   if (const std::string trouble = store_.trouble(); !trouble.empty()) {
     alarms.push_back("pose: " + trouble);

@@ -5,6 +5,7 @@
 #include "base/channel_names.h"
 #include "base/clocks.h"
 #include "base/journal.h"
+#include "conditions/alarms.h"
 
 namespace ols::station {
 namespace {
@@ -279,8 +280,7 @@ std::vector<std::string> StationBus::alarms() const {
   for (std::string& alarm : monitor_.alarms(now_s_)) alarms.push_back(std::move(alarm));
   const std::int64_t newest = connector_.site_settings_number();
   if (newest > settings_.site.number) {
-    alarms.push_back("trust: the site's settings " + std::to_string(newest) +
-                     " are used after the station's next start");
+    alarms.push_back(alarm::site_settings_wait(newest));
   }
   return alarms;
 }

@@ -1,5 +1,7 @@
 #include "edge/persisted_station_state.h"
 
+#include "conditions/alarms.h"
+
 namespace ols::station {
 namespace {
 
@@ -73,15 +75,14 @@ std::vector<std::string> PersistedStationState::alarms() const {
     const std::string act = begin_ == StationState::kEmergency
                                 ? "check it, then re-arm it"
                                 : "check it, then ols-ctl " + id_ + " release";
-    alarms.push_back("stop: state before the restart is unknown (" + why + "): " + act);
+    alarms.push_back(alarm::stop_state_unknown(why, act));
   }
-  if (!hold_.trouble().empty()) alarms.push_back("stop: state cannot be saved: " + hold_.trouble());
+  if (!hold_.trouble().empty()) alarms.push_back(alarm::stop_state_unsaved(hold_.trouble()));
   if (doubt_unknown_) {
-    alarms.push_back("ptu: reference before the restart is unknown (" + doubt_.why_unknown() +
-                     "): check it, then ols-ctl " + id_ + " reference-ok");
+    alarms.push_back(alarm::ptu_reference_unknown(doubt_.why_unknown(), id_));
   }
   if (!doubt_.trouble().empty()) {
-    alarms.push_back("ptu: reference state cannot be saved: " + doubt_.trouble());
+    alarms.push_back(alarm::ptu_reference_unsaved(doubt_.trouble()));
   }
   return alarms;
 }

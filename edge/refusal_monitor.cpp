@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "conditions/alarms.h"
+
 namespace ols::station {
 namespace {
 
@@ -25,8 +27,7 @@ std::vector<std::string> RefusalMonitor::alarms(double now_s) const {
       if (second.at_s > second_s - static_cast<std::int64_t>(kSpan_s)) count += second.count;
     }
     if (count < kAlarm) continue;
-    alarms.push_back("commands: " + std::to_string(count) + " " + what.first + " refused in " +
-                     std::to_string(kSpan_s) + " s: " + what.second);
+    alarms.push_back(alarm::commands_refused(count, what.first, kSpan_s, what.second));
   }
   return alarms;
 }

@@ -1,7 +1,8 @@
 #include "edge/slew_search.h"
 
 #include <algorithm>
-#include <cstdio>
+
+#include "conditions/alarms.h"
 
 namespace ols::station {
 
@@ -143,12 +144,7 @@ std::string SlewSearch::unacquired_alarm(const Slew& slew) const {
   if (!slew || slew->searches_line() || waited_s < config_.unacquired_alarm_s) return {};
   const double sd_px = slew->direction_sd_rad * config_.geometry.camera.fx_px;
   if (sd_px > max_search_sd_px(config_)) return {};
-  char text[120];
-  std::snprintf(text, sizeof text,
-                "target: slewed for %.0f s with its place in the image, nothing acquired: "
-                "designate it",
-                waited_s);
-  return text;
+  return alarm::target_not_acquired(waited_s);
 }
 
 }  // namespace ols::station

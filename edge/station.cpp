@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "conditions/alarms.h"
 #include "edge/station_snapshot.h"
 #include "edge/tracker/object_at.h"
 
@@ -379,7 +380,7 @@ std::vector<std::string> Station::alarms() const {
   const auto unacquired = slewed ? search_.unacquired_alarm(slew_.command()) : std::string();
   if (!unacquired.empty()) alarms.push_back(unacquired);
   if (slew_.has_several_senders(now_s_)) {
-    alarms.emplace_back("commands: slews from two fusions: stop one of them");
+    alarms.push_back(alarm::slews_from_two_fusions());
   }
   return alarms;
 }

@@ -7,6 +7,7 @@
 
 #include "base/clocks.h"
 #include "base/journal.h"
+#include "conditions/alarms.h"
 #include "edge/clock/clock_pair.h"
 #include "edge/rearm_signal.h"
 #include "edge/tracker/tracker.h"
@@ -280,7 +281,7 @@ StationReport StationProcess::report(const clock::ClockPair& now) {
     report.alarms.push_back(emergency_alarm());
   }
   if (report.snapshot.motion_disagrees) {
-    report.alarms.emplace_back("ptu: the image motion contradicts the reported angles");
+    report.alarms.push_back(alarm::ptu_contradicts_image());
   }
   for (const std::string& alarm : calibration_.alarms()) report.alarms.push_back(alarm);
   for (const std::string& alarm :
@@ -320,13 +321,13 @@ device::DeviceReport StationProcess::software() const {
 }
 
 std::string StationProcess::emergency_alarm() const {
-  if (devices_.stop().pressed()) return "emergency stop: pressed";
-  const std::string what = "emergency stop: not rearmed yet: ";
+  if (devices_.stop().pressed()) return alarm::emergency_stop_pressed();
   const gpio::GpioConfig& gpio = settings().gpio;
-  if (gpio.rearm_over_bus) return what + "ols-ctl " + settings().id + " rearm";
-  if (!gpio.chip.empty() && gpio.rearm_line >= 0) return what + "hold its re-arm button";
-  return what + "on its computer, systemctl kill --kill-who=main -s USR1 ols-station@" +
-         settings().id;
+  std::string how =
+      "on its computer, systemctl kill --kill-who=main -s USR1 ols-station@" + settings().id;
+  if (!gpio.chip.empty() && gpio.rearm_line >= 0) how = "hold its re-arm button";
+  if (gpio.rearm_over_bus) how = "ols-ctl " + settings().id + " rearm";
+  return alarm::emergency_stop_not_rearmed(how);
 }
 
 void StationProcess::add_pose_and_clock(double now_s, StationReport& report) const {

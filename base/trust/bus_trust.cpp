@@ -11,6 +11,7 @@
 #include "base/small_file.h"
 #include "base/toml_config.h"
 #include "base/trust/messages_trust.h"
+#include "conditions/alarms.h"
 
 namespace ols::trust {
 namespace {
@@ -313,24 +314,14 @@ const Member* BusTrust::own_entry() const {
 
 std::string BusTrust::membership_trouble() const {
   const std::lock_guard lock(mutex_);
-  if (!trouble_.file.empty()) return "trust: the list cannot be used: " + trouble_.file;
-  if (list_.number == 0) {
-    return "trust: no trust list yet: the centre sends it once " + key_.file.name +
-           " is enrolled there";
-  }
+  if (!trouble_.file.empty()) return alarm::trust_list_unusable(trouble_.file);
+  if (list_.number == 0) return alarm::no_trust_list(key_.file.name);
   const Member* own = own_entry();
-  if (own == nullptr) {
-    return "trust: the own key, " + key_.file.name + ", is not in trust list " +
-           std::to_string(list_.number);
-  }
-  if (own->revoked) return "trust: the key of " + own->name + " is revoked";
+  if (own == nullptr) return alarm::own_key_not_in_list(key_.file.name, list_.number);
+  if (own->revoked) return alarm::own_key_revoked(own->name);
   const std::string strange = list_.strange_members();
-  if (!strange.empty()) {
-    return "trust: members of roles that this version does not know: " + strange;
-  }
-  return trouble_.keeping.empty()
-             ? ""
-             : "trust: the list cannot be kept for the next start: " + trouble_.keeping;
+  if (!strange.empty()) return alarm::trust_roles_unknown(strange);
+  return trouble_.keeping.empty() ? "" : alarm::trust_list_unsaved(trouble_.keeping);
 }
 
 void BusTrust::watch() {

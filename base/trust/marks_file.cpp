@@ -7,6 +7,7 @@
 
 #include "base/atomic_file.h"
 #include "base/small_file.h"
+#include "conditions/alarms.h"
 
 namespace ols::trust {
 
@@ -56,9 +57,9 @@ void MarksFile::look() {
 std::string MarksFile::trouble() const {
   const std::lock_guard lock(mutex_);
   if (!unwritten_.empty()) {
-    return "trust: what has been heard cannot be kept for the next start: " + unwritten_;
+    return alarm::heard_unsaved(unwritten_);
   }
-  return lost_.empty() ? "" : "trust: what was heard before this start is lost: " + lost_;
+  return lost_.empty() ? "" : alarm::heard_lost(lost_);
 }
 
 }  // namespace ols::trust

@@ -7,6 +7,7 @@
 #include "base/atomic_file.h"
 #include "base/small_file.h"
 #include "base/toml_config.h"
+#include "conditions/alarms.h"
 
 namespace ols::trust {
 
@@ -119,7 +120,7 @@ std::optional<std::string> SiteKeeper::to_tell(double now_s) {
 std::string SiteKeeper::trouble() const {
   const std::lock_guard lock(mutex_);
   const std::string& why = file_trouble_.empty() ? heard_trouble_ : file_trouble_;
-  return why.empty() ? "" : "trust: the site's settings are refused: " + why;
+  return why.empty() ? "" : alarm::site_settings_refused(why);
 }
 
 }  // namespace ols::trust

@@ -1,8 +1,8 @@
 #include "central/admission/calibration_monitor.h"
 
 #include <cmath>
-#include <cstdio>
 
+#include "conditions/alarms.h"
 #include "geometry/angles.h"
 
 namespace ols::fusion {
@@ -23,12 +23,8 @@ std::string calibration_alarm(const std::string& station, const StatedCalibratio
   }
   if (!beyond) return {};
   const auto arcsec = [](double rad) { return std::isnan(rad) ? 0.0 : rad / kArcsec; };
-  char text[160];
-  std::snprintf(text, sizeof text,
-                "bearings contradict its calibration: off by %.0f arc seconds across and %.0f in "
-                "elevation: check its reference views",
-                arcsec(found.bias_rad.x()), arcsec(found.bias_rad.y()));
-  return "station " + station + ": " + text;
+  return alarm::station_off_calibration(station, arcsec(found.bias_rad.x()),
+                                        arcsec(found.bias_rad.y()));
 }
 
 }  // namespace ols::fusion

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "central/measurement/time_span.h"
+#include "conditions/alarms.h"
 
 namespace ols::fusion {
 namespace {
@@ -26,12 +26,7 @@ std::string UnassociatedMonitor::alarm(const std::string& station, std::int64_t 
   const Span& span = found->second;
   const double for_s = seconds(span.to_us - span.from_us);
   if (for_s < config_.alarm_s || std::abs(seconds(now_us - span.to_us)) > kGap_s) return {};
-  char text[120];
-  std::snprintf(text, sizeof text,
-                "has followed for %.0f s an object that is not a target: another object, or a "
-                "wrong designation",
-                for_s);
-  return "station " + station + ": " + text;
+  return alarm::station_follows_stray(station, for_s);
 }
 
 }  // namespace ols::fusion

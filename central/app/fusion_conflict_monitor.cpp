@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "conditions/alarms.h"
+
 namespace ols::fusion {
 namespace {
 
@@ -18,7 +20,7 @@ bool FusionConflictMonitor::hear(std::int64_t boot_id, double now_s) {
 
 std::string FusionConflictMonitor::alarm(double now_s) const {
   if (now_s - heard_s_ > kSilent_s) return {};
-  return "another fusion is on the bus: stop one of them";
+  return alarm::another_fusion();
 }
 
 bool FusionConflictMonitor::take_event() { return std::exchange(news_, false); }

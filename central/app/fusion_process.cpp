@@ -7,6 +7,7 @@
 
 #include "base/clocks.h"
 #include "base/journal.h"
+#include "conditions/alarms.h"
 
 namespace ols::fusion {
 namespace {
@@ -68,7 +69,7 @@ void FusionProcess::turn() {
 }
 
 std::string FusionProcess::in_one_line() const {
-  if (!bus_.is_connected()) return "no bus: " + bus_.trouble();
+  if (!bus_.is_connected()) return alarm::no_bus(bus_.trouble());
   const FusionHealth health = watched_health();
   std::string line = std::to_string(health.stations.size()) + " stations";
   for (const StationHealth& station : health.stations) {

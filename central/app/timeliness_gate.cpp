@@ -1,8 +1,9 @@
 #include "central/app/timeliness_gate.h"
 
 #include <cmath>
-#include <cstdio>
 #include <utility>
+
+#include "conditions/alarms.h"
 
 namespace ols::fusion {
 namespace {
@@ -26,20 +27,8 @@ bool TimelinessGate::passes(std::int64_t utime_us, std::int64_t host_us, double 
 
 std::string TimelinessGate::alarm(double now_s) const {
   if (now_s - withheld_s_ > kTold_s) return {};
-  char text[200];
-  if (waited_s_ > kLoad * std::abs(off_s_)) {
-    std::snprintf(text, sizeof text,
-                  "targets and slews withheld: overload: messages wait %.1f s before they are "
-                  "processed; give this host more processor time, or fewer bearings",
-                  waited_s_);
-    return text;
-  }
-  std::snprintf(text, sizeof text,
-                "targets and slews withheld: message time is %+.1f s from this host's clock; "
-                "normal for some seconds after a suspend; otherwise set the clock, or use "
-                "--replay",
-                off_s_);
-  return text;
+  if (waited_s_ > kLoad * std::abs(off_s_)) return alarm::withheld_overload(waited_s_);
+  return alarm::withheld_time(off_s_);
 }
 
 bool TimelinessGate::take_event() { return std::exchange(news_, false); }

@@ -1,6 +1,6 @@
 #include "edge/drift/check_record.h"
 
-#include <cstdio>
+#include "conditions/alarms.h"
 
 namespace ols::station {
 
@@ -22,16 +22,10 @@ void CheckRecord::note_late(int rounds) {
 std::string CheckRecord::alarm() const {
   constexpr int kRounds = 3;
   constexpr double kDay_s = 86400.0, kHour_s = 3600.0;
-  if (too_few_) {
-    return "calibration: not checked: travel and keep-out regions leave fewer than three reference "
-           "views";
-  }
+  if (too_few_) return alarm::views_too_few();
   const double since_s = judged_s_ ? now_s_ - *judged_s_ : 0.0;
   if (since_s < kDay_s && late_ < kRounds) return {};
-  char text[160];
-  std::snprintf(text, sizeof text, "calibration: not checked for %.1f h: %s", since_s / kHour_s,
-                reason_);
-  return text;
+  return alarm::calibration_not_checked(since_s / kHour_s, reason_);
 }
 
 }  // namespace ols::station

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <sstream>
 
+#include "conditions/alarms.h"
 #include "geometry/angles.h"
 
 namespace ols::station {
@@ -108,22 +109,16 @@ std::string DriftWatch::alarm() const {
   if (level_ == DriftLevel::kNone) return {};
   switch (finding_.cause) {
     case DriftCause::kTripod:
-      return words("calibration: the tripod has moved: heading %+.0f, tilt %.0f arc seconds: %s",
-                   finding_.heading_rad / kArcsec, finding_.tilt_rad / kArcsec,
-                   level_ == DriftLevel::kRed
-                       ? "calibrate its setup again"
-                       : "check its feet; calibrate its setup again if it stays");
+      return alarm::tripod_moved(finding_.heading_rad / kArcsec, finding_.tilt_rad / kArcsec,
+                                 level_ == DriftLevel::kRed
+                                     ? "calibrate its setup again"
+                                     : "check its feet; calibrate its setup again if it stays");
     case DriftCause::kScene:
-      return words(
-          "calibration: reference view %zu has changed: something moved there, not the "
-          "tripod: nothing, or calibrate again to store it anew",
-          finding_.view + 1);
+      return alarm::view_changed(finding_.view + 1);
     case DriftCause::kLostSteps:
-      return words("calibration: %s is %d motor steps off its counts: home the unit",
-                   finding_.pan ? "pan" : "tilt", finding_.steps);
+      return alarm::steps_lost(finding_.pan ? "pan" : "tilt", finding_.steps);
     case DriftCause::kUnclear:
-      return "calibration: the reference views contradict each other: look at the camera and its "
-             "mount, then calibrate again";
+      return alarm::views_contradict();
     case DriftCause::kNone:
       break;
   }

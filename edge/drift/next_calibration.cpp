@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "base/time_source.h"
+#include "conditions/alarms.h"
 
 namespace ols::station {
 namespace {
@@ -65,13 +66,8 @@ void NextCalibration::refuse(const std::string& why) {
 }
 
 std::string NextCalibration::alarm() const {
-  if (files_) {
-    return "calibration: " + std::to_string(files_->id) +
-           " is accepted, not yet in use: the station takes it up when it is idle";
-  }
-  if (refused_.empty()) return {};
-  return "calibration: the accepted one is not used: " + refused_ +
-         ": the station goes on as before; calibrate again, or ols-calibrate revert";
+  if (files_) return alarm::calibration_waits(files_->id);
+  return refused_.empty() ? "" : alarm::accepted_calibration_not_used(refused_);
 }
 
 }  // namespace ols::station

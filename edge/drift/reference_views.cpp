@@ -8,6 +8,7 @@
 #include "base/small_file.h"
 #include "base/time_source.h"
 #include "calibration/pictures/view_registration.h"
+#include "conditions/alarms.h"
 #include "edge/drift/view_offset.h"
 #include "geometry/angles.h"
 
@@ -194,11 +195,10 @@ std::vector<std::string> ReferenceViews::alarms() const {
   if (const std::string alarm = watch_.alarm(); !alarm.empty()) alarms.push_back(alarm);
   if (std::string alarm = record_.alarm(); !alarm.empty()) alarms.push_back(std::move(alarm));
   if (!unreadable_.empty() && tally_.checks == 0) {
-    alarms.push_back("calibration: the results of earlier checks are unknown (" + unreadable_ +
-                     "): wait for the next one");
+    alarms.push_back(alarm::checks_unknown(unreadable_));
   }
   if (const std::string trouble = file_.trouble(); !trouble.empty()) {
-    alarms.push_back("calibration: findings cannot be saved: " + trouble);
+    alarms.push_back(alarm::findings_unsaved(trouble));
   }
   return alarms;
 }

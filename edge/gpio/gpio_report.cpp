@@ -1,5 +1,7 @@
 #include "edge/gpio/gpio_report.h"
 
+#include "conditions/alarms.h"
+
 namespace ols::gpio {
 
 bool stop_pressed(const GpioConfig& config, const GpioFacts& facts) {
@@ -21,16 +23,15 @@ device::DeviceReport make_gpio_report(const GpioConfig& config, const GpioFacts&
     report.state = device::DeviceState::kOk;
     report.text = config.chip;
     if (config.has_stop()) report.text += pressed ? ", stop pressed" : ", stop released";
-    if (pressed) report.alarms.push_back("gpio: emergency stop pressed");
+    if (pressed) report.alarms.push_back(alarm::gpio_stop_pressed());
   } else if (facts.open || facts.failures == 0) {
     report.state = device::DeviceState::kStarting;
     report.text = config.chip + ": waiting for the first level";
   } else {
     report.state = device::DeviceState::kAbsent;
     report.text = facts.error;
-    report.alarms.push_back(config.has_stop()
-                                ? "gpio: stop unreadable, taken as pressed: " + facts.error
-                                : "gpio: " + facts.error);
+    report.alarms.push_back(config.has_stop() ? alarm::gpio_stop_unreadable(facts.error)
+                                              : "gpio: " + facts.error);
   }
   return report;
 }

@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "base/clocks.h"
+#include "conditions/alarms.h"
 #include "edge/device/behind_control_loop.h"
 #include "edge/recorder/event_folder.h"
 #include "edge/recorder/event_queue.h"
@@ -285,9 +286,7 @@ device::DeviceReport Recorder::report() const {
                      {"recorder_bytes", disk.stored_bytes},
                      {"recorder_room_bytes", disk.room_bytes}};
   if (impl_->wanted_bytes > disk.room_bytes) {
-    report.alarms.emplace_back(
-        "recorder: recordings are refused, the quota is full of protected events: copy some away "
-        "and delete them");
+    report.alarms.push_back(alarm::recorder_refuses());
   }
   if (const std::string wrong = impl_->wrong(); !wrong.empty()) {
     report.state = device::DeviceState::kFault;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "conditions/alarms.h"
 #include "edge/sensors/alarm_format.h"
 
 namespace ols::sensors {
@@ -96,8 +97,9 @@ void StationPosition::fill(StationPose& pose, double now_s) const {
 }
 
 std::string StationPosition::disagreement(double now_s) const {
-  std::string text = "gnss: " + format_length(place_->distance().norm()) + " from the " +
-                     (config_.surveyed_position ? "survey" : "kept position");
+  const std::string distance = format_length(place_->distance().norm());
+  std::string text =
+      config_.surveyed_position ? alarm::gnss_off_survey(distance) : alarm::gnss_off_kept(distance);
   const double lasts_s = now_s - *place_->disagrees_since_s();
   if (lasts_s >= config_.restation_s) {
     text += " for " + format_time(lasts_s) + ": set up the station again";
@@ -107,23 +109,20 @@ std::string StationPosition::disagreement(double now_s) const {
 
 void StationPosition::add_alarms(std::vector<std::string>& alarms, double now_s) const {
   if (const auto moved_m = place_->moved()) {
-    alarms.push_back("gnss: new position adopted, " + format_length(*moved_m) +
-                     " from the old one: check the heading");
+    alarms.push_back(alarm::position_adopted(format_length(*moved_m)));
   }
   if (place_->resumed()) {
-    alarms.push_back("pose: position restored from before the restart, " +
-                     format_time(now_s - known_s_) + " old");
+    alarms.push_back(alarm::position_restored(format_time(now_s - known_s_)));
   }
   if (!last_) return;
   const bool kept = place_->estimate().has_value();
-  const char* consequence = kept ? ", position kept" : ", no position yet";
+  const char* consequence = kept ? "position kept" : "no position yet";
   const auto until_s = place_->supported_until_s();
   if (now_s - last_->time_s > config_.gnss_stale_s) {
-    alarms.push_back("gnss: silent for " + format_time(now_s - last_->time_s) + consequence);
+    alarms.push_back(alarm::gnss_silent(format_time(now_s - last_->time_s), consequence));
   } else if (last_->fix < config_.least_fix) {
-    const std::string lasts =
-        until_s ? " for " + format_time(now_s - *until_s) : std::string(" yet");
-    alarms.push_back("gnss: no fix" + lasts + consequence);
+    alarms.push_back(until_s ? alarm::gnss_lost_fix(format_time(now_s - *until_s), consequence)
+                             : alarm::gnss_no_fix(consequence));
   } else if (kept && is_inconsistent(now_s)) {
     alarms.push_back(disagreement(now_s));
   }

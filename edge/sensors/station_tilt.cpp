@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "conditions/alarms.h"
 #include "edge/sensors/alarm_format.h"
 #include "geometry/angles.h"
 
@@ -92,22 +93,20 @@ void StationTilt::fill(StationPose& pose, double now_s) const {
 
 void StationTilt::add_alarms(std::vector<std::string>& alarms, double now_s) const {
   if (tilt_.resumed()) {
-    alarms.push_back("pose: tilt restored from before the restart, " +
-                     format_time(now_s - known_s_) + " old");
+    alarms.push_back(alarm::tilt_restored(format_time(now_s - known_s_)));
   } else if (const auto moved_rad = tilt_.moved()) {
-    alarms.push_back("inclinometer: new tilt adopted, " + format_angle(*moved_rad) +
-                     " from the old one: check the heading");
+    alarms.push_back(alarm::tilt_adopted(format_angle(*moved_rad)));
   }
   if (!last_) return;
-  const char* consequence = tilt_.estimate() ? ", tilt kept" : ", no tilt yet";
+  const char* consequence = tilt_.estimate() ? "tilt kept" : "no tilt yet";
   if (now_s - last_->time_s > config_.inclinometer_stale_s) {
-    alarms.push_back("inclinometer: silent for " + format_time(now_s - last_->time_s) +
-                     consequence);
+    alarms.push_back(alarm::inclinometer_silent(format_time(now_s - last_->time_s), consequence));
   } else if (is_stuck(last_->time_s)) {
-    alarms.push_back("inclinometer: stuck for " + format_time(now_s - changed_s_) + consequence);
+    alarms.push_back(alarm::inclinometer_stuck(format_time(now_s - changed_s_), consequence));
   } else if (is_inconsistent(now_s)) {
-    std::string text = "inclinometer: " + format_angle(tilt_.distance().norm()) + " from the " +
-                       (config_.surveyed_tilt_rad ? "survey" : "kept tilt");
+    const std::string angle = format_angle(tilt_.distance().norm());
+    std::string text =
+        config_.surveyed_tilt_rad ? alarm::tilt_off_survey(angle) : alarm::tilt_off_kept(angle);
     const double lasts_s = now_s - *tilt_.disagrees_since_s();
     if (lasts_s >= config_.restation_s) {
       text += " for " + format_time(lasts_s) + ": set up the station again";

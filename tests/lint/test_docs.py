@@ -217,11 +217,17 @@ def is_a_sentence(pattern: str) -> bool:
 @functools.cache
 def alarms_of_the_sources() -> set[str]:
     """Patterns of all that can be an alarm."""
+    said = [said for row in table.alarms(table.table()) for said in row["says"].items()]
+    sentences = {
+        name: ".*".join(map(re.escape, table.shown(english).split("…")))
+        for name, (english, _) in said
+    }
     found = set()
     for path in SOURCES:
         if path.name in NO_ALARMS:
             continue
         source = path.read_text()
+        found |= {sentences[name] for name in re.findall(r"\balarm::(\w+)\(", source)}
         for text in texts(source):
             plain = text.replace("\\", "")
             if path.name.startswith("aravis_") and plain.startswith("camera "):

@@ -24,18 +24,19 @@ ROOT = Path(__file__).resolve().parents[2]
 PRODUCT = {"bridge", "calibration", "central", "console", "cue", "edge", "export"}
 ALLOWED = {
     "geometry": set(),
-    "base": set(),
+    "conditions": set(),
+    "base": {"conditions"},
     "calibration": {"geometry"},
-    "wire": {"geometry", "base"},
-    "edge": {"calibration", "geometry", "base"},
-    "central": {"wire", "geometry", "base"},
-    "console": {"wire", "geometry", "base"},
-    "export": {"wire", "geometry", "base"},
-    "cue": {"export", "geometry", "base"},
-    "bridge": {"geometry", "base"},
-    "sim": {"edge", "central", "geometry", "base"},
-    "tools": {*PRODUCT, "wire", "geometry", "base"},
-    "dev": {*PRODUCT, "tools", "sim", "wire", "geometry", "base"},
+    "wire": {"geometry", "base", "conditions"},
+    "edge": {"calibration", "geometry", "base", "conditions"},
+    "central": {"wire", "geometry", "base", "conditions"},
+    "console": {"wire", "geometry", "base", "conditions"},
+    "export": {"wire", "geometry", "base", "conditions"},
+    "cue": {"export", "geometry", "base", "conditions"},
+    "bridge": {"geometry", "base", "conditions"},
+    "sim": {"edge", "central", "geometry", "base", "conditions"},
+    "tools": {*PRODUCT, "wire", "geometry", "base", "conditions"},
+    "dev": {*PRODUCT, "tools", "sim", "wire", "geometry", "base", "conditions"},
 }
 NOT_JUDGED = {"tools", "dev"}  # programs of users and developers, which may touch anything
 

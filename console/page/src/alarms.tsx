@@ -51,16 +51,16 @@ export function Acknowledgement({ event, onAcknowledge }: { event: SiteEvent | u
   );
 }
 
-type AlarmsProps = { alarms: string[]; station: string; link: Link; onAcknowledge: OnAcknowledge };
+type AlarmsProps = { alarms: string[]; keys: string[]; station: string; link: Link; onAcknowledge: OnAcknowledge };
 
-export function Alarms({ alarms, station, link, onAcknowledge }: AlarmsProps) {
+export function Alarms({ alarms, keys, station, link, onAcknowledge }: AlarmsProps) {
   if (!alarms?.length) return <p class="fine">{t("no_alarm")}</p>;
   return (
     <ul class="alarms">
-      {alarms.map((alarm) => (
+      {alarms.map((alarm, i) => (
         <li class={conditionOf(alarm).severity}>
           <SeverityChip severity={conditionOf(alarm).severity} /> <b>{inWords(alarm)}</b>{" "}
-          <Acknowledgement event={eventOf(link.site.events, station, alarm)} onAcknowledge={onAcknowledge} />
+          <Acknowledgement event={eventOf(link.site.events, station, keys[i])} onAcknowledge={onAcknowledge} />
           <WhatToDo alarm={alarm} />
         </li>
       ))}

@@ -76,17 +76,9 @@ export function nameInWords(name: string): string {
   return isEnglish() ? name.replaceAll("_", " ") : nameInGerman(name);
 }
 
-// Which alarm a text is, whatever its numbers: as base/alarm_changes.cpp has it.
-function alarmKey(alarm: string): string {
-  const colon = alarm.indexOf(": ");
-  const begin = colon < 0 ? 0 : colon;
-  return alarm.slice(0, begin) + alarm.slice(begin).split(";")[0].replace(/\d/g, "");
-}
-
 // The event of a station's alarm that holds; the site's and the fusion's have no station.
-export function eventOf(events: SiteEvent[], station: string, alarm: string): SiteEvent | undefined {
-  const key = alarmKey(alarm);
-  return events.find((event) => holds(event) && event.station === station && alarmKey(event.text) === key);
+export function eventOf(events: SiteEvent[], station: string, key: string): SiteEvent | undefined {
+  return events.find((event) => holds(event) && event.station === station && event.key === key);
 }
 
 export const holds = (event: SiteEvent) => event.kind === "alarm" && event.over_us == null;

@@ -56,6 +56,7 @@ export type Station = {
   calibration?: StationCalibration;
   frame_latency_s: number | null;
   alarms: string[];
+  alarm_keys: string[]; // their events'
   readings: Record<string, number | null>;
   counters: Record<string, number | null>;
   last_error: string;
@@ -115,6 +116,7 @@ export type Fusion = {
   utime_us: number;
   latency_s: number | null;
   alarms: string[];
+  alarm_keys: string[]; // their events'
   last_error: string;
   counters: Record<string, number | null>;
   cues: Cue[];
@@ -127,6 +129,7 @@ export type SiteEvent = {
   station: string;
   who: string;
   text: string;
+  key: string; // the same for the same alarm, whatever its numbers
   outcome: string;
   over_us: number | null; // of an alarm; null: it holds
   acknowledged: string; // by whom

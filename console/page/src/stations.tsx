@@ -84,7 +84,7 @@ function Details(props: StationProps) {
   const quarantine = link.site.fusion?.stations?.find((one) => one.id === s.id)?.quarantine;
   return (
     <div class="details">
-      <Alarms alarms={s.alarms} station={s.id} link={link} onAcknowledge={onAcknowledge} />
+      <Alarms alarms={s.alarms} keys={s.alarm_keys} station={s.id} link={link} onAcknowledge={onAcknowledge} />
       {quarantine && (
         <p class="quarantine">
           {t("quarantine")}: {inWords(quarantine)}
@@ -119,7 +119,7 @@ export function Stations({ link, selected, onSelect, ...rest }: StationsProps) {
         {fusionAlarms.length > 0 && (
           <div class="fusion-alarms">
             <h3>{t("fusion")}</h3>
-            <Alarms alarms={fusionAlarms} station="" link={link} onAcknowledge={rest.onAcknowledge} />
+            <Alarms alarms={fusionAlarms} keys={link.site.fusion?.alarm_keys ?? []} station="" link={link} onAcknowledge={rest.onAcknowledge} />
           </div>
         )}
         {stations.map((s) => {

@@ -19,29 +19,31 @@ using Texts = std::vector<std::string>;
 
 TEST(AlarmChanges, AreThoseThatBeginAndThoseThatEnd) {
   AlarmChanges alarms;
-  EXPECT_EQ(looked(alarms, {"gnss: silent for 5 s", "bus: a flood"}),
-            (Texts{"+gnss: silent for 5 s", "+bus: a flood"}));
-  EXPECT_EQ(looked(alarms, {"gnss: silent for 61 s"}), (Texts{"-bus: a flood"}));
-  EXPECT_EQ(looked(alarms, {}), (Texts{"-gnss: silent for 61 s"}));
+  EXPECT_EQ(looked(alarms, {"gnss: silent for 5 s, position kept", "bus: a flood"}),
+            (Texts{"+gnss: silent for 5 s, position kept", "+bus: a flood"}));
+  EXPECT_EQ(looked(alarms, {"gnss: silent for 61 s, position kept"}), (Texts{"-bus: a flood"}));
+  EXPECT_EQ(looked(alarms, {}), (Texts{"-gnss: silent for 61 s, position kept"}));
 }
 
 TEST(AlarmChanges, OneStationIsNotAnother) {
   AlarmChanges alarms;
-  EXPECT_EQ(looked(alarms, {"station s1: not used", "station s2: not used"}).size(), 2U);
-  EXPECT_EQ(looked(alarms, {"station s2: not used"}), (Texts{"-station s1: not used"}));
+  EXPECT_EQ(looked(alarms, {"station s1: not used, it reports a clock error of 3 s",
+                            "station s2: not used, it reports a clock error of 3 s"})
+                .size(),
+            2U);
+  EXPECT_EQ(looked(alarms, {"station s2: not used, it reports a clock error of 3 s"}),
+            (Texts{"-station s1: not used, it reports a clock error of 3 s"}));
 }
 
 TEST(AlarmChanges, AnotherNewestCauseIsNoOtherAlarm) {
   AlarmChanges alarms;
-  EXPECT_EQ(looked(alarms, {"bus: 7 messages are refused; the last: A: unsigned"}).size(), 1U);
-  EXPECT_EQ(looked(alarms, {"bus: 9 messages are refused; the last: B: unsigned"}), Texts{});
-  EXPECT_EQ(looked(alarms, {"trust: refused; A"}).size(), 2U);
-  EXPECT_EQ(looked(alarms, {"trust: refused; B"}), Texts{});
+  EXPECT_EQ(looked(alarms, {"trust: messages not believed: 7 unsigned; the last: A"}).size(), 1U);
+  EXPECT_EQ(looked(alarms, {"trust: messages not believed: 9 unsigned; the last: B"}), Texts{});
 }
 
 TEST(AlarmChanges, HaveTheSameKeyWhenTheyBeginAndEnd) {
   AlarmChanges alarms;
-  const auto begun = alarms.look({"clock: 3 s wrong"});
+  const auto begun = alarms.look({"computer: processor at 91 C"});
   const auto ended = alarms.look({});
   ASSERT_EQ(begun.size(), 1U);
   ASSERT_EQ(ended.size(), 1U);

@@ -58,6 +58,7 @@ TEST(EventList, AnAlarmIsOneRowWhateverItsNumbersAndWhateverErrorExplainsIt) {
   EXPECT_EQ(events.add({2, "error", "alfa", "", "camera x does not answer: no", ""}, revision), 0U);
   events.end("alfa", "camera: no frames for 9 s", 5, revision);
   ASSERT_EQ(events.since(0).size(), 1U);
+  EXPECT_EQ(events.since(0)[0].at("key"), "camera_no_frames");
   EXPECT_EQ(events.since(0)[0].at("over_us"), 5);
   EXPECT_NE(events.add({6, "error", "alfa", "", "camera x does not answer: no", ""}, revision), 0U);
 }
@@ -65,9 +66,11 @@ TEST(EventList, AnAlarmIsOneRowWhateverItsNumbersAndWhateverErrorExplainsIt) {
 TEST(EventList, TheAlarmsOfTwoStationsAreTwo) {
   EventList events;
   Revision revision = 0;
-  events.add({1, "alarm", "", "", "station s1: not used, late by 3 s", ""}, revision);
-  events.add({1, "alarm", "", "", "station s2: not used, late by 3 s", ""}, revision);
-  events.end("", "station s1: not used, late by 4 s", 2, revision);
+  events.add({1, "alarm", "", "", "station s1: not used, it reports a clock error of 3 s", ""},
+             revision);
+  events.add({1, "alarm", "", "", "station s2: not used, it reports a clock error of 3 s", ""},
+             revision);
+  events.end("", "station s1: not used, it reports a clock error of 4 s", 2, revision);
   EXPECT_EQ(events.since(0)[0].at("over_us"), 2);
   EXPECT_TRUE(events.since(0)[1].at("over_us").is_null());
 }

@@ -19,8 +19,8 @@ TEST(ConsoleMessages, AStatusInDegreesWithNullForTheUnknown) {
   status.state = ols_msg::station_status_t::STATE_TRACKING;
   status.azimuth_rad = 1.0;
   status.heading_rad = std::numeric_limits<double>::quiet_NaN();
-  status.alarms = 1;
-  status.alarm = {"camera: \x1b[2J"};
+  status.alarms = 2;
+  status.alarm = {"camera: \x1b[2J", "ptu: supply voltage low (11.2 V)"};
   const auto heard = station_from(on("OLS_STATUS_alfa", status));
   ASSERT_TRUE(heard);
   EXPECT_EQ(heard->id, "alfa");
@@ -28,6 +28,7 @@ TEST(ConsoleMessages, AStatusInDegreesWithNullForTheUnknown) {
   EXPECT_NEAR(heard->fields.at("azimuth_deg"), 57.2958, 1e-9);
   EXPECT_TRUE(heard->fields.at("heading_deg").is_null());
   EXPECT_EQ(heard->alarms.at(0), "camera: ?[2J");
+  EXPECT_EQ(heard->fields.at("alarm_keys"), Json::array({"camera: ?[2J", "ptu_supply_low"}));
   EXPECT_FALSE(station_from(on("OLS_STATUS_bravo", status)));
 }
 
