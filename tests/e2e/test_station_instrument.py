@@ -198,7 +198,7 @@ def test_recording_is_asked_for(station):
     assert ctl("tool", "record", "1", "1", "flash").stdout == "tool: done\n"
     refused = ctl("tool", "record", "1", "1", "no/label")
     assert refused.returncode == 1
-    assert "RECORD refused" in refused.stdout
+    assert "refused: the recorder does not record: the label must be" in refused.stdout
 
 
 def test_the_full_status_is_readable(station):
