@@ -70,6 +70,81 @@ void rows_as_markdown(std::ostream& out, const Section& section) {
 
 using Values = std::map<std::string, std::string>;
 
+constexpr const char* kKind = "kind";
+
+Row kind_row(const Section& section) {
+  std::vector<std::string> kinds;
+  for (const Section& form : section.forms) kinds.push_back(form.name);
+  return word_row(kKind, 0, kinds, section.choose, "Its kind, on which the other keys depend.");
+}
+
+// The section as one of its forms has it.
+Section formed(const Section& section, std::size_t form) {
+  Section whole = section.forms.at(form);
+  whole.name = section.name;
+  whole.sentence = section.sentence;
+  whole.rows.insert(whole.rows.begin(), kind_row(section));
+  return whole;
+}
+
+Section kinds_alone(const Section& section) { return {"", "", {kind_row(section)}}; }
+
+std::size_t form_of(const Section& section, const std::string& kind) {
+  const auto form = std::ranges::find(section.forms, kind, &Section::name);
+  return form == section.forms.end() ? 0 : static_cast<std::size_t>(form - section.forms.begin());
+}
+
+// As it is called in this table.
+std::string name_in(const Section& section, const ConfigTable& parent) {
+  if (section.former_name.empty() || !parent.has(section.former_name)) return section.name;
+  if (parent.has(section.name)) {
+    throw parent.error(section.former_name,
+                       "is the former name of " + section.name + ": there may be only one of them");
+  }
+  return section.former_name;
+}
+
+void read_formed(const Section& section, ConfigTable& table, bool former) {
+  if (former) {
+    section.choose(0);
+    return read(section.forms.front(), table);
+  }
+  kind_row(section).read(table);  // refused before the keys that belong to it
+  read(formed(section, form_of(section, table.text(kKind, section.forms.front().name))), table);
+}
+
+void read_inner(const Section& inner, ConfigTable& parent) {
+  if (inner.append) return read_array(inner, parent);
+  const std::string name = name_in(inner, parent);
+  ConfigTable& table = parent.table(name);
+  inner.forms.empty() ? read(inner, table) : read_formed(inner, table, name != inner.name);
+}
+
+bool any_below(const Values& values, const std::string& path) {
+  const auto first = values.lower_bound(path + ".");
+  return first != values.end() && first->first.starts_with(path + ".");
+}
+
+void rows_as_example(std::ostream& out, const Section& section, const std::string& path,
+                     Values& values);
+
+// In the form that the values have.
+void form_as_example(std::ostream& out, const Section& section, const std::string& path,
+                     Values& values) {
+  const std::string former = full_path(path, section.former_name);
+  if (!section.former_name.empty() && any_below(values, former)) {
+    Section first = section.forms.front();
+    first.sentence = section.sentence;
+    return rows_as_example(out, first, former, values);
+  }
+  const std::string name = full_path(path, section.name);
+  const auto kind = values.find(full_path(name, kKind));
+  const bool stated = kind != values.end() && kind->second.size() > 2;
+  const std::size_t form =
+      stated ? form_of(section, kind->second.substr(1, kind->second.size() - 2)) : 0;
+  rows_as_example(out, formed(section, form), name, values);
+}
+
 void rows_as_example(std::ostream& out, const Section& section, const std::string& path,
                      Values& values) {
   bool headed = path.empty();
@@ -80,18 +155,26 @@ void rows_as_example(std::ostream& out, const Section& section, const std::strin
     headed = true;
     out << row.key << " = " << value.mapped() << "  # " << row.sentence << "\n";
   }
-  for (const Section& inner : section.sections)
-    rows_as_example(out, inner, full_path(path, inner.name), values);
+  for (const Section& inner : section.sections) {
+    inner.forms.empty() ? rows_as_example(out, inner, full_path(path, inner.name), values)
+                        : form_as_example(out, inner, path, values);
+  }
 }
 
 Section pick(const Section& from, const std::string& path, std::set<std::string>& left) {
   Section section{from.name, from.sentence};
+  section.former_name = from.former_name;
   for (const Row& row : from.rows) {
     if (left.erase(full_path(path, row.key)) > 0) section.rows.push_back(row);
   }
   for (const Section& inner : from.sections) {
     Section rows = pick(inner, full_path(path, inner.name), left);
     if (!rows.rows.empty() || !rows.sections.empty()) section.sections.push_back(std::move(rows));
+  }
+  for (const Section& form : from.forms) {
+    Section rows = pick(form, path, left);
+    std::ranges::move(rows.rows, std::back_inserter(section.rows));
+    std::ranges::move(rows.sections, std::back_inserter(section.sections));
   }
   return section;
 }
@@ -101,7 +184,10 @@ Section pick(const Section& from, const std::string& path, std::set<std::string>
 void read(const Section& section, ConfigTable& table) {
   std::vector<std::string> known;
   for (const Row& row : section.rows) known.push_back(row.key);
-  for (const Section& inner : section.sections) known.push_back(inner.name);
+  for (const Section& inner : section.sections) {
+    known.push_back(inner.name);
+    if (!inner.former_name.empty()) known.push_back(inner.former_name);
+  }
   table.refuse_unknown(known);
   for (const Row& row : section.rows) {
     const bool wanted = row.presence == Presence::kRequired ||
@@ -109,8 +195,7 @@ void read(const Section& section, ConfigTable& table) {
     if (wanted && !table.has(row.key)) throw table.error(row.key, "is missing");
     row.read(table);
   }
-  for (const Section& inner : section.sections)
-    inner.append ? read_array(inner, table) : read(inner, table.table(inner.name));
+  for (const Section& inner : section.sections) read_inner(inner, table);
   if (section.check) section.check(table);
 }
 
@@ -122,8 +207,18 @@ std::string markdown(const Section& section, const std::string& path) {
     const std::string brackets = section.append ? "[[" + name + "]]" : "[" + name + "]";
     out << "\n### `" << brackets << "`\n\n" << section.sentence << "\n";
   }
-  rows_as_markdown(out, shown);
+  rows_as_markdown(out, section.forms.empty() ? shown : kinds_alone(section));
   for (const Section& inner : shown.sections) out << markdown(inner, name);
+  if (!section.former_name.empty()) {
+    out << "\n`[" << full_path(path, section.former_name) << "]` is still read, as `"
+        << section.forms.front().name << "`.\n";
+  }
+  for (const Section& form : section.forms) {
+    out << "\n#### `[" << name << "]` with `kind = \"" << form.name << "\"`\n\n"
+        << form.sentence << "\n";
+    rows_as_markdown(out, form);
+    for (const Section& inner : form.sections) out << markdown(inner, name);
+  }
   return out.str();
 }
 
@@ -149,7 +244,7 @@ std::vector<std::string> stated(const Section& section, ConfigTable& table) {
     if (table.has(row.key)) keys.push_back(row.key);
   }
   for (const Section& inner : section.sections) {
-    for (const std::string& key : stated(inner, table.table(inner.name))) {
+    for (const std::string& key : stated(inner, table.table(name_in(inner, table)))) {
       keys.push_back(full_path(inner.name, key));
     }
   }

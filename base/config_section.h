@@ -79,6 +79,12 @@ struct Section {
   std::function<void(ConfigTable&)> check = {};
   // For an array of tables: appends an element and returns its section.
   std::function<Section()> append = {};
+  // Of a section whose other keys depend on its key `kind`: a form for each kind, whose name is
+  // what `kind` says; the first is the default. `choose` gets the index of the one that is read.
+  std::vector<Section> forms = {};
+  std::function<void(std::size_t)> choose = {};
+  // A name by which the section is still read, in its first form.
+  std::string former_name = {};
 };
 
 // Throws ConfigError for the first unknown key, missing key or bad value.
@@ -86,8 +92,9 @@ void read(const Section& section, ConfigTable& table);
 // Markdown: a heading and a table for the section and each nested one. `path`: the path of the
 // parent section.
 std::string markdown(const Section& section, const std::string& path = "");
-// An example file: the rows of `values` ("ptu.baud" -> "9600"), in the order of the sections, each
-// with its sentence. Throws std::invalid_argument for a key that has no row.
+// An example file: the rows of `values` ("mount.baud" -> "9600"), in the order of the sections,
+// each with its sentence. A section has its former name if its values have it. Throws
+// std::invalid_argument for a key that has no row.
 std::string example(const Section& root,
                     const std::vector<std::pair<std::string, std::string>>& values);
 

@@ -61,6 +61,17 @@ Json lens_of(const Status& s) {
           {"focal_length_sd_px", rounded(s.focal_length_sd_px, 2)}};
 }
 
+const char* kind_of(const Status& s) {
+  switch (s.kind) {
+    case Status::KIND_OVERVIEW:
+      return "overview";
+    case Status::KIND_FIXED:
+      return "fixed";
+    default:
+      return "tracking";
+  }
+}
+
 std::vector<std::string> first_of(std::vector<std::string> texts) {
   if (texts.size() > kMostListed) texts.resize(kMostListed);
   return texts;
@@ -130,7 +141,7 @@ void add_pointing(const Status& s, Json& fields) {
   fields["image_px"] = {s.image_width_px, s.image_height_px};
   fields["pan_sign"] = s.pan_sign;
   fields["tilt_sign"] = s.tilt_sign;
-  fields["kind"] = s.kind == Status::KIND_OVERVIEW ? "overview" : "tracking";
+  fields["kind"] = kind_of(s);
   fields["lens"] = lens_of(s);
   fields["field_of_view_deg"] = {angle_deg(s.field_of_view_rad[0]),
                                  angle_deg(s.field_of_view_rad[1])};

@@ -13,7 +13,7 @@ void ActiveSlew::expire(double now_s) {
   if (command_ && is_over(now_s)) command_.reset();
 }
 
-std::optional<ptu::ServoGoal> ActiveSlew::goal(const PointingModel& pointing, double now_s) const {
+std::optional<mount::Goal> ActiveSlew::goal(const PointingModel& pointing, double now_s) const {
   if (!command_ || is_over(now_s)) return std::nullopt;
   constexpr double kStep_s = 0.05;
   const double effect_s = command_->effect_s;
@@ -24,7 +24,7 @@ std::optional<ptu::ServoGoal> ActiveSlew::goal(const PointingModel& pointing, do
   if (!goal || !here || !later) return std::nullopt;
   const PanTilt rate{wrap_pi(later->pan_rad - here->pan_rad) / kStep_s,
                      (later->tilt_rad - here->tilt_rad) / kStep_s};
-  return ptu::ServoGoal{effect_s, *goal, rate, command_->received_s + command_->lease_s};
+  return mount::Goal{effect_s, *goal, rate, command_->received_s + command_->lease_s};
 }
 
 }  // namespace ols::station

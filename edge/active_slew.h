@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "edge/mount/goal.h"
 #include "edge/pointing_model.h"
 #include "edge/slew_conflict_monitor.h"
 #include "edge/station_types.h"
@@ -21,7 +22,7 @@ class ActiveSlew {
   // at a find.
   bool searches_line() const { return command_ && command_->searches_line(); }
   // nullopt: no slew is active, or the unit cannot point there.
-  std::optional<ptu::ServoGoal> goal(const PointingModel& pointing, double now_s) const;
+  std::optional<mount::Goal> goal(const PointingModel& pointing, double now_s) const;
   // Whether more than one fusion slews this station.
   bool has_several_senders(double now_s) const { return senders_.are_several(now_s); }
 

@@ -5,7 +5,7 @@
 namespace ols::station {
 namespace {
 
-using ptu::AngleBox;
+using mount::AngleBox;
 
 AzimuthElevation axis(const ChainParameters& chain, const PanTilt& angles) {
   return azimuth_elevation_from_enu(enu_from_camera(chain, angles).linear().col(2));
@@ -36,13 +36,14 @@ AngleBox common(const AngleBox& a, const AngleBox& b) {
 
 }  // namespace
 
-std::vector<Border> borders(const ChainParameters& chain, const ptu::PtuLimits& limits,
+std::vector<Border> borders(const ChainParameters& chain, const mount::Limits& limits,
                             bool is_travel_known) {
   const AngleBox travel{limits.pan_min_rad, limits.pan_max_rad, limits.tilt_min_rad,
                         limits.tilt_max_rad};
   std::vector<Border> result;
-  if (is_travel_known) result.push_back(border(chain, travel, false));
-  for (const ptu::KeepOut& region : limits.keep_out) {
+  const bool moves = travel.pan_min_rad < travel.pan_max_rad;
+  if (is_travel_known && moves) result.push_back(border(chain, travel, false));
+  for (const mount::KeepOut& region : limits.keep_out) {
     const AngleBox box = is_travel_known ? common(travel, region) : region;
     if (box.pan_min_rad < box.pan_max_rad && box.tilt_min_rad < box.tilt_max_rad) {
       result.push_back(border(chain, box, true));

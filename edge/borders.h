@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "edge/ptu/servo.h"
+#include "edge/mount/limits.h"
 #include "geometry/direction.h"
 #include "geometry/kinematic_chain.h"
 
@@ -20,8 +20,8 @@ struct Border {
   std::array<AzimuthElevation, kBorderPoints> outline;
 };
 
-// The travel first, if it is known; then the part of each keep-out region inside it.
-std::vector<Border> borders(const ChainParameters& chain, const ptu::PtuLimits& limits,
+// The travel first, if it is known and not empty; then the part of each keep-out region inside it.
+std::vector<Border> borders(const ChainParameters& chain, const mount::Limits& limits,
                             bool is_travel_known);
 
 }  // namespace ols::station

@@ -29,7 +29,7 @@ void CalibratedUnit::set_count(const PanTilt& count_rad) {
 
 UnitReading CalibratedUnit::reading(const PanTilt& reported, const PanTilt& rate_rad_s,
                                     double time_s) const {
-  const ptu::Approach approach = approach_.at(time_s);
+  const mount::Approach approach = approach_.at(time_s);
   return {{reported.pan_rad / count_rad_.pan_rad, rate_rad_s.pan_rad / count_rad_.pan_rad,
            approach.pan},
           {reported.tilt_rad / count_rad_.tilt_rad, rate_rad_s.tilt_rad / count_rad_.tilt_rad,
@@ -38,7 +38,7 @@ UnitReading CalibratedUnit::reading(const PanTilt& reported, const PanTilt& rate
 
 // A short way does not take the backlash out: the shaft stays on the side that it was on.
 PanTilt CalibratedUnit::reported(const PanTilt& corrected, const PanTilt& here) const {
-  const ptu::Approach now = approach_.at(std::numeric_limits<double>::infinity());
+  const mount::Approach now = approach_.at(std::numeric_limits<double>::infinity());
   const auto side = [](double way_rad, double backlash_rad, int standing) {
     if (std::abs(way_rad) <= 2.0 * std::abs(backlash_rad)) return standing;
     return way_rad > 0.0 ? 1 : -1;

@@ -2,8 +2,8 @@
 // Pure.
 #pragma once
 
-#include "edge/ptu/angle_history.h"
-#include "edge/ptu/approach_history.h"
+#include "edge/mount/angle_history.h"
+#include "edge/mount/approach_history.h"
 #include "geometry/station_calibration.h"
 
 namespace ols::station {
@@ -23,7 +23,7 @@ class CalibratedUnit {
   bool fits() const { return fits_; }
 
   // In time order.
-  void add(const ptu::AngleSample& sample) { approach_.add(sample.time_s, sample.angles); }
+  void add(const mount::AngleSample& sample) { approach_.add(sample.time_s, sample.angles); }
   void forget_angles() { approach_.clear(); }
 
   UnitReading reading(const PanTilt& reported, const PanTilt& rate_rad_s, double time_s) const;
@@ -41,7 +41,7 @@ class CalibratedUnit {
                                                           // tilt
   PanTilt count_rad_;
   bool fits_ = true;
-  ptu::ApproachHistory approach_;
+  mount::ApproachHistory approach_;
 };
 
 }  // namespace ols::station

@@ -61,8 +61,10 @@ bool in_range(const RateCommand& command) {
 }
 
 // Also of a unit that appears later: it would move unexpectedly.
-Refusal refuses_motion(const StationMode& mode) {
-  if (mode.reference() == ptu::PtuReference::kUnknown) return Refusal::kNoUnit;
+Refusal refuses_motion(const Situation& situation) {
+  const StationMode& mode = situation.mode;
+  if (!situation.config.moves) return Refusal::kFixedMount;
+  if (mode.reference() == mount::Reference::kUnknown) return Refusal::kNoUnit;
   return mode.has_doubtful_angles() ? Refusal::kNoReference : Refusal::kNone;
 }
 
@@ -88,6 +90,7 @@ Refusal judge(const DesignateCommand& command, const Situation& situation) {
 Refusal judge(const SlewCommand& command, const Situation& situation) {
   const StationMode& mode = situation.mode;
   if (situation.config.overview) return Refusal::kOverview;
+  if (!situation.config.moves) return Refusal::kFixedMount;
   if (mode.is(StationState::kEmergency)) return Refusal::kEmergency;
   if (!finite(command)) return Refusal::kNotFinite;
   if (!in_range(command, situation.now_s, situation.config.slew_lease_max_s)) {
@@ -111,12 +114,12 @@ Refusal judge(const PointCommand& command, const Situation& situation) {
   if (refusal != Refusal::kNone) return refusal;
   if (!finite(command.angles)) return Refusal::kNotFinite;
   if (!in_range(command.angles)) return Refusal::kOutOfRange;
-  return refuses_motion(mode);
+  return refuses_motion(situation);
 }
 
 Refusal judge_motion(const Situation& situation) {
   const Refusal refusal = situation.mode.refuses_operator(situation.now_s);
-  return refusal != Refusal::kNone ? refusal : refuses_motion(situation.mode);
+  return refusal != Refusal::kNone ? refusal : refuses_motion(situation);
 }
 
 Refusal judge(const RateCommand& command, const Situation& situation) {
@@ -127,7 +130,7 @@ Refusal judge(const RateCommand& command, const Situation& situation) {
   if (mode.is(StationState::kStopped)) return Refusal::kStopped;
   if (!finite(command)) return Refusal::kNotFinite;
   if (!in_range(command)) return Refusal::kOutOfRange;
-  return refuses_motion(mode);
+  return refuses_motion(situation);
 }
 
 // Also when stopped, and in an emergency: a lens is in nobody's way.
@@ -138,16 +141,17 @@ Refusal judge(const LensCommand& command, const Situation& situation) {
 Refusal judge_home(const Situation& situation) {
   const Refusal refusal = situation.mode.refuses_operator(situation.now_s);
   if (refusal != Refusal::kNone) return refusal;
+  if (!situation.config.moves) return Refusal::kFixedMount;
   if (!situation.config.homing_allowed) return Refusal::kKeepOut;
-  if (situation.mode.reference() == ptu::PtuReference::kUnknown) return Refusal::kNoUnit;
+  if (situation.mode.reference() == mount::Reference::kUnknown) return Refusal::kNoUnit;
   return Refusal::kNone;
 }
 
 Refusal judge_reference_ok(const Situation& situation) {
   const StationMode& mode = situation.mode;
   if (mode.is(StationState::kEmergency)) return Refusal::kEmergency;
-  if (mode.reference() == ptu::PtuReference::kMissing) return Refusal::kNoReference;
-  if (mode.reference() != ptu::PtuReference::kDoubted) return Refusal::kNoDoubt;
+  if (mode.reference() == mount::Reference::kMissing) return Refusal::kNoReference;
+  if (mode.reference() != mount::Reference::kDoubted) return Refusal::kNoDoubt;
   return Refusal::kNone;
 }
 

@@ -110,8 +110,8 @@ Section lens_section(StationSettings& settings) {
        term("k3", lens.k3, 1e9, "Radial distortion, sixth order.")},
       {},
       [&settings, &lens](ConfigTable& table) {
-        lens.width_px = settings.camera.width_px;
-        lens.height_px = settings.camera.height_px;
+        lens.width_px = settings.camera->config().width_px;
+        lens.height_px = settings.camera->config().height_px;
         if (!table.has("cx_px")) lens.cx_px = (lens.width_px - 1) / 2.0;
         if (!table.has("cy_px")) lens.cy_px = (lens.height_px - 1) / 2.0;
       }};
@@ -208,6 +208,12 @@ Section logic_section(StationConfig& station) {
                           "1-sigma of the target's angular acceleration, in the motion model.")}};
 }
 
+Section mount_section(ChosenMount& mount) {
+  Section section = mount.section("mount", "What carries the camera.");
+  section.former_name = "ptu";
+  return section;
+}
+
 // What is not surveyed comes from the sensors. Without a surveyed tilt and an inclinometer the head
 // is taken as roughly level, unless [calibration.sd] states how well it was levelled.
 void use_survey(ConfigTable& root, StationSettings& settings) {
@@ -242,10 +248,16 @@ void use_lens(ConfigTable& root, StationSettings& settings) {
     throw section.error("device", "[calibration] folder is of a lens that does not zoom");
   }
   for (ZoomPoint& point : lens.points) {
-    point.camera.width_px = settings.camera.width_px;
-    point.camera.height_px = settings.camera.height_px;
+    point.camera.width_px = settings.camera->config().width_px;
+    point.camera.height_px = settings.camera->config().height_px;
   }
   settings.station.zoom.emplace(ZoomTable(lens.points), lens.position_sd);
+}
+
+void check_mount(const ConfigTable& root, const StationSettings& settings) {
+  if (settings.station.overview && !settings.mount->traits().moves) {
+    throw root.error("kind", "an overview station is driven by a person: its mount must move");
+  }
 }
 
 // A setting of one part that is also an input of another.
@@ -253,12 +265,13 @@ void pass_on(StationSettings& settings) {
   StationConfig& station = settings.station;
   sensors::set_sensors(settings.pose, settings.inclinometer, settings.gnss);
   const bool sees_colour = settings.tracker.mode == tracker::TrackerMode::kFull;
-  settings.camera.keep_raw = sees_colour || !settings.recorder.folder.empty();
+  settings.keep_raw = sees_colour || !settings.recorder.folder.empty();
   station.search_sd_px = std::min(station.search_sd_px, max_search_sd_px(station));
-  station.angles = settings.ptu.history;
-  station.limits = settings.ptu.limits;
-  station.homing_allowed =
-      settings.ptu.limits.keep_out.empty() || settings.ptu.home_despite_keep_out;
+  const mount::Traits mount = settings.mount->traits();
+  station.angles = mount.angles;
+  station.limits = mount.limits;
+  station.moves = mount.moves;
+  station.homing_allowed = mount.may_home;
   station.rearm_over_bus = settings.gpio.rearm_over_bus;
 }
 
@@ -284,8 +297,8 @@ Section station_section(StationSettings& s) {
        config::integer("tracker_seed", s.tracker_seed, 0, INT64_MAX, "",
                        "Seed of the tracker's random numbers.")},
       {pose_section(s), chain_section(s.station.geometry.chain), calibration_section(s),
-       serials_section(s.serials), camera::camera_section(s.camera), lens_section(s),
-       ptu::ptu_section(s.ptu), lens::lens_motor_section(s.lens),
+       serials_section(s.serials), s.camera.section("camera", "The camera."), lens_section(s),
+       mount_section(s.mount), lens::lens_motor_section(s.lens),
        tracker::tracker_section(s.tracker), logic_section(s.station),
        sensors::inclinometer_section(s.inclinometer), sensors::gnss_section(s.gnss),
        gpio::gpio_section(s.gpio), recorder::recorder_section(s.recorder),
@@ -294,6 +307,7 @@ Section station_section(StationSettings& s) {
       [&s](ConfigTable& root) {
         use_survey(root, s);
         use_lens(root, s);
+        check_mount(root, s);
         pass_on(s);
       }};
 }

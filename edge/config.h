@@ -7,13 +7,12 @@
 
 #include "base/trust/site_settings.h"
 #include "base/trust/trust_config.h"
-#include "edge/camera/camera_config.h"
 #include "edge/clock/clock_watch.h"
 #include "edge/command_gate.h"
+#include "edge/device_kinds.h"
 #include "edge/gpio/gpio.h"
 #include "edge/host_monitor.h"
 #include "edge/lens/lens_motor.h"
-#include "edge/ptu/ptu_config.h"
 #include "edge/recorder/recorder.h"
 #include "edge/sensors/gnss.h"
 #include "edge/sensors/inclinometer.h"
@@ -52,8 +51,9 @@ struct StationSettings {
   double preview_interval_s = 1.0;  // 0: none
   StationConfig station;
   sensors::PoseEstimator::Config pose;
-  camera::CameraConfig camera;
-  ptu::PtuConfig ptu;
+  ChosenCamera camera{camera_kinds()};
+  bool keep_raw = false;  // the camera's raw images, too
+  ChosenMount mount{mount_kinds()};
   lens::LensMotorConfig lens;
   sensors::InclinometerConfig inclinometer;
   sensors::GnssConfig gnss;

@@ -41,10 +41,11 @@ std::vector<std::string> describe(const StationSettings& s) {
   lines.push_back("station: " + s.id + ", bus " + s.lcm_url);
   lines.push_back("pose: " + position_words(s) + "; " + tilt_words(s) +
                   words("; heading %.3f deg", degrees(s.station.geometry.chain.heading_rad)));
-  lines.push_back("camera: " + s.camera.device +
-                  words(", %dx%d ", s.camera.width_px, s.camera.height_px) + s.camera.pixel_format +
-                  words(" at %.1f Hz", s.camera.frame_rate_hz));
-  lines.push_back("ptu: " + s.ptu.device + words(" at %d baud", s.ptu.baud));
+  const camera::CameraConfig& camera = s.camera->config();
+  lines.push_back("camera: " + s.camera->address() +
+                  words(", %dx%d ", camera.width_px, camera.height_px) + camera.pixel_format +
+                  words(" at %.1f Hz", camera.frame_rate_hz));
+  lines.push_back("ptu: " + s.mount->words());
   if (!s.inclinometer.device.empty()) {
     lines.push_back("inclinometer: " + s.inclinometer.device +
                     words(" at %d baud", s.inclinometer.baud));

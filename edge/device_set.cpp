@@ -2,19 +2,15 @@
 
 #include <utility>
 
-#include "edge/camera/aravis_camera.h"
-#include "edge/ptu/ptu_thread.h"
-
 namespace ols::station {
 
-Head wired_head(const StationSettings& settings) {
-  return {std::make_unique<camera::AravisCamera>(settings.camera),
-          std::make_unique<ptu::PtuThread>(settings.ptu)};
+Head configured_head(const StationSettings& settings) {
+  return {settings.camera->open(settings.keep_raw), settings.mount->open()};
 }
 
 DeviceSet::DeviceSet(const StationSettings& settings, std::int64_t boot_id, Head head)
     : stop_(settings.gpio.has_stop()), head_(std::move(head)) {
-  if (!stop_.known()) head_.ptu->emergency_halt();
+  if (!stop_.known()) head_.mount->emergency_halt();
   if (!settings.recorder.folder.empty()) recorder_.emplace(settings.recorder);
   if (!settings.video.address.empty()) {
     video_.emplace(settings.video, video::VideoSender{settings.id, boot_id});
@@ -28,16 +24,16 @@ DeviceSet::DeviceSet(const StationSettings& settings, std::int64_t boot_id, Head
   }
 }
 
-// In the GPIO thread: halts the unit at once; the station follows in its next turn.
+// In the GPIO thread: halts the mount at once; the station follows in its next turn.
 void DeviceSet::on_stop(bool pressed) {
   stop_.set(pressed);
-  if (pressed) head_.ptu->emergency_halt();
+  if (pressed) head_.mount->emergency_halt();
 }
 
-// A press after clear_emergency() is seen by the next line, or on_stop() halts the unit.
+// A press after clear_emergency() is seen by the next line, or on_stop() halts the mount.
 void DeviceSet::rearm() {
-  head_.ptu->clear_emergency();
-  if (stop_.pressed()) head_.ptu->emergency_halt();
+  head_.mount->clear_emergency();
+  if (stop_.pressed()) head_.mount->emergency_halt();
 }
 
 void DeviceSet::feed(sensors::PoseEstimator& estimator) {
@@ -51,7 +47,7 @@ void DeviceSet::feed(sensors::PoseEstimator& estimator) {
 }
 
 std::vector<device::DeviceReport> DeviceSet::reports() const {
-  std::vector<device::DeviceReport> reports{head_.camera->report(), head_.ptu->report()};
+  std::vector<device::DeviceReport> reports{head_.camera->report(), head_.mount->report()};
   if (lens_) reports.push_back(lens_->report());
   if (inclinometer_) reports.push_back(inclinometer_->report());
   if (gnss_) reports.push_back(gnss_->report());

@@ -11,7 +11,7 @@
 #include "edge/device/device_report.h"
 #include "edge/gpio/gpio.h"
 #include "edge/lens/lens_motor.h"
-#include "edge/ptu/ptu_handover.h"
+#include "edge/mount/mount.h"
 #include "edge/recorder/recorder.h"
 #include "edge/sensors/gnss.h"
 #include "edge/sensors/inclinometer.h"
@@ -24,11 +24,11 @@ namespace ols::station {
 // What turns and sees.
 struct Head {
   std::unique_ptr<camera::Camera> camera;
-  std::unique_ptr<ptu::PtuHandover> ptu;
+  std::unique_ptr<mount::Mount> mount;
 };
 using OpenHead = std::function<Head(const StationSettings&)>;
-// On the wires that are configured.
-Head wired_head(const StationSettings& settings);
+// Of the kinds that are configured.
+Head configured_head(const StationSettings& settings);
 
 class DeviceSet {
  public:
@@ -37,7 +37,7 @@ class DeviceSet {
   DeviceSet& operator=(const DeviceSet&) = delete;
 
   camera::Camera& camera() { return *head_.camera; }
-  ptu::PtuHandover& ptu() { return *head_.ptu; }
+  mount::Mount& mount() { return *head_.mount; }
   // Null if not configured.
   std::optional<gpio::Gpio>& gpio() { return gpio_; }
   std::optional<lens::LensMotor>& lens() { return lens_; }
@@ -48,11 +48,11 @@ class DeviceSet {
 
   // The sensor readings since the last call.
   void feed(sensors::PoseEstimator& estimator);
-  // Permits the PTU to move after an emergency stop, unless the stop was pressed again meanwhile.
-  // Also at the start: with a stop configured, the PTU is halted until the stop's level is known.
+  // Permits the mount to move after an emergency stop, unless the stop was pressed again meanwhile.
+  // Also at the start: with a stop configured, the mount is halted until the stop's level is known.
   void rearm();
 
-  // All configured devices, camera and PTU first.
+  // All configured devices, camera and mount first.
   std::vector<device::DeviceReport> reports() const;
 
  private:
@@ -64,8 +64,8 @@ class DeviceSet {
   std::optional<lens::LensMotor> lens_;
   std::optional<sensors::Inclinometer> inclinometer_;
   std::optional<sensors::Gnss> gnss_;
-  // The PTU is destroyed before the camera, which may block: its destructor halts the unit. The
-  // GPIO thread uses the PTU and is destroyed first.
+  // The mount is destroyed before the camera, which may block: its destructor halts it. The GPIO
+  // thread uses the mount and is destroyed first.
   Head head_;
   std::optional<gpio::Gpio> gpio_;
 };

@@ -27,7 +27,7 @@ class FrameDesk {
  public:
   static constexpr std::size_t kPart_bytes = 60000;  // leaves space for the header, below 65 000
 
-  explicit FrameDesk(const ptu::AngleHistory::Config& history) : service_(history) {}
+  explicit FrameDesk(const mount::AngleHistory::Config& history) : service_(history) {}
 
   FrameService& service() { return service_; }
   // Passes on completed frames; never waits.

@@ -32,7 +32,7 @@ std::string FrameService::request(const FrameRequest& wanted) {
   return "";
 }
 
-void FrameService::on_angles(const ptu::AngleSample& sample) {
+void FrameService::on_angles(const mount::AngleSample& sample) {
   if (trusted_ && history_.add(sample)) approach_.add(sample.time_s, sample.angles);
 }
 

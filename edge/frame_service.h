@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "edge/camera/frame.h"
-#include "edge/ptu/angle_history.h"
-#include "edge/ptu/approach_history.h"
+#include "edge/mount/angle_history.h"
+#include "edge/mount/approach_history.h"
 
 namespace ols::station {
 
@@ -27,7 +27,7 @@ struct FrameRequest {
 struct ExposedCounts {
   double pan = 0.0, tilt = 0.0;      // [counts]
   double pan_s = 0.0, tilt_s = 0.0;  // [counts/s]
-  ptu::Approach approach;
+  mount::Approach approach;
   PanTilt count;  // [rad] as the unit reports it
 };
 
@@ -39,7 +39,7 @@ struct RequestedFrame {
 
 class FrameService {
  public:
-  explicit FrameService(const ptu::AngleHistory::Config& history)
+  explicit FrameService(const mount::AngleHistory::Config& history)
       : history_(history), approach_({history.step_rad, history.step_rad}) {}
 
   // The size of a count [rad] as the unit reports it; without it no request can be answered.
@@ -51,7 +51,7 @@ class FrameService {
   // and earlier ones are forgotten: they are not in the same frame of reference as later ones.
   void set_trusted(bool trusted);
   // In time order.
-  void on_angles(const ptu::AngleSample& sample);
+  void on_angles(const mount::AngleSample& sample);
   void on_frame(const camera::Frame& frame);
 
   // The complete answers: the unit has reported angles before and after the exposure.
@@ -65,8 +65,8 @@ class FrameService {
              const ExposedCounts& counts) const;
 
   bool trusted_ = false;
-  ptu::AngleHistory history_;
-  ptu::ApproachHistory approach_;
+  mount::AngleHistory history_;
+  mount::ApproachHistory approach_;
   PanTilt count_rad_;
   std::deque<camera::Frame> frames_;  // kept while there is a request
   std::deque<FrameRequest> requests_;

@@ -54,7 +54,7 @@ int run(const std::string& config, const StationSettings& own) {
   ols::station::StationProcess process(settings, ols::draw_boot_id());
   ols::write_to_journal(
       {.text = fmt::format("station {} ready: camera {}, PTU {}, bus {}", settings.id,
-                           settings.camera.device, settings.ptu.device, settings.lcm_url),
+                           settings.camera->address(), settings.mount->words(), settings.lcm_url),
        .id = ols::event::kReady,
        .station = settings.id});
   say_site(settings);

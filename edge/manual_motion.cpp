@@ -4,7 +4,7 @@ namespace ols::station {
 
 void ManualMotion::point(const PanTilt& angles, double now_s, double until_s) {
   rate_.reset();
-  point_ = ptu::ServoGoal{now_s, angles, {}, until_s};
+  point_ = mount::Goal{now_s, angles, {}, until_s};
   point_->rests = true;
 }
 
@@ -23,15 +23,15 @@ bool ManualMotion::overtakes(const RateCommand& command, double now_s) const {
          now_s <= ends_s(*rate_);
 }
 
-std::optional<ptu::ServoGoal> ManualMotion::goal(double now_s) const {
+std::optional<mount::Goal> ManualMotion::goal(double now_s) const {
   if (point_) {
-    ptu::ServoGoal here = *point_;  // stationary: still valid
+    mount::Goal here = *point_;  // stationary: still valid
     here.time_s = now_s;
     return here;
   }
   const bool rests = !rate_ || (rate_->rate.pan_rad == 0.0 && rate_->rate.tilt_rad == 0.0);
   if (rests || now_s > ends_s(*rate_)) return std::nullopt;
-  ptu::ServoGoal goal{now_s, {}, rate_->rate, ends_s(*rate_)};
+  mount::Goal goal{now_s, {}, rate_->rate, ends_s(*rate_)};
   goal.rate_only = true;
   return goal;
 }

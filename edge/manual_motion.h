@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "edge/ptu/servo.h"
+#include "edge/mount/goal.h"
 #include "edge/station_types.h"
 
 namespace ols::station {
@@ -20,7 +20,7 @@ class ManualMotion {
 
   // nullopt: halt. A unit that is halted brakes for v/a. The halt therefore comes after the share
   // kInForce of the lease.
-  std::optional<ptu::ServoGoal> goal(double now_s) const;
+  std::optional<mount::Goal> goal(double now_s) const;
 
   static constexpr double kInForce = 0.8;
 
@@ -29,7 +29,7 @@ class ManualMotion {
     return rate.received_s + kInForce * rate.lease_s;
   }
 
-  std::optional<ptu::ServoGoal> point_;
+  std::optional<mount::Goal> point_;
   std::optional<RateCommand> rate_;
 };
 

@@ -96,7 +96,7 @@ void fill_pose(const StationSnapshot& snapshot, const StationGeometry& geometry,
 
 void fill_pointing(const StationReport& report, ols_msg::station_status_t& message) {
   const StationSnapshot& snapshot = report.snapshot;
-  const ptu::PtuLimits& limits = report.limits;
+  const mount::Limits& limits = report.limits;
   const bool limits_known = report.limits_known;
   message.pan_rad = snapshot.angles ? snapshot.angles->angles.pan_rad : kNaN;
   message.tilt_rad = snapshot.angles ? snapshot.angles->angles.tilt_rad : kNaN;

@@ -25,7 +25,9 @@ LensCommand from_message(const ols_msg::lens_command_t& message, double now_s) {
 
 void fill_lens(const StationSnapshot& snapshot, ols_msg::station_status_t& message) {
   using M = ols_msg::station_status_t;
-  message.kind = snapshot.overview ? M::KIND_OVERVIEW : M::KIND_TRACKING;
+  message.kind = snapshot.overview ? M::KIND_OVERVIEW
+                 : snapshot.moves  ? M::KIND_TRACKING
+                                   : M::KIND_FIXED;
   int i = 0;
   for (const lens::Axis axis : lens::kAxes) {
     message.lens_position[i++] = snapshot.lens[axis].value_or(kNaN);

@@ -25,7 +25,7 @@ PersistedStationState::PersistedStationState(const std::string& folder, const st
                                              bool has_stop)
     : id_(id),
       hold_(file_of(folder, id, "hold"), {kFree, kStopped, kUnknown, kEmergency}),
-      doubt_(file_of(folder, id, "doubt"), ptu::doubt_words()) {
+      doubt_(file_of(folder, id, "doubt"), mount::doubt_words()) {
   hold_unknown_ = hold_.restore_result() != RestoreResult::kKnown || hold_.word() == kUnknown;
   // A file that is damaged or cannot be written may have recorded an emergency.
   const bool may_be_grave = hold_.restore_result() == RestoreResult::kUnreadable ||
@@ -38,17 +38,17 @@ PersistedStationState::PersistedStationState(const std::string& folder, const st
   }
   doubt_unknown_ = doubt_.restore_result() != RestoreResult::kKnown;
   if (doubt_.restore_result() == RestoreResult::kUnreadable) {
-    begin_doubt_ = ptu::PtuReferenceDoubt{true, true};
+    begin_doubt_ = mount::ReferenceDoubt{true, true};
   } else if (doubt_unknown_) {
     begin_doubt_.emplace();
   } else {
-    begin_doubt_ = ptu::doubt_from_word(doubt_.word());
+    begin_doubt_ = mount::doubt_from_word(doubt_.word());
   }
 }
 
 void PersistedStationState::remember(StationState state,
-                                     const std::optional<ptu::PtuReferenceDoubt>& doubt,
-                                     ptu::PtuReference reference) {
+                                     const std::optional<mount::ReferenceDoubt>& doubt,
+                                     mount::Reference reference) {
   hold_unknown_ = hold_unknown_ && state == begin_;
   if (state == StationState::kEmergency) {
     // A damaged file is not overwritten until a person has re-armed the station.
@@ -60,9 +60,9 @@ void PersistedStationState::remember(StationState state,
   }
   // Without a unit, its last known state stays.
   if (doubt) {
-    doubt_.set(ptu::to_word(doubt));
-  } else if (reference == ptu::PtuReference::kTrusted) {
-    doubt_.set(ptu::to_word(std::nullopt));
+    doubt_.set(mount::to_word(doubt));
+  } else if (reference == mount::Reference::kTrusted) {
+    doubt_.set(mount::to_word(std::nullopt));
     doubt_unknown_ = false;
   }
 }

@@ -8,8 +8,7 @@
 #include <vector>
 
 #include "base/persisted_word.h"
-#include "edge/ptu/driver_types.h"
-#include "edge/ptu/reference_doubt.h"
+#include "edge/mount/reference.h"
 #include "edge/station_types.h"
 
 namespace ols::station {
@@ -23,12 +22,12 @@ class PersistedStationState {
   // The state at the start: kIdle, kStopped or kEmergency.
   StationState begin() const { return begin_; }
   // The doubt about the PTU's reference at the end of the previous process.
-  const std::optional<ptu::PtuReferenceDoubt>& doubt() const { return begin_doubt_; }
+  const std::optional<mount::ReferenceDoubt>& doubt() const { return begin_doubt_; }
 
   // Call in every turn with the present state, to be saved. Does not wait for the disk. Once the
   // station has left its first state, a person has acted, and the state is no longer unknown.
-  void remember(StationState state, const std::optional<ptu::PtuReferenceDoubt>& doubt,
-                ptu::PtuReference reference);
+  void remember(StationState state, const std::optional<mount::ReferenceDoubt>& doubt,
+                mount::Reference reference);
 
   // What is unknown or cannot be saved, and what to do.
   std::vector<std::string> alarms() const;
@@ -37,7 +36,7 @@ class PersistedStationState {
   std::string id_;
   PersistedWord hold_, doubt_;
   StationState begin_ = StationState::kStopped;
-  std::optional<ptu::PtuReferenceDoubt> begin_doubt_;
+  std::optional<mount::ReferenceDoubt> begin_doubt_;
   bool hold_unknown_ = false, doubt_unknown_ = false;
 };
 

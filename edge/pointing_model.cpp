@@ -30,12 +30,12 @@ PointingModel::PointingModel(const StationConfig& config)
   if (config.calibration) unit_.emplace(*config.calibration);
 }
 
-void PointingModel::set_limits(const ptu::PtuLimits& limits) {
+void PointingModel::set_limits(const mount::Limits& limits) {
   limits_ = limits;
   if (unit_ && limits.count.pan_rad > 0.0) unit_->set_count(limits.count);
 }
 
-void PointingModel::add(const ptu::AngleSample& sample) {
+void PointingModel::add(const mount::AngleSample& sample) {
   if (history_.add(sample) && unit_) unit_->add(sample);
 }
 
@@ -183,7 +183,7 @@ std::optional<PanTilt> PointingModel::reachable(const PanTilt& angles) const {
 }
 
 std::optional<PanTilt> PointingModel::reachable_from(const PanTilt& here, PanTilt angles) const {
-  if (reach(limits_, here, angles) == ptu::Reach::kUnreachable) return std::nullopt;
+  if (reach(limits_, here, angles) == mount::Reach::kUnreachable) return std::nullopt;
   return angles;
 }
 

@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "edge/calibrated_unit.h"
-#include "edge/ptu/angle_history.h"
-#include "edge/ptu/servo.h"
+#include "edge/mount/angle_history.h"
+#include "edge/mount/limits.h"
 #include "edge/station_config.h"
 #include "edge/station_types.h"
 #include "edge/video/video_frame.h"
@@ -34,9 +34,9 @@ class PointingModel {
   explicit PointingModel(const StationConfig& config);
 
   void set_pose(const sensors::StationPose& pose);
-  void set_limits(const ptu::PtuLimits& limits);
+  void set_limits(const mount::Limits& limits);
   // In time order.
-  void add(const ptu::AngleSample& sample);
+  void add(const mount::AngleSample& sample);
   // Of a motorised lens. geometry() has the camera at the newest.
   void add(const lens::ZoomSample& sample);
   void set_lens(const lens::ByAxis<std::optional<double>>& positions) { lens_ = positions; }
@@ -62,7 +62,7 @@ class PointingModel {
   std::optional<UnitAngles> angles_at(double time_s) const;
   // Of the newest sample; 0 before the first.
   PanTilt angles_now() const;
-  std::optional<ptu::AngleSample> newest_angles() const { return history_.newest(); }
+  std::optional<mount::AngleSample> newest_angles() const { return history_.newest(); }
   std::optional<PanTilt> reported_angles() const {
     const auto newest = history_.newest();
     return newest ? std::optional(newest->angles) : std::nullopt;
@@ -97,8 +97,8 @@ class PointingModel {
   sensors::StationPose pose_;
   sensors::StationPose revision_pose_;  // the pose of pose_revision()
   std::int64_t pose_revision_ = 0;
-  ptu::PtuLimits limits_;
-  ptu::AngleHistory history_;
+  mount::Limits limits_;
+  mount::AngleHistory history_;
   std::optional<CalibratedUnit> unit_;
   std::optional<lens::ZoomLens> zoom_;
   lens::ByAxis<std::optional<double>> lens_;  // positions of all axes

@@ -9,7 +9,7 @@ namespace ols::station {
 config::Section site_section(StationSettings& settings) {
   config::Section section = config::picked(
       station_section(settings),
-      {"camera.tai_minus_utc_s", "ptu.servo.max_speed_deg_s", "logic.slew_lease_max_s",
+      {"camera.tai_minus_utc_s", "mount.servo.max_speed_deg_s", "logic.slew_lease_max_s",
        "logic.max_age_s", "clock.distrust_s", "watchdog.disk_alarm_bytes",
        "watchdog.cpu_alarm_degC", "trust.clock_tolerance_s"});
   section.name = "station";

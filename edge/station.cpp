@@ -18,7 +18,7 @@ Station::Station(const StationConfig& config, std::unique_ptr<tracker::TargetTra
       bearings_(config),
       motion_(config.motion) {}
 
-void Station::on_angles(const ptu::AngleSample& sample) { pointing_.add(sample); }
+void Station::on_angles(const mount::AngleSample& sample) { pointing_.add(sample); }
 
 void Station::on_frame(const camera::Frame& frame, double now_s) {
   if (now_s - frame.mid_exposure_s > config_.max_age_s) {
@@ -109,10 +109,10 @@ void Station::look_along_slew(const camera::Frame& frame) {
   believed_in_a_row_ = 0;
 }
 
-void Station::set_reference(ptu::PtuReference reference) {
+void Station::set_reference(mount::Reference reference) {
   const bool had_angles = !mode_.has_doubtful_angles();
   mode_.set_reference(reference);
-  if (reference == ptu::PtuReference::kUnknown) manual_.clear();
+  if (reference == mount::Reference::kUnknown) manual_.clear();
   if (had_angles && mode_.has_doubtful_angles()) forget_angles();
 }
 
@@ -327,6 +327,7 @@ void Station::expire(double now_s) {
 }
 
 void Station::follow(const MadeBearing& made) {
+  if (!config_.moves) return;
   const LineOfSight& sight = made.bearing.sight;
   const auto centred = pointing_.aim_from(made.reported, sight.direction);
   if (!centred) return;
@@ -336,14 +337,14 @@ void Station::follow(const MadeBearing& made) {
                  std::sqrt(sight.covariance_white.trace() / 2.0));
 }
 
-std::optional<ptu::ServoGoal> Station::goal(double now_s) const {
+std::optional<mount::Goal> Station::goal(double now_s) const {
   switch (mode_.state()) {
     case StationState::kManual:
       return manual_.goal(now_s);
     case StationState::kTracking:
     case StationState::kCoasting:
       if (const auto angles = motion_.at(now_s)) {
-        return ptu::ServoGoal{now_s, *angles, motion_.state()->rate, believed_s_ + config_.coast_s};
+        return mount::Goal{now_s, *angles, motion_.state()->rate, believed_s_ + config_.coast_s};
       }
       return std::nullopt;
     case StationState::kSlewed:

@@ -17,6 +17,7 @@
 #include "edge/followed_target.h"
 #include "edge/frame_history.h"
 #include "edge/manual_motion.h"
+#include "edge/mount/goal.h"
 #include "edge/pointing_model.h"
 #include "edge/slew_search.h"
 #include "edge/station_config.h"
@@ -38,8 +39,8 @@ struct UnitActions {
 };
 
 struct StationOutput {
-  std::vector<Bearing> bearings;       // those whose PTU angles are known
-  std::optional<ptu::ServoGoal> goal;  // of the PTU; empty: halt
+  std::vector<Bearing> bearings;    // those whose PTU angles are known
+  std::optional<mount::Goal> goal;  // of the PTU; empty: halt
 };
 
 class Station {
@@ -47,7 +48,7 @@ class Station {
   Station(const StationConfig& config, std::unique_ptr<tracker::TargetTracker> tracker);
 
   // Inputs. Samples and frames each come in time order.
-  void on_angles(const ptu::AngleSample& sample);
+  void on_angles(const mount::AngleSample& sample);
   void on_frame(const camera::Frame& frame) { on_frame(frame, now_s_); }
   // Of a motorised lens: each zoom position that it says, and where all axes are now.
   void on_zoom(const lens::ZoomSample& sample) { pointing_.add(sample); }
@@ -57,7 +58,7 @@ class Station {
   // A frame older than max_age_s at now_s is dropped: the tracker gets no backlog.
   void on_frame(const camera::Frame& frame, double now_s);
   // The PTU's travel, once it is known.
-  void set_limits(const ptu::PtuLimits& limits) { pointing_.set_limits(limits); }
+  void set_limits(const mount::Limits& limits) { pointing_.set_limits(limits); }
   // Another geometry, with a calibration or without one, while the station runs. What was measured
   // with the other one is forgotten.
   void use(const StationGeometry& geometry, const std::optional<StationCalibration>& calibration);
@@ -67,7 +68,7 @@ class Station {
   }
   // Whether the PTU's reference is valid. In doubt, the station neither points nor follows slews,
   // and discards its angles; it keeps its target, and slews lead back to it later.
-  void set_reference(ptu::PtuReference reference);
+  void set_reference(mount::Reference reference);
   // Before the first call the pose is that of the configured geometry. Without a position the
   // station makes no bearings.
   void set_pose(const sensors::StationPose& pose) { pointing_.set_pose(pose); }
@@ -110,7 +111,7 @@ class Station {
   StationOutput step(double now_s);
 
   // The PTU's goal; empty: halt.
-  std::optional<ptu::ServoGoal> goal(double now_s) const;
+  std::optional<mount::Goal> goal(double now_s) const;
 
   StationState state() const { return mode_.state(); }
   // Reported by the unit last.

@@ -5,8 +5,8 @@
 
 #include "edge/angular_track.h"
 #include "edge/lens/zoom_lens.h"
-#include "edge/ptu/angle_history.h"
-#include "edge/ptu/servo.h"
+#include "edge/mount/angle_history.h"
+#include "edge/mount/limits.h"
 #include "edge/tracker/acquisition.h"
 #include "geometry/sight.h"
 #include "geometry/station_calibration.h"
@@ -19,8 +19,8 @@ struct StationConfig {
   std::optional<StationCalibration> calibration;
   bool overview = false;               // driven by a person; the fusion's slews are refused
   std::optional<lens::ZoomLens> zoom;  // of a motorised lens; else `geometry` is the camera
-  ptu::AngleHistory::Config angles;
-  ptu::PtuLimits limits;
+  mount::AngleHistory::Config angles;
+  mount::Limits limits;
   AngularTrack::Config motion;
   double designation_sd_px = 1.0;  // of a designated box's centre on the target
   double tracking_belief = 0.5;    // minimum to be tracking
@@ -38,6 +38,7 @@ struct StationConfig {
   double prediction_error_px = 20.0;
   int disagreeing_frames = 5;  // consecutive; raise the alarm
   tracker::AcquisitionConfig acquisition;
+  bool moves = true;              // false: the mount is fixed
   bool homing_allowed = true;     // on command
   bool rearm_over_bus = false;    // by any sender; else only by a person at the station
   double slew_lease_max_s = 2.0;  // a longer lease is refused

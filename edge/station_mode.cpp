@@ -32,7 +32,7 @@ Refusal StationMode::refuses_operator(double now_s) const {
 }
 
 bool StationMode::has_doubtful_angles() const {
-  return reference_ == ptu::PtuReference::kMissing || reference_ == ptu::PtuReference::kDoubted;
+  return reference_ == mount::Reference::kMissing || reference_ == mount::Reference::kDoubted;
 }
 
 }  // namespace ols::station

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "edge/ptu/driver.h"
+#include "edge/mount/reference.h"
 #include "edge/station_types.h"
 
 namespace ols::station {
@@ -34,8 +34,8 @@ class StationMode {
   Refusal refuses_operator(double now_s) const;
 
   // Whether the PTU's reference is valid.
-  void set_reference(ptu::PtuReference reference) { reference_ = reference; }
-  ptu::PtuReference reference() const { return reference_; }
+  void set_reference(mount::Reference reference) { reference_ = reference; }
+  mount::Reference reference() const { return reference_; }
   bool has_doubtful_angles() const;
 
   const std::map<std::string, double>& counters() const { return counters_; }
@@ -44,7 +44,7 @@ class StationMode {
   StationState state_ = StationState::kIdle;
   bool pressed_ = false;
   std::optional<double> stopped_s_;  // by the last stop
-  ptu::PtuReference reference_ = ptu::PtuReference::kUnknown;
+  mount::Reference reference_ = mount::Reference::kUnknown;
   std::map<std::string, double> counters_;
 };
 

@@ -56,7 +56,7 @@ StationProcess::StationProcess(const StationSettings& configured, std::int64_t b
       persisted_(settings().state_folder, settings().id, settings().gpio.has_stop()),
       journal_(settings().id, write_to_journal),
       devices_(settings(), boot_id, outside.open_head(settings())),
-      frames_(settings().ptu.history) {
+      frames_(settings().station.angles) {
   const double now_s = clock_monotonic_s();
   station_.set_pose(pose_->pose(now_s));
   resume_hold(now_s);
@@ -79,8 +79,8 @@ void StationProcess::turn() {
   heed_emergency_stop(start.monotonic_s);
   heed_rearming(start.monotonic_s);
   receive_commands();
-  persisted_.remember(station_.state(), devices_.ptu().doubt_to_persist(),
-                      devices_.ptu().reference());
+  persisted_.remember(station_.state(), devices_.mount().doubt_to_persist(),
+                      devices_.mount().reference());
   if (const auto pose = pose_->look(devices_, start.monotonic_s)) station_.set_pose(*pose);
   take_zoom();
   const double waited_s = take_frame();
@@ -94,7 +94,7 @@ void StationProcess::turn() {
     const std::int64_t utime_us = clock_.utime_us(bearing.mid_exposure_s);
     for (const Sighting& sighting : frames_.sightings(bearing, utime_us)) bus_.send(sighting);
   }
-  devices_.ptu().set_goal(goal(output, now.monotonic_s));
+  devices_.mount().set_goal(goal(output, now.monotonic_s));
   trigger_camera(now.monotonic_s);
   send_requested_frames(now);
   send_reports(now);
@@ -111,11 +111,11 @@ clock::ClockPair StationProcess::look_at_clocks() {
 // If the operator stopped the station before it ended, it stays stopped: a restart does not permit
 // motion.
 void StationProcess::resume_hold(double now_s) {
-  devices_.ptu().restore_doubt(persisted_.doubt());
+  devices_.mount().restore_doubt(persisted_.doubt());
   halted_ = !devices_.stop().known();
   if (persisted_.begin() == StationState::kStopped) station_.begin_stopped();
   if (persisted_.begin() != StationState::kEmergency) return;
-  devices_.ptu().emergency_halt();
+  devices_.mount().emergency_halt();
   station_.emergency_stop(true, now_s);
 }
 
@@ -149,13 +149,13 @@ void StationProcess::heed_rearming(double now_s) {
 }
 
 void StationProcess::receive_commands() {
-  station_.set_reference(devices_.ptu().reference());
+  station_.set_reference(devices_.mount().reference());
   bus_.receive();
-  devices_.ptu().allow_rehoming(!is_held(station_.state()));
+  devices_.mount().allow_rehoming(!is_held(station_.state()));
   const UnitActions actions = station_.take_actions();
-  if (actions.stop) devices_.ptu().stop_homing();
-  if (actions.home) devices_.ptu().home();
-  if (actions.reference_ok) devices_.ptu().reference_ok();
+  if (actions.stop) devices_.mount().stop_homing();
+  if (actions.home) devices_.mount().home();
+  if (actions.reference_ok) devices_.mount().reference_ok();
   if (auto& lens = devices_.lens()) lens->order(actions.lens);
   const bool may_move = devices_.stop().known() && station_.state() != StationState::kEmergency;
   if (halted_ && may_move) {
@@ -199,24 +199,25 @@ void StationProcess::take_zoom() {
 }
 
 void StationProcess::take_angles() {
-  const ptu::PtuReference before = devices_.ptu().reference();
+  const mount::Reference before = devices_.mount().reference();
   station_.set_reference(before);
-  const auto samples = devices_.ptu().take_samples();
+  const auto samples = devices_.mount().take_samples();
   // A homing that begins or ends meanwhile: whose the samples are is unknown.
   const bool trusted =
-      before == ptu::PtuReference::kTrusted && devices_.ptu().reference() == before;
+      before == mount::Reference::kTrusted && devices_.mount().reference() == before;
   frames_.service().set_trusted(trusted);
-  for (const ptu::AngleSample& sample : samples) {
+  for (const mount::AngleSample& sample : samples) {
     station_.on_angles(sample);
     frames_.service().on_angles(sample);
   }
 }
 
 // A check of the reference views has the unit only while nobody else wants it.
-std::optional<ptu::ServoGoal> StationProcess::goal(const StationOutput& output, double now_s) {
+std::optional<mount::Goal> StationProcess::goal(const StationOutput& output, double now_s) {
   const auto newest = station_.reported_angles();
-  const bool free = station_.state() == StationState::kIdle && !output.goal && !halted_ &&
-                    devices_.ptu().reference() == ptu::PtuReference::kTrusted;
+  const bool free = settings().station.moves && station_.state() == StationState::kIdle &&
+                    !output.goal && !halted_ &&
+                    devices_.mount().reference() == mount::Reference::kTrusted;
   const auto check = calibration_.step({now_s, free, newest});
   if (const auto doubt = calibration_.take_doubt()) {
     station_.doubt_setup(doubt->heading_rad, doubt->tilt_rad);
@@ -226,9 +227,9 @@ std::optional<ptu::ServoGoal> StationProcess::goal(const StationOutput& output, 
 
 void StationProcess::trigger_camera(double now_s) {
   const bool by_line = settings().gpio.trigger_line >= 0;
-  const bool by_software = settings().camera.trigger == camera::TriggerMode::kSoftware;
+  const bool by_software = settings().camera->config().trigger == camera::TriggerMode::kSoftware;
   if (now_s < due_.trigger_s || (!by_line && !by_software)) return;
-  const double period_s = 1.0 / settings().camera.frame_rate_hz;
+  const double period_s = 1.0 / settings().camera->config().frame_rate_hz;
   // At the configured rate, without a burst after a pause.
   due_.trigger_s = std::max(due_.trigger_s + period_s, now_s);
   if (by_software) devices_.camera().trigger();
@@ -261,19 +262,19 @@ void StationProcess::send_reports(const clock::ClockPair& now) {
 
 StationReport StationProcess::report(const clock::ClockPair& now) {
   StationReport report;
-  const ptu::PtuStatus ptu = devices_.ptu().status();
-  if (ptu.state == ptu::PtuState::kReady) {
-    station_.set_limits(ptu.limits);
-    calibration_.set_limits(ptu.limits);
-    frames_.service().set_count(ptu.limits.count);
+  const auto limits = devices_.mount().limits();
+  if (limits) {
+    station_.set_limits(*limits);
+    calibration_.set_limits(*limits);
+    frames_.service().set_count(limits->count);
   }
-  report.limits = ptu.limits;
-  report.limits_known = ptu.port.open && ptu.state == ptu::PtuState::kReady;
+  report.limits = limits.value_or(settings().station.limits);
+  report.limits_known = limits.has_value();
   report.snapshot = station_.snapshot();
   report.devices = devices_.reports();
   if (!settings().software.empty()) report.devices.push_back(software());
   check_calibration(report, now.monotonic_s);
-  calibration_.note_homings(ptu.counters.homings);
+  calibration_.note_homings(devices_.mount().homings());
   report.calibration = calibration_.status();
   report.counters.merge(calibration_.counters());
   report.alarms = report.snapshot.alarms;

@@ -29,13 +29,13 @@ class StationProcess {
  public:
   // Does not need a network or devices: retries those that are absent.
   StationProcess(const StationSettings& configured, std::int64_t boot_id,
-                 Outside outside = {wired_head, host_time_service()});
+                 Outside outside = {configured_head, host_time_service()});
 
   // Runs until `ends` returns true; notifies systemd. Ready after the first turn, whatever devices
   // are present.
   void run(const std::function<bool()>& ends);
 
-  // One turn of the control loop: commands, PTU angles, the newest frame, bearings, the PTU's goal,
+  // One turn of the control loop: commands, angles, the newest frame, bearings, the mount's goal,
   // and at intervals a status and a preview. Takes a few milliseconds, or as long as the tracker
   // needs for a frame.
   void turn();
@@ -50,7 +50,7 @@ class StationProcess {
   void show_frame(const camera::Frame& frame);
   void take_zoom();
   void take_angles();
-  std::optional<ptu::ServoGoal> goal(const StationOutput& output, double now_s);
+  std::optional<mount::Goal> goal(const StationOutput& output, double now_s);
   void trigger_camera(double now_s);
   void check_calibration(const StationReport& report, double now_s);
   void send_requested_frames(const clock::ClockPair& now);
@@ -83,7 +83,7 @@ class StationProcess {
   DeviceSet devices_;
   FrameDesk frames_;
   std::optional<camera::Frame> newest_;
-  bool halted_ = false;  // the PTU refuses to move until it is re-armed
+  bool halted_ = false;  // the mount refuses to move until it is re-armed
   Due due_;
 };
 

@@ -8,14 +8,14 @@
 
 #include "edge/calibration_status.h"
 #include "edge/device/device_report.h"
-#include "edge/ptu/servo.h"
+#include "edge/mount/limits.h"
 #include "edge/station_types.h"
 
 namespace ols::station {
 
 struct StationReport {
   StationSnapshot snapshot;
-  ptu::PtuLimits limits;
+  mount::Limits limits;
   bool limits_known = false;
   CalibrationStatus calibration;
   std::vector<device::DeviceReport> devices;

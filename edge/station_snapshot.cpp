@@ -7,6 +7,7 @@ StationSnapshot snapshot_of(const StationParts& parts) {
   StationSnapshot snapshot;
   snapshot.state = mode.state();
   snapshot.overview = config.overview;
+  snapshot.moves = config.moves;
   snapshot.lens = pointing.lens();
   if (const auto zoom = pointing.zoom_at(now_s)) {
     snapshot.focal_length_px = zoom->camera.fx_px;

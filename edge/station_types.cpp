@@ -61,6 +61,8 @@ const char* to_string(Refusal refusal) {
       return "no_lens";
     case Refusal::kOverview:
       return "overview";
+    case Refusal::kFixedMount:
+      return "fixed_mount";
     case Refusal::kOvertaken:
       return "overtaken";
     case Refusal::kStopped:

@@ -9,7 +9,7 @@
 
 #include "edge/camera/frame.h"
 #include "edge/lens/lens_types.h"
-#include "edge/ptu/angle_history.h"
+#include "edge/mount/angle_history.h"
 #include "edge/sensors/pose_estimator.h"
 #include "geometry/sight.h"
 
@@ -112,6 +112,7 @@ enum class Refusal {
   kNoDoubt,          // no doubt about the reference that a person could end
   kNoLens,           // no motorised lens
   kOverview,         // a slew: an overview station is driven by a person
+  kFixedMount,       // an order to move: the mount never does
   kOvertaken,        // a later rate of the same sender is in force
   kStopped,          // a rate while stopped: it does not end a stop
   kJustStopped,      // a stop overrides, for a moment, commands sent before it or crossing it
@@ -123,13 +124,14 @@ const char* to_string(Refusal refusal);
 struct StationSnapshot {
   StationState state = StationState::kIdle;
   bool overview = false;
+  bool moves = true;
   lens::ByAxis<std::optional<double>> lens;  // positions of its axes
   std::optional<double> focal_length_px;     // empty while the zoom is not known
   std::optional<CameraIntrinsics> camera;    // at that focal length
   double focal_length_sd_px = 0.0;
   std::int64_t track_id = 0;
   double belief = 0.0;
-  std::optional<ptu::AngleSample> angles;
+  std::optional<mount::AngleSample> angles;
   std::optional<AzimuthElevation> optical_axis;
   Eigen::Vector3d camera_ecef = Eigen::Vector3d::Zero();  // at zero pan and tilt without angles
   std::optional<Eigen::Vector2d> target_offset_px;        // from the principal point, newest frame

@@ -12,6 +12,7 @@
 #include "ols_msg/truth_target_t.hpp"
 #include "ols_msg/truth_view_t.hpp"
 #include "sim/exposed_unit.h"
+#include "sim/fixed_camera.h"
 #include "sim/gnss_line.h"
 #include "sim/gpio_socket.h"
 #include "sim/inclinometer_line.h"
@@ -88,9 +89,11 @@ LiveSite::LiveSite(const World& world, const std::string& line_folder, LcmBus& b
 
 LiveSite::~LiveSite() = default;
 
-// The simulated unit, or a real one in its place.
+// The simulated unit, a real one in its place, or none.
 std::unique_ptr<PtuDevice> LiveSite::connect_ptu(std::size_t station, const std::string& link) {
-  const std::string& real_device = world_.scenario().stations[station].ptu_device;
+  const StationScenario& scenario = world_.scenario().stations[station];
+  if (scenario.fixed) return std::make_unique<FixedCamera>(*scenario.fixed);
+  const std::string& real_device = scenario.ptu_device;
   const std::uint64_t seed = derived_seed(world_.seed(), 4000 + station);
   if (real_device.empty()) return std::make_unique<PtuLine>(world_.ptu_unit_config(), seed, link);
   PtuTapConfig tap;

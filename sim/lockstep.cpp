@@ -51,7 +51,8 @@ void Lockstep::know_station(std::size_t index) {
                        {.camera_ecef = camera_centre_ecef(station.nominal, {}),
                         .field_of_view_rad = field_of_view(station.nominal.camera).minCoeff(),
                         .axis = snapshot.optical_axis,
-                        .commandable = !world_.scenario().stations[index].overview});
+                        .commandable = !world_.scenario().stations[index].overview &&
+                                       !world_.scenario().stations[index].fixed});
 }
 
 void Lockstep::run(double duration_s) {

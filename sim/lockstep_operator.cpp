@@ -19,9 +19,9 @@ constexpr double kDesignationSd_px = 1.0;  // of each axis, as StationConfig ass
 double monotonic_s(double time_s) { return kBoot_s + time_s; }
 
 LockstepOperator::LockstepOperator(const World& world, std::size_t index, const Fidelity& fidelity,
-                                   LockstepNoise& noise, const PtuUnit& unit,
+                                   LockstepNoise& noise, const LockstepMount& mount,
                                    station::Station& station)
-    : world_(world), index_(index), noise_(noise), unit_(unit), station_(station) {
+    : world_(world), index_(index), noise_(noise), mount_(mount), station_(station) {
   const std::string& id = world.stations()[index].id;
   // An overview station is driven from outside.
   leaves_alone_ = std::ranges::count(fidelity.not_designated, id) > 0 ||
@@ -57,8 +57,8 @@ void LockstepOperator::point_roughly(double time_s) {
 
 bool LockstepOperator::stands_since(double from_s, double time_s) const {
   constexpr double kStanding_rad = 1e-3;
-  const PanTilt then = unit_.angles_at(monotonic_s(from_s));
-  const PanTilt now = unit_.angles_at(monotonic_s(time_s));
+  const PanTilt then = mount_.angles_at(monotonic_s(from_s));
+  const PanTilt now = mount_.angles_at(monotonic_s(time_s));
   return std::hypot(now.pan_rad - then.pan_rad, now.tilt_rad - then.tilt_rad) < kStanding_rad;
 }
 

@@ -8,7 +8,7 @@
 
 #include "edge/station.h"
 #include "sim/fidelity.h"
-#include "sim/ptu_unit.h"
+#include "sim/lockstep_mount.h"
 #include "sim/renderer.h"
 #include "sim/world.h"
 
@@ -37,7 +37,7 @@ class LockstepOperator {
 
   // All arguments but `fidelity` must outlive this object.
   LockstepOperator(const World& world, std::size_t index, const Fidelity& fidelity,
-                   LockstepNoise& noise, const PtuUnit& unit, station::Station& station);
+                   LockstepNoise& noise, const LockstepMount& mount, station::Station& station);
 
   void see(const Seen& seen);
   // The operator's action at this instant, once the PTU is ready.
@@ -55,7 +55,7 @@ class LockstepOperator {
   const World& world_;
   std::size_t index_;
   LockstepNoise& noise_;
-  const PtuUnit& unit_;  // as its image shows
+  const LockstepMount& mount_;  // as its image shows
   station::Station& station_;
   std::optional<Misdesignation> wrong_;
   bool leaves_alone_;

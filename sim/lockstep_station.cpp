@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "edge/mount/fixed/fixed_kind.h"
 #include "edge/tracker/tracker.h"
 
 namespace ols::sim {
@@ -13,13 +14,6 @@ constexpr double kStampSd_s = 20e-6;    // of the camera's time stamps
 constexpr double kTransport_s = 0.004;  // of a frame over the wire
 constexpr std::uint64_t kStationTag = 5000, kUnitTag = 6000, kTrackerTag = 7000;
 
-ptu::PtuConfig driver_config(const World& world) {
-  ptu::PtuConfig config;
-  config.baud = world.scenario().ptu.baud;
-  config.poll_interval_s = world.scenario().ptu.poll_interval_s;
-  return config;
-}
-
 station::StationConfig station_config(const World& world, std::size_t index,
                                       const std::optional<StationCalibration>& calibration) {
   station::StationConfig config;
@@ -28,7 +22,14 @@ station::StationConfig station_config(const World& world, std::size_t index,
   config.overview = world.scenario().stations[index].overview;
   const auto& points = world.stations()[index].zoom_points;
   if (!points.empty()) config.zoom.emplace(ZoomTable(points), kZoomSd);
-  config.angles.step_rad = radians(world.ptu_unit_config().resolution_arcsec / 3600.0);
+  if (const auto& fixed = world.scenario().stations[index].fixed) {
+    mount::FixedKind kind;
+    kind.fixed.angles = *fixed;
+    config.angles = kind.traits().angles;
+    config.moves = false;
+  } else {
+    config.angles.step_rad = radians(world.ptu_unit_config().resolution_arcsec / 3600.0);
+  }
   return config;
 }
 
@@ -53,14 +54,13 @@ LockstepStation::LockstepStation(const World& world, std::size_t index, const Fi
       renderer_(std::move(renderer)),
       noise_(derived_seed(world.seed(), kStationTag + index)),
       shutter_{noise_.uniform() / world.scenario().frame_rate_hz},
-      unit_(world.ptu_unit_config(), derived_seed(world.seed(), kUnitTag + index),
-            monotonic_s(0.0)),
+      mount_(make_lockstep_mount(world, index, derived_seed(world.seed(), kUnitTag + index),
+                                 monotonic_s(0.0))),
       exposed_(world.stations()[index].unit, world.ptu_unit_config()),
-      driver_(driver_config(world)),
       config_(station_config(world, index, calibration)),
       station_(config_,
                make_tracker(fidelity, views_, derived_seed(world.seed(), kTrackerTag + index))),
-      operator_(world, index, fidelity, noise_, unit_, station_),
+      operator_(world, index, fidelity, noise_, *mount_, station_),
       told_{station::FrameService(config_.angles)} {
   const ZoomScenario& zoom = world.scenario().stations[index].zoom;
   if (zoom.is_fixed()) return;
@@ -69,9 +69,9 @@ LockstepStation::LockstepStation(const World& world, std::size_t index, const Fi
 }
 
 std::vector<station::Bearing> LockstepStation::advance(double time_s) {
-  exchange_bytes(time_s);
-  told_.unit.set_trusted(driver_.reference() == ptu::PtuReference::kTrusted);
-  for (const ptu::AngleSample& sample : driver_.take_samples()) {
+  mount_->advance(monotonic_s(time_s));
+  told_.unit.set_trusted(mount_->reference() == mount::Reference::kTrusted);
+  for (const mount::AngleSample& sample : mount_->take_samples()) {
     station_.on_angles(sample);
     told_.unit.on_angles(sample);
   }
@@ -80,17 +80,8 @@ std::vector<station::Bearing> LockstepStation::advance(double time_s) {
   operate(time_s);
   const double now_s = monotonic_s(time_s);
   station::StationOutput output = station_.step(now_s);
-  driver_.set_goal(output.goal);
+  mount_->set_goal(output.goal);
   return std::move(output.bearings);
-}
-
-void LockstepStation::exchange_bytes(double time_s) {
-  const double now_s = monotonic_s(time_s);
-  const double first_s = std::min(unit_.next_output_s().value_or(now_s), now_s);
-  const std::string answer = unit_.transmit(now_s);
-  if (!answer.empty()) driver_.receive(answer, first_s);
-  const std::string request = driver_.step(now_s);
-  if (!request.empty()) unit_.receive(request, now_s);
 }
 
 void LockstepStation::move_lens(double time_s) {
@@ -115,7 +106,7 @@ void LockstepStation::expose(double time_s) {
   exposure.mid_s = mid_s;
   exposure.exposure_s = s.exposure_s;
   exposure.frame = static_cast<std::uint64_t>(number);
-  const auto counted = [this](double at_s) { return unit_.angles_at(at_s); };
+  const auto counted = [this](double at_s) { return mount_->angles_at(at_s); };
   if (lens_) exposure.zoom = lens_->unit.zoom_at(monotonic_s(mid_s));
   exposed_.expose(counted, monotonic_s(mid_s), exposure);
   if (s.errors.frames.on && lost) {
@@ -147,24 +138,19 @@ void LockstepStation::take_note(double mid_s, const ViewTruth& view) {
 }
 
 void LockstepStation::operate(double time_s) {
-  station_.set_reference(driver_.reference());
-  if (driver_.state() != ptu::PtuState::kReady) return;
-  told_.unit.set_count(driver_.limits().count);
+  station_.set_reference(mount_->reference());
+  const auto limits = mount_->limits();
+  if (!limits) return;
+  told_.unit.set_count(limits->count);
   if (designated()) return;
-  station_.set_limits(driver_.limits());
+  station_.set_limits(*limits);
   operator_.act(time_s);
 }
 
 StationRecord LockstepStation::record() const {
   StationRecord record = record_;
   record.counters = station_.snapshot().counters;
-  const ptu::PtuCounters& ptu = driver_.counters();
-  record.counters.merge(std::map<std::string, double>{
-      {"ptu_requests", static_cast<double>(ptu.requests)},
-      {"ptu_replies", static_cast<double>(ptu.replies)},
-      {"ptu_timeouts", static_cast<double>(ptu.timeouts)},
-      {"ptu_refused_positions", static_cast<double>(ptu.refused_positions)},
-      {"ptu_limit_hits", static_cast<double>(ptu.limit_hits)}});
+  record.counters.merge(mount_->counters());
   return record;
 }
 

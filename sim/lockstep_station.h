@@ -1,5 +1,5 @@
-// One station in simulated time: the product's Station and PTU driver, connected to a simulated
-// unit by bytes and to a simulated camera by frames.
+// One station in simulated time: the product's Station on its mount, and a simulated camera's
+// frames.
 #pragma once
 
 #include <cstdint>
@@ -10,14 +10,13 @@
 #include <vector>
 
 #include "edge/lens/lens_driver.h"
-#include "edge/ptu/driver.h"
 #include "edge/sighting_desk.h"
 #include "edge/station.h"
 #include "edge/tracker/tracker_config.h"
 #include "sim/exposed_unit.h"
 #include "sim/lens_unit.h"
+#include "sim/lockstep_mount.h"
 #include "sim/lockstep_operator.h"
-#include "sim/ptu_unit.h"
 #include "sim/renderer.h"
 #include "sim/view_tracker.h"
 #include "sim/world.h"
@@ -82,7 +81,6 @@ class LockstepStation {
     double phase_s = 0.0;  // of the exposures
     std::int64_t next = 0;
   };
-  void exchange_bytes(double time_s);
   void move_lens(double time_s);
   void expose(double time_s);
   void take_note(double mid_s, const ViewTruth& view);
@@ -93,9 +91,8 @@ class LockstepStation {
   std::unique_ptr<Renderer> renderer_;
   LockstepNoise noise_;
   Shutter shutter_;
-  PtuUnit unit_;
+  std::unique_ptr<LockstepMount> mount_;
   ExposedUnit exposed_;
-  ptu::PtuDriver driver_;
   std::optional<Lens> lens_;
   ViewMemory views_;
   station::StationConfig config_;

@@ -18,8 +18,8 @@ constexpr double kTimely_s = 1e-3;        // max delay of reading a byte
 constexpr double kGain = 0.1;             // of the average of latencies
 constexpr std::size_t kAround_bytes = 3;  // of a reply besides its number: blank, CR, LF
 
-ptu::AngleHistory::Config history_config() {
-  ptu::AngleHistory::Config config;
+mount::AngleHistory::Config history_config() {
+  mount::AngleHistory::Config config;
   config.span_s = 3.0;
   return config;
 }
@@ -45,7 +45,7 @@ bool sets(std::string_view command) {
 
 PtuTapWatch::PtuTapWatch(double step_rad)
     : step_rad_{step_rad, step_rad},
-      history_{ptu::AngleHistory(history_config()), ptu::AngleHistory(history_config())} {}
+      history_{mount::AngleHistory(history_config()), mount::AngleHistory(history_config())} {}
 
 void PtuTapWatch::master_said(std::string_view bytes, double time_s, double byte_s) {
   const bool given_up = !asked_.empty() && time_s - asked_.front().sent_s > kPatience_s;
@@ -115,7 +115,7 @@ void PtuTapWatch::read(int axis, const Asked& asked, const ptu::PtuReply& reply,
   if (!waited) usual_s_ += kGain * (latest_s - earliest_s - usual_s_);
   const double latency_s =
       waited ? std::min(usual_s_, latest_s - earliest_s) : latest_s - earliest_s;
-  ptu::AngleSample sample;
+  mount::AngleSample sample;
   sample.time_s = earliest_s + 0.5 * latency_s;
   sample.time_sd_s = latency_s / std::sqrt(12.0);
   const double angle_rad = *counts * step_rad_[static_cast<std::size_t>(axis)];
@@ -129,7 +129,7 @@ double PtuTapWatch::known_until_s() const {
 }
 
 PanTilt PtuTapWatch::at(double time_s) const {
-  const auto angle = [time_s](const ptu::AngleHistory& history, double PanTilt::*axis) {
+  const auto angle = [time_s](const mount::AngleHistory& history, double PanTilt::*axis) {
     if (const auto known = history.at(time_s)) return known->angles.*axis;
     const auto newest = history.newest();
     return newest ? newest->angles.*axis : 0.0;

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "edge/ptu/angle_history.h"
+#include "edge/mount/angle_history.h"
 #include "edge/ptu/codec.h"
 
 namespace ols::sim {
@@ -48,14 +48,14 @@ class PtuTapWatch {
   };
   struct Reading {
     int axis;
-    ptu::AngleSample sample;
+    mount::AngleSample sample;
   };
   void take(const ptu::PtuReply& reply, double byte_s);
   void drop_questions();
   void read(int axis, const Asked& asked, const ptu::PtuReply& reply, double byte_s);
 
   std::array<double, 2> step_rad_;
-  std::array<ptu::AngleHistory, 2> history_;  // each axis is read at its own instants
+  std::array<mount::AngleHistory, 2> history_;  // each axis is read at its own instants
   ptu::PtuReplyParser parser_;
   std::string begun_;           // incomplete command
   double line_free_s_ = 0.0;    // the master's bytes

@@ -243,6 +243,7 @@ Section station_section(std::vector<StationScenario>& stations) {
       StationScenario station;
       std::array<double, 2> tilt_xy_rad{};
       std::array<double, 3> mount_zxy_rad{};
+      std::array<double, 2> fixed_rad{};
     };
     auto keys = std::make_shared<Keys>();
     auto rows = station_rows(keys->station);
@@ -251,6 +252,10 @@ Section station_section(std::vector<StationScenario>& stations) {
     rows.push_back(config::numbers("mount_zxy_deg", keys->mount_zxy_rad, {-45, 45},
                                    station::in_degrees(),
                                    "Rotation of the camera on the PTU about Z, X, Y."));
+    rows.push_back(config::numbers("fixed_pan_tilt_deg", keys->fixed_rad, {-180, 180},
+                                   station::in_degrees(),
+                                   "Angles at which its camera stands still, without a PTU.")
+                       .default_is("a PTU"));
     std::ranges::move(zoom_rows(keys->station.zoom), std::back_inserter(rows));
     return Section{"", "", rows, {}, [keys, &stations](ConfigTable& table) {
                      StationScenario& s = keys->station;
@@ -261,6 +266,9 @@ Section station_section(std::vector<StationScenario>& stations) {
                      c.mount_z_rad = keys->mount_zxy_rad[0];
                      c.mount_x_rad = keys->mount_zxy_rad[1];
                      c.mount_y_rad = keys->mount_zxy_rad[2];
+                     if (table.has("fixed_pan_tilt_deg")) {
+                       s.fixed = PanTilt{keys->fixed_rad[0], keys->fixed_rad[1]};
+                     }
                      if (!table.has("ptu_line")) s.ptu_line = s.id + ".ptu";
                      stations.push_back(s);
                      check_id(table, stations, "stations");

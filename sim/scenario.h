@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -80,7 +81,8 @@ struct StationScenario {
   std::string ptu_line;   // file name of the pty's link
   bool overview = false;  // driven by a person, with a zoom lens
   ZoomScenario zoom;
-  std::string ptu_device;  // of a real unit that replaces the simulated one; empty: none
+  std::optional<PanTilt> fixed;  // the camera stands still at these angles; empty: a PTU
+  std::string ptu_device;        // of a real unit that replaces the simulated one; empty: none
 };
 
 struct TargetScenario {

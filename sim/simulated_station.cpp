@@ -4,6 +4,9 @@
 #include <utility>
 
 #include "base/clocks.h"
+#include "edge/camera/camera_handover.h"
+#include "edge/ptu/ptu_handover.h"
+#include "edge/ptu/ptu_kind.h"
 
 namespace ols::sim {
 namespace {
@@ -24,6 +27,26 @@ std::optional<clock::ClockReading> right_clock() {
 }
 
 }  // namespace
+
+// Its frames are published by the station's steps.
+class SimulatedStation::CameraInHand : public camera::Camera {
+ public:
+  explicit CameraInHand(const camera::CameraConfig& config) : config_(config) {}
+
+  std::optional<camera::Frame> next(double timeout_s) override { return handover.next(timeout_s); }
+  void set_region(const std::optional<cv::Rect2d>& target_box) override {
+    handover.set_region(target_box);
+  }
+  void trigger() override { handover.ask_trigger(); }
+  device::DeviceReport report() const override {
+    return camera::make_camera_report(config_, handover.facts(), clock_monotonic_s());
+  }
+
+  camera::CameraHandover handover;
+
+ private:
+  const camera::CameraConfig config_;
+};
 
 // Its bytes are moved by the station's steps.
 class SimulatedStation::UnitInHand : public ptu::PtuHandover {
@@ -67,8 +90,8 @@ void SimulatedStation::restart() {
 }
 
 station::Head SimulatedStation::head(const station::StationSettings& settings) {
-  auto camera = std::make_unique<camera::Camera>(settings.camera);
-  auto ptu = std::make_unique<UnitInHand>(settings.ptu);
+  auto camera = std::make_unique<CameraInHand>(settings.camera->config());
+  auto ptu = std::make_unique<UnitInHand>(settings.mount.as<ptu::PtuKind>()->unit);
   camera_ = camera.get();
   ptu_ = ptu.get();
   return {std::move(camera), std::move(ptu)};
@@ -119,7 +142,7 @@ void SimulatedStation::expose(double time_s) {
   const ViewTruth view = renderer_->draw(exposure, frame.gray);
   sent_.push_back({utime_us, exposure, view});
   statistics_.add(clock_monotonic_s(), true);
-  camera_->handover().publish(std::move(frame), 0, statistics_);
+  camera_->handover.publish(std::move(frame), 0, statistics_);
 }
 
 }  // namespace ols::sim

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "edge/camera/frame_statistics.h"
 #include "edge/station_process.h"
 #include "sim/exposed_unit.h"
 #include "sim/ptu_faults.h"
@@ -26,7 +27,8 @@ class SimulatedStation {
     ViewTruth view;
   };
 
-  // What is configured beside camera and unit must be none. A time service says that its clock is
+  // The mount must be configured as a FLIR unit; what is configured beside camera and mount must be
+  // none. A time service says that its clock is
   // right. World and time must outlive it.
   SimulatedStation(const World& world, std::size_t index, station::StationSettings settings,
                    SimulatedTime& time);
@@ -40,6 +42,7 @@ class SimulatedStation {
   const std::vector<Sent>& sent() const { return sent_; }
 
  private:
+  class CameraInHand;
   class UnitInHand;
   station::Head head(const station::StationSettings& settings);
   void step(double time_s);
@@ -56,8 +59,8 @@ class SimulatedStation {
   std::int64_t exposures_ = 0, boots_ = 0, steps_ = 0;
   std::vector<Sent> sent_;
   // Of the process.
+  CameraInHand* camera_ = nullptr;
   UnitInHand* ptu_ = nullptr;
-  camera::Camera* camera_ = nullptr;
   camera::FrameStatistics statistics_;
   std::unique_ptr<station::StationProcess> process_;
 };

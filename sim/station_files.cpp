@@ -66,9 +66,15 @@ void write_devices(std::ostream& out, const Scenario& s, const StationScenario& 
   out << "\n[camera]"
       << "\ndevice = " << toml_text(station.camera_address) << "\nwidth_px = " << s.camera.width_px
       << "\nheight_px = " << s.camera.height_px << "\nframe_rate_hz = " << s.frame_rate_hz
-      << "\nexposure_us = " << 1e6 * s.exposure_s << "\nreadout_s = " << s.readout_s << "\n\n[ptu]"
-      << "\ndevice = " << toml_text(line_folder + "/" + station.ptu_line)
-      << "\nbaud = " << s.ptu.baud << "\npoll_interval_s = " << s.ptu.poll_interval_s << "\n";
+      << "\nexposure_us = " << 1e6 * s.exposure_s << "\nreadout_s = " << s.readout_s
+      << "\n\n[mount]\n";
+  if (station.fixed) {
+    out << "kind = \"fixed\"\npan_deg = " << degrees(station.fixed->pan_rad)
+        << "\ntilt_deg = " << degrees(station.fixed->tilt_rad) << "\n";
+    return;
+  }
+  out << "device = " << toml_text(line_folder + "/" + station.ptu_line) << "\nbaud = " << s.ptu.baud
+      << "\npoll_interval_s = " << s.ptu.poll_interval_s << "\n";
 }
 
 // Each station on a loopback address of its own, that of its camera.
@@ -110,7 +116,7 @@ void leave_in_order(const std::string& state_folder, const std::string& id) {
   std::filesystem::create_directories(state_folder);
   if (std::filesystem::exists(state_folder + "/" + id + ".hold")) return;
   station::PersistedStationState memory(state_folder, id, false);
-  memory.remember(station::StationState::kIdle, std::nullopt, ptu::PtuReference::kTrusted);
+  memory.remember(station::StationState::kIdle, std::nullopt, mount::Reference::kTrusted);
 }
 
 }  // namespace

@@ -9,10 +9,11 @@ namespace ols::wire {
 namespace {
 
 // What an operator is told of a reason that a station counts; of others, the reason itself.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 32> kWords{{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 33> kWords{{
     {"box_outside_or_too_small", "the box is not inside the picture, or too small"},
     {"cues_not_allowed", "the fusion only shows cues ([cues] allow)"},
     {"emergency", "the emergency stop holds; release it and re-arm first"},
+    {"fixed_mount", "its camera stands on a fixed mount, which does not move"},
     {"frame_service", "the station sends no picture"},
     {"from_the_future", "it is stamped ahead of the station's clock; compare the clocks"},
     {"just_stopped", "it was stopped less than a second ago; try again"},

@@ -71,6 +71,7 @@ std::vector<Precondition> preconditions(const StationFacts& facts, const Wanted&
   add(!facts.follows_target, true, "it follows nothing",
       "the station follows a target: release it, or wait");
   add(facts.unit_works, true, "the pan-tilt unit answers", "the pan-tilt unit does not work");
+  if (!facts.moves) add(false, true, "", "the station's mount is fixed: a procedure would move it");
   add(facts.limits_known, true, "the unit is homed", "the unit's reference is missing: home it");
   add(facts.camera_works, true, "the camera delivers pictures", "the camera does not work");
   add(facts.image_width_px == wanted.image_width_px &&

@@ -13,6 +13,7 @@ inline constexpr const char* kAnotherDevice = "calibration: another ";
 // From a station's status.
 struct StationFacts {
   bool camera_works = false, unit_works = false;
+  bool moves = true;          // false: a fixed mount
   bool limits_known = false;  // the unit is homed and has reported its travel
   bool stopped = false, emergency = false;
   bool held_by_hand = false;  // under manual operation, by anyone

@@ -196,9 +196,9 @@ std::variant<StationPlace, MessageRefusal> station_place_from(const std::string&
   StationPlace place{message.station, {}};
   place.traits.calibration = {calibration_state(message.calibration_state),
                               message.calibration_utime, message.calibration_sd_rad};
-  // An overview station is driven by a person.
+  // An overview station is driven by a person, a fixed one by nobody.
   place.traits.commandable =
-      commandable(message.state) && message.kind != ols_msg::station_status_t::KIND_OVERVIEW;
+      commandable(message.state) && message.kind == ols_msg::station_status_t::KIND_TRACKING;
   if (message.position_source == ols_msg::station_status_t::POSE_NONE) {
     place.no_place = MessageRefusal::kNoPosition;
     return place;

@@ -100,7 +100,8 @@ std::string station_example() {
                   {"camera.device", "\"Allied Vision Technologies-02-2150A-06321\""},
                   {"lens.fx_px", "13333.3"},
                   {"lens.fy_px", "13333.3"},
-                  {"ptu.device", "\"/dev/ols/ptu\""}}) +
+                  {"mount.kind", "\"flir\""},
+                  {"mount.device", "\"/dev/ols/ptu\""}}) +
          "\n# Where there are GPIO lines:\n" +
          commented(example("", gpio_only,
                            {{"gpio.chip", "\"/dev/gpiochip0\""},

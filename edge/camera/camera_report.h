@@ -6,6 +6,7 @@
 #include <string>
 
 #include "edge/camera/camera_config.h"
+#include "edge/camera/exposure.h"
 #include "edge/camera/frame.h"
 #include "edge/camera/ptp.h"
 #include "edge/device/device_report.h"

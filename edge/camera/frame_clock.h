@@ -4,12 +4,14 @@
 #include <cstdint>
 #include <optional>
 
-#include "edge/camera/camera_config.h"
 #include "edge/camera/clock_map.h"
 #include "edge/camera/exposure_log.h"
 #include "edge/camera/frame.h"
 
 namespace ols::camera {
+
+// The instant of the exposure that the camera's time stamp refers to; differs by model.
+enum class StampAt { kExposureStart, kExposureEnd };
 
 struct FrameTime {
   double mid_exposure_s = 0.0;

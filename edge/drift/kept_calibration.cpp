@@ -63,11 +63,11 @@ bool KeptCalibration::adopts(double now_s, bool idle,
   return !known;
 }
 
-void KeptCalibration::set_limits(const ptu::PtuLimits& limits) {
+void KeptCalibration::set_limits(const mount::Limits& limits) {
   if (views_) views_->set_limits(limits);
 }
 
-std::optional<ptu::ServoGoal> KeptCalibration::step(const ViewTour::Situation& situation) {
+std::optional<mount::Goal> KeptCalibration::step(const ViewTour::Situation& situation) {
   return views_ ? views_->step(situation) : std::nullopt;
 }
 

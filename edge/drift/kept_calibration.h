@@ -33,9 +33,9 @@ class KeptCalibration {
   bool adopts(double now_s, bool idle, const std::vector<device::DeviceReport>& devices,
               const PanTilt& count_rad);
 
-  void set_limits(const ptu::PtuLimits& limits);
+  void set_limits(const mount::Limits& limits);
   // Call in every turn. The goal of a check of the reference views, while the station is free.
-  std::optional<ptu::ServoGoal> step(const ViewTour::Situation& situation);
+  std::optional<mount::Goal> step(const ViewTour::Situation& situation);
   void see(const camera::Frame& frame);
   // Requests a check soon: the unit has homed.
   void note_homings(std::uint64_t homings);

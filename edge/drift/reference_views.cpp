@@ -87,7 +87,7 @@ std::string ReferenceViews::picture(std::size_t view) const {
          counts(at.tilt_rad, count_->tilt_rad) + ".png";
 }
 
-void ReferenceViews::set_limits(const ptu::PtuLimits& limits) {
+void ReferenceViews::set_limits(const mount::Limits& limits) {
   if (count_ || limits.count.pan_rad <= 0.0) return;
   count_ = limits.count;
   tour_.plan(limits, *count_);
@@ -120,7 +120,7 @@ bool ReferenceViews::loaded() {
   return true;
 }
 
-std::optional<ptu::ServoGoal> ReferenceViews::step(const ViewTour::Situation& situation) {
+std::optional<mount::Goal> ReferenceViews::step(const ViewTour::Situation& situation) {
   record_.note(situation.now_s);
   if (!loaded()) return std::nullopt;
   const bool was = tour_.under_way();

@@ -36,9 +36,9 @@ class ReferenceViews {
   ReferenceViews(const ReferenceViews&) = delete;  // its tour asks it for the sun
 
   // Sets the unit's travel, once it is known. Starts to read the stored pictures.
-  void set_limits(const ptu::PtuLimits& limits);
+  void set_limits(const mount::Limits& limits);
   void request() { tour_.request(); }
-  std::optional<ptu::ServoGoal> step(const ViewTour::Situation& situation);
+  std::optional<mount::Goal> step(const ViewTour::Situation& situation);
   void see(const camera::Frame& frame);
 
   // Whether the stored pictures are read; call in every turn.

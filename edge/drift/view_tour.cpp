@@ -25,7 +25,7 @@ double whole(double angle_rad, double count_rad) {
 
 }  // namespace
 
-void ViewTour::plan(const ptu::PtuLimits& limits, const PanTilt& count) {
+void ViewTour::plan(const mount::Limits& limits, const PanTilt& count) {
   count_ = count;
   views_.clear();
   left_out_.clear();
@@ -39,7 +39,7 @@ void ViewTour::plan(const ptu::PtuLimits& limits, const PanTilt& count) {
     const PanTilt view{whole(middle_rad + (i - 0.5 * (kViews - 1)) * apart_rad, count.pan_rad),
                        whole(tilt_rad, count.tilt_rad)};
     PanTilt goal = view;
-    if (reach(limits, view, goal) == ptu::Reach::kUnreachable) continue;
+    if (reach(limits, view, goal) == mount::Reach::kUnreachable) continue;
     views_.push_back(view);
   }
 }
@@ -71,7 +71,7 @@ PanTilt ViewTour::target() const {
   return {view.pan_rad - kBeside_rad, view.tilt_rad - kBeside_rad};
 }
 
-std::optional<ptu::ServoGoal> ViewTour::step(const Situation& situation) {
+std::optional<mount::Goal> ViewTour::step(const Situation& situation) {
   const double now_s = situation.now_s;
   if (!situation.free || views_.size() < kFewest) {
     if (view_) requested_ = true;  // anew, when there is time again
@@ -94,7 +94,7 @@ std::optional<ptu::ServoGoal> ViewTour::step(const Situation& situation) {
     return std::nullopt;
   }
   note_arrival(situation);
-  return ptu::ServoGoal{now_s, target(), {}, now_s + kGoal_s};
+  return mount::Goal{now_s, target(), {}, now_s + kGoal_s};
 }
 
 bool ViewTour::is_due(double now_s) const {

@@ -8,7 +8,8 @@
 #include <optional>
 #include <vector>
 
-#include "edge/ptu/servo.h"
+#include "edge/mount/goal.h"
+#include "edge/mount/limits.h"
 
 namespace ols::station {
 
@@ -36,7 +37,7 @@ class ViewTour {
 
   // Plans the views that this travel allows: four a quarter turn apart, or closer; with fewer than
   // three, no round is made. `count`: of the unit [rad].
-  void plan(const ptu::PtuLimits& limits, const PanTilt& count);
+  void plan(const mount::Limits& limits, const PanTilt& count);
   const std::vector<PanTilt>& views() const { return views_; }  // reported angles
   // Requests a check soon: after homing, by command, or to confirm a finding.
   void request() { requested_ = true; }
@@ -49,7 +50,7 @@ class ViewTour {
   bool under_way() const { return view_.has_value(); }
 
   // Call in every turn. The unit's goal; nullopt: no round.
-  std::optional<ptu::ServoGoal> step(const Situation& situation);
+  std::optional<mount::Goal> step(const Situation& situation);
   // The view of a frame with this mid-exposure; nullopt: none, or not needed.
   std::optional<std::size_t> see(double mid_exposure_s);
 

@@ -6,8 +6,8 @@ namespace ols::ptu {
 
 namespace {
 
-AngleHistory::Config history_config(const PtuConfig& config, const PtuFacts& facts) {
-  AngleHistory::Config history = config.history;
+mount::AngleHistory::Config history_config(const PtuConfig& config, const PtuFacts& facts) {
+  mount::AngleHistory::Config history = config.history;
   history.step_rad = facts.pan.resolution_rad;
   return history;
 }

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "edge/device/reading_queue.h"
-#include "edge/ptu/angle_history.h"
+#include "edge/mount/angle_history.h"
 #include "edge/ptu/driver_types.h"
 #include "edge/ptu/poll_cycle.h"
 #include "edge/ptu/position_check.h"
@@ -30,7 +30,7 @@ class AngleIntake {
   PanTilt rate_rad_s() const { return check_.rate_rad_s(); }
   bool standing() const { return check_.standing(); }
 
-  std::vector<AngleSample> take_samples() { return samples_.take(); }
+  std::vector<mount::AngleSample> take_samples() { return samples_.take(); }
   std::optional<double> last_good_s() const { return last_good_s_; }  // when it was taken in
 
  private:
@@ -38,9 +38,9 @@ class AngleIntake {
 
   const double poll_interval_s_, acceleration_max_rad_s2_;
   PositionCheck check_;
-  AngleHistory history_;
+  mount::AngleHistory history_;
   PanTilt change_rad_s_;  // commanded since the last sample
-  device::ReadingQueue<AngleSample> samples_;
+  device::ReadingQueue<mount::AngleSample> samples_;
   std::optional<double> last_good_s_;
 };
 

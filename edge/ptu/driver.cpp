@@ -280,8 +280,8 @@ void PtuDriver::leave_homing() {
   if (homing && homing->ordered_s) reference_.homing_interrupted();
 }
 
-void PtuDriver::set_goal(const std::optional<ServoGoal>& goal) {
-  const bool accepted = reference() == PtuReference::kTrusted && !emergency_;
+void PtuDriver::set_goal(const std::optional<mount::Goal>& goal) {
+  const bool accepted = reference() == mount::Reference::kTrusted && !emergency_;
   if (ready()) ready()->set_goal(accepted ? goal : std::nullopt);
 }
 
@@ -302,10 +302,10 @@ std::string PtuDriver::emergency_halt(double time_s) {
 }
 
 void PtuDriver::reference_ok() {
-  if (reference() == PtuReference::kDoubted) reference_.acknowledge();
+  if (reference() == mount::Reference::kDoubted) reference_.acknowledge();
 }
 
-void PtuDriver::restore_doubt(const std::optional<PtuReferenceDoubt>& doubt) {
+void PtuDriver::restore_doubt(const std::optional<mount::ReferenceDoubt>& doubt) {
   if (doubt) reference_.restore(*doubt);
 }
 
@@ -315,26 +315,26 @@ void PtuDriver::restart(double time_s) {
   start(PtuStarting::Purpose::kDrive, time_s);
 }
 
-std::vector<AngleSample> PtuDriver::take_samples() {
+std::vector<mount::AngleSample> PtuDriver::take_samples() {
   if (!ready()) return {};
-  std::vector<AngleSample> samples = ready()->take_samples();
-  if (reference() != PtuReference::kTrusted) samples.clear();
+  std::vector<mount::AngleSample> samples = ready()->take_samples();
+  if (reference() != mount::Reference::kTrusted) samples.clear();
   return samples;
 }
 
 // A fault lasts until the unit can be driven again.
 PtuState PtuDriver::state() const {
-  if (reference() == PtuReference::kTrusted) return PtuState::kReady;
+  if (reference() == mount::Reference::kTrusted) return PtuState::kReady;
   return homing() || progress_ == Progress::kNone ? PtuState::kStarting : PtuState::kFault;
 }
 
-PtuReference PtuDriver::reference() const {
+mount::Reference PtuDriver::reference() const {
   if (ready()) {
     const auto doubt = reference_.doubt();
-    if (!doubt) return PtuReference::kTrusted;
-    return doubt->gears_lost ? PtuReference::kMissing : PtuReference::kDoubted;
+    if (!doubt) return mount::Reference::kTrusted;
+    return doubt->gears_lost ? mount::Reference::kMissing : mount::Reference::kDoubted;
   }
-  return homing() || reference_.missing() ? PtuReference::kMissing : PtuReference::kUnknown;
+  return homing() || reference_.missing() ? mount::Reference::kMissing : mount::Reference::kUnknown;
 }
 
 bool PtuDriver::homing() const {
@@ -345,18 +345,20 @@ bool PtuDriver::homing() const {
 
 // A unit that must be homed is in doubt; should the process end while it homes, the homing counts
 // as broken off.
-std::optional<PtuReferenceDoubt> PtuDriver::doubt_to_persist() const {
-  std::optional<PtuReferenceDoubt> doubt = reference_.doubt();
-  if (!doubt && reference() == PtuReference::kMissing) doubt.emplace();
+std::optional<mount::ReferenceDoubt> PtuDriver::doubt_to_persist() const {
+  std::optional<mount::ReferenceDoubt> doubt = reference_.doubt();
+  if (!doubt && reference() == mount::Reference::kMissing) doubt.emplace();
   if (doubt && homing()) doubt->homing_broken_off = true;
   return doubt;
 }
 
 bool PtuDriver::not_referenced() const {
-  return reference_.missing() || (ready() && reference() == PtuReference::kMissing);
+  return reference_.missing() || (ready() && reference() == mount::Reference::kMissing);
 }
 
-const PtuLimits& PtuDriver::limits() const { return ready() ? ready()->limits() : config_.limits; }
+const mount::Limits& PtuDriver::limits() const {
+  return ready() ? ready()->limits() : config_.limits;
+}
 
 std::string PtuDriver::firmware() const {
   return ready() ? ready()->facts().firmware : std::string();

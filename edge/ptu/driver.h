@@ -38,7 +38,7 @@ class PtuDriver {
 
   // The goal of the unit from now on; nothing: halt. Takes effect with the next poll. Dropped in
   // an emergency and whenever the unit or its reference is lost.
-  void set_goal(const std::optional<ServoGoal>& goal);
+  void set_goal(const std::optional<mount::Goal>& goal);
 
   // Nothing moves from now on: halts are sent until the unit was seen to stand, and no other motion
   // command before clear_emergency(). Returns the bytes to write at once; drop bytes that are not
@@ -57,7 +57,7 @@ class PtuDriver {
   // An operator confirms the reference: the unit was homed by hand, or checked.
   void reference_ok();
   // Restores the doubt that an earlier process persisted.
-  void restore_doubt(const std::optional<PtuReferenceDoubt>& doubt);
+  void restore_doubt(const std::optional<mount::ReferenceDoubt>& doubt);
 
   // Starts the unit again, for example because the port was reopened.
   void restart(double time_s);
@@ -66,21 +66,21 @@ class PtuDriver {
   bool take_link_loss() { return std::exchange(link_lost_, false); }
 
   // Angle samples since the last call.
-  std::vector<AngleSample> take_samples();
+  std::vector<mount::AngleSample> take_samples();
 
   PtuState state() const;
   const PtuCounters& counters() const { return counters_; }
-  const PtuLimits& limits() const;  // those in force; meaningful once ready
-  std::string firmware() const;     // answer to V; empty until ready
-  std::string last_error() const;   // empty: no error so far
+  const mount::Limits& limits() const;  // those in force; meaningful once ready
+  std::string firmware() const;         // answer to V; empty until ready
+  std::string last_error() const;       // empty: no error so far
   std::optional<PtuEnvironment> environment() const;
   std::optional<double> last_good_s() const;  // time of the newest angle sample
   bool not_referenced() const;                // the unit must be homed
   bool homing() const;                        // from home() until the unit is ready again
-  PtuReference reference() const;
+  mount::Reference reference() const;
   std::optional<PtuDoubtCause> doubt() const { return reference_.cause(); }
   // For the next process, if this one ends now.
-  std::optional<PtuReferenceDoubt> doubt_to_persist() const;
+  std::optional<mount::ReferenceDoubt> doubt_to_persist() const;
   std::optional<PtuLoweredSpeed> lowered_speed() const;
   bool standing() const;  // seen not to move
 

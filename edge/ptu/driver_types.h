@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "edge/ptu/angle_history.h"
+#include "edge/mount/angle_history.h"
 #include "edge/ptu/servo.h"
 
 namespace ols::ptu {
@@ -14,14 +14,6 @@ namespace ols::ptu {
 enum class PtuRehome {
   kNever,             // a fault until a person homes the unit or confirms its reference
   kWhenUnreferenced,  // R, once after each loss
-};
-
-// How far the unit's angles can be trusted.
-enum class PtuReference {
-  kUnknown,  // no usable unit
-  kMissing,  // the unit must be homed, or it is homing
-  kDoubted,  // no samples, and goals are ignored, until it was homed or its reference confirmed
-  kTrusted,
 };
 
 // The unit accelerates less than configured, so the driver limits its speed until it stops in time.
@@ -44,8 +36,8 @@ struct PtuConfig {
   bool homes_at_power_up = true;
   bool home_despite_keep_out = false;                  // on command
   char step_mode = 0, hold_power = 0, move_power = 0;  // PtuStartOptions
-  PtuLimits limits;                                    // narrowed by what the unit reports
-  AngleHistory::Config history;
+  mount::Limits limits;                                // narrowed by what the unit reports
+  mount::AngleHistory::Config history;
   ServoConfig servo;
 };
 

@@ -24,8 +24,8 @@ double max_within(const PtuAxisFacts& facts, double max_rad) {
   return std::floor(max_rad / facts.resolution_rad + kRounding_counts);
 }
 
-PtuLimits narrowed(const PtuLimits& configured, const PtuFacts& facts) {
-  PtuLimits both = configured;
+mount::Limits narrowed(const mount::Limits& configured, const PtuFacts& facts) {
+  mount::Limits both = configured;
   both.pan_min_rad = std::max(both.pan_min_rad, facts.pan.min * facts.pan.resolution_rad);
   both.pan_max_rad = std::min(both.pan_max_rad, facts.pan.max * facts.pan.resolution_rad);
   both.tilt_min_rad = std::max(both.tilt_min_rad, facts.tilt.min * facts.tilt.resolution_rad);
@@ -55,8 +55,8 @@ std::string axis_conflict(const char* name, const PtuAxisFacts& facts, const Ran
 
 }  // namespace
 
-std::string limits_conflict(const PtuLimits& configured, const PtuFacts& facts) {
-  const PtuLimits both = narrowed(configured, facts);
+std::string limits_conflict(const mount::Limits& configured, const PtuFacts& facts) {
+  const mount::Limits both = narrowed(configured, facts);
   std::string pan =
       axis_conflict("pan", facts.pan, {configured.pan_min_rad, configured.pan_max_rad},
                     {both.pan_min_rad, both.pan_max_rad});
@@ -97,7 +97,7 @@ MotionCommands::Axis MotionCommands::axis(PtuAxis name, const PtuAxisFacts& fact
           static_cast<std::int32_t>(max_within(facts, max_rad))};
 }
 
-PtuRequest MotionCommands::next(const std::optional<ServoGoal>& goal, const Now& now,
+PtuRequest MotionCommands::next(const std::optional<mount::Goal>& goal, const Now& now,
                                 double time_s) {
   const auto command = servo_step(servo_, limits_, goal, now.angles, time_s, now.rate_rad_s);
   if (!command) return halt(now, time_s);

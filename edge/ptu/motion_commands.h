@@ -12,7 +12,7 @@
 namespace ols::ptu {
 
 // Why no axis position satisfies both configuration and unit; empty if there is one.
-std::string limits_conflict(const PtuLimits& configured, const PtuFacts& facts);
+std::string limits_conflict(const mount::Limits& configured, const PtuFacts& facts);
 
 class MotionCommands {
  public:
@@ -27,7 +27,7 @@ class MotionCommands {
   };
 
   // What to send at `time_s`.
-  PtuRequest next(const std::optional<ServoGoal>& goal, const Now& now, double time_s);
+  PtuRequest next(const std::optional<mount::Goal>& goal, const Now& now, double time_s);
   // Halts, repeatedly until the unit is stationary.
   PtuRequest halt(const Now& now, double time_s);
   PtuRequest halt_again(const Now& now, double time_s);
@@ -38,7 +38,7 @@ class MotionCommands {
   // By how much the last commands change the speeds of the axes.
   const PanTilt& speed_change_rad_s() const { return change_; }
 
-  const PtuLimits& limits() const { return limits_; }
+  const mount::Limits& limits() const { return limits_; }
   const std::optional<PtuLoweredSpeed>& lowered_speed() const { return lowered_; }
 
  private:
@@ -58,7 +58,7 @@ class MotionCommands {
 
   ServoConfig servo_;
   std::optional<PtuLoweredSpeed> lowered_;
-  PtuLimits limits_;
+  mount::Limits limits_;
   Axis pan_, tilt_;
   double braking_s_ = 0.0;    // from full speed
   double refreshed_s_ = 0.0;  // when everything was sent

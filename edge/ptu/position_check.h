@@ -8,7 +8,7 @@
 
 #include <optional>
 
-#include "edge/ptu/angle_history.h"
+#include "edge/mount/angle_history.h"
 #include "edge/ptu/poll_cycle.h"
 #include "edge/ptu/start_sequence.h"
 
@@ -28,7 +28,7 @@ class PositionCheck {
   };
   // `commanded_rad_s2`: the approximate commanded acceleration.
   Verdict take(const PtuReadings& pan, const PtuReadings& tilt, const PanTilt& commanded_rad_s2);
-  const AngleSample& sample() const { return sample_; }
+  const mount::AngleSample& sample() const { return sample_; }
 
   // Over the last two accepted pairs; 0 when not known.
   PanTilt rate_rad_s() const;
@@ -41,7 +41,7 @@ class PositionCheck {
     double time_sd_s = 0.0;
     double counts = 0.0;
     double doubt_counts = 0.0;
-    double step_share = 1.0;  // AngleSample::step_share
+    double step_share = 1.0;  // mount::AngleSample::step_share
   };
   struct Axis {
     PtuAxisFacts facts;
@@ -58,7 +58,7 @@ class PositionCheck {
   static void remember(Axis& axis, const Merged& now);
 
   Axis pan_, tilt_;
-  AngleSample sample_;
+  mount::AngleSample sample_;
 };
 
 }  // namespace ols::ptu

@@ -22,7 +22,7 @@ void check_order(ConfigTable& table, double pan_min_rad, double pan_max_rad, dou
     throw table.error("tilt_max_deg", "must be greater than tilt_min_deg");
 }
 
-std::vector<config::Row> keep_out_rows(KeepOut& region) {
+std::vector<config::Row> keep_out_rows(mount::KeepOut& region) {
   return {
       config::number("pan_min_deg", region.pan_min_rad, kPan_deg, station::in_degrees(),
                      "Border at the lesser pan angle.")
@@ -39,13 +39,13 @@ std::vector<config::Row> keep_out_rows(KeepOut& region) {
   };
 }
 
-config::Section keep_out_section(PtuLimits& limits) {
+config::Section keep_out_section(mount::Limits& limits) {
   config::Section section{
       "keep_out",
       "A region that the unit never enters or sweeps across, in the angles that "
       "it reports; up to 12 of them."};
   section.append = [&limits] {
-    KeepOut& region = limits.keep_out.emplace_back();
+    mount::KeepOut& region = limits.keep_out.emplace_back();
     return config::Section{"", "", keep_out_rows(region), {}, [&region](ConfigTable& table) {
                              check_order(table, region.pan_min_rad, region.pan_max_rad,
                                          region.tilt_min_rad, region.tilt_max_rad);
@@ -89,7 +89,7 @@ std::vector<config::Row> line_rows(PtuConfig& c) {
 }
 
 std::vector<config::Row> motion_rows(PtuConfig& c) {
-  PtuLimits& l = c.limits;
+  mount::Limits& l = c.limits;
   return {
       config::number("pan_min_deg", l.pan_min_rad, kPan_deg, station::in_degrees(),
                      "Narrows the unit's own travel."),
@@ -171,8 +171,8 @@ constexpr double kAccelerationSdShare = 0.04;
 config::Section ptu_section(PtuConfig& c) {
   auto rows = line_rows(c);
   std::ranges::move(motion_rows(c), std::back_inserter(rows));
-  return {"ptu",
-          "The pan-tilt unit.",
+  return {"mount",
+          "",
           rows,
           {keep_out_section(c.limits), servo_section(c.servo)},
           [&c](ConfigTable& table) {

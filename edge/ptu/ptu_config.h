@@ -1,4 +1,4 @@
-// The PTU's part of a station's configuration file.
+// The configuration of a FLIR unit.
 #pragma once
 
 #include "edge/ptu/driver.h"
@@ -8,6 +8,6 @@ struct Section;
 }
 namespace ols::ptu {
 
-config::Section ptu_section(PtuConfig& config);  // [ptu]
+config::Section ptu_section(PtuConfig& config);  // of [mount]
 
 }  // namespace ols::ptu

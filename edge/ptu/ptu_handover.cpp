@@ -9,14 +9,20 @@ PtuHandover::PtuHandover(const PtuConfig& config) : config_(config), driver_(con
   driver_.allow_rehoming(false);
 }
 
-void PtuHandover::set_goal(const std::optional<ServoGoal>& goal) {
+void PtuHandover::set_goal(const std::optional<mount::Goal>& goal) {
   const std::lock_guard lock(mutex_);
   driver_.set_goal(emergency_ ? std::nullopt : goal);
 }
 
-std::vector<AngleSample> PtuHandover::take_samples() {
+std::vector<mount::AngleSample> PtuHandover::take_samples() {
   const std::lock_guard lock(mutex_);
   return driver_.take_samples();
+}
+
+std::optional<mount::Limits> PtuHandover::limits() const {
+  const std::lock_guard lock(mutex_);
+  if (!link().is_open || driver_.state() != PtuState::kReady) return std::nullopt;
+  return driver_.limits();
 }
 
 // Without the lock: it must not wait for the thread.
@@ -47,7 +53,7 @@ void PtuHandover::allow_rehoming(bool allowed) {
   driver_.allow_rehoming(allowed);
 }
 
-void PtuHandover::restore_doubt(const std::optional<PtuReferenceDoubt>& doubt) {
+void PtuHandover::restore_doubt(const std::optional<mount::ReferenceDoubt>& doubt) {
   const std::lock_guard lock(mutex_);
   driver_.restore_doubt(doubt);
 }
@@ -57,12 +63,17 @@ void PtuHandover::reference_ok() {
   driver_.reference_ok();
 }
 
-PtuReference PtuHandover::reference() const {
+mount::Reference PtuHandover::reference() const {
   const std::lock_guard lock(mutex_);
-  return link().is_open ? driver_.reference() : PtuReference::kUnknown;
+  return link().is_open ? driver_.reference() : mount::Reference::kUnknown;
 }
 
-std::optional<PtuReferenceDoubt> PtuHandover::doubt_to_persist() const {
+std::uint64_t PtuHandover::homings() const {
+  const std::lock_guard lock(mutex_);
+  return driver_.counters().homings;
+}
+
+std::optional<mount::ReferenceDoubt> PtuHandover::doubt_to_persist() const {
   const std::lock_guard lock(mutex_);
   return driver_.doubt_to_persist();
 }

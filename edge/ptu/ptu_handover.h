@@ -1,5 +1,5 @@
-// One PTU between the control loop and whoever moves its bytes: PtuThread on a serial line. Holds
-// the driver; hands out angle samples and state. All times are CLOCK_MONOTONIC in seconds.
+// The mount that is a FLIR unit, between the control loop and whoever moves its bytes: PtuThread on
+// a serial line. Holds the driver. All times are CLOCK_MONOTONIC in seconds.
 #pragma once
 
 #include <atomic>
@@ -11,41 +11,36 @@
 
 #include "edge/device/device_report.h"
 #include "edge/device/device_thread.h"
+#include "edge/mount/mount.h"
 #include "edge/ptu/ptu_status.h"
 
 namespace ols::ptu {
 
-// Every method may be called from any thread; none waits for the device.
-class PtuHandover {
+class PtuHandover : public mount::Mount {
  public:
   explicit PtuHandover(const PtuConfig& config);
-  virtual ~PtuHandover() = default;
-  PtuHandover(const PtuHandover&) = delete;
-  PtuHandover& operator=(const PtuHandover&) = delete;
 
-  // The goal of the unit from now on; nothing: halt.
-  void set_goal(const std::optional<ServoGoal>& goal);
+  void set_goal(const std::optional<mount::Goal>& goal) override;
+  std::vector<mount::AngleSample> take_samples() override;
+  std::optional<mount::Limits> limits() const override;
 
-  // Angle samples since the last call, oldest first.
-  std::vector<AngleSample> take_samples();
-
-  // Halts the unit at once: discards the output queue and sends H first. Nothing moves until
-  // clear_emergency(); halts are repeated until the unit was seen to stand. Software only assists a
-  // stop in hardware.
-  void emergency_halt();
-  void clear_emergency();
+  // Discards the output queue and sends H first; halts are repeated until the unit was seen to
+  // stand.
+  void emergency_halt() override;
+  void clear_emergency() override;
 
   // As in PtuDriver.
-  void home();
-  void stop_homing();
-  void allow_rehoming(bool allowed);  // not allowed at first
-  void restore_doubt(const std::optional<PtuReferenceDoubt>& doubt);
-  void reference_ok();
-  PtuReference reference() const;
-  std::optional<PtuReferenceDoubt> doubt_to_persist() const;
+  mount::Reference reference() const override;
+  void home() override;
+  void stop_homing() override;
+  void allow_rehoming(bool allowed) override;
+  std::uint64_t homings() const override;
+  void reference_ok() override;
+  void restore_doubt(const std::optional<mount::ReferenceDoubt>& doubt) override;
+  std::optional<mount::ReferenceDoubt> doubt_to_persist() const override;
 
   PtuStatus status() const;
-  device::DeviceReport report() const;
+  device::DeviceReport report() const override;
 
   // For whoever moves the bytes. A turn: what has arrived; what is to be sent, at which rate, and
   // whether the line is to be opened again.

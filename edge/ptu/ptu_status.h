@@ -26,7 +26,7 @@ struct PtuStatus {
   std::optional<double> last_good_s;  // CLOCK_MONOTONIC of the last angle
   std::optional<PtuEnvironment> environment;
   PtuCounters counters;
-  PtuLimits limits;        // meaningful once ready
+  mount::Limits limits;    // meaningful once ready
   std::string firmware;    // the unit's answer to V; empty until ready
   std::string last_error;  // of the port or of the unit; empty: no error so far
 };

@@ -91,7 +91,7 @@ std::optional<PtuDoubtCause> ReferenceWatch::cause() const {
   return doubt_ ? std::optional(doubt_->cause) : std::nullopt;
 }
 
-std::optional<PtuReferenceDoubt> ReferenceWatch::doubt() const {
+std::optional<mount::ReferenceDoubt> ReferenceWatch::doubt() const {
   return doubt_ ? std::optional(doubt_->persisted) : std::nullopt;
 }
 

@@ -7,8 +7,9 @@
 #include <map>
 #include <optional>
 
+#include "edge/mount/reference.h"
 #include "edge/ptu/codec.h"
-#include "edge/ptu/reference_doubt.h"
+#include "edge/ptu/doubt_cause.h"
 
 namespace ols::ptu {
 
@@ -40,7 +41,9 @@ class ReferenceWatch {
   void homing_interrupted();
 
   // The doubt that an earlier process persisted.
-  void restore(const PtuReferenceDoubt& doubt) { doubt_ = {PtuDoubtCause::kBeforeStart, doubt}; }
+  void restore(const mount::ReferenceDoubt& doubt) {
+    doubt_ = {PtuDoubtCause::kBeforeStart, doubt};
+  }
   // The unit states its pan step. A changed step means that it lost power.
   void step_is(double pan_step_rad);
   // The unit is ready. The first time its reference is trusted: the installer checked it.
@@ -52,7 +55,7 @@ class ReferenceWatch {
   bool missing() const { return missing_; }
 
   std::optional<PtuDoubtCause> cause() const;
-  std::optional<PtuReferenceDoubt> doubt() const;
+  std::optional<mount::ReferenceDoubt> doubt() const;
   // Neither was the unit homed since its reference was last trusted nor was a homing broken off.
   bool may_home_automatically() const;
 
@@ -63,7 +66,7 @@ class ReferenceWatch {
   };
   struct Doubt {
     PtuDoubtCause cause;
-    PtuReferenceDoubt persisted;
+    mount::ReferenceDoubt persisted;
   };
   Doubt& doubt_for(PtuDoubtCause cause);
 

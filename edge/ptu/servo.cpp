@@ -117,20 +117,16 @@ AxisCommand rate_step(const ServoConfig& config, double wanted_rad_s, double now
 }
 
 // False for limits that contradict each other.
-bool room_within(const PtuLimits& limits) {
+bool room_within(const mount::Limits& limits) {
   return limits.pan_min_rad <= limits.pan_max_rad && limits.tilt_min_rad <= limits.tilt_max_rad;
 }
 
-AngleBox travel(const PtuLimits& limits) {
-  return {limits.pan_min_rad, limits.pan_max_rad, limits.tilt_min_rad, limits.tilt_max_rad};
-}
-
-PanTilt clamped(const PtuLimits& limits, const PanTilt& p) {
+PanTilt clamped(const mount::Limits& limits, const PanTilt& p) {
   return {std::clamp(p.pan_rad, limits.pan_min_rad, limits.pan_max_rad),
           std::clamp(p.tilt_rad, limits.tilt_min_rad, limits.tilt_max_rad)};
 }
 
-bool usable(const ServoGoal& goal) {
+bool usable(const mount::Goal& goal) {
   return std::isfinite(goal.time_s) && std::isfinite(goal.angles.pan_rad) &&
          std::isfinite(goal.angles.tilt_rad) && std::isfinite(goal.rate.pan_rad) &&
          std::isfinite(goal.rate.tilt_rad);
@@ -144,14 +140,14 @@ PanTilt stopping_place(const ServoConfig& config, const PanTilt& now, const PanT
 
 // The next corner of the path around the keep-out regions; nothing if the direct path is free or no
 // path exists.
-std::optional<PanTilt> corner(const PtuLimits& limits, const PanTilt& now, const PanTilt& to) {
+std::optional<PanTilt> corner(const mount::Limits& limits, const PanTilt& now, const PanTilt& to) {
   if (limits.keep_out.empty()) return std::nullopt;
   const auto way = way_round(travel(limits), limits.keep_out, now, to);
   return way && way->size() > 1 ? std::optional(way->front()) : std::nullopt;
 }
 
 // From inside a region no rate is obeyed: which way leads out of it, only a goal can say.
-std::optional<ServoCommand> rates_step(const ServoConfig& config, const PtuLimits& limits,
+std::optional<ServoCommand> rates_step(const ServoConfig& config, const mount::Limits& limits,
                                        const PanTilt& rate, const PanTilt& now,
                                        const PanTilt& now_rate) {
   if (blocked(limits.keep_out, now)) return std::nullopt;
@@ -165,8 +161,8 @@ std::optional<ServoCommand> rates_step(const ServoConfig& config, const PtuLimit
 
 }  // namespace
 
-std::optional<ServoCommand> servo_step(const ServoConfig& config, const PtuLimits& limits,
-                                       const std::optional<ServoGoal>& goal, const PanTilt& now,
+std::optional<ServoCommand> servo_step(const ServoConfig& config, const mount::Limits& limits,
+                                       const std::optional<mount::Goal>& goal, const PanTilt& now,
                                        double time_s, const PanTilt& now_rate) {
   if (!goal || !(time_s <= goal->valid_until_s)) return std::nullopt;
   const double dt_s = time_s - goal->time_s;
@@ -213,45 +209,6 @@ double max_safe_speed_rad_s(const ServoConfig& config) {
   if (!runs_on_too_long(config)) return config.max_speed_rad_s;
   const double braking_s = kRunsOnAtMost_s - runs_on_s(config, 0.0);
   return std::max(0.0, braking_s * config.max_acceleration_rad_s2);
-}
-
-namespace {
-
-// How far it is to go there; nothing: no way.
-std::optional<double> way_length(const PtuLimits& limits, const PanTilt& now, const PanTilt& to) {
-  if (to.pan_rad < limits.pan_min_rad || to.pan_rad > limits.pan_max_rad) return std::nullopt;
-  if (limits.keep_out.empty()) return std::abs(to.pan_rad - now.pan_rad);
-  const auto way = way_round(travel(limits), limits.keep_out, now, to);
-  if (!way) return std::nullopt;
-  double sum = 0.0;
-  PanTilt at = now;
-  for (const PanTilt& next : *way) {
-    sum += std::abs(next.pan_rad - at.pan_rad) + std::abs(next.tilt_rad - at.tilt_rad);
-    at = next;
-  }
-  return sum;
-}
-
-}  // namespace
-
-Reach reach(const PtuLimits& limits, const PanTilt& now, PanTilt& angles) {
-  if (!std::isfinite(angles.pan_rad) || !std::isfinite(angles.tilt_rad)) return Reach::kUnreachable;
-  if (angles.tilt_rad < limits.tilt_min_rad || angles.tilt_rad > limits.tilt_max_rad) {
-    return Reach::kUnreachable;
-  }
-  const double nearest_rad = now.pan_rad + wrap_pi(angles.pan_rad - now.pan_rad);
-  std::optional<double> best_rad, shortest;
-  for (const double turn : {0.0, -2.0 * kPi, 2.0 * kPi}) {
-    const PanTilt there{nearest_rad + turn, angles.tilt_rad};
-    const auto way = way_length(limits, now, there);
-    if (!way || (shortest && *way >= *shortest)) continue;
-    shortest = way;
-    best_rad = there.pan_rad;
-  }
-  if (!best_rad) return Reach::kUnreachable;
-  angles.pan_rad = *best_rad;
-  const bool straight = *best_rad == nearest_rad && !blocked(limits.keep_out, spanned(now, angles));
-  return straight ? Reach::kDirect : Reach::kLongWayRound;
 }
 
 }  // namespace ols::ptu

@@ -9,9 +9,9 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
-#include "edge/ptu/keep_out.h"
+#include "edge/mount/goal.h"
+#include "edge/mount/limits.h"
 #include "geometry/kinematic_chain.h"
 
 namespace ols::ptu {
@@ -25,36 +25,18 @@ struct ServoConfig {
   double goal_timeout_s = 0.5;  // a goal older than this is stale: halt
 };
 
-// Angles to reach at an instant, and their rates.
-struct ServoGoal {
-  double time_s = 0.0;  // station's monotonic clock
-  PanTilt angles;
-  PanTilt rate;                // [rad/s] feed-forward; 0 for a fixed goal
-  double valid_until_s = 0.0;  // the servo halts after this
-  bool rate_only = false;      // only the rates are wanted, from wherever the unit is
-  bool rests = false;          // a fixed goal that nothing moves: the unit is to come to rest there
-};
-
 // Target position and speed of each axis.
 struct ServoCommand {
   PanTilt position;  // [rad]
   PanTilt speed;     // [rad/s] magnitudes
 };
 
-struct PtuLimits {  // [rad], as reported by the unit, narrowed by the configuration
-  double pan_min_rad = -2.7, pan_max_rad = 2.7;
-  double tilt_min_rad = -0.8, tilt_max_rad = 0.5;
-  std::vector<KeepOut> keep_out = {};  // never entered, never swept across
-  // What the unit says that a count is; 0: not known yet.
-  PanTilt count = {};
-};
-
 // The command of one cycle from the goal and the current angles and rates. Nothing: halt (no goal,
 // stale goal, contradictory limits). Rates alone end at the limits and at the regions' borders. A
 // goal behind a keep-out region is approached around it, corner by corner; a goal inside a region
 // is approached up to its border.
-std::optional<ServoCommand> servo_step(const ServoConfig& config, const PtuLimits& limits,
-                                       const std::optional<ServoGoal>& goal, const PanTilt& now,
+std::optional<ServoCommand> servo_step(const ServoConfig& config, const mount::Limits& limits,
+                                       const std::optional<mount::Goal>& goal, const PanTilt& now,
                                        double time_s, const PanTilt& now_rate = {});
 
 // How long the unit still moves at most when its host fails while it moves at this speed.
@@ -67,12 +49,5 @@ bool runs_on_too_long(const ServoConfig& config);
 // The configured maximum speed, or a lower one so that the unit does not move on for too long; 0 if
 // no speed satisfies this.
 double max_safe_speed_rad_s(const ServoConfig& config);
-
-enum class Reach { kDirect, kLongWayRound, kUnreachable };
-
-// Whether the unit can point there. Pan angles that differ by 2 pi are the same direction: sets
-// `angles` to the reachable one with the shortest path from `now`. kLongWayRound: a turn in the
-// other direction, or around a keep-out region.
-Reach reach(const PtuLimits& limits, const PanTilt& now, PanTilt& angles);
 
 }  // namespace ols::ptu

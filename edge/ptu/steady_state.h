@@ -40,7 +40,7 @@ class PtuSteadyState {
   // Bytes to write now. Nothing moves in an emergency.
   std::string step(bool emergency, double time_s);
   // The goal of the unit from now on; nothing: halt.
-  void set_goal(const std::optional<ServoGoal>& goal) { goal_ = goal; }
+  void set_goal(const std::optional<mount::Goal>& goal) { goal_ = goal; }
   // `late_s`: the reply's bytes may have waited up to this long before they were read.
   void take(const PtuReply& reply, double time_s, double late_s);
   void bytes_came(double time_s) { polling_.bytes_came(time_s); }
@@ -50,9 +50,9 @@ class PtuSteadyState {
   void abandon(double time_s);
 
   const std::optional<Trouble>& trouble() const { return trouble_; }
-  std::vector<AngleSample> take_samples() { return angles_.take_samples(); }
+  std::vector<mount::AngleSample> take_samples() { return angles_.take_samples(); }
   const PtuFacts& facts() const { return facts_; }
-  const PtuLimits& limits() const { return commands_.limits(); }
+  const mount::Limits& limits() const { return commands_.limits(); }
   const std::optional<PtuEnvironment>& environment() const { return environment_.newest; }
   std::optional<double> last_good_s() const { return angles_.last_good_s(); }
   bool standing() const { return angles_.standing(); }
@@ -93,7 +93,7 @@ class PtuSteadyState {
   const PtuConfig& config_;
   const PtuFacts facts_;
   PtuCounters& counters_;
-  std::optional<ServoGoal> goal_;
+  std::optional<mount::Goal> goal_;
   MotionCommands commands_;
   Polling polling_;
   AngleIntake angles_;

@@ -1,7 +1,9 @@
 """ols-doctor beside real processes: nothing attached, devices without a station, a running site."""
 
 import json
+import math
 import os
+import re
 import shutil
 import subprocess
 import tarfile
@@ -9,10 +11,12 @@ import tomllib
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
+import ols_msg
 import pytest
 from conftest import BIN, SCENARIO, finished
 from helpers import Listener, at_frame_rate
 from ols_demo.bus import LIVE_URL
+from ols_demo.operator import Operator
 from ols_demo.site import Site
 
 OK, WARNINGS, FAILURES = 0, 1, 2
@@ -32,11 +36,21 @@ class Diagnosis:
         return {f["what"].split(":")[0] for f in self.findings if f["verdict"] == "FAIL"}
 
 
+def with_a_fixed_camera(scenario):
+    """delta stands still and looks at a drone that hardly moves."""
+    text = scenario.read_text()
+    text, hovers = re.subn(r"(?m)^amplitude_m = .*", "amplitude_m = [4.0, 4.0, 2.0]", text)
+    stands = 'id = "delta"\nfixed_pan_tilt_deg = [0.0, 11.5]\n'
+    assert hovers == 1 and text.count('id = "delta"\n') == 1, scenario
+    scenario.write_text(text.replace('id = "delta"\n', stands))
+    return scenario
+
+
 @pytest.fixture(scope="module", name="configs")
 def fixture_configs(network, tmp_path_factory):
     """The stations' files of a simulated site, and the folder of its serial lines."""
     folder = tmp_path_factory.mktemp("doctor")
-    scenario = at_frame_rate(SCENARIO, 6.0, folder)
+    scenario = with_a_fixed_camera(at_frame_rate(SCENARIO, 6.0, folder))
     command = [str(BIN / "ols-sim"), "--scenario", str(scenario), "--seed", "1"]
     command += ["--lcm-url", LIVE_URL, "--directory", str(folder / "lines")]
     (folder / "lines").mkdir()
@@ -144,6 +158,37 @@ def test_a_running_station_is_asked_and_left_alone(devices):
     known = dict(zip(before.counter_name, before.counter_value, strict=True))
     for name in ("camera_reconnects", "ptu_port_failures"):  # as when another program has opened it
         assert listener.counter("alfa", name) == known[name]
+    site.check()
+
+
+def test_a_fixed_camera_is_a_station_that_never_moves(devices):
+    """It sends bearings of what is designated in its view, and refuses motion in words."""
+    site, folder = devices
+    config = folder / "config" / "delta.toml"
+    diagnosis = Diagnosis("--config", config)
+    assert diagnosis.of("ptu")[0]["what"] == "ptu: fixed at pan 0.00, tilt 11.50 deg"
+    assert diagnosis.of("camera")[0]["verdict"] == "ok"
+    site.start_and_wait("delta", [str(BIN / "ols-station"), "--config", str(config)], "ready")
+    listener, bearings = Listener(), []
+    listener.bus.lcm.subscribe(
+        "OLS_BEARING_delta", lambda _, data: bearings.append(ols_msg.bearing_t.decode(data))
+    )
+    person = Operator(listener.bus, listener.observer, seed=1)
+
+    def followed():
+        person.act({"delta"})
+        return bearings and listener.observer.state("delta") == "tracking"
+
+    listener.wait(followed, "bearings of the drone in its view", 60.0)
+    moved = finished(BIN / "ols-ctl", "delta", "manual", "10", "5")
+    assert moved.returncode == 1
+    assert "its camera stands on a fixed mount, which does not move" in moved.stdout
+    status = listener.wait_for_status("delta")
+    assert status.kind == status.KIND_FIXED
+    assert math.degrees(status.pan_rad) == pytest.approx(0.0)
+    assert math.degrees(status.tilt_rad) == pytest.approx(11.5)
+    # Of the person's order alone: the fusion leaves it alone.
+    assert listener.counter("delta", "refused_fixed_mount") == 1
     site.check()
 
 

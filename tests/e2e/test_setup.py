@@ -159,7 +159,7 @@ def test_a_bad_answer_is_named_and_nothing_is_written(tmp_path, centre):
     assert not tripod.exists()
     # Nothing answers on these lines.
     said = set_up(tripod, good, status=2)
-    assert "station.ptu.device" in said
+    assert "station.mount.device" in said
 
 
 def test_a_station_comes_back_from_its_backup(tmp_path, centre):

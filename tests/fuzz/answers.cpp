@@ -44,8 +44,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     return 0;
   }
   // Found on the host, where the answers do not say them.
-  setup::add(answers.values, "station.camera.device", "camera");
-  setup::add(answers.values, "station.ptu.device", "/dev/ols/ptu");
+  if (!setup::has_camera(answers.values)) {
+    setup::add(answers.values, "station.camera.device", "camera");
+  }
+  if (!setup::has_mount(answers.values)) {
+    setup::add(answers.values, "station.mount.device", "/dev/ols/ptu");
+  }
   check(plan_of(answers), answers.neighbours.size());
   return 0;
 }

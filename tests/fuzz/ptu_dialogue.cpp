@@ -35,7 +35,7 @@ void interfere(ols::ptu::PtuDriver& driver, std::uint8_t what, double now_s) {
     case 11:
     case 12: {
       return driver.restore_doubt(
-          ols::ptu::doubt_from_word(ols::ptu::doubt_words().at(what == 5 ? 1 : what - 8)));
+          ols::mount::doubt_from_word(ols::mount::doubt_words().at(what == 5 ? 1 : what - 8)));
     }
     case 6:
       return driver.reference_ok();
@@ -66,7 +66,7 @@ void drive(std::string_view rest) {
   double now_s = 0.0;
   for (int step = 0; step < 400 && !rest.empty(); ++step) {
     now_s += 0.01;
-    driver.set_goal(ols::ptu::ServoGoal{now_s, {0.3, 0.1}, {0.2, 0.0}, now_s + 0.5});
+    driver.set_goal(ols::mount::Goal{now_s, {0.3, 0.1}, {0.2, 0.0}, now_s + 0.5});
     const std::string request = driver.step(now_s);
     ols::fuzz::require(request.size() < 512, "requests are short");
     ols::fuzz::require(!driver.in_emergency() || request.find(" R ") == std::string::npos,
@@ -135,7 +135,7 @@ void dialogue(ols::fuzz::Input input) {
   ols::ptu::PtuDriver driver(driver_config);
   driver.restart(0.0);
   for (double now_s = 0.0; now_s < 1.5; now_s += 0.01) {
-    driver.set_goal(ols::ptu::ServoGoal{now_s, {2.0 * now_s, 0.1}, {2.0, 0.0}, now_s + 0.5});
+    driver.set_goal(ols::mount::Goal{now_s, {2.0 * now_s, 0.1}, {2.0, 0.0}, now_s + 0.5});
     if (const std::string request = driver.step(now_s); !request.empty()) {
       unit.receive(request, now_s);
     }

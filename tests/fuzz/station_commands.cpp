@@ -17,7 +17,7 @@ ols::station::StationSettings settings() {
   return made;
 }
 
-void check_goal(const ols::station::Station& station, const ols::ptu::PtuLimits& limits,
+void check_goal(const ols::station::Station& station, const ols::mount::Limits& limits,
                 double now_s) {
   const auto goal = station.goal(now_s);
   if (!goal) return;
@@ -36,7 +36,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (size > 4096) return 0;
   static const ols::station::StationSettings kSettings = settings();
   ols::station::Station station(kSettings.station, std::make_unique<ols::fuzz::NoTracker>());
-  station.set_reference(ols::ptu::PtuReference::kTrusted);
+  station.set_reference(ols::mount::Reference::kTrusted);
   station.on_angles({kNow_s - 0.02, 1e-4, {0.0, 0.0}, {}});
   ols::station::CommandTurn turn(station);
   ols::station::StationBus bus(kSettings, 1, station, turn,

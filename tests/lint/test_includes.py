@@ -51,7 +51,18 @@ LAST_WORDS = {
     *("main", "process", "thread", "signal", "handover"),  # the operating system
     *("folder", "store", "recorder", "recording"),  # the disk
     *("bus", "link", "server", "session", "socket", "stream", "inlet", "outlet", "puller"),
-    *("line", "port", "camera", "gnss", "gpio", "gpsd", "libgpiod", "inclinometer", "motor"),
+    *(
+        "line",
+        "port",
+        "camera",
+        "mount",
+        "gnss",
+        "gpio",
+        "gpsd",
+        "libgpiod",
+        "inclinometer",
+        "motor",
+    ),
     *("pty", "tap"),
 }
 OTHER_DEVICES = [
@@ -67,12 +78,12 @@ OTHER_DEVICES = [
     "edge/clock/clock_pair.cpp",
     "edge/clock/clock_source.cpp",
     "edge/device/behind_control_loop.cpp",
-    "edge/device_set.*",
     "edge/drift/next_calibration.cpp",
     "edge/drift/reference_views.cpp",
     "edge/frame_desk.*",
     "edge/frame_post.*",
     "edge/host_monitor.cpp",
+    "edge/ptu/ptu_kind.cpp",
     "export/conversion.cpp",
     "export/exporter.*",
     "export/factory.cpp",

@@ -11,7 +11,7 @@
 #include "calibration/procedure/sun_stage.h"
 #include "calibration/procedure/sweep_plan.h"
 #include "calibration/procedure/sweep_stage.h"
-#include "edge/ptu/keep_out.h"
+#include "edge/mount/keep_out.h"
 #include "tools/calibrate/motion_leave.h"
 #include "tools/calibrate/session_options.h"
 
@@ -56,9 +56,8 @@ SweepPlanOptions sweep_options(const ProcedureOptions& options, const StationFil
   plan.pan_max_rad = std::min(plan.pan_max_rad, status.pan_limits_rad[1] - kMargin_rad);
   plan.tilt_min_rad = std::max(plan.tilt_min_rad, status.tilt_limits_rad[0] + kMargin_rad);
   plan.tilt_max_rad = std::min(plan.tilt_max_rad, status.tilt_limits_rad[1] - kMargin_rad);
-  plan.allowed = [regions = station.settings.ptu.limits.keep_out](const PanTilt& angles) {
-    return !ptu::blocked(regions, angles);
-  };
+  plan.allowed = [regions = station.settings.mount->traits().limits.keep_out](
+                     const PanTilt& angles) { return !mount::blocked(regions, angles); };
   return plan;
 }
 

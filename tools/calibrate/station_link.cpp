@@ -224,6 +224,7 @@ StationFacts facts_of(const ols_msg::station_status_t& status) {
   StationFacts facts;
   facts.camera_works = std::string(wire::device_state(status, "camera")) == "ok";
   facts.unit_works = std::string(wire::device_state(status, "ptu")) == "ok";
+  facts.moves = status.kind != M::KIND_FIXED;
   facts.limits_known = std::isfinite(status.pan_limits_rad[0]) && std::isfinite(status.pan_rad);
   facts.stopped = status.state == M::STATE_STOPPED;
   facts.held_by_hand = status.state == M::STATE_MANUAL;

@@ -1,9 +1,9 @@
 // Looks for cameras, and at the one that is configured, for ols-doctor.
 #include <arv.h>
 
-#include "edge/camera/aravis_device.h"
-#include "edge/camera/aravis_error.h"
-#include "edge/camera/aravis_features.h"
+#include "edge/camera/aravis/aravis_device.h"
+#include "edge/camera/aravis/aravis_error.h"
+#include "edge/camera/aravis/aravis_features.h"
 #include "tools/doctor/probe.h"
 
 namespace ols::doctor {
@@ -61,7 +61,7 @@ std::vector<CameraSeen> cameras_that_answer() {
   return seen;
 }
 
-CameraAnswers ask_camera(const camera::CameraConfig& config) {
+CameraAnswers ask_camera(const camera::AravisConfig& config) {
   CameraAnswers answers;
   answers.device = config.device;
   answers.rate_bytes_s = config.width_px * config.height_px * config.frame_rate_hz;

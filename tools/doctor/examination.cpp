@@ -14,8 +14,10 @@
 #include "console/add_user.h"
 #include "console/console_config.h"
 #include "cue/cue_config.h"
+#include "edge/camera/aravis/aravis_kind.h"
 #include "edge/config.h"
 #include "edge/messages_bus.h"
+#include "edge/ptu/ptu_kind.h"
 #include "export/export_config.h"
 #include "export/readiness.h"
 #include "tools/doctor/bus_listener.h"
@@ -63,10 +65,21 @@ Findings examine_lens(const lens::LensMotorConfig& config, double patience_s) {
   return findings;
 }
 
+// GigE Vision cameras and FLIR's units are asked more than a station asks them.
+Findings examine_camera(const station::ChosenCamera& camera, double patience_s) {
+  if (const auto* gige = camera.as<camera::AravisKind>()) return judge(ask_camera(gige->aravis));
+  return {judge(ask_camera(*camera, patience_s))};
+}
+
+Findings examine_mount(const station::ChosenMount& mount, double patience_s) {
+  if (const auto* flir = mount.as<ptu::PtuKind>()) return judge(ask_ptu(flir->unit));
+  return {judge(ask_mount(*mount, patience_s))};
+}
+
 // Devices that only the station may use while it runs, and the clock, which it reports itself.
 Findings examine_devices(const station::StationSettings& settings, double patience_s) {
-  Findings findings = judge(ask_camera(settings.camera));
-  append(findings, judge(ask_ptu(settings.ptu)));
+  Findings findings = examine_camera(settings.camera, patience_s);
+  append(findings, examine_mount(settings.mount, patience_s));
   if (!settings.inclinometer.device.empty()) {
     append(findings, examine_inclinometer(settings.inclinometer, patience_s));
   }

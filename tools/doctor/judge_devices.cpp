@@ -64,7 +64,7 @@ Finding judge_baud(const PtuAnswers& ptu) {
   if (ptu.baud == ptu.wanted_baud || ptu.baud == ptu.wanted_line_baud) return ok(said);
   return fail(said + ", not at " + std::to_string(ptu.wanted_baud) + " or " +
                   std::to_string(ptu.wanted_line_baud),
-              "write line_baud = " + std::to_string(ptu.baud) + " into [ptu]");
+              "write line_baud = " + std::to_string(ptu.baud) + " into [mount]");
 }
 
 Finding judge_axes(const PtuAnswers& ptu) {

@@ -2,8 +2,10 @@
 // one. Nothing throws: errors are in the answer.
 #pragma once
 
+#include "edge/camera/aravis/aravis_config.h"
 #include "edge/config.h"
 #include "edge/host_monitor.h"
+#include "edge/ptu/ptu_config.h"
 #include "tools/doctor/facts.h"
 
 namespace ols::doctor {
@@ -14,6 +16,10 @@ SerialFacts look_at_line(const std::string& device, int baud);
 // Asks for version, resolution, limits and supply, first at the configured rates, then at the
 // others. Any byte ends a unit's scan mode (which none of our programs uses).
 PtuAnswers ask_ptu(const ptu::PtuConfig& config);
+// Of any kind, by the station's own code for it, for as long as it takes to be well, at most
+// `seconds`.
+device::DeviceReport ask_mount(const mount::MountKind& kind, double seconds);
+device::DeviceReport ask_camera(const camera::CameraKind& kind, double seconds);
 
 // All cameras that answer a broadcast.
 struct CameraSeen {
@@ -22,7 +28,7 @@ struct CameraSeen {
 std::vector<CameraSeen> cameras_that_answer();
 
 // Opens the camera's control channel for a moment. Takes no frame.
-CameraAnswers ask_camera(const camera::CameraConfig& config);
+CameraAnswers ask_camera(const camera::AravisConfig& config);
 
 // Runs the sensors' own drivers until each is well, at most `seconds`.
 device::DeviceReport ask_gnss(const sensors::GnssConfig& config, double seconds);

@@ -1,4 +1,4 @@
-// Looks at inclinometer, GNSS receiver and GPIO lines for ols-doctor.
+// Looks at devices by the station's own code for them, for ols-doctor.
 #include <chrono>
 #include <system_error>
 #include <thread>
@@ -22,14 +22,25 @@ void wait_until(Well well, double seconds) {
   while (!well() && clock_monotonic_s() < end_s) std::this_thread::sleep_for(kPoll);
 }
 
+device::DeviceReport report_of(const auto& device, double seconds) {
+  wait_until([&] { return device.report().state == device::DeviceState::kOk; }, seconds);
+  return device.report();
+}
+
 template <typename Sensor, typename Config>
 device::DeviceReport ask_sensor(const Config& config, double seconds) {
-  Sensor sensor(config);
-  wait_until([&] { return sensor.report().state == device::DeviceState::kOk; }, seconds);
-  return sensor.report();
+  return report_of(Sensor(config), seconds);
 }
 
 }  // namespace
+
+device::DeviceReport ask_camera(const camera::CameraKind& kind, double seconds) {
+  return report_of(*kind.open(false), seconds);
+}
+
+device::DeviceReport ask_mount(const mount::MountKind& kind, double seconds) {
+  return report_of(*kind.open(), seconds);
+}
 
 device::DeviceReport ask_gnss(const sensors::GnssConfig& config, double seconds) {
   return ask_sensor<sensors::Gnss>(config, seconds);

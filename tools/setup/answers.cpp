@@ -20,15 +20,18 @@ namespace {
 
 constexpr const char* kSiteBus = "\"udpm://239.255.76.67:7667?ttl=1\"";
 
+// In the forms of a section: of every kind that has such a key.
 void make_optional(config::Section& section, const std::string& inner, const std::string& key) {
   for (config::Section& candidate : section.sections) {
     if (candidate.name != inner) continue;
-    for (config::Row& row : candidate.rows) {
-      if (row.key != key) continue;
-      row.presence = config::Presence::kOptional;
-      row.read = [read = row.read, key](ConfigTable& table) {
-        if (table.has(key)) read(table);
-      };
+    for (config::Section& form : candidate.forms) {
+      for (config::Row& row : form.rows) {
+        if (row.key != key) continue;
+        row.presence = config::Presence::kOptional;
+        row.read = [read = row.read, key](ConfigTable& table) {
+          if (table.has(key)) read(table);
+        };
+      }
     }
   }
 }
@@ -63,7 +66,7 @@ void read_station(ConfigTable& root, Answers& answers) {
   station::StationSettings settings;
   config::Section section = station::station_section(settings);
   make_optional(section, "camera", "device");
-  make_optional(section, "ptu", "device");
+  make_optional(section, "mount", "device");
   config::read(section, root.table("station"));
   if (!is_station_file(settings.id)) {
     throw root.table("station").error("id", "is the name of another file in /etc/ols");

@@ -37,7 +37,8 @@ struct Answers {
   Values values{};               // all answers: "station.pose.heading_deg"
 };
 
-// Camera and PTU may be missing: they can be found. Throws ConfigError with `name`, line and key.
+// The devices of camera and mount may be missing: they can be found. Throws ConfigError with
+// `name`, line and key.
 Answers read_answers(const std::string& text, const std::string& name);
 
 // The text of a program's configuration file from the answers of this section, with the trust mode

@@ -58,16 +58,27 @@ void take_known_devices(const setup::Host& host, setup::Answers& answers) {
   const std::string path = host.path("/etc/ols/" + answers.station + ".toml");
   if (!fs::exists(path)) return;
   const setup::Values known = setup::flat(ols::read_small_file(path, kLargestAnswers));
-  for (const char* key : {"camera.device", "ptu.device"}) {
-    const std::string answer = std::string("station.") + key;
-    const std::string* device = setup::find(known, key);
-    if (device != nullptr && setup::find(answers.values, answer) == nullptr)
-      answers.values.emplace_back(answer, *device);
+  const auto take = [&](const std::string& key) {
+    const std::string* value = setup::find(known, key);
+    if (value != nullptr && setup::find(answers.values, "station." + key) == nullptr)
+      answers.values.emplace_back("station." + key, *value);
+  };
+  if (!setup::has_camera(answers.values)) take("camera.device");
+  if (setup::has_mount(answers.values)) return;
+  for (const char* key :
+       {"mount.kind", "mount.device", "mount.pan_deg", "mount.tilt_deg", "ptu.device"}) {
+    take(key);
   }
 }
 
+// A device, or the word that there is nothing that moves.
+void take_mount(const std::string& said, setup::Answers& answers) {
+  if (said != "fixed") return setup::add(answers.values, "station.mount.device", said);
+  setup::add(answers.values, "station.mount.kind", said);
+}
+
 void find_devices(setup::Answers& answers, bool asks) {
-  if (setup::find(answers.values, "station.camera.device") == nullptr) {
+  if (!setup::has_camera(answers.values)) {
     std::vector<std::string> cameras;
     for (const auto& camera : ols::doctor::cameras_that_answer()) cameras.push_back(camera.id);
     const std::string camera = one_of(cameras, "camera", "station.camera.device", asks);
@@ -75,18 +86,17 @@ void find_devices(setup::Answers& answers, bool asks) {
     std::printf("camera: %s\n", camera.c_str());
   }
   std::vector<std::string> lines = answers.serial.empty() ? setup::serial_lines() : answers.serial;
-  if (setup::find(answers.values, "station.ptu.device") == nullptr) {
+  if (!setup::has_mount(answers.values)) {
     std::vector<std::string> units;
     for (const auto& unit : setup::find_ptus(lines)) {
       units.push_back(unit.device);
       std::printf("PTU: %s on %s at %d baud\n", unit.version.c_str(), unit.device.c_str(),
                   unit.baud);
     }
-    setup::add(answers.values, "station.ptu.device",
-               one_of(units, "PTU", "station.ptu.device", asks));
+    take_mount(one_of(units, "PTU", "station.mount.device, or \"fixed\"", asks), answers);
   }
   std::erase_if(lines, [&](const std::string& line) {
-    return ols::toml_text(line) == *setup::find(answers.values, "station.ptu.device");
+    return setup::mount_device(answers.values) == ols::toml_text(line);
   });
   if (!answers.gnss.empty()) return;
   const auto receivers = setup::find_receivers(lines);

@@ -20,6 +20,11 @@ PlannedFile gpsd_file(const std::string& device) {
           "DEVICES=\"\"\n"};
 }
 
+bool is_other(const Values& values, const std::string& key, const std::string& kind) {
+  const std::string* stated = find(values, key);
+  return stated != nullptr && *stated != toml_text(kind);
+}
+
 PlannedFile time_file(const Answers& answers) {
   return {"/etc/chrony/conf.d/ols-site.conf", chrony_file(answers.neighbours), false};
 }
@@ -28,6 +33,22 @@ PlannedFile time_file(const Answers& answers) {
 
 void add(Values& values, const std::string& key, const std::string& text) {
   if (find(values, key) == nullptr) values.emplace_back(key, toml_text(text));
+}
+
+std::string mount_device(const Values& values) {
+  for (const char* key : {"station.mount.device", "station.ptu.device"}) {
+    if (const std::string* device = find(values, key)) return *device;
+  }
+  return {};
+}
+
+bool has_camera(const Values& values) {
+  return find(values, "station.camera.device") != nullptr ||
+         is_other(values, "station.camera.kind", "aravis");
+}
+
+bool has_mount(const Values& values) {
+  return !mount_device(values).empty() || is_other(values, "station.mount.kind", "flir");
 }
 
 Plan plan_station(const Answers& answers) {

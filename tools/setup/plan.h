@@ -28,6 +28,12 @@ struct Installed {
 };
 Plan plan_centre(const Answers& answers, Installed installed);
 
+// The mount's device in the answers, as TOML, under either name of its section. Empty: none.
+std::string mount_device(const Values& values);
+// False: `ols-setup` has to search for the device. It finds GigE Vision cameras and FLIR's units.
+bool has_camera(const Values& values);
+bool has_mount(const Values& values);
+
 // Adds a found value as another answer. Never replaces one.
 void add(Values& values, const std::string& key, const std::string& text);
 

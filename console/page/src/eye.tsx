@@ -99,7 +99,7 @@ export function Eye({ isThin, ...rest }: PictureProps & { isThin: boolean }) {
         onFocus={(event: FocusEvent) => (event.currentTarget as Element).matches(":focus-visible") && onSelect()}
         onKeyDown={(event: KeyboardEvent) => pressKey(on, event)}
       />
-      {large && mayCommand && <InHand on={on} />}
+      {large && mayCommand && station.kind !== "fixed" && <InHand on={on} />}
     </figure>
   );
 }

@@ -47,7 +47,7 @@ export type Station = {
   elevation_deg: number | null;
   field_of_view_deg: (number | null)[];
   image_px: number[];
-  kind?: string; // tracking, overview
+  kind?: string; // tracking, overview, fixed
   pan_sign?: number;
   tilt_sign?: number;
   lens?: { zoom: number | null; focus: number | null; iris: number | null; focal_length_px: number | null; focal_length_sd_px: number | null } | null;

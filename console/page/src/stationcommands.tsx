@@ -81,6 +81,7 @@ function Holder({ link, station, mayCommand, onControl }: Pick<StationProps, "li
 
 export function Commands({ link, station, mayCommand, onCommand, onControl }: StationProps) {
   const id = station.id;
+  const moves = station.kind !== "fixed";
   return (
     <div class="commands">
       <Holder link={link} station={station} mayCommand={mayCommand} onControl={onControl} />
@@ -93,16 +94,16 @@ export function Commands({ link, station, mayCommand, onCommand, onControl }: St
         {mayCommand && (
           <Fragment>
             <button onClick={() => onCommand(id, "release")}>{t("release")}</button>
-            <Sure key={`home ${id}`} word={t("home")} question={`${id}: ${t("home_sure")}`} onSure={() => onCommand(id, "home")} />
+            {moves && <Sure key={`home ${id}`} word={t("home")} question={`${id}: ${t("home_sure")}`} onSure={() => onCommand(id, "home")} />}
             <button onClick={() => onCommand(id, "rearm")}>{t("rearm")}</button>
-            <Sure key={`reference ${id}`} word={t("reference_ok")} question={`${id}: ${t("reference_sure")}`} onSure={() => onCommand(id, "reference_ok")} />
+            {moves && <Sure key={`reference ${id}`} word={t("reference_ok")} question={`${id}: ${t("reference_sure")}`} onSure={() => onCommand(id, "reference_ok")} />}
           </Fragment>
         )}
       </div>
       <LensForm station={station} onMove={mayCommand ? (axis, position) => onCommand(id, "lens", { is_rate: false, [axis]: position }) : null} />
       {mayCommand && (
         <Fragment>
-          <PointForm key={`point ${id}`} id={id} station={station} onCommand={onCommand} />
+          {moves ? <PointForm key={`point ${id}`} id={id} station={station} onCommand={onCommand} /> : <p class="holder">{t("fixed_mount")}</p>}
           <RecordForm id={id} station={station} onCommand={onCommand} />
         </Fragment>
       )}

@@ -24,6 +24,7 @@ const WORDS = {
   released: ["released", "freigegeben"],
   lost_for_all: ["No station knows where the object is. Draw a box around it in one picture: the others are led there.", "Keine Station weiß, wo das Objekt ist. In einem Bild einen Rahmen darum ziehen: die anderen werden hingeführt."],
   by_hand: ["By hand", "Von Hand"],
+  fixed_mount: ["The camera stands on a fixed mount.", "Die Kamera steht auf einer festen Halterung."],
   by_hand_first: ["follows an object by itself. Press By hand in its picture first, or M.", "verfolgt selbst ein Objekt. Zuerst in ihrem Bild Von Hand drücken, oder M."],
   by_hand_next: ["A click, a hold or arrows end tracking.", "Klick, Halten oder Pfeile beenden die Verfolgung."],
   back_to_tracking: ["Back to tracking", "Zurück zur Verfolgung"],

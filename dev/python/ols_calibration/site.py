@@ -41,7 +41,7 @@ mount_deg = 0.1
 position_m = {position_sd}
 [camera]
 device = "127.0.0.99"
-[ptu]
+[mount]
 device = "/dev/null"
 [lens]
 fx_px = 13333.333333

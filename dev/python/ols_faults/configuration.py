@@ -30,8 +30,8 @@ def alter(wiring: Wiring, disk: Path) -> None:
     will be stepped, is trusted again sooner. Every PTU accelerates as it is judged by."""
     names = wiring.stations
     for config in wiring.configs.values():
-        line = f"[ptu]\nacceleration_deg_s2 = {ACCELERATION_DEG_S2:g}\n"
-        config.write_text(config.read_text().replace("[ptu]\n", line))
+        line = f"[mount]\nacceleration_deg_s2 = {ACCELERATION_DEG_S2:g}\n"
+        config.write_text(config.read_text().replace("[mount]\n", line))
     first, last = wiring.configs[names[0]], wiring.configs[names[-1]]
     last.write_text(without_survey(last.read_text()))
     stepped = wiring.configs[names[2]]

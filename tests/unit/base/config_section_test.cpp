@@ -161,5 +161,85 @@ TEST(ConfigSection, SomeRowsCanBePicked) {
   EXPECT_THROW(picked(all, {"length_m", "nothing"}), std::invalid_argument);
 }
 
+// A thing of several kinds: the keys depend on it.
+struct Engine {
+  double power_w = 100.0;
+  std::string hay = "meadow";
+  std::size_t kind = 0;
+};
+
+Section cart_with(Engine& e) {
+  Section engine{"engine", "What moves it."};
+  engine.former_name = "motor";
+  engine.choose = [&e](std::size_t kind) { e.kind = kind; };
+  engine.forms = {{"electric",
+                   "A motor.",
+                   {number("power_w", e.power_w, {0, 1e4}, "W", "Its power.").required()}},
+                  {"horse", "An animal.", {text("hay", e.hay, "What it eats.")}}};
+  return {"", "", {}, {engine}};
+}
+
+std::string trouble_of(const std::string& text) {
+  Engine engine;
+  return error_text<ConfigError>(
+      [&] {
+        ConfigFile file(text, "cart.toml");
+        read(cart_with(engine), file.root());
+      },
+      "none");
+}
+
+Engine engine_of(const std::string& text) {
+  Engine engine;
+  ConfigFile file(text, "cart.toml");
+  read(cart_with(engine), file.root());
+  return engine;
+}
+
+TEST(ConfigSection, AKindHasItsOwnKeys) {
+  EXPECT_EQ(engine_of("[engine]\nkind = 'horse'\nhay = 'alp'\n").kind, 1U);
+  EXPECT_EQ(engine_of("[engine]\nkind = 'horse'\nhay = 'alp'\n").hay, "alp");
+  EXPECT_EQ(engine_of("[engine]\npower_w = 7\n").power_w, 7.0) << "the first is the default";
+  EXPECT_THAT(trouble_of("[engine]\nkind = 'horse'\npower_w = 7\n"), HasSubstr("engine.power_w"));
+  EXPECT_THAT(trouble_of("[engine]\nkind = 'steam'\ncoal = 7\n"), HasSubstr("engine.kind"));
+  EXPECT_THAT(trouble_of(""), HasSubstr("engine.power_w: is missing"));
+}
+
+TEST(ConfigSection, AFormerNameMeansTheFirstKind) {
+  EXPECT_EQ(engine_of("[motor]\npower_w = 7\n").power_w, 7.0);
+  EXPECT_EQ(engine_of("[motor]\npower_w = 7\n").kind, 0U);
+  EXPECT_THAT(trouble_of("[motor]\nkind = 'horse'\n"), HasSubstr("motor.kind"));
+  EXPECT_THAT(trouble_of("[motor]\npower_w = 7\n[engine]\nkind = 'horse'\n"),
+              HasSubstr("motor: is the former name of engine"));
+}
+
+TEST(ConfigSection, AnExampleIsOfTheKindAndByTheNameThatItsValuesHave) {
+  Engine engine;
+  EXPECT_EQ(example(cart_with(engine), {{"engine.kind", "\"horse\""}, {"engine.hay", "\"alp\""}}),
+            "\n[engine]  # What moves it.\n"
+            "kind = \"horse\"  # Its kind, on which the other keys depend.\n"
+            "hay = \"alp\"  # What it eats.\n");
+  EXPECT_EQ(example(cart_with(engine), {{"motor.power_w", "7"}}),
+            "\n[motor]  # What moves it.\npower_w = 7  # Its power.\n");
+  EXPECT_THROW(example(cart_with(engine), {{"engine.hay", "\"alp\""}}), std::invalid_argument);
+}
+
+TEST(ConfigSection, ThePageHasEachKind) {
+  Engine engine;
+  const std::string page = markdown(cart_with(engine));
+  EXPECT_THAT(page, HasSubstr("| `kind` | \"electric\" | \"electric\", \"horse\" |"));
+  EXPECT_THAT(page, HasSubstr("#### `[engine]` with `kind = \"horse\"`\n\nAn animal.\n"));
+  EXPECT_THAT(page, HasSubstr("`[motor]` is still read, as `electric`."));
+}
+
+TEST(ConfigSection, KeysOfAKindCanBePickedAlone) {
+  Engine engine;
+  ConfigFile file("[motor]\npower_w = 9\n", "site.toml");
+  const Section section = picked(cart_with(engine), {"engine.power_w"});
+  read(section, file.root());
+  EXPECT_EQ(engine.power_w, 9.0);
+  EXPECT_THAT(stated(section, file.root()), ElementsAre("engine.power_w"));
+}
+
 }  // namespace
 }  // namespace ols::config

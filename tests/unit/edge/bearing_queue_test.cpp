@@ -14,8 +14,8 @@ class BearingQueueTest : public testing::Test {
     config.geometry.position = {radians(49.2), radians(16.6), 250.0};
     return config;
   }
-  static ptu::AngleSample sample(double time_s) {
-    ptu::AngleSample sample;
+  static mount::AngleSample sample(double time_s) {
+    mount::AngleSample sample;
     sample.time_s = time_s;
     return sample;
   }

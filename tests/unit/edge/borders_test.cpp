@@ -9,8 +9,8 @@ namespace {
 
 ChainParameters north() { return {}; }
 
-ptu::PtuLimits limits() {
-  ptu::PtuLimits limits;
+mount::Limits limits() {
+  mount::Limits limits;
   limits.pan_min_rad = radians(-90.0);
   limits.pan_max_rad = radians(90.0);
   limits.tilt_min_rad = radians(-20.0);
@@ -32,7 +32,7 @@ TEST(Borders, TheTravelGoesRoundFromItsLeastPanAndTilt) {
 }
 
 TEST(Borders, AKeepOutRegionIsCutAtTheTravel) {
-  ptu::PtuLimits of_unit = limits();
+  mount::Limits of_unit = limits();
   of_unit.keep_out = {{radians(-120.0), radians(-60.0), radians(0.0), radians(80.0)},
                       {radians(100.0), radians(120.0), radians(0.0), radians(10.0)}};
   const auto found = borders(north(), of_unit, true);

@@ -112,7 +112,7 @@ TEST(CalibratedUnit, AcrossHalfATurnTheUnitComesFromTheSideOfItsWay) {
 TEST(CalibratedUnit, OneOfOtherCountsIsUsedWithoutItsCalibration) {
   PointingModel pointing(config());
   EXPECT_TRUE(pointing.calibrated());
-  ptu::PtuLimits limits = config().limits;
+  mount::Limits limits = config().limits;
   limits.count = {radians(23.1428 / 3600.0), radians(23.1428 / 3600.0)};
   pointing.set_limits(limits);
   EXPECT_FALSE(pointing.calibrated());

@@ -23,7 +23,7 @@ StationConfig level_station() {
 // The optical axis is on azimuth 0 at pan 0; a lower pan is a greater azimuth.
 class CommandJudgementTest : public testing::Test {
  protected:
-  CommandJudgementTest() { mode_.set_reference(ptu::PtuReference::kTrusted); }
+  CommandJudgementTest() { mode_.set_reference(mount::Reference::kTrusted); }
   Situation now() const { return {config_, mode_, pointing_, kNow_s}; }
   template <class Command>
   Refusal judged(const Command& command) const {
@@ -48,6 +48,16 @@ TEST_F(CommandJudgementTest, AnOrdinaryCommandIsPermitted) {
   EXPECT_EQ(judged(slew(20.0)), Refusal::kNone);
   EXPECT_EQ(judged(PointCommand{{0.1, 0.1}}), Refusal::kNone);
   EXPECT_EQ(judge_home(now()), Refusal::kNone);
+}
+
+TEST_F(CommandJudgementTest, AFixedMountIsNeverMoved) {
+  config_.moves = false;
+  EXPECT_EQ(judged(slew(20.0)), Refusal::kFixedMount);
+  EXPECT_EQ(judged(PointCommand{{0.1, 0.1}}), Refusal::kFixedMount);
+  EXPECT_EQ(judged(RateCommand{{0.1, 0.0}, kNow_s, 0.2}), Refusal::kFixedMount);
+  EXPECT_EQ(judge_motion(now()), Refusal::kFixedMount);
+  EXPECT_EQ(judge_home(now()), Refusal::kFixedMount);
+  EXPECT_EQ(judged(DesignateCommand{std::nullopt, {10, 10, 20, 20}}), Refusal::kNone);
 }
 
 TEST_F(CommandJudgementTest, NothingButRearmingIsPermittedInAnEmergency) {
@@ -122,16 +132,16 @@ TEST_F(CommandJudgementTest, AnglesBeyondATurnAreASlipOfTheHand) {
 }
 
 TEST_F(CommandJudgementTest, MotionNeedsAUnitAndItsReference) {
-  mode_.set_reference(ptu::PtuReference::kUnknown);
+  mode_.set_reference(mount::Reference::kUnknown);
   EXPECT_EQ(judged(PointCommand{}), Refusal::kNoUnit);
   EXPECT_EQ(judge_home(now()), Refusal::kNoUnit);
   EXPECT_EQ(judge_reference_ok(now()), Refusal::kNoDoubt);
-  mode_.set_reference(ptu::PtuReference::kMissing);
+  mode_.set_reference(mount::Reference::kMissing);
   EXPECT_EQ(judged(PointCommand{}), Refusal::kNoReference);
   EXPECT_EQ(judged(slew(20.0)), Refusal::kNoReference);
   EXPECT_EQ(judge_home(now()), Refusal::kNone) << "homing is what finds it";
   EXPECT_EQ(judge_reference_ok(now()), Refusal::kNoReference) << "no person knows it either";
-  mode_.set_reference(ptu::PtuReference::kDoubted);
+  mode_.set_reference(mount::Reference::kDoubted);
   EXPECT_EQ(judged(PointCommand{}), Refusal::kNoReference);
   EXPECT_EQ(judge_reference_ok(now()), Refusal::kNone);
 }

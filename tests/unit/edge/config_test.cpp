@@ -9,6 +9,7 @@
 #include <string>
 
 #include "base/toml_config.h"
+#include "edge/ptu/ptu_kind.h"
 #include "geometry/angles.h"
 #include "tests/unit/error_text.h"
 #include "tests/unit/temp_dir.h"
@@ -171,6 +172,29 @@ TEST_F(StationConfigFile, DescribesWhatIsConfigured) {
       lines[1],
       "pose: position from GNSS; tilt unknown: taken as level to 2.9 deg; heading 10.000 deg");
   EXPECT_EQ(lines[4], "gnss: gpsd at 127.0.0.1:2947");
+}
+
+TEST_F(StationConfigFile, AMountIsOfAKind) {
+  const std::string rest = "[pose]\nheading_deg = 10\n" + kPlace;
+  std::string fixed = kStart + rest;
+  fixed.replace(fixed.find("[ptu]"), 19,
+                "[mount]\nkind = \"fixed\"\npan_deg = 12\ntilt_deg = -3\n");
+  const StationSettings settings = load(fixed);
+  EXPECT_STREQ(settings.mount.name(), "fixed");
+  EXPECT_FALSE(settings.station.moves);
+  EXPECT_DOUBLE_EQ(settings.station.limits.pan_min_rad, radians(12.0));
+  EXPECT_DOUBLE_EQ(settings.station.limits.tilt_max_rad, radians(-3.0));
+  EXPECT_EQ(describe(settings)[3], "ptu: fixed at pan 12.00, tilt -3.00 deg");
+  EXPECT_NE(error(fixed + "[ptu]\ndevice = \"p\"\n").find("is the former name"), std::string::npos);
+  // [ptu] is a unit of FLIR, as [mount] is by default.
+  for (const char* section : {"[ptu]", "[mount]"}) {
+    std::string flir = kStart + rest;
+    flir.replace(flir.find("[ptu]"), 5, section);
+    const StationSettings unit = load(flir);
+    EXPECT_STREQ(unit.mount.name(), "flir");
+    EXPECT_TRUE(unit.station.moves);
+    EXPECT_EQ(unit.mount.as<ptu::PtuKind>()->unit.device, "p");
+  }
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "edge/config.h"
+#include "edge/ptu/ptu_kind.h"
 #include "geometry/angles.h"
 
 namespace ols::station {
@@ -15,7 +16,7 @@ using testing::StartsWith;
 StationSettings bare() {
   StationSettings settings;
   settings.id = "alfa";
-  settings.ptu.device = "/dev/ptu";
+  settings.mount.as<ptu::PtuKind>()->unit.device = "/dev/ptu";
   return settings;
 }
 

@@ -11,7 +11,7 @@ namespace {
 
 TEST(FrameDesk, AFrameComesInPartsThatFitIntoDatagramsAndMakeItWhole) {
   constexpr double kCount_rad = 5.61e-5;
-  FrameDesk desk{ptu::AngleHistory::Config{}};
+  FrameDesk desk{mount::AngleHistory::Config{}};
   desk.service().set_count({kCount_rad, kCount_rad});
   desk.service().set_trusted(true);
   FrameRequest request;
@@ -19,7 +19,7 @@ TEST(FrameDesk, AFrameComesInPartsThatFitIntoDatagramsAndMakeItWhole) {
   request.expires_s = 100.0;
   EXPECT_EQ(desk.service().request(request), "");
   for (int i = 0; i < 4; ++i) {
-    ptu::AngleSample sample;
+    mount::AngleSample sample;
     sample.time_s = 0.025 * i;
     desk.service().on_angles(sample);
   }
@@ -55,7 +55,7 @@ TEST(FrameDesk, AFrameComesInPartsThatFitIntoDatagramsAndMakeItWhole) {
 // A bus that takes nothing: what is asked for must not pile up.
 TEST(FrameDesk, HoldsNoMoreThanAFewFramesHoweverManyAreAskedFor) {
   constexpr double kCount_rad = 5.61e-5;
-  FrameDesk desk{ptu::AngleHistory::Config{}};
+  FrameDesk desk{mount::AngleHistory::Config{}};
   desk.service().set_count({kCount_rad, kCount_rad});
   desk.service().set_trusted(true);
   camera::Frame frame;
@@ -65,7 +65,7 @@ TEST(FrameDesk, HoldsNoMoreThanAFewFramesHoweverManyAreAskedFor) {
     FrameRequest request;
     request.expires_s = 1e6;
     EXPECT_EQ(desk.service().request(request), "");
-    ptu::AngleSample sample;
+    mount::AngleSample sample;
     sample.time_s = 0.025 * i;
     desk.service().on_angles(sample);
     frame.mid_exposure_s = sample.time_s - 0.01;

@@ -15,7 +15,7 @@ class FrameServiceTest : public testing::Test {
   }
   // The unit's report at an instant [s], in counts.
   void unit(double time_s, double pan, double tilt) {
-    ptu::AngleSample sample;
+    mount::AngleSample sample;
     sample.time_s = time_s;
     sample.time_sd_s = 1e-4;
     sample.angles = {pan * kCount_rad, tilt * kCount_rad};
@@ -37,7 +37,7 @@ class FrameServiceTest : public testing::Test {
     return request;
   }
 
-  FrameService service{ptu::AngleHistory::Config{}};
+  FrameService service{mount::AngleHistory::Config{}};
 };
 
 TEST_F(FrameServiceTest, AFrameHasTheCountsOfItsExposureAndTheDirectionOfTheApproach) {
@@ -147,7 +147,7 @@ TEST_F(FrameServiceTest, AfterAHomingCountsAndSideAreThoseOfAfter) {
 }
 
 TEST_F(FrameServiceTest, BeforeTheReferenceIsTrustedThereIsNoAnswer) {
-  FrameService fresh{ptu::AngleHistory::Config{}};
+  FrameService fresh{mount::AngleHistory::Config{}};
   service = std::move(fresh);
   service.set_count({kCount_rad, kCount_rad});
   EXPECT_EQ(service.request(wanted()), "");
@@ -157,7 +157,7 @@ TEST_F(FrameServiceTest, BeforeTheReferenceIsTrustedThereIsNoAnswer) {
 }
 
 TEST_F(FrameServiceTest, BeforeTheCountIsKnownThereIsNoAnswer) {
-  FrameService fresh{ptu::AngleHistory::Config{}};
+  FrameService fresh{mount::AngleHistory::Config{}};
   service = std::move(fresh);
   service.set_trusted(true);
   EXPECT_EQ(service.request(wanted()), "");

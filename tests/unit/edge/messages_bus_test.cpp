@@ -34,7 +34,7 @@ class StationBusTest : public testing::Test {
   StationBusTest() {
     settings.id = std::string("a");
     station = std::make_unique<Station>(settings.station, std::make_unique<CountingTracker>(boxes));
-    station->set_reference(ptu::PtuReference::kTrusted);
+    station->set_reference(mount::Reference::kTrusted);
     turn = std::make_unique<CommandTurn>(*station);
     bus = std::make_unique<StationBus>(
         settings, 1, *station, *turn, [](const recorder::RecordCommand&) { return std::string(); });

@@ -67,7 +67,7 @@ TEST_F(PersistedStationStateTest, WhatIsKnownIsTakenUpWithoutAnAlarm) {
   const std::vector<std::string> doubts{"none", "reference", "homing", "gears", "homing-gears"};
   for (std::size_t i = 0; i < doubts.size(); ++i) {
     put("doubt", doubts[i] + "\n");
-    EXPECT_EQ(memory().doubt(), ptu::doubt_from_word(doubts[i])) << doubts[i];
+    EXPECT_EQ(memory().doubt(), mount::doubt_from_word(doubts[i])) << doubts[i];
   }
 }
 
@@ -135,12 +135,12 @@ TEST_F(PersistedStationStateTest, ADoubtThatIsNotKnownIsADoubtWithAnAlarm) {
     put("doubt", "none\n");
     condition.make(folder, folder + "/a.doubt");
     PersistedStationState m = memory();
-    EXPECT_EQ(m.doubt(), (ptu::PtuReferenceDoubt{condition.unreadable, condition.unreadable}));
+    EXPECT_EQ(m.doubt(), (mount::ReferenceDoubt{condition.unreadable, condition.unreadable}));
     EXPECT_THAT(m.alarms(), Contains(HasSubstr("ptu: reference before the restart is unknown")));
-    m.remember(StationState::kIdle, std::nullopt, ptu::PtuReference::kUnknown);
+    m.remember(StationState::kIdle, std::nullopt, mount::Reference::kUnknown);
     EXPECT_THAT(m.alarms(), Contains(HasSubstr("ptu: reference before the restart is unknown")))
         << "no unit yet";
-    m.remember(StationState::kIdle, std::nullopt, ptu::PtuReference::kTrusted);
+    m.remember(StationState::kIdle, std::nullopt, mount::Reference::kTrusted);
     EXPECT_THAT(m.alarms(),
                 Not(Contains(HasSubstr("ptu: reference before the restart is unknown"))));
   }
@@ -150,16 +150,16 @@ TEST_F(PersistedStationStateTest, TheUnknownStaysUnknownOverRestartsUntilAPerson
   {
     PersistedStationState m = memory();
     EXPECT_EQ(m.begin(), StationState::kStopped);
-    m.remember(StationState::kStopped, std::nullopt, ptu::PtuReference::kTrusted);
+    m.remember(StationState::kStopped, std::nullopt, mount::Reference::kTrusted);
   }
   ASSERT_EQ(content("hold"), "unknown");
   PersistedStationState m = memory();
   EXPECT_EQ(m.begin(), StationState::kStopped);
-  m.remember(StationState::kStopped, std::nullopt, ptu::PtuReference::kTrusted);
+  m.remember(StationState::kStopped, std::nullopt, mount::Reference::kTrusted);
   EXPECT_THAT(m.alarms(), Contains(HasSubstr("is unknown (since an earlier start)")));
-  m.remember(StationState::kManual, std::nullopt, ptu::PtuReference::kTrusted);
+  m.remember(StationState::kManual, std::nullopt, mount::Reference::kTrusted);
   EXPECT_THAT(m.alarms(), IsEmpty());
-  m.remember(StationState::kStopped, std::nullopt, ptu::PtuReference::kTrusted);
+  m.remember(StationState::kStopped, std::nullopt, mount::Reference::kTrusted);
   EXPECT_THAT(m.alarms(), IsEmpty()) << "stopped by a person";
   EXPECT_TRUE(eventually([&] { return content("hold") == "stopped"; }));
 }
@@ -168,8 +168,8 @@ TEST_F(PersistedStationStateTest, TheUnknownStaysUnknownOverRestartsUntilAPerson
 TEST_F(PersistedStationStateTest, APressedStopIsNotForgotten) {
   {
     PersistedStationState m = memory();
-    m.remember(StationState::kIdle, std::nullopt, ptu::PtuReference::kTrusted);
-    m.remember(StationState::kEmergency, std::nullopt, ptu::PtuReference::kTrusted);
+    m.remember(StationState::kIdle, std::nullopt, mount::Reference::kTrusted);
+    m.remember(StationState::kEmergency, std::nullopt, mount::Reference::kTrusted);
   }
   EXPECT_EQ(content("hold"), "emergency");
   EXPECT_EQ(memory().begin(), StationState::kEmergency);
@@ -177,7 +177,7 @@ TEST_F(PersistedStationStateTest, APressedStopIsNotForgotten) {
   for (int start = 0; start < 2; ++start) {
     PersistedStationState damaged = memory();
     EXPECT_EQ(damaged.begin(), StationState::kEmergency);
-    damaged.remember(StationState::kEmergency, std::nullopt, ptu::PtuReference::kTrusted);
+    damaged.remember(StationState::kEmergency, std::nullopt, mount::Reference::kTrusted);
     EXPECT_THAT(damaged.alarms(), Contains(HasSubstr("check it, then re-arm it"))) << start;
   }
   fs::remove_all(folder);
@@ -187,10 +187,10 @@ TEST_F(PersistedStationStateTest, APressedStopIsNotForgotten) {
 TEST_F(PersistedStationStateTest, WithoutAFolderNothingIsKnownAndNothingAlarmsOnceAPersonActed) {
   PersistedStationState m("", "a", true);
   EXPECT_EQ(m.begin(), StationState::kStopped);
-  EXPECT_EQ(m.doubt(), ptu::PtuReferenceDoubt{});
+  EXPECT_EQ(m.doubt(), mount::ReferenceDoubt{});
   EXPECT_THAT(m.alarms(), Contains("stop: state before the restart is unknown (no state_folder "
                                    "is configured): check it, then ols-ctl a release"));
-  m.remember(StationState::kIdle, std::nullopt, ptu::PtuReference::kTrusted);
+  m.remember(StationState::kIdle, std::nullopt, mount::Reference::kTrusted);
   EXPECT_THAT(m.alarms(), IsEmpty());
 }
 
@@ -230,7 +230,7 @@ TEST_F(PersistedStationStateTest, AFolderThatCannotBeWrittenIsNotBelievedToPermi
     const PersistedStationState m = memory();
     EXPECT_EQ(m.begin(), StationState::kEmergency);
     EXPECT_EQ(memory(false).begin(), StationState::kStopped);
-    EXPECT_EQ(m.doubt(), ptu::PtuReferenceDoubt{});
+    EXPECT_EQ(m.doubt(), mount::ReferenceDoubt{});
     told = eventually([&] {
       const auto alarms = m.alarms();
       return alarms.size() == 4 &&

@@ -16,7 +16,7 @@ class SightingDeskTest : public testing::Test {
     unit.set_count({kCount_rad, kCount_rad});
     unit.set_trusted(true);
     for (int i = 0; i < 100; ++i) {
-      ptu::AngleSample sample;
+      mount::AngleSample sample;
       sample.time_s = 0.025 * i;
       sample.time_sd_s = 1e-4;
       sample.angles = {40.0 * i * kCount_rad, -10.0 * i * kCount_rad};
@@ -32,7 +32,7 @@ class SightingDeskTest : public testing::Test {
     return desk.take(one, kWhole_us - 500'000 + std::llround(1e6 * time_s), unit);
   }
 
-  FrameService unit{ptu::AngleHistory::Config{}};
+  FrameService unit{mount::AngleHistory::Config{}};
   SightingDesk desk;
 };
 

@@ -59,7 +59,7 @@ constexpr double kFrame_s = 1.0 / 15.0;
 class StationTest : public testing::Test {
  protected:
   StationTest() : station_(config(), std::make_unique<ScriptedTracker>(script_)) {
-    station_.set_reference(ptu::PtuReference::kTrusted);
+    station_.set_reference(mount::Reference::kTrusted);
   }
 
   static StationConfig config() {
@@ -90,8 +90,8 @@ class StationTest : public testing::Test {
     }
   }
 
-  ptu::AngleSample sample() const {
-    ptu::AngleSample sample;
+  mount::AngleSample sample() const {
+    mount::AngleSample sample;
     sample.time_s = now_;
     sample.time_sd_s = 1e-4;
     sample.angles = angles_;

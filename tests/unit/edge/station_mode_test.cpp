@@ -43,12 +43,11 @@ TEST(StationMode, AStopHoldsForAMomentAndAnEmergencyForGood) {
 TEST(StationMode, AUnitThatIsNotThereHasNoDoubtfulAngles) {
   StationMode mode;
   EXPECT_FALSE(mode.has_doubtful_angles());
-  for (const ptu::PtuReference doubtful :
-       {ptu::PtuReference::kMissing, ptu::PtuReference::kDoubted}) {
+  for (const mount::Reference doubtful : {mount::Reference::kMissing, mount::Reference::kDoubted}) {
     mode.set_reference(doubtful);
     EXPECT_TRUE(mode.has_doubtful_angles());
   }
-  mode.set_reference(ptu::PtuReference::kTrusted);
+  mode.set_reference(mount::Reference::kTrusted);
   EXPECT_FALSE(mode.has_doubtful_angles());
 }
 

@@ -24,7 +24,7 @@ class JoystickTest : public testing::Test {
   JoystickTest() { begin({}); }
 
   // A ready unit at zero, with these regions.
-  void begin(const std::vector<ptu::KeepOut>& keep_out) {
+  void begin(const std::vector<mount::KeepOut>& keep_out) {
     sim::PtuUnitConfig unit;
     unit.baud = 38400;
     unit.home_at_power_up = false;
@@ -147,7 +147,7 @@ TEST_F(JoystickTest, ARateEndsAtTheTravelsLimitWithoutHittingIt) {
 }
 
 TEST_F(JoystickTest, ARateNeverEntersAKeepOutRegion) {
-  const ptu::KeepOut mast{0.5, 0.8, -0.3, 0.3};
+  const mount::KeepOut mast{0.5, 0.8, -0.3, 0.3};
   begin({mast});
   double furthest = 0.0;
   for (int i = 0; i < 40; ++i) {

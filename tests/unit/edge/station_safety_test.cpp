@@ -277,8 +277,8 @@ TEST_F(StationSafetyTest, AfterAStandstillThereIsNoBacklog) {
 
 // The unit was switched off and on: what its angles mean is not known.
 TEST_F(StationSafetyTest, NothingIsPointedOrSlewedWithoutAReference) {
-  for (const ptu::PtuReference lost : {ptu::PtuReference::kDoubted, ptu::PtuReference::kMissing}) {
-    station_.set_reference(ptu::PtuReference::kTrusted);
+  for (const mount::Reference lost : {mount::Reference::kDoubted, mount::Reference::kMissing}) {
+    station_.set_reference(mount::Reference::kTrusted);
     run_until(now_ + 0.5);
     ASSERT_EQ(station_.slew(slew(30.0), now_), Refusal::kNone);
     ASSERT_TRUE(station_.goal(now_));
@@ -293,16 +293,16 @@ TEST_F(StationSafetyTest, NothingIsPointedOrSlewedWithoutAReference) {
 }
 
 TEST_F(StationSafetyTest, ATargetOutlastsALostReferenceAndIsSlewedToAgain) {
-  station_.set_reference(ptu::PtuReference::kTrusted);
+  station_.set_reference(mount::Reference::kTrusted);
   designated_for(1.0);
   ASSERT_EQ(station_.state(), StationState::kTracking);
-  station_.set_reference(ptu::PtuReference::kDoubted);
+  station_.set_reference(mount::Reference::kDoubted);
   EXPECT_EQ(station_.state(), StationState::kLost);
   script_.belief = 0.0;
   bearings_.clear();
   now_ += 30.0;  // homing
   next_sample_ = next_frame_ = now_;
-  station_.set_reference(ptu::PtuReference::kTrusted);
+  station_.set_reference(mount::Reference::kTrusted);
   run_until(now_ + 0.5);
   ASSERT_EQ(station_.slew(slew(30.0), now_), Refusal::kNone);
   EXPECT_EQ(station_.state(), StationState::kSlewed);
@@ -315,9 +315,9 @@ TEST_F(StationSafetyTest, ATargetOutlastsALostReferenceAndIsSlewedToAgain) {
 }
 
 TEST_F(StationSafetyTest, HomesWhereItMayAndOnlyThen) {
-  station_.set_reference(ptu::PtuReference::kUnknown);
+  station_.set_reference(mount::Reference::kUnknown);
   EXPECT_EQ(station_.home(now_), Refusal::kNoUnit);
-  station_.set_reference(ptu::PtuReference::kTrusted);
+  station_.set_reference(mount::Reference::kTrusted);
   press();
   EXPECT_EQ(station_.home(now_), Refusal::kEmergency);
   EXPECT_FALSE(station_.take_actions().home);
@@ -329,7 +329,7 @@ TEST_F(StationSafetyTest, HomesWhereItMayAndOnlyThen) {
   StationConfig with_regions = config();
   with_regions.homing_allowed = false;
   Station kept(with_regions, std::make_unique<test::ScriptedTracker>(script_));
-  kept.set_reference(ptu::PtuReference::kMissing);
+  kept.set_reference(mount::Reference::kMissing);
   EXPECT_EQ(kept.home(now_), Refusal::kKeepOut);
   EXPECT_FALSE(kept.take_actions().home);
 }
@@ -337,15 +337,15 @@ TEST_F(StationSafetyTest, HomesWhereItMayAndOnlyThen) {
 TEST_F(StationSafetyTest, NoPointOutlastsTheUnitOrComesBeforeIt) {
   ASSERT_EQ(station_.point({{0.3, 0.1}}, now_), Refusal::kNone);
   ASSERT_TRUE(station_.goal(now_));
-  station_.set_reference(ptu::PtuReference::kUnknown);
+  station_.set_reference(mount::Reference::kUnknown);
   EXPECT_FALSE(station_.goal(now_));
   EXPECT_EQ(station_.point({{0.3, 0.1}}, now_), Refusal::kNoUnit);
-  station_.set_reference(ptu::PtuReference::kTrusted);
+  station_.set_reference(mount::Reference::kTrusted);
   EXPECT_FALSE(station_.goal(now_));
 }
 
 TEST_F(StationSafetyTest, AStopCallsOffAHoming) {
-  station_.set_reference(ptu::PtuReference::kTrusted);
+  station_.set_reference(mount::Reference::kTrusted);
   ASSERT_EQ(station_.home(now_), Refusal::kNone);
   station_.stop(now_);
   const UnitActions actions = station_.take_actions();
@@ -358,12 +358,12 @@ TEST_F(StationSafetyTest, AStopCallsOffAHoming) {
 }
 
 TEST_F(StationSafetyTest, APersonVouchesOnlyForWhatIsDoubted) {
-  station_.set_reference(ptu::PtuReference::kTrusted);
+  station_.set_reference(mount::Reference::kTrusted);
   EXPECT_EQ(station_.reference_ok(now_), Refusal::kNoDoubt);
-  station_.set_reference(ptu::PtuReference::kMissing);
+  station_.set_reference(mount::Reference::kMissing);
   EXPECT_EQ(station_.reference_ok(now_), Refusal::kNoReference);
   EXPECT_FALSE(station_.take_actions().reference_ok);
-  station_.set_reference(ptu::PtuReference::kDoubted);
+  station_.set_reference(mount::Reference::kDoubted);
   EXPECT_EQ(station_.reference_ok(now_), Refusal::kNone);
   EXPECT_TRUE(station_.take_actions().reference_ok);
 }

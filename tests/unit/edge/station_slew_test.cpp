@@ -80,7 +80,7 @@ TEST_F(StationSlewTest, ASlewedStationAllowsForWhatItDoesNotKnowOfItsOwnHeading)
   StationConfig rough = config();
   rough.geometry.sd.heading_rad = radians(0.5);
   Station station(rough, std::make_unique<test::ScriptedTracker>(script_));
-  station.set_reference(ptu::PtuReference::kTrusted);
+  station.set_reference(mount::Reference::kTrusted);
   camera::Frame frame;
   const auto show = [&](double until_s) {
     for (; now_ < until_s; now_ += test::kFrame_s) {

@@ -21,7 +21,7 @@ ZoomPoint point(double position, double focal_px) {
 class OverviewTest : public test::StationTest {
  protected:
   OverviewTest() : overview_(config(), std::make_unique<test::ScriptedTracker>(script_)) {
-    overview_.set_reference(ptu::PtuReference::kTrusted);
+    overview_.set_reference(mount::Reference::kTrusted);
   }
   static StationConfig config() {
     StationConfig config = test::StationTest::config();

@@ -32,6 +32,28 @@ TEST(Plan, AStationHasItsConfigurationTheRouteOfTheBusAndItsUnits) {
               ElementsAre("ols-bus.service", "ols-time.service", "ols-station@alfa.service"));
 }
 
+TEST(Plan, AMountNeedsADeviceOrAKindThatHasNone) {
+  Values values;
+  EXPECT_FALSE(has_mount(values));
+  values = {{"station.mount.kind", "\"flir\""}};
+  EXPECT_FALSE(has_mount(values));
+  EXPECT_TRUE(has_mount({{"station.mount.kind", "\"fixed\""}}));
+  for (const char* key : {"station.mount.device", "station.ptu.device"}) {
+    EXPECT_TRUE(has_mount({{key, "\"p\""}})) << key;
+    EXPECT_EQ(mount_device({{key, "\"p\""}}), "\"p\"") << key;
+  }
+  EXPECT_FALSE(has_camera(values));
+  EXPECT_TRUE(has_camera({{"station.camera.device", "\"c\""}}));
+}
+
+TEST(Plan, AStationWithoutMotionSaysSo) {
+  Answers answers = read_answers(station_answers(), "a");
+  add(answers.values, "station.camera.device", "Maker-1");
+  add(answers.values, "station.mount.kind", "fixed");
+  EXPECT_THAT(plan_station(answers).files[0].text,
+              HasSubstr("[mount]  # What carries the camera.\nkind = \"fixed\""));
+}
+
 TEST(Plan, WithoutADeviceTheErrorNamesTheKey) {
   const Answers answers = read_answers(station_answers(), "a");
   EXPECT_THAT([&] { plan_station(answers); },

@@ -37,7 +37,7 @@ double period_s(camera::AravisCamera& camera) {
 
 TEST_P(CameraControl, RateExposureAndGainAreThoseThatAreSet) {
   const auto server = serve(as());
-  camera::CameraConfig config = station_camera();
+  camera::AravisConfig config = station_camera();
   config.exposure_us = 1500.0;
   config.gain_dB = 6.0;
   camera::AravisCamera camera(config);
@@ -56,7 +56,7 @@ TEST_P(CameraControl, RateExposureAndGainAreThoseThatAreSet) {
 
 TEST_P(CameraControl, FreeRunIsAsFastAsTheCameraCan) {
   const auto server = serve(as());
-  camera::CameraConfig config = station_camera();
+  camera::AravisConfig config = station_camera();
   config.trigger = camera::TriggerMode::kFreeRun;
   config.frame_rate_hz = 2.0;
   camera::AravisCamera camera(config);
@@ -65,7 +65,7 @@ TEST_P(CameraControl, FreeRunIsAsFastAsTheCameraCan) {
 
 TEST_P(CameraControl, ASoftwareTriggerMakesOneFrame) {
   const auto server = serve(as());
-  camera::CameraConfig config = station_camera();
+  camera::AravisConfig config = station_camera();
   config.trigger = camera::TriggerMode::kSoftware;
   config.no_frame_timeout_s = 0.1;
   camera::AravisCamera camera(config);
@@ -88,7 +88,7 @@ TEST_P(CameraControl, ASoftwareTriggerMakesOneFrame) {
 
 TEST_P(CameraControl, APulseOnItsLineMakesAFrameAfterTheDelay) {
   const auto server = serve(as());
-  camera::CameraConfig config = station_camera();
+  camera::AravisConfig config = station_camera();
   config.trigger = camera::TriggerMode::kLine2;
   config.trigger_delay_us = 30'000.0;
   config.no_frame_timeout_s = 0.1;
@@ -114,7 +114,7 @@ TEST_P(CameraControl, AutomaticExposureSettlesAndEveryFrameKnowsItsMiddle) {
     sign(exposure, picture);
   };
   const auto server = serve(how);
-  camera::CameraConfig config = station_camera();
+  camera::AravisConfig config = station_camera();
   config.exposure_us = 500.0;
   config.auto_exposure = true;
   config.limits.exposure_max_us = 8000.0;
@@ -137,7 +137,7 @@ TEST_P(CameraControl, AutomaticExposureSettlesAndEveryFrameKnowsItsMiddle) {
 
 TEST_P(CameraControl, ItsClockMayBecomeThatOfAPtpMaster) {
   const auto server = serve(as());
-  camera::CameraConfig config = station_camera();
+  camera::AravisConfig config = station_camera();
   config.ptp = "slave";
   camera::AravisCamera camera(config);
   EXPECT_TRUE(becomes(camera, [&] { return has_alarm(camera, "PTP is not yet synchronised"); }));
@@ -155,7 +155,7 @@ TEST_P(CameraControl, PacedPacketsFitASmallBuffer) {
   how.width_px = 1280;
   how.height_px = 960;
   const auto server = serve(how);
-  camera::CameraConfig config = station_camera();
+  camera::AravisConfig config = station_camera();
   config.width_px = 1280;
   config.height_px = 960;
   config.frame_rate_hz = 5.0;  // a packet each 1.5 ms
@@ -173,7 +173,7 @@ TEST(CameraClock, WithoutATickFrequencyTheStampsAreMarkedAsTheHosts) {
   const auto frame = frame_of(camera);
   ASSERT_TRUE(frame) << camera.last_error();
   EXPECT_EQ(frame->stamp_source, camera::StampSource::kArrival);
-  EXPECT_DOUBLE_EQ(frame->stamp_sd_s, camera::CameraConfig{}.readout_sd_s);
+  EXPECT_DOUBLE_EQ(frame->stamp_sd_s, camera::AravisConfig{}.readout_sd_s);
   EXPECT_TRUE(has_alarm(camera, "camera: time stamps are the host's, +-10 ms"));
 }
 
@@ -189,7 +189,7 @@ TEST(CameraLoss, ACameraThatWasOffAndOnIsOpenedAgain) {
 // No silence tells it here: only the heartbeat does.
 TEST(CameraLoss, ALostControlIsNoticedWithoutAnyFrame) {
   const auto server = serve();
-  camera::CameraConfig config = station_camera();
+  camera::AravisConfig config = station_camera();
   config.trigger = camera::TriggerMode::kLine1;
   camera::AravisCamera camera(config);
   ASSERT_TRUE(becomes(camera, [&] { return camera.state() == camera::CameraState::kStarting; }));
@@ -204,7 +204,7 @@ TEST(CameraLoss, ALostControlIsNoticedWithoutAnyFrame) {
 
 TEST(CameraLoss, SilenceIsReportedBeforeTheCameraIsGivenUp) {
   const auto server = serve();
-  camera::CameraConfig config = station_camera();
+  camera::AravisConfig config = station_camera();
   config.no_frame_timeout_s = 5.0;
   camera::AravisCamera camera(config);
   ASSERT_TRUE(frame_of(camera)) << camera.last_error();

@@ -12,7 +12,7 @@
 #include <string>
 #include <thread>
 
-#include "edge/camera/aravis_camera.h"
+#include "edge/camera/aravis/aravis_camera.h"
 #include "sim/simulated_camera.h"
 
 namespace ols {
@@ -69,8 +69,8 @@ inline std::unique_ptr<sim::SimulatedCamera> serve(const Serve& how = {}) {
   return std::make_unique<sim::SimulatedCamera>(config, how.paint);
 }
 
-inline camera::CameraConfig station_camera() {
-  camera::CameraConfig config;
+inline camera::AravisConfig station_camera() {
+  camera::AravisConfig config;
   config.device = "127.0.0.1";
   config.width_px = kWidth;
   config.height_px = kHeight;

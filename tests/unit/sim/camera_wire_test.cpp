@@ -41,7 +41,7 @@ TEST(CameraWire, MidExposureIsThatOfTheCamera) {
 
 TEST(CameraWire, AStampAtTheEndOfTheExposureIsTakenAsSuch) {
   const auto server = serve();
-  camera::CameraConfig config = station_camera();
+  camera::AravisConfig config = station_camera();
   config.stamp_at = camera::StampAt::kExposureEnd;
   camera::AravisCamera camera(config);
   const auto frame = frame_of(camera);
@@ -53,7 +53,7 @@ TEST(CameraWire, AStampAtTheEndOfTheExposureIsTakenAsSuch) {
 
 TEST(CameraWire, WithoutThePacketSocketAndWithSmallPackets) {
   const auto server = serve();
-  camera::CameraConfig config = station_camera();
+  camera::AravisConfig config = station_camera();
   config.packet_socket = false;
   config.packet_size = 1500;
   camera::AravisCamera camera(config);
@@ -69,7 +69,7 @@ TEST(CameraWire, ColourBecomesGray) {
   const double brightness = level * (0.299 * tint[0] + 0.587 * tint[1] + 0.114 * tint[2]);
   const auto server = serve();
   for (const char* format : {"BayerRG8", "BayerGR8", "BayerGB8", "BayerBG8", "RGB8", "BGR8"}) {
-    camera::CameraConfig config = station_camera();
+    camera::AravisConfig config = station_camera();
     config.pixel_format = format;
     camera::AravisCamera camera(config);
     const auto frame = frame_of(camera);
@@ -82,7 +82,7 @@ TEST(CameraWire, ColourBecomesGray) {
 
 TEST(CameraWire, IsFoundByItsName) {
   const auto server = serve();
-  camera::CameraConfig config = station_camera();
+  camera::AravisConfig config = station_camera();
   config.device = "AVT-T1";
   camera::AravisCamera camera(config);
   ASSERT_TRUE(frame_of(camera)) << camera.last_error();
@@ -172,7 +172,7 @@ TEST(CameraWire, ACameraThatWasCutOffIsBackSoonAfterTheCableIs) {
 
 TEST(CameraWire, LostPacketsSpoilFramesOnlyWhereTheyCannotBeSentAgain) {
   const auto server = serve();
-  camera::CameraConfig config = station_camera();
+  camera::AravisConfig config = station_camera();
   config.packet_size = 1500;  // 53 packets a frame
   server->set_faults({.packet_loss = 0.01, .no_resend = true, .pixel_format = {}});
   camera::AravisCamera camera(config);
@@ -184,7 +184,7 @@ TEST(CameraWire, LostPacketsSpoilFramesOnlyWhereTheyCannotBeSentAgain) {
 
 TEST(CameraWire, LostPacketsAreAskedForAgain) {
   const auto server = serve();
-  camera::CameraConfig config = station_camera();
+  camera::AravisConfig config = station_camera();
   config.packet_size = 1500;
   server->set_faults({.packet_loss = 0.01, .pixel_format = {}});
   camera::AravisCamera camera(config);

@@ -81,7 +81,7 @@ PassBy track(double rate_rad_s, double lag_s) {
     if (!said.empty()) watch.unit_said(said, t, kByte_s);
     driver.receive(said, t);
     // There and back, as a target would lead it.
-    ptu::ServoGoal goal;
+    mount::Goal goal;
     goal.angles.pan_rad = 0.8 * std::sin(rate_rad_s / 0.8 * t);
     goal.rate.pan_rad = rate_rad_s * std::cos(rate_rad_s / 0.8 * t);
     goal.time_s = t;

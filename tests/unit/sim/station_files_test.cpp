@@ -4,8 +4,10 @@
 
 #include <filesystem>
 
+#include "edge/camera/aravis/aravis_kind.h"
 #include "edge/config.h"
 #include "edge/persisted_station_state.h"
+#include "edge/ptu/ptu_kind.h"
 #include "tests/unit/temp_dir.h"
 
 namespace ols::sim {
@@ -39,11 +41,11 @@ TEST(StationFiles, AreReadByTheStationAsTheNominalGeometry) {
     EXPECT_NEAR(g.sd.mount_roll_rad, truth.nominal.sd.mount_roll_rad, 1e-15);
     EXPECT_EQ(g.sd.position_m, truth.nominal.sd.position_m);
     EXPECT_EQ(read.clock.assumed_sd_s, truth.clock_sd_s);
-    EXPECT_EQ(read.ptu.device, "/tmp/lines/" + truth.id + ".ptu");
+    EXPECT_EQ(read.mount.as<ptu::PtuKind>()->unit.device, "/tmp/lines/" + truth.id + ".ptu");
     EXPECT_EQ(read.inclinometer.device, "/tmp/lines/" + truth.id + ".inclinometer");
     EXPECT_EQ(read.gnss.port, std::to_string(2950 + (&truth - world.stations().data())));
     EXPECT_EQ(read.gnss.ground_to_antenna_enu_m, world.scenario().gnss.ground_to_antenna_enu_m);
-    EXPECT_NEAR(read.camera.exposure_us, 2000.0, 1e-9);
+    EXPECT_NEAR(read.camera.as<camera::AravisKind>()->aravis.exposure_us, 2000.0, 1e-9);
   }
   std::filesystem::remove_all(folder);
 }
@@ -56,6 +58,13 @@ TEST(StationFiles, HaveNoSensorsWhereTheScenarioHasNone) {
   EXPECT_EQ(file.find("[gnss]"), std::string::npos);
 }
 
+TEST(StationFiles, SayWhichCameraStandsStill) {
+  Scenario scenario = load_scenario(std::string(OLS_SCENARIOS) + "/fig7.toml");
+  scenario.stations[0].fixed = PanTilt{radians(20.0), radians(4.0)};
+  const std::string file = station_file(World(scenario, 5), 0, {"", "/tmp/lines", ""});
+  EXPECT_NE(file.find("[mount]\nkind = \"fixed\"\npan_deg = 20"), std::string::npos) << file;
+}
+
 TEST(StationFiles, AreReadFromAFolderOfAnyName) {
   const World world(load_scenario(std::string(OLS_SCENARIOS) + "/fig7.toml"), 5);
   const auto folder = std::filesystem::path(temp_dir()) / ("named_" + std::to_string(::getpid()));
@@ -64,7 +73,7 @@ TEST(StationFiles, AreReadFromAFolderOfAnyName) {
   const std::string& id = world.stations()[0].id;
   const station::StationSettings read = station::load_station_settings(folder / (id + ".toml"));
   EXPECT_EQ(read.state_folder, state);
-  EXPECT_EQ(read.ptu.device, lines + "/" + id + ".ptu");
+  EXPECT_EQ(read.mount.as<ptu::PtuKind>()->unit.device, lines + "/" + id + ".ptu");
   EXPECT_EQ(read.inclinometer.device, lines + "/" + id + ".inclinometer");
   std::filesystem::remove_all(folder);
 }

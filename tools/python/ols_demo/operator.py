@@ -63,7 +63,10 @@ class Operator:
         if self._sees_target(station):
             self._designate(station)
             self._designated[station] = now
-        elif now >= self._pointed.get(station, -np.inf) + POINT_INTERVAL_S:
+        elif (
+            self._observer.status[station].kind != ols_msg.station_status_t.KIND_FIXED
+            and now >= self._pointed.get(station, -np.inf) + POINT_INTERVAL_S
+        ):
             self._point(station)
             self._pointed[station] = now
 

@@ -30,6 +30,7 @@ TEST(Preconditions, EachHindranceIsNamed) {
       {[](StationFacts& f) { f.status_gap_s = 2.0; }, "status comes every 2.0 s"},
       {[](StationFacts& f) { f.follows_target = true; }, "follows a target"},
       {[](StationFacts& f) { f.unit_works = false; }, "pan-tilt unit does not work"},
+      {[](StationFacts& f) { f.moves = false; }, "mount is fixed"},
       {[](StationFacts& f) { f.limits_known = false; }, "home it"},
       {[](StationFacts& f) { f.camera_works = false; }, "camera does not work"},
       {[](StationFacts& f) { f.image_width_px = 640; }, "640 x 960"},

@@ -128,6 +128,12 @@ TEST(Messages, WhomTheOperatorHasTheFusionLeavesAlone) {
     const auto result = decode_status(encoded(message));
     EXPECT_FALSE(std::get<StationPlace>(result).traits.commandable) << int{state};
   }
+  for (const std::int8_t kind : {M::KIND_OVERVIEW, M::KIND_FIXED}) {
+    auto message = status();
+    message.kind = kind;
+    const auto result = decode_status(encoded(message));
+    EXPECT_FALSE(std::get<StationPlace>(result).traits.commandable) << int{kind};
+  }
 }
 
 TEST(Messages, StatusTellsLatencyAndFieldOfView) {

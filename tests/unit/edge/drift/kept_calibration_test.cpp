@@ -48,8 +48,8 @@ class KeptCalibrationTest : public testing::Test {
     }
     return pans.size();
   }
-  static ptu::PtuLimits travel() {
-    ptu::PtuLimits limits;
+  static mount::Limits travel() {
+    mount::Limits limits;
     limits.count = {5.61e-5, 5.61e-5};
     return limits;
   }

@@ -88,7 +88,7 @@ class ReferenceViewsTest : public FolderTest<> {
   ReferenceViews::Config config_;
   StationCalibration calibration_;
   double now_s_ = 100.0;
-  ptu::PtuLimits limits_{-radians(159), radians(159), -radians(46), radians(31)};
+  mount::Limits limits_{-radians(159), radians(159), -radians(46), radians(31)};
   bool night_ = false;
   const cv::Mat dark_ = cv::Mat::zeros(480, 640, CV_8U);
 };

@@ -15,7 +15,7 @@ ViewTour::Config every_ten_minutes() {
 
 const double kCount = radians(11.5714 / 3600.0);
 
-ptu::PtuLimits travel() { return {-radians(159), radians(159), -radians(46), radians(31)}; }
+mount::Limits travel() { return {-radians(159), radians(159), -radians(46), radians(31)}; }
 
 // A unit that goes where it is told, at 40 degrees a second, and a camera of 10 Hz.
 class ViewTourTest : public testing::Test {
@@ -155,7 +155,7 @@ TEST_F(ViewTourTest, WhatWasLeftOutIsSeenWhenTheSunHasGoneOn) {
 }
 
 TEST_F(ViewTourTest, WhatIsForbiddenIsNoView) {
-  ptu::PtuLimits limits = travel();
+  mount::Limits limits = travel();
   limits.keep_out.push_back({radians(-50), radians(-40), radians(-10), radians(31)});
   tour.plan(limits, {kCount, kCount});
   EXPECT_EQ(tour.views().size(), 3U);

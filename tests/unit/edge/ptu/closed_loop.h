@@ -70,7 +70,7 @@ class ClosedLoop {
   }
 
   // A goal that is fresh now.
-  ServoGoal goal(const PanTilt& angles, const PanTilt& rate = {}) const {
+  mount::Goal goal(const PanTilt& angles, const PanTilt& rate = {}) const {
     return {time_s, angles, rate, time_s + 0.5};
   }
 

@@ -87,7 +87,7 @@ TEST(PtuDriver, SendsOneHaltWhenTheGoalIsWithdrawn) {
 TEST(PtuDriver, HaltsWhenTheGoalIsStale) {
   ClosedLoop loop(quick_driver(), quick_unit());
   ASSERT_TRUE(loop.start());
-  ServoGoal goal = loop.goal({2.0, 0.0});
+  mount::Goal goal = loop.goal({2.0, 0.0});
   goal.valid_until_s = loop.time_s + 0.2;
   loop.driver.set_goal(goal);
   while (loop.time_s < goal.valid_until_s) loop.tick();
@@ -112,12 +112,12 @@ TEST(PtuDriver, GetsThroughLostAndFlippedBytes) {
     }
     bytes = kept;
   };
-  std::vector<AngleSample> samples;
+  std::vector<mount::AngleSample> samples;
   double worst_rad = 0.0;
   loop.run(20.0, [&] {
     const double phase = 0.5 * loop.time_s;
     loop.driver.set_goal(loop.goal({0.3 * std::sin(phase), 0.0}, {0.15 * std::cos(phase), 0.0}));
-    for (const AngleSample& sample : loop.driver.take_samples()) {
+    for (const mount::AngleSample& sample : loop.driver.take_samples()) {
       if (sample.time_s < loop.time_s - 1.5) continue;
       worst_rad = std::max(
           worst_rad, std::abs(sample.angles.pan_rad - loop.unit.angles_at(sample.time_s).pan_rad));
@@ -254,7 +254,7 @@ void start_from_velocity_mode(const StartCase& c) {
     driver.receive(unit.transmit(t), t);
     faulted = faulted || driver.state() == PtuState::kFault;
     ready = ready || driver.state() == PtuState::kReady;
-    driver.set_goal(ServoGoal{t, {1.0, 0.0}, {}, t + 0.5});
+    driver.set_goal(mount::Goal{t, {1.0, 0.0}, {}, t + 0.5});
     moved = moved || std::abs(unit.angles_at(t).pan_rad) > 1e-3;
   }
   const bool drives = *c.reason == '\0';
@@ -284,7 +284,7 @@ TEST(PtuDriver, DrivesNoUnitThatRefusesItsSoftLimits) {
 
 TEST(PtuDriver, FaultsWhenNoPositionIsWithinBothLimits) {
   struct Case {
-    PtuLimits limits;
+    mount::Limits limits;
     const char* axis;
   };
   const double count = radians(11.5714 / 3600.0);

@@ -1,4 +1,4 @@
-#include "edge/ptu/keep_out.h"
+#include "edge/mount/keep_out.h"
 
 #include <gtest/gtest.h>
 
@@ -12,17 +12,17 @@ namespace {
 
 PanTilt deg(double pan, double tilt) { return {radians(pan), radians(tilt)}; }
 
-KeepOut region(double pan_min, double pan_max, double tilt_min, double tilt_max) {
+mount::KeepOut region(double pan_min, double pan_max, double tilt_min, double tilt_max) {
   return {radians(pan_min), radians(pan_max), radians(tilt_min), radians(tilt_max)};
 }
 
-const AngleBox kTravel = region(-159, 159, -47, 31);
+const mount::AngleBox kTravel = region(-159, 159, -47, 31);
 // A mast: from the bottom of the travel to 5 degrees above the horizon.
-const KeepOut kMast = region(20, 40, -47, 5);
+const mount::KeepOut kMast = region(20, 40, -47, 5);
 // A wall: over the whole height.
-const KeepOut kWall = region(60, 70, -90, 90);
+const mount::KeepOut kWall = region(60, 70, -90, 90);
 
-bool inside(const KeepOut& r, const PanTilt& p) {
+bool inside(const mount::KeepOut& r, const PanTilt& p) {
   return p.pan_rad > r.pan_min_rad && p.pan_rad < r.pan_max_rad && p.tilt_rad > r.tilt_min_rad &&
          p.tilt_rad < r.tilt_max_rad;
 }
@@ -70,7 +70,7 @@ TEST(KeepOut, WaysAreFree) {
   std::uniform_real_distribution<double> pan(-150, 150), tilt(-45, 30), size(2, 60);
   int found = 0, detours = 0;
   for (int run = 0; run < 2000; ++run) {
-    std::vector<KeepOut> regions;
+    std::vector<mount::KeepOut> regions;
     for (int i = 0; i < 5; ++i) {
       const double p = pan(random), t = tilt(random);
       regions.push_back(region(p, p + size(random), t, t + 0.5 * size(random)));
@@ -83,7 +83,7 @@ TEST(KeepOut, WaysAreFree) {
     detours += way->size() > 1 ? 1 : 0;
     PanTilt at = from;
     for (const PanTilt& next : *way) {
-      ASSERT_FALSE(blocked(regions, spanned(at, next)));
+      ASSERT_FALSE(blocked(regions, mount::spanned(at, next)));
       at = next;
     }
     ASSERT_EQ(at.pan_rad, to.pan_rad);
@@ -94,23 +94,23 @@ TEST(KeepOut, WaysAreFree) {
 }
 
 TEST(KeepOut, ReachChoosesTheFreeTurn) {
-  PtuLimits limits{radians(-300), radians(300), radians(-47), radians(31)};
+  mount::Limits limits{radians(-300), radians(300), radians(-47), radians(31)};
   limits.keep_out = {kWall};
   PanTilt angles = deg(100, 0);
-  EXPECT_EQ(reach(limits, deg(0, 0), angles), Reach::kLongWayRound);
+  EXPECT_EQ(reach(limits, deg(0, 0), angles), mount::Reach::kLongWayRound);
   EXPECT_NEAR(degrees(angles.pan_rad), -260.0, 1e-9);
   angles = deg(65, 0);
-  EXPECT_EQ(reach(limits, deg(0, 0), angles), Reach::kLongWayRound);  // -295
+  EXPECT_EQ(reach(limits, deg(0, 0), angles), mount::Reach::kLongWayRound);  // -295
   limits.pan_min_rad = radians(-159);
   angles = deg(65, 0);
-  EXPECT_EQ(reach(limits, deg(0, 0), angles), Reach::kUnreachable);
+  EXPECT_EQ(reach(limits, deg(0, 0), angles), mount::Reach::kUnreachable);
   angles = deg(100, 0);
-  EXPECT_EQ(reach(limits, deg(0, 0), angles), Reach::kUnreachable);
+  EXPECT_EQ(reach(limits, deg(0, 0), angles), mount::Reach::kUnreachable);
   limits.keep_out = {kMast};
   angles = deg(80, -10);
-  EXPECT_EQ(reach(limits, deg(0, -10), angles), Reach::kLongWayRound);
+  EXPECT_EQ(reach(limits, deg(0, -10), angles), mount::Reach::kLongWayRound);
   angles = deg(10, -10);
-  EXPECT_EQ(reach(limits, deg(0, -10), angles), Reach::kDirect);
+  EXPECT_EQ(reach(limits, deg(0, -10), angles), mount::Reach::kDirect);
 }
 
 class KeepOutInMotion : public testing::Test {
@@ -122,7 +122,7 @@ class KeepOutInMotion : public testing::Test {
     return ptu;
   }
   void watch() {
-    for (const KeepOut& r : config().limits.keep_out) {
+    for (const mount::KeepOut& r : config().limits.keep_out) {
       ASSERT_FALSE(inside(r, loop.truth()))
           << degrees(loop.truth().pan_rad) << ' ' << degrees(loop.truth().tilt_rad);
     }
@@ -166,7 +166,7 @@ TEST_F(KeepOutInMotion, IsNeverEnteredWhateverTheGoals) {
   std::mt19937 random(4);
   std::uniform_real_distribution<double> pan(-110, 110), tilt(-40, 28), rate(-40, 40);
   std::uniform_real_distribution<double> stay_s(0.1, 3.0);
-  ServoGoal goal = loop.goal({});
+  mount::Goal goal = loop.goal({});
   double change_s = 0.0;
   loop.run(600.0, [&] {
     if (loop.time_s >= change_s) {
@@ -175,7 +175,7 @@ TEST_F(KeepOutInMotion, IsNeverEnteredWhateverTheGoals) {
       if (goal.rests) goal.rate = {};
       change_s = loop.time_s + stay_s(random);
     }
-    ServoGoal now = goal;
+    mount::Goal now = goal;
     const double dt_s = loop.time_s - goal.time_s;
     now.angles.pan_rad += dt_s * goal.rate.pan_rad;
     now.angles.tilt_rad += dt_s * goal.rate.tilt_rad;

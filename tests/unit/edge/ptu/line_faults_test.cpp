@@ -78,7 +78,7 @@ class Loser {
 };
 
 // Everything that a station has its unit do: follow, stand, turn back, jump.
-ServoGoal busy_goal(double t) {
+mount::Goal busy_goal(double t) {
   const double phase = std::fmod(t, 20.0);
   if (phase < 12.0) {
     return {0.0,
@@ -116,7 +116,7 @@ class LineFaults : public testing::TestWithParam<Setting> {
     config.reply_jitter_s = 0.003;
     return config;
   }
-  static AngleHistory::Config history() { return driver().history; }
+  static mount::AngleHistory::Config history() { return driver().history; }
 
   void fly(double duration_s, const std::function<void()>& each = {}) {
     ASSERT_TRUE(loop_.start(20.0));
@@ -125,7 +125,7 @@ class LineFaults : public testing::TestWithParam<Setting> {
     loop_.run(duration_s, [&] {
       if (each) each();
       if (loop_.time_s >= next_goal_s) {
-        ServoGoal goal = busy_goal(loop_.time_s - begin_s);
+        mount::Goal goal = busy_goal(loop_.time_s - begin_s);
         goal.time_s = loop_.time_s;
         goal.valid_until_s = loop_.time_s + 0.5;
         loop_.driver.set_goal(goal);

@@ -7,7 +7,9 @@
 namespace ols::ptu {
 namespace {
 
-ServoGoal goal(double pan_rad, double time_s) { return {time_s, {pan_rad, 0.0}, {}, time_s + 0.5}; }
+mount::Goal goal(double pan_rad, double time_s) {
+  return {time_s, {pan_rad, 0.0}, {}, time_s + 0.5};
+}
 
 MotionCommands::Now standing() {
   MotionCommands::Now now;
@@ -54,7 +56,7 @@ TEST(MotionCommands, SendsWhatHasChangedAndEverythingOnceASecond) {
 }
 
 TEST(MotionCommands, HaltsWithoutAGoalAndWithAStaleOne) {
-  for (const std::optional<ServoGoal>& stale : {std::optional<ServoGoal>(), {goal(1.0, 0.0)}}) {
+  for (const std::optional<mount::Goal>& stale : {std::optional<mount::Goal>(), {goal(1.0, 0.0)}}) {
     MotionCommands commands(PtuConfig{}, d46_facts());
     EXPECT_EQ(commands.next(stale, {}, 0.6).bytes(), "H ");
   }
@@ -82,7 +84,7 @@ TEST(MotionCommands, LowersTheSpeedOfAUnitThatBrakesTooSlowly) {
 }
 
 TEST(MotionCommands, SaysWhichLimitsLeaveNoRoom) {
-  EXPECT_EQ(limits_conflict(PtuLimits{}, d46_facts()), "");
+  EXPECT_EQ(limits_conflict(mount::Limits{}, d46_facts()), "");
   const std::string pan = limits_conflict({3.0, 4.0, -0.8, 0.5}, d46_facts());
   EXPECT_NE(pan.find("no pan lies within both"), std::string::npos) << pan;
 }

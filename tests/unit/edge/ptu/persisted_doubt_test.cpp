@@ -6,16 +6,16 @@
 namespace ols::ptu {
 namespace {
 
-constexpr PtuReferenceDoubt kDoubted{false, false}, kBrokenOff{true, false};
-constexpr PtuReferenceDoubt kGearsLost{false, true}, kBoth{true, true};
+constexpr mount::ReferenceDoubt kDoubted{false, false}, kBrokenOff{true, false};
+constexpr mount::ReferenceDoubt kGearsLost{false, true}, kBoth{true, true};
 
 TEST(PersistedDoubt, OutlivesTheStartUntilThePersonVouches) {
-  for (const PtuReferenceDoubt& doubt : {kDoubted, kBrokenOff}) {
+  for (const mount::ReferenceDoubt& doubt : {kDoubted, kBrokenOff}) {
     ClosedLoop loop(quick_driver(), quick_unit());
     loop.driver.restore_doubt(doubt);
     loop.run(8.0);
     EXPECT_EQ(loop.driver.state(), PtuState::kFault);
-    EXPECT_EQ(loop.driver.reference(), PtuReference::kDoubted);
+    EXPECT_EQ(loop.driver.reference(), mount::Reference::kDoubted);
     EXPECT_EQ(loop.driver.doubt_to_persist(), doubt);
     EXPECT_NE(loop.driver.last_error().find("before this start"), std::string::npos);
     EXPECT_TRUE(loop.driver.take_samples().empty());
@@ -29,9 +29,9 @@ TEST(PersistedDoubt, OfTheGearsNobodyVouches) {
   ClosedLoop loop(quick_driver(), quick_unit());
   loop.driver.restore_doubt(kGearsLost);
   loop.run(8.0);
-  EXPECT_EQ(loop.driver.reference(), PtuReference::kMissing);
+  EXPECT_EQ(loop.driver.reference(), mount::Reference::kMissing);
   loop.driver.reference_ok();
-  EXPECT_EQ(loop.driver.reference(), PtuReference::kMissing);
+  EXPECT_EQ(loop.driver.reference(), mount::Reference::kMissing);
   EXPECT_EQ(loop.driver.doubt_to_persist(), kGearsLost);
   loop.driver.home(loop.time_s);
   loop.run(60.0);
@@ -40,7 +40,7 @@ TEST(PersistedDoubt, OfTheGearsNobodyVouches) {
 }
 
 TEST(PersistedDoubt, ABrokenHomingIsNotBegunAgainByItself) {
-  for (const PtuReferenceDoubt& doubt : {kDoubted, kBrokenOff, kBoth}) {
+  for (const mount::ReferenceDoubt& doubt : {kDoubted, kBrokenOff, kBoth}) {
     PtuConfig config = quick_driver();
     config.rehome = PtuRehome::kWhenUnreferenced;
     ClosedLoop loop(config, quick_unit());
@@ -52,7 +52,7 @@ TEST(PersistedDoubt, ABrokenHomingIsNotBegunAgainByItself) {
 
 // Whatever happens on the line, what is written down for the next start never becomes less.
 TEST(PersistedDoubt, IsTheSameInEveryPhase) {
-  for (const PtuReferenceDoubt& doubt : {kDoubted, kBrokenOff, kGearsLost, kBoth}) {
+  for (const mount::ReferenceDoubt& doubt : {kDoubted, kBrokenOff, kGearsLost, kBoth}) {
     ClosedLoop loop(quick_driver(), quick_unit());
     loop.driver.restore_doubt(doubt);
     int others = 0;
@@ -79,7 +79,7 @@ TEST(PersistedDoubt, OfGearsIsKeptThroughABrokenHoming) {
   loop.run(60.0);
   EXPECT_EQ(loop.driver.doubt_to_persist(), kBoth);
   loop.driver.reference_ok();
-  EXPECT_EQ(loop.driver.reference(), PtuReference::kMissing);
+  EXPECT_EQ(loop.driver.reference(), mount::Reference::kMissing);
 }
 
 TEST(PersistedDoubt, GearsLostAfterItWasVouchedForAreNoticed) {
@@ -92,7 +92,7 @@ TEST(PersistedDoubt, GearsLostAfterItWasVouchedForAreNoticed) {
     loop.run(15.0);
     EXPECT_EQ(loop.driver.doubt_to_persist(), kGearsLost);
     loop.driver.reference_ok();
-    EXPECT_EQ(loop.driver.reference(), PtuReference::kMissing);
+    EXPECT_EQ(loop.driver.reference(), mount::Reference::kMissing);
   }
 }
 

@@ -29,7 +29,7 @@ class PositionCheckTest : public testing::Test {
 TEST_F(PositionCheckTest, BelievesAMotionAndKnowsItsRate) {
   EXPECT_EQ(take(1.0, 1000.0), Verdict::kFirst);
   for (const double t : {1.025, 1.05, 1.075}) EXPECT_EQ(take(t, 1000.0), Verdict::kBelieved);
-  const AngleSample& sample = check_.sample();
+  const mount::AngleSample& sample = check_.sample();
   EXPECT_NEAR(sample.time_s, 1.08, 1e-6);
   EXPECT_NEAR(sample.angles.pan_rad, 1080.0 * d46_facts().pan.resolution_rad, 1e-4);
   EXPECT_NEAR(check_.rate_rad_s().pan_rad, 1000.0 * d46_facts().pan.resolution_rad, 3e-3);

@@ -27,7 +27,7 @@ TEST(PtuConfigFile, ReadsDegreesAndKeepsDefaults) {
   EXPECT_NEAR(config.servo.max_speed_rad_s, radians(30.0), 1e-12);
   EXPECT_EQ(config.history.acceleration_max_rad_s2, config.acceleration_rad_s2);
   EXPECT_NEAR(config.history.acceleration_sd_rad_s2, radians(2.4), 1e-12);
-  EXPECT_NEAR(config.limits.pan_min_rad, PtuLimits{}.pan_min_rad, 1e-12);
+  EXPECT_NEAR(config.limits.pan_min_rad, mount::Limits{}.pan_min_rad, 1e-12);
   EXPECT_EQ(config.poll_interval_s, PtuConfig{}.poll_interval_s);
 }
 

@@ -42,7 +42,7 @@ PtuConfig config(const std::string& device) {
 
 bool ready(const PtuThread& ptu) { return ptu.status().state == PtuState::kReady; }
 
-ServoGoal fixed_goal(double pan_deg, double tilt_deg) {
+mount::Goal fixed_goal(double pan_deg, double tilt_deg) {
   const double now_s = clock_monotonic_s();
   return {now_s, {radians(pan_deg), radians(tilt_deg)}, {}, now_s + 5.0};
 }
@@ -81,7 +81,7 @@ TEST(PtuThread, BringsTheUnitToAGoalAndReportsItsAngles) {
   ASSERT_TRUE(eventually([&] { return ready(ptu); })) << ptu.status().last_error;
   ASSERT_TRUE(arrives(ptu, line, 5.0, -3.0));
   ptu.take_samples();
-  std::vector<AngleSample> samples;
+  std::vector<mount::AngleSample> samples;
   ASSERT_TRUE(eventually([&] {
     ptu.set_goal(fixed_goal(5.0, -3.0));
     samples = ptu.take_samples();
@@ -130,7 +130,7 @@ TEST(PtuThread, OpensThePortAgainWhenItVanished) {
   EXPECT_NE(ptu.status().last_error.find(link), std::string::npos);
   // It is another unit, as after a power cycle: the thread has not seen it home.
   line = std::make_unique<PtuLine>(unit(), 2, link);
-  EXPECT_TRUE(eventually([&] { return ptu.reference() == PtuReference::kDoubted; }));
+  EXPECT_TRUE(eventually([&] { return ptu.reference() == mount::Reference::kDoubted; }));
   EXPECT_EQ(ptu.status().doubt, PtuDoubtCause::kPowerCycle);
   ptu.take_samples();
   ptu.reference_ok();

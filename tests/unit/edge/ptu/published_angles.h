@@ -8,19 +8,20 @@
 #include <cmath>
 #include <deque>
 
-#include "edge/ptu/angle_history.h"
+#include "edge/mount/angle_history.h"
 #include "tests/unit/edge/ptu/closed_loop.h"
 
 namespace ols::ptu {
 
 class PublishedAngles {
  public:
-  explicit PublishedAngles(const AngleHistory::Config& config) : history_(config) {}
+  explicit PublishedAngles(const mount::AngleHistory::Config& config) : history_(config) {}
 
   // Once in each tick of the loop.
   void step(ClosedLoop& loop) {
     constexpr double kFrame_s = 1.0 / 15.0, kArrival_s = 0.02, kWait_s = 0.03;
-    for (const AngleSample& sample : loop.driver.take_samples()) EXPECT_TRUE(history_.add(sample));
+    for (const mount::AngleSample& sample : loop.driver.take_samples())
+      EXPECT_TRUE(history_.add(sample));
     if (loop.time_s >= next_exposure_s_) {
       next_exposure_s_ = std::max(next_exposure_s_, loop.time_s) + kFrame_s;
       exposures_.push_back(loop.time_s);
@@ -49,7 +50,7 @@ class PublishedAngles {
   double worst_deg = 0.0;
 
  private:
-  void judge(const AngleAt& at, const PanTilt& truth) {
+  void judge(const mount::AngleAt& at, const PanTilt& truth) {
     const double pan = at.angles.pan_rad - truth.pan_rad;
     const double tilt = at.angles.tilt_rad - truth.tilt_rad;
     ++published;
@@ -65,7 +66,7 @@ class PublishedAngles {
     }
   }
 
-  AngleHistory history_;
+  mount::AngleHistory history_;
   std::deque<double> exposures_;
   double next_exposure_s_ = 0.0;
   double nees_sum_ = 0.0, pan_nees_sum_ = 0.0, square_sum_ = 0.0;

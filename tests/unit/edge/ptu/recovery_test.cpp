@@ -89,7 +89,7 @@ TEST(Recovery, NoOldGoalAfterAPowerCycle) {
     run_with_rates(loop, 4.0, [&] { loop.driver.set_goal(loop.goal({radians(20.0), 0.0})); });
     ASSERT_NEAR(degrees(loop.truth().pan_rad), 20.0, 0.01);
     EXPECT_EQ(loop.driver.counters().power_cycles, 0u);
-    ServoGoal lasting = loop.goal({radians(20.0), 0.0});
+    mount::Goal lasting = loop.goal({radians(20.0), 0.0});
     lasting.valid_until_s = loop.time_s + 1000.0;
     loop.driver.set_goal(lasting);
     loop.unit.power_cycle(loop.time_s);
@@ -127,7 +127,7 @@ TEST(Recovery, NoOldGoalAfterTheLineWasCut) {
   ClosedLoop loop(quick_driver(), quick_unit());
   ASSERT_TRUE(loop.start());
   loop.run(0.6, [&] { loop.driver.set_goal(loop.goal({radians(100.0), 0.0})); });
-  ServoGoal lasting = loop.goal({radians(100.0), 0.0});
+  mount::Goal lasting = loop.goal({radians(100.0), 0.0});
   lasting.valid_until_s = loop.time_s + 1000.0;
   lasting.time_s = loop.time_s;
   loop.driver.set_goal(lasting);

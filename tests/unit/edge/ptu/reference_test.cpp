@@ -27,7 +27,7 @@ class Reference : public testing::Test {
     loop_->run(duration_s, [&] {
       loop_->unit.set_master_baud(loop_->driver.line_baud());
       if (each) each();
-      for (const AngleSample& sample : loop_->driver.take_samples()) {
+      for (const mount::AngleSample& sample : loop_->driver.take_samples()) {
         const PanTilt truth = loop_->unit.angles_at(sample.time_s);
         wrong_ += std::abs(sample.angles.pan_rad - truth.pan_rad) > kWrong_rad ? 1 : 0;
         ++samples_;
@@ -50,7 +50,8 @@ TEST_F(Reference, NoAngleAndNoMotionAfterAPowerCycleWithoutHoming) {
   send_to(-30.0, 15.0);
   EXPECT_GE(loop_->driver.counters().power_cycles, 1u);
   EXPECT_EQ(loop_->driver.state(), PtuState::kFault);
-  EXPECT_EQ(loop_->driver.reference(), PtuReference::kMissing);  // its gears are not known either
+  EXPECT_EQ(loop_->driver.reference(),
+            mount::Reference::kMissing);  // its gears are not known either
   EXPECT_TRUE(loop_->driver.not_referenced());
   loop_->driver.reference_ok();
   EXPECT_NE(loop_->driver.doubt(), std::nullopt);
@@ -65,7 +66,7 @@ TEST_F(Reference, ComesBackByHoming) {
   run(10.0);
   loop_->driver.home(loop_->time_s);
   EXPECT_EQ(loop_->driver.state(), PtuState::kStarting);
-  EXPECT_EQ(loop_->driver.reference(), PtuReference::kMissing);
+  EXPECT_EQ(loop_->driver.reference(), mount::Reference::kMissing);
   samples_ = 0;
   run(60.0);
   EXPECT_EQ(loop_->driver.state(), PtuState::kReady) << loop_->driver.last_error();
@@ -97,7 +98,7 @@ TEST_F(Reference, ComesBackBecauseAPersonVouchesForIt) {
   make(false);
   loop_->driver.receive("!P", loop_->time_s);
   run(10.0);
-  ASSERT_EQ(loop_->driver.reference(), PtuReference::kDoubted);
+  ASSERT_EQ(loop_->driver.reference(), mount::Reference::kDoubted);
   loop_->driver.reference_ok();
   EXPECT_EQ(loop_->driver.state(), PtuState::kReady);
   samples_ = 0;
@@ -197,7 +198,7 @@ TEST_P(BrokenHoming, IsNoReferenceHoweverFarItCame) {
   samples_ = 0;
   run(40.0);  // until the unit is done and answers again
   EXPECT_EQ(loop_->driver.doubt(), PtuDoubtCause::kHomingInterrupted);
-  EXPECT_EQ(loop_->driver.reference(), PtuReference::kDoubted);
+  EXPECT_EQ(loop_->driver.reference(), mount::Reference::kDoubted);
   EXPECT_EQ(samples_, 0);
   EXPECT_EQ(loop_->driver.counters().homings, 1u);  // not again by itself
   loop_->driver.home(loop_->time_s);
@@ -235,7 +236,8 @@ TEST(FirstStart, DoubtsAUnitThatDoesNotHomeAtPowerUp) {
     config.homes_at_power_up = homes;
     ClosedLoop loop(config, quick_unit(9600));
     loop.run(8.0);
-    EXPECT_EQ(loop.driver.reference(), homes ? PtuReference::kTrusted : PtuReference::kDoubted);
+    EXPECT_EQ(loop.driver.reference(),
+              homes ? mount::Reference::kTrusted : mount::Reference::kDoubted);
   }
 }
 

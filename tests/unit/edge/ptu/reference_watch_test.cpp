@@ -94,7 +94,7 @@ TEST(ReferenceWatch, BelievesAfterABrokenHomingOnlyAWholeOneOfItsOwn) {
   watch.while_not_driven({2, 2}, 9600, 2.5);
   watch.power_cycled();  // or what looks like one
   ready_again(watch);
-  EXPECT_EQ(watch.doubt(), (PtuReferenceDoubt{true, false}));
+  EXPECT_EQ(watch.doubt(), (mount::ReferenceDoubt{true, false}));
   EXPECT_EQ(watch.cause(), PtuDoubtCause::kHomingInterrupted);
   watch.homing_ordered();
   EXPECT_FALSE(watch.saw_both_ends());

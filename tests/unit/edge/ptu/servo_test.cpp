@@ -10,7 +10,7 @@
 namespace ols::ptu {
 namespace {
 
-constexpr PtuLimits kLimits{-2.7, 2.7, -0.8, 0.5};
+constexpr mount::Limits kLimits{-2.7, 2.7, -0.8, 0.5};
 
 ServoConfig config() {
   ServoConfig servo;
@@ -19,7 +19,7 @@ ServoConfig config() {
   return servo;
 }
 
-ServoGoal goal(const PanTilt& angles, const PanTilt& rate = {}) {
+mount::Goal goal(const PanTilt& angles, const PanTilt& rate = {}) {
   return {100.0, angles, rate, 100.4};
 }
 
@@ -79,28 +79,28 @@ TEST(Servo, HaltsWithoutAUsableGoal) {
   EXPECT_FALSE(servo_step(config(), kLimits, std::nullopt, now, 100.0));
   EXPECT_TRUE(servo_step(config(), kLimits, goal({0.1, 0.0}), now, 100.4));
   EXPECT_FALSE(servo_step(config(), kLimits, goal({0.1, 0.0}), now, 100.401));
-  ServoGoal old = goal({0.1, 0.0});
+  mount::Goal old = goal({0.1, 0.0});
   old.valid_until_s = 200.0;
   EXPECT_TRUE(servo_step(config(), kLimits, old, now, 100.5));
   EXPECT_FALSE(servo_step(config(), kLimits, old, now, 100.501));
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_FALSE(servo_step(config(), kLimits, goal({nan, 0.0}), now, 100.0));
   EXPECT_FALSE(servo_step(config(), kLimits, goal({0.0, 0.0}, {0.0, nan}), now, 100.0));
-  ServoGoal unbounded = goal({0.0, 0.0});
+  mount::Goal unbounded = goal({0.0, 0.0});
   unbounded.valid_until_s = nan;
   EXPECT_FALSE(servo_step(config(), kLimits, unbounded, now, 100.0));
 }
 
 TEST(Servo, CommandsNothingWithinLimitsThatContradictEachOther) {
-  const PtuLimits tilt_empty{-2.7, 2.7, 0.7, 0.5}, pan_empty{1.0, 0.9, -0.8, 0.5};
-  const PtuLimits unknown{-2.7, 2.7, -0.8, std::nan("")};
-  for (const PtuLimits& limits : {tilt_empty, pan_empty, unknown}) {
+  const mount::Limits tilt_empty{-2.7, 2.7, 0.7, 0.5}, pan_empty{1.0, 0.9, -0.8, 0.5};
+  const mount::Limits unknown{-2.7, 2.7, -0.8, std::nan("")};
+  for (const mount::Limits& limits : {tilt_empty, pan_empty, unknown}) {
     EXPECT_FALSE(servo_step(config(), limits, goal({0.5, 0.1}), {0.0, 0.2}, 100.0));
   }
 }
 
-ServoGoal resting(const PanTilt& angles) {
-  ServoGoal goal{100.0, angles, {}, 100.4};
+mount::Goal resting(const PanTilt& angles) {
+  mount::Goal goal{100.0, angles, {}, 100.4};
   goal.rests = true;
   return goal;
 }
@@ -155,8 +155,8 @@ TEST(Servo, ARestingGoalFarAwayIsCommandedInStages) {
   }
 }
 
-ServoGoal rates(const PanTilt& rate) {
-  ServoGoal goal{100.0, {}, rate, 100.4};
+mount::Goal rates(const PanTilt& rate) {
+  mount::Goal goal{100.0, {}, rate, 100.4};
   goal.rate_only = true;
   return goal;
 }
@@ -174,42 +174,12 @@ TEST(Servo, ARateEndsAtTheLimitsAndAtARegionsBorder) {
   ASSERT_TRUE(at_limit);
   EXPECT_DOUBLE_EQ(at_limit->position.pan_rad, 2.7);
   EXPECT_DOUBLE_EQ(at_limit->position.tilt_rad, 0.5);
-  PtuLimits limits = kLimits;
+  mount::Limits limits = kLimits;
   limits.keep_out = {{0.1, 0.5, -0.2, 0.2}};
   const auto at_border = servo_step(config(), limits, rates({1.0, 0.0}), {0.0, 0.0}, 100.0);
   ASSERT_TRUE(at_border);
   EXPECT_LT(at_border->position.pan_rad, 0.1);
   EXPECT_FALSE(servo_step(config(), limits, rates({1.0, 0.0}), {0.3, 0.0}, 100.0)) << "inside";
-}
-
-struct ReachCase {
-  double now_deg, pan_deg, tilt_deg;
-  Reach reach;
-  double chosen_deg;
-};
-
-TEST(Reach, DirectLongWayRoundOrNotAtAll) {
-  const PtuLimits d46{radians(-159.0), radians(159.0), radians(-47.0), radians(31.0)};
-  const PtuLimits wide{radians(-300.0), radians(300.0), radians(-47.0), radians(31.0)};
-  for (const ReachCase& c :
-       {ReachCase{0, 100, 10, Reach::kDirect, 100}, ReachCase{0, 460, 10, Reach::kDirect, 100},
-        ReachCase{150, -150, 0, Reach::kLongWayRound, -150},
-        ReachCase{-150, 150, 0, Reach::kLongWayRound, 150},
-        ReachCase{0, 170, 0, Reach::kUnreachable, 170},
-        ReachCase{0, 0, 31.1, Reach::kUnreachable, 0},
-        ReachCase{0, 0, -47.1, Reach::kUnreachable, 0}}) {
-    PanTilt angles{radians(c.pan_deg), radians(c.tilt_deg)};
-    EXPECT_EQ(reach(d46, {radians(c.now_deg), 0.0}, angles), c.reach) << c.now_deg << c.pan_deg;
-    EXPECT_NEAR(degrees(angles.pan_rad), c.chosen_deg, 1e-9);
-  }
-  PanTilt angles{radians(-170.0), 0.0};
-  EXPECT_EQ(reach(wide, {radians(150.0), 0.0}, angles), Reach::kDirect);
-  EXPECT_NEAR(degrees(angles.pan_rad), 190.0, 1e-9);
-  angles = {radians(40.0), 0.0};
-  EXPECT_EQ(reach(wide, {radians(290.0), 0.0}, angles), Reach::kLongWayRound);
-  EXPECT_NEAR(degrees(angles.pan_rad), 40.0, 1e-9);
-  angles = {std::nan(""), 0.0};
-  EXPECT_EQ(reach(wide, {}, angles), Reach::kUnreachable);
 }
 
 }  // namespace

@@ -33,7 +33,7 @@ class SteadyState : public testing::Test {
     std::string sent;
     for (const double end_s = time_s_ + duration_s; time_s_ < end_s && !unit_.trouble();) {
       time_s_ += 1e-3;
-      if (goal) unit_.set_goal(ServoGoal{time_s_, *goal, {}, time_s_ + 0.5});
+      if (goal) unit_.set_goal(mount::Goal{time_s_, *goal, {}, time_s_ + 0.5});
       const std::string request = unit_.step(emergency, time_s_);
       sent += request;
       if (request.empty() || silent) continue;

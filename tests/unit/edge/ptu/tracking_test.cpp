@@ -18,7 +18,7 @@ PtuConfig brisk() {  // 60 deg/s^2
   return config;
 }
 
-using Trajectory = std::function<ServoGoal(double)>;
+using Trajectory = std::function<mount::Goal(double)>;
 
 // Runs the trajectory (seconds since now -> angles and rate) with a goal every 1/15 s, as a camera
 // gives them; returns the largest pan error after `settle_s` [deg].
@@ -28,7 +28,7 @@ double follow(ClosedLoop& loop, double duration_s, double settle_s, const Trajec
   double worst_rad = 0.0;
   loop.run(duration_s, [&] {
     const double t = loop.time_s - begin_s;
-    ServoGoal now = trajectory(t);
+    mount::Goal now = trajectory(t);
     if (loop.time_s >= next_goal_s) {
       now.time_s = loop.time_s;
       now.valid_until_s = loop.time_s + 0.5;
@@ -44,7 +44,7 @@ double follow(ClosedLoop& loop, double duration_s, double settle_s, const Trajec
 
 Trajectory ramp(double from_rad, double rate_rad_s) {
   return [=](double t) {
-    return ServoGoal{0.0, {from_rad + rate_rad_s * t, 0.0}, {rate_rad_s, 0.0}, 0.0};
+    return mount::Goal{0.0, {from_rad + rate_rad_s * t, 0.0}, {rate_rad_s, 0.0}, 0.0};
   };
 }
 
@@ -90,7 +90,7 @@ TEST(Tracking, SpeedOnARampIsSmooth) {
   const auto ramp_on = ramp(loop.truth().pan_rad, radians(10.0));
   const double begin_s = loop.time_s;
   loop.run(3.0, [&] {
-    ServoGoal goal = ramp_on(loop.time_s - begin_s);
+    mount::Goal goal = ramp_on(loop.time_s - begin_s);
     goal.time_s = loop.time_s;
     goal.valid_until_s = loop.time_s + 0.5;
     loop.driver.set_goal(goal);
@@ -114,10 +114,10 @@ TEST(Tracking, SinusoidStaysNearTheMiddleOfThePicture) {
     const double amplitude = radians(10.0);
     const double omega = 1.0;  // [rad/s]
     const double worst_deg = follow(loop, 16.0, 3.0, [&](double t) {
-      return ServoGoal{0.0,
-                       {amplitude * std::sin(omega * t), 0.0},
-                       {amplitude * omega * std::cos(omega * t), 0.0},
-                       0.0};
+      return mount::Goal{0.0,
+                         {amplitude * std::sin(omega * t), 0.0},
+                         {amplitude * omega * std::cos(omega * t), 0.0},
+                         0.0};
     });
     EXPECT_LT(worst_deg, 0.35) << baud;
   }
@@ -138,7 +138,7 @@ TEST(Tracking, StopsAtTheLimitOfItsTravel) {
   double furthest_rad = 0.0;
   follow(loop, 4.0, 0.0, [&](double t) {
     furthest_rad = std::max(furthest_rad, loop.truth().pan_rad);
-    return ServoGoal{0.0, {radians(10.0) * t, 0.0}, {radians(10.0), 0.0}, 0.0};
+    return mount::Goal{0.0, {radians(10.0) * t, 0.0}, {radians(10.0), 0.0}, 0.0};
   });
   EXPECT_NEAR(degrees(loop.truth().pan_rad), 20.0, 0.0033);
   EXPECT_LE(degrees(furthest_rad), 20.0 + 1e-9);
@@ -188,8 +188,8 @@ TEST(Tracking, StopsByItselfOnALongWayToARestingGoal) {
   EXPECT_LT(degrees(loop.truth().pan_rad), at_deg + 50.0);
 }
 
-ServoGoal resting_at(const ClosedLoop& loop, double pan_deg) {
-  ServoGoal goal = loop.goal({radians(pan_deg), 0.0});
+mount::Goal resting_at(const ClosedLoop& loop, double pan_deg) {
+  mount::Goal goal = loop.goal({radians(pan_deg), 0.0});
   goal.rests = true;
   return goal;
 }
@@ -263,7 +263,7 @@ TEST(Tracking, AHostThatReadsLateLetsTheUnitStand) {
   EXPECT_DOUBLE_EQ(loop.truth().pan_rad, at.pan_rad);
   EXPECT_LT(degrees(at.pan_rad), 40.0);
   EXPECT_EQ(loop.driver.state(), PtuState::kReady) << loop.driver.last_error();
-  follow(loop, 5.0, 5.0, [](double) { return ServoGoal{0.0, {radians(60.0), 0.0}, {}, 0.0}; });
+  follow(loop, 5.0, 5.0, [](double) { return mount::Goal{0.0, {radians(60.0), 0.0}, {}, 0.0}; });
   EXPECT_NEAR(degrees(loop.truth().pan_rad), 60.0, 0.01);
 }
 

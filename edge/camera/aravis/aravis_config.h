@@ -1,0 +1,58 @@
+// The configuration of a GigE Vision camera. Pure.
+#pragma once
+
+#include <string>
+
+#include "edge/camera/auto_exposure.h"
+#include "edge/camera/camera_config.h"
+#include "edge/camera/exposure.h"
+#include "edge/camera/frame_clock.h"
+
+namespace ols::camera {
+
+struct AravisConfig : CameraConfig {
+  std::string device;  // Aravis id (vendor-serial, user name, MAC) or IPv4 address
+
+  std::string trigger_activation = "rising-edge";  // of a line; or falling-edge, any-edge
+  double trigger_delay_us = 0.0;                   // from the trigger to the exposure
+
+  double exposure_us = 5000.0;
+  double gain_dB = 0.0;
+  // Automatic exposure starts from the two above and stays within the limits below and those of the
+  // camera. The maximum exposure is set by motion blur.
+  bool auto_exposure = false;
+  ExposureLimits limits{
+      .exposure_min_us = 50.0, .exposure_max_us = 5000.0, .gain_min_dB = 0.0, .gain_max_dB = 24.0};
+  AutoExposureConfig auto_levels;
+
+  StampAt stamp_at = StampAt::kExposureStart;
+  // From the end of the exposure to the arrival of the frame's first packet. Used only while the
+  // camera's clock cannot be read: the mid-exposure time then depends on it.
+  double readout_s = 0.010;
+  double readout_sd_s = 0.010;
+
+  std::string ptp = "off";   // or slave, auto: the camera's clock follows a PTP master
+  int tai_minus_utc_s = 37;  // leap seconds, where the kernel does not know them
+  double ptp_sd_s = 1e-5;    // 1-sigma of the master and the path to it
+
+  // After this time plus two frame periods without a frame the camera is closed and reopened.
+  double no_frame_timeout_s = 1.0;
+  double retry_s = 0.5;  // between attempts to open
+
+  int packet_size = 0;  // [byte] IP packet of the stream; 0: as large as the path allows
+  // The kernel's ring buffer, which needs CAP_NET_RAW. Without it the station's capabilities can be
+  // dropped; nothing is lost while packets are paced or the buffer is large.
+  bool packet_socket = false;
+  int socket_buffer = 8 << 20;  // [byte] requested; the kernel grants up to net.core.rmem_max
+  // Between two packets. -1: automatic, none if the socket's buffer holds some frames, otherwise
+  // such that a frame takes packet_spread of the frame period.
+  double packet_delay_us = -1.0;
+  double packet_spread = 0.6;
+  bool packet_resend = true;  // request lost packets again where the camera can
+
+  bool keep_raw = false;  // also keep the camera's raw image
+};
+
+config::Section aravis_section(AravisConfig& config);  // of [camera]
+
+}  // namespace ols::camera

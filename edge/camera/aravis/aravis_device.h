@@ -1,0 +1,104 @@
+// One opened GigE Vision camera with its stream. Calls block; errors are thrown.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "edge/camera/aravis/aravis_config.h"
+#include "edge/camera/camera_errors.h"
+#include "edge/camera/clock_map.h"
+#include "edge/camera/picture.h"
+#include "edge/camera/ptp.h"
+
+using ArvBuffer = struct _ArvBuffer;
+using ArvCamera = struct _ArvCamera;
+using ArvDevice = struct _ArvDevice;
+using ArvStream = struct _ArvStream;
+
+namespace ols::camera {
+
+struct Unref {
+  void operator()(void* object) const;  // g_object_unref
+};
+template <typename T>
+using Owned = std::unique_ptr<T, Unref>;
+
+// One buffer of the stream; its destructor returns it.
+struct ReceivedFrame {
+  std::uint64_t id = 0;  // the camera's frame number
+  bool complete = false;
+  bool overtaken = false;                 // a newer one is already waiting
+  RawPicture picture;                     // valid as long as the buffer
+  std::optional<std::int64_t> device_ns;  // the camera's own stamp
+  double arrival_s = 0.0;                 // CLOCK_MONOTONIC of its first packet
+};
+
+class AravisDevice {
+ public:
+  // Opens, configures and starts. Throws CameraAbsent, CameraUnfit.
+  explicit AravisDevice(const AravisConfig& config);
+  ~AravisDevice();
+  AravisDevice(const AravisDevice&) = delete;
+  AravisDevice& operator=(const AravisDevice&) = delete;
+
+  // Waits for the next buffer and calls use(ReceivedFrame); false: none came in time.
+  template <typename Use>
+  bool receive(double timeout_s, Use use) {
+    ArvBuffer* buffer = pop(timeout_s);
+    if (buffer == nullptr) return false;
+    const BufferReturn give_back{stream_.get(), buffer};
+    use(describe(buffer));
+    return true;
+  }
+
+  std::string identity() const;  // "AVT GT1290C 1234"
+  std::string serial() const;    // empty: it does not say
+
+  // Latches the camera's clock; empty: the camera cannot.
+  std::optional<LatchSample> latch();
+  // Whether the camera still answers.
+  bool answers();
+  void trigger();  // by software
+
+  // The camera's present exposure and gain, and their limits.
+  const ExposureSetting& exposure() const { return exposure_; }
+  const ExposureLimits& limits() const { return limits_; }
+  // Throws CameraUnfit.
+  void set_exposure(const ExposureSetting& setting);
+
+  std::optional<double> temperature_degC() const;  // empty: the camera does not report it
+  std::optional<PtpState> ptp() const;
+
+  bool control_lost() const { return control_lost_; }
+  // The camera is lost: sends it no more requests. The destructor may still take seconds, because
+  // Aravis announces the disconnection to the camera and repeats it (5 times, 0.5 s each).
+  void give_up() { gone_ = true; }
+
+ private:
+  struct BufferReturn {
+    ArvStream* stream;
+    ArvBuffer* buffer;
+    ~BufferReturn();
+  };
+  void start(const AravisConfig& config);
+  ArvDevice* device() const;
+  ArvBuffer* pop(double timeout_s);
+  ReceivedFrame describe(ArvBuffer* buffer) const;
+  bool command_latch();
+  std::optional<std::uint64_t> latched_ticks();
+
+  Owned<ArvCamera> camera_;
+  Owned<ArvStream> stream_;
+  std::atomic<bool> control_lost_ = false;
+  bool gone_ = false;
+  ExposureSetting exposure_;
+  ExposureLimits limits_;
+  std::uint64_t tick_hz_ = 0;  // 0: the camera's clock is not available
+  bool latch_by_feature_ = false;
+  std::uint64_t last_latch_ticks_ = 0;
+};
+
+}  // namespace ols::camera

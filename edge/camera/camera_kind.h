@@ -1,0 +1,24 @@
+// A kind of camera: its keys in [camera], and what opens it.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "base/config_section.h"
+#include "edge/camera/camera.h"
+#include "edge/camera/camera_config.h"
+
+namespace ols::camera {
+
+class CameraKind {
+ public:
+  virtual ~CameraKind() = default;
+  virtual config::Section section() = 0;  // refers to this object
+  virtual const CameraConfig& config() const = 0;
+  virtual std::string address() const = 0;  // what to look for, for a person
+  // Starts to look for the camera and returns at once. `keep_raw`: also keeps its raw images, for a
+  // recorder and the tracker's colours.
+  virtual std::unique_ptr<Camera> open(bool keep_raw) const = 0;
+};
+
+}  // namespace ols::camera

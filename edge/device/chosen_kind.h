@@ -1,0 +1,67 @@
+// A device of which there are several kinds, one of them chosen by `kind` in its section of the
+// configuration. Pure.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/config_section.h"
+
+namespace ols::device {
+
+// A row of the table of a device's kinds. `Kind` has what every kind tells, and a function
+// `section()` that binds its keys to itself.
+template <class Kind>
+struct KindRow {
+  const char* name;      // as `kind` says it
+  const char* sentence;  // what it is
+  std::shared_ptr<Kind> (*make)();
+};
+
+template <class Made, class Kind>
+std::shared_ptr<Kind> make_kind() {
+  return std::make_shared<Made>();
+}
+
+// Copies share what was read.
+template <class Kind>
+class ChosenKind {
+ public:
+  // The first one is chosen at first, with its defaults.
+  explicit ChosenKind(const std::vector<KindRow<Kind>>& table) {
+    for (const KindRow<Kind>& row : table) kinds_.push_back({row, row.make()});
+  }
+
+  const char* name() const { return kinds_.at(chosen_).row.name; }
+  Kind& operator*() const { return *kinds_.at(chosen_).kind; }
+  Kind* operator->() const { return &**this; }
+  // Null if another kind is chosen.
+  template <class Made>
+  Made* as() const {
+    return dynamic_cast<Made*>(&**this);
+  }
+
+  // Reading it chooses.
+  config::Section section(std::string name, std::string sentence) {
+    config::Section section{std::move(name), std::move(sentence)};
+    section.choose = [this](std::size_t chosen) { chosen_ = chosen; };
+    for (const Entry& entry : kinds_) {
+      section.forms.push_back(entry.kind->section());
+      section.forms.back().name = entry.row.name;
+      section.forms.back().sentence = entry.row.sentence;
+    }
+    return section;
+  }
+
+ private:
+  struct Entry {
+    KindRow<Kind> row;
+    std::shared_ptr<Kind> kind;
+  };
+  std::vector<Entry> kinds_;
+  std::size_t chosen_ = 0;
+};
+
+}  // namespace ols::device

@@ -1,0 +1,56 @@
+// A camera that stands still, as a mount: the same angles at all times. Orders to move do nothing;
+// the station refuses them in words, because its traits say that nothing moves.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "edge/mount/mount.h"
+
+namespace ols::mount {
+
+struct FixedMountConfig {
+  PanTilt angles;
+};
+
+// The size of a count of a mount that has no encoder: what a station tells of angles is told in
+// counts.
+inline constexpr double kVirtualCount_rad = 1.7453292519943295e-6;  // 1e-4 deg
+
+Limits fixed_limits(const PanTilt& angles);
+std::string fixed_words(const PanTilt& angles);  // "fixed at pan 10.00, tilt 5.00 deg"
+// Twenty samples a second up to now, after the one at `last_s`; of a long time only the newest.
+std::vector<AngleSample> fixed_samples(const PanTilt& angles, double last_s, double now_s);
+
+class FixedMount : public Mount {
+ public:
+  explicit FixedMount(const FixedMountConfig& config) : config_(config) {}
+
+  void set_goal(const std::optional<Goal>& /*goal*/) override {}
+  std::vector<AngleSample> take_samples() override;
+  std::optional<Limits> limits() const override { return fixed_limits(config_.angles); }
+
+  void emergency_halt() override {}
+  void clear_emergency() override {}
+
+  Reference reference() const override { return Reference::kTrusted; }
+  void home() override {}
+  void stop_homing() override {}
+  void allow_rehoming(bool /*allowed*/) override {}
+  std::uint64_t homings() const override { return 0; }
+  void reference_ok() override {}
+  void restore_doubt(const std::optional<ReferenceDoubt>& /*doubt*/) override {}
+  std::optional<ReferenceDoubt> doubt_to_persist() const override { return std::nullopt; }
+
+  device::DeviceReport report() const override;
+
+ private:
+  const FixedMountConfig config_;
+  std::atomic<double> last_s_ = -std::numeric_limits<double>::infinity();
+};
+
+}  // namespace ols::mount

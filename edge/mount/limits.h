@@ -1,0 +1,28 @@
+// Where a mount can point, in its own angles. Pure.
+#pragma once
+
+#include <vector>
+
+#include "edge/mount/keep_out.h"
+#include "geometry/kinematic_chain.h"
+
+namespace ols::mount {
+
+struct Limits {  // [rad]
+  double pan_min_rad = -2.7, pan_max_rad = 2.7;
+  double tilt_min_rad = -0.8, tilt_max_rad = 0.5;
+  std::vector<KeepOut> keep_out = {};  // never entered, never swept across
+  // The size of a count of each axis; 0: not known yet.
+  PanTilt count = {};
+};
+
+AngleBox travel(const Limits& limits);
+
+enum class Reach { kDirect, kLongWayRound, kUnreachable };
+
+// Whether the mount can point there. Pan angles that differ by 2 pi are the same direction: sets
+// `angles` to the reachable one with the shortest path from `now`. kLongWayRound: a turn in the
+// other direction, or around a keep-out region.
+Reach reach(const Limits& limits, const PanTilt& now, PanTilt& angles);
+
+}  // namespace ols::mount

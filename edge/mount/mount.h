@@ -1,0 +1,59 @@
+// What a station needs of whatever carries its camera: angles with their times and errors, and
+// obedience. Angles are the mount's own [rad], times are CLOCK_MONOTONIC [s].
+//
+// The mount may be absent, vanish and come back at any time; it then has no samples, and its report
+// says why. Until the first goal, or home(), nothing moves. Every method may be called from any
+// thread; none waits for the device, and none throws.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "edge/device/device_report.h"
+#include "edge/mount/angle_history.h"
+#include "edge/mount/goal.h"
+#include "edge/mount/limits.h"
+#include "edge/mount/reference.h"
+
+namespace ols::mount {
+
+class Mount {
+ public:
+  Mount() = default;
+  virtual ~Mount() = default;  // halts it
+  Mount(const Mount&) = delete;
+  Mount& operator=(const Mount&) = delete;
+
+  // The goal from now on; nothing: halt. Dropped in an emergency, and whenever the mount or its
+  // reference is lost.
+  virtual void set_goal(const std::optional<Goal>& goal) = 0;
+  // Angle samples since the last call, oldest first.
+  virtual std::vector<AngleSample> take_samples() = 0;
+  // Empty until the mount is ready, and while it is not.
+  virtual std::optional<Limits> limits() const = 0;
+
+  // Halts at once, before anything else that is on its way to the device. Nothing moves until
+  // clear_emergency(). Software only assists a stop in hardware.
+  virtual void emergency_halt() = 0;
+  virtual void clear_emergency() = 0;
+
+  virtual Reference reference() const = 0;
+  // Finds the reference again; the mount may sweep its whole travel. Ignored in an emergency.
+  virtual void home() = 0;
+  virtual void stop_homing() = 0;
+  // Whether a mount that is configured to homes by itself may do so now; not allowed at first.
+  virtual void allow_rehoming(bool allowed) = 0;
+  // Homings ordered by this process; each may leave the angles at another zero.
+  virtual std::uint64_t homings() const = 0;
+  // A person confirms the reference.
+  virtual void reference_ok() = 0;
+  // The doubt that an earlier process persisted, and that of this one for the next.
+  virtual void restore_doubt(const std::optional<ReferenceDoubt>& doubt) = 0;
+  virtual std::optional<ReferenceDoubt> doubt_to_persist() const = 0;
+
+  // Named "ptu", whatever its kind: by that name the mount is found in a station's status.
+  virtual device::DeviceReport report() const = 0;
+};
+
+}  // namespace ols::mount

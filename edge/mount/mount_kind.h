@@ -1,0 +1,30 @@
+// A kind of mount: its keys in [mount], what a station knows of it beforehand, and what opens it.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "base/config_section.h"
+#include "edge/mount/mount.h"
+
+namespace ols::mount {
+
+// Known before the mount is found.
+struct Traits {
+  bool moves = true;     // false: it obeys no order, and no station's logic waits for it
+  bool may_home = true;  // on command
+  AngleHistory::Config angles;
+  Limits limits;  // as configured; the mount's own may be narrower
+};
+
+class MountKind {
+ public:
+  virtual ~MountKind() = default;
+  virtual config::Section section() = 0;  // refers to this object
+  virtual Traits traits() const = 0;
+  virtual std::string words() const = 0;  // what is configured, for a person
+  // Starts to look for the mount and returns at once.
+  virtual std::unique_ptr<Mount> open() const = 0;
+};
+
+}  // namespace ols::mount

@@ -1,0 +1,100 @@
+#include "edge/mount/angle_history.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+namespace ols::mount {
+namespace {
+
+AngleHistory ramp() {  // 0.4 rad/s pan, -0.1 rad/s tilt, a sample every 25 ms from 1.0 to 1.25 s
+  AngleHistory history{AngleHistory::Config{}};
+  for (int i = 0; i <= 10; ++i) {
+    const double t = 1.0 + 0.025 * i;
+    EXPECT_TRUE(history.add({t, 0.0005, {0.4 * t, -0.1 * t}, {}}));
+  }
+  return history;
+}
+
+TEST(AngleHistory, InterpolatesAndExtrapolates) {
+  const AngleHistory history = ramp();
+  for (const double t : {1.0, 1.01, 1.2499, 1.25, 1.3, 1.4}) {
+    const auto at = history.at(t);
+    ASSERT_TRUE(at) << t;
+    EXPECT_NEAR(at->angles.pan_rad, 0.4 * t, 1e-12);
+    EXPECT_NEAR(at->angles.tilt_rad, -0.1 * t, 1e-12);
+    EXPECT_NEAR(at->rate.pan_rad, 0.4, 1e-9);
+    EXPECT_EQ(at->interpolated, t <= 1.25);
+  }
+}
+
+TEST(AngleHistory, SaysNothingOutsideOfWhatItKnows) {
+  AngleHistory history = ramp();
+  EXPECT_FALSE(history.at(0.999));
+  EXPECT_FALSE(history.at(1.401));
+  EXPECT_FALSE(history.at(std::nan("")));
+  EXPECT_TRUE(history.add({2.0, 0.0, {}, {}}));  // after a gap
+  EXPECT_FALSE(history.at(1.5));
+  EXPECT_FALSE(history.at(2.0));
+  history.clear();
+  EXPECT_FALSE(history.newest());
+  EXPECT_TRUE(history.add({3.0, 0.0, {}, {}}));
+  EXPECT_FALSE(history.at(3.0));  // one sample tells no rate
+}
+
+TEST(AngleHistory, RefusesWhatIsOutOfOrderOrNotFinite) {
+  AngleHistory history = ramp();
+  EXPECT_FALSE(history.add({1.25, 0.0, {}, {}}));
+  EXPECT_FALSE(history.add({1.1, 0.0, {}, {}}));
+  EXPECT_FALSE(history.add({2.0, 0.0, {std::nan(""), 0.0}, {}}));
+  EXPECT_FALSE(history.add({std::numeric_limits<double>::infinity(), 0.0, {}, {}}));
+  EXPECT_DOUBLE_EQ(history.newest()->time_s, 1.25);
+}
+
+TEST(AngleHistory, ForgetsWhatIsOlderThanItsSpan) {
+  AngleHistory history{AngleHistory::Config{}};
+  for (int i = 0; i < 1000; ++i) history.add({0.02 * i, 0.0, {}, {}});
+  EXPECT_FALSE(history.at(0.02 * 999 - 5.1));
+  EXPECT_TRUE(history.at(0.02 * 999 - 4.9));
+}
+
+// Encoder steps and time errors drawn as claimed: the normalised error squared is that of two
+// degrees of freedom, between samples and beyond the last one.
+TEST(AngleHistory, CovarianceIsHonest) {
+  AngleHistory::Config config;
+  config.acceleration_sd_rad_s2 = 0.0;
+  config.acceleration_max_rad_s2 = 0.0;
+  std::mt19937_64 random(11);
+  std::normal_distribution<double> gauss;
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  for (const double when : {0.013, 0.045}) {
+    double nees = 0.0;
+    const int runs = 4000;
+    for (int run = 0; run < runs; ++run) {
+      AngleHistory history(config);
+      const Eigen::Vector2d rate(0.3 * gauss(random), 0.2 * gauss(random));
+      const Eigen::Vector2d start(uniform(random), uniform(random));
+      for (int i = 0; i < 2; ++i) {
+        const double sd_s = 0.0005 * (1 + i);
+        const double tilt_sd_s = 2.0 * sd_s;
+        const double pan = start.x() + rate.x() * (0.025 * i + sd_s * gauss(random));
+        const double tilt = start.y() + rate.y() * (0.025 * i + tilt_sd_s * gauss(random));
+        const auto counted = [&config](double angle) {
+          return std::round(angle / config.step_rad) * config.step_rad;
+        };
+        history.add({0.025 * i, sd_s, {counted(pan), counted(tilt)}, tilt_sd_s});
+      }
+      const auto at = history.at(when);
+      ASSERT_TRUE(at);
+      const Eigen::Vector2d error =
+          Eigen::Vector2d(at->angles.pan_rad, at->angles.tilt_rad) - (start + rate * when);
+      nees += error.dot(at->covariance.inverse() * error) / 2.0;
+    }
+    EXPECT_NEAR(nees / runs, 1.0, 0.08) << when;
+  }
+}
+
+}  // namespace
+}  // namespace ols::mount
