@@ -5,7 +5,7 @@ import pytest
 from conftest import wait
 from console_cable import Cable
 from console_page import picture, place, region, watched_page
-from console_site import STATUS, Api
+from console_site import Api
 from playwright.sync_api import expect
 
 pytest_plugins = ["console_fixtures"]
@@ -196,10 +196,11 @@ def test_a_command_that_a_cut_link_delivers_late_is_refused(page, cable, paper, 
 def test_a_stop_of_all_ends_what_is_held(page, overview, idle, name):
     """Also after somebody has released the station: who still holds must press anew."""
     station, _, hand = held(page, overview, name)
+    overview.commands.clear()
     page.keyboard.press("Escape")  # of a joystick it lets go
     page.keyboard.press("Escape")
     expect(page.get_by_text("stopping: ")).to_be_visible()
-    wait(lambda: overview.states[station] == STATUS.STATE_STOPPED, "the stop")
+    wait(lambda: (station, "stop") in overview.commands, "the stop")
     before = len(moves(overview, name))
     idle()  # somebody has released it
     hand.keep_on()
