@@ -104,7 +104,9 @@ std::vector<wire::Order> CommandDesk::due(double now_s) {
   for (Pending& pending : pending_) {
     const bool is_stop = pending.order.kind == Kind::kStop;
     const bool again = is_stop && now_s >= pending.sent_s + wire::kStopAgain_s;
-    if (pending.is_watched || pending.reply || (pending.sent_s >= 0.0 && !again)) continue;
+    // The answer to the rate before leaves the one that has replaced it to be sent.
+    const bool is_sent = pending.sent_s >= 0.0;
+    if (pending.is_watched || (is_sent && (pending.reply || !again))) continue;
     pending.sent_s = now_s;
     pending.order.id = {.sequence = ++sequence_};
     pending.sent.insert(pending.order.id);

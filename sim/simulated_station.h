@@ -1,5 +1,5 @@
-// A station's whole process in simulated time: the control loop and the bus of ols-station, with a
-// simulated unit that is connected by bytes and a simulated camera that is connected by frames.
+// A station's whole process in simulated time: the control loop and the bus of ols-station. The
+// simulated unit exchanges bytes with it; the simulated camera hands it frames.
 #pragma once
 
 #include <cstdint>
@@ -27,9 +27,8 @@ class SimulatedStation {
     ViewTruth view;
   };
 
-  // The mount must be configured as a FLIR unit; what is configured beside camera and mount must be
-  // none. A time service says that its clock is
-  // right. World and time must outlive it.
+  // Camera and mount are the only devices that may be configured, the mount as a FLIR unit. A time
+  // service says that the station's clock is right. World and time must outlive the station.
   SimulatedStation(const World& world, std::size_t index, station::StationSettings settings,
                    SimulatedTime& time);
   ~SimulatedStation();

@@ -9,8 +9,7 @@ namespace ols::trust {
 namespace {
 
 constexpr double kTracker_Hz = 400.0, kStatus_Hz = 20.0, kPictures_Hz = 100.0;
-constexpr double kReplies_Hz =
-    1000.0;  // a stop is repeated fifty times a second, by several people
+constexpr double kReplies_Hz = 1000.0;     // several people each repeat a stop 50 times a second
 constexpr double kFrameParts_Hz = 2000.0;  // a whole frame is sent as fast as the loop turns
 constexpr double kSite_Hz = 20'000.0;      // slews to a thousand stations
 constexpr double kTargets_Hz = 2000.0;

@@ -4,7 +4,6 @@ import os
 import re
 import subprocess
 import sys
-import time
 
 import numpy as np
 import pytest
@@ -108,7 +107,7 @@ def test_a_log_of_former_messages_is_shown(network, tmp_path):
         _, timeline, _ = api.ask("/api/replay")
         marks = {(mark["station"], mark["text"]) for mark in timeline["marks"]}
         assert {("bravo", "rearm"), ("delta", "stop"), ("alfa", "record golden")} <= marks
-        wait(lambda: api.state()["targets"], "a target", turn=lambda: time.sleep(0.1))
+        wait(lambda: api.state()["targets"], "a target")
         state = api.state()
     assert [s["id"] for s in state["stations"]] == ["alfa", "bravo", "charlie", "delta"]
     assert state["targets"][0]["class"] == "unknown"

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "edge/mount/mount.h"
+#include "geometry/angles.h"
 
 namespace ols::mount {
 
@@ -19,7 +20,7 @@ struct FixedMountConfig {
 
 // The size of a count of a mount that has no encoder: what a station tells of angles is told in
 // counts.
-inline constexpr double kVirtualCount_rad = 1.7453292519943295e-6;  // 1e-4 deg
+inline constexpr double kVirtualCount_rad = radians(1e-4);
 
 Limits fixed_limits(const PanTilt& angles);
 std::string fixed_words(const PanTilt& angles);  // "fixed at pan 10.00, tilt 5.00 deg"

@@ -102,6 +102,23 @@ TEST(CommandDesk, WithoutAnAnswerItEndsWithTheLease) {
   EXPECT_EQ(desk.finished(wire::kLease_s + 0.01).at(0).why, "no answer");
 }
 
+TEST(CommandDesk, ARateIsSentThoughTheOneBeforeIsAnsweredFirst) {
+  CommandDesk desk;
+  desk.hear("alfa", false);
+  Order rate = order(Kind::kRate);
+  rate.pan_rate_rad_s = 0.1;
+  static_cast<void>(desk.begin(rate, {.viewer = 4}, 10.0));
+  static_cast<void>(desk.due(10.0));
+  rate.pan_rate_rad_s = 0.0;  // the hand lets go
+  static_cast<void>(desk.begin(rate, {.viewer = 4}, 10.1));
+  desk.hear(answer(1));
+  EXPECT_TRUE(desk.finished(10.1).empty());
+  const auto due = desk.due(10.1);
+  ASSERT_EQ(due.size(), 1U);
+  EXPECT_EQ(due[0].pan_rate_rad_s, 0.0);
+  EXPECT_EQ(desk.finished(10.2).size(), 1U);
+}
+
 TEST(CommandDesk, ARateReplacesTheOneThatIsNotAnsweredYet) {
   CommandDesk desk;
   desk.hear("alfa", false);
