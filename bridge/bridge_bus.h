@@ -7,7 +7,7 @@
 #include <mutex>
 #include <string>
 
-#include "base/bus_client.h"
+#include "base/bus/bus_client.h"
 #include "bridge/passage.h"
 
 namespace ols::bridge {

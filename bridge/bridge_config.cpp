@@ -4,7 +4,7 @@
 #include <span>
 #include <stdexcept>
 
-#include "base/config_common.h"
+#include "base/config/config_common.h"
 
 namespace ols::bridge {
 namespace {

@@ -3,11 +3,11 @@
 #include <exception>
 #include <utility>
 
-#include "base/boot_id.h"
-#include "base/clocks.h"
-#include "base/journal.h"
-#include "base/service_frame.h"
-#include "base/service_notifier.h"
+#include "base/bus/boot_id.h"
+#include "base/journal/journal.h"
+#include "base/process/clocks.h"
+#include "base/process/service_frame.h"
+#include "base/process/service_notifier.h"
 #include "base/trust/trailer.h"
 #include "bridge/messages.h"
 

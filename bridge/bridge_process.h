@@ -10,8 +10,8 @@
 #include <string>
 #include <string_view>
 
-#include "base/alarm_journal.h"
-#include "base/status_file.h"
+#include "base/journal/alarm_journal.h"
+#include "base/process/status_file.h"
 #include "bridge/archive_stream.h"
 #include "bridge/bridge_bus.h"
 #include "bridge/bridge_config.h"

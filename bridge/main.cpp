@@ -7,8 +7,8 @@
 #include <string>
 #include <system_error>
 
-#include "base/command_line.h"
-#include "base/service_frame.h"
+#include "base/process/command_line.h"
+#include "base/process/service_frame.h"
 #include "base/trust/crypto.h"
 #include "bridge/bridge_config.h"
 #include "bridge/bridge_process.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/lcm_bus.h"
+#include "base/bus/lcm_bus.h"
 #include "ols_msg/slew_t.hpp"
 #include "ols_msg/target_t.hpp"
 

@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <utility>
 
-#include "base/clocks.h"
-#include "base/toml_config.h"
+#include "base/config/toml_config.h"
+#include "base/process/clocks.h"
 #include "bridge/memory_budget.h"
 
 namespace ols::bridge {

@@ -6,7 +6,7 @@
 #include <chrono>
 #include <utility>
 
-#include "base/clocks.h"
+#include "base/process/clocks.h"
 
 namespace ols::bridge {
 namespace {

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "base/channel_names.h"
+#include "base/bus/channel_names.h"
 #include "base/trust/channel_rules.h"
 
 namespace ols::bridge {

@@ -9,8 +9,8 @@
 #include <iostream>
 #include <stdexcept>
 
-#include "base/atomic_file.h"
-#include "base/small_file.h"
+#include "base/files/atomic_file.h"
+#include "base/files/small_file.h"
 
 namespace ols::console {
 namespace {

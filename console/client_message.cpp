@@ -7,7 +7,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "base/plain_text.h"
+#include "base/text/plain_text.h"
 #include "geometry/angles.h"
 #include "geometry/slew_limits.h"
 

@@ -1,7 +1,7 @@
 #include "console/console_bus.h"
 
-#include "base/boot_id.h"
-#include "base/channel_names.h"
+#include "base/bus/boot_id.h"
+#include "base/bus/channel_names.h"
 #include "conditions/alarms.h"
 #include "console/messages.h"
 #include "console/messages_pictures.h"

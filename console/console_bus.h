@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "base/bus_client.h"
+#include "base/bus/bus_client.h"
 #include "base/trust/trust_config.h"
 #include "console/console.h"
 #include "console/messages_procedure.h"

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "base/config_common.h"
-#include "base/ip_networks.h"
+#include "base/config/config_common.h"
+#include "base/net/ip_networks.h"
 
 namespace ols::console {
 namespace {

@@ -10,7 +10,7 @@
 #include <string>
 #include <utility>
 
-#include "base/clocks.h"
+#include "base/process/clocks.h"
 #include "console/connection_limit.h"
 #include "console/web_api.h"
 

@@ -10,11 +10,11 @@
 #include <utility>
 #include <vector>
 
-#include "base/clocks.h"
-#include "base/command_line.h"
-#include "base/journal.h"
-#include "base/service_frame.h"
-#include "base/service_notifier.h"
+#include "base/journal/journal.h"
+#include "base/process/clocks.h"
+#include "base/process/command_line.h"
+#include "base/process/service_frame.h"
+#include "base/process/service_notifier.h"
 #include "console/add_user.h"
 #include "console/console.h"
 #include "console/console_bus.h"

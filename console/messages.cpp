@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/channel_names.h"
-#include "base/plain_text.h"
+#include "base/bus/channel_names.h"
+#include "base/text/plain_text.h"
 #include "conditions/alarm.h"
 #include "console/map_geometry.h"
 #include "console/messages_calibration.h"

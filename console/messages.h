@@ -1,13 +1,13 @@
 // The bus's messages as the console's own values. nullopt for a message that cannot be decoded, is
 // of another schema, or is not from the station of its channel. Texts are made safe to show
-// (base/plain_text.h).
+// (base/text/plain_text.h).
 #pragma once
 
 #include <optional>
 #include <string>
 #include <utility>
 
-#include "base/bus_inbox.h"
+#include "base/bus/bus_inbox.h"
 #include "console/heard.h"
 
 namespace ols::console {

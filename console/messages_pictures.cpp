@@ -6,8 +6,8 @@
 #include <iterator>
 #include <string>
 
-#include "base/channel_names.h"
-#include "base/lcm_bus.h"
+#include "base/bus/channel_names.h"
+#include "base/bus/lcm_bus.h"
 #include "console/rounded.h"
 #include "ols_msg/preview_t.hpp"
 #include "ols_msg/video_frame_t.hpp"

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "base/bus_inbox.h"
+#include "base/bus/bus_inbox.h"
 #include "console/heard.h"
 
 namespace ols::console {

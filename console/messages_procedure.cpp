@@ -4,9 +4,9 @@
 #include <cmath>
 #include <sstream>
 
-#include "base/channel_names.h"
-#include "base/message_stamp.h"
-#include "base/plain_text.h"
+#include "base/bus/channel_names.h"
+#include "base/bus/message_stamp.h"
+#include "base/text/plain_text.h"
 #include "ols_msg/procedure_answer_t.hpp"
 #include "ols_msg/procedure_t.hpp"
 

@@ -4,13 +4,13 @@
 #include <cstdint>
 #include <optional>
 
-#include "base/lcm_bus.h"
+#include "base/bus/lcm_bus.h"
 #include "console/procedures.h"
 
 namespace ols::console {
 
 // nullopt for a message that cannot be decoded, is of another schema, or is not from the station of
-// its channel. Texts are made safe to show (base/plain_text.h).
+// its channel. Texts are made safe to show (base/text/plain_text.h).
 std::optional<ProcedureHeard> procedure_from(const BusMessage& message);
 
 // Sends answers under one boot id, each with its own sequence number.

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "base/length_prefix.h"
+#include "base/net/length_prefix.h"
 #include "console/heard.h"
 
 namespace ols::console {

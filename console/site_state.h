@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "base/alarm_changes.h"
+#include "base/journal/alarm_changes.h"
 #include "console/entity_table.h"
 #include "console/event_list.h"
 #include "console/heard.h"

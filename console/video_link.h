@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "base/length_prefix.h"
+#include "base/net/length_prefix.h"
 #include "console/heard.h"
 
 namespace ols::console {

@@ -11,8 +11,8 @@
 #include <thread>
 #include <utility>
 
-#include "base/ip_endpoint.h"
-#include "base/ip_networks.h"
+#include "base/net/ip_endpoint.h"
+#include "base/net/ip_networks.h"
 #include "console/messages_pictures.h"
 #include "console/unit_chain.h"
 

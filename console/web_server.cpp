@@ -17,7 +17,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/clocks.h"
+#include "base/process/clocks.h"
 #include "console/connection_limit.h"
 #include "console/live_socket.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "base/sbs_line.h"
+#include "cue/sbs_line.h"
 #include "geometry/angles.h"
 
 namespace ols::cues {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "base/bus_client.h"
+#include "base/bus/bus_client.h"
 #include "base/trust/trust_config.h"
 #include "cue/cue_desk.h"
 

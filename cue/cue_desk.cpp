@@ -5,8 +5,8 @@
 #include <optional>
 #include <utility>
 
-#include "base/area.h"
-#include "base/cue_values.h"
+#include "base/config/area.h"
+#include "wire/cue_values.h"
 
 namespace ols::cues {
 namespace {

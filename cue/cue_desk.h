@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "base/area.h"
+#include "base/config/area.h"
 #include "cue/reading.h"
 
 namespace ols::cues {

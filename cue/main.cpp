@@ -7,13 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "base/clocks.h"
-#include "base/command_line.h"
-#include "base/journal.h"
-#include "base/service_frame.h"
-#include "base/service_notifier.h"
-#include "base/status_file.h"
-#include "base/trouble_log.h"
+#include "base/journal/journal.h"
+#include "base/journal/trouble_log.h"
+#include "base/process/clocks.h"
+#include "base/process/command_line.h"
+#include "base/process/service_frame.h"
+#include "base/process/service_notifier.h"
+#include "base/process/status_file.h"
 #include "cue/cue_bus.h"
 #include "cue/cue_config.h"
 #include "cue/cue_desk.h"

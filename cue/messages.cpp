@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "base/message_stamp.h"
+#include "base/bus/message_stamp.h"
 
 namespace ols::cues {
 

@@ -3,9 +3,9 @@
 #include <stdexcept>
 #include <utility>
 
-#include "base/atomic_file.h"
-#include "base/log_reader.h"
-#include "base/output_check.h"
+#include "base/bus/log_reader.h"
+#include "base/files/atomic_file.h"
+#include "base/files/output_check.h"
 #include "export/factory.h"
 #include "export/fixes.h"
 #include "export/readiness.h"

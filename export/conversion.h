@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "base/progress.h"
+#include "base/process/progress.h"
 #include "export/export_config.h"
 
 namespace ols::exports {

@@ -2,8 +2,8 @@
 
 #include <utility>
 
-#include "base/boot_id.h"
-#include "base/channel_names.h"
+#include "base/bus/boot_id.h"
+#include "base/bus/channel_names.h"
 
 namespace ols::exports {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "base/bus_client.h"
+#include "base/bus/bus_client.h"
 #include "base/trust/trust_config.h"
 
 namespace ols::exports {

@@ -5,7 +5,7 @@
 #include <span>
 #include <stdexcept>
 
-#include "base/config_common.h"
+#include "base/config/config_common.h"
 #include "export/sapient/identifiers.h"
 
 namespace ols::exports {

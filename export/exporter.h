@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "base/bus_inbox.h"
+#include "base/bus/bus_inbox.h"
 #include "export/messages.h"
 #include "export/output.h"
 #include "export/target_book.h"

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "base/csv_rows.h"
+#include "base/files/csv_rows.h"
 #include "export/identity.h"
 
 namespace ols::exports {

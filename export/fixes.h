@@ -8,7 +8,7 @@
 
 namespace ols::exports {
 
-// The columns of base/fix_writer.h; standard deviations may be missing. Covariances between axes
+// The columns of export/fix_writer.h; standard deviations may be missing. Covariances between axes
 // are not in the file and are taken as 0. Throws CsvError (FILE:LINE: COLUMN: what).
 std::vector<Target> read_fixes(const std::string& path, const SiteContext& site);
 

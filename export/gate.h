@@ -6,7 +6,7 @@
 #include <string>
 #include <unordered_map>
 
-#include "base/area.h"
+#include "base/config/area.h"
 #include "export/records.h"
 
 namespace ols::exports {

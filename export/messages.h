@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "base/bus_inbox.h"
+#include "base/bus/bus_inbox.h"
 #include "export/records.h"
 
 namespace ols::exports {

@@ -4,7 +4,7 @@
 #include <memory>
 #include <stdexcept>
 
-#include "base/small_file.h"
+#include "base/files/small_file.h"
 #include "export/geoid.h"
 
 namespace ols::exports {

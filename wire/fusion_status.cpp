@@ -1,6 +1,6 @@
 #include "wire/fusion_status.h"
 
-#include "base/plain_text.h"
+#include "base/text/plain_text.h"
 #include "wire/read.h"
 
 namespace ols::wire {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "base/bus_inbox.h"
+#include "base/bus/bus_inbox.h"
 #include "ols_msg/fusion_status_t.hpp"
 
 namespace ols::wire {

@@ -1,7 +1,7 @@
 #include "wire/orders.h"
 
-#include "base/message_stamp.h"
-#include "base/plain_text.h"
+#include "base/bus/message_stamp.h"
+#include "base/text/plain_text.h"
 #include "ols_msg/command_reply_t.hpp"
 #include "ols_msg/cue_order_t.hpp"
 #include "ols_msg/designate_t.hpp"

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <optional>
 
-#include "base/bus_inbox.h"
-#include "base/lcm_bus.h"
+#include "base/bus/bus_inbox.h"
+#include "base/bus/lcm_bus.h"
 #include "wire/order.h"
 
 namespace ols::wire {
@@ -14,7 +14,7 @@ namespace ols::wire {
 std::optional<Order> heard_order(const BusMessage& message);
 
 // nullopt if it is no reply, or not of the station of its channel. Its texts are made safe for a
-// terminal (base/plain_text.h).
+// terminal (base/text/plain_text.h).
 std::optional<Reply> heard_reply(const BusMessage& message);
 
 // Sends orders under one boot id.

@@ -9,8 +9,8 @@
 #include <utility>
 #include <variant>
 
-#include "base/channel_names.h"
-#include "base/lcm_bus.h"
+#include "base/bus/channel_names.h"
+#include "base/bus/lcm_bus.h"
 
 namespace ols::wire {
 

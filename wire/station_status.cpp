@@ -2,14 +2,14 @@
 
 #include <algorithm>
 
-#include "base/plain_text.h"
+#include "base/text/plain_text.h"
 #include "ols_msg/bearing_t.hpp"
 #include "wire/read.h"
 
 namespace ols::wire {
 
 std::optional<ols_msg::station_status_t> heard_status(const BusMessage& message) {
-  // Channel names are printable (base/bus_datagram.h), hence the station's id too.
+  // Channel names are printable (base/bus/bus_datagram.h), hence the station's id too.
   auto status = read<ols_msg::station_status_t>(kStatusChannel, message);
   if (!status) return std::nullopt;
   status->last_error = plain_text(status->last_error);

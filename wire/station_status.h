@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "base/bus_inbox.h"
+#include "base/bus/bus_inbox.h"
 #include "ols_msg/station_status_t.hpp"
 
 namespace ols::wire {
@@ -15,7 +15,7 @@ namespace ols::wire {
 inline constexpr std::size_t kMostStationsHeard = 2000;
 
 // nullopt if it is not a status or not from the station of its channel. Its texts are made safe for
-// a terminal (base/plain_text.h).
+// a terminal (base/text/plain_text.h).
 std::optional<ols_msg::station_status_t> heard_status(const BusMessage& message);
 
 // The value of a counter in a status; 0 if it is missing.

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "base/plain_text.h"
+#include "base/text/plain_text.h"
 #include "geometry/angles.h"
 #include "geometry/wgs84.h"
 #include "wire/read.h"

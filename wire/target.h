@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "base/bus_inbox.h"
+#include "base/bus/bus_inbox.h"
 #include "ols_msg/target_t.hpp"
 
 namespace ols::wire {

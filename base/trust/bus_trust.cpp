@@ -6,10 +6,10 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "base/atomic_file.h"
-#include "base/channel_names.h"
-#include "base/small_file.h"
-#include "base/toml_config.h"
+#include "base/bus/channel_names.h"
+#include "base/config/toml_config.h"
+#include "base/files/atomic_file.h"
+#include "base/files/small_file.h"
 #include "base/trust/messages_trust.h"
 #include "conditions/alarms.h"
 

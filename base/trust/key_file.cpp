@@ -7,8 +7,8 @@
 #include <cerrno>
 #include <system_error>
 
-#include "base/small_file.h"
-#include "base/toml_config.h"
+#include "base/config/toml_config.h"
+#include "base/files/small_file.h"
 #include "base/trust/trust_words.h"
 
 namespace ols::trust {

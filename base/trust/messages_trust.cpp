@@ -2,7 +2,7 @@
 
 #include <exception>
 
-#include "base/message_stamp.h"
+#include "base/bus/message_stamp.h"
 #include "ols_msg/ptu_command_t.hpp"
 
 namespace ols::trust {
@@ -17,7 +17,7 @@ Message telling(const std::string& text, std::int64_t boot_id, std::int64_t sequ
   return message;
 }
 
-// As decode_exactly() of base/lcm_bus.h, which stands above this.
+// As decode_exactly() of base/bus/lcm_bus.h, which stands above this.
 template <class Message>
 bool decode(Bytes payload, Message& message) {
   const int size = static_cast<int>(payload.size());

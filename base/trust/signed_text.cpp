@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "base/toml_config.h"
+#include "base/config/toml_config.h"
 
 namespace ols::trust {
 namespace {

@@ -4,9 +4,9 @@
 #include <system_error>
 #include <utility>
 
-#include "base/atomic_file.h"
-#include "base/small_file.h"
-#include "base/toml_config.h"
+#include "base/config/toml_config.h"
+#include "base/files/atomic_file.h"
+#include "base/files/small_file.h"
 #include "conditions/alarms.h"
 
 namespace ols::trust {

@@ -3,7 +3,7 @@
 #include <string_view>
 #include <vector>
 
-#include "base/toml_config.h"
+#include "base/config/toml_config.h"
 #include "base/trust/signed_text.h"
 #include "base/trust/trust_words.h"
 

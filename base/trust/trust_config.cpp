@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "base/config_section.h"
+#include "base/config/config_section.h"
 
 namespace ols::trust {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <set>
 
-#include "base/toml_config.h"
+#include "base/config/toml_config.h"
 #include "base/trust/signed_text.h"
 
 namespace ols::trust {

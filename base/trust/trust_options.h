@@ -6,7 +6,7 @@
 #include <map>
 #include <string>
 
-#include "base/command_line.h"
+#include "base/process/command_line.h"
 #include "base/trust/bus_trust.h"
 
 namespace ols::trust {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "base/toml_config.h"
+#include "base/config/toml_config.h"
 
 namespace ols::trust {
 

@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <utility>
 
-#include "base/channel_names.h"
+#include "base/bus/channel_names.h"
 
 namespace ols::trust {
 namespace {

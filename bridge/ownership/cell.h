@@ -1,7 +1,7 @@
 // The area of a region's targets: a box of latitude and longitude. Pure.
 #pragma once
 
-#include "base/area.h"
+#include "base/config/area.h"
 
 namespace ols::bridge {
 

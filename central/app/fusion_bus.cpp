@@ -5,8 +5,8 @@
 #include <thread>
 #include <utility>
 
-#include "base/clocks.h"
-#include "base/journal.h"
+#include "base/journal/journal.h"
+#include "base/process/clocks.h"
 
 namespace ols::fusion {
 namespace {

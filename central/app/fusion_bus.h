@@ -10,8 +10,8 @@
 #include <string_view>
 #include <vector>
 
-#include "base/bus_connector.h"
-#include "base/bus_monitor.h"
+#include "base/bus/bus_connector.h"
+#include "base/bus/bus_monitor.h"
 #include "central/app/messages.h"
 
 namespace ols::fusion {

@@ -5,8 +5,8 @@
 #include <limits>
 #include <vector>
 
-#include "base/clocks.h"
-#include "base/journal.h"
+#include "base/journal/journal.h"
+#include "base/process/clocks.h"
 #include "conditions/alarms.h"
 
 namespace ols::fusion {

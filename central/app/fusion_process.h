@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "base/alarm_journal.h"
+#include "base/journal/alarm_journal.h"
 #include "central/app/fusion_bus.h"
 #include "central/app/fusion_conflict_monitor.h"
 #include "central/app/fusion_settings.h"

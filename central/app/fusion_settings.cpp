@@ -1,6 +1,6 @@
 #include "central/app/fusion_settings.h"
 
-#include "base/config_common.h"
+#include "base/config/config_common.h"
 
 namespace ols::fusion {
 namespace {

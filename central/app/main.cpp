@@ -2,12 +2,12 @@
 #include <stdexcept>
 #include <string>
 
-#include "base/boot_id.h"
-#include "base/command_line.h"
-#include "base/journal.h"
-#include "base/lcm_url.h"
-#include "base/service_frame.h"
-#include "base/service_notifier.h"
+#include "base/bus/boot_id.h"
+#include "base/bus/lcm_url.h"
+#include "base/journal/journal.h"
+#include "base/process/command_line.h"
+#include "base/process/service_frame.h"
+#include "base/process/service_notifier.h"
 #include "central/app/fusion_process.h"
 
 namespace {

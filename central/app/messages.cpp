@@ -7,8 +7,8 @@
 #include <span>
 #include <utility>
 
-#include "base/message_stamp.h"
-#include "base/plain_text.h"
+#include "base/bus/message_stamp.h"
+#include "base/text/plain_text.h"
 #include "central/admission/bearing_check.h"
 #include "geometry/angles.h"
 #include "geometry/wgs84.h"

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <variant>
 
-#include "base/channel_names.h"
+#include "base/bus/channel_names.h"
 #include "central/fusion/fusion.h"
 #include "ols_msg/command_reply_t.hpp"
 #include "ols_msg/fusion_status_t.hpp"

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "base/cue_values.h"
 #include "geometry/angles.h"
+#include "wire/cue_values.h"
 
 namespace ols::fusion {
 namespace {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "base/small_file.h"
+#include "base/files/small_file.h"
 
 namespace ols::console {
 namespace {

@@ -4,7 +4,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "base/plain_text.h"
+#include "base/text/plain_text.h"
 #include "console/maps/mbtiles.h"
 #include "console/maps/pmtiles.h"
 #include "console/maps/tile_folder.h"

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "base/small_file.h"
+#include "base/files/small_file.h"
 
 namespace ols::console {
 namespace {

@@ -7,8 +7,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "base/plain_text.h"
-#include "base/small_file.h"
+#include "base/files/small_file.h"
+#include "base/text/plain_text.h"
 
 namespace ols::console {
 namespace {

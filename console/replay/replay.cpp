@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <utility>
 
-#include "base/channel_names.h"
-#include "base/plain_text.h"
+#include "base/bus/channel_names.h"
+#include "base/text/plain_text.h"
 #include "console/messages.h"
 #include "console/messages_pictures.h"
 #include "wire/orders.h"

@@ -8,7 +8,7 @@
 #include <memory>
 #include <string>
 
-#include "base/log_reader.h"
+#include "base/bus/log_reader.h"
 #include "console/console.h"
 #include "console/replay/recorded_frames.h"
 #include "console/replay/timeline.h"

@@ -3,7 +3,7 @@
 #include <exception>
 #include <utility>
 
-#include "base/small_file.h"
+#include "base/files/small_file.h"
 
 namespace ols::cues {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "base/tcp_keepalive.h"
+#include "base/net/tcp_keepalive.h"
 
 namespace ols::cues {
 namespace {

@@ -19,9 +19,9 @@
 #include <thread>
 #include <vector>
 
-#include "base/bus_datagram.h"
-#include "base/clocks.h"
-#include "base/multicast_socket.h"
+#include "base/bus/bus_datagram.h"
+#include "base/bus/multicast_socket.h"
+#include "base/process/clocks.h"
 #include "dev/bench/program.h"
 #include "ols_msg/bearing_t.hpp"
 

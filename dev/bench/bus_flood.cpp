@@ -20,11 +20,11 @@
 #include <utility>
 #include <vector>
 
-#include "base/atomic_file.h"
-#include "base/channel_names.h"
-#include "base/clocks.h"
-#include "base/lcm_bus.h"
-#include "base/message_stamp.h"
+#include "base/bus/channel_names.h"
+#include "base/bus/lcm_bus.h"
+#include "base/bus/message_stamp.h"
+#include "base/files/atomic_file.h"
+#include "base/process/clocks.h"
 #include "base/trust/bus_trust.h"
 #include "dev/bench/program.h"
 #include "ols_msg/bearing_t.hpp"

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "dev/bench/program.h"
-#include "sim/outside_cue.h"
-#include "sim/overview_click.h"
+#include "sim/lockstep/outside_cue.h"
+#include "sim/lockstep/overview_click.h"
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include <exception>
 #include <string>
 
-#include "base/command_line.h"
+#include "base/process/command_line.h"
 
 namespace ols::bench {
 

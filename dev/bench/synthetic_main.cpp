@@ -10,7 +10,7 @@
 #include <set>
 #include <sstream>
 
-#include "base/atomic_file.h"
+#include "base/files/atomic_file.h"
 #include "dev/bench/program.h"
 #include "dev/bench/synthetic_cases.h"
 #include "edge/tracker/tracker.h"

@@ -8,7 +8,7 @@
 #include "dev/bench/synthetic_target.h"
 #include "edge/tracker/random.h"
 #include "geometry/direction.h"
-#include "sim/panorama.h"
+#include "sim/world/panorama.h"
 
 namespace ols::bench {
 

@@ -6,7 +6,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "geometry/angles.h"
-#include "sim/drone.h"
+#include "sim/world/drone.h"
 
 namespace ols::bench {
 namespace {

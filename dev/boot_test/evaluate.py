@@ -16,7 +16,7 @@ from pathlib import Path
 import lcm
 
 EXPOSURE_LIMIT = 1.9
-EVENT_IDS = (Path(__file__).parents[2] / "base/event_ids.h").read_text()
+EVENT_IDS = (Path(__file__).parents[2] / "base/journal/event_ids.h").read_text()
 ALARM_BEGINS = "MESSAGE_ID=" + re.search(r'kStationAlarmBegins = "(\w+)"', EVENT_IDS)[1]
 UNCONFINED = {"ols-station-restart.service"}  # installs packages
 

@@ -7,17 +7,17 @@
 #include <string>
 #include <vector>
 
-#include "base/atomic_file.h"
-#include "base/command_line.h"
-#include "base/config_section.h"
-#include "base/small_file.h"
+#include "base/config/config_section.h"
+#include "base/files/atomic_file.h"
+#include "base/files/small_file.h"
+#include "base/process/command_line.h"
 #include "bridge/bridge_config.h"
 #include "central/app/fusion_settings.h"
 #include "console/console_config.h"
 #include "cue/cue_config.h"
-#include "edge/config.h"
+#include "edge/config/config.h"
 #include "export/export_config.h"
-#include "sim/scenario.h"
+#include "sim/scenario/scenario.h"
 #include "tools/exporter/exporter_config.h"
 #include "tools/logger/logger_config.h"
 

@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "base/atomic_file.h"
+#include "base/files/atomic_file.h"
 #include "dev/estimators/bearing_world.h"
 #include "geometry/angles.h"
 #include "geometry/direction.h"

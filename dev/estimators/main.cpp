@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <string>
 
-#include "base/command_line.h"
+#include "base/process/command_line.h"
 #include "dev/estimators/long_recording.h"
 #include "dev/estimators/measures.h"
 #include "dev/estimators/peer.h"

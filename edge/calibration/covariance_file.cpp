@@ -3,7 +3,7 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 
-#include "base/csv_rows.h"
+#include "base/files/csv_rows.h"
 
 namespace ols::calibration {
 namespace {

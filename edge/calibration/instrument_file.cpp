@@ -7,10 +7,10 @@
 #include <iomanip>
 #include <sstream>
 
-#include "base/config_section.h"
-#include "base/toml_text.h"
+#include "base/config/config_section.h"
+#include "base/config/toml_text.h"
 #include "edge/calibration/covariance_file.h"
-#include "edge/config_units.h"
+#include "edge/config/config_units.h"
 #include "geometry/angles.h"
 
 namespace ols::calibration {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "calibration/state.h"
-#include "edge/config.h"
+#include "edge/config/config.h"
 
 namespace ols::calibration {
 

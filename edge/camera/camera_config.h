@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "base/config_section.h"
+#include "base/config/config_section.h"
 
 namespace ols::camera {
 

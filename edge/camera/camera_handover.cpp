@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "base/clocks.h"
+#include "base/process/clocks.h"
 
 namespace ols::camera {
 namespace {

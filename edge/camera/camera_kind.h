@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "base/config_section.h"
+#include "base/config/config_section.h"
 #include "edge/camera/camera.h"
 #include "edge/camera/camera_config.h"
 

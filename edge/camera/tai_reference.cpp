@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "base/clocks.h"
+#include "base/process/clocks.h"
 
 namespace ols::camera {
 

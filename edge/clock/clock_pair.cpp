@@ -1,6 +1,6 @@
 #include "edge/clock/clock_pair.h"
 
-#include "base/clocks.h"
+#include "base/process/clocks.h"
 
 namespace ols::clock {
 

@@ -9,7 +9,7 @@
 #include <thread>
 #include <utility>
 
-#include "base/command_output.h"
+#include "base/process/command_output.h"
 #include "edge/clock/chrony_tracking.h"
 #include "edge/clock/clock_pair.h"
 #include "edge/clock/clock_reading.h"

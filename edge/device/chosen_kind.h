@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "base/config_section.h"
+#include "base/config/config_section.h"
 
 namespace ols::device {
 

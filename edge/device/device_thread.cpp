@@ -5,7 +5,7 @@
 #include <exception>
 #include <utility>
 
-#include "base/clocks.h"
+#include "base/process/clocks.h"
 
 namespace ols::device {
 

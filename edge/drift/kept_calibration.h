@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "base/clocks.h"
-#include "edge/calibration_in_use.h"
+#include "base/process/clocks.h"
+#include "edge/calibration/calibration_in_use.h"
 #include "edge/drift/next_calibration.h"
 #include "edge/drift/reference_views.h"
 

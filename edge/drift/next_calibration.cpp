@@ -3,7 +3,7 @@
 #include <exception>
 #include <filesystem>
 
-#include "base/time_source.h"
+#include "base/process/time_source.h"
 #include "conditions/alarms.h"
 
 namespace ols::station {

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "edge/calibration_folder.h"
+#include "edge/calibration/calibration_folder.h"
 
 namespace ols::station {
 

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
 
-#include "base/small_file.h"
-#include "base/time_source.h"
+#include "base/files/small_file.h"
+#include "base/process/time_source.h"
 #include "calibration/pictures/view_registration.h"
 #include "conditions/alarms.h"
 #include "edge/drift/view_offset.h"

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "base/background_file.h"
+#include "base/files/background_file.h"
 #include "edge/camera/frame.h"
 #include "edge/drift/check_record.h"
 #include "edge/drift/drift_watch.h"

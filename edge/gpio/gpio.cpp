@@ -14,8 +14,8 @@
 #include <utility>
 #include <vector>
 
-#include "base/clocks.h"
-#include "base/wakeup.h"
+#include "base/process/clocks.h"
+#include "base/process/wakeup.h"
 #include "edge/gpio/gpio_lines.h"
 #include "edge/gpio/gpio_report.h"
 #include "edge/gpio/line_use.h"

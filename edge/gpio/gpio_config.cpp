@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "base/config_section.h"
+#include "base/config/config_section.h"
 #include "edge/gpio/gpio.h"
 
 namespace ols::gpio {

@@ -8,7 +8,7 @@
 #include <map>
 #include <system_error>
 
-#include "base/clocks.h"
+#include "base/process/clocks.h"
 #include "edge/gpio/gpio_lines.h"
 
 namespace ols::gpio {

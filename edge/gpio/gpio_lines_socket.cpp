@@ -9,7 +9,7 @@
 #include <string_view>
 #include <system_error>
 
-#include "base/clocks.h"
+#include "base/process/clocks.h"
 #include "edge/gpio/gpio_lines.h"
 #include "edge/gpio/line_protocol.h"
 

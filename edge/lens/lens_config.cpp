@@ -1,7 +1,7 @@
 // The keys of a motorised lens and of its zoom positions.
 #include <exception>
 
-#include "base/config_section.h"
+#include "base/config/config_section.h"
 #include "edge/lens/lens_motor.h"
 
 namespace ols::lens {

@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <string>
 
-#include "edge/config_units.h"
+#include "edge/config/config_units.h"
 #include "edge/ptu/budget.h"
 
 namespace ols::ptu {

@@ -1,6 +1,6 @@
 #include "edge/ptu/ptu_handover.h"
 
-#include "base/clocks.h"
+#include "base/process/clocks.h"
 #include "edge/ptu/ptu_report.h"
 
 namespace ols::ptu {

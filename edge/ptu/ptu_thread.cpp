@@ -2,7 +2,7 @@
 
 #include <stop_token>
 
-#include "base/wakeup.h"
+#include "base/process/wakeup.h"
 #include "edge/serial/serial_port.h"
 
 namespace ols::ptu {

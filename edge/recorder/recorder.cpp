@@ -14,7 +14,7 @@
 #include <thread>
 #include <utility>
 
-#include "base/clocks.h"
+#include "base/process/clocks.h"
 #include "conditions/alarms.h"
 #include "edge/device/behind_control_loop.h"
 #include "edge/recorder/event_folder.h"

@@ -1,5 +1,5 @@
 // The keys of [recorder].
-#include "base/config_section.h"
+#include "base/config/config_section.h"
 #include "edge/recorder/recorder.h"
 
 namespace ols::recorder {

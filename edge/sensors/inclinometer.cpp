@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <stop_token>
 
-#include "base/clocks.h"
+#include "base/process/clocks.h"
 #include "edge/device/device_thread.h"
 #include "edge/device/reading_queue.h"
 #include "edge/serial/serial_port.h"

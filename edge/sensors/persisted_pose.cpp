@@ -5,7 +5,7 @@
 #include <locale>
 #include <sstream>
 
-#include "base/fnv1a.h"
+#include "base/files/fnv1a.h"
 #include "geometry/angles.h"
 
 namespace ols::sensors {

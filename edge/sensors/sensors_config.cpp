@@ -1,5 +1,5 @@
 // The keys of [inclinometer] and [gnss].
-#include "edge/config_units.h"
+#include "edge/config/config_units.h"
 #include "edge/sensors/gnss.h"
 #include "edge/sensors/inclinometer.h"
 

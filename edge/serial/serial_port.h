@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "base/wakeup.h"
+#include "base/process/wakeup.h"
 
 namespace ols::serial {
 

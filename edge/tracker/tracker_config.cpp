@@ -1,6 +1,6 @@
 #include "edge/tracker/tracker_config.h"
 
-#include "base/config_section.h"
+#include "base/config/config_section.h"
 
 namespace ols::tracker {
 

@@ -6,7 +6,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "base/message_stamp.h"
+#include "base/bus/message_stamp.h"
 #include "ols_msg/video_frame_t.hpp"
 #include "ols_msg/video_request_t.hpp"
 #include "ols_msg/video_stream_request_t.hpp"

@@ -1,7 +1,7 @@
 // The keys of [video].
-#include "base/config_section.h"
-#include "base/ip_endpoint.h"
-#include "base/ip_networks.h"
+#include "base/config/config_section.h"
+#include "base/net/ip_endpoint.h"
+#include "base/net/ip_networks.h"
 #include "edge/video/video_server.h"
 
 namespace ols::video {

@@ -9,10 +9,10 @@
 #include <stop_token>
 #include <utility>
 
-#include "base/clocks.h"
-#include "base/ip_endpoint.h"
-#include "base/ip_networks.h"
-#include "base/tcp_keepalive.h"
+#include "base/net/ip_endpoint.h"
+#include "base/net/ip_networks.h"
+#include "base/net/tcp_keepalive.h"
+#include "base/process/clocks.h"
 #include "edge/device/behind_control_loop.h"
 #include "edge/device/device_thread.h"
 #include "edge/video/messages_video.h"

@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "base/length_prefix.h"
+#include "base/net/length_prefix.h"
 #include "edge/video/messages_video.h"
 
 namespace ols::video {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "base/fnv1a.h"
+#include "base/files/fnv1a.h"
 #include "export/text.h"
 
 namespace ols::exports {

@@ -4,7 +4,7 @@
 
 #include <exception>
 
-#include "base/atomic_file.h"
+#include "base/files/atomic_file.h"
 
 namespace ols::exports {
 

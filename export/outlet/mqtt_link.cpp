@@ -10,8 +10,8 @@
 #include <optional>
 #include <utility>
 
-#include "base/clocks.h"
-#include "base/small_file.h"
+#include "base/files/small_file.h"
+#include "base/process/clocks.h"
 #include "export/outlet/tcp_socket.h"
 
 namespace ols::exports {

@@ -6,7 +6,7 @@
 #include <mutex>
 #include <thread>
 
-#include "base/wakeup.h"
+#include "base/process/wakeup.h"
 #include "export/back_off.h"
 #include "export/outlet/link.h"
 #include "export/outlet/outlet.h"

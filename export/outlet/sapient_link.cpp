@@ -3,7 +3,7 @@
 #include <exception>
 #include <utility>
 
-#include "base/clocks.h"
+#include "base/process/clocks.h"
 #include "export/sapient/registration.h"
 #include "export/sapient/sapient_messages.h"
 

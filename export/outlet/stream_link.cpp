@@ -12,7 +12,7 @@
 #include <cstring>
 #include <utility>
 
-#include "base/clocks.h"
+#include "base/process/clocks.h"
 
 namespace ols::exports {
 namespace {

@@ -5,7 +5,7 @@
 #include <boost/asio/ip/multicast.hpp>
 #include <utility>
 
-#include "base/clocks.h"
+#include "base/process/clocks.h"
 
 namespace ols::exports {
 

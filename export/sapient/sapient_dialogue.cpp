@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "base/plain_text.h"
+#include "base/text/plain_text.h"
 #include "export/sapient/frame.h"
 #include "export/sapient/sapient_messages.h"
 #include "sapient/sapient.pb.h"

@@ -11,7 +11,7 @@ from ols_demo.wiring import Wiring
 
 SCENARIO = ROOT / "sim/scenarios/overview.toml"
 STATION = "overview"
-WIDEST_PX, RATIO, BEND = 8.0 / 3.75e-3, 10.0, 0.2  # of the scenario, and of sim/zoom_truth.cpp
+WIDEST_PX, RATIO, BEND = 8.0 / 3.75e-3, 10.0, 0.2  # of the scenario, and of sim/lens/zoom_truth.cpp
 
 
 def true_focal_px(position):

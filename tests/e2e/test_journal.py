@@ -14,7 +14,7 @@ from conftest import BIN, ROOT, finished
 from helpers import station_without_devices
 
 JOURNALD = Path("/lib/systemd/systemd-journald")
-IDS = dict(re.findall(r'Id (k\w+) = "(\w+)"', (ROOT / "base/event_ids.h").read_text()))
+IDS = dict(re.findall(r'Id (k\w+) = "(\w+)"', (ROOT / "base/journal/event_ids.h").read_text()))
 # The journal begins, the station runs until its alarm is there and ends, and what it said is kept.
 RUN = r"""
 set -eu

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <string>
 
-#include "base/toml_config.h"
+#include "base/config/toml_config.h"
 #include "tests/fuzz/fuzz_input.h"
 #include "tools/setup/plan.h"
 

@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <variant>
 
-#include "base/log_record.h"
+#include "base/bus/log_record.h"
 #include "console/maps/pmtiles_directory.h"
 #include "console/replay/recorded_frames.h"
 #include "tests/fuzz/fuzz_input.h"

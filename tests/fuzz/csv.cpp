@@ -4,9 +4,9 @@
 #include <cstdlib>
 #include <new>
 
-#include "base/csv_files.h"
-#include "base/toml_config.h"
-#include "sim/trajectory_file.h"
+#include "base/config/toml_config.h"
+#include "base/files/csv_files.h"
+#include "sim/world/trajectory_file.h"
 #include "tests/fuzz/fuzz_input.h"
 
 static void* large_buffer = nullptr;

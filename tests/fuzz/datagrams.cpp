@@ -5,11 +5,11 @@
 #include <filesystem>
 #include <optional>
 
-#include "base/bus_inbox.h"
-#include "base/plain_text.h"
+#include "base/bus/bus_inbox.h"
+#include "base/text/plain_text.h"
 #include "central/app/messages.h"
 #include "central/fusion/fusion.h"
-#include "edge/messages_bus.h"
+#include "edge/messages/messages_bus.h"
 #include "tests/fuzz/fuzz_input.h"
 #include "tests/fuzz/no_tracker.h"
 #include "tools/logger/log_writer.h"

@@ -6,9 +6,9 @@
 #include <sstream>
 #include <string>
 
-#include "base/config_section.h"
-#include "base/lcm_bus.h"
-#include "base/toml_config.h"
+#include "base/bus/lcm_bus.h"
+#include "base/config/config_section.h"
+#include "base/config/toml_config.h"
 #include "ols_msg/fusion_status_t.hpp"
 #include "tests/fuzz/fuzz_input.h"
 #include "tools/exporter/exporter_config.h"

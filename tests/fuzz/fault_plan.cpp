@@ -1,11 +1,11 @@
 // Faults that a simulated site is told of over the bus: a run of OLS_SIM_FAULT datagrams, each with
 // its length. Refused by name, or a plan whose faults end when they are told to.
-#include "sim/fault_plan.h"
+#include "sim/scenario/fault_plan.h"
 
 #include <cmath>
 #include <stdexcept>
 
-#include "base/lcm_bus.h"
+#include "base/bus/lcm_bus.h"
 #include "ols_msg/sim_fault_t.hpp"
 #include "tests/fuzz/fuzz_input.h"
 

@@ -1,5 +1,5 @@
 // The fusion's configuration file: settings, or one error that names the place.
-#include "base/toml_config.h"
+#include "base/config/toml_config.h"
 #include "central/app/fusion_settings.h"
 #include "tests/fuzz/fuzz_input.h"
 

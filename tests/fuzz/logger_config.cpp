@@ -1,7 +1,7 @@
 // The logger's configuration: settings, or one error that names the place.
 #include "tools/logger/logger_config.h"
 
-#include "base/toml_config.h"
+#include "base/config/toml_config.h"
 #include "tests/fuzz/fuzz_input.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

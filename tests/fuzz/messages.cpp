@@ -2,7 +2,7 @@
 // chooses the type.
 #include <array>
 
-#include "base/lcm_bus.h"
+#include "base/bus/lcm_bus.h"
 #include "ols_msg/bearing_t.hpp"
 #include "ols_msg/command_reply_t.hpp"
 #include "ols_msg/cue_order_t.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "edge/ptu/driver.h"
-#include "sim/ptu_unit.h"
+#include "sim/ptu/unit.h"
 #include "tests/fuzz/fuzz_input.h"
 
 namespace {

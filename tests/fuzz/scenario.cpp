@@ -1,7 +1,7 @@
 // A simulator's scenario: a world, or one error.
-#include "sim/scenario.h"
+#include "sim/scenario/scenario.h"
 
-#include "base/toml_config.h"
+#include "base/config/toml_config.h"
 #include "tests/fuzz/fuzz_input.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -4,10 +4,10 @@
 
 #include <string>
 
-#include "base/config_section.h"
-#include "base/toml_config.h"
+#include "base/config/config_section.h"
+#include "base/config/toml_config.h"
 #include "base/trust/signed_text.h"
-#include "edge/config.h"
+#include "edge/config/config.h"
 #include "tests/fuzz/fuzz_input.h"
 
 namespace {

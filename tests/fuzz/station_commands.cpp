@@ -2,7 +2,7 @@
 // station never has a goal outside the PTU's limits.
 #include <cmath>
 
-#include "edge/messages_bus.h"
+#include "edge/messages/messages_bus.h"
 #include "tests/fuzz/fuzz_input.h"
 #include "tests/fuzz/no_tracker.h"
 

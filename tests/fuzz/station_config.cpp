@@ -1,6 +1,6 @@
 // A station's configuration file: settings, or one error that names the place.
-#include "base/toml_config.h"
-#include "edge/config.h"
+#include "base/config/toml_config.h"
+#include "edge/config/config.h"
 #include "tests/fuzz/fuzz_input.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "base/toml_config.h"
+#include "base/config/toml_config.h"
 #include "base/trust/replay_marks.h"
 #include "tests/fuzz/fuzz_input.h"
 

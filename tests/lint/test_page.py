@@ -157,8 +157,17 @@ SPOKEN = (
         "edge/gpio/*.cpp",
     ),
     *("edge/lens/*.cpp", "edge/ptu/*.cpp", "edge/recorder/*.cpp", "edge/sensors/*.cpp"),
-    *("edge/serial/*.cpp", "edge/device/*.cpp", "edge/messages_bus.cpp", "edge/frame_service.cpp"),
-    *("edge/persisted_station_state.cpp", "edge/host_monitor.cpp", "edge/kept_pose.cpp"),
+    *(
+        "edge/serial/*.cpp",
+        "edge/device/*.cpp",
+        "edge/messages/messages_bus.cpp",
+        "edge/frames/frame_service.cpp",
+    ),
+    *(
+        "edge/station/persisted_station_state.cpp",
+        "edge/process/host_monitor.cpp",
+        "edge/process/kept_pose.cpp",
+    ),
 )
 # Written to files, to the journal or to the terminal, or thrown where no page is.
 UNSPOKEN = re.compile(

@@ -5,7 +5,7 @@
 #include <functional>
 #include <thread>
 
-#include "base/clocks.h"
+#include "base/process/clocks.h"
 
 namespace ols {
 

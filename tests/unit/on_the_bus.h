@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "base/bus_inbox.h"
+#include "base/bus/bus_inbox.h"
 
 namespace ols {
 

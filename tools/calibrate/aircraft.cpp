@@ -16,9 +16,9 @@
 #include <thread>
 #include <tuple>
 
-#include "base/atomic_file.h"
-#include "base/clocks.h"
-#include "base/output_check.h"
+#include "base/files/atomic_file.h"
+#include "base/files/output_check.h"
+#include "base/process/clocks.h"
 #include "edge/clock/clock_source.h"
 #include "tools/calibrate/aircraft_feed.h"
 #include "tools/calibrate/input_bytes.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "base/progress.h"
+#include "base/process/progress.h"
 #include "calibration/adsb.h"
 
 namespace ols::calibration {

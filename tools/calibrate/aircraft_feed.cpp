@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "base/sbs_line.h"
+#include "cue/sbs_line.h"
 
 namespace ols::calibration {
 namespace {

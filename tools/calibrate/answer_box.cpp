@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/plain_text.h"
+#include "base/text/plain_text.h"
 #include "geometry/angles.h"
 
 namespace ols::calibration {

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/calibration_csv.h"
 #include "calibration/mistaken_sightings.h"
 #include "calibration/name_stars.h"
 #include "geometry/angles.h"
 #include "geometry/utm.h"
+#include "tools/calibrate/calibration_csv.h"
 #include "tools/calibrate/observation_file.h"
 
 namespace ols::calibration {

@@ -11,7 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
-#include "base/append_line.h"
+#include "base/files/append_line.h"
 
 namespace ols::calibration {
 namespace {

@@ -4,10 +4,10 @@
 #include <new>
 #include <utility>
 
-#include "base/atomic_file.h"
-#include "base/command_line.h"
-#include "base/output_check.h"
-#include "base/progress.h"
+#include "base/files/atomic_file.h"
+#include "base/files/output_check.h"
+#include "base/process/command_line.h"
+#include "base/process/progress.h"
 #include "tools/calibrate/adjust_command.h"
 #include "tools/calibrate/aircraft.h"
 #include "tools/calibrate/camera.h"

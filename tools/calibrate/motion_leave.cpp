@@ -1,6 +1,6 @@
 #include "tools/calibrate/motion_leave.h"
 
-#include "edge/station_mode.h"
+#include "edge/station/station_mode.h"
 
 namespace ols::calibration {
 namespace {

@@ -9,7 +9,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "base/plain_text.h"
+#include "base/text/plain_text.h"
 #include "geometry/angles.h"
 
 namespace ols::calibration {

@@ -3,7 +3,7 @@
 #include <atomic>
 #include <stdexcept>
 
-#include "base/atomic_file.h"
+#include "base/files/atomic_file.h"
 
 namespace ols::calibration {
 namespace {

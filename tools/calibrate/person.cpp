@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "base/plain_text.h"
+#include "base/text/plain_text.h"
 #include "geometry/angles.h"
 
 namespace ols::calibration {

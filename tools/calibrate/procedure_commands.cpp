@@ -6,9 +6,9 @@
 #include <fstream>
 #include <iterator>
 
-#include "base/clocks.h"
-#include "base/command_line.h"
-#include "base/shutdown.h"
+#include "base/process/clocks.h"
+#include "base/process/command_line.h"
+#include "base/process/shutdown.h"
 #include "base/trust/trust_options.h"
 #include "tools/calibrate/calibration_store.h"
 #include "tools/calibrate/procedure_end.h"

@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "base/clocks.h"
+#include "base/process/clocks.h"
 
 namespace ols::calibration {
 namespace {

@@ -6,8 +6,8 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "base/clocks.h"
-#include "base/shutdown.h"
+#include "base/process/clocks.h"
+#include "base/process/shutdown.h"
 #include "geometry/angles.h"
 
 namespace ols::calibration {

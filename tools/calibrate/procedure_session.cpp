@@ -9,8 +9,8 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "base/append_line.h"
-#include "base/atomic_file.h"
+#include "base/files/append_line.h"
+#include "base/files/atomic_file.h"
 #include "tools/calibrate/observation_writer.h"
 
 namespace ols::calibration {

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <numbers>
 
-#include "base/clocks.h"
+#include "base/process/clocks.h"
 #include "calibration/procedure/drone_stage.h"
 #include "calibration/procedure/star_stage.h"
 #include "calibration/procedure/sun_stage.h"

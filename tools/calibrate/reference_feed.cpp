@@ -4,7 +4,7 @@
 #include <iterator>
 #include <stdexcept>
 
-#include "base/atomic_file.h"
+#include "base/files/atomic_file.h"
 #include "tools/calibrate/calibrate_case.h"
 
 namespace ols::calibration {

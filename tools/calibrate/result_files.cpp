@@ -5,10 +5,10 @@
 #include <iomanip>
 #include <sstream>
 
-#include "base/calibration_csv.h"
 #include "calibration/systematic.h"
-#include "edge/calibration_folder.h"
+#include "edge/calibration/calibration_folder.h"
 #include "geometry/angles.h"
+#include "tools/calibrate/calibration_csv.h"
 
 namespace ols::calibration {
 namespace {

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "base/channel_names.h"
-#include "base/lcm_bus.h"
-#include "base/log_reader.h"
-#include "edge/unit_count.h"
+#include "base/bus/channel_names.h"
+#include "base/bus/lcm_bus.h"
+#include "base/bus/log_reader.h"
+#include "edge/calibration/unit_count.h"
 #include "ols_msg/bearing_t.hpp"
 #include "ols_msg/sighting_t.hpp"
 #include "tools/calibrate/input_bytes.h"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "base/progress.h"
+#include "base/process/progress.h"
 #include "calibration/followed_tracks.h"
 
 namespace ols::calibration {

@@ -5,10 +5,10 @@
 #include <limits>
 #include <opencv2/imgcodecs.hpp>
 
-#include "base/boot_id.h"
-#include "base/channel_names.h"
-#include "base/clocks.h"
-#include "base/message_stamp.h"
+#include "base/bus/boot_id.h"
+#include "base/bus/channel_names.h"
+#include "base/bus/message_stamp.h"
+#include "base/process/clocks.h"
 #include "geometry/angles.h"
 #include "ols_msg/bearing_t.hpp"
 #include "ols_msg/frame_request_t.hpp"

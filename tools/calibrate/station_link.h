@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "base/lcm_bus.h"
+#include "base/bus/lcm_bus.h"
 #include "calibration/procedure/preconditions.h"
 #include "calibration/procedure/stage.h"
 #include "ols_msg/frame_part_t.hpp"

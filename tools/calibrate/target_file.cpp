@@ -1,6 +1,6 @@
 #include "tools/calibrate/target_file.h"
 
-#include "base/config_section.h"
+#include "base/config/config_section.h"
 #include "geometry/angles.h"
 
 namespace ols::calibration {

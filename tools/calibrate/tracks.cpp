@@ -4,9 +4,9 @@
 #include <stdexcept>
 #include <utility>
 
-#include "base/atomic_file.h"
-#include "base/output_check.h"
-#include "base/progress.h"
+#include "base/files/atomic_file.h"
+#include "base/files/output_check.h"
+#include "base/process/progress.h"
 #include "tools/calibrate/observation_writer.h"
 
 namespace ols::calibration {

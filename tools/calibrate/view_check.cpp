@@ -1,7 +1,7 @@
 // `ols-calibrate check`: views of the stored panorama, looked at again.
 #include <stdexcept>
 
-#include "base/clocks.h"
+#include "base/process/clocks.h"
 #include "tools/calibrate/procedure_stages.h"
 #include "tools/calibrate/view_stage.h"
 

@@ -6,11 +6,11 @@
 #include <limits>
 #include <optional>
 
-#include "base/atomic_file.h"
-#include "base/boot_id.h"
-#include "base/clocks.h"
-#include "base/output_check.h"
-#include "base/shutdown.h"
+#include "base/bus/boot_id.h"
+#include "base/files/atomic_file.h"
+#include "base/files/output_check.h"
+#include "base/process/clocks.h"
+#include "base/process/shutdown.h"
 #include "base/trust/trust_options.h"
 #include "calibration/pictures/scene_tracks.h"
 #include "calibration/procedure/sun_keep_out.h"

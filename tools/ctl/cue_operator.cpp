@@ -1,8 +1,8 @@
 #include "tools/ctl/cue_operator.h"
 
-#include "base/boot_id.h"
-#include "base/channel_names.h"
-#include "base/clocks.h"
+#include "base/bus/boot_id.h"
+#include "base/bus/channel_names.h"
+#include "base/process/clocks.h"
 #include "tools/ctl/operator.h"
 #include "wire/refusal_words.h"
 

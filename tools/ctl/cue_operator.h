@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "base/lcm_bus.h"
+#include "base/bus/lcm_bus.h"
 #include "base/trust/trust_config.h"
 #include "wire/fusion_status.h"
 #include "wire/orders.h"

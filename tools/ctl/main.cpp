@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "base/clocks.h"
-#include "base/command_line.h"
+#include "base/process/clocks.h"
+#include "base/process/command_line.h"
 #include "tools/ctl/cue_operator.h"
 #include "tools/ctl/cue_table.h"
 #include "tools/ctl/fleet_table.h"

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/boot_id.h"
-#include "base/channel_names.h"
-#include "base/clocks.h"
+#include "base/bus/boot_id.h"
+#include "base/bus/channel_names.h"
+#include "base/process/clocks.h"
 #include "wire/refusal_words.h"
 
 namespace ols::ctl {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "base/lcm_bus.h"
+#include "base/bus/lcm_bus.h"
 #include "ols_msg/station_status_t.hpp"
 #include "wire/orders.h"
 #include "wire/station_status.h"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "base/lcm_url.h"
+#include "base/bus/lcm_url.h"
 #include "base/trust/trust_options.h"
 #include "tools/ctl/operator.h"
 #include "wire/order.h"

@@ -7,9 +7,9 @@
 #include <stdexcept>
 #include <vector>
 
-#include "base/command_output.h"
-#include "base/plain_text.h"
-#include "base/small_file.h"
+#include "base/files/small_file.h"
+#include "base/process/command_output.h"
+#include "base/text/plain_text.h"
 #include "tools/doctor/secrets.h"
 
 namespace ols::doctor {

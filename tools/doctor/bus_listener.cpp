@@ -6,11 +6,11 @@
 #include <fstream>
 #include <set>
 
-#include "base/channel_names.h"
-#include "base/clocks.h"
-#include "base/command_output.h"
-#include "base/lcm_bus.h"
-#include "base/lcm_url.h"
+#include "base/bus/channel_names.h"
+#include "base/bus/lcm_bus.h"
+#include "base/bus/lcm_url.h"
+#include "base/process/clocks.h"
+#include "base/process/command_output.h"
 #include "ols_msg/bearing_t.hpp"
 #include "ols_msg/fusion_status_t.hpp"
 #include "ols_msg/station_status_t.hpp"

@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "base/plain_text.h"
+#include "base/text/plain_text.h"
 
 namespace ols::doctor {
 namespace {

@@ -1,7 +1,7 @@
 // Judges clock, disk, processor and services of this host, and says what to do. Pure.
 #pragma once
 
-#include "edge/host_monitor.h"
+#include "edge/process/host_monitor.h"
 #include "tools/doctor/facts.h"
 #include "tools/doctor/finding.h"
 

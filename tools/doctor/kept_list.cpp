@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <system_error>
 
-#include "base/small_file.h"
+#include "base/files/small_file.h"
 #include "base/trust/key_file.h"
 #include "base/trust/trust_list.h"
 

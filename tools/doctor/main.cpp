@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "base/command_line.h"
+#include "base/process/command_line.h"
 #include "tools/doctor/bundle.h"
 #include "tools/doctor/examination.h"
 

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "edge/camera/aravis/aravis_config.h"
-#include "edge/config.h"
-#include "edge/host_monitor.h"
+#include "edge/config/config.h"
+#include "edge/process/host_monitor.h"
 #include "edge/ptu/ptu_config.h"
 #include "tools/doctor/facts.h"
 

@@ -5,7 +5,7 @@
 #include <cerrno>
 #include <fstream>
 
-#include "base/command_output.h"
+#include "base/process/command_output.h"
 #include "tools/doctor/judge_host.h"
 #include "tools/doctor/probe.h"
 

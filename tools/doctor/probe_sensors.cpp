@@ -3,7 +3,7 @@
 #include <system_error>
 #include <thread>
 
-#include "base/clocks.h"
+#include "base/process/clocks.h"
 #include "edge/clock/clock_pair.h"
 #include "edge/clock/clock_source.h"
 #include "edge/gpio/gpio_lines.h"

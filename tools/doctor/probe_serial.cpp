@@ -6,7 +6,7 @@
 #include <fstream>
 #include <system_error>
 
-#include "base/clocks.h"
+#include "base/process/clocks.h"
 #include "edge/ptu/codec.h"
 #include "edge/ptu/unit_model.h"
 #include "edge/serial/serial_port.h"

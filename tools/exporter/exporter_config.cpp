@@ -1,7 +1,7 @@
 #include "tools/exporter/exporter_config.h"
 
-#include "base/config_common.h"
-#include "base/ip_endpoint.h"
+#include "base/config/config_common.h"
+#include "base/net/ip_endpoint.h"
 
 namespace ols::exporter {
 

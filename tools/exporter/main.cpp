@@ -15,14 +15,14 @@
 #include <utility>
 #include <vector>
 
-#include "base/bus_connector.h"
-#include "base/channel_names.h"
-#include "base/clocks.h"
-#include "base/command_line.h"
-#include "base/journal.h"
-#include "base/service_notifier.h"
-#include "base/shutdown.h"
-#include "base/small_file.h"
+#include "base/bus/bus_connector.h"
+#include "base/bus/channel_names.h"
+#include "base/files/small_file.h"
+#include "base/journal/journal.h"
+#include "base/process/clocks.h"
+#include "base/process/command_line.h"
+#include "base/process/service_notifier.h"
+#include "base/process/shutdown.h"
 #include "tools/exporter/bridge_metrics.h"
 #include "tools/exporter/exporter_config.h"
 #include "tools/exporter/site_metrics.h"

@@ -4,7 +4,7 @@
 #include <exception>
 #include <utility>
 
-#include "base/bus_inbox.h"
+#include "base/bus/bus_inbox.h"
 #include "base/trust/messages_trust.h"
 
 namespace ols::key {

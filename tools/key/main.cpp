@@ -8,13 +8,13 @@
 #include <string>
 #include <vector>
 
-#include "base/command_line.h"
-#include "base/config_section.h"
-#include "base/log_reader.h"
-#include "base/small_file.h"
-#include "base/toml_config.h"
+#include "base/bus/log_reader.h"
+#include "base/config/config_section.h"
+#include "base/config/toml_config.h"
+#include "base/files/small_file.h"
+#include "base/process/command_line.h"
 #include "base/trust/key_file.h"
-#include "edge/config.h"
+#include "edge/config/config.h"
 #include "tools/key/log_check.h"
 #include "tools/key/site_book.h"
 #include "tools/key/site_files.h"

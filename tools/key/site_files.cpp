@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <system_error>
 
-#include "base/atomic_file.h"
-#include "base/small_file.h"
-#include "base/toml_config.h"
+#include "base/config/toml_config.h"
+#include "base/files/atomic_file.h"
+#include "base/files/small_file.h"
 #include "tools/key/site_book.h"
 
 namespace ols::key {

@@ -8,9 +8,9 @@
 #include <stdexcept>
 #include <utility>
 
-#include "base/atomic_file.h"
-#include "base/boot_id.h"
-#include "base/clocks.h"
+#include "base/bus/boot_id.h"
+#include "base/files/atomic_file.h"
+#include "base/process/clocks.h"
 
 namespace ols::logger {
 namespace {

@@ -1,7 +1,7 @@
 // One recording: a bus connection, and a thread that writes its messages into logs.
 //
-// lcm-logger is not used: a forged fragment crashes its liblcm (base/bus_datagram.h), and it keeps
-// writing into a file that was deleted.
+// lcm-logger is not used: a forged fragment crashes its liblcm (base/bus/bus_datagram.h), and it
+// keeps writing into a file that was deleted.
 #pragma once
 
 #include <atomic>
@@ -11,9 +11,9 @@
 #include <string>
 #include <thread>
 
-#include "base/alarm_journal.h"
-#include "base/bus_monitor.h"
-#include "base/lcm_bus.h"
+#include "base/bus/bus_monitor.h"
+#include "base/bus/lcm_bus.h"
+#include "base/journal/alarm_journal.h"
 #include "tools/logger/log_names.h"
 #include "tools/logger/log_writer.h"
 #include "tools/logger/logger_config.h"

@@ -7,7 +7,7 @@
 #include <memory>
 #include <string>
 
-#include "base/bus_inbox.h"
+#include "base/bus/bus_inbox.h"
 
 namespace ols::logger {
 

@@ -1,7 +1,7 @@
 #include "tools/logger/logger_config.h"
 
-#include "base/channel_pattern.h"
-#include "base/config_common.h"
+#include "base/bus/channel_pattern.h"
+#include "base/config/config_common.h"
 
 namespace ols::logger {
 namespace {

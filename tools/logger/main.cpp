@@ -8,14 +8,14 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "base/clocks.h"
-#include "base/command_line.h"
-#include "base/journal.h"
-#include "base/lcm_url.h"
-#include "base/service_notifier.h"
-#include "base/shutdown.h"
-#include "base/status_file.h"
-#include "base/toml_config.h"
+#include "base/bus/lcm_url.h"
+#include "base/config/toml_config.h"
+#include "base/journal/journal.h"
+#include "base/process/clocks.h"
+#include "base/process/command_line.h"
+#include "base/process/service_notifier.h"
+#include "base/process/shutdown.h"
+#include "base/process/status_file.h"
 #include "tools/logger/bus_recorder.h"
 #include "tools/logger/supervisor.h"
 

@@ -8,8 +8,8 @@
 #include <exception>
 #include <nlohmann/json.hpp>
 
-#include "base/journal.h"
-#include "base/plain_text.h"
+#include "base/journal/journal.h"
+#include "base/text/plain_text.h"
 
 namespace ols::logger {
 namespace {

@@ -11,15 +11,15 @@
 #include <utility>
 #include <vector>
 
-#include "base/atomic_file.h"
-#include "base/command_line.h"
-#include "base/csv_files.h"
-#include "base/fix_writer.h"
-#include "base/output_check.h"
-#include "base/progress.h"
+#include "base/files/atomic_file.h"
+#include "base/files/csv_files.h"
+#include "base/files/output_check.h"
+#include "base/process/command_line.h"
+#include "base/process/progress.h"
 #include "central/offline/object_separation.h"
 #include "central/offline/offline_fusion.h"
 #include "central/offline/smoother.h"
+#include "export/fix_writer.h"
 #include "geometry/angles.h"
 #include "geometry/wgs84.h"
 #include "tools/offline/recorded_bearings.h"

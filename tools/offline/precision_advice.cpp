@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "base/atomic_file.h"
-#include "base/output_check.h"
-#include "base/progress.h"
+#include "base/files/atomic_file.h"
+#include "base/files/output_check.h"
+#include "base/process/progress.h"
 #include "geometry/angles.h"
 #include "geometry/placement.h"
 #include "tools/offline/geojson.h"

@@ -1,8 +1,8 @@
 // ols-precision: how good positions can be, before anything is measured.
 #include <iostream>
 
-#include "base/atomic_file.h"
-#include "base/command_line.h"
+#include "base/files/atomic_file.h"
+#include "base/process/command_line.h"
 #include "tools/offline/precision_paper_files.h"
 #include "tools/offline/precision_site_files.h"
 

@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "base/atomic_file.h"
-#include "base/output_check.h"
-#include "base/progress.h"
+#include "base/files/atomic_file.h"
+#include "base/files/output_check.h"
+#include "base/process/progress.h"
 #include "geometry/angles.h"
 #include "tools/offline/precision_options.h"
 #include "tools/offline/precision_site_files.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "base/csv_files.h"
+#include "base/files/csv_files.h"
 #include "geometry/precision.h"
 
 namespace ols::offline {

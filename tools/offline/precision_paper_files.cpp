@@ -7,10 +7,10 @@
 #include <stdexcept>
 #include <string>
 
-#include "base/atomic_file.h"
-#include "base/csv_files.h"
-#include "base/output_check.h"
-#include "base/progress.h"
+#include "base/files/atomic_file.h"
+#include "base/files/csv_files.h"
+#include "base/files/output_check.h"
+#include "base/process/progress.h"
 #include "geometry/precision_paper.h"
 
 namespace ols::offline {

@@ -4,7 +4,7 @@
 #include <map>
 #include <utility>
 
-#include "base/csv_files.h"
+#include "base/files/csv_files.h"
 #include "central/offline/offline_fusion.h"
 #include "geometry/angles.h"
 #include "geometry/wgs84.h"

@@ -7,8 +7,8 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "base/csv_files.h"
-#include "base/toml_config.h"
+#include "base/config/toml_config.h"
+#include "base/files/csv_files.h"
 #include "geometry/angles.h"
 #include "geometry/utm.h"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "edge/config.h"
+#include "edge/config/config.h"
 #include "geometry/stationing.h"
 
 namespace ols::offline {

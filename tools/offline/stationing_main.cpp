@@ -4,10 +4,10 @@
 #include <iostream>
 #include <sstream>
 
-#include "base/atomic_file.h"
-#include "base/command_line.h"
-#include "base/output_check.h"
-#include "base/toml_merge.h"
+#include "base/config/toml_merge.h"
+#include "base/files/atomic_file.h"
+#include "base/files/output_check.h"
+#include "base/process/command_line.h"
 #include "geometry/angles.h"
 #include "tools/offline/stationing_files.h"
 

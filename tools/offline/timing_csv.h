@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "base/atomic_file.h"
+#include "base/files/atomic_file.h"
 #include "edge/tracker/tracker.h"
 
 namespace ols::offline {

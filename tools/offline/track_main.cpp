@@ -9,10 +9,10 @@
 #include <optional>
 #include <sstream>
 
-#include "base/atomic_file.h"
-#include "base/command_line.h"
-#include "base/output_check.h"
-#include "base/progress.h"
+#include "base/files/atomic_file.h"
+#include "base/files/output_check.h"
+#include "base/process/command_line.h"
+#include "base/process/progress.h"
 #include "edge/tracker/tracker.h"
 #include "tools/offline/boxes_csv.h"
 #include "tools/offline/frame_source.h"

@@ -1,6 +1,6 @@
 #include "tools/offline/tracker_setup.h"
 
-#include "base/config_section.h"
+#include "base/config/config_section.h"
 
 namespace ols::offline {
 

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/csv_files.h"
+#include "base/files/csv_files.h"
 #include "central/admission/bearing_check.h"
 #include "central/offline/object_separation.h"
 #include "central/offline/offline_fusion.h"

@@ -10,8 +10,8 @@
 #include <string>
 #include <string_view>
 
-#include "base/lcm_bus.h"
-#include "base/log_reader.h"
+#include "base/bus/lcm_bus.h"
+#include "base/bus/log_reader.h"
 #include "base/trust/trailer.h"
 #include "tools/python/bindings.h"
 

@@ -1,8 +1,8 @@
 // Signatures and the trust list, for Python.
 #include <pybind11/stl.h>
 
-#include "base/clocks.h"
-#include "base/toml_config.h"
+#include "base/config/toml_config.h"
+#include "base/process/clocks.h"
 #include "base/trust/bus_trust.h"
 #include "base/trust/channel_rules.h"
 #include "tools/python/bindings.h"

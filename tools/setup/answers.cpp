@@ -5,13 +5,13 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "base/config_section.h"
-#include "base/configuration_files.h"
-#include "base/ip_endpoint.h"
+#include "base/config/config_section.h"
+#include "base/config/configuration_files.h"
+#include "base/net/ip_endpoint.h"
 #include "base/trust/trust_words.h"
 #include "central/app/fusion_settings.h"
 #include "console/console_config.h"
-#include "edge/config.h"
+#include "edge/config/config.h"
 #include "tools/exporter/exporter_config.h"
 #include "tools/logger/logger_config.h"
 

@@ -9,8 +9,8 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "base/command_output.h"
-#include "base/configuration_files.h"
+#include "base/config/configuration_files.h"
+#include "base/process/command_output.h"
 #include "base/trust/key_file.h"
 #include "tools/setup/membership.h"
 #include "tools/setup/never_older.h"

@@ -8,7 +8,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "base/toml_text.h"
+#include "base/config/toml_text.h"
 
 namespace ols::setup {
 namespace {

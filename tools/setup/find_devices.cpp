@@ -5,7 +5,7 @@
 #include <regex>
 #include <system_error>
 
-#include "base/clocks.h"
+#include "base/process/clocks.h"
 #include "edge/serial/serial_port.h"
 #include "tools/doctor/probe.h"
 

@@ -11,8 +11,8 @@
 #include <optional>
 #include <string_view>
 
-#include "base/atomic_file.h"
-#include "base/small_file.h"
+#include "base/files/atomic_file.h"
+#include "base/files/small_file.h"
 #include "tools/setup/kept_file.h"
 
 namespace ols::setup {

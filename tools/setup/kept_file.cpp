@@ -1,6 +1,6 @@
 #include "tools/setup/kept_file.h"
 
-#include "base/toml_merge.h"
+#include "base/config/toml_merge.h"
 #include "tools/setup/flat_toml.h"
 
 namespace ols::setup {

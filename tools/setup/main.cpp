@@ -10,11 +10,11 @@
 #include <string>
 #include <vector>
 
-#include "base/atomic_file.h"
-#include "base/command_line.h"
-#include "base/small_file.h"
-#include "base/toml_config.h"
-#include "base/toml_text.h"
+#include "base/config/toml_config.h"
+#include "base/config/toml_text.h"
+#include "base/files/atomic_file.h"
+#include "base/files/small_file.h"
+#include "base/process/command_line.h"
 #include "tools/doctor/probe.h"
 #include "tools/setup/answers.h"
 #include "tools/setup/backup.h"

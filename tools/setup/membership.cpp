@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "base/atomic_file.h"
-#include "base/small_file.h"
+#include "base/files/atomic_file.h"
+#include "base/files/small_file.h"
 #include "tools/key/site_files.h"
 #include "tools/setup/site_time.h"
 

@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "base/atomic_file.h"
-#include "base/small_file.h"
+#include "base/files/atomic_file.h"
+#include "base/files/small_file.h"
 #include "tools/setup/flat_toml.h"
 
 namespace ols::setup {

@@ -1,6 +1,6 @@
 #include "tools/setup/plan.h"
 
-#include "base/toml_text.h"
+#include "base/config/toml_text.h"
 #include "tools/setup/site_time.h"
 
 namespace ols::setup {

@@ -34,7 +34,7 @@ LOSS = 0.05
 FLOOD_HZ = 10_000
 FLOOD_S = 15.0
 # Of the flood: half of it are the site's channels, of these nine two are the fusion's, four of five
-# of these are of stations that exist. (sim/flood.cpp)
+# of these are of stations that exist. (sim/network/flood.cpp)
 FUSION_HZ = FLOOD_HZ / 2 * 2 / 9 * 4 / 5
 
 

@@ -4,7 +4,7 @@
 #include <thread>
 #include <utility>
 
-#include "base/clocks.h"
+#include "base/process/clocks.h"
 #include "edge/camera/aravis/aravis_device.h"
 #include "edge/camera/aravis/aravis_session.h"
 #include "edge/camera/camera_handover.h"

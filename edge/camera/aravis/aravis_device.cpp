@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/clocks.h"
+#include "base/process/clocks.h"
 #include "edge/camera/aravis/aravis_error.h"
 #include "edge/camera/aravis/aravis_features.h"
 #include "edge/camera/aravis/aravis_setup.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "base/clocks.h"
+#include "base/process/clocks.h"
 #include "edge/camera/tai_reference.h"
 
 namespace ols::camera {

@@ -1,6 +1,6 @@
 #include "edge/mount/fixed/fixed_kind.h"
 
-#include "edge/config_units.h"
+#include "edge/config/config_units.h"
 
 namespace ols::mount {
 

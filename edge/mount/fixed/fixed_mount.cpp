@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "base/clocks.h"
+#include "base/process/clocks.h"
 #include "geometry/angles.h"
 
 namespace ols::mount {

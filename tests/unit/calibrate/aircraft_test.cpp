@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <utility>
 
-#include "tests/unit/base/log_file.h"
+#include "tests/unit/base/bus/log_file.h"
 
 namespace ols::calibration {
 namespace {

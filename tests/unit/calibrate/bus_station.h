@@ -5,9 +5,9 @@
 #include <opencv2/imgcodecs.hpp>
 #include <vector>
 
-#include "base/channel_names.h"
-#include "base/clocks.h"
-#include "base/lcm_bus.h"
+#include "base/bus/channel_names.h"
+#include "base/bus/lcm_bus.h"
+#include "base/process/clocks.h"
 #include "ols_msg/command_reply_t.hpp"
 #include "ols_msg/frame_part_t.hpp"
 #include "ols_msg/frame_request_t.hpp"

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/unit/base/log_file.h"
+#include "tests/unit/base/bus/log_file.h"
 
 namespace ols::calibration {
 namespace {

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
 
-#include "base/clocks.h"
+#include "base/process/clocks.h"
 #include "geometry/angles.h"
 #include "ols_msg/frame_request_t.hpp"
 #include "tests/unit/calibrate/bus_station.h"

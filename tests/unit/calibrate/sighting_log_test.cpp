@@ -7,10 +7,10 @@
 #include <utility>
 #include <vector>
 
-#include "base/channel_names.h"
+#include "base/bus/channel_names.h"
 #include "ols_msg/bearing_t.hpp"
 #include "ols_msg/sighting_t.hpp"
-#include "tests/unit/base/log_file.h"
+#include "tests/unit/base/bus/log_file.h"
 #include "tests/unit/calibration/scene.h"
 
 namespace ols::calibration {

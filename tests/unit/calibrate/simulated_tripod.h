@@ -13,14 +13,14 @@
 #include <string>
 #include <vector>
 
-#include "base/channel_names.h"
-#include "base/clocks.h"
-#include "edge/calibration_folder.h"
+#include "base/bus/channel_names.h"
+#include "base/process/clocks.h"
+#include "edge/calibration/calibration_folder.h"
 #include "ols_msg/procedure_answer_t.hpp"
 #include "ols_msg/procedure_t.hpp"
 #include "ols_msg/ptu_command_t.hpp"
-#include "sim/simulated_station.h"
-#include "sim/station_files.h"
+#include "sim/processes/simulated_station.h"
+#include "sim/scenario/station_files.h"
 #include "tests/unit/logger/temporary_folder.h"
 #include "tools/calibrate/procedure_commands.h"
 #include "tools/calibrate/station_link.h"

@@ -4,7 +4,7 @@
 
 #include <fstream>
 
-#include "base/toml_config.h"
+#include "base/config/toml_config.h"
 #include "geometry/angles.h"
 #include "tests/unit/logger/temporary_folder.h"
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "base/toml_config.h"
+#include "base/config/toml_config.h"
 #include "tests/unit/error_text.h"
 
 namespace ols::console {

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "base/command_output.h"
+#include "base/process/command_output.h"
 #include "tests/unit/folder_test.h"
 
 namespace ols::doctor {

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "base/small_file.h"
-#include "tests/unit/base/log_file.h"
+#include "base/files/small_file.h"
+#include "tests/unit/base/bus/log_file.h"
 #include "tests/unit/error_text.h"
 
 namespace ols::exports {

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "base/csv_files.h"
+#include "base/files/csv_files.h"
 #include "export/gate.h"
 
 namespace ols::exports {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <string>
 
-#include "base/bus_inbox.h"
+#include "base/bus/bus_inbox.h"
 #include "geometry/angles.h"
 #include "geometry/wgs84.h"
 #include "ols_msg/bearing_t.hpp"

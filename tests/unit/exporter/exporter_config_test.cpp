@@ -5,7 +5,7 @@
 
 #include <fstream>
 
-#include "base/toml_config.h"
+#include "base/config/toml_config.h"
 #include "tests/unit/error_text.h"
 #include "tests/unit/temp_dir.h"
 

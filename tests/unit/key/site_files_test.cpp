@@ -8,8 +8,8 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "base/small_file.h"
-#include "base/toml_config.h"
+#include "base/config/toml_config.h"
+#include "base/files/small_file.h"
 #include "tests/unit/folder_test.h"
 
 namespace ols::key {

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <fstream>
 
-#include "base/toml_config.h"
+#include "base/config/toml_config.h"
 #include "tests/unit/temp_dir.h"
 
 namespace ols::offline {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "base/small_file.h"
+#include "base/files/small_file.h"
 #include "base/trust/key_file.h"
 #include "tests/unit/folder_test.h"
 #include "tools/setup/site_time.h"

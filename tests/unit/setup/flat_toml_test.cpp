@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-#include "base/toml_text.h"
+#include "base/config/toml_text.h"
 
 namespace ols::setup {
 namespace {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "base/small_file.h"
+#include "base/files/small_file.h"
 #include "tests/unit/temp_dir.h"
 
 namespace ols::setup {

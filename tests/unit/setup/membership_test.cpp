@@ -6,7 +6,7 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "base/small_file.h"
+#include "base/files/small_file.h"
 #include "tests/unit/setup/answers_fixture.h"
 #include "tests/unit/temp_dir.h"
 #include "tools/key/site_files.h"

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <string>
 
-#include "base/small_file.h"
+#include "base/files/small_file.h"
 #include "tests/unit/temp_dir.h"
 
 namespace ols::setup {

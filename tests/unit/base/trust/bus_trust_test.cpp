@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "base/atomic_file.h"
-#include "base/toml_config.h"
+#include "base/config/toml_config.h"
+#include "base/files/atomic_file.h"
 #include "base/trust/messages_trust.h"
 #include "tests/unit/base/trust/site_fixture.h"
 #include "tests/unit/eventually.h"

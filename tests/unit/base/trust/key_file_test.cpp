@@ -7,7 +7,7 @@
 #include <fstream>
 #include <system_error>
 
-#include "base/toml_config.h"
+#include "base/config/toml_config.h"
 #include "tests/unit/base/trust/site_fixture.h"
 #include "tests/unit/error_text.h"
 #include "tests/unit/folder_test.h"

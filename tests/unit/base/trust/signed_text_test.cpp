@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "base/toml_config.h"
+#include "base/config/toml_config.h"
 #include "tests/unit/base/trust/site_fixture.h"
 
 namespace ols::trust {

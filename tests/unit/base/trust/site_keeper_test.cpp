@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "base/small_file.h"
-#include "base/toml_config.h"
+#include "base/config/toml_config.h"
+#include "base/files/small_file.h"
 #include "tests/unit/base/trust/site_fixture.h"
 #include "tests/unit/folder_test.h"
 

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "base/toml_config.h"
+#include "base/config/toml_config.h"
 #include "base/trust/signed_text.h"
 #include "tests/unit/base/trust/site_fixture.h"
 #include "tests/unit/error_text.h"

@@ -7,7 +7,7 @@
 
 #include "geometry/angles.h"
 #include "scenery.h"
-#include "sim/renderer.h"
+#include "sim/world/renderer.h"
 
 namespace ols::calibration {
 namespace {

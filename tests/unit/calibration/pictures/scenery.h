@@ -6,7 +6,7 @@
 #include <opencv2/imgproc.hpp>
 #include <random>
 
-#include "sim/texture.h"
+#include "sim/world/texture.h"
 
 namespace ols::calibration {
 

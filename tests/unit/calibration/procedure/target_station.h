@@ -1,12 +1,12 @@
-// A station before its rectification targets: a unit with true errors (sim/unit_truth.h), and the
-// pictures that its camera takes of boards that are not exactly where they should be.
+// A station before its rectification targets: a unit with true errors (sim/world/unit_truth.h), and
+// the pictures that its camera takes of boards that are not exactly where they should be.
 #pragma once
 
 #include <random>
 
 #include "calibration/procedure/target_reader.h"
 #include "geometry/angles.h"
-#include "sim/unit_truth.h"
+#include "sim/world/unit_truth.h"
 #include "tests/unit/calibration/target_scene.h"
 
 namespace ols::calibration::test {

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "calibration/procedure/landmark_stage.h"
-#include "sim/renderer.h"
+#include "sim/world/renderer.h"
 
 namespace ols::calibration {
 

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "base/toml_config.h"
+#include "base/config/toml_config.h"
 #include "tests/unit/error_text.h"
 #include "tests/unit/folder_test.h"
 

@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-#include "tests/unit/base/log_file.h"
+#include "tests/unit/base/bus/log_file.h"
 
 namespace ols::console {
 namespace {

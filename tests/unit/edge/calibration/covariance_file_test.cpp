@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "base/csv_files.h"
-#include "tests/unit/edge/calibration_files.h"
+#include "base/files/csv_files.h"
+#include "tests/unit/edge/calibration/calibration_files.h"
 
 namespace ols::calibration {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "base/toml_config.h"
-#include "tests/unit/edge/calibration_files.h"
+#include "base/config/toml_config.h"
+#include "tests/unit/edge/calibration/calibration_files.h"
 
 namespace ols::calibration {
 namespace {

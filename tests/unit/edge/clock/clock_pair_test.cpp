@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "base/clocks.h"
+#include "base/process/clocks.h"
 
 namespace ols::clock {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "base/clocks.h"
+#include "base/process/clocks.h"
 #include "tests/unit/eventually.h"
 
 namespace ols::clock {

@@ -7,7 +7,7 @@
 
 #include "calibration/procedure/sun_keep_out.h"
 #include "geometry/angles.h"
-#include "tests/unit/edge/calibration_files.h"
+#include "tests/unit/edge/calibration/calibration_files.h"
 #include "tests/unit/eventually.h"
 
 namespace ols::station {

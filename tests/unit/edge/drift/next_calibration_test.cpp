@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "tests/unit/edge/calibration_files.h"
+#include "tests/unit/edge/calibration/calibration_files.h"
 #include "tests/unit/eventually.h"
 
 namespace ols::station {

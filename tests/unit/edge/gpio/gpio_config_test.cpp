@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "edge/gpio/gpio.h"
-#include "tests/unit/base/section_text.h"
+#include "tests/unit/base/config/section_text.h"
 
 namespace ols::gpio {
 namespace {

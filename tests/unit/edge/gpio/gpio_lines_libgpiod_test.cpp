@@ -8,7 +8,7 @@
 #include <string>
 #include <system_error>
 
-#include "base/clocks.h"
+#include "base/process/clocks.h"
 #include "edge/gpio/gpio_lines.h"
 #include "tests/unit/edge/gpio/fake_gpiod.h"
 #include "tests/unit/error_text.h"

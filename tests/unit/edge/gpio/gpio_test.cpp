@@ -11,9 +11,9 @@
 #include <mutex>
 #include <vector>
 
-#include "base/clocks.h"
+#include "base/process/clocks.h"
 #include "edge/gpio/gpio_lines.h"
-#include "sim/gpio_socket.h"
+#include "sim/gpio/gpio_socket.h"
 #include "tests/unit/eventually.h"
 
 namespace ols::gpio {

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "base/config_section.h"
+#include "base/config/config_section.h"
 #include "edge/lens/lens_motor.h"
 #include "tests/unit/error_text.h"
 

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "sim/lens_unit.h"
+#include "sim/lens/lens_unit.h"
 
 namespace ols::lens {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "sim/lens_line.h"
+#include "sim/lens/lens_line.h"
 #include "tests/unit/eventually.h"
 
 namespace ols::lens {

@@ -7,7 +7,7 @@
 
 #include "edge/ptu/driver.h"
 #include "geometry/angles.h"
-#include "sim/ptu_unit.h"
+#include "sim/ptu/unit.h"
 
 namespace ols::ptu {
 

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "base/config_section.h"
+#include "base/config/config_section.h"
 #include "geometry/angles.h"
 
 namespace ols::ptu {

@@ -15,9 +15,9 @@
 #include <filesystem>
 #include <system_error>
 
-#include "base/clocks.h"
+#include "base/process/clocks.h"
 #include "geometry/angles.h"
-#include "sim/ptu_line.h"
+#include "sim/ptu/line.h"
 #include "tests/unit/eventually.h"
 
 namespace ols::ptu {

@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "base/clocks.h"
+#include "base/process/clocks.h"
 #include "tests/unit/edge/recorder/temporary_folder.h"
 
 namespace ols::recorder {

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "edge/recorder/recorder.h"
-#include "tests/unit/base/section_text.h"
+#include "tests/unit/base/config/section_text.h"
 
 namespace ols::recorder {
 namespace {

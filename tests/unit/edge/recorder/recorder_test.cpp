@@ -16,7 +16,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <thread>
 
-#include "base/clocks.h"
+#include "base/process/clocks.h"
 #include "tests/unit/edge/recorder/temporary_folder.h"
 #include "tests/unit/eventually.h"
 

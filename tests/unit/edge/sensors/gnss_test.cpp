@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "geometry/angles.h"
-#include "sim/gnss_line.h"
+#include "sim/sensors/gnss_line.h"
 #include "tests/unit/edge/sensors/gpsd_process.h"
 #include "tests/unit/eventually.h"
 #include "tests/unit/temp_dir.h"

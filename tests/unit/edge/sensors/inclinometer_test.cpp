@@ -8,7 +8,7 @@
 
 #include "edge/serial/serial_port.h"
 #include "geometry/angles.h"
-#include "sim/inclinometer_line.h"
+#include "sim/sensors/inclinometer_line.h"
 #include "tests/unit/eventually.h"
 #include "tests/unit/temp_dir.h"
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <variant>
 
-#include "base/fnv1a.h"
+#include "base/files/fnv1a.h"
 #include "geometry/angles.h"
 
 namespace ols::sensors {

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "base/config_section.h"
+#include "base/config/config_section.h"
 #include "edge/sensors/pose_estimator_config.h"
 #include "geometry/angles.h"
 #include "tests/unit/error_text.h"

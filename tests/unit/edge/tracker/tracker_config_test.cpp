@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "base/config_section.h"
+#include "base/config/config_section.h"
 
 namespace ols::tracker {
 namespace {

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "edge/video/video_server.h"
-#include "tests/unit/base/section_text.h"
+#include "tests/unit/base/config/section_text.h"
 
 namespace ols::video {
 namespace {

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "base/length_prefix.h"
+#include "base/net/length_prefix.h"
 #include "ols_msg/video_frame_t.hpp"
 #include "ols_msg/video_request_t.hpp"
 #include "tests/unit/on_the_bus.h"

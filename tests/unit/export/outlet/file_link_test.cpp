@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "base/small_file.h"
+#include "base/files/small_file.h"
 
 namespace ols::exports {
 namespace {

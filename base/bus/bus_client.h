@@ -1,0 +1,62 @@
+// A program's connection to the bus. It retries every second while there is no network, closes when
+// nothing arrives any more, and reports its trouble once. Needs one thread.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/bus/bus_connector.h"
+#include "base/bus/bus_monitor.h"
+
+namespace ols {
+
+class BusClient {
+ public:
+  using Subscribe = std::function<void(LcmBus&)>;
+  // Receives why there is no connection; empty: it is back.
+  using Tell = std::function<void(const std::string& trouble)>;
+
+  // subscribe: called on each new connection. tell: receives trouble, which is also logged. trust:
+  // null if nothing is signed or verified.
+  BusClient(std::string url, std::shared_ptr<trust::BusTrust> trust, Subscribe subscribe = {},
+            Tell tell = {});
+
+  // Waits at most this long for a connection.
+  void connect(double now_s, double wait_s);
+  // Handles the messages that have arrived (waits at most this long for the first), and checks
+  // whether any arrive at all. Without a connection, tries to connect.
+  void turn(double now_s, int wait_ms);
+
+  // The parts of turn(), for a caller with work between them. Need a connection.
+  void handle(double now_s, int wait_ms);
+  void end_if_deaf();
+
+  // Closes a connection that does not work; turn() opens it again.
+  void end(const std::string& why);
+
+  LcmBus* bus() const { return bus_.get(); }  // null: no network
+  const std::string& url() const { return url_; }
+  // Empty if there is a connection.
+  std::string trouble() const;
+  // Alarms about the traffic.
+  std::vector<std::string> alarms(double now_s) const { return monitor_.alarms(now_s); }
+  // All alarms: the missing connection, and those about the traffic.
+  std::vector<std::string> all_alarms(double now_s) const;
+  void count(std::map<std::string, double>& counters) const { monitor_.count(counters); }
+
+ private:
+  void say(const std::string& why);
+
+  const std::string url_;
+  const Subscribe subscribe_;
+  const Tell tell_;
+  BusConnector connector_;
+  std::unique_ptr<LcmBus> bus_;
+  BusMonitor monitor_;
+  std::string trouble_;  // the last one reported; empty: none since the connection
+};
+
+}  // namespace ols

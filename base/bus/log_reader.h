@@ -1,0 +1,76 @@
+// Reads the bus's messages from an LCM log, starting at any record. Bytes that are no record are
+// skipped and counted, and the position of the first is kept.
+#pragma once
+
+#include <cstdint>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/bus/bus_inbox.h"
+
+namespace ols {
+
+// Where a message's time comes from.
+enum class LogTimes {
+  kTimeline,    // never goes back; a record more than a day after the one before is garbage
+  kAsRecorded,  // the record's time, for a caller that orders messages by their own stamps
+};
+
+class LogReader {
+ public:
+  // Throws std::invalid_argument naming the file if it cannot be read, is empty or is compressed.
+  explicit LogReader(const std::string& path, LogTimes times = LogTimes::kTimeline);
+
+  // The next message on this project's channels; nullopt at the end. Throws std::invalid_argument
+  // naming the file and the position if the disk fails; and at the end, if the file had no such
+  // message.
+  std::optional<BusMessage> next();
+  // The caller cannot decode the message that next() gave last: counts it in damage().
+  void reject(const BusMessage& message);
+  // The damage so far and its position, in words for a person; empty: none.
+  std::string damage() const;
+
+  // Where the next record, or garbage before it, begins.
+  std::uint64_t offset() const { return offset_ + begin_; }
+  // Where the record of the last message begins.
+  std::uint64_t message_offset() const { return message_offset_; }
+  // Continues at an earlier offset, with the time of the record before it.
+  void seek(std::uint64_t offset, std::int64_t utime_us);
+
+  std::int64_t utime_us() const { return utime_us_; }  // of the last record; 0: none yet
+  std::uint64_t size() const { return size_; }
+  std::uint64_t garbage_bytes() const { return garbage_.count; }
+  bool is_cut_off() const { return is_cut_off_; }  // the last record is incomplete
+
+ private:
+  bool fill(std::size_t wanted);
+  void skip(std::size_t bytes);
+  std::optional<BusMessage> take(std::int64_t utime_us, BusMessage message, std::size_t bytes);
+  void check_end() const;
+
+  struct Damage {
+    std::uint64_t count = 0, first = 0;  // `first`: position in the file [byte]
+  };
+
+  struct Close {
+    void operator()(std::FILE* file) const { static_cast<void>(std::fclose(file)); }
+  };
+  std::string path_;
+  std::unique_ptr<std::FILE, Close> file_;
+  LogTimes times_;
+  std::uint64_t size_ = 0;
+  std::vector<std::uint8_t> buffer_;
+  std::size_t begin_ = 0, end_ = 0;  // the part of the buffer that is not parsed yet
+  std::uint64_t offset_ = 0;         // of the buffer in the file
+  std::int64_t utime_us_ = 0;
+  std::uint64_t message_offset_ = 0;
+  std::uint64_t records_ = 0, messages_ = 0;  // on all channels; on this project's
+  Damage garbage_, rejected_;
+  std::string rejected_channel_;  // of the first
+  bool is_cut_off_ = false;
+};
+
+}  // namespace ols

@@ -1,0 +1,49 @@
+// The two sockets of a multicast bus: one sends to the group, one receives from it.
+#pragma once
+
+#include <netinet/in.h>
+#include <sys/socket.h>
+
+#include <atomic>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <system_error>
+
+#include "base/bus/lcm_url.h"
+
+namespace ols {
+
+class MulticastSocket {
+ public:
+  // Throws std::system_error, also if no route leads to the group.
+  explicit MulticastSocket(const BusAddress& address);
+  ~MulticastSocket();
+  MulticastSocket(const MulticastSocket&) = delete;
+  MulticastSocket& operator=(const MulticastSocket&) = delete;
+
+  // Joins the group. Throws std::system_error.
+  void listen();
+  // Readable when a datagram waits; -1 before listen().
+  int descriptor() const { return receiving_; }
+  // The next datagram, in `buffer`; nullopt if none waits.
+  std::optional<std::span<const std::uint8_t>> receive(std::span<std::uint8_t> buffer);
+
+  // Number of datagrams that the kernel dropped because the process did not fetch earlier ones in
+  // time. It is updated when the next datagram is received. From any thread.
+  std::uint64_t dropped() const { return dropped_; }
+
+  // Returns why the datagram could not be sent; no error if it was.
+  std::error_code send(std::span<const std::uint8_t> datagram);
+
+ private:
+  void count_dropped(msghdr& message);
+
+  BusAddress address_;
+  int sending_ = -1;
+  int receiving_ = -1;
+  std::uint32_t kernels_count_ = 0;  // dropped datagrams as the kernel counts them, modulo 2^32
+  std::atomic<std::uint64_t> dropped_ = 0;
+};
+
+}  // namespace ols

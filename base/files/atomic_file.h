@@ -1,0 +1,46 @@
+// A file that appears whole or not at all, even after a power loss: it is written under a temporary
+// name in the same folder, then renamed. It keeps the owner and mode of the file that it replaces.
+// If the path is a symbolic link, the file that it points to is replaced.
+#pragma once
+
+#include <fstream>
+#include <string>
+
+namespace ols {
+
+class AtomicFile {
+ public:
+  // Throws std::system_error naming the path if it cannot be opened or is not a plain file.
+  explicit AtomicFile(const std::string& path);
+  ~AtomicFile();  // without commit(), the destination is unchanged
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+
+  std::ostream& stream() { return stream_; }
+  void commit();  // throws std::system_error if a write failed
+
+ private:
+  // The entry of `temporary_` in the list that the signal handler removes.
+  class Listed {
+   public:
+    explicit Listed(const char* path);
+    ~Listed();
+    Listed(const Listed&) = delete;
+    Listed& operator=(const Listed&) = delete;
+
+   private:
+    const char* path_;
+  };
+
+  std::string path_;
+  std::string temporary_;
+  Listed listed_;
+  std::ofstream stream_;
+  bool committed_ = false;
+};
+
+// From now on SIGINT, SIGTERM and SIGHUP remove the temporary files before they end the program.
+// For programs without an orderly shutdown (base/process/shutdown.h). Call once, first in main.
+void remove_temporary_files_on_signals();
+
+}  // namespace ols

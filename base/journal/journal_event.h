@@ -1,0 +1,32 @@
+// An event for the journal: its text, its kind, and the parts concerned. Pure.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/journal/event_ids.h"
+
+namespace ols {
+
+struct JournalEvent {
+  std::string text{};
+  bool bad = false;       // a warning
+  event::Id id{};         // empty: of no listed kind
+  std::string station{};  // its id
+  std::string device{};   // or the part of a program, or a connection
+  std::string reason{};   // without the other words of the text
+};
+
+// "NAME=value" each, as the journal takes them. Empty fields are left out.
+std::vector<std::string> journal_fields(const JournalEvent& event);
+
+// A lost connection to the bus.
+JournalEvent bus_lost_event(const std::string& why);
+JournalEvent bus_connected_event(const std::string& url);
+// An alarm of a program. The words before its first colon name its subject ("station NAME" or a
+// part); the others are its reason. begins: false if the alarm ends.
+JournalEvent alarm_event(const std::string& alarm, bool begins);
+// The same for a station, about its own parts.
+JournalEvent station_alarm_event(const std::string& alarm, bool begins);
+
+}  // namespace ols

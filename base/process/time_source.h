@@ -1,0 +1,54 @@
+// Where the clocks of a process come from: its host, or whoever advances them
+// (sim/processes/simulated_time.h).
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <ctime>
+#include <functional>
+#include <mutex>
+
+namespace ols {
+
+class TimeSource {
+ public:
+  virtual std::int64_t monotonic_ns() const = 0;
+  // Since 1970.
+  virtual std::int64_t utc_ns() const = 0;
+  // Waits at most so long until `over`. `lock` is of what that looks at, and free meanwhile; `news`
+  // tells of changes.
+  virtual void wait(std::unique_lock<std::mutex>& lock, std::condition_variable& news,
+                    double most_s, const std::function<bool()>& over) = 0;
+  // For how long a loop that must not wait may wait for work in the background, in true time.
+  virtual std::chrono::seconds for_work() const = 0;
+
+ protected:
+  ~TimeSource() = default;  // nobody owns one through this
+};
+
+class HostTime final : public TimeSource {
+ public:
+  std::int64_t monotonic_ns() const override { return ns(CLOCK_MONOTONIC); }
+  std::int64_t utc_ns() const override { return ns(CLOCK_REALTIME); }
+  void wait(std::unique_lock<std::mutex>& lock, std::condition_variable& news, double most_s,
+            const std::function<bool()>& over) override {
+    news.wait_for(lock, std::chrono::duration<double>(most_s), over);
+  }
+  std::chrono::seconds for_work() const override { return std::chrono::seconds(0); }
+
+ private:
+  static std::int64_t ns(clockid_t clock) {
+    timespec now{};
+    clock_gettime(clock, &now);
+    return std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
+  }
+};
+
+inline HostTime host_time;
+inline std::atomic<TimeSource*> time_in_use = &host_time;
+
+inline TimeSource& time_source() { return *time_in_use; }
+
+}  // namespace ols

@@ -1,0 +1,58 @@
+// The calibration that a station works with, or why the configured one is not used. Without a
+// usable calibration, a station works with its configuration's own values.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "edge/calibration/calibration_folder.h"
+#include "edge/calibration/calibration_status.h"
+#include "edge/device/device_report.h"
+#include "geometry/kinematic_chain.h"
+
+namespace ols::station {
+
+class CalibrationInUse {
+ public:
+  // Reads the configured folder, if there is one. Never throws, whatever it contains.
+  explicit CalibrationInUse(const StationSettings& configured);
+
+  // The settings that the station works with; always the same object.
+  const StationSettings& settings() const { return settings_; }
+  // True if the calibration belongs to other devices and was dropped just now: settings() has
+  // changed. Serial numbers are known only once the devices are open.
+  bool refuses(const std::vector<device::DeviceReport>& devices);
+  // The same for the size of a count [rad] that the unit reports; 0: not known yet. A unit in
+  // another step mode has other errors than the calibrated ones. The calibration stays dropped
+  // until a restart or another calibration.
+  bool refuses(const PanTilt& count_rad);
+
+  // Why these files do not belong to the open devices or to counts of this size; empty: nothing
+  // speaks against it.
+  static std::string conflict(const CalibrationFiles& files,
+                              const std::vector<device::DeviceReport>& devices,
+                              const PanTilt& count_rad);
+  // One sentence for each device whose serial number is not the configured one. An instrument gets
+  // the configured serial numbers.
+  static std::vector<std::string> other_devices(const InstrumentSerials& configured,
+                                                const std::vector<device::DeviceReport>& devices);
+  // Works with these files from now on: settings() changes.
+  void adopt(const CalibrationFiles& files);
+
+  CalibrationStatus status() const;
+  // Why the calibration is not used, and what to do; empty: nothing to report.
+  std::vector<std::string> alarms() const;
+
+ private:
+  void read();
+  void drop(const std::string& why);
+
+  StationSettings configured_;
+  StationSettings settings_;
+  std::optional<CalibrationFiles> files_;
+  std::string refused_;
+};
+
+}  // namespace ols::station

@@ -1,0 +1,36 @@
+// The station's latest slew, until its lease ends. Pure.
+#pragma once
+
+#include <optional>
+
+#include "edge/command/slew_conflict_monitor.h"
+#include "edge/frames/pointing_model.h"
+#include "edge/mount/goal.h"
+#include "edge/station/station_types.h"
+
+namespace ols::station {
+
+class ActiveSlew {
+ public:
+  void give(const SlewCommand& command, double now_s);
+  void clear() { command_.reset(); }
+  void expire(double now_s);
+
+  // nullopt: no slew is active.
+  const std::optional<SlewCommand>& command() const { return command_; }
+  // A search along a line continues whatever the station has found. The station stops only to look
+  // at a find.
+  bool searches_line() const { return command_ && command_->searches_line(); }
+  // nullopt: no slew is active, or the unit cannot point there.
+  std::optional<mount::Goal> goal(const PointingModel& pointing, double now_s) const;
+  // Whether more than one fusion slews this station.
+  bool has_several_senders(double now_s) const { return senders_.are_several(now_s); }
+
+ private:
+  bool is_over(double now_s) const { return now_s > command_->received_s + command_->lease_s; }
+
+  std::optional<SlewCommand> command_;
+  SlewConflictMonitor senders_;
+};
+
+}  // namespace ols::station

@@ -1,0 +1,61 @@
+// The operator's commands of one turn of the control loop. Only the newest designation of a turn is
+// carried out, because the tracker must process all frames since its image. A stop never waits for
+// a designation. Pure.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "edge/station/station.h"
+
+namespace ols::station {
+
+// Names a command among all: its sender's start, and its number in it.
+struct CommandId {
+  std::int64_t boot_id = 0, sequence = 0;
+};
+
+// What became of a designation.
+struct Decision {
+  CommandId command;
+  Refusal refusal = Refusal::kNone;
+};
+
+class CommandTurn {
+ public:
+  // The station must outlive it.
+  explicit CommandTurn(Station& station) : station_(station) {}
+
+  // From any thread; does not wait. end() carries it out.
+  void stop() { stop_ = true; }
+
+  // Carried out at the end of the turn, or before another command.
+  void designate(const DesignateCommand& command, const CommandId& id);
+  // Call before another operator command. Carries out the pending designation, unless one was
+  // carried out in this turn already: so there are at most two per turn.
+  void before_other_command(double now_s);
+  // Call after the turn's last command.
+  void end(double now_s);
+
+  // Of all designations since the last call.
+  std::vector<Decision> take_decisions() { return std::exchange(decisions_, {}); }
+
+  // Designations dropped because of a newer one or a stop.
+  std::uint64_t superseded() const { return superseded_; }
+
+ private:
+  void carry_out_designation(double now_s);
+  void drop_designation(Refusal why);
+
+  Station& station_;
+  std::atomic<bool> stop_ = false;
+  std::optional<std::pair<DesignateCommand, CommandId>> designation_;
+  std::vector<Decision> decisions_;
+  bool designated_ = false;  // in this turn
+  std::uint64_t superseded_ = 0;
+};
+
+}  // namespace ols::station

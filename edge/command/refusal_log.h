@@ -1,0 +1,34 @@
+// The messages refused before or by the station: their number, the text of the last one, and an
+// alarm when commands are repeatedly refused as not fresh. Pure.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "edge/command/refusal_monitor.h"
+
+namespace ols::station {
+
+class RefusalLog {
+ public:
+  // An action that the station did not carry out, as text.
+  void note(const std::string& what);
+  // The message was refused before it reached the station. `kind`: "SLEW".
+  void refuse(const std::string& kind, const std::string& why);
+  void refuse_at_gate(const std::string& kind, const std::string& why, double now_s);
+
+  const std::string& last() const { return last_; }
+  std::uint64_t number() const { return number_; }
+  std::vector<std::string> alarms(double now_s) const { return at_gate_.alarms(now_s); }
+  const std::map<std::string, double>& counters() const { return counters_; }
+
+ private:
+  RefusalMonitor at_gate_;
+  std::map<std::string, double> counters_;
+  std::string last_;
+  std::uint64_t number_ = 0;
+};
+
+}  // namespace ols::station

@@ -1,0 +1,89 @@
+// Where and how a slewed station searches for its target: with the template of an earlier track, or
+// for any object that behaves as the slew predicts. Pure.
+#pragma once
+
+#include <deque>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "edge/camera/frame.h"
+#include "edge/frames/pointing_model.h"
+#include "edge/station/followed_target.h"
+#include "edge/station/station_config.h"
+#include "edge/station/station_types.h"
+#include "edge/tracker/acquisition.h"
+
+namespace ols::station {
+
+class SlewSearch {
+ public:
+  using Slew = std::optional<SlewCommand>;
+
+  explicit SlewSearch(const StationConfig& config)
+      : config_(config), acquisition_(config.acquisition) {}
+
+  // The station enters another state. `found`: it now tracks.
+  void restart(bool found);
+  // Call with each frame in which the station is slewed.
+  void note_in_view(const camera::Frame& frame, const PointingModel& pointing, const Slew& slew);
+
+  struct Place {
+    Eigen::Vector2d pixel;
+    double sd_px = 0.0;
+  };
+  // Where the tracker is to search for its target. nullopt: it was sent a moment ago, or the PTU
+  // has not arrived yet.
+  std::optional<Place> send_tracker(const camera::Frame& frame, const PointingModel& pointing,
+                                    const Slew& slew);
+  // Whether an output is near the slew's place. A similar object elsewhere is not the one that the
+  // other stations see.
+  bool is_where_slewed(const camera::Frame& frame, const tracker::TrackerOutput& output,
+                       const PointingModel& pointing, const Slew& slew) const;
+
+  // Whether any object at the slew is acquired. A station without a target does so; one with a
+  // target does so after own_target_s without seeing it there, because the designation may have
+  // been wrong.
+  bool looks_for_anything(const FollowedTarget& target) const;
+  // The box of the object that behaves as the slew predicts in these frames, oldest first.
+  std::optional<cv::Rect2d> acquire(const std::deque<camera::Frame>& frames,
+                                    const PointingModel& pointing, const Slew& slew);
+  // The trial of an acquired target begins; the trial has failed, and the own target is searched
+  // for again.
+  void begin_trial(double time_s) { searched_s_ = time_s; }
+  void end_trial(double time_s);
+
+  // The alarm about a slew to a place that is known well enough to be in the image; empty: none.
+  std::string unacquired_alarm(const Slew& slew) const;
+  const std::map<std::string, double>& counters() const { return counters_; }
+
+ private:
+  static constexpr double kNever = -std::numeric_limits<double>::infinity();
+  // For how long, by frames, the slew's place has been in the image.
+  struct InView {
+    double from_s = 0.0, to_s = kNever;
+    double own_from_s = kNever;  // since when the own target has been searched for
+  };
+  struct Expected {  // the slew's target in a frame
+    Eigen::Vector2d pixel;
+    PanTilt angles;
+    // In a search along a line: the line's direction, a unit vector. `pixel` is then the point of
+    // the line that is nearest to the middle.
+    Eigen::Vector2d line = Eigen::Vector2d::Zero();
+  };
+  static std::optional<Expected> expected(const camera::Frame& frame, const PointingModel& pointing,
+                                          const Slew& slew);
+  static std::optional<Expected> expected_in_picture(const camera::Frame& frame,
+                                                     const PointingModel& pointing,
+                                                     const Slew& slew);
+  double search_sd_px(const PointingModel& pointing, const SlewCommand& slew) const;
+
+  const StationConfig config_;
+  tracker::Acquisition acquisition_;
+  InView in_view_;
+  double searched_s_ = 0.0;  // when the tracker was last sent to search
+  std::map<std::string, double> counters_;
+};
+
+}  // namespace ols::station

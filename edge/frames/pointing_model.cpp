@@ -1,0 +1,204 @@
+#include "edge/frames/pointing_model.h"
+
+#include <cmath>
+
+#include "geometry/wgs84.h"
+
+namespace ols::station {
+namespace {
+
+sensors::StationPose configured_pose(const StationGeometry& geometry) {
+  sensors::StationPose pose;
+  pose.position = geometry.position;
+  pose.position_sd_enu_m.setConstant(geometry.sd.position_m);
+  pose.position_source = pose.tilt_source = sensors::PoseSource::kSurveyed;
+  pose.tilt_x_rad = geometry.chain.tilt_x_rad;
+  pose.tilt_y_rad = geometry.chain.tilt_y_rad;
+  pose.tilt_sd_rad = geometry.sd.tilt_rad;
+  return pose;
+}
+
+}  // namespace
+
+PointingModel::PointingModel(const StationConfig& config)
+    : geometry_(config.geometry),
+      pose_(configured_pose(config.geometry)),
+      revision_pose_(pose_),
+      limits_(config.limits),
+      history_(config.angles),
+      zoom_(config.zoom) {
+  if (config.calibration) unit_.emplace(*config.calibration);
+}
+
+void PointingModel::set_limits(const mount::Limits& limits) {
+  limits_ = limits;
+  if (unit_ && limits.count.pan_rad > 0.0) unit_->set_count(limits.count);
+}
+
+void PointingModel::add(const mount::AngleSample& sample) {
+  if (history_.add(sample) && unit_) unit_->add(sample);
+}
+
+void PointingModel::add(const lens::ZoomSample& sample) {
+  if (!zoom_) return;
+  zoom_->add(sample);
+  if (const auto newest = zoom_->newest()) geometry_.camera = newest->camera;
+}
+
+// A lens that does not zoom has no deviation of its own: `sd` of the geometry has everything.
+std::optional<ZoomPoint> PointingModel::zoom_at(double time_s) const {
+  return zoom_ ? zoom_->at(time_s) : ZoomPoint{0.0, geometry_.camera, 0.0, 0.0};
+}
+
+void PointingModel::forget_angles() {
+  history_.clear();
+  if (unit_) unit_->forget_angles();
+}
+
+void PointingModel::use(const StationGeometry& geometry,
+                        const std::optional<StationCalibration>& calibration) {
+  geometry_ = geometry;
+  if (zoom_ && zoom_->newest()) geometry_.camera = zoom_->newest()->camera;
+  pose_ = revision_pose_ = configured_pose(geometry);
+  ++pose_revision_;
+  unit_.reset();
+  if (calibration) unit_.emplace(*calibration);
+  set_limits(limits_);
+}
+
+void PointingModel::doubt_setup(double heading_sd_rad, double tilt_sd_rad) {
+  if (!unit_) return;
+  unit_->doubt_setup(heading_sd_rad * heading_sd_rad, tilt_sd_rad * tilt_sd_rad);
+  const CalibrationSd& calibrated = unit_->calibration().model.geometry.sd;
+  geometry_.sd.heading_rad = std::hypot(calibrated.heading_rad, heading_sd_rad);
+  geometry_.sd.tilt_rad = std::hypot(calibrated.tilt_rad, tilt_sd_rad);
+  ++pose_revision_;
+}
+
+void PointingModel::set_pose(const sensors::StationPose& pose) {
+  if (differs(revision_pose_, pose)) {
+    revision_pose_ = pose;
+    ++pose_revision_;
+  }
+  pose_ = pose;
+  geometry_.position = pose.position;
+  geometry_.chain.tilt_x_rad = pose.tilt_x_rad;
+  geometry_.chain.tilt_y_rad = pose.tilt_y_rad;
+  geometry_.sd.tilt_rad = pose.tilt_sd_rad;
+}
+
+std::optional<UnitAngles> PointingModel::angles_at(double time_s) const {
+  const auto at = history_.at(time_s);
+  if (!at) return std::nullopt;
+  UnitAngles unit{at->angles, at->angles, at->rate, at->covariance, at->interpolated, {}, time_s};
+  if (calibrated()) {
+    unit.reading = unit_->reading(at->angles, at->rate, time_s);
+    unit.angles = unit_->corrected(unit.reading);
+  }
+  return unit;
+}
+
+PanTilt PointingModel::angles_now() const {
+  const auto newest = history_.newest();
+  if (!newest) return {};
+  if (!calibrated()) return newest->angles;
+  return unit_->corrected(unit_->reading(newest->angles, {}, newest->time_s));
+}
+
+std::optional<LineOfSight> PointingModel::sight(PixelSight pixel, const UnitAngles& unit) const {
+  if (!calibrated()) {
+    const auto zoom = zoom_at(unit.time_s);
+    if (!zoom) return std::nullopt;
+    StationGeometry geometry = geometry_;
+    geometry.camera = zoom->camera;
+    // An error of the focal length shifts a pixel along its distance from the principal point.
+    const Eigen::Vector2d off_centre =
+        pixel.pixel - Eigen::Vector2d(zoom->camera.cx_px, zoom->camera.cy_px);
+    const Eigen::Vector2d shift = off_centre * (zoom->focal_sd_px / zoom->camera.fx_px);
+    pixel.angles = unit.angles;
+    pixel.covariance_systematic_px2 +=
+        shift * shift.transpose() +
+        Eigen::Matrix2d::Identity() * (zoom->centre_sd_px * zoom->centre_sd_px);
+    return ols::sight(geometry, pixel);
+  }
+  return ols::sight(unit_->calibration(),
+                    {pixel.pixel, pixel.covariance_px2, pixel.covariance_systematic_px2,
+                     unit.reading, pixel.angles_covariance_rad2});
+}
+
+std::optional<video::CameraView> PointingModel::camera_at(double time_s) const {
+  const auto at = angles_at(time_s);
+  const auto zoom = zoom_at(time_s);
+  if (!at || !zoom) return std::nullopt;
+  const Eigen::Matrix3d R_enu_camera = enu_from_camera(geometry_.chain, at->angles).linear();
+  return video::CameraView{
+      camera_centre_ecef(geometry_, at->angles),
+      (R_ecef_enu(ecef_from_geodetic(geometry_.position)) * R_enu_camera).transpose(),
+      zoom->camera};
+}
+
+std::optional<PanTilt> PointingModel::centring(const Eigen::Vector2d& pixel, double time_s) const {
+  const auto unit = angles_at(time_s);
+  if (!unit) return std::nullopt;
+  PixelSight there;
+  there.pixel = pixel;
+  const auto line = sight(there, *unit);
+  return line ? aim_from(unit->reported, line->direction) : std::nullopt;
+}
+
+std::optional<Eigen::Matrix3d> PointingModel::homography(double from_s, double to_s) const {
+  const auto from = angles_at(from_s);
+  const auto to = angles_at(to_s);
+  if (!from || !to) return std::nullopt;
+  if (!zoom_) return rotation_homography(geometry_, from->angles, to->angles);
+  const auto zoom_from = zoom_at(from_s), zoom_to = zoom_at(to_s);
+  if (!zoom_from || !zoom_to) return std::nullopt;
+  StationGeometry wide = geometry_;
+  wide.camera = zoom_from->camera;
+  const Eigen::Matrix3d K_from = camera_matrix(zoom_from->camera);
+  return camera_matrix(zoom_to->camera) * K_from.inverse() *
+         rotation_homography(wide, from->angles, to->angles);
+}
+
+std::optional<Eigen::Vector2d> PointingModel::pixel_of(const PanTilt& angles,
+                                                       const AzimuthElevation& direction) const {
+  constexpr double kFar_m = 1e6;
+  const Eigen::Vector3d centre = camera_centre_ecef(geometry_, angles);
+  const Eigen::Vector3d point =
+      centre + kFar_m * (R_ecef_enu(centre) * enu_from_azimuth_elevation(direction));
+  const auto seen = view(geometry_, angles, point);
+  if (!seen) return std::nullopt;
+  return seen->pixel;
+}
+
+bool PointingModel::in_picture(const Eigen::Vector2d& pixel) const {
+  const CameraIntrinsics& camera = geometry_.camera;
+  return pixel.x() >= 0 && pixel.y() >= 0 && pixel.x() <= camera.width_px &&
+         pixel.y() <= camera.height_px;
+}
+
+std::optional<PanTilt> PointingModel::reachable(const PanTilt& angles) const {
+  const auto newest = history_.newest();
+  return reachable_from(newest ? newest->angles : angles, angles);
+}
+
+std::optional<PanTilt> PointingModel::reachable_from(const PanTilt& here, PanTilt angles) const {
+  if (reach(limits_, here, angles) == mount::Reach::kUnreachable) return std::nullopt;
+  return angles;
+}
+
+std::optional<PanTilt> PointingModel::aim(const AzimuthElevation& direction) const {
+  const auto newest = history_.newest();
+  const auto angles = aim_from(newest ? newest->angles : PanTilt{}, direction);
+  return angles ? reachable(*angles) : std::nullopt;
+}
+
+std::optional<PanTilt> PointingModel::aim_from(const PanTilt& here,
+                                               const AzimuthElevation& direction) const {
+  const auto angles = aim_along(geometry_, direction);
+  if (!angles || !calibrated()) return angles;
+  // The turn that it goes to: the side from which it comes is that of this way.
+  return unit_->reported(reachable_from(here, *angles).value_or(*angles), here);
+}
+
+}  // namespace ols::station

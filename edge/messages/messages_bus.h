@@ -1,0 +1,133 @@
+// A station on the bus: receives commands and answers them, sends bearings, status and previews.
+// Decodes, checks the addressee and the freshness of a command, and counts what it refuses; decides
+// nothing else. The
+// station also runs without a network: the bus retries the connection every second.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "base/bus/bus_connector.h"
+#include "base/bus/bus_monitor.h"
+#include "base/trust/rate_limit.h"
+#include "edge/clock/clock_pair.h"
+#include "edge/command/command_turn.h"
+#include "edge/command/refusal_log.h"
+#include "edge/config/config.h"
+#include "edge/messages/messages.h"
+#include "edge/messages/messages_lens.h"
+
+namespace ols::station {
+
+// The places of the station's key and of its persisted state.
+trust::Environment trust_environment(const StationSettings& settings);
+
+class StationBus {
+ public:
+  // Empty: accepted; otherwise the reason for the refusal.
+  using Record = std::function<std::string(const recorder::RecordCommand&)>;
+  using FrameWanted = std::function<std::string(const FrameRequest&)>;
+
+  // The references must outlive the bus.
+  StationBus(const StationSettings& settings, std::int64_t boot_id, Station& station,
+             CommandTurn& turn, Record recorder, FrameWanted frame_wanted = {});
+
+  // The present clocks, until the next call.
+  void set_time(const clock::ClockPair& now, const clock::ClockQuality& quality);
+
+  // Connects; waits at most this long.
+  void connect(double wait_s);
+  // Passes the waiting commands to the station. Without a connection, starts an attempt without
+  // waiting for it.
+  void receive();
+  void take(const BusMessage& message);
+  // True: the message is a stop. From any thread; end_turn() carries it out.
+  bool take_stop(const BusMessage& message);
+  // Call after the datagrams of a turn.
+  void end_turn();
+  // To the commands since the last call; receive() sends them.
+  std::vector<Answer> take_answers() { return std::exchange(answers_, {}); }
+
+  // Why there is no connection; empty: connected.
+  const std::string& trouble() const { return trouble_; }
+  // The last refused command as text, and the number of refused commands.
+  const std::string& last_refusal() const { return refused_.last(); }
+  std::uint64_t refusals() const { return refused_.number(); }
+  // Conditions of the bus for a person: commands that are repeatedly refused as not fresh, invalid
+  // datagrams, newer settings of the site.
+  std::vector<std::string> alarms() const;
+  // Messages refused before they reached the station, and messages not sent. Part of each status.
+  std::map<std::string, double> counters() const;
+
+  void send(const Bearing& bearing);
+  void send(const Sighting& sighting);
+  void send(StationReport report);
+  void send(const FramePart& part);
+  void send_preview(const camera::Frame& frame, const std::optional<cv::Rect2d>& box);
+
+ private:
+  // What becomes of a command. `reason`: of its refusal, as it is counted.
+  struct Verdict {
+    std::string reason{}, detail{};
+    bool is_open = false;  // decided at the turn's end
+  };
+
+  template <class Message>
+  void publish(const std::string& channel, const Message& message);
+  template <class Message>
+  void on_command(std::string_view channel, const std::function<Verdict(const Message&)>& execute);
+  void subscribe();
+  void disconnect(const std::string& why);
+  std::string ptu_channel() const;
+  bool is_leased(const ols_msg::ptu_command_t& stop, std::int64_t utime_us) const;
+  Verdict command_ptu(const ols_msg::ptu_command_t& message);
+  Verdict command_lens(const ols_msg::lens_command_t& message);
+  Verdict record(const ols_msg::record_t& message);
+  Verdict want_frame(const ols_msg::frame_request_t& message);
+  // Notes a refusal.
+  Verdict verdict(const std::string& kind, Refusal refusal);
+  void answer(const CommandId& command, const Verdict& verdict);
+  void answer_designations();
+
+  const StationSettings& settings_;
+  Station& station_;
+  CommandTurn& turn_;
+  // Fixed at construction: the bus's thread reads it while the control loop may replace the
+  // settings.
+  struct Given {
+    CommandGate::Config gate;
+    Record record;
+    FrameWanted frame_wanted;
+  };
+  const Given given_;
+  Sender sender_;
+  double now_s_ = 0.0;
+  using Receive = std::function<void(const BusMessage& message)>;
+  std::vector<std::pair<std::string, Receive>> subscriptions_;
+  BusConnector connector_;
+  std::unique_ptr<LcmBus> bus_;
+  BusMonitor monitor_;
+  std::string trouble_ = "not connected yet";
+  std::map<std::string, CommandGate> gates_;
+  RefusalLog refused_;
+  std::map<std::string, double> counters_;
+  std::map<std::string, std::int64_t> sequences_;
+  std::vector<Answer> answers_;
+  // Several people each repeat a stop 50 times a second.
+  static constexpr double kAccepted_Hz = 300.0, kRefused_Hz = 50.0;
+  trust::RateLimit accepted_sent_{kAccepted_Hz}, refused_sent_{kRefused_Hz};
+  // Stops to be answered: the last of each sender. Shared with the bus's thread.
+  static constexpr std::size_t kMostStoppers = 16;  // forged ones bring any number
+  std::mutex stops_mutex_;
+  std::map<std::int64_t, std::int64_t> stops_;  // sender's boot -> sequence
+};
+
+}  // namespace ols::station

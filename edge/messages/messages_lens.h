@@ -1,0 +1,14 @@
+// Converts between the lens's types and LCM messages. Decides nothing.
+#pragma once
+
+#include "edge/station/station_types.h"
+#include "ols_msg/lens_command_t.hpp"
+#include "ols_msg/station_status_t.hpp"
+
+namespace ols::station {
+
+LensCommand from_message(const ols_msg::lens_command_t& message, double now_s);
+// The lens's part of a status; NaN: not known.
+void fill_lens(const StationSnapshot& snapshot, ols_msg::station_status_t& message);
+
+}  // namespace ols::station

@@ -1,0 +1,12 @@
+// Writes a sighting's counts and pixel into an LCM message. Decides nothing.
+#pragma once
+
+#include "edge/frames/sighting_desk.h"
+#include "ols_msg/sighting_t.hpp"
+
+namespace ols::station {
+
+// Everything but the sender, the time and the state of its clock.
+void fill_sighting(const Sighting& sighting, ols_msg::sighting_t& message);
+
+}  // namespace ols::station

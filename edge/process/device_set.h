@@ -1,0 +1,73 @@
+// The devices of a station, each with its own thread. Any of them may be absent.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "edge/camera/camera.h"
+#include "edge/command/stop_latch.h"
+#include "edge/config/config.h"
+#include "edge/device/device_report.h"
+#include "edge/gpio/gpio.h"
+#include "edge/lens/lens_motor.h"
+#include "edge/mount/mount.h"
+#include "edge/recorder/recorder.h"
+#include "edge/sensors/gnss.h"
+#include "edge/sensors/inclinometer.h"
+#include "edge/sensors/pose_estimator.h"
+#include "edge/video/video_server.h"
+
+namespace ols::station {
+
+// What turns and sees.
+struct Head {
+  std::unique_ptr<camera::Camera> camera;
+  std::unique_ptr<mount::Mount> mount;
+};
+using OpenHead = std::function<Head(const StationSettings&)>;
+// Of the kinds that are configured.
+Head configured_head(const StationSettings& settings);
+
+class DeviceSet {
+ public:
+  DeviceSet(const StationSettings& settings, std::int64_t boot_id, Head head);
+  DeviceSet(const DeviceSet&) = delete;
+  DeviceSet& operator=(const DeviceSet&) = delete;
+
+  camera::Camera& camera() { return *head_.camera; }
+  mount::Mount& mount() { return *head_.mount; }
+  // Null if not configured.
+  std::optional<gpio::Gpio>& gpio() { return gpio_; }
+  std::optional<lens::LensMotor>& lens() { return lens_; }
+  std::optional<recorder::Recorder>& recorder() { return recorder_; }
+  std::optional<video::VideoServer>& video() { return video_; }
+  StopLatch& stop() { return stop_; }
+  const StopLatch& stop() const { return stop_; }
+
+  // The sensor readings since the last call.
+  void feed(sensors::PoseEstimator& estimator);
+  // Permits the mount to move after an emergency stop, unless the stop was pressed again meanwhile.
+  // Also at the start: with a stop configured, the mount is halted until the stop's level is known.
+  void rearm();
+
+  // All configured devices, camera and mount first.
+  std::vector<device::DeviceReport> reports() const;
+
+ private:
+  void on_stop(bool pressed);
+
+  StopLatch stop_;
+  std::optional<recorder::Recorder> recorder_;
+  std::optional<video::VideoServer> video_;
+  std::optional<lens::LensMotor> lens_;
+  std::optional<sensors::Inclinometer> inclinometer_;
+  std::optional<sensors::Gnss> gnss_;
+  // The mount is destroyed before the camera, which may block: its destructor halts it. The GPIO
+  // thread uses the mount and is destroyed first.
+  Head head_;
+  std::optional<gpio::Gpio> gpio_;
+};
+
+}  // namespace ols::station

@@ -1,0 +1,33 @@
+// The station's pose from survey and sensors. After a restart it is the persisted one until the
+// sensors report (file: pose_store.h).
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "edge/config/config.h"
+#include "edge/process/device_set.h"
+#include "edge/process/pose_store.h"
+#include "edge/sensors/pose_estimator.h"
+
+namespace ols::station {
+
+class KeptPose {
+ public:
+  // Restores the persisted pose, for the sensors that the station still has.
+  KeptPose(const StationSettings& settings, double now_s);
+
+  sensors::StationPose pose(double now_s) const { return estimator_.pose(now_s); }
+  // Call in every turn. Returns the pose when it is due. Does not wait for the disk.
+  std::optional<sensors::StationPose> look(DeviceSet& devices, double now_s);
+  std::vector<std::string> alarms(double now_s) const;
+
+ private:
+  sensors::PoseEstimator estimator_;
+  PoseStore store_;
+  double due_s_ = 0.0;
+  double kept_due_s_ = 0.0;
+};
+
+}  // namespace ols::station

@@ -1,0 +1,31 @@
+// Persists the sensors' pose in a file, so that a station that restarts while the receiver has no
+// fix has a position.
+#pragma once
+
+#include <string>
+
+#include "base/files/background_file.h"
+#include "edge/sensors/persisted_pose.h"
+
+namespace ols::station {
+
+class PoseStore {
+ public:
+  // Reads `file`; empty: nothing is persisted. trouble() reports a file that is damaged or cannot
+  // be read.
+  explicit PoseStore(const std::string& file);
+
+  // The pose found at the start.
+  const sensors::PersistedPose& found() const { return found_; }
+  // Writes soon, without waiting for the disk. A missing part keeps its persisted value.
+  void keep(sensors::PersistedPose pose);
+  // As text; empty: no trouble.
+  std::string trouble() const;
+
+ private:
+  sensors::PersistedPose found_;
+  std::string refused_;  // why; cleared when a pose is saved
+  BackgroundFile file_;
+};
+
+}  // namespace ols::station

@@ -1,0 +1,90 @@
+// One running station: devices, decisions and bus, in real time.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "base/process/service_notifier.h"
+#include "edge/drift/kept_calibration.h"
+#include "edge/frames/frame_desk.h"
+#include "edge/messages/messages_bus.h"
+#include "edge/process/device_set.h"
+#include "edge/process/host_monitor.h"
+#include "edge/process/kept_pose.h"
+#include "edge/process/station_clock.h"
+#include "edge/process/station_journal.h"
+#include "edge/station/persisted_station_state.h"
+
+namespace ols::station {
+
+// What the process asks of its surroundings.
+struct Outside {
+  OpenHead open_head;
+  TimeService time_service;
+};
+
+class StationProcess {
+ public:
+  // Does not need a network or devices: retries those that are absent.
+  StationProcess(const StationSettings& configured, std::int64_t boot_id,
+                 Outside outside = {configured_head, host_time_service()});
+
+  // Runs until `ends` returns true; notifies systemd. Ready after the first turn, whatever devices
+  // are present.
+  void run(const std::function<bool()>& ends);
+
+  // One turn of the control loop: commands, angles, the newest frame, bearings, the mount's goal,
+  // and at intervals a status and a preview. Takes a few milliseconds, or as long as the tracker
+  // needs for a frame.
+  void turn();
+
+ private:
+  clock::ClockPair look_at_clocks();
+  void resume_hold(double now_s);
+  void heed_emergency_stop(double now_s);
+  void heed_rearming(double now_s);
+  void receive_commands();
+  double take_frame();  // how long it waited for one [s]
+  void show_frame(const camera::Frame& frame);
+  void take_zoom();
+  void take_angles();
+  std::optional<mount::Goal> goal(const StationOutput& output, double now_s);
+  void trigger_camera(double now_s);
+  void check_calibration(const StationReport& report, double now_s);
+  void send_requested_frames(const clock::ClockPair& now);
+  void send_reports(const clock::ClockPair& now);
+  StationReport report(const clock::ClockPair& now);
+  device::DeviceReport software() const;
+  std::string emergency_alarm() const;
+  void add_pose_and_clock(double now_s, StationReport& report) const;
+  void add_host(double now_s, StationReport& report);
+  void show(const StationReport& report);
+  std::string record(const recorder::RecordCommand& command);
+
+  const StationSettings& settings() const { return calibration_.settings(); }
+
+  // The monotonic instants of the next periodic actions.
+  struct Due {
+    double trigger_s = 0.0, status_s = 0.0, preview_s = 0.0;
+  };
+
+  KeptCalibration calibration_;  // and the settings with it
+  ServiceNotifier service_;
+  StationClock clock_;
+  std::optional<KeptPose> pose_;  // always there; another one with another calibration
+  Station station_;
+  CommandTurn command_turn_;
+  StationBus bus_;
+  HostMonitor host_;
+  PersistedStationState persisted_;
+  StationJournal journal_;
+  DeviceSet devices_;
+  FrameDesk frames_;
+  std::optional<camera::Frame> newest_;
+  bool halted_ = false;  // the mount refuses to move until it is re-armed
+  Due due_;
+};
+
+}  // namespace ols::station

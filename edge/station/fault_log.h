@@ -1,0 +1,66 @@
+// The newest fault of a station and its time, which stay after its alarm has ended. Also the
+// entries, good and bad, for the journal. Pure.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/journal/alarm_changes.h"
+#include "base/journal/news_limit.h"
+
+namespace ols::station {
+
+class FaultLog {
+ public:
+  // `what`: the present error of a source. `number`: how many it has had; a new number marks a new
+  // error with the same text. A text that is repeated within a minute (a device that is absent,
+  // retried each second) is one fault, so that it does not hide others.
+  void note(const std::string& source, const std::string& what, std::uint64_t number,
+            std::int64_t utime_us);
+  // The same for the result of an operator's action: each is a new fault.
+  void note_event(const std::string& source, const std::string& what, std::uint64_t number,
+                  std::int64_t utime_us);
+  // An error that does not count: the device is only starting.
+  void pass_over(const std::string& source, const std::string& what, std::uint64_t number,
+                 std::int64_t utime_us) {
+    noted_[source] = {what, number, utime_us};
+  }
+  // The present alarms. A new alarm is a fault. A changed number ("silent for 5 s") does not make
+  // an alarm new.
+  void note_alarms(const std::vector<std::string>& alarms, std::int64_t utime_us);
+
+  // The state of a source that always has one. A changed state is an entry; changed `details` are
+  // not.
+  struct State {
+    std::string name, details;
+    bool bad = false;
+    event::Id id{};  // of its beginning
+  };
+  void note_state(const std::string& source, const State& state);
+
+  // The beginnings and ends since the last call, in order.
+  std::vector<News> take_event() { return std::exchange(news_, {}); }
+
+  const std::string& text() const { return text_; }  // empty: no fault yet
+  std::int64_t utime_us() const { return utime_us_; }
+
+ private:
+  struct Noted {
+    std::string what;
+    std::uint64_t number = 0;
+    std::int64_t utime_us = 0;  // when it was last reported
+  };
+  void set(const std::string& source, JournalEvent event, std::int64_t utime_us);
+
+  std::map<std::string, Noted> noted_;
+  AlarmChanges alarms_;
+  std::map<std::string, std::string> states_;  // by source
+  std::vector<News> news_;
+  std::string text_;
+  std::int64_t utime_us_ = 0;
+};
+
+}  // namespace ols::station

@@ -1,0 +1,78 @@
+// The target that the station's tracker follows: designated by the operator, or acquired along a
+// slew. An acquired one is on trial until the tracker believes in it. During a trial the station's
+// own target is set aside.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "edge/camera/frame.h"
+#include "edge/frames/pointing_model.h"
+#include "edge/station/station_config.h"
+#include "edge/tracker/target_tracker.h"
+
+namespace ols::station {
+
+class FollowedTarget {
+ public:
+  FollowedTarget(const StationConfig& config, std::unique_ptr<tracker::TargetTracker> tracker)
+      : config_(config), tracker_(std::move(tracker)) {}
+
+  // Starts with the box. If the tracker refuses it, nothing changes.
+  std::optional<tracker::TrackerError> designate(const camera::Frame& frame, const cv::Rect2d& box);
+  // The same on trial, with the own target set aside.
+  bool try_found(const camera::Frame& frame, const cv::Rect2d& box);
+  // The trial succeeded: its target becomes the own target.
+  void confirm();
+  enum class Dropped { kNothing, kBackToOwn, kNothingLeft };
+  // Ends a trial that takes too long.
+  Dropped drop_unproven(double time_s);
+
+  // nullopt: the tracker refused the frame. The predicted motion comes from the PTU's angles.
+  std::optional<tracker::TrackerOutput> track(const camera::Frame& frame,
+                                              const PointingModel& pointing);
+  void search_near(const Eigen::Vector2d& pixel, double sd_px) {
+    tracker_->search_near(pixel, sd_px);
+  }
+  // Earlier angles of the PTU are not comparable with later ones.
+  void forget_angles();
+
+  bool exists() const { return kind_ != Kind::kNone; }
+  bool on_trial() const { return kind_ == Kind::kUnproven; }
+  std::int64_t track_id() const { return track_id_; }
+  double centring_sd_px() const;  // of the box on the target
+  const std::optional<tracker::TrackerOutput>& last_output() const { return last_output_; }
+  // For exactly this frame; null: the tracker has not had it.
+  const tracker::TrackerOutput* output_of(double mid_exposure_s) const {
+    return last_output_ && tracked_s_ == mid_exposure_s ? &*last_output_ : nullptr;
+  }
+  // The image motion has contradicted the PTU's angles in consecutive frames.
+  bool motion_disagrees() const { return disagreeing_in_a_row_ >= config_.disagreeing_frames; }
+  const std::map<std::string, double>& counters() const { return counters_; }
+
+ private:
+  enum class Kind { kNone, kDesignated, kUnproven, kAcquired };
+  struct Own {  // set aside
+    Kind kind = Kind::kNone;
+    std::int64_t track_id = 0;
+    std::optional<double> tracked_s;
+  };
+  void begin(Kind kind, double time_s);
+  void compare_motion(const tracker::TrackerOutput& output);
+
+  const StationConfig config_;
+  std::unique_ptr<tracker::TargetTracker> tracker_;
+  Kind kind_ = Kind::kNone;
+  std::int64_t track_id_ = 0, last_track_id_ = 0;
+  std::optional<double> tracked_s_;  // mid-exposure of the last frame tracked
+  double found_s_ = 0.0;             // mid-exposure of the frame in which the trial began
+  std::optional<Own> own_;
+  std::optional<tracker::TrackerOutput> last_output_;
+  int disagreeing_in_a_row_ = 0;
+  std::map<std::string, double> counters_;
+};
+
+}  // namespace ols::station

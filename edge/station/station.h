@@ -1,0 +1,164 @@
+// The decisions of a station, without devices, clocks or messages: designate, track, coast, lose,
+// be slewed, manual, stopped, emergency. Times are the station's monotonic clock [s]. One instance
+// for each station, called from one thread.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "edge/command/active_slew.h"
+#include "edge/command/command_judgement.h"
+#include "edge/command/manual_motion.h"
+#include "edge/command/slew_search.h"
+#include "edge/frames/frame_history.h"
+#include "edge/frames/pointing_model.h"
+#include "edge/mount/goal.h"
+#include "edge/station/angular_track.h"
+#include "edge/station/bearing_queue.h"
+#include "edge/station/followed_target.h"
+#include "edge/station/station_config.h"
+#include "edge/station/station_mode.h"
+#include "edge/station/station_snapshot.h"
+#include "edge/station/station_types.h"
+#include "edge/tracker/acquisition.h"
+#include "edge/tracker/target_tracker.h"
+#include "edge/video/video_frame.h"
+
+namespace ols::station {
+
+// Commands to the PTU in addition to its goal, and to the lens.
+struct UnitActions {
+  bool stop = false;  // what the PTU does on its own: homing
+  bool home = false;
+  bool reference_ok = false;  // a person confirms it
+  lens::LensOrder lens;       // to the lens' motors
+};
+
+struct StationOutput {
+  std::vector<Bearing> bearings;    // those whose PTU angles are known
+  std::optional<mount::Goal> goal;  // of the PTU; empty: halt
+};
+
+class Station {
+ public:
+  Station(const StationConfig& config, std::unique_ptr<tracker::TargetTracker> tracker);
+
+  // Inputs. Samples and frames each come in time order.
+  void on_angles(const mount::AngleSample& sample);
+  void on_frame(const camera::Frame& frame) { on_frame(frame, now_s_); }
+  // Of a motorised lens: each zoom position that it says, and where all axes are now.
+  void on_zoom(const lens::ZoomSample& sample) { pointing_.add(sample); }
+  void set_lens(const lens::ByAxis<std::optional<double>>& positions) {
+    pointing_.set_lens(positions);
+  }
+  // A frame older than max_age_s at now_s is dropped: the tracker gets no backlog.
+  void on_frame(const camera::Frame& frame, double now_s);
+  // The PTU's travel, once it is known.
+  void set_limits(const mount::Limits& limits) { pointing_.set_limits(limits); }
+  // Another geometry, with a calibration or without one, while the station runs. What was measured
+  // with the other one is forgotten.
+  void use(const StationGeometry& geometry, const std::optional<StationCalibration>& calibration);
+  // The reference views have moved by so much: bearings state it from now on.
+  void doubt_setup(double heading_sd_rad, double tilt_sd_rad) {
+    pointing_.doubt_setup(heading_sd_rad, tilt_sd_rad);
+  }
+  // Whether the PTU's reference is valid. In doubt, the station neither points nor follows slews,
+  // and discards its angles; it keeps its target, and slews lead back to it later.
+  void set_reference(mount::Reference reference);
+  // Before the first call the pose is that of the configured geometry. Without a position the
+  // station makes no bearings.
+  void set_pose(const sensors::StationPose& pose) { pointing_.set_pose(pose); }
+  // The level of the emergency stop, also when unchanged. Once pressed, nothing moves until the
+  // stop is released, rearm() was accepted and a new command has arrived.
+  void emergency_stop(bool pressed, double now_s);
+
+  // Commands. A refused command changes only its counter.
+  Refusal designate(const DesignateCommand& command, double now_s);
+  Refusal slew(const SlewCommand& command, double now_s);
+  Refusal point(const PointCommand& command, double now_s);
+  // Like point(), by what is seen.
+  Refusal centre(const CentreCommand& command, double now_s);
+  // Moves the lens; at any time, a stop notwithstanding.
+  Refusal lens(const LensCommand& command, double now_s);
+  // Turns the unit for the command's lease; rates of zero halt it.
+  Refusal rate(const RateCommand& command, double now_s);
+  // Also ends homing (see UnitActions). For kStopHold_s only re-arming is accepted: a command sent
+  // before the stop, or crossing it on the wire, must not undo it.
+  void stop(double now_s);
+  // For a station that was stopped when it ended: like stop(), but the operator may continue at
+  // once.
+  void begin_stopped();
+  static constexpr double kStopHold_s = StationMode::kStopHold_s;
+  Refusal release(double now_s);
+  // After an emergency stop, by a person at the station: leads to kStopped, from where the operator
+  // continues.
+  Refusal rearm(double now_s);
+  // The same over the bus, where any program can send it: refused unless configured otherwise.
+  Refusal rearm_over_bus(double now_s);
+  // Homes the unit.
+  Refusal home(double now_s);
+  // A person confirms the unit's reference.
+  Refusal reference_ok(double now_s);
+  // The commands to the PTU that are due, each once. Call right after the commands, before step():
+  // a stop does not wait for the tracker.
+  UnitActions take_actions() { return std::exchange(actions_, {}); }
+
+  // Advances time: leases and coasting end, state times grow.
+  StationOutput step(double now_s);
+
+  // The PTU's goal; empty: halt.
+  std::optional<mount::Goal> goal(double now_s) const;
+
+  StationState state() const { return mode_.state(); }
+  // Reported by the unit last.
+  std::optional<PanTilt> reported_angles() const { return pointing_.reported_angles(); }
+  std::optional<cv::Rect2d> target_box() const;  // in the newest frame
+  StationSnapshot snapshot() const;
+  // The newest frame for a viewer, but for its utime; empty if it is not of this mid-exposure: it
+  // was refused.
+  std::optional<video::VideoFrame> video_frame(double mid_exposure_s) const;
+
+ private:
+  StationParts parts() const {
+    return {config_, mode_, pointing_, target_, follows_target(), now_s_};
+  }
+  Situation situation(double now_s) const { return {config_, mode_, pointing_, now_s}; }
+  // Counts the result of a command.
+  Refusal count(Refusal refusal, const char* command);
+  void pass_time(double now_s);
+  void expire(double now_s);
+  void enter(StationState state);
+  void give_up_unit();
+  void forget_angles();
+  Refusal stand_at(const PanTilt& angles, const char* command, double now_s);
+  bool follows_target() const { return target_.exists() && mode_.may_track(); }
+  void track(const camera::Frame& frame);
+  void judge_belief(bool believed, double time_s);
+  void drop_unproven(double time_s);
+  void look_along_slew(const camera::Frame& frame);
+  void follow(const MadeBearing& made);
+  std::vector<std::string> alarms() const;
+  std::map<std::string, double> counters() const;
+
+  const StationConfig config_;
+  StationMode mode_;
+  PointingModel pointing_;
+  FrameHistory frames_;
+  FollowedTarget target_;
+  SlewSearch search_;
+  ActiveSlew slew_;
+  BearingQueue bearings_;
+  AngularTrack motion_;
+  ManualMotion manual_;
+  UnitActions actions_;
+  double believed_s_ = 0.0;  // mid-exposure of the last frame that was believed
+  int believed_in_a_row_ = 0;
+  double now_s_ = 0.0;
+  std::map<std::string, double> counters_;
+};
+
+}  // namespace ols::station

@@ -1,0 +1,54 @@
+// The parameters of a station's decisions. Constant while the station runs.
+#pragma once
+
+#include <optional>
+
+#include "edge/lens/zoom_lens.h"
+#include "edge/mount/angle_history.h"
+#include "edge/mount/limits.h"
+#include "edge/station/angular_track.h"
+#include "edge/tracker/acquisition.h"
+#include "geometry/sight.h"
+#include "geometry/station_calibration.h"
+
+namespace ols::station {
+
+struct StationConfig {
+  StationGeometry geometry;
+  // What an adjustment found; `geometry` is its model's then.
+  std::optional<StationCalibration> calibration;
+  bool overview = false;               // driven by a person; the fusion's slews are refused
+  std::optional<lens::ZoomLens> zoom;  // of a motorised lens; else `geometry` is the camera
+  mount::AngleHistory::Config angles;
+  mount::Limits limits;
+  AngularTrack::Config motion;
+  double designation_sd_px = 1.0;  // of a designated box's centre on the target
+  double tracking_belief = 0.5;    // minimum to be tracking
+  double coast_s = 0.7;            // by the motion model, after the last believed frame
+  int reacquire_frames = 3;        // consecutive believed frames that end a search
+  double angle_wait_s = 0.03;      // maximum wait of a frame for the next PTU sample
+  double frame_memory_s = 3.0;     // frames are kept this long for a designation: a person's drag
+  double search_interval_s = 0.5;  // between two hints of the slew's pixel to a searching tracker
+  double search_sd_px = 25.0;      // minimum, around that pixel; at most max_search_sd_px()
+  bool acquire_by_slew = true;     // a slewed station without a target acquires one,
+  double own_target_s = 5.0;       // and one with a lost target after it has searched for this long
+  double unacquired_alarm_s = 10.0;  // slewed this long without a target: an alarm
+  double acquisition_sd_px = 3.0;    // of an acquired box's centre on the target
+  // Maximum difference between the image motion of two frames and that by the PTU's angles.
+  double prediction_error_px = 20.0;
+  int disagreeing_frames = 5;  // consecutive; raise the alarm
+  tracker::AcquisitionConfig acquisition;
+  bool moves = true;              // false: the mount is fixed
+  bool homing_allowed = true;     // on command
+  bool rearm_over_bus = false;    // by any sender; else only by a person at the station
+  double slew_lease_max_s = 2.0;  // a longer lease is refused
+  double point_time_s = 15.0;     // maximum duration of an operator's move
+  double max_age_s = 1.0;         // older frames are not tracked, older bearings not sent
+};
+
+// The widest search of the tracker around a slew's pixel.
+inline double max_search_sd_px(const StationConfig& config) {
+  return config.geometry.camera.width_px / 4.0;
+}
+
+}  // namespace ols::station

@@ -1,0 +1,51 @@
+// What controls the unit: nothing, the operator, the tracked target, the fusion's slews, or a stop.
+// Pure.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+
+#include "edge/mount/reference.h"
+#include "edge/station/station_types.h"
+
+namespace ols::station {
+
+class StationMode {
+ public:
+  StationMode();
+
+  StationState state() const { return state_; }
+  bool is(StationState state) const { return state_ == state; }
+  // False: already in this state.
+  bool enter(StationState state);
+  // The states in which a target, if there is one, is tracked.
+  bool may_track() const;
+  // Adds elapsed time to the present state.
+  void count_seconds(double seconds);
+
+  // The emergency stop's level.
+  void set_pressed(bool pressed) { pressed_ = pressed; }
+  bool is_pressed() const { return pressed_; }
+  // For kStopHold_s after it only re-arming is accepted.
+  static constexpr double kStopHold_s = 1.0;
+  void note_stop(double now_s) { stopped_s_ = now_s; }
+  // Why operator commands are refused now: an emergency, or a stop a moment ago.
+  Refusal refuses_operator(double now_s) const;
+
+  // Whether the PTU's reference is valid.
+  void set_reference(mount::Reference reference) { reference_ = reference; }
+  mount::Reference reference() const { return reference_; }
+  bool has_doubtful_angles() const;
+
+  const std::map<std::string, double>& counters() const { return counters_; }
+
+ private:
+  StationState state_ = StationState::kIdle;
+  bool pressed_ = false;
+  std::optional<double> stopped_s_;  // by the last stop
+  mount::Reference reference_ = mount::Reference::kUnknown;
+  std::map<std::string, double> counters_;
+};
+
+}  // namespace ols::station

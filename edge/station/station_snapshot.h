@@ -1,0 +1,32 @@
+// What a station says of itself. Pure.
+#pragma once
+
+#include "edge/camera/frame.h"
+#include "edge/frames/pointing_model.h"
+#include "edge/station/followed_target.h"
+#include "edge/station/station_config.h"
+#include "edge/station/station_mode.h"
+#include "edge/station/station_types.h"
+#include "edge/video/video_frame.h"
+
+namespace ols::station {
+
+struct StationParts {
+  const StationConfig& config;
+  const StationMode& mode;
+  const PointingModel& pointing;
+  const FollowedTarget& target;
+  bool follows = false;  // the target, in the present mode
+  double now_s = 0.0;
+};
+
+// All but the box, the latency, the alarms and the counters.
+StationSnapshot snapshot_of(const StationParts& parts);
+
+// A frame for a viewer, but for its utime.
+video::VideoFrame seen_in(const camera::Frame& frame, const StationParts& parts);
+
+// Adds an accepted command to the orders that the lens has not been given yet.
+void add(const LensCommand& command, lens::LensOrder& orders);
+
+}  // namespace ols::station

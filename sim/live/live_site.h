@@ -1,0 +1,61 @@
+// The world in real time, behind real wires: for every station a GigE Vision camera, and PTU,
+// inclinometer and GNSS receiver on ptys. The truth is published on channels that no product
+// process reads. Faults come from the scenario and by OLS_SIM_FAULT.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "base/bus/lcm_bus.h"
+#include "sim/camera/simulated_camera.h"
+#include "sim/ptu/device.h"
+#include "sim/scenario/fault_plan.h"
+#include "sim/world/renderer.h"
+#include "sim/world/world.h"
+
+namespace ols::sim {
+
+class LiveSite {
+ public:
+  // The scenario's time 0 is now, and true UTC is the host's clock now. From here on the monotonic
+  // clock counts, so that a step of the host's clock does not move the targets. `line_folder`: for
+  // the links to the serial lines. Throws std::system_error if an address or a link is not
+  // available.
+  LiveSite(const World& world, const std::string& line_folder, LcmBus& bus);
+  ~LiveSite();
+
+  // OLS_SIM_TRUTH and OLS_SIM_PTU_<station>: targets and PTUs now, and since the last call.
+  void publish_truth();
+
+  // Applies the active faults to every device. Call every few milliseconds, in the thread that
+  // handles the bus.
+  void apply_faults();
+
+ private:
+  struct Device;
+
+  std::unique_ptr<PtuDevice> connect_ptu(std::size_t station, const std::string& link);
+  void connect_sensors(Device& device, const std::string& link_stem);
+  void receive_fault(const void* data, int bytes);
+  void publish_target(std::size_t index, double now_s);
+  void publish_ptu(Device& device, double now_s);
+  void draw(Device& device, const Exposure& exposure, cv::Mat& gray);
+  void publish_view(const Device& device, const ExposureTruth& exposure, const ViewTruth& view,
+                    std::int64_t stamp_us);
+  double scenario_s(std::int64_t monotonic_ns) const;
+  std::int64_t true_utime_us(double scenario_s) const;
+
+  const World& world_;
+  LcmBus& bus_;
+  std::mutex bus_mutex_;
+  std::int64_t start_monotonic_ns_;
+  std::int64_t start_utc_ns_;  // true UTC of that instant
+  FaultPlan faults_;
+  std::vector<std::unique_ptr<Device>> devices_;
+};
+
+}  // namespace ols::sim

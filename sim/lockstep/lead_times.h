@@ -1,0 +1,33 @@
+// How long it takes until stations that have never seen the target follow it, in simulated time.
+// The callers lead them there: overview_click.h, outside_cue.h.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+
+#include "sim/lockstep/lockstep.h"
+#include "sim/scenario/scenario.h"
+
+namespace ols::sim {
+
+// Seconds after the event, by station. A station that never got this far is missing.
+struct LeadTimes {
+  std::map<std::string, double> in_picture;  // the target is in its picture,
+  std::map<std::string, double> acquired;    // it tries a detected object,
+  std::map<std::string, double> follows;     // it tracks the target, which is in its picture
+  std::map<std::string, int> acquisitions;   // number of tried objects, until the end
+  std::optional<double> located;             // the fusion has a position
+  std::size_t stations = 0;                  // number of stations that are to follow
+
+  bool complete() const { return follows.size() == stations; }
+};
+
+void note(LeadTimes& times, Lockstep& lockstep, const std::string& id, double after_s);
+void note_position(LeadTimes& times, const Lockstep& lockstep, double after_s);
+
+// The same flight, seen from by_s later on.
+Scenario later(Scenario scenario, double by_s);
+Fidelity nobody_designates(const Scenario& scenario);
+
+}  // namespace ols::sim

@@ -1,0 +1,83 @@
+#include "sim/lockstep/lockstep_mount.h"
+
+#include <algorithm>
+
+#include "edge/mount/fixed/fixed_mount.h"
+#include "edge/ptu/driver.h"
+#include "sim/ptu/unit.h"
+
+namespace ols::sim {
+namespace {
+
+ptu::PtuConfig driver_config(const World& world) {
+  ptu::PtuConfig config;
+  config.baud = world.scenario().ptu.baud;
+  config.poll_interval_s = world.scenario().ptu.poll_interval_s;
+  return config;
+}
+
+class DrivenUnit : public LockstepMount {
+ public:
+  DrivenUnit(const World& world, std::uint64_t seed, double now_s)
+      : unit_(world.ptu_unit_config(), seed, now_s), driver_(driver_config(world)) {}
+
+  void advance(double now_s) override {
+    const double first_s = std::min(unit_.next_output_s().value_or(now_s), now_s);
+    const std::string answer = unit_.transmit(now_s);
+    if (!answer.empty()) driver_.receive(answer, first_s);
+    const std::string request = driver_.step(now_s);
+    if (!request.empty()) unit_.receive(request, now_s);
+  }
+  std::vector<mount::AngleSample> take_samples() override { return driver_.take_samples(); }
+  void set_goal(const std::optional<mount::Goal>& goal) override { driver_.set_goal(goal); }
+  mount::Reference reference() const override { return driver_.reference(); }
+  std::optional<mount::Limits> limits() const override {
+    if (driver_.state() != ptu::PtuState::kReady) return std::nullopt;
+    return driver_.limits();
+  }
+  PanTilt angles_at(double time_s) const override { return unit_.angles_at(time_s); }
+  std::map<std::string, double> counters() const override {
+    const ptu::PtuCounters& ptu = driver_.counters();
+    return {{"ptu_requests", static_cast<double>(ptu.requests)},
+            {"ptu_replies", static_cast<double>(ptu.replies)},
+            {"ptu_timeouts", static_cast<double>(ptu.timeouts)},
+            {"ptu_refused_positions", static_cast<double>(ptu.refused_positions)},
+            {"ptu_limit_hits", static_cast<double>(ptu.limit_hits)}};
+  }
+
+ private:
+  PtuUnit unit_;
+  ptu::PtuDriver driver_;
+};
+
+class StandsStill : public LockstepMount {
+ public:
+  StandsStill(const PanTilt& angles, double now_s) : angles_(angles), now_s_(now_s) {}
+
+  void advance(double now_s) override { now_s_ = now_s; }
+  std::vector<mount::AngleSample> take_samples() override {
+    auto samples = mount::fixed_samples(angles_, last_s_, now_s_);
+    if (!samples.empty()) last_s_ = samples.back().time_s;
+    return samples;
+  }
+  void set_goal(const std::optional<mount::Goal>& /*goal*/) override {}
+  mount::Reference reference() const override { return mount::Reference::kTrusted; }
+  std::optional<mount::Limits> limits() const override { return mount::fixed_limits(angles_); }
+  PanTilt angles_at(double /*time_s*/) const override { return angles_; }
+  std::map<std::string, double> counters() const override { return {}; }
+
+ private:
+  const PanTilt angles_;
+  double now_s_, last_s_ = 0.0;
+};
+
+}  // namespace
+
+std::unique_ptr<LockstepMount> make_lockstep_mount(const World& world, std::size_t station,
+                                                   std::uint64_t seed, double now_s) {
+  const auto& fixed = world.scenario().stations[station].fixed;
+  if (fixed) return std::make_unique<StandsStill>(*fixed, now_s);
+  return std::make_unique<DrivenUnit>(world, seed, now_s);
+}
+
+}  // namespace ols::sim

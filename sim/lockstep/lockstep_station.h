@@ -1,0 +1,105 @@
+// One station in simulated time: the product's Station on its mount, and a simulated camera's
+// frames.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "edge/frames/sighting_desk.h"
+#include "edge/lens/lens_driver.h"
+#include "edge/station/station.h"
+#include "edge/tracker/tracker_config.h"
+#include "sim/lens/lens_unit.h"
+#include "sim/lockstep/lockstep_mount.h"
+#include "sim/lockstep/lockstep_operator.h"
+#include "sim/lockstep/view_tracker.h"
+#include "sim/world/exposed_unit.h"
+#include "sim/world/renderer.h"
+#include "sim/world/world.h"
+
+namespace ols::sim {
+
+// One frame after the designation, or of a station without one: the station's result and the truth.
+struct FrameNote {
+  double mid_s = 0.0;  // true time since the scenario's start
+  station::StationState state = station::StationState::kIdle;
+  double belief = 0.0;
+  ViewTruth view;
+  bool inside_third = false;  // the target is inside the central third, horizontally and vertically
+  std::optional<Eigen::Vector2d> error_px;  // of the measured pixel, while tracking
+  std::optional<cv::Rect2d> box;            // [px] of the tracker
+  std::vector<std::string> alarms;          // of the station's own logic
+};
+
+struct StationRecord {
+  std::vector<FrameNote> frames;
+  int frames_lost = 0;
+  std::map<std::string, double> counters;  // of the station and its PTU driver at the end
+};
+
+class LockstepStation {
+ public:
+  // `renderer` is null without images; `world` must outlive the station.
+  LockstepStation(const World& world, std::size_t index, const Fidelity& fidelity,
+                  std::unique_ptr<Renderer> renderer,
+                  const std::optional<StationCalibration>& calibration = std::nullopt);
+
+  // Advances to this instant of true time (in steps of about a millisecond); returns the bearings.
+  std::vector<station::Bearing> advance(double time_s);
+
+  // The station's sightings (counts and pixel) for a bearing of the last advance, by its stamp.
+  std::vector<station::Sighting> sightings(const station::Bearing& bearing, std::int64_t utime_us) {
+    return told_.desk.take(bearing, utime_us, told_.unit);
+  }
+  station::Refusal slew(station::SlewCommand command, double time_s);
+  const station::Station& station() const { return station_; }
+  // For a caller that gives the station orders between two advances. Times are monotonic_s() of
+  // now.
+  station::Station& station() { return station_; }
+  // The truth about the newest picture.
+  const ViewTruth& view() const { return views_.newest(); }
+  StationRecord record() const;
+  bool designated() const { return operator_.designated(); }
+  bool left_alone() const { return operator_.leaves_alone(); }
+
+ private:
+  // A zoom lens on its line.
+  struct Lens {
+    sim::LensUnit unit;
+    lens::LensDriver driver;
+  };
+  // The counts of each exposure, and which of them are published.
+  struct Told {
+    station::FrameService unit;
+    station::SightingDesk desk = {};
+  };
+  struct Shutter {
+    double phase_s = 0.0;  // of the exposures
+    std::int64_t next = 0;
+  };
+  void move_lens(double time_s);
+  void expose(double time_s);
+  void take_note(double mid_s, const ViewTruth& view);
+  void operate(double time_s);
+
+  const World& world_;
+  std::size_t index_;
+  std::unique_ptr<Renderer> renderer_;
+  LockstepNoise noise_;
+  Shutter shutter_;
+  std::unique_ptr<LockstepMount> mount_;
+  ExposedUnit exposed_;
+  std::optional<Lens> lens_;
+  ViewMemory views_;
+  station::StationConfig config_;
+  station::Station station_;
+  LockstepOperator operator_;
+  StationRecord record_;
+  Told told_;
+};
+
+}  // namespace ols::sim

@@ -1,0 +1,148 @@
+#include "sim/processes/simulated_station.h"
+
+#include <cmath>
+#include <utility>
+
+#include "base/process/clocks.h"
+#include "edge/camera/camera_handover.h"
+#include "edge/ptu/ptu_handover.h"
+#include "edge/ptu/ptu_kind.h"
+
+namespace ols::sim {
+namespace {
+
+constexpr std::int64_t kStepsOfTurn = 4;  // a turn of the control loop waits so long for a frame
+constexpr double kTransport_s = 0.004;    // of a frame over the wire
+constexpr double kStampSd_s = 20e-6;
+constexpr std::uint64_t kUnitTag = 4000;
+
+std::optional<clock::ClockReading> right_clock() {
+  clock::ClockReading reading;
+  reading.monotonic_s = clock_monotonic_s();
+  reading.utime_us = clock_utime_us();
+  reading.service = reading.synchronised = true;
+  reading.estimated_error_s = 1e-5;
+  reading.source = "simulation";
+  return reading;
+}
+
+}  // namespace
+
+// Its frames are published by the station's steps.
+class SimulatedStation::CameraInHand : public camera::Camera {
+ public:
+  explicit CameraInHand(const camera::CameraConfig& config) : config_(config) {}
+
+  std::optional<camera::Frame> next(double timeout_s) override { return handover.next(timeout_s); }
+  void set_region(const std::optional<cv::Rect2d>& target_box) override {
+    handover.set_region(target_box);
+  }
+  void trigger() override { handover.ask_trigger(); }
+  device::DeviceReport report() const override {
+    return camera::make_camera_report(config_, handover.facts(), clock_monotonic_s());
+  }
+
+  camera::CameraHandover handover;
+
+ private:
+  const camera::CameraConfig config_;
+};
+
+// Its bytes are moved by the station's steps.
+class SimulatedStation::UnitInHand : public ptu::PtuHandover {
+ public:
+  explicit UnitInHand(const ptu::PtuConfig& config) : PtuHandover(config) { restart(); }
+
+  // `plugged`: the line is there.
+  void plug(bool plugged) {
+    if (plugged && !link_.is_open) restart();
+    if (!plugged && link_.is_open) ++link_.failures;
+    link_.is_open = plugged;
+  }
+
+ private:
+  device::DeviceThread::Link link() const override { return link_; }
+
+  device::DeviceThread::Link link_{
+      .is_open = true, .openings = 1, .failure = "unplugged", .fault = ""};
+};
+
+SimulatedStation::SimulatedStation(const World& world, std::size_t index,
+                                   station::StationSettings settings, SimulatedTime& time)
+    : world_(world),
+      index_(index),
+      settings_(std::move(settings)),
+      unit_(world.ptu_unit_config(), derived_seed(world.seed(), kUnitTag + index),
+            clock_monotonic_s()),
+      exposed_(world.stations()[index].unit, world.ptu_unit_config()),
+      renderer_(std::move(make_renderers(world)[index])) {
+  restart();
+  time.at_each_step([this](double time_s) { step(time_s); });
+}
+
+SimulatedStation::~SimulatedStation() = default;
+
+void SimulatedStation::restart() {
+  process_.reset();
+  process_ = std::make_unique<station::StationProcess>(
+      settings_, ++boots_,
+      station::Outside{[this](const auto& settings) { return head(settings); }, right_clock});
+}
+
+station::Head SimulatedStation::head(const station::StationSettings& settings) {
+  auto camera = std::make_unique<CameraInHand>(settings.camera->config());
+  auto ptu = std::make_unique<UnitInHand>(settings.mount.as<ptu::PtuKind>()->unit);
+  camera_ = camera.get();
+  ptu_ = ptu.get();
+  return {std::move(camera), std::move(ptu)};
+}
+
+void SimulatedStation::set_faults(const StationFaults& faults) {
+  faults_ = faults;
+  unit_.set_faults(faults.ptu, clock_monotonic_s());
+}
+
+PanTilt SimulatedStation::angles() const { return unit_.angles_at(clock_monotonic_s()); }
+
+void SimulatedStation::step(double time_s) {
+  exchange_bytes();
+  expose(time_s);
+  if (++steps_ % kStepsOfTurn == 0) process_->turn();
+}
+
+void SimulatedStation::exchange_bytes() {
+  const double now_s = clock_monotonic_s();
+  ptu_->plug(!unit_.line_gone());
+  if (const auto halt = ptu_->take_halt()) unit_.receive(*halt, now_s);
+  const auto turn = ptu_->turn(unit_.transmit(now_s));
+  unit_.set_master_baud(turn.baud);
+  if (!turn.request.empty()) unit_.receive(turn.request, now_s);
+}
+
+void SimulatedStation::expose(double time_s) {
+  const Scenario& s = world_.scenario();
+  const double mid_s = static_cast<double>(exposures_) / s.frame_rate_hz;
+  if (time_s < mid_s + 0.5 * s.exposure_s + s.readout_s + kTransport_s) return;
+  ExposureTruth exposure;
+  exposure.mid_s = mid_s;
+  exposure.exposure_s = s.exposure_s;
+  exposure.frame = static_cast<std::uint64_t>(exposures_++);
+  exposure.by_hand = faults_.by_hand;
+  const double age_s = time_s - mid_s;
+  camera::Frame frame;
+  frame.mid_exposure_s = clock_monotonic_s() - age_s;
+  frame.stamp_sd_s = kStampSd_s;
+  frame.number = exposure.frame;
+  const std::int64_t utime_us = clock_utime_us() - std::llround(age_s * 1e6);
+  exposed_.expose([this](double at_s) { return unit_.angles_at(at_s); }, frame.mid_exposure_s,
+                  exposure);
+  if (s.landscape.sun) {
+    exposure.sun = sun_over(world_.stations()[index_].truth.position, utime_us);
+  }
+  const ViewTruth view = renderer_->draw(exposure, frame.gray);
+  sent_.push_back({utime_us, exposure, view});
+  statistics_.add(clock_monotonic_s(), true);
+  camera_->handover.publish(std::move(frame), 0, statistics_);
+}
+
+}  // namespace ols::sim

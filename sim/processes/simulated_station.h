@@ -1,0 +1,67 @@
+// A station's whole process in simulated time: the control loop and the bus of ols-station. The
+// simulated unit exchanges bytes with it; the simulated camera hands it frames.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "edge/camera/frame_statistics.h"
+#include "edge/process/station_process.h"
+#include "sim/processes/simulated_time.h"
+#include "sim/ptu/faults.h"
+#include "sim/world/exposed_unit.h"
+#include "sim/world/renderer.h"
+#include "sim/world/world.h"
+
+namespace ols::sim {
+
+class SimulatedStation {
+ public:
+  // A picture that the camera has sent, and the truth about it.
+  struct Sent {
+    std::int64_t utime_us = 0;  // as the station stamps it
+    ExposureTruth exposure;
+    ViewTruth view;
+  };
+
+  // Camera and mount are the only devices that may be configured, the mount as a FLIR unit. A time
+  // service says that the station's clock is right. World and time must outlive the station.
+  SimulatedStation(const World& world, std::size_t index, station::StationSettings settings,
+                   SimulatedTime& time);
+  ~SimulatedStation();
+
+  // Ends the process and starts it again; camera and unit stay as they are.
+  void restart();
+  void set_faults(const StationFaults& faults);
+  const StationFaults& faults() const { return faults_; }
+  PanTilt angles() const;  // of the unit, now
+  const std::vector<Sent>& sent() const { return sent_; }
+
+ private:
+  class CameraInHand;
+  class UnitInHand;
+  station::Head head(const station::StationSettings& settings);
+  void step(double time_s);
+  void exchange_bytes();
+  void expose(double time_s);
+
+  const World& world_;
+  std::size_t index_;
+  station::StationSettings settings_;
+  FaultyPtuUnit unit_;
+  ExposedUnit exposed_;
+  std::unique_ptr<Renderer> renderer_;
+  StationFaults faults_;
+  std::int64_t exposures_ = 0, boots_ = 0, steps_ = 0;
+  std::vector<Sent> sent_;
+  // Of the process.
+  CameraInHand* camera_ = nullptr;
+  UnitInHand* ptu_ = nullptr;
+  camera::FrameStatistics statistics_;
+  std::unique_ptr<station::StationProcess> process_;
+};
+
+}  // namespace ols::sim

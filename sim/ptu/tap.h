@@ -1,0 +1,48 @@
+// Hardware in the loop: a real PTU's serial device, with a pseudo terminal in between for the
+// station. Bytes pass unchanged in both directions; the positions among them show where the unit
+// points.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "sim/ptu/device.h"
+
+namespace ols::sim {
+
+struct PtuTapConfig {
+  std::string device;         // of the unit, for example /dev/ttyUSB0
+  int baud = 9600;            // until the station sends: then its rate applies
+  double step_rad = 5.61e-5;  // per count, until the unit has reported it
+};
+
+class PtuTap : public PtuDevice {
+ public:
+  // `link`: the station's line, while the unit's device exists. A missing device is waited for.
+  // Throws std::system_error if the link cannot be made.
+  PtuTap(const PtuTapConfig& config, std::uint64_t seed, const std::string& link);
+  ~PtuTap() override;
+
+  // Faults of the line only: those of a real unit cannot be simulated.
+  void set_faults(const PtuFaults& faults) override;
+
+  // A unit reports its position some thirty times a second. About half of the instants at which a
+  // camera draws are later than its last report.
+  void await(double monotonic_s) override;
+
+  // Based on the unit's reports so far.
+  PanTilt angles_at(double monotonic_s) override;
+
+  struct Counters {                              // only increase
+    std::uint64_t opened = 0, failures = 0;      // of the unit's device
+    std::uint64_t readings = 0, mismatched = 0;  // of positions
+  };
+  Counters counters() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace ols::sim

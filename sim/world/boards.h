@@ -1,0 +1,70 @@
+// The paper's rectification targets in the simulated camera's picture: level lines, a cross, two
+// rulers. A person puts each up where the unit looks at that moment, with the small errors of
+// level, pointer and tape. From then on it stays in place. Written from docs/calibration.md,
+// without the code that reads the targets.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "geometry/pinhole.h"
+#include "sim/scenario/faults.h"
+#include "sim/world/unit_truth.h"
+
+namespace ols::config {
+struct Section;
+}
+namespace ols::sim {
+
+// Where a person puts the targets, measured from the pan axis, and the person's errors.
+struct BoardsScenario {
+  double level_line_m = 30.0;
+  double level_error_rad = 0.0;  // of the lines, right side down > 0
+  double cross_m = 25.0;
+  double cross_error_m = 0.0;  // to the right of the plane perpendicular to the tilt axis
+  double near_ruler_m = 20.0, far_ruler_m = 40.0;
+  double ruler_error_m = 0.0;  // height of the farther zero above the nearer one
+  // The lens is focused at infinity: the width of a point's blur is this divided by its distance.
+  double blur_px_m = 0.0;
+};
+
+config::Section boards_section(BoardsScenario& boards);
+
+// A flat, upright rectangle.
+struct Board {
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();  // [m] in GROUND: east, north, up
+  Eigen::Vector3d right = Eigen::Vector3d::UnitX(), up = Eigen::Vector3d::UnitZ();
+  cv::Mat1b gray;  // its print, top row first; kTexel_m each
+  double blur_px = 0.0;
+  static constexpr double kTexel_m = 0.001;
+};
+
+// `enu_cam`: the camera's pose in GROUND, OpenCV's axes.
+void draw_board(const Board& board, const CameraIntrinsics& camera,
+                const Eigen::Isometry3d& enu_cam, cv::Mat& gray);
+
+// The targets in front of one station.
+class Boards {
+ public:
+  Boards(const BoardsScenario& scenario, const ChainParameters& chain, double trunnion_rad)
+      : scenario_(scenario), chain_(chain), trunnion_rad_(trunnion_rad) {}
+
+  // Puts new targets up where the unit looks with its shafts at these angles, and removes those
+  // that `by_hand` no longer has.
+  void put_up(const ByHand& by_hand, const CameraIntrinsics& camera, const PanTilt& shafts);
+
+  void draw(const CameraIntrinsics& camera, const Eigen::Isometry3d& enu_cam, cv::Mat& gray) const;
+
+ private:
+  std::vector<Board> level_line(const CameraIntrinsics& camera, const PanTilt& shafts) const;
+  std::vector<Board> cross(const CameraIntrinsics& camera, const PanTilt& shafts) const;
+  std::vector<Board> rulers(const CameraIntrinsics& camera, const PanTilt& shafts) const;
+
+  BoardsScenario scenario_;
+  ChainParameters chain_;
+  double trunnion_rad_;
+  std::vector<Board> level_line_, cross_, rulers_;
+};
+
+}  // namespace ols::sim

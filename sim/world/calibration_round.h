@@ -1,0 +1,24 @@
+// The observations with which a person and a station calibrate it in the simulated world: frames of
+// stars and surveyed landmarks, one of which has moved. In the form of the files of `ols-calibrate
+// adjust`.
+#pragma once
+
+#include <string>
+
+#include "sim/world/world.h"
+
+namespace ols::sim {
+
+struct CalibrationRound {
+  std::string observations;  // JSON, one object per line
+  std::string references;    // CSV
+};
+
+// The air and the earth at that time; `ols-calibrate adjust` gets the same values.
+inline constexpr double kRoundPressure_hPa = 980.0, kRoundTemperature_degC = 10.0;
+inline constexpr double kRoundUt1MinusUtc_s = 0.03;
+
+// Both with the true unit and pose of the world; deterministic.
+CalibrationRound calibration_round(const World& world, std::size_t station);
+
+}  // namespace ols::sim

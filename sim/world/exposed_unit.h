@@ -1,0 +1,34 @@
+// The angles of a unit's shafts during an exposure, from the unit's counts. Pure.
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "sim/ptu/unit.h"
+#include "sim/world/renderer.h"
+#include "sim/world/unit_truth.h"
+
+namespace ols::sim {
+
+class ExposedUnit {
+ public:
+  ExposedUnit(const UnitTruth& truth, const PtuUnitConfig& unit)
+      : mechanics_(truth, unit.resolution_arcsec * EIGEN_PI / 648000.0),
+        exact_(truth.exact),
+        offset_s_(truth.exposure_offset_s) {}
+
+  // Sets the exposure's angles. `counted`: the unit's angles at an instant of its clock, up to two
+  // seconds back. `mid_s`: mid-exposure on that clock. Exposures come in time order.
+  void expose(const std::function<PanTilt(double)>& counted, double mid_s, ExposureTruth& exposure);
+
+  // How long after the exposure's end the unit is asked for its angles.
+  double longest_wait_s() const { return offset_s_ > 0.0 ? offset_s_ : 0.0; }
+
+ private:
+  UnitMechanics mechanics_;
+  bool exact_;
+  double offset_s_;
+  std::optional<double> followed_s_;
+};
+
+}  // namespace ols::sim

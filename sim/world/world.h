@@ -1,0 +1,58 @@
+// The world of one run: the scenario with its errors drawn. Pure; the same seed gives the same
+// world.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geometry/sight.h"
+#include "sim/ptu/unit.h"
+#include "sim/scenario/scenario.h"
+#include "sim/scenario/seeds.h"
+
+namespace ols::sim {
+
+struct StationTruth {
+  std::string id;
+  // The geometry in the station's configuration, with its sigmas. After a stationing: its result.
+  StationGeometry nominal;
+  StationGeometry truth;  // without what `unit` adds
+  UnitTruth unit;
+  // For a zoom lens: the truth and its calibration.
+  std::optional<ZoomTruth> zoom;
+  std::vector<ZoomPoint> zoom_points;
+  double clock_offset_s = 0.0;  // the station's UTC minus true UTC
+  double clock_sd_s = 0.0;
+  double brightness_gain = 1.0;
+};
+
+struct TargetTruth {
+  Eigen::Vector3d p_ecef = Eigen::Vector3d::Zero();
+  Eigen::Vector3d v_ecef = Eigen::Vector3d::Zero();
+};
+
+class World {
+ public:
+  World(const Scenario& scenario, std::uint64_t seed);
+
+  const Scenario& scenario() const { return scenario_; }
+  std::uint64_t seed() const { return seed_; }
+  const std::vector<StationTruth>& stations() const { return stations_; }
+  const LocalFrame& site() const { return site_; }
+
+  // time_s: true time since the scenario's start.
+  TargetTruth target(std::size_t index, double time_s) const;
+
+  PtuUnitConfig ptu_unit_config() const;
+
+ private:
+  Scenario scenario_;
+  std::uint64_t seed_;
+  LocalFrame site_;
+  std::vector<StationTruth> stations_;
+};
+
+}  // namespace ols::sim

@@ -1,0 +1,101 @@
+#include "edge/calibration/calibration_in_use.h"
+
+#include <gtest/gtest.h>
+
+#include "calibration/procedure/preconditions.h"
+#include "tests/unit/edge/calibration/calibration_files.h"
+
+namespace ols::station {
+namespace {
+
+class CalibrationInUseTest : public testing::Test {
+ protected:
+  StationSettings configured() const {
+    StationSettings settings = test::settings();
+    settings.calibration_folder = files_.path;
+    return settings;
+  }
+  static device::DeviceReport camera(const std::string& serial) {
+    device::DeviceReport report;
+    report.name = "camera";
+    report.serial = serial;
+    return report;
+  }
+  test::CalibrationFolder files_{"calibration_in_use"};
+};
+
+TEST_F(CalibrationInUseTest, NoneConfiguredIsNothingToSay) {
+  const CalibrationInUse none(test::settings());
+  EXPECT_EQ(none.status().state, CalibrationState::kNone);
+  EXPECT_EQ(none.settings().calibration_id, 5);
+  EXPECT_FALSE(none.settings().station.calibration);
+  EXPECT_TRUE(none.alarms().empty());
+}
+
+TEST_F(CalibrationInUseTest, TheStationWorksWithIt) {
+  const CalibrationInUse used(configured());
+  EXPECT_EQ(used.status().state, CalibrationState::kInUse);
+  EXPECT_EQ(used.status().observed_utime_us, 1780000000000000);
+  EXPECT_EQ(used.settings().calibration_id, used.status().id);
+  EXPECT_TRUE(used.settings().station.calibration);
+  EXPECT_TRUE(used.alarms().empty());
+}
+
+TEST_F(CalibrationInUseTest, AnUnreadableOneIsNamedAndTheStationGoesOn) {
+  files_.put("instrument.toml", "rubbish = 1\n");
+  const CalibrationInUse refused(configured());
+  EXPECT_EQ(refused.status().state, CalibrationState::kRefused);
+  EXPECT_EQ(refused.settings().calibration_id, 5) << "its own values";
+  EXPECT_FALSE(refused.settings().station.calibration);
+  ASSERT_EQ(refused.alarms().size(), 1U);
+  EXPECT_NE(refused.alarms().front().find("instrument.toml:1: rubbish"), std::string::npos);
+}
+
+// Without a calibration, too: the next one would be stored under the configured serial numbers.
+TEST_F(CalibrationInUseTest, ADeviceThatSaysAnotherSerialNumberIsNamed) {
+  InstrumentSerials configured;
+  configured.camera = "C7";
+  EXPECT_TRUE(CalibrationInUse::other_devices(configured, {camera(""), camera("C7")}).empty());
+  EXPECT_TRUE(CalibrationInUse::other_devices(InstrumentSerials{}, {camera("C8")}).empty())
+      << "none is configured";
+  EXPECT_EQ(CalibrationInUse::other_devices(configured, {camera("C8")}),
+            std::vector<std::string>{"calibration: another camera than configured: it says 'C8', "
+                                     "[serials] has 'C7'"});
+  // By this a guided procedure knows the alarm.
+  EXPECT_TRUE(CalibrationInUse::other_devices(configured, {camera("C8")})
+                  .front()
+                  .starts_with(calibration::kAnotherDevice));
+}
+
+TEST_F(CalibrationInUseTest, ACameraThatIsAnotherEndsIt) {
+  CalibrationInUse used(configured());
+  EXPECT_FALSE(used.refuses({camera("")})) << "it does not say";
+  EXPECT_FALSE(used.refuses({camera("C7")}));
+  EXPECT_TRUE(used.refuses({camera("C8")}));
+  EXPECT_FALSE(used.refuses({camera("C8")})) << "once";
+  EXPECT_EQ(used.status().state, CalibrationState::kRefused);
+  EXPECT_FALSE(used.settings().station.calibration);
+  EXPECT_NE(used.alarms().front().find("is of camera 'C7', the camera says 'C8'"),
+            std::string::npos);
+}
+
+TEST_F(CalibrationInUseTest, AUnitInAnotherStepModeEndsIt) {
+  StationSettings settings = configured();
+  settings.station.geometry.sd.heading_rad = radians(0.5);
+  CalibrationInUse used(settings);
+  const double count = radians(11.5714 / 3600.0);
+  EXPECT_FALSE(used.refuses(PanTilt{})) << "it does not say yet";
+  EXPECT_FALSE(used.refuses(PanTilt{count, count}));
+  EXPECT_LT(used.settings().station.geometry.sd.heading_rad, radians(0.5));
+  EXPECT_TRUE(used.refuses(PanTilt{count, 2.0 * count}));
+  EXPECT_FALSE(used.refuses(PanTilt{count, 2.0 * count})) << "once";
+  EXPECT_EQ(used.status().state, CalibrationState::kRefused);
+  EXPECT_FALSE(used.settings().station.calibration);
+  EXPECT_EQ(used.settings().station.geometry.sd.heading_rad, radians(0.5)) << "as configured";
+  ASSERT_EQ(used.alarms().size(), 1U);
+  EXPECT_NE(used.alarms().front().find("the unit has another number of counts per turn"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace ols::station

@@ -1,0 +1,88 @@
+#include "edge/frames/pointing_model.h"
+
+#include <gtest/gtest.h>
+
+#include "geometry/angles.h"
+#include "tests/unit/edge/station/angle_sample.h"
+
+namespace ols::station {
+namespace {
+
+StationConfig config() {
+  StationConfig config;
+  config.geometry.position = {radians(49.2), radians(16.6), 250.0};
+  config.geometry.chain.heading_rad = radians(30.0);
+  config.geometry.sd.position_m = 0.3;
+  config.limits = {-radians(159), radians(159), -radians(46), radians(31)};
+  return config;
+}
+
+TEST(PointingModel, BeginsWithTheConfiguredPose) {
+  const PointingModel pointing(config());
+  EXPECT_EQ(pointing.pose().position_source, sensors::PoseSource::kSurveyed);
+  EXPECT_EQ(pointing.pose().position_sd_enu_m, Eigen::Vector3d::Constant(0.3));
+  EXPECT_EQ(pointing.pose_revision(), 0);
+}
+
+TEST(PointingModel, AnotherPoseIsAnotherGeometry) {
+  PointingModel pointing(config());
+  sensors::StationPose leaning = pointing.pose();
+  leaning.tilt_x_rad = radians(2.0);
+  leaning.tilt_sd_rad = radians(0.1);
+  pointing.set_pose(leaning);
+  EXPECT_EQ(pointing.pose_revision(), 1);
+  EXPECT_EQ(pointing.geometry().chain.tilt_x_rad, leaning.tilt_x_rad);
+  EXPECT_EQ(pointing.geometry().sd.tilt_rad, leaning.tilt_sd_rad);
+  pointing.set_pose(leaning);
+  EXPECT_EQ(pointing.pose_revision(), 1) << "the same again";
+}
+
+TEST(PointingModel, AimsOnlyWithinTheTravel) {
+  PointingModel pointing(config());
+  const auto ahead = pointing.aim({radians(20.0), 0.0});
+  ASSERT_TRUE(ahead);
+  EXPECT_NEAR(degrees(ahead->pan_rad), 10.0, 1e-3) << "pan is positive to the left";
+  EXPECT_FALSE(pointing.aim({radians(210.0), 0.0})) << "behind";
+  EXPECT_FALSE(pointing.aim({radians(20.0), radians(60.0)}));
+  pointing.set_limits({-radians(5), radians(5), -radians(46), radians(31)});
+  EXPECT_FALSE(pointing.aim({radians(20.0), 0.0})) << "the unit told of less travel";
+}
+
+// A unit of more than a turn gets to the same direction by other counts.
+TEST(PointingModel, ReachesADirectionByTheCountsThatAreNear) {
+  PointingModel pointing(config());
+  pointing.set_limits({-radians(400), radians(400), -radians(46), radians(31)});
+  pointing.add(angle_sample(10.0, {radians(350.0), 0.0}));
+  const auto there = pointing.reachable({radians(5.0), 0.0});
+  ASSERT_TRUE(there);
+  EXPECT_NEAR(degrees(there->pan_rad), 365.0, 1e-9);
+  const auto from_zero = pointing.reachable_from({}, {radians(5.0), 0.0});
+  EXPECT_NEAR(degrees(from_zero->pan_rad), 5.0, 1e-9);
+}
+
+TEST(PointingModel, APixelOnTheAxisIsThePrincipalPoint) {
+  const PointingModel pointing(config());
+  const CameraIntrinsics& camera = config().geometry.camera;
+  const auto pixel = pointing.pixel_of({}, {radians(30.0), 0.0});
+  ASSERT_TRUE(pixel);
+  EXPECT_NEAR(pixel->x(), camera.cx_px, 0.05);
+  EXPECT_NEAR(pixel->y(), camera.cy_px, 0.05);
+  EXPECT_TRUE(pointing.in_picture(*pixel));
+  EXPECT_FALSE(pointing.in_picture({camera.width_px + 1.0, 10.0}));
+  EXPECT_FALSE(pointing.in_picture({10.0, -1.0}));
+}
+
+TEST(PointingModel, KnowsNoMotionAcrossForgottenAngles) {
+  PointingModel pointing(config());
+  pointing.add(angle_sample(10.0, {}));
+  pointing.add(angle_sample(10.1, {radians(0.1), 0.0}));
+  const auto homography = pointing.homography(10.0, 10.1);
+  ASSERT_TRUE(homography);
+  EXPECT_GT((*homography / (*homography)(2, 2) - Eigen::Matrix3d::Identity()).norm(), 1.0);
+  pointing.forget_angles();
+  EXPECT_FALSE(pointing.homography(10.0, 10.1));
+  EXPECT_FALSE(pointing.newest_angles());
+}
+
+}  // namespace
+}  // namespace ols::station

@@ -1,0 +1,156 @@
+#include "edge/messages/messages.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "geometry/angles.h"
+
+namespace ols::station {
+namespace {
+
+using Status = ols_msg::station_status_t;
+
+Sender sender() {
+  Sender sender;
+  sender.station = "alfa";
+  sender.boot_id = 5;
+  sender.utc_minus_monotonic_us = 1'700'000'000'000'000;
+  sender.clock.state = clock::ClockState::kUnsynchronised;
+  sender.clock.error_s = 2.0;
+  return sender;
+}
+
+StationReport report() {
+  StationReport report;
+  report.snapshot.pose.position = {radians(49.2), radians(16.6), 250.0};
+  report.snapshot.pose.position_sd_enu_m = {1.0, 2.0, 3.0};
+  report.snapshot.pose.position_source = sensors::PoseSource::kSensor;
+  report.snapshot.camera_ecef = {1e6, 2e6, 3e6};
+  report.snapshot.counters["bearings"] = 7.0;
+  device::DeviceReport gnss;
+  gnss.name = "gnss";
+  gnss.state = device::DeviceState::kFault;
+  gnss.text = "no fix";
+  gnss.last_good_s = 40.0;
+  gnss.alarms = {"gnss: no fix"};
+  gnss.readings["gnss_satellites"] = 3.0;
+  gnss.counters["gnss_reports"] = 11;
+  report.devices = {gnss};
+  report.alarms = {"clock: stepped", "gnss: no fix"};
+  report.readings["disk_free_bytes"] = 1e9;
+  report.counters["clock_steps"] = 1.0;
+  report.last_error = "gnss: no fix";
+  report.last_error_utime_us = 123;
+  return report;
+}
+
+double value(const std::vector<std::string>& names, const std::vector<double>& values,
+             const std::string& name) {
+  const auto found = std::ranges::find(names, name);
+  if (found == names.end()) return std::numeric_limits<double>::quiet_NaN();
+  return values[static_cast<std::size_t>(found - names.begin())];
+}
+
+TEST(StationMessages, OneStatusTellsAll) {
+  const Status status = to_message(report(), sender(), StationSettings{}, 50.0, 3);
+  EXPECT_EQ(status.utime, 1'700'000'050'000'000);
+  EXPECT_EQ(status.position_source, +Status::POSE_SENSOR);
+  EXPECT_NEAR(status.latitude_deg, 49.2, 1e-12);
+  EXPECT_EQ(status.position_sd_m[2], 3.0);
+  EXPECT_EQ(status.camera_ecef_m[1], 2e6);
+  ASSERT_EQ(status.devices, 1);
+  EXPECT_EQ(status.device_name[0], "gnss");
+  EXPECT_EQ(status.device_state[0], +Status::DEVICE_FAULT);
+  EXPECT_EQ(status.device_text[0], "no fix");
+  EXPECT_EQ(status.device_age_s[0], 10.0);
+  EXPECT_EQ(status.alarm, (std::vector<std::string>{"clock: stepped", "gnss: no fix"}));
+  EXPECT_EQ(value(status.reading_name, status.reading_value, "gnss_satellites"), 3.0);
+  EXPECT_EQ(value(status.reading_name, status.reading_value, "disk_free_bytes"), 1e9);
+  EXPECT_EQ(value(status.counter_name, status.counter_value, "bearings"), 7.0);
+  EXPECT_EQ(value(status.counter_name, status.counter_value, "gnss_reports"), 11.0);
+  EXPECT_EQ(value(status.counter_name, status.counter_value, "clock_steps"), 1.0);
+  EXPECT_EQ(status.clock_error_s, 2.0);
+  EXPECT_EQ(status.last_error, "gnss: no fix");
+  EXPECT_EQ(status.last_error_utime, 123);
+  // What the arrays say of their lengths is what is sent.
+  std::vector<unsigned char> bytes(static_cast<std::size_t>(status.getEncodedSize()));
+  ASSERT_GT(status.encode(bytes.data(), 0, static_cast<int>(bytes.size())), 0);
+  Status again;
+  ASSERT_EQ(again.decode(bytes.data(), 0, static_cast<int>(bytes.size())),
+            static_cast<int>(bytes.size()));
+  EXPECT_EQ(again.alarm, status.alarm);
+}
+
+TEST(StationMessages, APositionThatIsNotKnownIsNotTold) {
+  StationReport unknown = report();
+  unknown.snapshot.pose.position_source = sensors::PoseSource::kNone;
+  const Status status = to_message(unknown, sender(), StationSettings{}, 50.0, 3);
+  EXPECT_EQ(status.position_source, +Status::POSE_NONE);
+  EXPECT_TRUE(std::isnan(status.latitude_deg));
+  EXPECT_TRUE(std::isnan(status.position_sd_m[0]));
+  EXPECT_TRUE(std::isnan(status.camera_ecef_m[0]));
+}
+
+TEST(StationMessages, TheClocksQualityIsInEveryBearing) {
+  const auto bearing = to_message(Bearing{}, sender(), StationSettings{}, 1);
+  EXPECT_EQ(bearing.clock_state, +ols_msg::bearing_t::CLOCK_UNSYNCHRONISED);
+  EXPECT_EQ(bearing.clock_error_s, 2.0);
+}
+
+TEST(StationMessages, AnotherPoseIsAnotherCalibration) {
+  StationSettings settings;
+  settings.calibration_id = 42;
+  Bearing bearing;
+  EXPECT_EQ(to_message(bearing, sender(), settings, 1).calibration_id, 42);
+  bearing.pose_revision = 1;
+  const auto first = to_message(bearing, sender(), settings, 1).calibration_id;
+  bearing.pose_revision = 2;
+  const auto second = to_message(bearing, sender(), settings, 1).calibration_id;
+  Sender restarted = sender();
+  restarted.boot_id = 6;
+  const auto third = to_message(bearing, restarted, settings, 1).calibration_id;
+  EXPECT_NE(first, 42);
+  EXPECT_NE(second, first);
+  EXPECT_NE(third, second) << "the sensors' pose of another boot is another one";
+  EXPECT_GE(std::min({first, second, third}), 0);
+}
+
+TEST(StationMessages, OnlySpansOfTimeAreRecorded) {
+  ols_msg::record_t message;
+  message.event_utime = 0;
+  message.before_s = 2.0;
+  message.after_s = 3.0;
+  message.label = "flash";
+  const auto command = from_message(message, sender(), 50.0);
+  ASSERT_TRUE(command);
+  EXPECT_EQ(command->event_s, 50.0);
+  EXPECT_EQ(command->before_s, 2.0);
+  EXPECT_EQ(command->label, "flash");
+  message.event_utime = 1'700'000'045'000'000;
+  EXPECT_NEAR(from_message(message, sender(), 50.0)->event_s, 45.0, 1e-6);
+  const double inf = std::numeric_limits<double>::infinity();
+  for (const double bad : {std::nan(""), inf, -inf, -1.0, 1e9}) {
+    auto spoilt = message;
+    spoilt.before_s = bad;
+    EXPECT_FALSE(from_message(spoilt, sender(), 50.0)) << bad;
+    spoilt = message;
+    spoilt.after_s = bad;
+    EXPECT_FALSE(from_message(spoilt, sender(), 50.0)) << bad;
+  }
+  for (const std::int64_t bad : {std::numeric_limits<std::int64_t>::min(), std::int64_t{1},
+                                 std::numeric_limits<std::int64_t>::max()}) {
+    message.event_utime = bad;
+    EXPECT_FALSE(from_message(message, sender(), 50.0)) << bad;
+  }
+}
+
+TEST(StationReport, OneLineSaysWhatIsWrong) {
+  EXPECT_EQ(in_one_line(report()), "idle; gnss fault; clock: stepped and 1 more alarms");
+  EXPECT_EQ(in_one_line(StationReport{}), "idle");
+}
+
+}  // namespace
+}  // namespace ols::station

@@ -1,0 +1,68 @@
+// The host's clock may be stepped while the site runs: this program brings a clock_gettime of its
+// own that does so.
+#include "sim/live/live_site.h"
+
+#include <gtest/gtest.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <ctime>
+
+#include "base/process/clocks.h"
+#include "ols_msg/truth_target_t.hpp"
+#include "tests/unit/temp_dir.h"
+
+namespace {
+std::atomic<std::int64_t> utc_step_s{0};
+}
+
+extern "C" int clock_gettime(clockid_t clock, timespec* now) noexcept {
+  const long result = syscall(SYS_clock_gettime, clock, now);
+  if (clock == CLOCK_REALTIME) now->tv_sec += utc_step_s;
+  return static_cast<int>(result);
+}
+
+namespace ols::sim {
+namespace {
+
+Scenario without_stations() {
+  Scenario scenario = load_scenario(std::string(OLS_SCENARIOS) + "/fig7.toml");
+  scenario.stations.clear();
+  return scenario;
+}
+
+ols_msg::truth_target_t published(LiveSite& site, LcmBus& bus, ols_msg::truth_target_t& received) {
+  site.publish_truth();
+  EXPECT_EQ(bus.handle(1000), 1);
+  return received;
+}
+
+TEST(LiveSite, SteppedHostClockMovesNeitherTargetNorItsStamp) {
+  const World world(without_stations(), 1);
+  LcmBus bus("memq://");
+  ols_msg::truth_target_t received{};
+  bus.subscribe("OLS_SIM_TRUTH",
+                [&](const BusMessage& message) { EXPECT_TRUE(decode_exactly(message, received)); });
+  LiveSite site(world, temp_dir() + "ols_live_site_" + std::to_string(::getpid()), bus);
+
+  const std::int64_t utc_us = clock_utime_us();
+  const auto before = published(site, bus, received);
+  EXPECT_NEAR(static_cast<double>(before.utime - utc_us), 0.0, 5e6);
+
+  utc_step_s = 3600;
+  EXPECT_GT(clock_utime_us() - utc_us, 3'599'000'000);  // the step is really seen
+  const auto after = published(site, bus, received);
+  utc_step_s = 0;
+
+  const double later_s = 1e-6 * static_cast<double>(after.utime - before.utime);
+  EXPECT_GE(later_s, 0.0);
+  EXPECT_LT(later_s, 5.0);
+  const Eigen::Vector3d moved =
+      Eigen::Vector3d(after.position_ecef_m) - Eigen::Vector3d(before.position_ecef_m);
+  const Eigen::Vector3d expected = later_s * Eigen::Vector3d(before.velocity_ecef_m_s);
+  EXPECT_LT((moved - expected).norm(), 0.5 + 10.0 * later_s * later_s);
+}
+
+}  // namespace
+}  // namespace ols::sim

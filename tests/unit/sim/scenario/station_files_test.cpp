@@ -1,0 +1,82 @@
+#include "sim/scenario/station_files.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "edge/camera/aravis/aravis_kind.h"
+#include "edge/config/config.h"
+#include "edge/ptu/ptu_kind.h"
+#include "edge/station/persisted_station_state.h"
+#include "tests/unit/temp_dir.h"
+
+namespace ols::sim {
+namespace {
+
+TEST(StationFiles, AreReadByTheStationAsTheNominalGeometry) {
+  const World world(load_scenario(std::string(OLS_SCENARIOS) + "/fig7.toml"), 5);
+  const auto folder = std::filesystem::path(temp_dir()) / ("files_" + std::to_string(::getpid()));
+  const std::string state = folder / "state";
+  write_station_files(world, {"udpm://239.255.76.67:7667?ttl=0", "/tmp/lines", state}, folder);
+  for (const StationTruth& truth : world.stations()) {
+    const station::StationSettings read =
+        station::load_station_settings(folder / (truth.id + ".toml"));
+    const StationGeometry& g = read.station.geometry;
+    EXPECT_EQ(read.id, truth.id);
+    EXPECT_EQ(read.state_folder, state);
+    const station::PersistedStationState memory(state, truth.id, true);
+    EXPECT_EQ(memory.begin(), station::StationState::kIdle);
+    EXPECT_EQ(memory.doubt(), std::nullopt);
+    EXPECT_LT((ecef_from_geodetic(g.position) - ecef_from_geodetic(truth.nominal.position)).norm(),
+              1e-6);
+    const PanTilt angles{0.3, 0.2};
+    const Eigen::Isometry3d told = enu_from_camera(g.chain, angles);
+    EXPECT_LT((told.matrix() - enu_from_camera(truth.nominal.chain, angles).matrix()).norm(),
+              1e-12);
+    EXPECT_GT((told.matrix() - enu_from_camera(truth.truth.chain, angles).matrix()).norm(), 1e-6)
+        << "the truth must not leak";
+    EXPECT_NEAR(g.camera.k1, truth.nominal.camera.k1, 1e-15);
+    EXPECT_NEAR(g.camera.fx_px, truth.nominal.camera.fx_px, 1e-9);
+    EXPECT_NEAR(g.sd.heading_rad, truth.nominal.sd.heading_rad, 1e-15);
+    EXPECT_NEAR(g.sd.mount_roll_rad, truth.nominal.sd.mount_roll_rad, 1e-15);
+    EXPECT_EQ(g.sd.position_m, truth.nominal.sd.position_m);
+    EXPECT_EQ(read.clock.assumed_sd_s, truth.clock_sd_s);
+    EXPECT_EQ(read.mount.as<ptu::PtuKind>()->unit.device, "/tmp/lines/" + truth.id + ".ptu");
+    EXPECT_EQ(read.inclinometer.device, "/tmp/lines/" + truth.id + ".inclinometer");
+    EXPECT_EQ(read.gnss.port, std::to_string(2950 + (&truth - world.stations().data())));
+    EXPECT_EQ(read.gnss.ground_to_antenna_enu_m, world.scenario().gnss.ground_to_antenna_enu_m);
+    EXPECT_NEAR(read.camera.as<camera::AravisKind>()->aravis.exposure_us, 2000.0, 1e-9);
+  }
+  std::filesystem::remove_all(folder);
+}
+
+TEST(StationFiles, HaveNoSensorsWhereTheScenarioHasNone) {
+  Scenario scenario = load_scenario(std::string(OLS_SCENARIOS) + "/fig7.toml");
+  scenario.inclinometer.on = scenario.gnss.on = false;
+  const std::string file = station_file(World(scenario, 5), 0, {"", "/tmp/lines", ""});
+  EXPECT_EQ(file.find("[inclinometer]"), std::string::npos);
+  EXPECT_EQ(file.find("[gnss]"), std::string::npos);
+}
+
+TEST(StationFiles, SayWhichCameraStandsStill) {
+  Scenario scenario = load_scenario(std::string(OLS_SCENARIOS) + "/fig7.toml");
+  scenario.stations[0].fixed = PanTilt{radians(20.0), radians(4.0)};
+  const std::string file = station_file(World(scenario, 5), 0, {"", "/tmp/lines", ""});
+  EXPECT_NE(file.find("[mount]\nkind = \"fixed\"\npan_deg = 20"), std::string::npos) << file;
+}
+
+TEST(StationFiles, AreReadFromAFolderOfAnyName) {
+  const World world(load_scenario(std::string(OLS_SCENARIOS) + "/fig7.toml"), 5);
+  const auto folder = std::filesystem::path(temp_dir()) / ("named_" + std::to_string(::getpid()));
+  const std::string state = folder / "a \"quoted\" \\ state", lines = folder / "li\"nes";
+  write_station_files(world, {"udpm://239.255.76.67:7667?ttl=0", lines, state}, folder);
+  const std::string& id = world.stations()[0].id;
+  const station::StationSettings read = station::load_station_settings(folder / (id + ".toml"));
+  EXPECT_EQ(read.state_folder, state);
+  EXPECT_EQ(read.mount.as<ptu::PtuKind>()->unit.device, lines + "/" + id + ".ptu");
+  EXPECT_EQ(read.inclinometer.device, lines + "/" + id + ".inclinometer");
+  std::filesystem::remove_all(folder);
+}
+
+}  // namespace
+}  // namespace ols::sim
