@@ -26,29 +26,47 @@ std::optional<Parameters> match(std::string_view pattern, std::string_view said)
   }
 }
 
-std::pair<const AlarmSentence*, Parameters> find(std::string_view said) {
-  for (const AlarmSentence& one : alarm_sentences()) {
-    if (auto found = match(one.english, said)) return {&one, std::move(*found)};
-  }
-  return {nullptr, {}};
-}
-
 }  // namespace
 
 Alarm alarm_of(std::string_view sentence) {
-  auto [known, parameters] = find(sentence);
-  return known ? Alarm{std::string(known->id), std::move(parameters)} : Alarm{};
+  for (const AlarmSentence& one : alarm_sentences()) {
+    if (auto found = match(one.english, sentence)) {
+      return {std::string(sentence), std::string(one.id), std::move(*found)};
+    }
+  }
+  return {std::string(sentence), {}, {}};
 }
 
-std::string alarm_key(const std::string& sentence) {
-  const auto [known, parameters] = find(sentence);
-  if (!known) return sentence;
-  std::string key(known->id);
+std::vector<Alarm> alarms_of(const std::vector<std::string>& sentences) {
+  std::vector<Alarm> alarms;
+  for (const std::string& sentence : sentences) alarms.push_back(alarm_of(sentence));
+  return alarms;
+}
+
+const AlarmSentence& Alarm::row() const {
+  static constexpr AlarmSentence kUnknown{{}, {}, {}, "warning", {}};
+  const auto known = std::ranges::find(alarm_sentences(), id, &AlarmSentence::id);
+  return known == alarm_sentences().end() ? kUnknown : *known;
+}
+
+std::string Alarm::key() const {
+  if (id.empty()) return text;
+  std::string key = id;
   for (const auto& [name, value] : parameters) {
-    const bool is_subject = known->subject.find(" " + name + " ") != std::string_view::npos;
-    if (is_subject) key.append(" ").append(value);
+    if (is_subject(name)) key.append(" ").append(value);
   }
   return key;
+}
+
+std::string Alarm::gist() const {
+  if (row().id.empty()) return text;
+  std::string gist(row().english);
+  for (const auto& [name, value] : parameters) {
+    const std::string place = "{" + name + "}";
+    const std::size_t at = gist.find(place);
+    if (at != std::string::npos) gist.replace(at, place.size(), is_subject(name) ? value : "…");
+  }
+  return gist;
 }
 
 }  // namespace ols

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The table of conditions, and what is made of it.
 
-table.py docs          writes the tables of alarms in docs/troubleshooting.md anew
+table.py docs          writes the tables in docs/troubleshooting.md anew
 """
 
 import json
@@ -12,6 +12,7 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 TROUBLESHOOTING = HERE.parent / "docs/troubleshooting.md"
+CELLS = ("meaning", "action")
 PARAMETER = re.compile(r"\{(\w+)(?::([^}]*))?\}")
 
 
@@ -21,6 +22,16 @@ def table() -> dict:
 
 def alarms(of: dict) -> list[dict]:
     return [alarm for group in of["group"] for alarm in group["alarm"]]
+
+
+def refusals(of: dict) -> dict[str, list[str]]:
+    """What a person is told of each reason, in both languages."""
+    return {
+        reason: both
+        for group in of["refusals"]
+        for row in group["rows"]
+        for reason, both in row.get("says", {}).items()
+    }
 
 
 def shown(sentence: str) -> str:
@@ -37,24 +48,40 @@ def of_the_page() -> dict:
     whole = table()
     rows = []
     for alarm in alarms(whole):
-        text = {shown(english): shown(german) for english, german in alarm["says"].values()}
+        says = {key: [shown(one) for one in both] for key, both in alarm["says"].items()}
         both = {key: [plain(alarm[key][0]), alarm[key][1]] for key in ("meaning", "action")}
-        rows.append({"severity": alarm["severity"], "text": text, **both})
-    return {"alarms": rows, **{part: whole[part] for part in ("phrases", "words", "names")}}
+        rows.append({"severity": alarm["severity"], "says": says, **both})
+    phrases = {**dict(refusals(whole).values()), **whole["phrases"]}
+    return {"alarms": rows, "phrases": phrases, "words": whole["words"], "names": whole["names"]}
 
 
 def of_the_documents(document: str) -> str:
-    """The document with the rows of the table below each group's heading."""
-    for group in table()["group"]:
-        rows = []
-        for alarm in group["alarm"]:
-            texts = ", ".join(f"`{shown(english)}`" for english, _ in alarm["says"].values())
-            cells = (texts, alarm["meaning"][0], alarm["action"][0])
-            rows.append("| " + " | ".join(cells).replace("|  |", "| |") + " |\n")
-        above = rf"(^## Alarms of {re.escape(group['of'])}\n(?:(?!^## ).*\n)*?\|---.*\n)(?:\|.*\n)*"
-        new = "".join(rows)
-        document = re.sub(above, lambda found, new=new: found[1] + new, document, flags=re.M)
-    return document
+    """The document with the rows of the table below each group's heading, in its next table."""
+    whole = table()
+    tables: dict[str, list[str]] = {}
+    for group in whole["group"]:
+        rows = [
+            ([shown(said[0]) for said in row["says"].values()], row["meaning"][0], row["action"][0])
+            for row in group["alarm"]
+        ]
+        tables[f"Alarms of {group['of']}"] = [in_markdown(rows)]
+    for group in whole["refusals"]:
+        rows = [
+            ([*row.get("says", ()), *row.get("names", ())], *(row[k] for k in CELLS if k in row))
+            for row in group["rows"]
+        ]
+        tables.setdefault(group["under"], []).append(in_markdown(rows))
+    sections = re.split(r"^(?=## )", document, flags=re.M)
+    for i, section in enumerate(sections):
+        new = iter(tables.get(section[3:].partition("\n")[0], ()))
+        filled = lambda found, new=new: found[1] + next(new, found[2])  # noqa: E731
+        sections[i] = re.sub(r"^(\|---.*\n)((?:\|.*\n)*)", filled, section, flags=re.M)
+    return "".join(sections)
+
+
+def in_markdown(rows: list[tuple]) -> str:
+    named = [(", ".join(f"`{name}`" for name in names), *cells) for names, *cells in rows]
+    return "".join("| " + " | ".join(row).replace("|  |", "| |") + " |\n" for row in named)
 
 
 HEADER = """// Made by conditions/table.py: what each alarm says. Pure.
@@ -73,8 +100,10 @@ SOURCE = """// Made by conditions/table.py.
 
 #include <array>
 #include <cstdio>
+#include <map>
 
 #include "conditions/alarm.h"
+#include "conditions/refusal.h"
 
 namespace ols {
 namespace {
@@ -91,6 +120,13 @@ constexpr std::array<AlarmSentence, %d> kSentences{{
 }  // namespace
 
 std::span<const AlarmSentence> alarm_sentences() { return kSentences; }
+
+std::string_view refusal_sentence(std::string_view reason) {
+  static const std::map<std::string_view, std::string_view> kRefusals{
+%s  };
+  const auto known = kRefusals.find(reason);
+  return known == kRefusals.end() ? std::string_view() : known->second;
+}
 
 namespace alarm {
 
@@ -131,10 +167,15 @@ def of_the_programs() -> tuple[str, str]:
     for row, name, (english, _) in rows:
         subject = f" {' '.join(row['subject'])} " if "subject" in row else ""
         named = PARAMETER.sub(r"{\1}", english)
-        sentences += f"    {{{', '.join(json.dumps(one) for one in (name, named, subject))}}},\n"
+        cells = (name, named, subject, row["severity"], plain(row["action"][0]))
+        sentences += f"    {{{', '.join(json.dumps(one) for one in cells)}}},\n"
     header = "".join(f"{declared(name, english)};\n" for _, name, (english, _) in rows)
     source = "".join(defined(name, english) for _, name, (english, _) in rows)
-    return HEADER % header, SOURCE % (len(rows), sentences, source)
+    refused = "".join(
+        f"      {{{json.dumps(reason)}, {json.dumps(says[0])}}},\n"
+        for reason, says in refusals(table()).items()
+    )
+    return HEADER % header, SOURCE % (len(rows), sentences, refused, source)
 
 
 def main() -> int:

@@ -11,11 +11,12 @@ namespace {
 
 constexpr std::int64_t kAnswer_us = 5'000'000;  // a refused command is answered within
 
-// Alarms are told apart by the table, and so is what repeats an alarm's words; other events are the
-// same whatever their numbers.
+// Alarms have their keys, and so has what repeats an alarm's words; other events are the same
+// whatever their numbers.
 std::string key_of(const Event& event) {
-  std::string key = alarm_key(event.text);
-  if (event.kind != "alarm" && key == event.text) {
+  if (!event.key.empty()) return event.key;
+  std::string key = alarm_of(event.text).key();
+  if (key == event.text) {
     std::erase_if(key, [](unsigned char c) { return std::isdigit(c) != 0; });
   }
   return key;
@@ -83,9 +84,8 @@ void EventList::conclude(std::uint64_t number, const std::string& outcome, Revis
   }
 }
 
-void EventList::end(const std::string& station, const std::string& text, std::int64_t utime_us,
+void EventList::end(const std::string& station, const std::string& key, std::int64_t utime_us,
                     Revision& revision) {
-  const std::string key = alarm_key(text);
   for (Kept& kept : events_) {
     if (!kept.holds() || kept.event.station != station || kept.key != key) continue;
     kept.over_us = utime_us;

@@ -18,6 +18,7 @@ struct Event {
   std::string who;            // of a command
   std::string text;
   std::string outcome;  // of a command: empty while unknown, "done", or the reason
+  std::string key{};    // Alarm::key() of an alarm
 };
 
 class EventList {
@@ -29,8 +30,8 @@ class EventList {
   std::uint64_t add(Event event, Revision& revision);
   void conclude(std::uint64_t number, const std::string& outcome, Revision& revision);
 
-  // The alarm with this text, whatever its parameters, has ended.
-  void end(const std::string& station, const std::string& text, std::int64_t utime_us,
+  // The alarm with this key has ended.
+  void end(const std::string& station, const std::string& key, std::int64_t utime_us,
            Revision& revision);
   // All alarms of a station have ended.
   void end_all(const std::string& station, std::int64_t utime_us, Revision& revision);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "conditions/alarm.h"
 #include "console/entity_table.h"
 
 namespace ols::console {
@@ -16,7 +17,7 @@ struct StationHeard {
   Json fields;  // docs/console.md lists them
   bool is_stopped = false;
   std::string video_address;  // where its pictures are to be had; empty: nowhere
-  std::vector<std::string> alarms;
+  std::vector<Alarm> alarms;
   std::string last_error;
   std::int64_t last_error_utime_us = 0;
 };
@@ -33,7 +34,7 @@ struct TargetHeard {
 struct FusionHeard {
   std::int64_t boot_id = 0;
   Json fields;
-  std::vector<std::string> alarms;
+  std::vector<Alarm> alarms;
   std::string last_error;
 };
 

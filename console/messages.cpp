@@ -72,16 +72,13 @@ const char* kind_of(const Status& s) {
   }
 }
 
-std::vector<std::string> first_of(std::vector<std::string> texts) {
-  if (texts.size() > kMostListed) texts.resize(kMostListed);
-  return texts;
-}
-
-// By which the page finds an alarm's event.
-std::vector<std::string> keys_of(const std::vector<std::string>& alarms) {
-  std::vector<std::string> keys = first_of(alarms);
-  for (std::string& key : keys) key = alarm_key(key);
-  return keys;
+// The alarms, and the keys by which the page finds their rows of the table and their events.
+void add_alarms(const std::vector<Alarm>& alarms, Json& fields) {
+  fields["alarms"] = fields["alarm_keys"] = Json::array();
+  for (const Alarm& alarm : alarms) {
+    fields["alarms"].push_back(alarm.text);
+    fields["alarm_keys"].push_back(alarm.key());
+  }
 }
 
 // Null for what is no place: a station's, while it does not know its own.
@@ -238,16 +235,16 @@ std::optional<StationHeard> station_from(const BusMessage& message) {
        {{"state", wire::clock_name(s.clock_state)}, {"error_s", rounded(s.clock_error_s, 6)}}},
       {"calibration", calibration_of(s)},
       {"frame_latency_s", rounded(s.frame_latency_s, 3)},
-      {"alarms", first_of(s.alarm)},
-      {"alarm_keys", keys_of(s.alarm)},
       {"readings", named(s.reading_name, s.reading_value)},
       {"counters", named(s.counter_name, s.counter_value)},
       {"last_error", error},
       {"last_error_utime_us", s.last_error_utime}};
+  std::vector<Alarm> alarms = alarms_of(s, kMostListed);
+  add_alarms(alarms, fields);
   add_pose(s, fields);
   add_pointing(s, fields);
   return StationHeard{s.station,           std::move(fields), wire::is_stopped(s.state),
-                      video_address_of(s), first_of(s.alarm), error,
+                      video_address_of(s), std::move(alarms), error,
                       s.last_error_utime};
 }
 
@@ -313,10 +310,10 @@ std::optional<FusionHeard> fusion_from(const BusMessage& message) {
               {"cues", cues_of(f)},
               {"latency_s", rounded(f.latency_s, 4)},
               {"counters", named(f.counter_name, f.counter_value)},
-              {"alarms", first_of(f.alarm)},
-              {"alarm_keys", keys_of(f.alarm)},
               {"last_error", f.last_error}};
-  return FusionHeard{f.boot_id, std::move(fields), first_of(f.alarm), f.last_error};
+  std::vector<Alarm> alarms = alarms_of(f, kMostListed);
+  add_alarms(alarms, fields);
+  return FusionHeard{f.boot_id, std::move(fields), std::move(alarms), f.last_error};
 }
 
 }  // namespace ols::console

@@ -66,8 +66,7 @@ class SiteState {
   static constexpr double kStationStale_s = 2.5;  // five status intervals
   static constexpr double kTargetStale_s = 1.5;
   static constexpr double kFusionGone_s = 1.5;
-  static constexpr std::size_t kMostAlarms = 32;                // of a station
-  static constexpr const char* kSilent = "no status any more";  // an alarm
+  static constexpr std::size_t kMostAlarms = 32;  // of a station
   static constexpr std::size_t kMostStations = 200, kMostTargets = 500, kMostTrailPoints = 600;
 
  private:
@@ -83,7 +82,7 @@ class SiteState {
   };
 
   void note_alarms(AlarmChanges& known, const std::string& station,
-                   const std::vector<std::string>& alarms, std::int64_t utime_us);
+                   const std::vector<Alarm>& alarms, std::int64_t utime_us);
   void note_error(const std::string& station, const std::string& error, std::int64_t error_utime_us,
                   std::int64_t utime_us);
   void add_to_trail(const TargetHeard& target, double now_s);

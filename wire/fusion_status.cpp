@@ -10,7 +10,8 @@ std::optional<ols_msg::fusion_status_t> heard_fusion_status(const BusMessage& me
   if (!status) return std::nullopt;
   status->last_error = plain_text(status->last_error);
   for (auto* texts : {&status->station, &status->quarantine, &status->counter_name, &status->alarm,
-                      &status->cue_id, &status->cue_label}) {
+                      &status->alarm_id, &status->alarm_parameter_name,
+                      &status->alarm_parameter_value, &status->cue_id, &status->cue_label}) {
     for (std::string& text : *texts) text = plain_text(text);
   }
   return status;

@@ -2,14 +2,10 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 
 #include "wire/order.h"
 
 namespace ols::wire {
-
-// A sentence for a reason by which stations refuse: "no_frame". Empty: no such reason.
-std::string_view words_for(std::string_view reason);
 
 // "refused: that picture is too old; ..". Of a reply that refuses.
 std::string refusal_in_words(const Reply& reply);

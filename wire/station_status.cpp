@@ -13,7 +13,8 @@ std::optional<ols_msg::station_status_t> heard_status(const BusMessage& message)
   auto status = read<ols_msg::station_status_t>(kStatusChannel, message);
   if (!status) return std::nullopt;
   status->last_error = plain_text(status->last_error);
-  for (auto* texts : {&status->device_name, &status->device_text, &status->alarm,
+  for (auto* texts : {&status->device_name, &status->device_text, &status->alarm, &status->alarm_id,
+                      &status->alarm_parameter_name, &status->alarm_parameter_value,
                       &status->reading_name, &status->counter_name}) {
     for (std::string& text : *texts) text = plain_text(text);
   }

@@ -2,15 +2,13 @@
 
 #include <utility>
 
-#include "conditions/alarm.h"
-
 namespace ols {
 
-std::vector<AlarmChanges::Change> AlarmChanges::look(const std::vector<std::string>& alarms) {
+std::vector<AlarmChanges::Change> AlarmChanges::look(const std::vector<Alarm>& alarms) {
   std::vector<Change> changes;
-  std::map<std::string, std::string> now;
-  for (const std::string& alarm : alarms) {
-    const std::string key = alarm_key(alarm);
+  std::map<std::string, Alarm> now;
+  for (const Alarm& alarm : alarms) {
+    const std::string key = alarm.key();
     if (!alarms_.contains(key) && !now.contains(key)) changes.push_back({key, alarm, true});
     now[key] = alarm;
   }

@@ -5,20 +5,22 @@
 #include <string>
 #include <vector>
 
+#include "conditions/alarm.h"
+
 namespace ols {
 
 class AlarmChanges {
  public:
   struct Change {
     std::string key;  // the same at the beginning and at the end
-    std::string alarm;
+    Alarm alarm;
     bool begins = false;
   };
-  // Takes the current alarms. alarm_key() tells which are the same: "silent for 5 s", "for 6 s".
-  std::vector<Change> look(const std::vector<std::string>& alarms);
+  // Takes the current alarms. Their keys tell which are the same: "silent for 5 s", "for 6 s".
+  std::vector<Change> look(const std::vector<Alarm>& alarms);
 
  private:
-  std::map<std::string, std::string> alarms_;  // by key
+  std::map<std::string, Alarm> alarms_;  // by key
 };
 
 }  // namespace ols

@@ -7,14 +7,16 @@ namespace {
 constexpr const char* kWarning = "4";
 constexpr const char* kInformation = "6";
 
-JournalEvent about(const std::string& alarm, bool begins) {
-  JournalEvent event{.text = (begins ? "alarm: " : "over: ") + alarm, .bad = begins};
-  const std::size_t colon = alarm.find(": ");
+JournalEvent about(const Alarm& alarm, bool begins) {
+  JournalEvent event{.text = (begins ? "alarm: " : "over: ") + alarm.text, .bad = begins};
+  event.alarm = alarm.id;
+  event.action = alarm.row().action.empty() ? "-" : alarm.row().action;
+  const std::size_t colon = alarm.text.find(": ");
   if (colon == std::string::npos) {
-    event.reason = alarm;
+    event.reason = alarm.text;
   } else {
-    event.device = alarm.substr(0, colon);
-    event.reason = alarm.substr(colon + 2);
+    event.device = alarm.text.substr(0, colon);
+    event.reason = alarm.text.substr(colon + 2);
   }
   return event;
 }
@@ -31,6 +33,8 @@ std::vector<std::string> journal_fields(const JournalEvent& event) {
   add("OLS_STATION=", event.station);
   add("OLS_DEVICE=", event.device);
   add("OLS_REASON=", event.reason);
+  add("OLS_ALARM=", event.alarm);
+  add("OLS_ACTION=", event.action);
   return fields;
 }
 
@@ -46,7 +50,7 @@ JournalEvent bus_connected_event(const std::string& url) {
   return {.text = "connected to " + url, .id = event::kBusConnected, .device = "bus"};
 }
 
-JournalEvent alarm_event(const std::string& alarm, bool begins) {
+JournalEvent alarm_event(const Alarm& alarm, bool begins) {
   constexpr std::string_view kStation = "station ";
   JournalEvent event = about(alarm, begins);
   event.id = begins ? event::kAlarmBegins : event::kAlarmEnds;
@@ -57,7 +61,7 @@ JournalEvent alarm_event(const std::string& alarm, bool begins) {
   return event;
 }
 
-JournalEvent station_alarm_event(const std::string& alarm, bool begins) {
+JournalEvent station_alarm_event(const Alarm& alarm, bool begins) {
   JournalEvent event = about(alarm, begins);
   event.id = begins ? event::kStationAlarmBegins : event::kStationAlarmEnds;
   return event;

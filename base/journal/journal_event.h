@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/journal/event_ids.h"
+#include "conditions/alarm.h"
 
 namespace ols {
 
@@ -15,6 +16,8 @@ struct JournalEvent {
   std::string station{};  // its id
   std::string device{};   // or the part of a program, or a connection
   std::string reason{};   // without the other words of the text
+  std::string alarm{};    // its id in conditions.toml
+  std::string action{};   // what to do about it
 };
 
 // "NAME=value" each, as the journal takes them. Empty fields are left out.
@@ -25,8 +28,8 @@ JournalEvent bus_lost_event(const std::string& why);
 JournalEvent bus_connected_event(const std::string& url);
 // An alarm of a program. The words before its first colon name its subject ("station NAME" or a
 // part); the others are its reason. begins: false if the alarm ends.
-JournalEvent alarm_event(const std::string& alarm, bool begins);
+JournalEvent alarm_event(const Alarm& alarm, bool begins);
 // The same for a station, about its own parts.
-JournalEvent station_alarm_event(const std::string& alarm, bool begins);
+JournalEvent station_alarm_event(const Alarm& alarm, bool begins);
 
 }  // namespace ols

@@ -26,14 +26,13 @@ Precondition clock_of(const StationFacts& facts, const Wanted& wanted) {
 
 // What is found is of the instrument with the configured serial numbers.
 Precondition devices_of(const StationFacts& facts) {
-  const std::string prefix = kAnotherDevice;
-  const auto other = std::ranges::find_if(
-      facts.alarms, [&](const std::string& alarm) { return alarm.starts_with(prefix); });
+  const auto other = std::ranges::find(facts.alarms, "other_device", &Alarm::id);
   if (other == facts.alarms.end()) {
     return {true, true, "no device says another serial number than configured"};
   }
   return {false, true,
-          other->substr(prefix.find("another")) + ": correct [serials], or connect the right one"};
+          other->text.substr(other->text.find("another")) +
+              ": correct [serials], or connect the right one"};
 }
 
 // Where the sun stands in the unit's angles is known as well as the heading; SunKeepOut's margin
@@ -87,7 +86,7 @@ std::vector<Precondition> preconditions(const StationFacts& facts, const Wanted&
   all.push_back(clock_of(facts, wanted));
   if (wanted.sun_kept_out) all.push_back(heading_of(facts));
   add(facts.alarms.empty(), false, "no alarm",
-      facts.alarms.empty() ? "" : "alarm: " + facts.alarms.front());
+      facts.alarms.empty() ? "" : "alarm: " + facts.alarms.front().text);
   return all;
 }
 

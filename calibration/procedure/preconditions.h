@@ -5,10 +5,9 @@
 #include <string>
 #include <vector>
 
-namespace ols::calibration {
+#include "conditions/alarm.h"
 
-// The beginning of a station's alarm when a device has another serial number than configured.
-inline constexpr const char* kAnotherDevice = "calibration: another ";
+namespace ols::calibration {
 
 // From a station's status.
 struct StationFacts {
@@ -24,7 +23,7 @@ struct StationFacts {
   bool clock_synchronised = false;
   double clock_error_s = 0.0;
   int image_width_px = 0, image_height_px = 0;
-  std::vector<std::string> alarms;
+  std::vector<Alarm> alarms;
 };
 
 struct Wanted {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "conditions/refusal.h"
 #include "geometry/angles.h"
 
 namespace ols::fusion {
@@ -83,29 +84,9 @@ const char* to_string(BearingRefusal refusal) {
   return "unknown";
 }
 
-const char* in_words(BearingRefusal refusal) {
-  switch (refusal) {
-    case BearingRefusal::kNotFinite:
-      return "a bearing refused: a value that is not a number";
-    case BearingRefusal::kOutOfRange:
-      return "a bearing refused: a value out of range";
-    case BearingRefusal::kCovariance:
-      return "a bearing refused: an impossible covariance";
-    case BearingRefusal::kUnknown:
-      return "bearings refused: not among the stations of this site";
-    case BearingRefusal::kStale:
-      return "bearings refused: they come too late; check its clock and the network";
-    case BearingRefusal::kFuture:
-      return "bearings refused: stamped ahead of the others; check its clock";
-    case BearingRefusal::kDuplicate:
-      return "a bearing refused: it came twice; check the network";
-    case BearingRefusal::kTooMany:
-      return "bearings refused: too many stations";
-    case BearingRefusal::kFlood:
-      return "bearings refused: far too many a second";
-    default:
-      return to_string(refusal);
-  }
+std::string_view in_words(BearingRefusal refusal) {
+  const std::string_view sentence = refusal_sentence(to_string(refusal));
+  return sentence.empty() ? to_string(refusal) : sentence;
 }
 
 bool is_a_stations_place(const Eigen::Vector3d& p_ecef, const Eigen::Vector3d& sd_enu_m) {

@@ -1,6 +1,8 @@
 // Checks of a bearing that need nothing but the bearing itself. Pure.
 #pragma once
 
+#include <string_view>
+
 #include "central/measurement/bearing_measurement.h"
 
 namespace ols::fusion {
@@ -23,7 +25,7 @@ enum class BearingRefusal {
 };
 const char* to_string(BearingRefusal refusal);
 // For people: what is wrong and where to look.
-const char* in_words(BearingRefusal refusal);
+std::string_view in_words(BearingRefusal refusal);
 
 // Whether a station can be at this position: near the Earth's surface, with a valid standard
 // deviation.

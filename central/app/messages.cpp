@@ -372,14 +372,12 @@ ols_msg::fusion_status_t to_message(const FusionHealth& health, double latency_s
     message.counter_name.push_back(name);
     message.counter_value.push_back(value);
   }
-  const std::size_t alarms = std::min(health.alarms.size(), kAlarms);
-  message.alarm.assign(health.alarms.begin(),
-                       health.alarms.begin() + static_cast<std::ptrdiff_t>(alarms));
-  if (health.alarms.size() > alarms) {
-    message.alarm.push_back("and " + std::to_string(health.alarms.size() - alarms) +
-                            " more alarms");
+  std::vector<std::string> alarms = health.alarms;
+  if (alarms.size() > kAlarms) {
+    alarms.resize(kAlarms);
+    alarms.push_back("and " + std::to_string(health.alarms.size() - kAlarms) + " more alarms");
   }
-  message.alarms = static_cast<std::int16_t>(message.alarm.size());
+  set_alarms(std::move(alarms), message);
   message.last_error = health.last_error.substr(0, kLongestError);
   return message;
 }

@@ -172,7 +172,7 @@ void Fusion::note_refusal(BearingRefusal refusal, const BearingMeasurement& meas
   if (refusal == BearingRefusal::kLowBelief || refusal == BearingRefusal::kQuarantine) return;
   const int untimely = admitted.station == nullptr ? 0 : admitted.station->untimely;
   if (untimely > 0 && untimely < kManyUntimely) return;
-  log_.error(measurement.station, in_words(refusal));
+  log_.error(measurement.station, std::string(in_words(refusal)));
 }
 
 void Fusion::begin_time_line() {

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "base/bus/message_stamp.h"
+#include "conditions/alarm.h"
 #include "edge/messages/messages_borders.h"
 #include "edge/messages/messages_lens.h"
 #include "edge/messages/messages_sighting.h"
@@ -178,8 +179,7 @@ void fill_devices(const StationReport& report, double now_s, ols_msg::station_st
     message.device_age_s.push_back(device.last_good_s ? now_s - *device.last_good_s : kNaN);
   }
   message.devices = static_cast<std::int16_t>(message.device_name.size());
-  message.alarm = all_alarms(report);
-  message.alarms = static_cast<std::int16_t>(message.alarm.size());
+  set_alarms(all_alarms(report), message);
 }
 
 void fill_numbers(const StationReport& report, ols_msg::station_status_t& message) {

@@ -33,10 +33,10 @@ void FaultLog::note_event(const std::string& source, const std::string& what, st
 }
 
 void FaultLog::note_alarms(const std::vector<std::string>& alarms, std::int64_t utime_us) {
-  for (const AlarmChanges::Change& change : alarms_.look(alarms)) {
+  for (const AlarmChanges::Change& change : alarms_.look(alarms_of(alarms))) {
     news_.push_back({change.key, station_alarm_event(change.alarm, change.begins)});
     if (!change.begins) continue;
-    text_ = change.alarm;
+    text_ = change.alarm.text;
     utime_us_ = utime_us;
   }
 }

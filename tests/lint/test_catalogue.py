@@ -11,7 +11,8 @@ ROOT = Path(__file__).resolve().parents[2]
 CATALOGUE = ROOT / "systemd/ols.catalog"
 HEADER = (ROOT / "base/journal/event_ids.h").read_text()
 IDS = dict(re.findall(r'Id (k\w+) = "([0-9a-f]{32})";', HEADER))
-FIELDS = {"MESSAGE", "SYSLOG_IDENTIFIER", "OLS_STATION", "OLS_DEVICE", "OLS_REASON"}
+FIELDS = {"MESSAGE", "SYSLOG_IDENTIFIER"}
+FIELDS |= {"OLS_STATION", "OLS_DEVICE", "OLS_REASON", "OLS_ACTION"}
 
 
 def entries() -> dict[str, str]:

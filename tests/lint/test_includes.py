@@ -26,7 +26,7 @@ ALLOWED = {
     "geometry": set(),
     "conditions": set(),
     "base": {"conditions"},
-    "calibration": {"geometry"},
+    "calibration": {"geometry", "conditions"},
     "wire": {"geometry", "base", "conditions"},
     "edge": {"calibration", "geometry", "base", "conditions"},
     "central": {"wire", "geometry", "base", "conditions"},

@@ -8,7 +8,9 @@ MESSAGES = sorted((ROOT / "lcmtypes").glob("*.lcm"))
 FIELD = re.compile(r"^\s*(?:int\d+_t|float|double|boolean|byte|string)\s+(\w+)[^;]*;(.*)$")
 # A name with its unit, and the arrays of a list whose count is explained, need no comment.
 UNIT_IN_NAME = re.compile(r"_(rad|deg|m|px|s|us|hz|rad_s|rad2|m2|bytes)$")
-PARALLEL_ARRAY = re.compile(r"\[(counters|stations|devices|alarms|readings|jpeg_bytes)\]")
+PARALLEL_ARRAY = re.compile(
+    r"\[(counters|stations|devices|alarms|alarm_ids|alarm_parameters|readings|jpeg_bytes)\]"
+)
 
 
 def unexplained(path: Path) -> list[str]:

@@ -30,8 +30,8 @@ void tell_when_in_use(StationLink& link, std::int64_t id, Person& person) {
         status->calibration_state == ols_msg::station_status_t::CALIBRATION_IN_USE) {
       return person.tell("The station works with it.");
     }
-    for (const std::string& alarm : status->alarm) {
-      if (alarm.starts_with("calibration: ")) says = alarm;
+    for (const Alarm& alarm : alarms_of(*status)) {
+      if (alarm.text.starts_with("calibration: ")) says = alarm.text;
     }
   }
   person.tell("! Accepted, not yet in use: the station takes it up by itself when it is idle (" +

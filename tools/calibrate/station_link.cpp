@@ -239,7 +239,7 @@ StationFacts facts_of(const ols_msg::station_status_t& status) {
   facts.clock_error_s = status.clock_error_s;
   facts.image_width_px = status.image_width_px;
   facts.image_height_px = status.image_height_px;
-  facts.alarms = status.alarm;
+  facts.alarms = alarms_of(status);
   return facts;
 }
 

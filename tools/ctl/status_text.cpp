@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "conditions/alarm.h"
 #include "geometry/angles.h"
 #include "ols_msg/bearing_t.hpp"
 #include "wire/station_status.h"
@@ -114,8 +115,9 @@ std::string full_status(const ols_msg::station_status_t& s, std::int64_t now_uti
   text += device_text(s);
   text += s.alarm.empty() ? "no alarm\n" : "alarms\n";
   constexpr std::size_t kMost = 16;  // a forged status may have thousands
-  for (std::size_t i = 0; i < std::min(s.alarm.size(), kMost); ++i) {
-    text += "  " + s.alarm[i] + "\n";
+  for (const Alarm& alarm : alarms_of(s, kMost)) {
+    text += "  " + alarm.text + "\n";
+    if (!alarm.row().action.empty()) text.append("    ").append(alarm.row().action).append("\n");
   }
   if (s.alarm.size() > kMost) text += "  and " + std::to_string(s.alarm.size() - kMost) + " more\n";
   if (!s.last_error.empty()) {

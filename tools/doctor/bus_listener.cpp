@@ -78,7 +78,7 @@ StationHeard station_from(const ols_msg::station_status_t& status) {
   if (status.calibration_utime > 0) {
     calibration.age_s = 1e-6 * static_cast<double>(status.utime - status.calibration_utime);
   }
-  station.alarms = status.alarm;
+  station.alarms = alarms_of(status);
   for (std::size_t i = 0; i < status.counter_name.size(); ++i) {
     station.counters[status.counter_name[i]] = status.counter_value[i];
   }
@@ -141,7 +141,7 @@ BusHeard listen(const std::string& lcm_url, const trust::TrustConfig& trust, dou
       const auto status = wire::heard_fusion_status(message);
       if (!status) return;
       if (fusions.size() < kMostBoots) fusions.insert(status->boot_id);
-      heard.fusion_alarms = status->alarm;
+      heard.fusion_alarms = alarms_of(*status);
     });
     if (signatures) wait_for_list(bus, *signatures);
     const BusTraffic before = bus.traffic();

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "conditions/alarm.h"
 #include "edge/clock/clock_watch.h"
 #include "edge/device/device_report.h"
 #include "edge/ptu/unit_model.h"
@@ -26,7 +27,7 @@ struct StationHeard {
     double sd_rad = 0.0;  // of a direction, each axis
     double age_s = 0.0;   // since its last observation; 0: not stated
   } calibration;
-  std::vector<std::string> alarms;
+  std::vector<Alarm> alarms;
   std::map<std::string, double> counters;
   std::string last_error;
   double last_error_age_s = 0.0;
@@ -42,7 +43,7 @@ struct BusHeard {
   std::int64_t rmem_max = 0;  // net.core.rmem_max [byte]; 0: unknown
   std::map<std::string, StationHeard> stations;
   int fusions = 0;
-  std::vector<std::string> fusion_alarms;
+  std::vector<Alarm> fusion_alarms;
   bool is_verified = false;   // the doctor believes only signed messages, or counts the others
   std::string trust_trouble;  // what is wrong with keys and trust list; empty: nothing
   std::map<std::string, double> distrusted;  // while it listened, by "bus_distrusted_<reason>"

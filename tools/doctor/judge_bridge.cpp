@@ -3,13 +3,14 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "conditions/alarm.h"
+
 namespace ols::doctor {
 namespace {
 
 using Json = nlohmann::json;
 
 constexpr double kStale_s = 10.0;
-constexpr const char* kAdvice = "docs/troubleshooting.md, alarms of the bridge";
 
 Findings judge_status(const Json& status, std::int64_t utime_us) {
   const double written_s = 1e-6 * status.at("utime_us").get<double>();
@@ -17,8 +18,8 @@ Findings judge_status(const Json& status, std::int64_t utime_us) {
     return {fail("bridge: does not run", "systemctl status ols-bridge.service")};
   }
   Findings findings;
-  for (const Json& alarm : status.at("alarms")) {
-    findings.push_back(fail(alarm.get<std::string>(), kAdvice));
+  for (const Alarm& alarm : alarms_of(status.at("alarms").get<std::vector<std::string>>())) {
+    findings.push_back(fail(alarm.text, std::string(alarm.row().action)));
   }
   if (findings.empty()) {
     findings.push_back(

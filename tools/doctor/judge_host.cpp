@@ -38,9 +38,8 @@ Finding judge(const FolderFacts& folder) {
 
 Findings judge(const station::HostReport& host) {
   Findings findings;
-  for (const std::string& alarm : host.alarms) {
-    findings.push_back(
-        warn("host: " + alarm, "give a hot processor shade and air; free disk space"));
+  for (const Alarm& alarm : alarms_of(host.alarms)) {
+    findings.push_back(warn("host: " + alarm.text, std::string(alarm.row().action)));
   }
   const auto cpu = host.readings.find("cpu_degC");
   if (host.alarms.empty() && cpu != host.readings.end()) {

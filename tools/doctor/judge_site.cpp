@@ -72,7 +72,8 @@ std::string distrusted(const std::map<std::string, double>& counters) {
 
 Finding judge_signatures(const BusHeard& bus) {
   if (!bus.trust_trouble.empty()) {
-    return fail("signatures: " + bus.trust_trouble, "docs/troubleshooting.md lists the alarms");
+    return fail("signatures: " + bus.trust_trouble,
+                std::string(alarm_of(bus.trust_trouble).row().action));
   }
   if (bus.is_verified) {
     const std::string refused = distrusted(bus.distrusted);
@@ -86,11 +87,11 @@ Finding judge_signatures(const BusHeard& bus) {
 }
 
 // Limited: a forged status may have thousands, which would hide the other findings.
-Findings judge_alarms(const std::string& whose, const std::vector<std::string>& alarms) {
+Findings judge_alarms(const std::string& whose, const std::vector<Alarm>& alarms) {
   constexpr std::size_t kMost = 16;
   Findings findings;
   for (std::size_t i = 0; i < std::min(alarms.size(), kMost); ++i) {
-    findings.push_back(warn(whose + alarms[i], "docs/troubleshooting.md lists the alarms"));
+    findings.push_back(warn(whose + alarms[i].text, std::string(alarms[i].row().action)));
   }
   if (alarms.size() > kMost) {
     const std::string more = std::to_string(alarms.size() - kMost);

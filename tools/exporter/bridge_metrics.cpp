@@ -3,6 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "tools/exporter/alarm_metrics.h"
 #include "tools/exporter/metric_collection.h"
 
 namespace ols::exporter {
@@ -53,8 +54,7 @@ std::vector<prometheus::MetricFamily> told(const std::string& text, std::int64_t
   const bool runs = std::abs(age_s(status, utime_us)) <= kStaleBridge_s;
   all.gauge("ols_bridge_up", "1 while the bridge writes its status.", {}, runs ? 1.0 : 0.0);
   if (!runs) return all.take();
-  all.gauge("ols_bridge_alarms", "Alarms that are active.", {},
-            static_cast<double>(status.at("alarms").size()));
+  add_alarms(all, "bridge", "", alarms_of(status.at("alarms").get<std::vector<std::string>>()));
   all.gauge("ols_bridge_stations", "Stations whose messages pass.", {},
             status.at("stations").get<double>());
   add_direction(all, "out", status.at("out"));

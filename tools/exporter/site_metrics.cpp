@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "ols_msg/bearing_t.hpp"
+#include "tools/exporter/alarm_metrics.h"
 #include "tools/exporter/metric_collection.h"
 #include "wire/station_status.h"
 
@@ -26,8 +27,7 @@ void add_state(MetricCollection& all, const std::string& id, const station_statu
             age_s);
   all.gauge("ols_station_state", "1 for what the station does now.",
             {{"station", id}, {"state", wire::state_name(s.state)}}, 1.0);
-  all.gauge("ols_station_alarms", "Alarms that are active.", {{"station", id}},
-            static_cast<double>(s.alarm.size()));
+  add_alarms(all, "station", id, alarms_of(s, SiteMetrics::kMostNames));
   all.gauge("ols_station_frame_latency_seconds", "Mid-exposure to bearing, smoothed.",
             {{"station", id}}, s.frame_latency_s);
   const bool synchronised = s.clock_state == ols_msg::bearing_t::CLOCK_SYNCHRONISED;
@@ -82,8 +82,7 @@ void add_named(MetricCollection& all, const std::string& id, const station_statu
 
 void add_fusion(MetricCollection& all, const fusion_status_t& s, double age_s) {
   all.gauge("ols_fusion_status_age_seconds", "Since its last status was heard.", {}, age_s);
-  all.gauge("ols_fusion_alarms", "Alarms that are active.", {},
-            static_cast<double>(s.alarm.size()));
+  add_alarms(all, "fusion", "", alarms_of(s, SiteMetrics::kMostNames));
   all.gauge("ols_fusion_latency_seconds", "Mid-exposure to published target, median.", {},
             s.latency_s);
   all.gauge("ols_fusion_stations", "Stations that it has heard.", {},

@@ -16,8 +16,8 @@ export function SeverityChip({ severity }: { severity: Severity }) {
   return <span class={`kind ${severity}`}>{named("g", severity)}</span>;
 }
 
-export function WhatToDo({ alarm }: { alarm: string }) {
-  const { meaning, action } = conditionOf(alarm);
+export function WhatToDo({ of }: { of: string }) {
+  const { meaning, action } = conditionOf(of);
   if (!meaning && !action) return null;
   return (
     <p class="advice">
@@ -58,10 +58,10 @@ export function Alarms({ alarms, keys, station, link, onAcknowledge }: AlarmsPro
   return (
     <ul class="alarms">
       {alarms.map((alarm, i) => (
-        <li class={conditionOf(alarm).severity}>
-          <SeverityChip severity={conditionOf(alarm).severity} /> <b>{inWords(alarm)}</b>{" "}
+        <li class={conditionOf(keys[i]).severity}>
+          <SeverityChip severity={conditionOf(keys[i]).severity} /> <b>{inWords(alarm)}</b>{" "}
           <Acknowledgement event={eventOf(link.site.events, station, keys[i])} onAcknowledge={onAcknowledge} />
-          <WhatToDo alarm={alarm} />
+          <WhatToDo of={keys[i]} />
         </li>
       ))}
     </ul>

@@ -21,7 +21,7 @@ export type Look = {
 function Chips({ link }: { link: Link }) {
   const stations = [...link.site.stations.values()];
   const heard = stations.filter((s) => !s.stale).length;
-  const alarms = link.site.events.filter((event) => holds(event) && conditionOf(event.text).severity !== "notice");
+  const alarms = link.site.events.filter((event) => holds(event) && conditionOf(event.key).severity !== "notice");
   const isNew = alarms.some((event) => !event.acknowledged);
   const fusion = link.site.fusion && !link.site.fusion.stale;
   return (

@@ -10,27 +10,28 @@ const MOST_REMEMBERED = 2000;
 export type Severity = "urgent" | "warning" | "notice";
 export type Condition = { severity: Severity; meaning: string; action: string };
 type Pair = [english: string, german: string];
-type Row = { severity: Severity; text: Record<string, string>; meaning: Pair; action: Pair };
-type Sentence = { english: RegExp; german: string; goesOn: boolean; length: number; begin: number; row?: Row };
+type Row = { severity: Severity; says: Record<string, Pair>; meaning: Pair; action: Pair };
+type Sentence = { english: RegExp; german: string; goesOn: boolean; length: number; begin: number };
 
 // "camera: no frames for … s" -> what the program can print. What it says behind that belongs to it too.
-function sentence(english: string, german: string, row?: Row): Sentence {
+function sentence(english: string, german: string, isAlarm = false): Sentence {
   const parts = english.split("…").map((part) => part.replace(/[.*+?^${}()|[\]\\]/g, "\\$&"));
   const isOpen = english.endsWith("…");
-  const pattern = isOpen ? `${parts.slice(0, -1).join("(.*?)")}(.*)` : parts.join("(.*?)") + (row ? "(.*)" : "");
-  return { english: new RegExp(`^${pattern}$`, "s"), german, goesOn: !!row && !isOpen, length: english.replace(/…/g, "").length, begin: parts[0].length, row };
+  const pattern = isOpen ? `${parts.slice(0, -1).join("(.*?)")}(.*)` : parts.join("(.*?)") + (isAlarm ? "(.*)" : "");
+  return { english: new RegExp(`^${pattern}$`, "s"), german, goesOn: isAlarm && !isOpen, length: english.replace(/…/g, "").length, begin: parts[0].length };
 }
 
 type Dictionary = Record<string, string>;
 const { alarms, phrases, words, names } = tables as { alarms: Row[] } & Record<"phrases" | "words" | "names", Dictionary>;
 const sentences = (of: Dictionary) => Object.entries(of).map(([english, german]) => sentence(english, german));
-const ALARMS = alarms.flatMap((row) => Object.entries(row.text).map(([english, german]) => sentence(english, german, row)));
-const SENTENCES = [...ALARMS, ...sentences(phrases)];
+const ROWS = new Map(alarms.flatMap((row) => Object.keys(row.says).map((id) => [id, row])));
+const SENTENCES = [...alarms.flatMap((row) => Object.values(row.says).map((both) => sentence(...both, true))), ...sentences(phrases)];
 const NAMES = sentences(names);
-for (const list of [ALARMS, SENTENCES, NAMES]) list.sort((a, b) => b.length - a.length || b.begin - a.begin);
+for (const list of [SENTENCES, NAMES]) list.sort((a, b) => b.length - a.length || b.begin - a.begin);
 
-export function conditionOf(alarm: string): Condition {
-  const row = ALARMS.find((one) => one.english.test(alarm))?.row;
+// By the key of an alarm, which begins with its id.
+export function conditionOf(key: string): Condition {
+  const row = ROWS.get(key.split(" ")[0]);
   if (!row) return { severity: "warning", meaning: "", action: "" };
   return { severity: row.severity, meaning: inLanguage(row.meaning), action: inLanguage(row.action) };
 }

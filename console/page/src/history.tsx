@@ -29,7 +29,7 @@ function AlarmText({ event, onAcknowledge }: { event: SiteEvent; onAcknowledge: 
       {" "}
       <span class="span">{event.over_us == null ? t("holds") : `${t("until")} ${utc(event.over_us)}`}</span>{" "}
       <Acknowledgement event={event} onAcknowledge={onAcknowledge} />
-      {holds(event) && <WhatToDo alarm={event.text} />}
+      {holds(event) && <WhatToDo of={event.key} />}
     </Fragment>
   );
 }
@@ -40,7 +40,7 @@ function EventRow({ event, onAcknowledge }: { event: SiteEvent; onAcknowledge: O
   return (
     <tr class={`${event.kind} ${isAlarm && !holds(event) ? "over" : ""} ${isRefused ? "refused" : ""}`}>
       <td>{utc(event.utime_us)}</td>
-      <td>{isAlarm ? <SeverityChip severity={conditionOf(event.text).severity} /> : <span class={`kind ${event.kind}`}>{named("k", event.kind)}</span>}</td>
+      <td>{isAlarm ? <SeverityChip severity={conditionOf(event.key).severity} /> : <span class={`kind ${event.kind}`}>{named("k", event.kind)}</span>}</td>
       <td>{event.station || DASH}</td>
       <td>
         {event.who && <b>{inWords(event.who)} </b>}

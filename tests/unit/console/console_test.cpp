@@ -214,7 +214,7 @@ TEST(Console, WhoHoldsAStationIsToldThatAnotherProgramStoppedItButNotOfTheirOwnS
 TEST(Console, AnAcknowledgementIsSeenByAllAndGivenByOperatorsOnly) {
   Console console(60.0);
   StationHeard ailing = station("alfa");
-  ailing.alarms = {"camera: does not answer"};
+  ailing.alarms = alarms_of({"camera: does not answer"});
   console.hear(ailing, {0.0, 0});
   const auto ana = console.open("ana", Role::kOperator), vera = console.open("vera", Role::kViewer);
   const std::string text = R"({"do":"acknowledge","number":1,"event":1})";

@@ -56,7 +56,7 @@ TEST(EventList, AnAlarmIsOneRowWhateverItsNumbersAndWhateverErrorExplainsIt) {
   events.add({1, "alarm", "alfa", "", "camera: no frames for 3 s", ""}, revision);
   EXPECT_EQ(events.add({1, "error", "alfa", "", "camera: no frames for 3 s", ""}, revision), 0U);
   EXPECT_EQ(events.add({2, "error", "alfa", "", "camera x does not answer: no", ""}, revision), 0U);
-  events.end("alfa", "camera: no frames for 9 s", 5, revision);
+  events.end("alfa", "camera_no_frames", 5, revision);
   ASSERT_EQ(events.since(0).size(), 1U);
   EXPECT_EQ(events.since(0)[0].at("key"), "camera_no_frames");
   EXPECT_EQ(events.since(0)[0].at("over_us"), 5);
@@ -70,7 +70,7 @@ TEST(EventList, TheAlarmsOfTwoStationsAreTwo) {
              revision);
   events.add({1, "alarm", "", "", "station s2: not used, it reports a clock error of 3 s", ""},
              revision);
-  events.end("", "station s1: not used, it reports a clock error of 4 s", 2, revision);
+  events.end("", "station_clock_error s1", 2, revision);
   EXPECT_EQ(events.since(0)[0].at("over_us"), 2);
   EXPECT_TRUE(events.since(0)[1].at("over_us").is_null());
 }

@@ -27,7 +27,7 @@ TEST(ConsoleMessages, AStatusInDegreesWithNullForTheUnknown) {
   EXPECT_EQ(heard->fields.at("state"), "tracking");
   EXPECT_NEAR(heard->fields.at("azimuth_deg"), 57.2958, 1e-9);
   EXPECT_TRUE(heard->fields.at("heading_deg").is_null());
-  EXPECT_EQ(heard->alarms.at(0), "camera: ?[2J");
+  EXPECT_EQ(heard->alarms.at(0).text, "camera: ?[2J");
   EXPECT_EQ(heard->fields.at("alarm_keys"), Json::array({"camera: ?[2J", "ptu_supply_low"}));
   EXPECT_FALSE(station_from(on("OLS_STATUS_bravo", status)));
 }

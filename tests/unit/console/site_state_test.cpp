@@ -5,11 +5,11 @@
 namespace ols::console {
 namespace {
 
-StationHeard station(const std::string& id, std::vector<std::string> alarms = {}) {
+StationHeard station(const std::string& id, const std::vector<std::string>& alarms = {}) {
   StationHeard heard;
   heard.id = id;
   heard.fields = {{"state", "tracking"}, {"alarms", alarms}};
-  heard.alarms = std::move(alarms);
+  heard.alarms = alarms_of(alarms);
   return heard;
 }
 
@@ -68,7 +68,7 @@ TEST(SiteState, ASilentStationIsMarkedAndSaid) {
   site.hear(station("alfa"), {0.0, 1});
   site.look({SiteState::kStationStale_s + 0.1, 2});
   EXPECT_TRUE(site.snapshot().at("stations")[0].at("stale"));
-  EXPECT_EQ(texts(site.snapshot().at("events")).back(), SiteState::kSilent);
+  EXPECT_EQ(site.snapshot().at("events").back().at("key"), "station_silent");
   EXPECT_TRUE(site.snapshot().at("events").back().at("over_us").is_null());
   site.hear(station("alfa"), {SiteState::kStationStale_s + 0.2, 3});
   EXPECT_EQ(site.snapshot().at("events").back().at("over_us"), 3);

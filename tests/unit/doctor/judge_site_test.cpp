@@ -76,7 +76,7 @@ TEST(DoctorOnSite, SmallBuffersLonelinessAndRivalsAreTold) {
 
 TEST(DoctorOnSite, TheFusionsAlarmsAreTold) {
   BusHeard bus = good_bus();
-  bus.fusion_alarms = {"another fusion is on the bus: stop one of them"};
+  bus.fusion_alarms = alarms_of({"another fusion is on the bus: stop one of them"});
   EXPECT_EQ(exit_status(judge_company(bus, "alfa")), 1);
   EXPECT_THAT(lines(judge_company(bus, "alfa")), HasSubstr("fusion: alarm: another fusion is"));
 }
@@ -101,7 +101,7 @@ TEST(DoctorOnSite, AWellStation) {
 
 TEST(DoctorOnSite, WhatAStationComplainsOfIsPassedOn) {
   StationHeard station = good_station();
-  station.alarms = {"gnss: 103 m from the survey"};
+  station.alarms = alarms_of({"gnss: 103 m from the survey"});
   EXPECT_THAT(lines(judge(station)), HasSubstr("warn  alarm: gnss: 103 m from the survey"));
   station = good_station();
   station.counters["frames_incomplete"] = 20.0;

@@ -6,6 +6,7 @@
 #include <limits>
 #include <set>
 
+#include "conditions/alarm.h"
 #include "ols_msg/bearing_t.hpp"
 
 namespace ols::exporter {
@@ -32,7 +33,7 @@ Station status_of(const std::string& id) {
   s.reading_value = {5e9};
   s.counter_name = {"bearings"};
   s.counter_value = {1234.0};
-  s.alarm = {"ptu: no reply"};
+  set_alarms({"station s9: not used, it reports a clock error of 3 s"}, s);
   return s;
 }
 
@@ -51,7 +52,9 @@ TEST(SiteMetrics, AStationIsToldInBaseUnits) {
   for (const char* line :
        {"ols_build_info{version=\"1.2\"} 1", "ols_station_status_age_seconds{station=\"alfa\"} 3",
         "ols_station_state{station=\"alfa\",state=\"tracking\"} 1",
-        "ols_station_alarms{station=\"alfa\"} 1",
+        "ols_alarm{program=\"station\",station=\"alfa\",alarm=\"station_clock_error\",severity="
+        "\"urgent\",says=\"station s9: not used, it reports a clock error of … s\",action=\"that "
+        "station's time service\"} 1",
         "ols_station_clock_synchronised{station=\"alfa\"} 1",
         "ols_station_calibration_age_seconds{station=\"alfa\"} 60",
         "ols_station_device_up{station=\"alfa\",device=\"camera\"} 1",
@@ -118,7 +121,7 @@ TEST(SiteMetrics, NamesAreBoundedAndQuoted) {
   }
   std::set<std::string> stations;
   for (const auto& family : metrics.families(2.0)) {
-    if (family.name != "ols_station_alarms") continue;
+    if (family.name != "ols_station_frame_latency_seconds") continue;
     for (const auto& metric : family.metric) stations.insert(metric.label[0].value);
   }
   EXPECT_EQ(stations.size(), SiteMetrics::kMostStations);

@@ -10,8 +10,8 @@ namespace {
 
 std::vector<std::string> looked(AlarmChanges& alarms, const std::vector<std::string>& now) {
   std::vector<std::string> found;
-  for (const auto& change : alarms.look(now)) {
-    found.push_back((change.begins ? "+" : "-") + change.alarm);
+  for (const auto& change : alarms.look(alarms_of(now))) {
+    found.push_back((change.begins ? "+" : "-") + change.alarm.text);
   }
   return found;
 }
@@ -43,7 +43,7 @@ TEST(AlarmChanges, AnotherNewestCauseIsNoOtherAlarm) {
 
 TEST(AlarmChanges, HaveTheSameKeyWhenTheyBeginAndEnd) {
   AlarmChanges alarms;
-  const auto begun = alarms.look({"computer: processor at 91 C"});
+  const auto begun = alarms.look(alarms_of({"computer: processor at 91 C"}));
   const auto ended = alarms.look({});
   ASSERT_EQ(begun.size(), 1U);
   ASSERT_EQ(ended.size(), 1U);

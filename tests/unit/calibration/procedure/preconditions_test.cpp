@@ -4,6 +4,8 @@
 
 #include <functional>
 
+#include "conditions/alarms.h"
+
 namespace ols::calibration {
 namespace {
 
@@ -44,8 +46,7 @@ TEST(Preconditions, EachHindranceIsNamed) {
 
 TEST(Preconditions, ADeviceOfAnotherSerialNumberIsNamed) {
   StationFacts facts = good();
-  facts.alarms = {"disk: full", std::string(kAnotherDevice) +
-                                    "camera than configured: it says 'C8', [serials] has 'C7'"};
+  facts.alarms = alarms_of({"disk: full", alarm::other_device("camera", "C8", "C7")});
   EXPECT_EQ(first_hindrance(preconditions(facts, kWanted))
                 .find("another camera than configured: it says 'C8', [serials] has 'C7': correct"),
             0U);
@@ -79,7 +80,7 @@ TEST(Preconditions, WhereTheSunIsUpTheHeadingMustBeKnown) {
 TEST(Preconditions, AnAlarmAndABubbleAreOnlySaid) {
   StationFacts facts = good();
   facts.has_tilt = false;
-  facts.alarms = {"disk: nearly full"};
+  facts.alarms = alarms_of({"disk: nearly full"});
   const auto all = preconditions(facts, kWanted);
   EXPECT_EQ(first_hindrance(all), "");
   EXPECT_NE(all.back().sentence.find("disk: nearly full"), std::string::npos);

@@ -50,7 +50,7 @@ TEST(Timeline, MarksEventsOnceAndWithTheirOutcome) {
   Console console(60.0);
   Timeline timeline;
   StationHeard station = alfa();
-  station.alarms = {"ptu: hot"};
+  station.alarms = alarms_of({"ptu: hot"});
   console.hear(station, at(kSecond_us));
   timeline.reach(kSecond_us, 0, console);
   console.hear(wire::Order{.station = "alfa", .kind = wire::Kind::kRelease, .id = {9, 1}},

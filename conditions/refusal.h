@@ -1,0 +1,11 @@
+// Why something is refused, as a sentence for a person. Pure.
+#pragma once
+
+#include <string_view>
+
+namespace ols {
+
+// Of a reason that programs count ("no_frame"), as conditions.toml has it; empty: it has none.
+std::string_view refusal_sentence(std::string_view reason);
+
+}  // namespace ols

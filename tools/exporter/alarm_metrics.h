@@ -1,0 +1,16 @@
+// Alarms as metrics. Pure.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "conditions/alarm.h"
+#include "tools/exporter/metric_collection.h"
+
+namespace ols::exporter {
+
+// Of a "station", the "fusion" or the "bridge"; `station` is empty for these two.
+void add_alarms(MetricCollection& all, const std::string& program, const std::string& station,
+                const std::vector<Alarm>& alarms);
+
+}  // namespace ols::exporter
