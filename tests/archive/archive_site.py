@@ -36,7 +36,8 @@ def filled(message: Any, chance: random.Random, utime: int) -> Any:
             setattr(message, name, [chance.gauss(0.0, 1.0) for _ in value])
         else:
             continue
-    for name in ("stations", "borders", "border_points", "devices", "alarms", "readings", "cues"):
+    lists = ("stations", "borders", "border_points", "devices", "alarms", "readings", "cues")
+    for name in (*lists, "alarm_ids", "alarm_parameters"):
         if name in message.__slots__:
             setattr(message, name, 0)
     if "counters" in message.__slots__:
