@@ -14,7 +14,25 @@ bool all_finite(const BearingMeasurement& s) {
          s.sight.covariance_white.allFinite() && s.sight.covariance_systematic.allFinite() &&
          std::isfinite(s.sight.direction.azimuth_rad) &&
          std::isfinite(s.sight.direction.elevation_rad) && std::isfinite(s.belief) &&
-         std::isfinite(s.clock_sd_s);
+         std::isfinite(s.clock_sd_s) && s.sighted.rate_rad_s.allFinite() &&
+         s.sighted.rate_covariance.allFinite() && std::isfinite(s.sighted.size_rad) &&
+         std::isfinite(s.sighted.size_sd_rad) && std::isfinite(s.sighted.signal);
+}
+
+// NaN is out of range, too.
+bool are_probabilities(const std::vector<double>& values) {
+  constexpr std::size_t kMost = 64;
+  return values.size() <= kMost &&
+         std::ranges::all_of(values, [](double p) { return p >= 0.0 && p <= 1.0; });
+}
+
+bool sighted_in_range(const Sighted& s) {
+  constexpr double kGreatestRadS = 100.0, kGreatestSignal = 1e9;
+  const Eigen::Matrix2d& P = s.rate_covariance;
+  return s.rate_rad_s.norm() <= kGreatestRadS && P(0, 0) >= 0.0 && P(1, 1) >= 0.0 &&
+         P(0, 1) * P(0, 1) <= P(0, 0) * P(1, 1) && s.size_rad >= 0.0 && s.size_rad <= kPi &&
+         s.size_sd_rad >= 0.0 && s.size_sd_rad <= kPi && s.signal >= 0.0 &&
+         s.signal <= kGreatestSignal && are_probabilities(s.class_probability);
 }
 
 bool in_range(const BearingMeasurement& s) {
@@ -23,6 +41,7 @@ bool in_range(const BearingMeasurement& s) {
   return !s.station.empty() && s.utime_us > 0 && d.azimuth_rad >= 0.0 &&
          d.azimuth_rad <= 2.0 * kPi && std::abs(d.elevation_rad) <= kPi / 2.0 && s.belief >= 0.0 &&
          s.belief <= 1.0 && s.clock_sd_s >= 0.0 && s.clock_sd_s <= kGreatestClockSdS &&
+         s.image_bearings >= 0 && sighted_in_range(s.sighted) &&
          is_a_stations_place(s.sight.origin_ecef, s.sight.origin_sd_enu_m);
 }
 

@@ -166,6 +166,19 @@ const char* to_string(MessageRefusal refusal) {
   return "unknown";
 }
 
+namespace {
+
+Sighted sighted_in(const ols_msg::bearing_t& message) {
+  return {.rate_rad_s = Eigen::Vector2d(message.rate_rad_s),
+          .rate_covariance = symmetric(message.rate_covariance_rad2_s2),
+          .size_rad = message.size_rad,
+          .size_sd_rad = message.size_sd_rad,
+          .signal = message.signal,
+          .class_probability = message.class_probability};
+}
+
+}  // namespace
+
 std::variant<BearingMeasurement, MessageRefusal> measurement_from(const std::string& channel,
                                                                   const void* data, int bytes) {
   ols_msg::bearing_t message;
@@ -185,6 +198,9 @@ std::variant<BearingMeasurement, MessageRefusal> measurement_from(const std::str
   measurement.sight.covariance_white = symmetric(message.covariance_white_rad2);
   measurement.sight.covariance_systematic = symmetric(message.covariance_systematic_rad2);
   measurement.sight.origin_sd_enu_m = Eigen::Vector3d(message.camera_position_sd_m);
+  measurement.is_tracklet = message.detected != 0;
+  measurement.image_bearings = message.image_bearings;
+  measurement.sighted = sighted_in(message);
   return measurement;
 }
 

@@ -1,8 +1,10 @@
 // The fusion's input: one bearing of one station.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "geometry/direction.h"
 
@@ -10,6 +12,17 @@ namespace ols::fusion {
 
 // How a station states that its UTC is synchronised.
 enum class StationClock { kUnknown, kSynchronised, kUnsynchronised };
+
+// What the station has seen of the object itself. Zero or empty: unknown.
+struct Sighted {
+  Eigen::Vector2d rate_rad_s = Eigen::Vector2d::Zero();  // tangent plane, as the bearing's noise
+  Eigen::Matrix2d rate_covariance = Eigen::Matrix2d::Zero();  // [rad^2/s^2] zero: rate unknown
+  double size_rad = 0.0, size_sd_rad = 0.0;                   // largest extent
+  double signal = 0.0;                        // signal-to-noise ratio in one image
+  std::vector<double> class_probability{};    // in the order of target_t's CLASS_*
+
+  bool has_rate() const { return rate_covariance.trace() > 0.0; }
+};
 
 struct BearingMeasurement {
   std::string station;
@@ -21,6 +34,9 @@ struct BearingMeasurement {
   std::int64_t boot_id = 0;   // of the station's process: each numbers its track_ids from the start
   std::int64_t track_id = 0;  // identifies one followed object of that station
   std::int64_t calibration_id = 0;  // a new id: new systematic errors
+  bool is_tracklet = false;         // of a detector; nobody has designated its object
+  int image_bearings = 0;           // that the station sends of this image; 0: unknown
+  Sighted sighted{};
 };
 
 }  // namespace ols::fusion

@@ -217,7 +217,7 @@ double Sender::monotonic_s(std::int64_t utime_us) const {
 
 ols_msg::bearing_t to_message(const Bearing& bearing, const Sender& sender,
                               const StationSettings& settings, std::int64_t sequence) {
-  ols_msg::bearing_t message;
+  ols_msg::bearing_t message{};
   stamp(message, sender, sender.utime_us(bearing.mid_exposure_s), sequence);
   message.track_id = bearing.track_id;
   message.belief = bearing.belief;

@@ -94,6 +94,49 @@ TEST(Messages, BearingBecomesAMeasurement) {
   EXPECT_EQ(check(measurement), BearingRefusal::kNone);
 }
 
+TEST(Messages, ABearingSaysWhatADetectorSaw) {
+  auto message = bearing();
+  message.detected = 1;
+  message.image_bearings = 3;
+  message.rate_rad_s[0] = 0.01;
+  message.rate_rad_s[1] = -0.02;
+  message.rate_covariance_rad2_s2[0] = message.rate_covariance_rad2_s2[2] = 1e-6;
+  message.rate_covariance_rad2_s2[1] = 2e-7;
+  message.size_rad = 2e-3;
+  message.size_sd_rad = 3e-4;
+  message.signal = 9.5;
+  message.classes = 2;
+  message.class_probability = {0.25, 0.75};
+  const auto measurement = std::get<BearingMeasurement>(decode_bearing(encoded(message)));
+  EXPECT_TRUE(measurement.is_tracklet);
+  EXPECT_EQ(measurement.image_bearings, 3);
+  EXPECT_TRUE(measurement.sighted.has_rate());
+  EXPECT_EQ(measurement.sighted.rate_rad_s, Eigen::Vector2d(0.01, -0.02));
+  EXPECT_EQ(measurement.sighted.rate_covariance(1, 0), 2e-7);
+  EXPECT_EQ(measurement.sighted.size_rad, 2e-3);
+  EXPECT_EQ(measurement.sighted.size_sd_rad, 3e-4);
+  EXPECT_EQ(measurement.sighted.signal, 9.5);
+  EXPECT_EQ(measurement.sighted.class_probability, (std::vector{0.25, 0.75}));
+}
+
+// As a log of before has it (lcmtypes/README.md).
+TEST(Messages, ABearingOfBeforeDetectorsIsOfADesignatedObject) {
+  auto former = made<ols_msg::bearing_v1_t>();
+  former.schema_version = ols_msg::bearing_t::SCHEMA_VERSION;
+  former.station = "north";
+  former.track_id = 3;
+  former.clock_error_s = 1e-3;
+  const auto result = decode_bearing(encoded(former));
+  const auto* const measurement = std::get_if<BearingMeasurement>(&result);
+  ASSERT_NE(measurement, nullptr);
+  EXPECT_EQ(measurement->track_id, 3);
+  EXPECT_EQ(measurement->clock_sd_s, 1e-3);
+  EXPECT_FALSE(measurement->is_tracklet);
+  EXPECT_EQ(measurement->image_bearings, 0);
+  EXPECT_FALSE(measurement->sighted.has_rate());
+  EXPECT_TRUE(measurement->sighted.class_probability.empty());
+}
+
 TEST(Messages, StatusTellsWhereAStationStands) {
   const auto result = decode_status(encoded(status()));
   ASSERT_TRUE(std::holds_alternative<StationPlace>(result));
