@@ -1,6 +1,5 @@
 #include "bridge/bridge_process.h"
 
-#include <exception>
 #include <utility>
 
 #include "base/bus/boot_id.h"

@@ -1,6 +1,5 @@
 #include "bridge/status.h"
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <numeric>
 

@@ -1,6 +1,5 @@
 #include "console/control_desk.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace ols::console {

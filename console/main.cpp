@@ -59,17 +59,6 @@ ols::console::ConsoleConfig configuration(const Arguments& arguments) {
   return config;
 }
 
-// A configuration that cannot be read or written is not helped by a restart, as other failures of
-// the system may be.
-template <class Action>
-auto as_bad_input(Action action) {
-  try {
-    return action();
-  } catch (const std::system_error& error) {
-    throw std::invalid_argument(error.what());
-  }
-}
-
 ols::console::RecordedFrames recorded_frames(const std::vector<std::string>& folders) {
   ols::console::RecordedFrames frames;
   for (const std::string& folder : folders) {
@@ -148,7 +137,7 @@ int run(const Arguments& arguments, ols::console::ConsoleConfig config) {
   if (sodium_init() < 0) throw std::runtime_error("libsodium cannot be initialised");
   const auto socket = ols::console::handed_over_socket();
   if (socket) config.address = socket->address;
-  const auto users = as_bad_input([&] { return ols::console::read_users(config.users); });
+  const auto users = ols::as_bad_input([&] { return ols::console::read_users(config.users); });
   if (const auto problem = serving_problem(config, !users.empty()); !problem.empty()) {
     throw std::invalid_argument(problem);
   }
@@ -179,7 +168,7 @@ int act(const Arguments& arguments) {
   const ols::console::ConsoleConfig config = configuration(arguments);
   if (arguments.check_config) return 0;
   if (arguments.add_user.empty()) return run(arguments, config);
-  as_bad_input([&] { ols::console::add_user(config.users, arguments.add_user, arguments.role); });
+  ols::as_bad_input([&] { ols::console::add_user(config.users, arguments.add_user, arguments.role); });
   std::fprintf(stderr, "ols-console: %s may log in; restart the console\n",
                arguments.add_user.c_str());
   return 0;

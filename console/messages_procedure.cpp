@@ -1,10 +1,11 @@
 #include "console/messages_procedure.h"
 
-#include <algorithm>
+#include <array>
 #include <cmath>
 #include <sstream>
 
 #include "base/bus/channel_names.h"
+#include "base/bus/message_code.h"
 #include "base/bus/message_stamp.h"
 #include "base/text/plain_text.h"
 #include "ols_msg/procedure_answer_t.hpp"
@@ -19,22 +20,8 @@ constexpr std::size_t kMostLines = 60, kMostChoices = 16;
 constexpr double kLease_s = 3.0;
 
 const char* state_of(std::int8_t state) {
-  switch (state) {
-    case M::STATE_RUNNING:
-      return "running";
-    case M::STATE_ASKING:
-      return "asking";
-    case M::STATE_ACCEPTED:
-      return "accepted";
-    case M::STATE_KEPT_OLD:
-      return "kept_old";
-    case M::STATE_ABORTED:
-      return "aborted";
-    case M::STATE_FAILED:
-      return "failed";
-    default:
-      return "unknown";
-  }
+  return word_of_code(state,
+                      std::array{"running", "asking", "accepted", "kept_old", "aborted", "failed"});
 }
 
 // Null where it is not finite.

@@ -6,7 +6,6 @@
 #include <cctype>
 #include <charconv>
 #include <stdexcept>
-#include <utility>
 
 namespace ols::exports {
 namespace {

@@ -1,7 +1,6 @@
 #include "export/conversion.h"
 
 #include <stdexcept>
-#include <utility>
 
 #include "base/bus/log_reader.h"
 #include "base/files/atomic_file.h"

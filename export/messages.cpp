@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/bus/channel_names.h"
+#include "base/bus/message_code.h"
 #include "base/text/plain_text.h"
 #include "export/identity.h"
 #include "geometry/angles.h"
@@ -22,6 +23,9 @@ using Bearing = ols_msg::bearing_t;
 using Status = ols_msg::station_status_t;
 using TargetMessage = ols_msg::target_t;
 
+static_assert(code(TrackState::kEnded) == TargetMessage::TRACK_DROPPED);
+static_assert(code(ObjectClass::kOther) == TargetMessage::CLASS_OTHER);
+
 constexpr std::size_t kMostStations = 64;  // named with a target
 constexpr double kMostEarth_m = 1e8;       // of an ECEF component
 
@@ -31,37 +35,9 @@ Place place_of(double latitude_deg, double longitude_deg, double height_m,
   return {latitude_deg, longitude, height_m, site.geoid_m(latitude_deg, longitude)};
 }
 
-TrackState state_of(const TargetMessage& t) {
-  switch (t.track_state) {
-    case TargetMessage::TRACK_BORN:
-      return TrackState::kTentative;
-    case TargetMessage::TRACK_COASTED:
-      return TrackState::kCoasted;
-    case TargetMessage::TRACK_DROPPED:
-      return TrackState::kEnded;
-    default:
-      return TrackState::kConfirmed;
-  }
-}
-
-ObjectClass class_of(const TargetMessage& t) {
-  switch (t.object_class) {
-    case TargetMessage::CLASS_DRONE:
-      return ObjectClass::kDrone;
-    case TargetMessage::CLASS_BIRD:
-      return ObjectClass::kBird;
-    case TargetMessage::CLASS_AIRCRAFT:
-      return ObjectClass::kAircraft;
-    case TargetMessage::CLASS_OTHER:
-      return ObjectClass::kOther;
-    default:
-      return ObjectClass::kUnknown;
-  }
-}
-
 void add_appearance(const TargetMessage& t, Target& target) {
   const auto known = [](double value) { return value > 0.0 ? value : kUnknown; };
-  target.object_class = class_of(t);
+  target.object_class = from_code(t.object_class, ObjectClass::kOther, ObjectClass::kUnknown);
   target.class_probability = std::min(known(t.class_probability), 1.0);
   target.size_m = known(t.size_m);
   target.size_sd_m = known(t.size_sd_m);
@@ -85,7 +61,7 @@ std::optional<Target> target_from(const BusMessage& message, const SiteContext& 
   target.utime_us = t.utime;
   target.id = t.target_id;
   target.uid = target_uid(site.site, t.boot_id, t.target_id);
-  target.state = state_of(t);
+  target.state = from_code(t.track_state, TrackState::kEnded, TrackState::kConfirmed);
   if (target.state == TrackState::kEnded) {
     target.place = {kUnknown, kUnknown, kUnknown, kUnknown};
     target.velocity_enu_m_s.fill(kUnknown);

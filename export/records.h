@@ -24,8 +24,8 @@ struct Place {
 // Symmetric, in the place's own east, north, up: ee, en, eu, nn, nu, uu.
 using Covariance = std::array<double, 6>;
 
+// The values of both are those of target_t.
 enum class ObjectClass { kUnknown, kDrone, kBird, kAircraft, kOther };
-
 enum class TrackState { kTentative, kConfirmed, kCoasted, kEnded };
 
 struct Target {

@@ -1,9 +1,10 @@
 #include "wire/station_status.h"
 
 #include <algorithm>
+#include <array>
 
+#include "base/bus/message_code.h"
 #include "base/text/plain_text.h"
-#include "ols_msg/bearing_t.hpp"
 #include "wire/read.h"
 
 namespace ols::wire {
@@ -29,27 +30,8 @@ double counter(const ols_msg::station_status_t& status, const std::string& name)
 }
 
 const char* state_name(std::int8_t state) {
-  using M = ols_msg::station_status_t;
-  switch (state) {
-    case M::STATE_IDLE:
-      return "idle";
-    case M::STATE_MANUAL:
-      return "manual";
-    case M::STATE_TRACKING:
-      return "tracking";
-    case M::STATE_COASTING:
-      return "coasting";
-    case M::STATE_LOST:
-      return "lost";
-    case M::STATE_SLEWED:
-      return "slewed";
-    case M::STATE_STOPPED:
-      return "stopped";
-    case M::STATE_EMERGENCY:
-      return "emergency";
-    default:
-      return "unknown";
-  }
+  return word_of_code(state, std::array{"idle", "manual", "tracking", "coasting", "lost", "slewed",
+                                        "stopped", "emergency"});
 }
 
 bool is_stopped(std::int8_t state) {
@@ -58,19 +40,7 @@ bool is_stopped(std::int8_t state) {
 }
 
 const char* device_name(std::int8_t device) {
-  using M = ols_msg::station_status_t;
-  switch (device) {
-    case M::DEVICE_ABSENT:
-      return "absent";
-    case M::DEVICE_STARTING:
-      return "starting";
-    case M::DEVICE_OK:
-      return "ok";
-    case M::DEVICE_FAULT:
-      return "fault";
-    default:
-      return "unknown";
-  }
+  return word_of_code(device, std::array{"absent", "starting", "ok", "fault"});
 }
 
 const char* device_state(const ols_msg::station_status_t& status, const std::string& name) {
@@ -89,29 +59,15 @@ std::string software(const ols_msg::station_status_t& status) {
 }
 
 const char* source_name(std::int8_t source) {
-  using M = ols_msg::station_status_t;
-  return source == M::POSE_SURVEYED ? "surveyed" : source == M::POSE_SENSOR ? "sensor" : "unknown";
+  return word_of_code(source, std::array{"unknown", "surveyed", "sensor"});
 }
 
 const char* clock_name(std::int8_t state) {
-  using M = ols_msg::bearing_t;
-  return state == M::CLOCK_SYNCHRONISED     ? "synchronised"
-         : state == M::CLOCK_UNSYNCHRONISED ? "unsynchronised"
-                                            : "unknown";
+  return word_of_code(state, std::array{"unknown", "synchronised", "unsynchronised"});
 }
 
 const char* calibration_name(std::int8_t state) {
-  using M = ols_msg::station_status_t;
-  switch (state) {
-    case M::CALIBRATION_IN_USE:
-      return "in use";
-    case M::CALIBRATION_REFUSED:
-      return "refused";
-    case M::CALIBRATION_DOUBTED:
-      return "doubted";
-    default:
-      return "none";
-  }
+  return word_of_code(state, std::array{"none", "in use", "refused", "doubted"}, "none");
 }
 
 }  // namespace ols::wire

@@ -1,7 +1,9 @@
 #include "wire/target.h"
 
+#include <array>
 #include <cmath>
 
+#include "base/bus/message_code.h"
 #include "base/text/plain_text.h"
 #include "geometry/angles.h"
 #include "geometry/wgs84.h"
@@ -39,41 +41,17 @@ Eigen::Vector3d velocity_enu(const Target& target) {
 }
 
 const char* track_name(std::int8_t state) {
-  return state == Target::TRACK_BORN        ? "born"
-         : state == Target::TRACK_CONFIRMED ? "confirmed"
-         : state == Target::TRACK_COASTED   ? "coasted"
-                                            : "dropped";
+  return word_of_code(state, std::array{"born", "confirmed", "coasted", "dropped"}, "dropped");
 }
 
 const char* solution_name(std::int8_t solution) {
-  switch (solution) {
-    case Target::SOLUTION_OK:
-      return "ok";
-    case Target::SOLUTION_TOO_FEW_RAYS:
-      return "too-few-rays";
-    case Target::SOLUTION_PARALLEL_RAYS:
-      return "parallel-rays";
-    case Target::SOLUTION_BEHIND_CAMERA:
-      return "behind-camera";
-    case Target::SOLUTION_TOO_FAR:
-      return "too-far";
-    case Target::SOLUTION_NOT_CONVERGED:
-      return "not-converged";
-    case Target::SOLUTION_BEARING_ONLY:
-      return "bearing-only";
-    case Target::SOLUTION_RAYS_MISS:
-      return "rays-miss";
-    default:
-      return "unknown";
-  }
+  return word_of_code(solution,
+                      std::array{"ok", "too-few-rays", "parallel-rays", "behind-camera", "too-far",
+                                 "not-converged", "bearing-only", "rays-miss"});
 }
 
 const char* class_name(std::int8_t object_class) {
-  return object_class == Target::CLASS_DRONE      ? "drone"
-         : object_class == Target::CLASS_BIRD     ? "bird"
-         : object_class == Target::CLASS_AIRCRAFT ? "aircraft"
-         : object_class == Target::CLASS_OTHER    ? "other"
-                                                  : "unknown";
+  return word_of_code(object_class, std::array{"unknown", "drone", "bird", "aircraft", "other"});
 }
 
 }  // namespace ols::wire

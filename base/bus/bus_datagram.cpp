@@ -1,7 +1,6 @@
 #include "base/bus/bus_datagram.h"
 
 #include <algorithm>
-#include <array>
 
 namespace ols {
 namespace {

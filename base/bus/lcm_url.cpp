@@ -83,6 +83,15 @@ BusAddress parse_lcm_url(const std::string& url) {
   return address;
 }
 
+std::string lcm_url_problem(const std::string& url) {
+  try {
+    parse_lcm_url(url);
+    return "";
+  } catch (const std::invalid_argument& problem) {
+    return problem.what();
+  }
+}
+
 std::string default_lcm_url(const std::string& bus_env) {
   const bool is_of_site = ::access(bus_env.c_str(), F_OK) == 0;
   return std::string("udpm://239.255.76.67:7667?ttl=") + (is_of_site ? "1" : "0");

@@ -19,6 +19,8 @@ struct BusAddress {
 
 // LCM's defaults are 239.255.76.67, 7667, ttl=0. Throws std::invalid_argument with the error.
 BusAddress parse_lcm_url(const std::string& url);
+// What is wrong with the URL; empty: nothing. For the command line.
+std::string lcm_url_problem(const std::string& url);
 
 // The default for programs without a configuration. If the file `bus_env` exists
 // (OLS_BUS_INTERFACE: ols-bus.service), this is a host of a site, and its bus reaches the other

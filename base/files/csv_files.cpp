@@ -1,7 +1,6 @@
 #include "base/files/csv_files.h"
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 
 #include "base/files/csv_rows.h"

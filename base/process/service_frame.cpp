@@ -7,6 +7,7 @@
 #include <exception>
 #include <stdexcept>
 
+#include "base/bus/lcm_url.h"
 #include "base/config/toml_config.h"
 #include "base/journal/journal.h"
 #include "base/process/clocks.h"
@@ -25,7 +26,8 @@ int say_bad_input(const std::string& program, const std::exception& error) {
 
 void add_service_options(CLI::App& app, ServiceOptions& options) {
   app.add_option("--config", options.config, "Configuration file (TOML); all keys have defaults");
-  app.add_option("--lcm-url", options.lcm_url, "Bus, in place of the configuration's");
+  app.add_option("--lcm-url", options.lcm_url, "Bus, in place of the configuration's")
+      ->check(lcm_url_problem);
   app.add_flag("--check-config", options.check_config, "Only read and check the configuration");
 }
 

@@ -4,7 +4,9 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <stdexcept>
 #include <string>
+#include <system_error>
 
 #include "base/process/service_notifier.h"
 
@@ -33,6 +35,17 @@ enum class InvalidArgument { kBadInput, kFailure };
 // after bad input, with one line that names it (a restart would not help).
 int run_service(const std::string& program, InvalidArgument invalid,
                 const std::function<int()>& act);
+
+// A file that cannot be read or written is not helped by a restart, as other failures of the system
+// may be.
+template <class Action>
+auto as_bad_input(Action action) {
+  try {
+    return action();
+  } catch (const std::system_error& error) {
+    throw std::invalid_argument(error.what());
+  }
+}
 
 // Calls `turn` until the process is asked to end, and `status` every status_s. The service manager
 // shows the line that `status` returns. Times: monotonic.

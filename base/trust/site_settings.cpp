@@ -1,7 +1,6 @@
 #include "base/trust/site_settings.h"
 
 #include <string_view>
-#include <vector>
 
 #include "base/config/toml_config.h"
 #include "base/trust/signed_text.h"

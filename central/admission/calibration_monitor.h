@@ -9,6 +9,7 @@
 
 namespace ols::fusion {
 
+// The values are those of station_status_t.
 enum class CalibrationState { kNone, kInUse, kRefused, kDoubted };
 
 // As the station states it.

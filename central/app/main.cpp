@@ -1,5 +1,4 @@
 // ols-fusion: parses the command line, loads the configuration, wires the parts and loops.
-#include <stdexcept>
 #include <string>
 
 #include "base/bus/boot_id.h"
@@ -19,16 +18,6 @@ struct Arguments : ols::ServiceOptions {
   std::string slew_url;
   bool replay = false;
 };
-
-// What is wrong with the URL, for the command line; empty: nothing.
-std::string url_problem(const std::string& url) {
-  try {
-    ols::parse_lcm_url(url);
-    return "";
-  } catch (const std::invalid_argument& problem) {
-    return problem.what();
-  }
-}
 
 int run(const Arguments& arguments) {
   const ols::fusion::FusionSettings settings =
@@ -58,14 +47,13 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", OLS_VERSION);
   Arguments arguments;
   add_service_options(app, arguments);
-  app.get_option("--lcm-url")->check(url_problem);
   app.add_flag("--replay", arguments.replay,
                "Take recorded messages, whose time is not the present; slews go to a bus of their "
                "own, so that no real PTU moves");
   app.add_option(
          "--slew-url", arguments.slew_url,
          std::string("Bus for slews; default: the same, or with --replay ") + kReplaySlewUrl)
-      ->check(url_problem);
+      ->check(ols::lcm_url_problem);
   if (const auto status = ols::parse_command_line(app, argc, argv, "ols-fusion")) return *status;
   return ols::run_service("ols-fusion", ols::InvalidArgument::kFailure,
                           [&arguments] { return run(arguments); });

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <limits>
 #include <span>
 #include <utility>
 
+#include "base/bus/message_code.h"
 #include "base/bus/message_stamp.h"
 #include "base/text/plain_text.h"
 #include "central/admission/bearing_check.h"
@@ -42,12 +42,6 @@ Eigen::Matrix2d symmetric(const double (&xx_xy_yy)[3]) {
   Eigen::Matrix2d matrix;
   matrix << xx_xy_yy[0], xx_xy_yy[1], xx_xy_yy[1], xx_xy_yy[2];
   return matrix;
-}
-
-StationClock clock_from(std::int8_t state) {
-  if (state == ols_msg::bearing_t::CLOCK_SYNCHRONISED) return StationClock::kSynchronised;
-  if (state == ols_msg::bearing_t::CLOCK_UNSYNCHRONISED) return StationClock::kUnsynchronised;
-  return StationClock::kUnknown;
 }
 
 // The operator has precedence over the fusion.
@@ -102,41 +96,16 @@ void fill_bearing(const std::optional<BearingOnly>& only, ols_msg::target_t& mes
 }
 
 void fill_appearance(const Appearance& appearance, ols_msg::target_t& message) {
-  message.object_class = static_cast<std::int8_t>(appearance.object_class);
+  message.object_class = code(appearance.object_class);
   message.class_probability = appearance.class_probability;
   message.size_m = appearance.size_m;
   message.size_sd_m = appearance.size_sd_m;
   message.signal = appearance.signal;
 }
 
-CalibrationState calibration_state(std::int8_t code) {
-  using M = ols_msg::station_status_t;
-  switch (code) {
-    case M::CALIBRATION_IN_USE:
-      return CalibrationState::kInUse;
-    case M::CALIBRATION_REFUSED:
-      return CalibrationState::kRefused;
-    case M::CALIBRATION_DOUBTED:
-      return CalibrationState::kDoubted;
-    default:
-      return CalibrationState::kNone;
-  }
-}
-
-std::int8_t calibration_code(CalibrationState state) {
-  using M = ols_msg::station_status_t;
-  switch (state) {
-    case CalibrationState::kInUse:
-      return M::CALIBRATION_IN_USE;
-    case CalibrationState::kRefused:
-      return M::CALIBRATION_REFUSED;
-    case CalibrationState::kDoubted:
-      return M::CALIBRATION_DOUBTED;
-    case CalibrationState::kNone:
-      break;
-  }
-  return M::CALIBRATION_NONE;
-}
+static_assert(code(CalibrationState::kDoubted) == ols_msg::station_status_t::CALIBRATION_DOUBTED);
+static_assert(code(StationClock::kUnsynchronised) == ols_msg::bearing_t::CLOCK_UNSYNCHRONISED);
+static_assert(code(CueState::kForbidden) == ols_msg::fusion_status_t::CUE_FORBIDDEN);
 
 // As many as fit into a datagram with texts of maximum length. The next message carries the next
 // ones.
@@ -191,7 +160,8 @@ std::variant<BearingMeasurement, MessageRefusal> measurement_from(const std::str
   measurement.track_id = message.track_id;
   measurement.belief = message.belief;
   measurement.clock_sd_s = message.clock_error_s;
-  measurement.clock = clock_from(message.clock_state);
+  measurement.clock =
+      from_code(message.clock_state, StationClock::kUnsynchronised, StationClock::kUnknown);
   measurement.calibration_id = message.calibration_id;
   measurement.sight.origin_ecef = Eigen::Vector3d(message.camera_ecef_m);
   measurement.sight.direction = {message.azimuth_rad, message.elevation_rad};
@@ -210,8 +180,10 @@ std::variant<StationPlace, MessageRefusal> station_place_from(const std::string&
   const auto refusal = decode(kStatusChannel, channel, data, bytes, message);
   if (refusal) return *refusal;
   StationPlace place{message.station, {}};
-  place.traits.calibration = {calibration_state(message.calibration_state),
-                              message.calibration_utime, message.calibration_sd_rad};
+  place.traits.calibration = {
+      from_code(message.calibration_state, CalibrationState::kDoubted, CalibrationState::kNone),
+
+      message.calibration_utime, message.calibration_sd_rad};
   // An overview station is driven by a person, a fixed one by nobody.
   place.traits.commandable =
       commandable(message.state) && message.kind == ols_msg::station_status_t::KIND_TRACKING;
@@ -278,8 +250,8 @@ ols_msg::target_t to_message(const FusedTarget& target, const MessageStamp& stam
   stamp_message(message, target.utime_us, stamp.boot_id, stamp.sequence);
   message.target_id = target.target_id;
   message.estimator = target.estimator;
-  message.solution = static_cast<std::int8_t>(target.estimate.solution);
-  message.track_state = static_cast<std::int8_t>(target.state);
+  message.solution = code(target.estimate.solution);
+  message.track_state = code(target.state);
   fill_position(target.estimate, message);
   fill_bearing(target.bearing_only, message);
   fill_appearance(target.appearance, message);
@@ -324,27 +296,12 @@ ols_msg::slew_t to_message(const Slew& slew, const MessageStamp& stamp) {
 
 namespace {
 
-std::int8_t cue_state(CueState state) {
-  using M = ols_msg::fusion_status_t;
-  switch (state) {
-    case CueState::kWaiting:
-      return M::CUE_WAITING;
-    case CueState::kSearched:
-      return M::CUE_SEARCHED;
-    case CueState::kFound:
-      return M::CUE_FOUND;
-    case CueState::kForbidden:
-      break;
-  }
-  return M::CUE_FORBIDDEN;
-}
-
 void fill_cues(const std::vector<CueHealth>& cues, ols_msg::fusion_status_t& message) {
   message.cues = static_cast<std::int16_t>(cues.size());
   for (const CueHealth& cue : cues) {
     message.cue_id.push_back(cue.id);
     message.cue_label.push_back(cue.label);
-    message.cue_state.push_back(cue_state(cue.state));
+    message.cue_state.push_back(code(cue.state));
     message.cue_target_id.push_back(cue.target_id);
     message.cue_age_s.push_back(cue.age_s);
     message.cue_latitude_deg.push_back(degrees(cue.place.latitude_rad));
@@ -378,7 +335,7 @@ ols_msg::fusion_status_t to_message(const FusionHealth& health, double latency_s
     message.bias_sd_rad.push_back({found.bias_sd_rad.x(), found.bias_sd_rad.y()});
     message.clock_found_s.push_back(found.clock_s);
     message.clock_found_sd_s.push_back(found.clock_sd_s);
-    message.calibration_state.push_back(calibration_code(station.calibration.state));
+    message.calibration_state.push_back(code(station.calibration.state));
     message.calibration_utime.push_back(station.calibration.observed_utime_us);
     message.calibration_sd_rad.push_back(station.calibration.sd_rad);
   }

@@ -13,6 +13,7 @@
 
 namespace ols::fusion {
 
+// The values are those of fusion_status_t.
 enum class CueState { kWaiting, kSearched, kFound, kForbidden };
 
 struct CueHealth {

@@ -1,7 +1,6 @@
 #include "central/offline/object_separation.h"
 
 #include <algorithm>
-#include <iterator>
 #include <set>
 #include <tuple>
 #include <vector>

@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <map>
-#include <optional>
 #include <stdexcept>
 
 #include "base/files/small_file.h"

@@ -3,7 +3,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <stdexcept>
-#include <utility>
 
 namespace ols::console {
 namespace {

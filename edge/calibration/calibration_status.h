@@ -5,6 +5,7 @@
 
 namespace ols::station {
 
+// The values are those of station_status_t.
 enum class CalibrationState {
   kNone,     // none is configured: heading, mounting and deviations as configured
   kInUse,    // the bearings' systematic part is from an adjustment

@@ -25,6 +25,7 @@
 
 namespace ols::clock {
 
+// The values are those of bearing_t.
 enum class ClockState { kUnknown, kSynchronised, kUnsynchronised };
 
 // The state of the kernel (ntp_adjtime) and of chrony at one instant.

@@ -10,6 +10,7 @@
 
 namespace ols::device {
 
+// The values are those of station_status_t.
 enum class DeviceState {
   kAbsent,    // configured, but not found
   kStarting,  // found, not usable yet

@@ -1,7 +1,6 @@
 #include "edge/lens/lens_driver.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 

@@ -4,6 +4,7 @@
 #include <limits>
 #include <map>
 
+#include "base/bus/message_code.h"
 #include "base/bus/message_stamp.h"
 #include "conditions/alarm.h"
 #include "edge/messages/messages_borders.h"
@@ -28,31 +29,12 @@ void symmetric(const Eigen::Matrix2d& matrix, double (&out)[3]) {
   out[2] = matrix(1, 1);
 }
 
-std::int8_t clock_code(clock::ClockState state) {
-  using M = ols_msg::bearing_t;
-  switch (state) {
-    case clock::ClockState::kUnknown:
-      return M::CLOCK_UNKNOWN;
-    case clock::ClockState::kSynchronised:
-      return M::CLOCK_SYNCHRONISED;
-    case clock::ClockState::kUnsynchronised:
-      return M::CLOCK_UNSYNCHRONISED;
-  }
-  return M::CLOCK_UNKNOWN;
-}
-
-std::int8_t pose_code(sensors::PoseSource source) {
-  using M = ols_msg::station_status_t;
-  switch (source) {
-    case sensors::PoseSource::kNone:
-      return M::POSE_NONE;
-    case sensors::PoseSource::kSurveyed:
-      return M::POSE_SURVEYED;
-    case sensors::PoseSource::kSensor:
-      return M::POSE_SENSOR;
-  }
-  return M::POSE_NONE;
-}
+using Status = ols_msg::station_status_t;
+static_assert(code(clock::ClockState::kUnsynchronised) == ols_msg::bearing_t::CLOCK_UNSYNCHRONISED);
+static_assert(code(sensors::PoseSource::kSensor) == Status::POSE_SENSOR);
+static_assert(code(StationState::kEmergency) == Status::STATE_EMERGENCY);
+static_assert(code(CalibrationState::kDoubted) == Status::CALIBRATION_DOUBTED);
+static_assert(code(device::DeviceState::kFault) == Status::DEVICE_FAULT);
 
 // The id of the configured calibration, or a new one for each pose that the sensors gave in this
 // boot. (Steps of splitmix64.)
@@ -86,8 +68,8 @@ void fill_pose(const StationSnapshot& snapshot, const StationGeometry& geometry,
   message.tilt_sign = static_cast<std::int8_t>(geometry.chain.tilt_sign);
   message.heading_sd_rad = geometry.sd.heading_rad;
   message.tilt_sd_rad = pose.tilt_sd_rad;
-  message.position_source = pose_code(pose.position_source);
-  message.tilt_source = pose_code(pose.tilt_source);
+  message.position_source = code(pose.position_source);
+  message.tilt_source = code(pose.tilt_source);
   const Eigen::Vector2d field = field_of_view(snapshot.camera.value_or(geometry.camera));
   message.field_of_view_rad[0] = field.x();
   message.field_of_view_rad[1] = field.y();
@@ -111,70 +93,17 @@ void fill_pointing(const StationReport& report, ols_msg::station_status_t& messa
   message.target_offset_px[1] = snapshot.target_offset_px ? snapshot.target_offset_px->y() : kNaN;
 }
 
-std::int8_t state_code(StationState state) {
-  using M = ols_msg::station_status_t;
-  switch (state) {
-    case StationState::kIdle:
-      return M::STATE_IDLE;
-    case StationState::kManual:
-      return M::STATE_MANUAL;
-    case StationState::kTracking:
-      return M::STATE_TRACKING;
-    case StationState::kCoasting:
-      return M::STATE_COASTING;
-    case StationState::kLost:
-      return M::STATE_LOST;
-    case StationState::kSlewed:
-      return M::STATE_SLEWED;
-    case StationState::kStopped:
-      return M::STATE_STOPPED;
-    case StationState::kEmergency:
-      return M::STATE_EMERGENCY;
-  }
-  return M::STATE_IDLE;
-}
-
-std::int8_t calibration_code(CalibrationState state) {
-  using M = ols_msg::station_status_t;
-  switch (state) {
-    case CalibrationState::kNone:
-      return M::CALIBRATION_NONE;
-    case CalibrationState::kInUse:
-      return M::CALIBRATION_IN_USE;
-    case CalibrationState::kRefused:
-      return M::CALIBRATION_REFUSED;
-    case CalibrationState::kDoubted:
-      return M::CALIBRATION_DOUBTED;
-  }
-  return M::CALIBRATION_NONE;
-}
-
 void fill_calibration(const CalibrationStatus& calibration, ols_msg::station_status_t& message) {
-  message.calibration_state = calibration_code(calibration.state);
+  message.calibration_state = code(calibration.state);
   message.calibration_id = calibration.id;
   message.calibration_utime = calibration.observed_utime_us;
   message.calibration_sd_rad = calibration.rms_rad > 0.0 ? calibration.rms_rad : kNaN;
 }
 
-std::int8_t device_code(device::DeviceState state) {
-  using M = ols_msg::station_status_t;
-  switch (state) {
-    case device::DeviceState::kAbsent:
-      return M::DEVICE_ABSENT;
-    case device::DeviceState::kStarting:
-      return M::DEVICE_STARTING;
-    case device::DeviceState::kOk:
-      return M::DEVICE_OK;
-    case device::DeviceState::kFault:
-      return M::DEVICE_FAULT;
-  }
-  return M::DEVICE_FAULT;
-}
-
 void fill_devices(const StationReport& report, double now_s, ols_msg::station_status_t& message) {
   for (const device::DeviceReport& device : report.devices) {
     message.device_name.push_back(device.name);
-    message.device_state.push_back(device_code(device.state));
+    message.device_state.push_back(code(device.state));
     message.device_text.push_back(device.text);
     message.device_age_s.push_back(device.last_good_s ? now_s - *device.last_good_s : kNaN);
   }
@@ -231,7 +160,7 @@ ols_msg::bearing_t to_message(const Bearing& bearing, const Sender& sender,
   symmetric(bearing.sight.covariance_systematic, message.covariance_systematic_rad2);
   message.calibration_id =
       calibration_id(settings.calibration_id, sender.boot_id, bearing.pose_revision);
-  message.clock_state = clock_code(sender.clock.state);
+  message.clock_state = code(sender.clock.state);
   message.stamp_source = bearing.stamp_source == camera::StampSource::kCamera
                              ? ols_msg::bearing_t::STAMP_CAMERA
                              : ols_msg::bearing_t::STAMP_ARRIVAL;
@@ -244,7 +173,7 @@ ols_msg::sighting_t to_message(const Sighting& sighting, const Sender& sender,
   ols_msg::sighting_t message;
   stamp(message, sender, sighting.utime_us, sequence);
   fill_sighting(sighting, message);
-  message.clock_state = clock_code(sender.clock.state);
+  message.clock_state = code(sender.clock.state);
   message.clock_error_s = sender.clock.error_s;
   return message;
 }
@@ -255,7 +184,7 @@ ols_msg::station_status_t to_message(const StationReport& report, const Sender& 
   const StationSnapshot& snapshot = report.snapshot;
   ols_msg::station_status_t message;
   stamp(message, sender, sender.utime_us(now_s), sequence);
-  message.state = state_code(snapshot.state);
+  message.state = code(snapshot.state);
   message.track_id = snapshot.track_id;
   message.belief = snapshot.belief;
   fill_pose(snapshot, settings.station.geometry, message);
@@ -264,7 +193,7 @@ ols_msg::station_status_t to_message(const StationReport& report, const Sender& 
   fill_borders(settings.station.geometry.chain, report, message);
   fill_calibration(report.calibration, message);
   fill_devices(report, now_s, message);
-  message.clock_state = clock_code(sender.clock.state);
+  message.clock_state = code(sender.clock.state);
   message.clock_error_s = sender.clock.error_s;
   message.frame_latency_s = snapshot.frame_latency_s;
   fill_numbers(report, message);
@@ -300,7 +229,7 @@ ols_msg::frame_part_t to_message(const FramePart& part, const Sender& sender,
   message.request_boot_id = of.request.boot_id;
   message.request_sequence = of.request.sequence;
   message.utime_sd_s = of.frame.stamp_sd_s;
-  message.clock_state = clock_code(sender.clock.state);
+  message.clock_state = code(sender.clock.state);
   message.clock_error_s = sender.clock.error_s;
   message.pan_counts = of.counts.pan;
   message.tilt_counts = of.counts.tilt;
@@ -331,7 +260,7 @@ ols_msg::command_reply_t to_message(const Answer& answer, const Sender& sender, 
   message.accepted = answer.reason.empty() ? 1 : 0;
   message.reason = answer.reason;
   message.detail = answer.detail;
-  message.state = state_code(answer.state);
+  message.state = code(answer.state);
   return message;
 }
 

@@ -13,7 +13,6 @@
 #include <filesystem>
 #include <fstream>
 #include <system_error>
-#include <vector>
 
 #include "edge/recorder/event_folder.h"
 

@@ -22,6 +22,7 @@
 
 namespace ols::sensors {
 
+// The values are those of station_status_t.
 enum class PoseSource { kNone, kSurveyed, kSensor };
 
 struct StationPose {

@@ -15,6 +15,7 @@
 
 namespace ols::station {
 
+// The values are those of station_status_t.
 enum class StationState {
   kIdle,
   kManual,

@@ -2,7 +2,6 @@
 
 #include <wels/codec_api.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace ols::video {

@@ -1,6 +1,5 @@
 #include "edge/video/messages_video.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <opencv2/imgcodecs.hpp>

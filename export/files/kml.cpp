@@ -1,7 +1,5 @@
 #include "export/files/kml.h"
 
-#include <cmath>
-
 #include "export/text.h"
 #include "export/uncertainty.h"
 

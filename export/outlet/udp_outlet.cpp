@@ -3,7 +3,6 @@
 #include <boost/asio/buffer.hpp>
 #include <boost/asio/error.hpp>
 #include <boost/asio/ip/multicast.hpp>
-#include <utility>
 
 #include "base/process/clocks.h"
 

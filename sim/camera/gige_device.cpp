@@ -1,9 +1,7 @@
 #include "sim/camera/gige_device.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
-#include <cmath>
 #include <cstring>
 #include <map>
 #include <sstream>

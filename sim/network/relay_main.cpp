@@ -1,6 +1,5 @@
 // ols-sim-relay: connects two LCM buses by a bad network.
 
-#include <cmath>
 #include <iostream>
 #include <regex>
 

@@ -1,7 +1,6 @@
 #include "sim/ptu/tap_watch.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cmath>
 

@@ -1,6 +1,5 @@
 #include "sim/scenario/scenario_places.h"
 
-#include <algorithm>
 #include <memory>
 #include <stdexcept>
 #include <utility>

@@ -1,7 +1,6 @@
 #include "sim/world/trajectory.h"
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 
 #include "geometry/angles.h"

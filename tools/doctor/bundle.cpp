@@ -1,6 +1,5 @@
 #include "tools/doctor/bundle.h"
 
-#include <array>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>

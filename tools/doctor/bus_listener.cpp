@@ -9,9 +9,9 @@
 #include "base/bus/channel_names.h"
 #include "base/bus/lcm_bus.h"
 #include "base/bus/lcm_url.h"
+#include "base/bus/message_code.h"
 #include "base/process/clocks.h"
 #include "base/process/command_output.h"
-#include "ols_msg/bearing_t.hpp"
 #include "ols_msg/fusion_status_t.hpp"
 #include "ols_msg/station_status_t.hpp"
 #include "tools/ctl/status_text.h"
@@ -25,27 +25,6 @@ namespace {
 constexpr int kPoll_ms = 50;
 constexpr double kCommand_s = 2.0;
 constexpr std::size_t kMostBoots = 100;  // limits the memory that forged messages can use
-
-device::DeviceState device_state_of(std::int8_t code) {
-  using M = ols_msg::station_status_t;
-  switch (code) {
-    case M::DEVICE_STARTING:
-      return device::DeviceState::kStarting;
-    case M::DEVICE_OK:
-      return device::DeviceState::kOk;
-    case M::DEVICE_FAULT:
-      return device::DeviceState::kFault;
-    default:
-      return device::DeviceState::kAbsent;
-  }
-}
-
-clock::ClockState clock_state_of(std::int8_t code) {
-  using M = ols_msg::bearing_t;
-  if (code == M::CLOCK_SYNCHRONISED) return clock::ClockState::kSynchronised;
-  if (code == M::CLOCK_UNSYNCHRONISED) return clock::ClockState::kUnsynchronised;
-  return clock::ClockState::kUnknown;
-}
 
 // By the examined process's own key, as root: it only listens.
 std::shared_ptr<trust::BusTrust> open_trust(const trust::TrustConfig& config,
@@ -63,11 +42,13 @@ StationHeard station_from(const ols_msg::station_status_t& status) {
   for (std::size_t i = 0; i < status.device_name.size(); ++i) {
     device::DeviceReport device;
     device.name = status.device_name[i];
-    device.state = device_state_of(status.device_state[i]);
+    device.state = from_code(status.device_state[i], device::DeviceState::kFault,
+                             device::DeviceState::kAbsent);
     device.text = status.device_text[i];
     station.devices.push_back(device);
   }
-  station.clock = clock_state_of(status.clock_state);
+  station.clock = from_code(status.clock_state, clock::ClockState::kUnsynchronised,
+                            clock::ClockState::kUnknown);
   station.clock_error_s = status.clock_error_s;
   station.position_known = status.position_source != ols_msg::station_status_t::POSE_NONE;
   using M = ols_msg::station_status_t;

@@ -1,7 +1,6 @@
 #include "tools/doctor/judge_devices.h"
 
 #include <cerrno>
-#include <cmath>
 #include <cstring>
 
 namespace ols::doctor {

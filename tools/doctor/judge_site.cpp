@@ -1,7 +1,6 @@
 #include "tools/doctor/judge_site.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "tools/doctor/judge_devices.h"
 

@@ -1,12 +1,8 @@
 // ols-exporter: the site's statuses for Prometheus. Parses, loads, wires and loops.
 #include <prometheus/collectable.h>
 #include <prometheus/exposer.h>
-#include <spdlog/sinks/stdout_color_sinks.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <cstdio>
-#include <exception>
 #include <iterator>
 #include <memory>
 #include <mutex>
@@ -21,8 +17,8 @@
 #include "base/journal/journal.h"
 #include "base/process/clocks.h"
 #include "base/process/command_line.h"
+#include "base/process/service_frame.h"
 #include "base/process/service_notifier.h"
-#include "base/process/shutdown.h"
 #include "tools/exporter/bridge_metrics.h"
 #include "tools/exporter/exporter_config.h"
 #include "tools/exporter/site_metrics.h"
@@ -32,6 +28,7 @@
 namespace {
 
 constexpr int kTurn_ms = 200;
+constexpr double kStatus_s = 60.0;  // the line of status does not change
 
 // Heard by the main thread, told by those of the web server.
 class Told : public prometheus::Collectable {
@@ -98,7 +95,7 @@ void listen(ols::LcmBus& bus, Told& told) {
   });
 }
 
-void run(const ols::exporter::ExporterConfig& config) {
+int run(const ols::exporter::ExporterConfig& config) {
   const auto told = std::make_shared<Told>(config.bridge_status);
   prometheus::Exposer server(config.address, 1);
   server.RegisterCollectable(told);
@@ -106,11 +103,11 @@ void run(const ols::exporter::ExporterConfig& config) {
   ols::BusConnector connector(config.lcm_url, signatures);
   std::unique_ptr<ols::LcmBus> bus;
   ols::ServiceNotifier service_manager;
-  service_manager.ready("serves http://" + config.address + "/metrics");
+  const std::string page = "serves http://" + config.address + "/metrics";
+  service_manager.ready(page);
   ols::write_to_journal(
       {.text = "ready: http://" + config.address + "/metrics", .id = ols::event::kReady});
-  while (!ols::shutdown_requested()) {
-    const double now_s = ols::clock_monotonic_s();
+  const auto turn = [&](double now_s) {
     if (signatures) told->know(signatures->stations());
     if (bus && bus->is_deaf()) bus.reset();
     if (!bus) {
@@ -120,9 +117,9 @@ void run(const ols::exporter::ExporterConfig& config) {
       bus->handle(kTurn_ms);
       told->hear_distrusted(bus->traffic());
     }
-    service_manager.alive(now_s);
-  }
-  service_manager.stopping();
+  };
+  serve(service_manager, kStatus_s, turn, [&] { return page; });
+  return 0;
 }
 
 }  // namespace
@@ -131,27 +128,14 @@ int main(int argc, char** argv) {
   CLI::App app{
       "Serves the statuses of the site's stations and fusion to Prometheus (docs/fleet.md)"};
   app.set_version_flag("--version", OLS_VERSION);
-  std::string config_path, lcm_url, address;
-  bool check = false;
-  app.add_option("--config", config_path, "Configuration file (TOML); all keys have defaults");
-  app.add_option("--lcm-url", lcm_url, "Bus, in place of the configuration's");
+  ols::ServiceOptions options;
+  std::string address;
+  add_service_options(app, options);
   app.add_option("--address", address, "ADDRESS:PORT, in place of the configuration's");
-  app.add_flag("--check-config", check, "Only read and check the configuration");
   if (const auto status = ols::parse_command_line(app, argc, argv, "ols-exporter")) return *status;
-  spdlog::set_default_logger(spdlog::stderr_color_mt("ols-exporter"));
-  ols::install_shutdown_handler();
-  try {
-    ols::exporter::ExporterConfig config;
-    if (!config_path.empty()) config = ols::exporter::load_exporter_config(config_path);
-    if (!lcm_url.empty()) config.lcm_url = lcm_url;
+  return ols::run_service("ols-exporter", ols::InvalidArgument::kFailure, [&] {
+    auto config = configuration_of(options, ols::exporter::load_exporter_config);
     if (!address.empty()) config.address = address;
-    if (!check) run(config);
-    return 0;
-  } catch (const ols::ConfigError& error) {
-    std::fprintf(stderr, "ols-exporter: %s\n", error.what());
-    return ols::kExitBadInput;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "ols-exporter: %s\n", error.what());
-    return 1;
-  }
+    return options.check_config ? 0 : run(config);
+  });
 }

@@ -1,7 +1,6 @@
 #include "tools/exporter/site_metrics.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "ols_msg/bearing_t.hpp"

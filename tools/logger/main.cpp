@@ -1,18 +1,13 @@
 // ols-logger: records the bus, under a quota or into one file. Parses, loads, wires and loops.
 #include <poll.h>
-#include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
 #include <cstdio>
-#include <exception>
-#include <stdexcept>
-#include <system_error>
 
-#include "base/bus/lcm_url.h"
-#include "base/config/toml_config.h"
 #include "base/journal/journal.h"
 #include "base/process/clocks.h"
 #include "base/process/command_line.h"
+#include "base/process/service_frame.h"
 #include "base/process/service_notifier.h"
 #include "base/process/shutdown.h"
 #include "base/process/status_file.h"
@@ -51,26 +46,19 @@ int run_into(const std::string& file, const ols::logger::LoggerConfig& config) {
 int run(const ols::logger::LoggerConfig& config) {
   ols::logger::Supervisor supervisor(config);
   ols::StatusFile status_file(config.status_file);
+  // Ready even without a usable disk: it is retried, and the status reports it.
   ols::ServiceNotifier service_manager;
-  double status_due_s = 0.0;
-  bool ready = false;
-  while (!ols::shutdown_requested()) {
-    const double now_s = ols::clock_monotonic_s();
+  supervisor.turn(ols::clock_monotonic_s());
+  service_manager.ready(status_line(supervisor.status()));
+  const auto turn = [&](double now_s) {
     supervisor.turn(now_s);
-    if (now_s >= status_due_s) {
-      const ols::logger::LoggerStatus status = supervisor.status();
-      // Ready even without a usable disk: it is retried, and the status reports it.
-      ready ? service_manager.status(status_line(status))
-            : service_manager.ready(status_line(status));
-      ready = true;
-      status_file.write(ols::logger::to_json(status, ols::clock_utime_us()));
-      status_due_s = now_s + kStatus_s;
-    }
-    service_manager.alive(now_s);
     ::poll(nullptr, 0, kTurn_ms);
-  }
-  service_manager.stopping();
-  ols::write_to_journal({.text = "stops", .id = ols::event::kStops});
+  };
+  serve(service_manager, kStatus_s, turn, [&] {
+    const ols::logger::LoggerStatus status = supervisor.status();
+    status_file.write(ols::logger::to_json(status, ols::clock_utime_us()));
+    return status_line(status);
+  });
   return 0;
 }
 
@@ -81,39 +69,17 @@ int main(int argc, char** argv) {
       "Records the bus: the oldest files are removed when the quota is used up or the disk's free "
       "space falls below the reserve"};
   app.set_version_flag("--version", OLS_VERSION);
-  std::string config_path, folder, lcm_url, output;
-  bool check = false;
-  app.add_option("--config", config_path, "Configuration file (TOML); all keys have defaults");
+  ols::ServiceOptions options;
+  std::string folder, output;
+  add_service_options(app, options);
   app.add_option("--folder", folder, "Folder of the logs, in place of the configuration's");
   app.add_option("--output", output,
                  "Record into this one new file instead, without a quota, until ended");
-  app.add_option("--lcm-url", lcm_url, "Bus, in place of the configuration's");
-  app.add_flag("--check-config", check, "Only read and check the configuration");
   if (const auto status = ols::parse_command_line(app, argc, argv, "ols-logger")) return *status;
-  spdlog::set_default_logger(spdlog::stderr_color_mt("ols-logger"));
-  ols::install_shutdown_handler();
-  try {
-    ols::logger::LoggerConfig config;
-    if (!config_path.empty()) config = ols::logger::load_logger_config(config_path);
+  return ols::run_service("ols-logger", ols::InvalidArgument::kBadInput, [&] {
+    auto config = configuration_of(options, ols::logger::load_logger_config);
     if (!folder.empty()) config.folder = folder;
-    if (!lcm_url.empty()) config.lcm_url = lcm_url;
-    ols::parse_lcm_url(config.lcm_url);  // throws when it is malformed
-    if (check) return 0;
-    return output.empty() ? run(config) : run_into(output, config);
-  } catch (const ols::ConfigError& error) {
-    std::fprintf(stderr, "ols-logger: %s\n", error.what());
-    return ols::kExitBadInput;
-  } catch (const std::system_error& error) {
-    std::fprintf(stderr, "ols-logger: %s\n", error.what());
-    return ols::kExitBadInput;
-  } catch (const ols::BusError& error) {
-    std::fprintf(stderr, "ols-logger: %s\n", error.what());
-    return 1;
-  } catch (const std::invalid_argument& error) {
-    std::fprintf(stderr, "ols-logger: --lcm-url: %s\n", error.what());
-    return ols::kExitBadInput;
-  } catch (const std::exception& error) {
-    spdlog::critical("{}", error.what());
-    return 1;
-  }
+    if (options.check_config) return 0;
+    return ols::as_bad_input([&] { return output.empty() ? run(config) : run_into(output, config); });
+  });
 }

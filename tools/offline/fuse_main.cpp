@@ -1,7 +1,6 @@
 // ols-fuse: positions from recorded bearings.
 #include <Eigen/Core>
 #include <algorithm>
-#include <cmath>
 #include <future>
 #include <iostream>
 #include <map>

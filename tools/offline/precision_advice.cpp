@@ -1,5 +1,4 @@
 // ols-precision advise: the best of many places for some stations.
-#include <algorithm>
 #include <iomanip>
 #include <iostream>
 #include <memory>

@@ -1,7 +1,6 @@
 #include "tools/offline/stationing_files.h"
 
 #include <algorithm>
-#include <cmath>
 #include <iomanip>
 #include <limits>
 #include <sstream>

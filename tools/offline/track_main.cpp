@@ -1,5 +1,4 @@
 // ols-track: follows one target through a clip and writes boxes.csv.
-#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <iostream>

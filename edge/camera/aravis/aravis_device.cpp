@@ -3,7 +3,6 @@
 #include <arv.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "base/process/clocks.h"
 #include "edge/camera/aravis/aravis_error.h"

@@ -1,6 +1,5 @@
 #include "edge/camera/aravis/aravis_features.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "edge/camera/aravis/aravis_error.h"
