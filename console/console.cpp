@@ -41,9 +41,9 @@ void Console::hear(const StationHeard& station, const Now& now) {
   const bool is_new = !site_.knows(station.id);
   site_.hear(station, now);
   if (!site_.knows(station.id)) return;  // no room: a flood of invented names
-  const bool is_news = station.is_stopped && !is_new && !desk_.is_stopped(station.id);
-  if (is_news && !desk_.is_stopping(station.id)) tell_holders({station.id}, "stop", {}, now);
-  desk_.hear(station.id, station.is_stopped);
+  const bool is_news = station.is_stopped && !is_new && !orders_.is_stopped(station.id);
+  if (is_news && !orders_.is_stopping(station.id)) tell_holders({station.id}, "stop", {}, now);
+  orders_.hear(station.id, station.is_stopped);
   if (station.video_address.empty()) {
     video_addresses_.erase(station.id);
   } else {
@@ -54,7 +54,7 @@ void Console::hear(const StationHeard& station, const Now& now) {
   }
 }
 
-void Console::hear(const wire::Reply& reply) { desk_.hear(reply); }
+void Console::hear(const wire::Reply& reply) { orders_.hear(reply); }
 
 void Console::hear_bearing(const std::string& station, const Json& bearing) {
   site_.hear_bearing(station, bearing);
@@ -73,12 +73,12 @@ void Console::hear(ProcedureHeard procedure) {
 
 void Console::hear(const wire::Order& order, const Now& now) {
   const bool is_repeated =
-      order.kind == wire::Kind::kStop && desk_.stop_event(order.station, "") != 0;
-  if (is_repeated) return desk_.watch_again(order);
+      order.kind == wire::Kind::kStop && orders_.stop_event(order.station, "") != 0;
+  if (is_repeated) return orders_.watch_again(order);
   if (!site_.knows(order.station)) return;
   const auto event = site_.note({now.utime_us, "command", order.station, "", words(order), ""});
   if (const auto refusal =
-          desk_.begin(order, {.event = event, .is_watched = true}, now.monotonic_s)) {
+          orders_.begin(order, {.event = event, .is_watched = true}, now.monotonic_s)) {
     site_.conclude(event, *refusal);
   }
 }
@@ -280,12 +280,12 @@ void Console::act(std::uint64_t id, const CommandRequest& request, const Now& no
   }
   auto refusal = control_.use(order.station, id, viewer.name, now.monotonic_s);
   // A hold is one event, however often it is renewed.
-  const bool continues = desk_.is_held(order, now.monotonic_s);
+  const bool continues = orders_.is_held(order, now.monotonic_s);
   const auto event = continues ? 0
                                : site_.note({now.utime_us, "command", order.station, viewer.name,
                                              words(order), refusal.value_or("")});
   if (!refusal) {
-    refusal = desk_.begin(order, {id, request.number, event, viewer.name}, now.monotonic_s);
+    refusal = orders_.begin(order, {id, request.number, event, viewer.name}, now.monotonic_s);
     if (refusal) site_.conclude(event, *refusal);
   }
   if (refusal) answer(id, request.number, order.station, *refusal);
@@ -306,11 +306,11 @@ void Console::begin_stop(const std::string& station, const std::string& name, Ti
                          const Now& now) {
   const wire::Order order{.station = station, .kind = wire::Kind::kStop};
   ticket.who = name;
-  ticket.event = desk_.stop_event(station, name);
+  ticket.event = orders_.stop_event(station, name);
   if (ticket.event == 0) {
     ticket.event = site_.note({now.utime_us, "command", station, name, "stop", ""});
   }
-  if (const auto refusal = desk_.begin(order, ticket, now.monotonic_s)) {
+  if (const auto refusal = orders_.begin(order, ticket, now.monotonic_s)) {
     answer(ticket.viewer, ticket.number, station, *refusal);
   }
 }
@@ -321,7 +321,7 @@ void Console::tell_holders(const std::vector<std::string>& stations, const char*
   for (const std::string& station : stations) {
     const std::uint64_t holder = control_.holder(station, now.monotonic_s);
     // A stop of all comes twice, by the WebSocket and by a request.
-    const bool is_again = !by.name.empty() && desk_.stop_event(station, by.name) != 0;
+    const bool is_again = !by.name.empty() && orders_.stop_event(station, by.name) != 0;
     const bool is_known = by.viewer == holder || (is_again && std::string_view(what) == "stop");
     if (holder != 0 && !is_known) told[holder].push_back(station);
   }
@@ -334,7 +334,7 @@ void Console::tell_holders(const std::vector<std::string>& stations, const char*
 }
 
 std::vector<std::string> Console::stop_all(const Person& by, const Ticket& ticket, const Now& now) {
-  stop_until_s_ = now.monotonic_s + CommandDesk::kStopPatience_s;
+  stop_until_s_ = now.monotonic_s + PendingOrders::kStopPatience_s;
   stopped_by_ = by.name;
   std::vector<std::string> stations = site_.station_ids();
   tell_holders(stations, "stop", by, now);
@@ -346,7 +346,7 @@ std::vector<std::string> Console::stop_all(const Person& by, const Ticket& ticke
 
 void Console::forget_gone() {
   const auto is_known = [this](const std::string& id) { return site_.knows(id); };
-  desk_.keep_only(is_known);
+  orders_.keep_only(is_known);
   procedures_.keep_only(is_known);
   pictures_.keep_only(is_known);
   std::erase_if(video_addresses_, [&](const auto& video) { return !is_known(video.first); });
@@ -364,7 +364,7 @@ void Console::tell_all(const Json& message) {
 
 void Console::tell_outcomes(const Now& now) {
   std::set<std::string> unconfirmed;
-  for (const Verdict& verdict : desk_.finished(now.monotonic_s)) {
+  for (const Verdict& verdict : orders_.finished(now.monotonic_s)) {
     site_.conclude(verdict.ticket.event, verdict.why.empty() ? "done" : verdict.why);
     answer(verdict.ticket.viewer, verdict.ticket.number, verdict.station, verdict.why);
     if (verdict.ticket.is_for_all && !verdict.why.empty()) unconfirmed.insert(verdict.station);
@@ -379,11 +379,11 @@ void Console::replay_is(const Json& state, bool is_urgent) {
   for (auto& [id, viewer] : viewers_) viewer.sent_s = -1e9;
 }
 
-Moment Console::moment() const { return {site_, desk_, pictures_.newest()}; }
+Moment Console::moment() const { return {site_, orders_, pictures_.newest()}; }
 
 void Console::show(const Moment& moment) {
   site_ = moment.site;
-  desk_ = moment.desk;
+  orders_ = moment.desk;
   pictures_.show(moment.pictures);
   for (auto& [id, viewer] : viewers_) {
     viewer.sent = 0;
@@ -399,7 +399,7 @@ std::vector<wire::Order> Console::turn(const Now& now) {
     site_.set_holder(
         station, holder ? Json{{"by", holder->name}, {"viewer", holder->viewer}} : Json(nullptr));
   }
-  return desk_.due(now.monotonic_s);
+  return orders_.due(now.monotonic_s);
 }
 
 Outgoing Console::greeting(std::uint64_t id, Viewer& viewer, const Now& now) const {

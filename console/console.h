@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "console/client_message.h"
-#include "console/command_desk.h"
 #include "console/control_desk.h"
+#include "console/pending_orders.h"
 #include "console/picture_desk.h"
 #include "console/procedures.h"
 #include "console/site_state.h"
@@ -31,7 +31,7 @@ struct Outgoing {
 // The state of a replay at one instant.
 struct Moment {
   SiteState site;
-  CommandDesk desk;
+  PendingOrders desk;
   std::map<std::string, Picture> pictures;
 };
 
@@ -161,7 +161,7 @@ class Console {
   Outgoing greeting(std::uint64_t id, Viewer& viewer, const Now& now) const;
 
   SiteState site_;
-  CommandDesk desk_;
+  PendingOrders orders_;
   ControlDesk control_;
   Procedures procedures_;
   CueOrders cues_;

@@ -1,4 +1,4 @@
-#include "console/command_desk.h"
+#include "console/pending_orders.h"
 
 #include <gtest/gtest.h>
 
@@ -22,8 +22,8 @@ Reply answer(std::int64_t sequence, const std::string& reason = "", bool stopped
           .is_stopped = stopped};
 }
 
-TEST(CommandDesk, AnOrderIsSentOnceAndItsAnswerIsTold) {
-  CommandDesk desk;
+TEST(PendingOrders, AnOrderIsSentOnceAndItsAnswerIsTold) {
+  PendingOrders desk;
   desk.hear("alfa", false);
   EXPECT_FALSE(desk.begin(order(Kind::kHome), {.viewer = 4, .number = 5}, 10.0));
   EXPECT_EQ(desk.due(10.0).size(), 1U);
@@ -38,8 +38,8 @@ TEST(CommandDesk, AnOrderIsSentOnceAndItsAnswerIsTold) {
   EXPECT_TRUE(desk.finished(10.4).empty());
 }
 
-TEST(CommandDesk, EachOfTwoOrdersOnTheirWayHasItsOwnAnswer) {
-  CommandDesk desk;
+TEST(PendingOrders, EachOfTwoOrdersOnTheirWayHasItsOwnAnswer) {
+  PendingOrders desk;
   desk.hear("alfa", false);
   for (const std::int64_t number : {1, 2}) {
     EXPECT_FALSE(desk.begin(order(Kind::kDesignate), {.number = number}, 0.0));
@@ -57,8 +57,8 @@ TEST(CommandDesk, EachOfTwoOrdersOnTheirWayHasItsOwnAnswer) {
   EXPECT_EQ(verdicts[0].why, "");
 }
 
-TEST(CommandDesk, AnswersToOthersOrdersAndOfOtherStationsAreNone) {
-  CommandDesk desk;
+TEST(PendingOrders, AnswersToOthersOrdersAndOfOtherStationsAreNone) {
+  PendingOrders desk;
   desk.hear("alfa", false);
   desk.hear("bravo", false);
   static_cast<void>(desk.begin(order(Kind::kHome), {}, 0.0));
@@ -74,8 +74,8 @@ TEST(CommandDesk, AnswersToOthersOrdersAndOfOtherStationsAreNone) {
 }
 
 // As a log has it.
-TEST(CommandDesk, OfAnOrderThatIsOnlyWatchedTheAnswerIsToldIfThereIsOne) {
-  CommandDesk desk;
+TEST(PendingOrders, OfAnOrderThatIsOnlyWatchedTheAnswerIsToldIfThereIsOne) {
+  PendingOrders desk;
   desk.hear("alfa", false);
   Order stop = order(Kind::kStop);
   stop.id = {9, 1};
@@ -93,8 +93,8 @@ TEST(CommandDesk, OfAnOrderThatIsOnlyWatchedTheAnswerIsToldIfThereIsOne) {
   EXPECT_TRUE(desk.finished(2.0 + wire::kLease_s + 0.1).empty());
 }
 
-TEST(CommandDesk, WithoutAnAnswerItEndsWithTheLease) {
-  CommandDesk desk;
+TEST(PendingOrders, WithoutAnAnswerItEndsWithTheLease) {
+  PendingOrders desk;
   desk.hear("alfa", false);
   static_cast<void>(desk.begin(order(Kind::kPoint), {}, 0.0));
   static_cast<void>(desk.due(0.0));
@@ -102,8 +102,8 @@ TEST(CommandDesk, WithoutAnAnswerItEndsWithTheLease) {
   EXPECT_EQ(desk.finished(wire::kLease_s + 0.01).at(0).why, "no answer");
 }
 
-TEST(CommandDesk, ARateIsSentThoughTheOneBeforeIsAnsweredFirst) {
-  CommandDesk desk;
+TEST(PendingOrders, ARateIsSentThoughTheOneBeforeIsAnsweredFirst) {
+  PendingOrders desk;
   desk.hear("alfa", false);
   Order rate = order(Kind::kRate);
   rate.pan_rate_rad_s = 0.1;
@@ -119,8 +119,8 @@ TEST(CommandDesk, ARateIsSentThoughTheOneBeforeIsAnsweredFirst) {
   EXPECT_EQ(desk.finished(10.2).size(), 1U);
 }
 
-TEST(CommandDesk, ARateReplacesTheOneThatIsNotAnsweredYet) {
-  CommandDesk desk;
+TEST(PendingOrders, ARateReplacesTheOneThatIsNotAnsweredYet) {
+  PendingOrders desk;
   desk.hear("alfa", false);
   Order rate = order(Kind::kRate);
   EXPECT_FALSE(desk.is_held(rate, 10.0));
@@ -139,8 +139,8 @@ TEST(CommandDesk, ARateReplacesTheOneThatIsNotAnsweredYet) {
   EXPECT_EQ(desk.finished(10.5).size(), 1U) << "to any of them";
 }
 
-TEST(CommandDesk, AStopIsRepeatedUntilTheUnitStands) {
-  CommandDesk desk;
+TEST(PendingOrders, AStopIsRepeatedUntilTheUnitStands) {
+  PendingOrders desk;
   desk.hear("alfa", false);
   EXPECT_FALSE(desk.begin(order(Kind::kStop), {}, 0.0));
   EXPECT_EQ(desk.due(0.0).size(), 1U);
@@ -155,15 +155,15 @@ TEST(CommandDesk, AStopIsRepeatedUntilTheUnitStands) {
   EXPECT_TRUE(desk.due(0.3).empty());
 }
 
-TEST(CommandDesk, AStopOfAStationThatNobodyKnowsIsRefused) {
-  CommandDesk desk;
+TEST(PendingOrders, AStopOfAStationThatNobodyKnowsIsRefused) {
+  PendingOrders desk;
   EXPECT_EQ(desk.begin(order(Kind::kStop, "invented"), {}, 0.0),
             "refused: no such station is heard");
   EXPECT_TRUE(desk.due(0.0).empty());
 }
 
-TEST(CommandDesk, AStopThatIsOnItsWayAlreadyIsJoinedAndSentAtOnce) {
-  CommandDesk desk;
+TEST(PendingOrders, AStopThatIsOnItsWayAlreadyIsJoinedAndSentAtOnce) {
+  PendingOrders desk;
   desk.hear("alfa", false);
   EXPECT_FALSE(desk.begin(order(Kind::kStop), {.number = 1, .event = 7, .who = "ana"}, 0.0));
   EXPECT_EQ(desk.due(0.0).size(), 1U);
@@ -174,18 +174,18 @@ TEST(CommandDesk, AStopThatIsOnItsWayAlreadyIsJoinedAndSentAtOnce) {
   EXPECT_FALSE(desk.begin(order(Kind::kStop), {.number = 3, .who = "ben"}, 1.005));
   EXPECT_EQ(desk.due(1.005).size(), 1U);
   EXPECT_TRUE(desk.due(1.01).empty());
-  const auto first = desk.finished(CommandDesk::kStopPatience_s + 0.1);
+  const auto first = desk.finished(PendingOrders::kStopPatience_s + 0.1);
   ASSERT_EQ(first.size(), 1U) << "each waits for its own time";
   EXPECT_EQ(first[0].ticket.number, 1);
   EXPECT_EQ(first[0].why, "sent repeatedly, no answer");
   desk.hear(answer(1, "", true));
-  const auto rest = desk.finished(CommandDesk::kStopPatience_s + 0.2);
+  const auto rest = desk.finished(PendingOrders::kStopPatience_s + 0.2);
   ASSERT_EQ(rest.size(), 2U);
   EXPECT_TRUE(rest[0].why.empty() && rest[1].why.empty());
 }
 
-TEST(CommandDesk, AStationThatIsForgottenIsNotKnownAnyMore) {
-  CommandDesk desk;
+TEST(PendingOrders, AStationThatIsForgottenIsNotKnownAnyMore) {
+  PendingOrders desk;
   desk.hear("alfa", false);
   desk.hear("bravo", false);
   desk.keep_only([](const std::string& id) { return id == "bravo"; });
@@ -193,9 +193,9 @@ TEST(CommandDesk, AStationThatIsForgottenIsNotKnownAnyMore) {
   EXPECT_FALSE(desk.begin(order(Kind::kHome, "bravo"), {}, 0.0));
 }
 
-TEST(CommandDesk, StopsAreNeitherRefusedNorHeapedUp) {
-  CommandDesk desk;
-  for (std::size_t i = 0; i < CommandDesk::kMostPending; ++i) {
+TEST(PendingOrders, StopsAreNeitherRefusedNorHeapedUp) {
+  PendingOrders desk;
+  for (std::size_t i = 0; i < PendingOrders::kMostPending; ++i) {
     const std::string id = std::to_string(i);
     desk.hear(id, false);
     EXPECT_FALSE(desk.begin(order(Kind::kHome, id), {}, 0.0));
@@ -204,12 +204,12 @@ TEST(CommandDesk, StopsAreNeitherRefusedNorHeapedUp) {
             "refused: too many commands are on their way");
   static_cast<void>(desk.due(0.0));
   for (int i = 0; i < 10000; ++i) {  // somebody holds the key
-    const bool has_room = i < static_cast<int>(CommandDesk::kMostTickets);
+    const bool has_room = i < static_cast<int>(PendingOrders::kMostTickets);
     EXPECT_EQ(desk.begin(order(Kind::kStop, "0"), {}, 0.0).has_value(), !has_room);
   }
   EXPECT_EQ(desk.due(0.0).size(), 1U);
-  EXPECT_EQ(desk.finished(CommandDesk::kStopPatience_s + 1.0).size(),
-            CommandDesk::kMostPending + CommandDesk::kMostTickets);
+  EXPECT_EQ(desk.finished(PendingOrders::kStopPatience_s + 1.0).size(),
+            PendingOrders::kMostPending + PendingOrders::kMostTickets);
 }
 
 }  // namespace

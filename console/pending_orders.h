@@ -29,7 +29,7 @@ struct Verdict {
   std::string why;  // it was refused, or not answered, in words; empty: it is carried out
 };
 
-class CommandDesk {
+class PendingOrders {
  public:
   // Of a station's newest status.
   void hear(const std::string& station, bool is_stopped);

@@ -1,4 +1,4 @@
-#include "console/command_desk.h"
+#include "console/pending_orders.h"
 
 #include <algorithm>
 #include <utility>
@@ -9,12 +9,12 @@ namespace ols::console {
 
 using wire::Kind;
 
-void CommandDesk::hear(const std::string& station, bool is_stopped) {
+void PendingOrders::hear(const std::string& station, bool is_stopped) {
   stopped_[station] = is_stopped;
 }
 
 // A stop is confirmed when the unit stands, not before: it may cross another order.
-void CommandDesk::hear(const wire::Reply& reply) {
+void PendingOrders::hear(const wire::Reply& reply) {
   const auto known = stopped_.find(reply.station);
   if (known == stopped_.end()) return;
   if (reply.is_stopped) known->second = true;  // its next status is no news
@@ -25,20 +25,20 @@ void CommandDesk::hear(const wire::Reply& reply) {
   }
 }
 
-void CommandDesk::keep_only(const std::function<bool(const std::string&)>& is_known) {
+void PendingOrders::keep_only(const std::function<bool(const std::string&)>& is_known) {
   std::erase_if(stopped_, [&](const auto& station) { return !is_known(station.first); });
   std::erase_if(holds_s_, [&](const auto& hold) { return !is_known(hold.first.first); });
 }
 
-std::optional<std::string> CommandDesk::join(Pending& stop, const Ticket& ticket, double now_s) {
+std::optional<std::string> PendingOrders::join(Pending& stop, const Ticket& ticket, double now_s) {
   stop.sent_s = -1e9;
   if (stop.waiting.size() >= kMostTickets) return "a stop is on its way already, and sent again";
   stop.waiting.push_back({ticket, now_s});
   return std::nullopt;
 }
 
-std::optional<std::string> CommandDesk::begin(const wire::Order& order, const Ticket& ticket,
-                                              double now_s) {
+std::optional<std::string> PendingOrders::begin(const wire::Order& order, const Ticket& ticket,
+                                                double now_s) {
   const bool is_stop = order.kind == Kind::kStop, is_hold = wire::is_joystick(order);
   if (!stopped_.contains(order.station)) return "refused: no such station is heard";
   if (is_hold) holds_s_[{order.station, order.kind}] = now_s;
@@ -66,19 +66,19 @@ std::optional<std::string> CommandDesk::begin(const wire::Order& order, const Ti
   return std::nullopt;
 }
 
-void CommandDesk::watch_again(const wire::Order& order) {
+void PendingOrders::watch_again(const wire::Order& order) {
   for (Pending& pending : pending_) {
     const bool is_it = pending.order.station == order.station && pending.order.kind == order.kind;
     if (is_it && pending.sent.size() < kMostSent) pending.sent.insert(order.id);
   }
 }
 
-bool CommandDesk::is_held(const wire::Order& order, double now_s) const {
+bool PendingOrders::is_held(const wire::Order& order, double now_s) const {
   const auto hold = holds_s_.find({order.station, order.kind});
   return wire::is_joystick(order) && hold != holds_s_.end() && now_s - hold->second < kHold_s;
 }
 
-std::uint64_t CommandDesk::stop_event(const std::string& station, const std::string& who) const {
+std::uint64_t PendingOrders::stop_event(const std::string& station, const std::string& who) const {
   for (const Pending& pending : pending_) {
     if (pending.order.station != station || pending.order.kind != Kind::kStop) continue;
     const auto own = std::ranges::find_if(
@@ -88,18 +88,18 @@ std::uint64_t CommandDesk::stop_event(const std::string& station, const std::str
   return 0;
 }
 
-bool CommandDesk::is_stopping(const std::string& station) const {
+bool PendingOrders::is_stopping(const std::string& station) const {
   return std::ranges::any_of(pending_, [&](const Pending& pending) {
     return pending.order.station == station && pending.order.kind == Kind::kStop;
   });
 }
 
-bool CommandDesk::is_stopped(const std::string& station) const {
+bool PendingOrders::is_stopped(const std::string& station) const {
   const auto known = stopped_.find(station);
   return known != stopped_.end() && known->second;
 }
 
-std::vector<wire::Order> CommandDesk::due(double now_s) {
+std::vector<wire::Order> PendingOrders::due(double now_s) {
   std::vector<wire::Order> orders;
   for (Pending& pending : pending_) {
     const bool is_stop = pending.order.kind == Kind::kStop;
@@ -116,7 +116,7 @@ std::vector<wire::Order> CommandDesk::due(double now_s) {
 }
 
 // Those who have joined a stop later wait for longer.
-std::vector<Verdict> CommandDesk::finished(double now_s) {
+std::vector<Verdict> PendingOrders::finished(double now_s) {
   std::vector<Verdict> verdicts;
   std::erase_if(pending_, [&](Pending& pending) {
     if (pending.sent_s < 0.0) return false;
