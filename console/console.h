@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "console/client_message.h"
-#include "console/control_desk.h"
+#include "console/control_leases.h"
 #include "console/pending_orders.h"
 #include "console/picture_desk.h"
 #include "console/procedures.h"
@@ -162,7 +162,7 @@ class Console {
 
   SiteState site_;
   PendingOrders orders_;
-  ControlDesk control_;
+  ControlLeases control_;
   Procedures procedures_;
   CueOrders cues_;
   std::map<std::uint64_t, Viewer> viewers_;

@@ -1,12 +1,12 @@
-#include "console/control_desk.h"
+#include "console/control_leases.h"
 
 #include <gtest/gtest.h>
 
 namespace ols::console {
 namespace {
 
-TEST(ControlDesk, TheFirstToCommandHasControl) {
-  ControlDesk desk(60.0);
+TEST(ControlLeases, TheFirstToCommandHasControl) {
+  ControlLeases desk(60.0);
   EXPECT_FALSE(desk.use("alfa", 1, "ana", 0.0));
   EXPECT_FALSE(desk.use("alfa", 1, "ana", 10.0));
   EXPECT_EQ(desk.use("alfa", 2, "ben", 10.5),
@@ -14,15 +14,15 @@ TEST(ControlDesk, TheFirstToCommandHasControl) {
   EXPECT_FALSE(desk.use("bravo", 2, "ben", 10.5));
 }
 
-TEST(ControlDesk, ItEndsWithTime) {
-  ControlDesk desk(60.0);
+TEST(ControlLeases, ItEndsWithTime) {
+  ControlLeases desk(60.0);
   static_cast<void>(desk.use("alfa", 1, "ana", 0.0));
   EXPECT_FALSE(desk.use("alfa", 2, "ben", 60.0));
   EXPECT_TRUE(desk.use("alfa", 1, "ana", 61.0));
 }
 
-TEST(ControlDesk, ItCanBeTakenOverGivenUpAndLeft) {
-  ControlDesk desk(60.0);
+TEST(ControlLeases, ItCanBeTakenOverGivenUpAndLeft) {
+  ControlLeases desk(60.0);
   static_cast<void>(desk.use("alfa", 1, "ana", 0.0));
   desk.take("alfa", 2, "ben", 1.0);
   EXPECT_TRUE(desk.use("alfa", 1, "ana", 2.0));
@@ -32,8 +32,8 @@ TEST(ControlDesk, ItCanBeTakenOverGivenUpAndLeft) {
   EXPECT_FALSE(desk.use("alfa", 1, "ana", 2.0));
 }
 
-TEST(ControlDesk, TellsEachChangeOfHolderOnce) {
-  ControlDesk desk(60.0);
+TEST(ControlLeases, TellsEachChangeOfHolderOnce) {
+  ControlLeases desk(60.0);
   static_cast<void>(desk.use("alfa", 1, "ana", 0.0));
   auto changes = desk.changes(0.0);
   ASSERT_EQ(changes.size(), 1U);

@@ -16,9 +16,9 @@ struct Holder {
   double until_s = 0.0;  // monotonic
 };
 
-class ControlDesk {
+class ControlLeases {
  public:
-  explicit ControlDesk(double timeout_s) : timeout_s_(timeout_s) {}
+  explicit ControlLeases(double timeout_s) : timeout_s_(timeout_s) {}
 
   // A command of this viewer: takes or prolongs control. Returns why it may not: another viewer has
   // control.

@@ -1,18 +1,18 @@
-#include "console/control_desk.h"
+#include "console/control_leases.h"
 
 #include <cmath>
 
 namespace ols::console {
 
-void ControlDesk::set(const std::string& station, std::uint64_t viewer, const std::string& name,
-                      double now_s) {
+void ControlLeases::set(const std::string& station, std::uint64_t viewer, const std::string& name,
+                        double now_s) {
   Holder& holder = holders_[station];
   if (holder.viewer != viewer) changed_.push_back(station);
   holder = {viewer, name, now_s + timeout_s_};
 }
 
-std::optional<std::string> ControlDesk::use(const std::string& station, std::uint64_t viewer,
-                                            const std::string& name, double now_s) {
+std::optional<std::string> ControlLeases::use(const std::string& station, std::uint64_t viewer,
+                                              const std::string& name, double now_s) {
   const auto held = holders_.find(station);
   if (held != holders_.end() && held->second.viewer != viewer && now_s < held->second.until_s) {
     const int left_s = static_cast<int>(std::ceil(held->second.until_s - now_s));
@@ -23,24 +23,24 @@ std::optional<std::string> ControlDesk::use(const std::string& station, std::uin
   return std::nullopt;
 }
 
-void ControlDesk::take(const std::string& station, std::uint64_t viewer, const std::string& name,
-                       double now_s) {
+void ControlLeases::take(const std::string& station, std::uint64_t viewer, const std::string& name,
+                         double now_s) {
   set(station, viewer, name, now_s);
 }
 
-std::uint64_t ControlDesk::holder(const std::string& station, double now_s) const {
+std::uint64_t ControlLeases::holder(const std::string& station, double now_s) const {
   const auto held = holders_.find(station);
   return held == holders_.end() || now_s >= held->second.until_s ? 0 : held->second.viewer;
 }
 
-void ControlDesk::give_up(const std::string& station, std::uint64_t viewer) {
+void ControlLeases::give_up(const std::string& station, std::uint64_t viewer) {
   const auto held = holders_.find(station);
   if (held == holders_.end() || held->second.viewer != viewer) return;
   holders_.erase(held);
   changed_.push_back(station);
 }
 
-void ControlDesk::leave(std::uint64_t viewer) {
+void ControlLeases::leave(std::uint64_t viewer) {
   std::erase_if(holders_, [&](const auto& held) {
     if (held.second.viewer != viewer) return false;
     changed_.push_back(held.first);
@@ -48,7 +48,7 @@ void ControlDesk::leave(std::uint64_t viewer) {
   });
 }
 
-std::vector<std::pair<std::string, std::optional<Holder>>> ControlDesk::changes(double now_s) {
+std::vector<std::pair<std::string, std::optional<Holder>>> ControlLeases::changes(double now_s) {
   std::erase_if(holders_, [&](const auto& held) {
     if (now_s < held.second.until_s) return false;
     changed_.push_back(held.first);
