@@ -213,7 +213,7 @@ void Console::act(std::uint64_t id, const NameRequest& request, const Now& now) 
 }
 
 void Console::act(std::uint64_t id, const WatchRequest& request, const Now&) {
-  PictureDesk::View& view = viewers_.at(id).view;
+  LatestPictures::View& view = viewers_.at(id).view;
   view.watched = {request.stations.begin(), request.stations.end()};
   // A browser that begins with a stream has had nothing of it.
   if (view.codec != request.codec) view.sent.clear();

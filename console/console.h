@@ -14,8 +14,8 @@
 
 #include "console/client_message.h"
 #include "console/control_leases.h"
+#include "console/latest_pictures.h"
 #include "console/pending_orders.h"
-#include "console/picture_desk.h"
 #include "console/procedures.h"
 #include "console/site_state.h"
 #include "console/users.h"
@@ -127,7 +127,7 @@ class Console {
     bool is_greeted = false;
     Revision sent = 0;
     double sent_s = -1e9;
-    PictureDesk::View view;
+    LatestPictures::View view;
     std::deque<std::string> answers;
   };
   struct ReplayDesk {
@@ -166,7 +166,7 @@ class Console {
   Procedures procedures_;
   CueOrders cues_;
   std::map<std::uint64_t, Viewer> viewers_;
-  PictureDesk pictures_;
+  LatestPictures pictures_;
   std::map<std::string, std::string> video_addresses_;
   std::uint64_t viewer_numbers_ = 0;
   std::uint64_t messages_refused_ = 0;

@@ -15,7 +15,7 @@
 
 namespace ols::console {
 
-class PictureDesk {
+class LatestPictures {
  public:
   // The stations that a browser watches, and the number of the last picture sent to it for each.
   struct View {

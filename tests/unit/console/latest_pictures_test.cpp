@@ -1,4 +1,4 @@
-#include "console/picture_desk.h"
+#include "console/latest_pictures.h"
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ Picture stream_unit(std::int64_t utime_us, bool is_key) {
 
 // The station and instant of the next picture of this view, and how many units of a stream it has;
 // empty: none.
-std::string next_of(const PictureDesk& desk, PictureDesk::View& view) {
+std::string next_of(const LatestPictures& desk, LatestPictures::View& view) {
   const auto bytes = desk.next(view);
   if (!bytes) return "";
   const Json header = Json::parse(bytes->substr(4, bytes->rfind('}') - 3));
@@ -27,9 +27,9 @@ std::string next_of(const PictureDesk& desk, PictureDesk::View& view) {
   return header.contains("units") ? name + ":" + std::to_string(header.at("units").size()) : name;
 }
 
-TEST(PictureDesk, APreviewIsShownOnlyWhereNoVideoComes) {
-  PictureDesk desk;
-  PictureDesk::View view{{"alfa"}, Codec::kJpeg, {}};
+TEST(LatestPictures, APreviewIsShownOnlyWhereNoVideoComes) {
+  LatestPictures desk;
+  LatestPictures::View view{{"alfa"}, Codec::kJpeg, {}};
   desk.hear(picture("alfa", 1'000'000, true));
   EXPECT_EQ(next_of(desk, view), "alfa1000000");
   desk.hear(picture("alfa", 2'000'000, false));
@@ -38,9 +38,9 @@ TEST(PictureDesk, APreviewIsShownOnlyWhereNoVideoComes) {
   EXPECT_EQ(next_of(desk, view), "alfa5000000") << "the video has ended";
 }
 
-TEST(PictureDesk, EachStationGetsItsTurnOverASlowLink) {
-  PictureDesk desk;
-  PictureDesk::View view{{"alfa", "bravo"}, Codec::kJpeg, {}};
+TEST(LatestPictures, EachStationGetsItsTurnOverASlowLink) {
+  LatestPictures desk;
+  LatestPictures::View view{{"alfa", "bravo"}, Codec::kJpeg, {}};
   std::string seen;
   for (int i = 1; i <= 4; ++i) {
     desk.hear(picture("alfa", i, true));
@@ -50,9 +50,9 @@ TEST(PictureDesk, EachStationGetsItsTurnOverASlowLink) {
   EXPECT_EQ(seen, "alfa1 bravo2 alfa3 bravo4 ");
 }
 
-TEST(PictureDesk, EachBrowserGetsItsCodec) {
-  PictureDesk desk;
-  PictureDesk::View thin{{"alfa"}, Codec::kH264, {}}, wide{{"alfa"}, Codec::kJpeg, {}};
+TEST(LatestPictures, EachBrowserGetsItsCodec) {
+  LatestPictures desk;
+  LatestPictures::View thin{{"alfa"}, Codec::kH264, {}}, wide{{"alfa"}, Codec::kJpeg, {}};
   desk.hear(stream_unit(1, true));
   desk.hear(picture("alfa", 2, true));
   desk.hear(stream_unit(3, false));
@@ -66,9 +66,9 @@ TEST(PictureDesk, EachBrowserGetsItsCodec) {
   EXPECT_EQ(next_of(desk, wide), "alfa4:3") << "from the key frame on";
 }
 
-TEST(PictureDesk, WithoutAStreamAThinViewSeesPreviews) {
-  PictureDesk desk;
-  PictureDesk::View thin{{"alfa"}, Codec::kH264, {}};
+TEST(LatestPictures, WithoutAStreamAThinViewSeesPreviews) {
+  LatestPictures desk;
+  LatestPictures::View thin{{"alfa"}, Codec::kH264, {}};
   desk.hear(picture("alfa", 1'000'000, false));
   EXPECT_EQ(next_of(desk, thin), "alfa1000000") << "none has come yet";
   desk.hear(stream_unit(1'500'000, true));
@@ -79,18 +79,18 @@ TEST(PictureDesk, WithoutAStreamAThinViewSeesPreviews) {
   EXPECT_EQ(next_of(desk, thin), "alfa5000000") << "it has ended";
 }
 
-TEST(PictureDesk, AStationThatIsGoneIsForgotten) {
-  PictureDesk desk;
+TEST(LatestPictures, AStationThatIsGoneIsForgotten) {
+  LatestPictures desk;
   desk.hear(stream_unit(1, true));
   desk.hear(picture("alfa", 1, true));
   desk.keep_only([](const std::string&) { return false; });
-  PictureDesk::View thin{{"alfa"}, Codec::kH264, {}};
+  LatestPictures::View thin{{"alfa"}, Codec::kH264, {}};
   EXPECT_EQ(next_of(desk, thin), "");
 }
 
-TEST(PictureDesk, TheNewestOfAllCanBeShownAgain) {
-  PictureDesk desk;
-  PictureDesk::View view{{"alfa"}, Codec::kJpeg, {}};
+TEST(LatestPictures, TheNewestOfAllCanBeShownAgain) {
+  LatestPictures desk;
+  LatestPictures::View view{{"alfa"}, Codec::kJpeg, {}};
   desk.hear(picture("alfa", 1, true));
   const auto then = desk.newest();
   desk.hear(picture("alfa", 2, true));

@@ -1,4 +1,4 @@
-#include "console/picture_desk.h"
+#include "console/latest_pictures.h"
 
 #include <utility>
 
@@ -17,7 +17,7 @@ bool is_preview_beside_video(const Picture& picture, const Picture& newest) {
 
 }  // namespace
 
-void PictureDesk::hear(Picture picture) {
+void LatestPictures::hear(Picture picture) {
   if (picture.codec == Codec::kH264) {
     streams_[picture.station].add(picture, ++numbers_);
     return;
@@ -30,7 +30,7 @@ void PictureDesk::hear(Picture picture) {
 
 // Null: this browser is to see single pictures, because it wants them, or because the station's
 // stream has ended.
-const UnitChain* PictureDesk::stream_for(const View& view, const std::string& station) const {
+const UnitChain* LatestPictures::stream_for(const View& view, const std::string& station) const {
   if (view.codec != Codec::kH264) return nullptr;
   const auto stream = streams_.find(station);
   if (stream == streams_.end() || stream->second.newest() == 0) return nullptr;
@@ -41,13 +41,13 @@ const UnitChain* PictureDesk::stream_for(const View& view, const std::string& st
   return is_over ? nullptr : &stream->second;
 }
 
-std::uint64_t PictureDesk::number_for(const View& view, const std::string& station) const {
+std::uint64_t LatestPictures::number_for(const View& view, const std::string& station) const {
   if (const UnitChain* stream = stream_for(view, station)) return stream->newest();
   const auto kept = kept_.find(station);
   return kept == kept_.end() ? 0 : kept->second.number;
 }
 
-std::optional<std::string> PictureDesk::next(View& view) const {
+std::optional<std::string> LatestPictures::next(View& view) const {
   const std::string* next = nullptr;
   for (const std::string& station : view.watched) {
     const std::uint64_t number = number_for(view, station);
@@ -62,19 +62,19 @@ std::optional<std::string> PictureDesk::next(View& view) const {
   return message_bytes(picture.header, picture.bytes);
 }
 
-void PictureDesk::keep_only(const std::function<bool(const std::string&)>& is_known) {
+void LatestPictures::keep_only(const std::function<bool(const std::string&)>& is_known) {
   const auto is_gone = [&](const auto& one) { return !is_known(one.first); };
   std::erase_if(kept_, is_gone);
   std::erase_if(streams_, is_gone);
 }
 
-std::map<std::string, Picture> PictureDesk::newest() const {
+std::map<std::string, Picture> LatestPictures::newest() const {
   std::map<std::string, Picture> pictures;
   for (const auto& [station, kept] : kept_) pictures.emplace(station, kept.picture);
   return pictures;
 }
 
-void PictureDesk::show(const std::map<std::string, Picture>& pictures) {
+void LatestPictures::show(const std::map<std::string, Picture>& pictures) {
   kept_.clear();
   for (const auto& [station, picture] : pictures) kept_[station] = {picture, ++numbers_};
 }
