@@ -7,7 +7,7 @@
 
 #include "base/bus/bus_client.h"
 #include "base/trust/trust_config.h"
-#include "cue/cue_desk.h"
+#include "cue/live_cues.h"
 
 namespace ols::cues {
 

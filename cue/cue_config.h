@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/trust/trust_config.h"
-#include "cue/cue_desk.h"
+#include "cue/live_cues.h"
 
 namespace ols::config {
 struct Section;

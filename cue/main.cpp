@@ -16,9 +16,9 @@
 #include "base/process/status_file.h"
 #include "cue/cue_bus.h"
 #include "cue/cue_config.h"
-#include "cue/cue_desk.h"
 #include "cue/inlet/inlet.h"
 #include "cue/input_reader.h"
+#include "cue/live_cues.h"
 #include "cue/source.h"
 #include "cue/status.h"
 #include "export/geoid.h"
@@ -49,7 +49,7 @@ cues::GeoidHeight geoid_of(const cues::CueConfig& config) {
 // The inputs with their readers, which feed the desk.
 class Inputs {
  public:
-  Inputs(const cues::CueConfig& config, cues::CueDesk& desk) : desk_(desk) {
+  Inputs(const cues::CueConfig& config, cues::LiveCues& desk) : desk_(desk) {
     for (const cues::InputConfig& input : config.inputs) {
       const cues::Source source = cues::parse_source(input.from);
       names_.push_back(input.rules.name);
@@ -85,7 +85,7 @@ class Inputs {
             }};
   }
 
-  cues::CueDesk& desk_;
+  cues::LiveCues& desk_;
   boost::asio::io_context context_;
   std::vector<std::string> names_;
   std::vector<std::unique_ptr<cues::InputReader>> readers_;
@@ -112,7 +112,7 @@ cues::CueStatus status_of(const Inputs& inputs, const cues::CueBus& bus, std::si
 int run(const cues::CueConfig& config) {
   if (config.inputs.empty()) spdlog::warn("no [[input]] is configured: nothing comes in");
   ols::exports::count_protobuf_warnings();
-  cues::CueDesk desk(rules_of(config), config.most);
+  cues::LiveCues desk(rules_of(config), config.most);
   cues::CueBus bus(config.lcm_url, config.trust);
   bus.connect(ols::clock_monotonic_s(), ols::BusConnector::kLongest_s);
   Inputs inputs(config, desk);

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "cue/cue_desk.h"
+#include "cue/live_cues.h"
 #include "ols_msg/cue_t.hpp"
 
 namespace ols::cues {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "cue/cue_desk.h"
+#include "cue/live_cues.h"
 
 namespace ols::cues {
 

@@ -1,8 +1,8 @@
 // Whatever the sources of cues send: bytes in any pieces, of each format. What is taken is finite.
 #include <cmath>
 
-#include "cue/cue_desk.h"
 #include "cue/input_reader.h"
+#include "cue/live_cues.h"
 #include "tests/fuzz/fuzz_input.h"
 
 using namespace ols::cues;
@@ -17,7 +17,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   InputRules rules;
   rules.name = "x";
   rules.max_age_s = 1e9;
-  CueDesk desk({rules}, 4);
+  LiveCues desk({rules}, 4);
   while (!input.empty()) {
     const std::size_t piece = 1 + 16 * static_cast<std::size_t>(input.byte());
     desk.take(0, reader.take(input.take(piece), kNow_us), kNow_us);

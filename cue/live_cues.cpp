@@ -1,4 +1,4 @@
-#include "cue/cue_desk.h"
+#include "cue/live_cues.h"
 
 #include <algorithm>
 #include <cmath>
@@ -90,7 +90,7 @@ std::optional<Refusal> refusal_of(const Report& report, const LiveCue& cue, cons
 
 }  // namespace
 
-CueDesk::CueDesk(std::vector<InputRules> inputs, int most)
+LiveCues::LiveCues(std::vector<InputRules> inputs, int most)
     : inputs_(std::move(inputs)),
       counts_(inputs_.size()),
       most_(std::max<std::size_t>(
@@ -102,13 +102,13 @@ CueDesk::CueDesk(std::vector<InputRules> inputs, int most)
   }
 }
 
-void CueDesk::refuse(std::size_t input, const Refused& refused) {
+void LiveCues::refuse(std::size_t input, const Refused& refused) {
   InputCounts& counts = counts_[input];
   ++counts.refused[to_string(refused.why)];
   counts.last_refusal = plain(refused.what) + ": " + to_string(refused.why);
 }
 
-void CueDesk::take(std::size_t input, const Readings& readings, std::int64_t now_us) {
+void LiveCues::take(std::size_t input, const Readings& readings, std::int64_t now_us) {
   for (const Reading& reading : readings) {
     if (const auto* refused = std::get_if<Refused>(&reading)) {
       refuse(input, *refused);
@@ -118,7 +118,7 @@ void CueDesk::take(std::size_t input, const Readings& readings, std::int64_t now
   }
 }
 
-void CueDesk::judge(std::size_t input, const Report& report, std::int64_t now_us) {
+void LiveCues::judge(std::size_t input, const Report& report, std::int64_t now_us) {
   const InputRules& rules = inputs_[input];
   LiveCue cue = cue_of(report, rules);
   if (const auto why = refusal_of(report, cue, rules, now_us)) {
@@ -139,20 +139,20 @@ void CueDesk::judge(std::size_t input, const Report& report, std::int64_t now_us
   kept = {std::move(cue), input, until_us};
 }
 
-bool CueDesk::is_full(std::size_t input) const {
+bool LiveCues::is_full(std::size_t input) const {
   const auto taken =
       std::ranges::count_if(kept_, [&](const auto& one) { return one.second.input == input; });
   return static_cast<std::size_t>(taken) >= most_;
 }
 
-void CueDesk::forget(std::int64_t now_us) {
+void LiveCues::forget(std::int64_t now_us) {
   std::erase_if(kept_, [&](const auto& one) {
     const Kept& kept = one.second;
     return now_us > kept.until_us || since_s(now_us, kept.cue.utime_us) < -kFuture_s;
   });
 }
 
-std::vector<LiveCue> CueDesk::live(std::int64_t now_us) {
+std::vector<LiveCue> LiveCues::live(std::int64_t now_us) {
   forget(now_us);
   std::vector<LiveCue> all;
   for (const auto& [id, kept] : kept_) all.push_back(kept.cue);

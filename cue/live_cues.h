@@ -40,10 +40,10 @@ struct InputCounts {
   std::string last_refusal;                     // "3c6444: stale"
 };
 
-class CueDesk {
+class LiveCues {
  public:
   // `most`: max number of cues; each input gets an equal share.
-  CueDesk(std::vector<InputRules> inputs, int most);
+  LiveCues(std::vector<InputRules> inputs, int most);
 
   void take(std::size_t input, const Readings& readings, std::int64_t now_us);
   // The cues that are not too old, each at its own instant.

@@ -1,4 +1,4 @@
-#include "cue/cue_desk.h"
+#include "cue/live_cues.h"
 
 #include <gtest/gtest.h>
 
@@ -21,15 +21,15 @@ Report good(const std::string& name = "a") {
   return report;
 }
 
-CueDesk desk(int most = 8) {
+LiveCues desk(int most = 8) {
   InputRules rules;
   rules.name = "tak";
   rules.area_deg = {49.0, 16.0, 90.0, 17.0};
-  return CueDesk({rules}, most);
+  return LiveCues({rules}, most);
 }
 
 void expect_refused(const Report& report, const char* why, std::int64_t now_us = kNow_us) {
-  CueDesk fresh = desk();
+  LiveCues fresh = desk();
   fresh.take(0, {report}, now_us);
   EXPECT_TRUE(fresh.live(now_us).empty()) << why;
   EXPECT_EQ(fresh.counts()[0].refused.at(why), 1) << why;
@@ -37,8 +37,8 @@ void expect_refused(const Report& report, const char* why, std::int64_t now_us =
   EXPECT_EQ(fresh.counts()[0].last_refusal, "a: " + std::string(why));
 }
 
-TEST(CueDesk, FillsInWhatASourceDoesNotSay) {
-  CueDesk one = desk();
+TEST(LiveCues, FillsInWhatASourceDoesNotSay) {
+  LiveCues one = desk();
   Report report = good("x\n\x1b[2J");
   one.take(0, {report}, kNow_us);
   report = good("b");
@@ -60,7 +60,7 @@ TEST(CueDesk, FillsInWhatASourceDoesNotSay) {
   EXPECT_EQ(live[1].velocity_sd_m_s, rules.speed_sd_m_s);
 }
 
-TEST(CueDesk, RefusesByReasonWhatNoStationCanBeLedTo) {
+TEST(LiveCues, RefusesByReasonWhatNoStationCanBeLedTo) {
   for (const double bad : {kNan, kInfinity, -kInfinity}) {
     Report report = good();
     report.latitude_deg = bad;
@@ -88,7 +88,7 @@ TEST(CueDesk, RefusesByReasonWhatNoStationCanBeLedTo) {
   expect_refused(report, "out_of_area");
 }
 
-TEST(CueDesk, RefusesWhatIsNotOfThePresent) {
+TEST(LiveCues, RefusesWhatIsNotOfThePresent) {
   expect_refused(good(), "stale", kNow_us + 10'100'000);
   expect_refused(good(), "future", kNow_us - 1'100'000);
   Report report = good();
@@ -101,8 +101,8 @@ TEST(CueDesk, RefusesWhatIsNotOfThePresent) {
   expect_refused(report, "stale", kNow_us + 1'100'000);
 }
 
-TEST(CueDesk, ACueLastsAsLongAsItsSourceStandsByIt) {
-  CueDesk one = desk();
+TEST(LiveCues, ACueLastsAsLongAsItsSourceStandsByIt) {
+  LiveCues one = desk();
   Report report = good();
   report.stale_us = kNow_us + 3'000'000;
   one.take(0, {report, good("b")}, kNow_us);
@@ -111,8 +111,8 @@ TEST(CueDesk, ACueLastsAsLongAsItsSourceStandsByIt) {
   EXPECT_EQ(one.live(kNow_us + 10'100'000).size(), 0U);
 }
 
-TEST(CueDesk, AnOvertakenPlaceIsStaleAndAFullDeskSaysSo) {
-  CueDesk one = desk(2);
+TEST(LiveCues, AnOvertakenPlaceIsStaleAndAFullDeskSaysSo) {
+  LiveCues one = desk(2);
   Report newer = good();
   newer.utime_us += 500'000;
   newer.height_m = 500.0;
@@ -125,23 +125,23 @@ TEST(CueDesk, AnOvertakenPlaceIsStaleAndAFullDeskSaysSo) {
   EXPECT_EQ(one.counts()[0].last_refusal, "c: too_many");
 }
 
-TEST(CueDesk, OneInputDoesNotTakeTheOthersPlaces) {
+TEST(LiveCues, OneInputDoesNotTakeTheOthersPlaces) {
   InputRules first, second;
   first.name = "a";
   second.name = "b";
-  CueDesk one({first, second}, 5);
+  LiveCues one({first, second}, 5);
   one.take(0, {good("1"), good("2"), good("3"), good("4"), good("5"), good("6")}, kNow_us);
   EXPECT_EQ(one.counts()[0].refused.at("too_many"), 4);
   one.take(1, {good("1"), good("2")}, kNow_us);
   EXPECT_EQ(one.counts()[1].taken, 2);
   EXPECT_EQ(one.live(kNow_us).size(), 4U);
-  CueDesk narrow({first, second}, 1);
+  LiveCues narrow({first, second}, 1);
   narrow.take(1, {good()}, kNow_us);
   EXPECT_EQ(narrow.live(kNow_us).size(), 1U) << "each has a place";
 }
 
-TEST(CueDesk, DifferentObjectsStayDifferent) {
-  CueDesk one = desk();
+TEST(LiveCues, DifferentObjectsStayDifferent) {
+  LiveCues one = desk();
   one.take(0, {good("\xc5\x99"), good("\xc5\x88"), good("??")}, kNow_us);
   const auto live = one.live(kNow_us);
   ASSERT_EQ(live.size(), 3U);
@@ -153,9 +153,9 @@ TEST(CueDesk, DifferentObjectsStayDifferent) {
   EXPECT_EQ(one.counts()[0].refused.at("malformed"), 1);
 }
 
-TEST(CueDesk, AClockThatIsSetBackLeavesNothingInTheFuture) {
+TEST(LiveCues, AClockThatIsSetBackLeavesNothingInTheFuture) {
   constexpr std::int64_t kBack_us = 5'000'000;
-  CueDesk one = desk();
+  LiveCues one = desk();
   one.take(0, {good()}, kNow_us);
   Report fresh = good();
   fresh.utime_us -= kBack_us;
@@ -166,17 +166,17 @@ TEST(CueDesk, AClockThatIsSetBackLeavesNothingInTheFuture) {
   EXPECT_TRUE(one.live(kNow_us - 2 * kBack_us).empty());
 }
 
-TEST(CueDesk, CountsWhatAReaderRefused) {
-  CueDesk one = desk();
+TEST(LiveCues, CountsWhatAReaderRefused) {
+  LiveCues one = desk();
   one.take(0, {Refused{Refusal::kOwn, "brno.target.1.7"}}, kNow_us);
   EXPECT_EQ(one.counts()[0].refused.at("own"), 1);
 }
 
-TEST(CueDesk, AnAreaMayCrossTheDateLine) {
+TEST(LiveCues, AnAreaMayCrossTheDateLine) {
   InputRules rules;
   rules.name = "x";
   rules.area_deg = {-20.0, 175.0, -10.0, -175.0};
-  CueDesk one({rules}, 8);
+  LiveCues one({rules}, 8);
   Report report = good();
   report.latitude_deg = -15.0;
   report.longitude_deg = 179.0;
