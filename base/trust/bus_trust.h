@@ -14,10 +14,10 @@
 #include <thread>
 #include <vector>
 
-#include "base/trust/audience_book.h"
 #include "base/trust/key_file.h"
 #include "base/trust/marks_file.h"
 #include "base/trust/site_keeper.h"
+#include "base/trust/station_boots.h"
 #include "base/trust/trust_config.h"
 #include "base/trust/verifier.h"
 
@@ -140,7 +140,7 @@ class BusTrust {
   };
   Trouble trouble_;
   std::optional<Verifier> verifier_;
-  AudienceBook book_;
+  StationBoots book_;
   struct Telling {
     double due_s = 0.0;
     bool answers = false;      // a member has sent an older list

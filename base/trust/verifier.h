@@ -14,9 +14,9 @@
 #include <tuple>
 #include <vector>
 
-#include "base/trust/audience_book.h"
 #include "base/trust/rate_limit.h"
 #include "base/trust/replay_marks.h"
+#include "base/trust/station_boots.h"
 #include "base/trust/trailer.h"
 #include "base/trust/trust_list.h"
 
@@ -99,7 +99,7 @@ class Verifier {
   std::map<KeyId, Known> members_;
   std::map<std::string, bool, std::less<>> stations_;  // enrolled ones
   ReplayMarks marks_;
-  AudienceBook statuses_;
+  StationBoots statuses_;
 };
 
 }  // namespace ols::trust

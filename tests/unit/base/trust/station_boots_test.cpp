@@ -1,12 +1,12 @@
-#include "base/trust/audience_book.h"
+#include "base/trust/station_boots.h"
 
 #include <gtest/gtest.h>
 
 namespace ols::trust {
 namespace {
 
-TEST(AudienceBook, KnowsTheBootOfTheLastStatus) {
-  AudienceBook book;
+TEST(StationBoots, KnowsTheBootOfTheLastStatus) {
+  StationBoots book;
   EXPECT_EQ(book.boot_of("alfa"), 0);
   book.hear("alfa", 7, true, 100.0);
   book.hear("bravo", 8, true, 100.0);
@@ -16,8 +16,8 @@ TEST(AudienceBook, KnowsTheBootOfTheLastStatus) {
   EXPECT_EQ(book.boot_of("bravo"), 8);
 }
 
-TEST(AudienceBook, ARecordingDoesNotHideALiveStation) {
-  AudienceBook book;
+TEST(StationBoots, ARecordingDoesNotHideALiveStation) {
+  StationBoots book;
   book.hear("alfa", 7, true, 100.0);
   book.hear("alfa", 3, false, 104.9);
   EXPECT_EQ(book.boot_of("alfa"), 7);
@@ -27,8 +27,8 @@ TEST(AudienceBook, ARecordingDoesNotHideALiveStation) {
   EXPECT_EQ(book.boot_of("alfa"), 3) << "its host may have lost its clock when it booted";
 }
 
-TEST(AudienceBook, BesideFreshStatusesTheOthersAreNotAStationsOwn) {
-  AudienceBook book;
+TEST(StationBoots, BesideFreshStatusesTheOthersAreNotAStationsOwn) {
+  StationBoots book;
   EXPECT_TRUE(book.may_be_own("alfa", 7, 100.0));
   book.hear("alfa", 7, true, 100.0);
   EXPECT_FALSE(book.may_be_own("alfa", 7, 104.9));
@@ -37,8 +37,8 @@ TEST(AudienceBook, BesideFreshStatusesTheOthersAreNotAStationsOwn) {
   EXPECT_TRUE(book.may_be_own("bravo", 3, 100.0));
 }
 
-TEST(AudienceBook, AStationThatNeverHadARightClockIsKnown) {
-  AudienceBook book;
+TEST(StationBoots, AStationThatNeverHadARightClockIsKnown) {
+  StationBoots book;
   book.hear("alfa", 3, false, 0.0);
   EXPECT_EQ(book.boot_of("alfa"), 3);
 }

@@ -9,7 +9,7 @@
 
 namespace ols::trust {
 
-class AudienceBook {
+class StationBoots {
  public:
   // Takes a status. fresh: its stamp agrees with this host's clock. One that is not fresh counts
   // only if may_be_own().

@@ -1,8 +1,8 @@
-#include "base/trust/audience_book.h"
+#include "base/trust/station_boots.h"
 
 namespace ols::trust {
 
-void AudienceBook::hear(std::string_view station, std::int64_t boot_id, bool fresh, double now_s) {
+void StationBoots::hear(std::string_view station, std::int64_t boot_id, bool fresh, double now_s) {
   if (!fresh && !may_be_own(station, boot_id, now_s)) return;
   auto heard = stations_.find(station);
   if (heard == stations_.end()) heard = stations_.try_emplace(std::string(station)).first;
@@ -12,14 +12,14 @@ void AudienceBook::hear(std::string_view station, std::int64_t boot_id, bool fre
   heard->second.fresh_boot_id = boot_id;
 }
 
-bool AudienceBook::may_be_own(std::string_view station, std::int64_t boot_id, double now_s) const {
+bool StationBoots::may_be_own(std::string_view station, std::int64_t boot_id, double now_s) const {
   const auto heard = stations_.find(station);
   if (heard == stations_.end()) return true;
   const bool same = boot_id == heard->second.fresh_boot_id;
   return now_s - heard->second.fresh_s >= (same ? kPreferred_s : kReboot_s);
 }
 
-std::int64_t AudienceBook::boot_of(std::string_view station) const {
+std::int64_t StationBoots::boot_of(std::string_view station) const {
   const auto heard = stations_.find(station);
   return heard == stations_.end() ? 0 : heard->second.boot_id;
 }
