@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "base/trust/message_head.h"
-#include "bridge/epoch_book.h"
+#include "bridge/epoch_fence.h"
 #include "bridge/place_book.h"
 #include "bridge/rate_book.h"
 #include "bridge/sequence_watch.h"
@@ -148,7 +148,7 @@ class Passage {
   const PassageConfig config_;
   PlaceBook places_;
   RateBook rates_{kMostChannels}, command_rates_{kMostCommands};
-  EpochBook epochs_;
+  EpochFence epochs_;
   SequenceWatch gaps_;
   std::string late_;
   double late_s_ = -1e9;

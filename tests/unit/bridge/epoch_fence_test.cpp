@@ -1,4 +1,4 @@
-#include "bridge/epoch_book.h"
+#include "bridge/epoch_fence.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 namespace ols::bridge {
 namespace {
 
-TEST(EpochBook, OfOneTargetOnlyTheGreatestIsObeyed) {
-  EpochBook book;
+TEST(EpochFence, OfOneTargetOnlyTheGreatestIsObeyed) {
+  EpochFence book;
   EXPECT_TRUE(book.passes("alfa", {"t", "a", 5}, 0.0));
   EXPECT_TRUE(book.passes("alfa", {"t", "b", 6}, 0.1));
   EXPECT_FALSE(book.passes("alfa", {"t", "a", 5}, 0.2));
@@ -17,26 +17,26 @@ TEST(EpochBook, OfOneTargetOnlyTheGreatestIsObeyed) {
   EXPECT_TRUE(book.passes("alfa", {"t", "b", 6}, 60.0));
 }
 
-TEST(EpochBook, WhatIsSilentForAMinuteIsForgotten) {
-  EpochBook book;
+TEST(EpochFence, WhatIsSilentForAMinuteIsForgotten) {
+  EpochFence book;
   EXPECT_TRUE(book.passes("alfa", {"t", "a", 1'000'000}, 0.0));
   // The store was made anew.
   EXPECT_FALSE(book.passes("alfa", {"t", "b", 7}, 59.0));
   EXPECT_TRUE(book.passes("alfa", {"t", "b", 7}, 60.1));
 }
 
-TEST(EpochBook, AnotherTargetsLowerEpochWaitsUntilTheGreatestIsSilent) {
-  EpochBook book;
+TEST(EpochFence, AnotherTargetsLowerEpochWaitsUntilTheGreatestIsSilent) {
+  EpochFence book;
   EXPECT_TRUE(book.passes("alfa", {"new", "a", 9}, 0.0));
-  EXPECT_FALSE(book.passes("alfa", {"old", "b", 4}, EpochBook::kSilence_s));
-  EXPECT_FALSE(book.passes("alfa", {"old", "", 4}, EpochBook::kSilence_s)) << "it does not say";
+  EXPECT_FALSE(book.passes("alfa", {"old", "b", 4}, EpochFence::kSilence_s));
+  EXPECT_FALSE(book.passes("alfa", {"old", "", 4}, EpochFence::kSilence_s)) << "it does not say";
   EXPECT_TRUE(book.passes("bravo", {"old", "b", 4}, 0.1)) << "each station has its own";
-  EXPECT_TRUE(book.passes("alfa", {"old", "b", 4}, EpochBook::kSilence_s + 0.1));
-  EXPECT_TRUE(book.passes("alfa", {"new", "a", 9}, EpochBook::kSilence_s + 0.2));
+  EXPECT_TRUE(book.passes("alfa", {"old", "b", 4}, EpochFence::kSilence_s + 0.1));
+  EXPECT_TRUE(book.passes("alfa", {"new", "a", 9}, EpochFence::kSilence_s + 0.2));
 }
 
-TEST(EpochBook, AnOwnerLeadsToAnOlderTargetOfItsOwnAtOnce) {
-  EpochBook book;
+TEST(EpochFence, AnOwnerLeadsToAnOlderTargetOfItsOwnAtOnce) {
+  EpochFence book;
   EXPECT_TRUE(book.passes("alfa", {"old", "a", 4}, 0.0));
   EXPECT_TRUE(book.passes("alfa", {"new", "a", 9}, 0.1));
   EXPECT_TRUE(book.passes("alfa", {"old", "a", 4}, 0.2));
@@ -45,8 +45,8 @@ TEST(EpochBook, AnOwnerLeadsToAnOlderTargetOfItsOwnAtOnce) {
   EXPECT_FALSE(book.passes("alfa", {"new", "a", 9}, 0.5)) << "and that one leads the station";
 }
 
-TEST(EpochBook, TheGreatestIsThatOfWhatPassed) {
-  EpochBook book;
+TEST(EpochFence, TheGreatestIsThatOfWhatPassed) {
+  EpochFence book;
   EXPECT_EQ(book.greatest(), 0U);
   EXPECT_TRUE(book.passes("alfa", {"new", "a", 9}, 0.0));
   EXPECT_TRUE(book.passes("bravo", {"old", "b", 4}, 0.1));
@@ -54,27 +54,27 @@ TEST(EpochBook, TheGreatestIsThatOfWhatPassed) {
   EXPECT_EQ(book.greatest(), 9U);
 }
 
-TEST(EpochBook, WhoOwnsNothingWaitsForOwners) {
-  EpochBook book;
+TEST(EpochFence, WhoOwnsNothingWaitsForOwners) {
+  EpochFence book;
   EXPECT_TRUE(book.passes("alfa", {""}, 0.0));
   EXPECT_TRUE(book.passes("alfa", {"t", "a", 1}, 0.1));
   EXPECT_FALSE(book.passes("alfa", {""}, 0.2));
-  EXPECT_TRUE(book.passes("alfa", {""}, 0.2 + EpochBook::kSilence_s));
+  EXPECT_TRUE(book.passes("alfa", {""}, 0.2 + EpochFence::kSilence_s));
 }
 
-TEST(EpochBook, AnEpochThatNoStoreCanHaveRulesNobody) {
-  EpochBook book;
+TEST(EpochFence, AnEpochThatNoStoreCanHaveRulesNobody) {
+  EpochFence book;
   constexpr std::uint64_t kLast = std::numeric_limits<std::uint64_t>::max();
   EXPECT_FALSE(book.passes("alfa", {"t", "x", kLast}, 0.0));
   EXPECT_TRUE(book.passes("alfa", {"t", "a", 500}, 0.1));
-  EXPECT_FALSE(book.passes("alfa", {"t", "x", 500 + 2 * EpochBook::kMostJump}, 0.2));
+  EXPECT_FALSE(book.passes("alfa", {"t", "x", 500 + 2 * EpochFence::kMostJump}, 0.2));
   EXPECT_TRUE(book.passes("alfa", {"t", "a", 500}, 0.3));
   EXPECT_TRUE(book.passes("alfa", {"t", "a", 900'000}, 0.4)) << "of many targets";
   EXPECT_TRUE(book.passes("alfa", {"t", "a", 30'000'000}, 3600.0)) << "heard of an hour later";
 }
 
-TEST(EpochBook, ManyTargetsAreForgottenFromTheOldest) {
-  EpochBook book;
+TEST(EpochFence, ManyTargetsAreForgottenFromTheOldest) {
+  EpochFence book;
   for (std::uint64_t epoch = 1; epoch <= 1002; ++epoch) {
     const std::string target = std::string("t").append(std::to_string(epoch));
     EXPECT_TRUE(book.passes("alfa", {target, "a", epoch}, 0.0));
@@ -82,8 +82,8 @@ TEST(EpochBook, ManyTargetsAreForgottenFromTheOldest) {
   EXPECT_FALSE(book.passes("alfa", {"t1002", "a", 1001}, 10.0)) << "the newest are kept";
 }
 
-TEST(EpochBook, ManyStationsAreForgottenWhenTheyAreSilent) {
-  EpochBook book;
+TEST(EpochFence, ManyStationsAreForgottenWhenTheyAreSilent) {
+  EpochFence book;
   int passed = 0;
   for (int i = 0; i < 5000; ++i) {
     const std::string station = std::string("n").append(std::to_string(i));

@@ -19,7 +19,7 @@ struct Claim {
   std::uint64_t epoch = 0;
 };
 
-class EpochBook {
+class EpochFence {
  public:
   // Another owner's command with a lower epoch passes when no command of the greatest has come for
   // this long: that owner no longer leads this station.

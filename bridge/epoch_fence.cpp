@@ -1,4 +1,4 @@
-#include "bridge/epoch_book.h"
+#include "bridge/epoch_fence.h"
 
 #include <algorithm>
 
@@ -9,7 +9,7 @@ constexpr std::size_t kMostTargets = 32, kMostStations = 2000;
 
 }  // namespace
 
-bool EpochBook::passes(const std::string& station, const Claim& claim, double now_s) {
+bool EpochFence::passes(const std::string& station, const Claim& claim, double now_s) {
   if (!is_possible(claim.epoch, now_s)) return false;
   Station* const one = station_of(station, now_s);
   if (one == nullptr) return false;
@@ -26,7 +26,7 @@ bool EpochBook::passes(const std::string& station, const Claim& claim, double no
   return true;
 }
 
-bool EpochBook::is_possible(std::uint64_t epoch, double now_s) const {
+bool EpochFence::is_possible(std::uint64_t epoch, double now_s) const {
   if (greatest_ == 0) return epoch <= kMostEver;
   const double most = static_cast<double>(greatest_) + static_cast<double>(kMostJump) +
                       kMost_Hz * std::max(0.0, now_s - greatest_s_);
@@ -34,7 +34,7 @@ bool EpochBook::is_possible(std::uint64_t epoch, double now_s) const {
 }
 
 // Null: there are too many.
-EpochBook::Station* EpochBook::station_of(const std::string& station, double now_s) {
+EpochFence::Station* EpochFence::station_of(const std::string& station, double now_s) {
   if (stations_.size() >= kMostStations && !stations_.contains(station)) {
     if (now_s - swept_s_ < kSweep_s) return nullptr;
     swept_s_ = now_s;
@@ -46,7 +46,7 @@ EpochBook::Station* EpochBook::station_of(const std::string& station, double now
   return &stations_[station];
 }
 
-bool EpochBook::is_greatest_of_its_target(Station& station, const Claim& claim, double now_s) {
+bool EpochFence::is_greatest_of_its_target(Station& station, const Claim& claim, double now_s) {
   auto& targets = station.targets;
   std::erase_if(targets,
                 [now_s](const auto& one) { return now_s - one.second.heard_s > kForgotten_s; });
