@@ -156,7 +156,7 @@ Passage::Judged Passage::address(const Content& content, const Now& now, Subject
     return config_.targets ? Judged() : Refusal::kShape;
   }
   if (content.kind == Kind::kCommand) {
-    const PlaceBook::Place* const place = places_.find(content.station);
+    const StationPlaces::Place* const place = places_.find(content.station);
     const bool crosses = std::ranges::count(config_.commands, content.command) > 0;
     if (config_.role != Role::kRegion || !crosses) return Refusal::kShape;
     if (place == nullptr) return Refusal::kNobody;

@@ -17,9 +17,9 @@
 
 #include "base/trust/message_head.h"
 #include "bridge/epoch_fence.h"
-#include "bridge/place_book.h"
 #include "bridge/rate_book.h"
 #include "bridge/sequence_watch.h"
+#include "bridge/station_places.h"
 #include "bridge/subject.h"
 
 namespace ols::bridge {
@@ -127,7 +127,7 @@ class Passage {
  private:
   // Limits for bearings and statuses: twice as many as the place book holds stations. Limit for
   // commands: separate, because they name stations that need not exist.
-  static constexpr std::size_t kMostChannels = 2 * PlaceBook::kMost + 1, kMostCommands = 10'000;
+  static constexpr std::size_t kMostChannels = 2 * StationPlaces::kMost + 1, kMostCommands = 10'000;
   using Judged = std::optional<Refusal>;
 
   // Why a message does not pass. nullopt: it passes, and the last argument is complete.
@@ -146,7 +146,7 @@ class Passage {
   bool is_ours(const std::string& station) const;
 
   const PassageConfig config_;
-  PlaceBook places_;
+  StationPlaces places_;
   RateBook rates_{kMostChannels}, command_rates_{kMostCommands};
   EpochFence epochs_;
   SequenceWatch gaps_;

@@ -10,7 +10,7 @@
 
 namespace ols::bridge {
 
-class PlaceBook {
+class StationPlaces {
  public:
   static constexpr double kSettled_s = 60.0;  // after this silence a station's name is free again
   // Limits for one site, so that invented names leave room for other sites' stations.

@@ -1,23 +1,23 @@
-#include "bridge/place_book.h"
+#include "bridge/station_places.h"
 
 #include <algorithm>
 
 namespace ols::bridge {
 
-const PlaceBook::Place* PlaceBook::find(const std::string& station) const {
+const StationPlaces::Place* StationPlaces::find(const std::string& station) const {
   const auto at = places_.find(station);
   return at == places_.end() ? nullptr : &at->second;
 }
 
-bool PlaceBook::is_elsewhere(const std::string& station, const std::string& region,
-                             const std::string& site, double now_s) const {
+bool StationPlaces::is_elsewhere(const std::string& station, const std::string& region,
+                                 const std::string& site, double now_s) const {
   const Place* const place = find(station);
   return place != nullptr && (place->region != region || place->site != site) &&
          now_s - place->heard_s < kSettled_s;
 }
 
-bool PlaceBook::settle(const std::string& station, const std::string& region,
-                       const std::string& site, double now_s) {
+bool StationPlaces::settle(const std::string& station, const std::string& region,
+                           const std::string& site, double now_s) {
   if (is_elsewhere(station, region, site, now_s)) return false;
   const Site there{region, site};
   const auto at = places_.find(station);
@@ -34,7 +34,7 @@ bool PlaceBook::settle(const std::string& station, const std::string& region,
   return true;
 }
 
-bool PlaceBook::has_room(const Site& site, double now_s) {
+bool StationPlaces::has_room(const Site& site, double now_s) {
   const auto fits = [this, &site] {
     const auto count = counts_.find(site);
     return places_.size() < kMost && (count == counts_.end() || count->second < kMostOfSite);
@@ -46,14 +46,14 @@ bool PlaceBook::has_room(const Site& site, double now_s) {
   return fits();
 }
 
-void PlaceBook::forget_silent(double now_s) {
+void StationPlaces::forget_silent(double now_s) {
   std::erase_if(places_,
                 [now_s](const auto& one) { return now_s - one.second.heard_s >= kSettled_s; });
   counts_.clear();
   for (const auto& [station, place] : places_) ++counts_[{place.region, place.site}];
 }
 
-std::map<std::string, double> PlaceBook::sites_ago_s(double now_s) const {
+std::map<std::string, double> StationPlaces::sites_ago_s(double now_s) const {
   std::map<std::string, double> ago;
   for (const auto& [station, place] : places_) {
     const double here = now_s - place.heard_s;
