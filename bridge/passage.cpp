@@ -196,7 +196,7 @@ bool Passage::settles(const Subject& subject, const Now& now) {
 Passage::Judged Passage::judge_rate(const Content& content, std::string_view channel,
                                     const Now& now) {
   const double most_hz = trust::rule_of(channel)->rule->rate_hz;
-  RateBook& rates = content.kind == Kind::kCommand ? command_rates_ : rates_;
+  ChannelRateLimits& rates = content.kind == Kind::kCommand ? command_rates_ : rates_;
   const double limit_hz = content.station.empty() ? most_hz : std::min(most_hz, kMostOfOne_Hz);
   return rates.passes(channel, limit_hz, now.monotonic_s) ? Judged() : Refusal::kRate;
 }

@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "base/trust/message_head.h"
+#include "bridge/channel_rate_limits.h"
 #include "bridge/epoch_fence.h"
-#include "bridge/rate_book.h"
 #include "bridge/sequence_watch.h"
 #include "bridge/station_places.h"
 #include "bridge/subject.h"
@@ -147,7 +147,7 @@ class Passage {
 
   const PassageConfig config_;
   StationPlaces places_;
-  RateBook rates_{kMostChannels}, command_rates_{kMostCommands};
+  ChannelRateLimits rates_{kMostChannels}, command_rates_{kMostCommands};
   EpochFence epochs_;
   SequenceWatch gaps_;
   std::string late_;

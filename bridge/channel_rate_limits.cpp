@@ -1,8 +1,8 @@
-#include "bridge/rate_book.h"
+#include "bridge/channel_rate_limits.h"
 
 namespace ols::bridge {
 
-bool RateBook::passes(std::string_view channel, double rate_hz, double now_s) {
+bool ChannelRateLimits::passes(std::string_view channel, double rate_hz, double now_s) {
   auto at = channels_.find(channel);
   if (at == channels_.end()) {
     if (channels_.size() >= most_ && now_s - swept_s_ >= kSweep_s) {

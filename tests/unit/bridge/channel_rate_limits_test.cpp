@@ -1,4 +1,4 @@
-#include "bridge/rate_book.h"
+#include "bridge/channel_rate_limits.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@ namespace {
 
 constexpr double kRate_hz = 2.0, kFrom_s = 100.0;
 
-TEST(RateBook, EachChannelHasItsOwnRate) {
-  RateBook book(10);
+TEST(ChannelRateLimits, EachChannelHasItsOwnRate) {
+  ChannelRateLimits book(10);
   int passed = 0;
   for (int i = 0; i < 100; ++i) passed += book.passes("alfa", kRate_hz, kFrom_s) ? 1 : 0;
   EXPECT_GE(passed, 1);
@@ -16,15 +16,15 @@ TEST(RateBook, EachChannelHasItsOwnRate) {
   EXPECT_TRUE(book.passes("bravo", kRate_hz, kFrom_s));
 }
 
-TEST(RateBook, WhoIsSilentMakesRoom) {
-  RateBook book(2);
+TEST(ChannelRateLimits, WhoIsSilentMakesRoom) {
+  ChannelRateLimits book(2);
   EXPECT_TRUE(book.passes("alfa", kRate_hz, kFrom_s));
   EXPECT_TRUE(book.passes("bravo", kRate_hz, kFrom_s));
   EXPECT_FALSE(book.passes("charlie", kRate_hz, kFrom_s + 1.0)) << "full";
   EXPECT_TRUE(book.passes("bravo", kRate_hz, kFrom_s + 50.0));
-  EXPECT_TRUE(book.passes("charlie", kRate_hz, kFrom_s + RateBook::kSilent_s + 1.0))
+  EXPECT_TRUE(book.passes("charlie", kRate_hz, kFrom_s + ChannelRateLimits::kSilent_s + 1.0))
       << "alfa is forgotten";
-  EXPECT_FALSE(book.passes("alfa", kRate_hz, kFrom_s + RateBook::kSilent_s + 1.0));
+  EXPECT_FALSE(book.passes("alfa", kRate_hz, kFrom_s + ChannelRateLimits::kSilent_s + 1.0));
 }
 
 }  // namespace

@@ -12,11 +12,11 @@
 
 namespace ols::bridge {
 
-class RateBook {
+class ChannelRateLimits {
  public:
   static constexpr double kSilent_s = 60.0;
 
-  explicit RateBook(std::size_t most) : most_(most) {}
+  explicit ChannelRateLimits(std::size_t most) : most_(most) {}
 
   // Whether one more may pass now; counts it.
   bool passes(std::string_view channel, double rate_hz, double now_s);
