@@ -77,7 +77,7 @@ class Fusion {
   LiveTracks tracks_;
   TargetSchedule targets_;
   SlewSchedule slews_;
-  CueBook cues_;
+  CueRegistry cues_;
   FusionLog log_;
 };
 

@@ -11,7 +11,7 @@
 #include "central/admission/admission.h"
 #include "central/admission/pointing_monitor.h"
 #include "central/admission/unassociated_monitor.h"
-#include "central/cues/cue_book.h"
+#include "central/cues/cue_registry.h"
 #include "central/tracking/track_manager.h"
 
 namespace ols::fusion {

@@ -29,7 +29,7 @@ CueRay cue_ray(const BearingOnly& line, std::int64_t now_us) {
 }  // namespace
 
 void SlewSchedule::begin(std::int64_t now_us, const StationRegistry& stations,
-                         const BearingLines& lines, const CueBook& cues) {
+                         const BearingLines& lines, const CueRegistry& cues) {
   begun_us_ = now_us;
   next_ = "";
   round_ = {.now_us = now_us};
@@ -103,7 +103,7 @@ void SlewSchedule::narrow_by_cue() {
 
 std::vector<Slew> SlewSchedule::plan(std::int64_t now_us, const StationRegistry& stations,
                                      const BearingLines& lines, const std::vector<Track>& tracks,
-                                     const CueBook& cues) {
+                                     const CueRegistry& cues) {
   // Cues come with another clock than bearings.
   if (begun_us_ && seconds(*begun_us_ - now_us) > kStepBack_s) {
     begun_us_.reset();

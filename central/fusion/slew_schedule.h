@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "central/admission/station_registry.h"
-#include "central/cues/cue_book.h"
+#include "central/cues/cue_registry.h"
 #include "central/fusion/bearing_lines.h"
 #include "central/fusion/slew_planner.h"
 
@@ -23,7 +23,7 @@ class SlewSchedule {
   // The slews that are due with one bearing or cue, at the time "now".
   std::vector<Slew> plan(std::int64_t now_us, const StationRegistry& stations,
                          const BearingLines& lines, const std::vector<Track>& tracks,
-                         const CueBook& cues);
+                         const CueRegistry& cues);
   // Whether a round is unfinished: its next part is due at once.
   bool is_in_round() const { return next_.has_value(); }
   void forget(const std::string& station) { planner_.forget(station); }
@@ -31,7 +31,7 @@ class SlewSchedule {
 
  private:
   void begin(std::int64_t now_us, const StationRegistry& stations, const BearingLines& lines,
-             const CueBook& cues);
+             const CueRegistry& cues);
   void cue(std::int64_t now_us, const BearingLines& lines);
   void share_out(std::int64_t now_us, const StationRegistry& stations);
   void narrow_by_cue();

@@ -83,7 +83,7 @@ TEST(FusionCues, AStepBackBeginsANewRound) {
     traits.camera_ecef = site().to_ecef(Vector3d(10.0 * i, 0, 0));
     traits.commandable = true;
   }
-  CueBook cues(config.cues);
+  CueRegistry cues(config.cues);
   ASSERT_EQ(cues.take(cue_at({100, 300, 80}, kStart), kStart, stations), CueRefusal::kNone);
   const LiveTracks tracks(config.tracks);
   const PointingMonitor pointing;

@@ -41,7 +41,7 @@ class SlewScheduleTest : public testing::Test {
     now_us = confirm_at(tracks, kPlace);
     ASSERT_EQ(tracks.tracks().at(0).state, TrackState::kConfirmed);
   }
-  std::vector<Slew> plan(const CueBook& book = CueBook({})) {
+  std::vector<Slew> plan(const CueRegistry& book = CueRegistry({})) {
     const BearingLines lines(tracks, pointing, alignment);
     return schedule.plan(now_us, stations, lines, tracks.tracks(), book);
   }
@@ -166,7 +166,7 @@ TEST_F(SlewScheduleTest, StationsSearchAlongOneRayForAsLongAsItLasts) {
 
 TEST_F(SlewScheduleTest, ACueIsAPlaceToLookAt) {
   know("a", test::square()[0]);
-  CueBook book({.allow = CueAllowance::kAll});
+  CueRegistry book({.allow = CueAllowance::kAll});
   Cue cue;
   cue.id = "x";
   cue.utime_us = cue.state_us = now_us;

@@ -25,9 +25,9 @@ struct CueHealth {
   double horizontal_sd_m = 0.0, vertical_sd_m = 0.0;
 };
 
-class CueBook {
+class CueRegistry {
  public:
-  explicit CueBook(const CueConfig& config) : config_(config) {}
+  explicit CueRegistry(const CueConfig& config) : config_(config) {}
 
   // present_us: the host's UTC; in a replay, the message's time.
   CueRefusal take(const Cue& cue, std::int64_t present_us, const StationRegistry& stations);

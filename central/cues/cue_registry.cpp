@@ -1,4 +1,4 @@
-#include "central/cues/cue_book.h"
+#include "central/cues/cue_registry.h"
 
 #include <Eigen/Cholesky>
 #include <cmath>
@@ -29,13 +29,14 @@ bool leaps(const CueAim& before, const Cue& cue) {
 
 }  // namespace
 
-bool CueBook::is_silent(const Live& live, std::int64_t present_us) const {
+bool CueRegistry::is_silent(const Live& live, std::int64_t present_us) const {
   return std::abs(seconds(present_us - live.heard_us)) > kHold_s ||
          seconds(present_us - live.cue.state_us) > config_.max_age_s + kHold_s;
 }
 
 // A known cue needs no new place, and an ended one leaves its own.
-CueRefusal CueBook::take(const Cue& cue, std::int64_t present_us, const StationRegistry& stations) {
+CueRefusal CueRegistry::take(const Cue& cue, std::int64_t present_us,
+                             const StationRegistry& stations) {
   const CueRefusal refusal = check(cue, present_us, config_);
   if (refusal != CueRefusal::kNone) return refusal;
   if (!is_in_area(cue, stations, config_.range_m)) return CueRefusal::kOutOfArea;
@@ -53,18 +54,18 @@ CueRefusal CueBook::take(const Cue& cue, std::int64_t present_us, const StationR
   return CueRefusal::kNone;
 }
 
-bool CueBook::order(const std::string& id, bool allow) {
+bool CueRegistry::order(const std::string& id, bool allow) {
   const auto live = cues_.find(id);
   if (live == cues_.end() || config_.allow == CueAllowance::kNever) return false;
   live->second.allowed = allow;
   return true;
 }
 
-void CueBook::end_silent(std::int64_t present_us) {
+void CueRegistry::end_silent(std::int64_t present_us) {
   std::erase_if(cues_, [&](const auto& cue) { return is_silent(cue.second, present_us); });
 }
 
-void CueBook::settle(std::int64_t now_us, const std::vector<Track>& tracks) {
+void CueRegistry::settle(std::int64_t now_us, const std::vector<Track>& tracks) {
   if (settled_us_ && std::abs(seconds(now_us - *settled_us_)) < kSettle_s) return;
   settled_us_ = now_us;
   for (auto& [id, live] : cues_) {
@@ -78,7 +79,7 @@ void CueBook::settle(std::int64_t now_us, const std::vector<Track>& tracks) {
   }
 }
 
-CueState CueBook::state_of(const Live& live) const {
+CueState CueRegistry::state_of(const Live& live) const {
   const bool standing = config_.allow == CueAllowance::kAll;
   if (config_.allow == CueAllowance::kNever || !live.allowed.value_or(true)) {
     return CueState::kForbidden;
@@ -87,7 +88,7 @@ CueState CueBook::state_of(const Live& live) const {
   return live.target_id != 0 ? CueState::kFound : CueState::kSearched;
 }
 
-std::vector<CueAim> CueBook::aims(std::int64_t now_us) const {
+std::vector<CueAim> CueRegistry::aims(std::int64_t now_us) const {
   std::vector<CueAim> aims;
   for (const auto& [id, live] : cues_) {
     if (state_of(live) != CueState::kSearched || is_silent(live, now_us)) continue;
@@ -96,7 +97,7 @@ std::vector<CueAim> CueBook::aims(std::int64_t now_us) const {
   return aims;
 }
 
-std::vector<CueHealth> CueBook::health(std::int64_t now_us) const {
+std::vector<CueHealth> CueRegistry::health(std::int64_t now_us) const {
   std::vector<CueHealth> all;
   for (const auto& [id, live] : cues_) {
     const KinematicState now = CueAim{live.cue, config_.acceleration_sd_m_s2}.at(now_us);

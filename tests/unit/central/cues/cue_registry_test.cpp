@@ -1,4 +1,4 @@
-#include "central/cues/cue_book.h"
+#include "central/cues/cue_registry.h"
 
 #include <gtest/gtest.h>
 
@@ -22,23 +22,23 @@ Eigen::Vector3d beside(const Cue& cue, double east_m) {
   return ecef_from_geodetic(cue.place) + R_ecef_enu(cue.place) * Eigen::Vector3d(east_m, 0.0, 0.0);
 }
 
-class TheCueBook : public testing::Test {
+class TheCueRegistry : public testing::Test {
  protected:
-  CueBook with(CueAllowance allow) {
+  CueRegistry with(CueAllowance allow) {
     CueConfig config;
     config.allow = allow;
     config.most = 2;
-    CueBook book(config);
+    CueRegistry book(config);
     EXPECT_EQ(book.take(good_cue(), kCueTime_us, stations_), CueRefusal::kNone);
     return book;
   }
-  static CueState state(const CueBook& book) { return book.health(kCueTime_us).at(0).state; }
+  static CueState state(const CueRegistry& book) { return book.health(kCueTime_us).at(0).state; }
 
   StationRegistry stations_ = test::one_station();
 };
 
-TEST_F(TheCueBook, WaitsForTheOperatorsWord) {
-  CueBook book = with(CueAllowance::kAsk);
+TEST_F(TheCueRegistry, WaitsForTheOperatorsWord) {
+  CueRegistry book = with(CueAllowance::kAsk);
   EXPECT_EQ(state(book), CueState::kWaiting);
   EXPECT_TRUE(book.aims(kCueTime_us).empty());
   EXPECT_FALSE(book.order("tak.other", true));
@@ -50,23 +50,23 @@ TEST_F(TheCueBook, WaitsForTheOperatorsWord) {
   EXPECT_TRUE(book.aims(kCueTime_us).empty());
 }
 
-TEST_F(TheCueBook, AStandingWordHoldsUntilAnOperatorSaysNo) {
-  CueBook book = with(CueAllowance::kAll);
+TEST_F(TheCueRegistry, AStandingWordHoldsUntilAnOperatorSaysNo) {
+  CueRegistry book = with(CueAllowance::kAll);
   EXPECT_EQ(book.aims(kCueTime_us).size(), 1U);
   EXPECT_TRUE(book.order("tak.a", false));
   EXPECT_TRUE(book.aims(kCueTime_us).empty());
 }
 
-TEST_F(TheCueBook, WhereTheSiteWantsNoneAnOperatorCannotAllowIt) {
-  CueBook book = with(CueAllowance::kNever);
+TEST_F(TheCueRegistry, WhereTheSiteWantsNoneAnOperatorCannotAllowIt) {
+  CueRegistry book = with(CueAllowance::kNever);
   EXPECT_FALSE(book.order("tak.a", true));
   EXPECT_EQ(state(book), CueState::kForbidden) << "and it is shown";
   EXPECT_TRUE(book.aims(kCueTime_us).empty());
 }
 
 // The word is for what was shown: what leaps is another object.
-TEST_F(TheCueBook, TheWordEndsWhereTheCueLeaps) {
-  CueBook book = with(CueAllowance::kAsk);
+TEST_F(TheCueRegistry, TheWordEndsWhereTheCueLeaps) {
+  CueRegistry book = with(CueAllowance::kAsk);
   book.order("tak.a", true);
   Cue next = good_cue();
   next.utime_us = next.state_us = kCueTime_us + 1'000'000;
@@ -82,8 +82,8 @@ TEST_F(TheCueBook, TheWordEndsWhereTheCueLeaps) {
 }
 
 // The word is for this object; another one later may have its name.
-TEST_F(TheCueBook, TheWordEndsWithTheCue) {
-  CueBook book = with(CueAllowance::kAsk);
+TEST_F(TheCueRegistry, TheWordEndsWithTheCue) {
+  CueRegistry book = with(CueAllowance::kAsk);
   book.order("tak.a", true);
   book.end_silent(kCueTime_us + 1'900'000);
   EXPECT_FALSE(book.empty());
@@ -95,8 +95,8 @@ TEST_F(TheCueBook, TheWordEndsWithTheCue) {
   EXPECT_EQ(state(book), CueState::kWaiting);
 }
 
-TEST_F(TheCueBook, ATargetThatIsThereEndsTheSearch) {
-  CueBook book = with(CueAllowance::kAll);
+TEST_F(TheCueRegistry, ATargetThatIsThereEndsTheSearch) {
+  CueRegistry book = with(CueAllowance::kAll);
   book.settle(kCueTime_us, {track_at(7, beside(good_cue(), 20.0))});
   EXPECT_EQ(state(book), CueState::kFound);
   EXPECT_EQ(book.health(kCueTime_us)[0].target_id, 7);
@@ -109,8 +109,8 @@ TEST_F(TheCueBook, ATargetThatIsThereEndsTheSearch) {
   EXPECT_EQ(state(book), CueState::kSearched);
 }
 
-TEST_F(TheCueBook, OfTwoTargetsThereTheOneBeforeCounts) {
-  CueBook book = with(CueAllowance::kAll);
+TEST_F(TheCueRegistry, OfTwoTargetsThereTheOneBeforeCounts) {
+  CueRegistry book = with(CueAllowance::kAll);
   const Track seven = track_at(7, beside(good_cue(), 5.0)),
               nine = track_at(9, beside(good_cue(), 0));
   book.settle(kCueTime_us, {nine});
@@ -118,8 +118,8 @@ TEST_F(TheCueBook, OfTwoTargetsThereTheOneBeforeCounts) {
   EXPECT_EQ(book.health(kCueTime_us)[0].target_id, 9);
 }
 
-TEST_F(TheCueBook, HasRoomForSoManyAndTakesNoOvertakenPlace) {
-  CueBook book = with(CueAllowance::kAll);
+TEST_F(TheCueRegistry, HasRoomForSoManyAndTakesNoOvertakenPlace) {
+  CueRegistry book = with(CueAllowance::kAll);
   Cue other = good_cue();
   other.id = "tak.b";
   EXPECT_EQ(book.take(other, kCueTime_us, stations_), CueRefusal::kNone);
@@ -133,8 +133,8 @@ TEST_F(TheCueBook, HasRoomForSoManyAndTakesNoOvertakenPlace) {
   EXPECT_EQ(book.take(other, kCueTime_us, stations_), CueRefusal::kOutOfArea);
 }
 
-TEST_F(TheCueBook, SaysWhereACueIsNow) {
-  CueBook book = with(CueAllowance::kAsk);
+TEST_F(TheCueRegistry, SaysWhereACueIsNow) {
+  CueRegistry book = with(CueAllowance::kAsk);
   Cue cue = good_cue();
   cue.velocity_enu_m_s = {0.0, 0.0, 10.0};
   EXPECT_EQ(book.take(cue, kCueTime_us, stations_), CueRefusal::kNone);
