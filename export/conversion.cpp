@@ -7,9 +7,9 @@
 #include "base/files/output_check.h"
 #include "export/factory.h"
 #include "export/fixes.h"
+#include "export/present_targets.h"
 #include "export/readiness.h"
 #include "export/tak/cot_text.h"
-#include "export/target_book.h"
 
 namespace ols::exports {
 namespace {
@@ -71,7 +71,7 @@ class Recording {
 
   Gate gate_;
   Encoder& encoder_;
-  TargetBook book_;
+  PresentTargets book_;
   ConversionReport report_;
 };
 

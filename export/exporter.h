@@ -10,7 +10,7 @@
 #include "base/bus/bus_inbox.h"
 #include "export/messages.h"
 #include "export/output.h"
-#include "export/target_book.h"
+#include "export/present_targets.h"
 
 namespace ols::exports {
 
@@ -37,7 +37,7 @@ class Exporter {
   SiteContext site_;
   std::vector<std::unique_ptr<Output>> outputs_;
   std::int64_t max_age_us_;
-  TargetBook book_;
+  PresentTargets book_;
   std::map<std::string, double> counters_;
 };
 

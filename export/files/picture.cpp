@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "export/target_book.h"
+#include "export/present_targets.h"
 #include "geometry/angles.h"
 #include "geometry/wgs84.h"
 
@@ -11,7 +11,7 @@ namespace ols::exports {
 namespace {
 
 // A target has ended by then; a station tells of itself at 0.01 Hz at least.
-constexpr auto kLive_us = static_cast<std::int64_t>(1e6 * (TargetBook::kSilent_s + 2.0));
+constexpr auto kLive_us = static_cast<std::int64_t>(1e6 * (PresentTargets::kSilent_s + 2.0));
 constexpr std::int64_t kStationGone_us = 300'000'000;
 constexpr std::int64_t kEver_us = std::numeric_limits<std::int64_t>::max();
 

@@ -1,18 +1,18 @@
-#include "export/target_book.h"
+#include "export/present_targets.h"
 
 #include <algorithm>
 #include <utility>
 
 namespace ols::exports {
 
-Target TargetBook::ended(Target target, std::int64_t utime_us) {
+Target PresentTargets::ended(Target target, std::int64_t utime_us) {
   target.state = TrackState::kEnded;
   target.utime_us = std::max(utime_us, target.utime_us);
   target.velocity_enu_m_s.fill(kUnknown);
   return target;
 }
 
-std::vector<Target> TargetBook::take(const Target& target) {
+std::vector<Target> PresentTargets::take(const Target& target) {
   const auto known = live_.find(target.uid);
   if (target.state == TrackState::kEnded) {
     if (known == live_.end()) return {};
@@ -30,7 +30,7 @@ std::vector<Target> TargetBook::take(const Target& target) {
   return {end, target};
 }
 
-std::vector<Target> TargetBook::end_silent(std::int64_t utime_us) {
+std::vector<Target> PresentTargets::end_silent(std::int64_t utime_us) {
   const auto limit_us = utime_us - static_cast<std::int64_t>(kSilent_s * 1e6);
   std::vector<Target> ends;
   for (auto entry = live_.begin(); entry != live_.end();) {

@@ -11,7 +11,7 @@
 
 namespace ols::exports {
 
-class TargetBook {
+class PresentTargets {
  public:
   // The records to export; empty for the end of a target that was never present.
   std::vector<Target> take(const Target& target);

@@ -1,4 +1,4 @@
-#include "export/target_book.h"
+#include "export/present_targets.h"
 
 #include <gtest/gtest.h>
 
@@ -14,8 +14,8 @@ Target end_of(std::int64_t id, std::int64_t after_us) {
   return end;
 }
 
-TEST(TargetBook, AnEndSaysWhereTheTargetWasLast) {
-  TargetBook book;
+TEST(PresentTargets, AnEndSaysWhereTheTargetWasLast) {
+  PresentTargets book;
   EXPECT_EQ(book.take(made_target()).size(), 1U);
   const auto told = book.take(end_of(7, 500'000));
   ASSERT_EQ(told.size(), 1U);
@@ -25,8 +25,8 @@ TEST(TargetBook, AnEndSaysWhereTheTargetWasLast) {
   EXPECT_TRUE(book.take(end_of(7, 600'000)).empty());
 }
 
-TEST(TargetBook, WhatIsSilentEnds) {
-  TargetBook book;
+TEST(PresentTargets, WhatIsSilentEnds) {
+  PresentTargets book;
   book.take(made_target(1));
   book.take(made_target(2, 5'000'000));
   EXPECT_TRUE(book.end_silent(kNow_us + 10'000'000).empty());
@@ -36,22 +36,22 @@ TEST(TargetBook, WhatIsSilentEnds) {
   EXPECT_EQ(book.size(), 1U);
 }
 
-TEST(TargetBook, AnOlderRecordIsNoNews) {
-  TargetBook book;
+TEST(PresentTargets, AnOlderRecordIsNoNews) {
+  PresentTargets book;
   book.take(made_target(1, 1000));
   EXPECT_TRUE(book.take(made_target(1, 999)).empty());
 }
 
-TEST(TargetBook, InventedTargetsEndTheOldest) {
-  TargetBook book;
-  for (std::size_t i = 0; i < TargetBook::kMost; ++i) {
+TEST(PresentTargets, InventedTargetsEndTheOldest) {
+  PresentTargets book;
+  for (std::size_t i = 0; i < PresentTargets::kMost; ++i) {
     book.take(made_target(static_cast<std::int64_t>(i + 1), static_cast<std::int64_t>(i)));
   }
   const auto told = book.take(made_target(99'999, 99'999));
   ASSERT_EQ(told.size(), 2U);
   EXPECT_EQ(told[0].id, 1);
   EXPECT_EQ(told[0].state, TrackState::kEnded);
-  EXPECT_EQ(book.size(), TargetBook::kMost);
+  EXPECT_EQ(book.size(), PresentTargets::kMost);
 }
 
 }  // namespace
