@@ -16,8 +16,8 @@
 #include "base/trust/key_file.h"
 #include "edge/config/config.h"
 #include "tools/key/log_check.h"
-#include "tools/key/site_book.h"
 #include "tools/key/site_files.h"
+#include "tools/key/trust_list_changes.h"
 
 namespace {
 

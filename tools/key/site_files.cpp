@@ -8,7 +8,7 @@
 #include "base/config/toml_config.h"
 #include "base/files/atomic_file.h"
 #include "base/files/small_file.h"
-#include "tools/key/site_book.h"
+#include "tools/key/trust_list_changes.h"
 
 namespace ols::key {
 namespace {

@@ -1,4 +1,4 @@
-#include "tools/key/site_book.h"
+#include "tools/key/trust_list_changes.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
