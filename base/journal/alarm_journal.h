@@ -7,7 +7,7 @@
 
 #include "base/journal/alarm_changes.h"
 #include "base/journal/journal.h"
-#include "base/journal/news_limit.h"
+#include "base/journal/journal_rate_limit.h"
 
 namespace ols {
 
@@ -23,7 +23,7 @@ class AlarmJournal {
  private:
   const Write write_;
   AlarmChanges alarms_;
-  NewsLimit limit_;
+  JournalRateLimit limit_;
 };
 
 }  // namespace ols

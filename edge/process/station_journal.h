@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "base/journal/news_limit.h"
+#include "base/journal/journal_rate_limit.h"
 #include "edge/clock/clock_pair.h"
 #include "edge/station/fault_log.h"
 #include "edge/station/station_report.h"
@@ -34,7 +34,7 @@ class StationJournal {
   void note_bus(const Bus& bus, std::int64_t utime_us);
 
   FaultLog troubles_;
-  NewsLimit limit_;
+  JournalRateLimit limit_;
   std::optional<double> begun_s_;  // of the first note
   const std::string station_;
   const Write write_;

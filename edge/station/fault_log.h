@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/journal/alarm_changes.h"
-#include "base/journal/news_limit.h"
+#include "base/journal/journal_rate_limit.h"
 
 namespace ols::station {
 

@@ -1,4 +1,4 @@
-#include "base/journal/news_limit.h"
+#include "base/journal/journal_rate_limit.h"
 
 #include <gtest/gtest.h>
 
@@ -19,8 +19,8 @@ News news(const char* key, const std::string& text, bool bad) {
   return {key, {.text = text, .bad = bad}};
 }
 
-TEST(NewsLimit, WhatIsNewIsWrittenAtOnce) {
-  NewsLimit limit;
+TEST(JournalRateLimit, WhatIsNewIsWrittenAtOnce) {
+  JournalRateLimit limit;
   const auto lines = limit.pass({news("a", "a fault", true), news("b", "b ok", false)}, 1.0);
   EXPECT_EQ(texts(lines), (Texts{"a fault", "b ok"}));
   EXPECT_TRUE(lines[0].bad);
@@ -28,8 +28,8 @@ TEST(NewsLimit, WhatIsNewIsWrittenAtOnce) {
   EXPECT_TRUE(limit.pass({}, 2.0).empty());
 }
 
-TEST(NewsLimit, AFloodIsAFewLinesAndItsEndIsTold) {
-  NewsLimit limit;
+TEST(JournalRateLimit, AFloodIsAFewLinesAndItsEndIsTold) {
+  JournalRateLimit limit;
   std::size_t written = 0;
   double now_s = 0.0;
   for (int i = 0; i < 1000; ++i, now_s += 0.05) {
@@ -42,8 +42,8 @@ TEST(NewsLimit, AFloodIsAFewLinesAndItsEndIsTold) {
   EXPECT_TRUE(limit.pass({}, 200.0).empty());
 }
 
-TEST(NewsLimit, TheLastWordOfWhatComesAndGoesIsTold) {
-  NewsLimit limit;
+TEST(JournalRateLimit, TheLastWordOfWhatComesAndGoesIsTold) {
+  JournalRateLimit limit;
   for (int i = 0; i < 3; ++i) {
     limit.pass({news("gnss", "alarm", true)}, i);
     limit.pass({news("gnss", "over", false)}, i);

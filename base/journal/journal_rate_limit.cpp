@@ -1,8 +1,8 @@
-#include "base/journal/news_limit.h"
+#include "base/journal/journal_rate_limit.h"
 
 namespace ols {
 
-std::vector<JournalEvent> NewsLimit::pass(const std::vector<News>& news, double now_s) {
+std::vector<JournalEvent> JournalRateLimit::pass(const std::vector<News>& news, double now_s) {
   std::vector<JournalEvent> lines;
   for (auto entry = told_.begin(); entry != told_.end();) {
     Told& told = entry->second;

@@ -17,7 +17,7 @@ struct News {
   JournalEvent event;
 };
 
-class NewsLimit {
+class JournalRateLimit {
  public:
   // The entries to write now: the first kBurst of a key within kWindow_s. Of the others, only the
   // last is written, after the window, with the number left out: so the end of a condition is
