@@ -6,7 +6,7 @@
 //   number = 3
 //   root = "…64 hexadecimal digits…"
 //   geoid = "egm96_15.gtx"          # of ols-export
-//   [station]                       # some keys of a station's file: edge/config/site_keys.h
+//   [station]                       # some keys of a station's file: edge/config/site_section.h
 //   logic.slew_lease_max_s = 1.5
 //   # signature …128 hexadecimal digits…
 //

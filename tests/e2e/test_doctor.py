@@ -74,13 +74,13 @@ def fixture_alone(configs, tmp_path_factory):
     config = folder / "config" / "alfa.toml"
     wrong = folder / "wrong.toml"
     wrong.write_text("heigth_m = 1\n" + config.read_text())
-    site_keys, keys = Path(os.environ["OLS_KEYS"]), tmp_path_factory.mktemp("tripod")
-    shutil.copy(site_keys / "alfa.key", keys)
+    site_section, keys = Path(os.environ["OLS_KEYS"]), tmp_path_factory.mktemp("tripod")
+    shutil.copy(site_section / "alfa.key", keys)
     kept = folder / "kept.toml"
     kept.write_text(config.read_text().replace(f"{folder}/state", f"{folder}/kept"))
     state = Path(tomllib.loads(kept.read_text())["state_folder"])
     state.mkdir()
-    shutil.copy(site_keys / "trust.toml", state / "trust-alfa.toml")
+    shutil.copy(site_section / "trust.toml", state / "trust-alfa.toml")
     before = {path: path.stat().st_mtime_ns for path in state.iterdir()}
     with ThreadPoolExecutor() as pool:
         answers = {
