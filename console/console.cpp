@@ -383,7 +383,7 @@ Moment Console::moment() const { return {site_, orders_, pictures_.newest()}; }
 
 void Console::show(const Moment& moment) {
   site_ = moment.site;
-  orders_ = moment.desk;
+  orders_ = moment.orders;
   pictures_.show(moment.pictures);
   for (auto& [id, viewer] : viewers_) {
     viewer.sent = 0;

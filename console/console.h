@@ -31,7 +31,7 @@ struct Outgoing {
 // The state of a replay at one instant.
 struct Moment {
   SiteState site;
-  PendingOrders desk;
+  PendingOrders orders;
   std::map<std::string, Picture> pictures;
 };
 
@@ -130,7 +130,7 @@ class Console {
     LatestPictures::View view;
     std::deque<std::string> answers;
   };
-  struct ReplayDesk {
+  struct ReplayState {
     Json state, timeline;  // null: this is no replay
     std::vector<ReplayRequest> requests;
   };
@@ -172,7 +172,7 @@ class Console {
   std::uint64_t messages_refused_ = 0;
   double stop_until_s_ = -1e9;
   std::string stopped_by_, bus_trouble_;
-  ReplayDesk replay_;
+  ReplayState replay_;
 };
 
 }  // namespace ols::console

@@ -46,10 +46,10 @@ cues::GeoidHeight geoid_of(const cues::CueConfig& config) {
   }
 }
 
-// The inputs with their readers, which feed the desk.
+// The inputs with their readers, which feed the cues.
 class Inputs {
  public:
-  Inputs(const cues::CueConfig& config, cues::LiveCues& desk) : desk_(desk) {
+  Inputs(const cues::CueConfig& config, cues::LiveCues& cues) : cues_(cues) {
     for (const cues::InputConfig& input : config.inputs) {
       const cues::Source source = cues::parse_source(input.from);
       names_.push_back(input.rules.name);
@@ -71,7 +71,7 @@ class Inputs {
     for (std::size_t i = 0; i < names_.size(); ++i) {
       const cues::InletReport& report = inlets_[i]->report();
       all.push_back({names_[i], report.is_open, report.trouble, report.openings, report.failures,
-                     report.bytes, desk_.counts()[i]});
+                     report.bytes, cues_.counts()[i]});
     }
     return all;
   }
@@ -81,11 +81,11 @@ class Inputs {
     return {[this, input] { readers_[input]->clear(); },
             [this, input](std::string_view bytes) {
               const std::int64_t now_us = ols::clock_utime_us();
-              desk_.take(input, readers_[input]->take(bytes, now_us), now_us);
+              cues_.take(input, readers_[input]->take(bytes, now_us), now_us);
             }};
   }
 
-  cues::LiveCues& desk_;
+  cues::LiveCues& cues_;
   boost::asio::io_context context_;
   std::vector<std::string> names_;
   std::vector<std::unique_ptr<cues::InputReader>> readers_;
@@ -112,10 +112,10 @@ cues::CueStatus status_of(const Inputs& inputs, const cues::CueBus& bus, std::si
 int run(const cues::CueConfig& config) {
   if (config.inputs.empty()) spdlog::warn("no [[input]] is configured: nothing comes in");
   ols::exports::count_protobuf_warnings();
-  cues::LiveCues desk(rules_of(config), config.most);
+  cues::LiveCues cues(rules_of(config), config.most);
   cues::CueBus bus(config.lcm_url, config.trust);
   bus.connect(ols::clock_monotonic_s(), ols::BusConnector::kLongest_s);
-  Inputs inputs(config, desk);
+  Inputs inputs(config, cues);
   ols::ServiceNotifier service_manager;
   service_manager.ready("cues");
   ols::write_to_journal({.text = "ready: " + std::to_string(config.inputs.size()) + " inputs",
@@ -128,10 +128,10 @@ int run(const cues::CueConfig& config) {
     inputs.turn();
     if (now_s < send_due_s) return;
     send_due_s = now_s + kSend_s;
-    bus.send(desk.live(ols::clock_utime_us()), ols::clock_utime_us());
+    bus.send(cues.live(ols::clock_utime_us()), ols::clock_utime_us());
   };
   const auto report = [&] {
-    const cues::CueStatus status = status_of(inputs, bus, desk.live(ols::clock_utime_us()).size());
+    const cues::CueStatus status = status_of(inputs, bus, cues.live(ols::clock_utime_us()).size());
     for (const cues::InputStatus& input : status.inputs) {
       troubles.look(input.name, input.trouble, ols::clock_monotonic_s());
     }

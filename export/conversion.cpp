@@ -44,7 +44,7 @@ class Recording {
   Recording(const GateConfig& gate, Encoder& encoder) : gate_(gate), encoder_(encoder) {}
 
   void take(const Target& target) {
-    for (const Target& told : book_.take(target)) give(told);
+    for (const Target& told : targets_.take(target)) give(told);
   }
   void take(const Station& station) {
     if (!gate_.passes(station)) return;
@@ -57,7 +57,7 @@ class Recording {
     encoder_.encode(line);
   }
   void end_silent(std::int64_t utime_us) {
-    for (const Target& end : book_.end_silent(utime_us)) give(end);
+    for (const Target& end : targets_.end_silent(utime_us)) give(end);
   }
   ConversionReport& report() { return report_; }
 
@@ -71,7 +71,7 @@ class Recording {
 
   Gate gate_;
   Encoder& encoder_;
-  PresentTargets book_;
+  PresentTargets targets_;
   ConversionReport report_;
 };
 

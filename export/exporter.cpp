@@ -33,7 +33,7 @@ bool Exporter::is_present(std::int64_t utime_us, std::int64_t now_utime_us) {
 void Exporter::hear(const BusMessage& message, std::int64_t now_utime_us) {
   if (const auto target = target_from(message, site_)) {
     if (!is_present(target->utime_us, now_utime_us)) return;
-    for (const Target& told : book_.take(*target)) give(told);
+    for (const Target& told : targets_.take(*target)) give(told);
   } else if (const auto station = station_from(message, site_)) {
     if (is_present(station->utime_us, now_utime_us)) give(*station);
   } else if (const auto line = line_from(message, site_)) {
@@ -44,7 +44,7 @@ void Exporter::hear(const BusMessage& message, std::int64_t now_utime_us) {
 }
 
 void Exporter::turn(double now_s, std::int64_t utime_us) {
-  for (const Target& end : book_.end_silent(utime_us)) give(end);
+  for (const Target& end : targets_.end_silent(utime_us)) give(end);
   for (const auto& output : outputs_) output->turn(now_s, utime_us);
 }
 

@@ -27,7 +27,7 @@ class Exporter {
   // records_sent_on, messages_refused, messages_unused (for example without a position),
   // records_old.
   const std::map<std::string, double>& counters() const { return counters_; }
-  std::size_t targets() const { return book_.size(); }
+  std::size_t targets() const { return targets_.size(); }
 
  private:
   template <class Record>
@@ -37,7 +37,7 @@ class Exporter {
   SiteContext site_;
   std::vector<std::unique_ptr<Output>> outputs_;
   std::int64_t max_age_us_;
-  PresentTargets book_;
+  PresentTargets targets_;
   std::map<std::string, double> counters_;
 };
 

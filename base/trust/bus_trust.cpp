@@ -176,7 +176,7 @@ std::vector<std::uint8_t> BusTrust::sign(const std::string& channel, Bytes paylo
   std::int64_t audience = 0;
   if (const auto rule = rule_of(channel); rule && rule->rule->is_command) {
     const std::lock_guard lock(mutex_);
-    audience = book_.boot_of(rule->station);
+    audience = boots_.boot_of(rule->station);
   }
   return with_trailer(key_.signing, key_.file.site_key, channel, payload, audience);
 }
@@ -196,7 +196,7 @@ BusTrust::Learned BusTrust::judge_and_learn(std::string_view channel, Bytes mess
   if (tells_boot) {
     const bool fresh = verdict.head.utime_us > 0 &&
                        std::abs(verdict.head.utime_us - arrival.utime_us) <= tolerance_us_;
-    book_.hear(verdict.head.station, verdict.head.boot_id, fresh, arrival.monotonic_s);
+    boots_.hear(verdict.head.station, verdict.head.boot_id, fresh, arrival.monotonic_s);
   }
   return {verdict, list_.number};
 }

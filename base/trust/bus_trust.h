@@ -140,7 +140,7 @@ class BusTrust {
   };
   Trouble trouble_;
   std::optional<Verifier> verifier_;
-  StationBoots book_;
+  StationBoots boots_;
   struct Telling {
     double due_s = 0.0;
     bool answers = false;      // a member has sent an older list
