@@ -18,7 +18,7 @@ std::map<std::string, double> all_counters(const FusionLog& log, const TrackMana
   counters["tracks_dropped"] = static_cast<double>(counts.deleted);
   counters["tracks_merged"] = static_cast<double>(counts.merged);
   counters["bearings_ambiguous"] = static_cast<double>(counts.ambiguous);
-  counters["bearings_set_aside"] = static_cast<double>(counts.rejected);
+  counters["bearings_rejected"] = static_cast<double>(counts.rejected);
   counters["bearings_unexplained"] = static_cast<double>(counts.unexplained);
   return counters;
 }
