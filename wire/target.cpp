@@ -41,7 +41,7 @@ Eigen::Vector3d velocity_enu(const Target& target) {
 }
 
 const char* track_name(std::int8_t state) {
-  return word_of_code(state, std::array{"born", "confirmed", "coasted", "dropped"}, "dropped");
+  return word_of_code(state, std::array{"tentative", "confirmed", "coasted", "dropped"}, "dropped");
 }
 
 const char* solution_name(std::int8_t solution) {

@@ -22,7 +22,7 @@ Eigen::Vector3d velocity_enu(const ols_msg::target_t& target);
 // A latitude, a longitude and a height that can be drawn; [deg] WGS84, [m].
 bool is_place(double latitude_deg, double longitude_deg, double height_m);
 
-// "born", "confirmed", "coasted", "dropped".
+// "tentative", "confirmed", "coasted", "dropped".
 const char* track_name(std::int8_t state);
 // "ok", "too-few-rays", ..
 const char* solution_name(std::int8_t solution);

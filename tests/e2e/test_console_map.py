@@ -50,7 +50,7 @@ def is_target(r, g, b):  # --map-target
     return (r > 120) & (g > 80) & (r > b + 60) & (r > g + 20)
 
 
-def is_line(r, g, b):  # --map-born
+def is_line(r, g, b):  # --map-tentative
     return (r > 150) & (g > 150) & (b < 190) & (abs(r - g) < 15) & (r > b + 25)
 
 

@@ -124,7 +124,7 @@ def test_axe_finds_nothing_in_any_theme(page, paper):
     state = ols_msg.station_status_t
     paper.states |= {"alfa": state.STATE_LOST, "bravo": state.STATE_EMERGENCY}
     paper.fusion_alarms = ["another fusion is on the bus: stop one of them"]
-    with paper.another_target(PaperTarget(state=ols_msg.target_t.TRACK_BORN)):
+    with paper.another_target(PaperTarget(state=ols_msg.target_t.TRACK_TENTATIVE)):
         region(page, "Stations").get_by_role("button", name="alfa").click()
         region(page, "Targets").get_by_role("row").nth(1).click()
         picture(page, "alfa")

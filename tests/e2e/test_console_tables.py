@@ -19,7 +19,7 @@ TARGET_T, PTU = ols_msg.target_t, ols_msg.ptu_command_t
 def second_target(paper):
     """Higher than the other, and only just found."""
     place = geodetic(49.2270, 16.598, 500.0)
-    return paper.another_target(PaperTarget(lambda _time_s: place, TARGET_T.TRACK_BORN))
+    return paper.another_target(PaperTarget(lambda _time_s: place, TARGET_T.TRACK_TENTATIVE))
 
 
 def rows(page, name):
@@ -36,7 +36,7 @@ def test_targets_are_sorted_and_filtered(page, paper):
             expect(heights).to_have_text(wanted)
             heading = targets.get_by_role("columnheader", name="Height")
             expect(heading).to_have_attribute("aria-sort", f"{order}ending")
-        targets.get_by_label("Filter").select_option("born")
+        targets.get_by_label("Filter").select_option("tentative")
         expect(heights).to_have_text(["500.0 m"])
         targets.get_by_label("Filter").select_option("all")
         expect(rows(page, "Targets")).to_have_count(2)

@@ -10,7 +10,7 @@ import type { Coordinate } from "ol/coordinate";
 import { OFFSETS, type Side } from "./labels";
 
 export type Colours = Record<string, string>;
-const COLOUR_NAMES = ["land", "sea", "rule", "rule-text", "grid", "text", "halo", "station", "station-quiet", "ray", "wedge", "target", "born", "coasted", "trail", "ring", "accent", "alarm", "keep-out"];
+const COLOUR_NAMES = ["land", "sea", "rule", "rule-text", "grid", "text", "halo", "station", "station-quiet", "ray", "wedge", "target", "tentative", "coasted", "trail", "ring", "accent", "alarm", "keep-out"];
 
 export function readColours(): Colours {
   const style = getComputedStyle(document.documentElement);

@@ -169,7 +169,7 @@ export class Scene {
   private addLine(line: Line, s: Station | undefined, reach_m: number) {
     if (line.stale || s?.latitude_deg == null || s.longitude_deg == null || s.height_m == null) return;
     const at = this.frame.place(s.latitude_deg, s.longitude_deg, s.height_m);
-    this.strokes.push({ points: [at, plus(at, along(line.azimuth_deg, line.elevation_deg, reach_m))], colour: this.colour("--map-born"), width: 1.5, dash: [8, 6] });
+    this.strokes.push({ points: [at, plus(at, along(line.azimuth_deg, line.elevation_deg, reach_m))], colour: this.colour("--map-tentative"), width: 1.5, dash: [8, 6] });
   }
 
   // Each part in the colour of its height, as on the flat map.

@@ -76,7 +76,7 @@ export function lineShapes(link: Link, c: Colours): Feature[] {
     if (line.stale || !s || s.latitude_deg == null || s.longitude_deg == null) continue;
     const at = fromLonLat([s.longitude_deg, s.latitude_deg]);
     const far = offset(at, line.azimuth_deg, RAY_M, stretch(s.latitude_deg));
-    out.push(shape(new LineString([at, far]), new Style({ stroke: new Stroke({ color: c.born, width: 1.5, lineDash: [8, 6] }) })));
+    out.push(shape(new LineString([at, far]), new Style({ stroke: new Stroke({ color: c.tentative, width: 1.5, lineDash: [8, 6] }) })));
   }
   return out;
 }

@@ -31,7 +31,7 @@ const COLUMNS: Column[] = [
   { word: "age", of: (x) => -x.utime_us, text: (x, link) => fixed(age_s(x.utime_us, link), 1, " s") },
   { word: "position", of: (x) => x.latitude_deg, text: (x) => position(x) },
 ];
-const STATES = ["confirmed", "born", "coasted", "stale"];
+const STATES = ["confirmed", "tentative", "coasted", "stale"];
 
 type TargetsProps = { link: Link; selected: string; mayCommand: boolean; onSelect: (pick: string) => void; onCue: (cue: string, allow: boolean) => void };
 

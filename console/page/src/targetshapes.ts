@@ -31,7 +31,7 @@ function ellipseRing(target: Target, at: Coordinate, scale: number): Coordinate[
 }
 
 const targetColour = (target: Target, c: Colours) =>
-  target.stale || target.state === "coasted" ? c.coasted : target.state === "born" ? c.born : c.target;
+  target.stale || target.state === "coasted" ? c.coasted : target.state === "tentative" ? c.tentative : c.target;
 
 export function targetWords(target: Target): string {
   const moves = target.stale ? named("s", targetState(target)) : speed(target.speed_m_s);
@@ -72,7 +72,7 @@ export function cueShapes(link: Link, c: Colours, sides: Map<string, Side | null
   for (const cue of link.site.fusion?.cues ?? []) {
     if (cue.latitude_deg == null || cue.longitude_deg == null) continue;
     const at = fromLonLat([cue.longitude_deg, cue.latitude_deg]);
-    const colour = cue.state === "searched" ? c.accent : c.born;
+    const colour = cue.state === "searched" ? c.accent : c.tentative;
     const ring: Coordinate[] = [];
     for (let k = 0; k <= 48; k++) ring.push(offset(at, (360 * k) / 48, cue.horizontal_sd_m ?? 0, stretch(cue.latitude_deg)));
     out.push(shape(new LineString(ring), new Style({ stroke: new Stroke({ color: colour, width: 1.5, lineDash: [4, 4] }) })));

@@ -283,7 +283,7 @@ const WORDS = {
   s_emergency: ["emergency", "Not-Halt"],
   s_unknown: ["unknown", "unbekannt"],
   s_silent: ["silent", "stumm"],
-  s_born: ["born", "neu"],
+  s_tentative: ["tentative", "neu"],
   s_waiting: ["waits for an operator", "wartet auf den Bediener"],
   s_searched: ["searched", "wird gesucht"],
   s_found: ["found", "gefunden"],
