@@ -11,7 +11,7 @@
 
 #include "base/process/clocks.h"
 #include "edge/calibration/calibration_in_use.h"
-#include "edge/drift/next_calibration.h"
+#include "edge/drift/calibration_folder_watch.h"
 #include "edge/drift/reference_views.h"
 
 namespace ols::station {
@@ -54,8 +54,8 @@ class KeptCalibration {
   void begin();
 
   UtcNow now_;
-  NextCalibration next_;  // first, because a change while the folder is read counts as another
-                          // calibration
+  CalibrationFolderWatch next_;  // first, because a change while the folder is read counts as
+                                 // another calibration
   CalibrationInUse in_use_;
   std::unique_ptr<ReferenceViews> views_;  // null: no calibration in use, or no checks configured
   int doubt_revision_ = 0;

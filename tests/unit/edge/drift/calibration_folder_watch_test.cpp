@@ -1,4 +1,4 @@
-#include "edge/drift/next_calibration.h"
+#include "edge/drift/calibration_folder_watch.h"
 
 #include <gtest/gtest.h>
 
@@ -12,14 +12,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class NextCalibrationTest : public testing::Test {
+class CalibrationFolderWatchTest : public testing::Test {
  protected:
-  NextCalibrationTest() {
+  CalibrationFolderWatchTest() {
     second_.setup = std::string(test::kSetup) + "# another\n";
     second_.write();
     link(first_.path);
   }
-  ~NextCalibrationTest() override { fs::remove(link_); }
+  ~CalibrationFolderWatchTest() override { fs::remove(link_); }
   // As `ols-calibrate` accepts one: by one rename.
   void link(const std::string& folder) const {
     fs::create_directory_symlink(folder, link_ + ".next");
@@ -31,7 +31,7 @@ class NextCalibrationTest : public testing::Test {
     return settings;
   }
   // Turns until its thread has read, in real time.
-  void look(NextCalibration& next) {
+  void look(CalibrationFolderWatch& next) {
     eventually([&] {
       next.look(now_s_ += 1.5);
       return next.waiting() || !next.alarm().empty();
@@ -44,15 +44,15 @@ class NextCalibrationTest : public testing::Test {
   double now_s_ = 100.0;
 };
 
-TEST_F(NextCalibrationTest, TheOneThatWasThereAtTheBeginningIsNoNews) {
-  NextCalibration next(configured());
+TEST_F(CalibrationFolderWatchTest, TheOneThatWasThereAtTheBeginningIsNoNews) {
+  CalibrationFolderWatch next(configured());
   for (int i = 0; i < 20; ++i) next.look(now_s_ += 1.5);
   EXPECT_FALSE(next.waiting());
   EXPECT_EQ(next.alarm(), "");
 }
 
-TEST_F(NextCalibrationTest, AnAcceptedOneWaitsAndSaysSo) {
-  NextCalibration next(configured());
+TEST_F(CalibrationFolderWatchTest, AnAcceptedOneWaitsAndSaysSo) {
+  CalibrationFolderWatch next(configured());
   link(second_.path);
   look(next);
   ASSERT_TRUE(next.waiting());
@@ -64,18 +64,18 @@ TEST_F(NextCalibrationTest, AnAcceptedOneWaitsAndSaysSo) {
   EXPECT_EQ(next.alarm(), "");
 }
 
-TEST_F(NextCalibrationTest, TheFirstOneEverIsNoticed) {
+TEST_F(CalibrationFolderWatchTest, TheFirstOneEverIsNoticed) {
   fs::remove(link_);
-  NextCalibration next(configured());
+  CalibrationFolderWatch next(configured());
   next.look(now_s_);
   link(first_.path);
   look(next);
   EXPECT_TRUE(next.waiting());
 }
 
-TEST_F(NextCalibrationTest, OneThatCannotBeReadIsNamedUntilThereIsAnother) {
+TEST_F(CalibrationFolderWatchTest, OneThatCannotBeReadIsNamedUntilThereIsAnother) {
   second_.put("instrument.toml", "rubbish = 1\n");
-  NextCalibration next(configured());
+  CalibrationFolderWatch next(configured());
   link(second_.path);
   look(next);
   EXPECT_FALSE(next.waiting());

@@ -1,4 +1,4 @@
-#include "edge/drift/next_calibration.h"
+#include "edge/drift/calibration_folder_watch.h"
 
 #include <exception>
 #include <filesystem>
@@ -32,10 +32,10 @@ std::string mark_of(const std::string& path) {
 
 }  // namespace
 
-NextCalibration::NextCalibration(const StationSettings& configured)
+CalibrationFolderWatch::CalibrationFolderWatch(const StationSettings& configured)
     : configured_(configured), seen_(mark_of(configured.calibration_folder)) {}
 
-void NextCalibration::look(double now_s) {
+void CalibrationFolderWatch::look(double now_s) {
   if (reading_.valid()) return take_read();
   if (configured_.calibration_folder.empty() || now_s < looked_s_ + kInterval_s) return;
   looked_s_ = now_s;
@@ -51,7 +51,7 @@ void NextCalibration::look(double now_s) {
   });
 }
 
-void NextCalibration::take_read() {
+void CalibrationFolderWatch::take_read() {
   if (reading_.wait_for(time_source().for_work()) != std::future_status::ready) return;
   try {
     files_ = reading_.get();
@@ -60,12 +60,12 @@ void NextCalibration::take_read() {
   }
 }
 
-void NextCalibration::refuse(const std::string& why) {
+void CalibrationFolderWatch::refuse(const std::string& why) {
   files_.reset();
   refused_ = why;
 }
 
-std::string NextCalibration::alarm() const {
+std::string CalibrationFolderWatch::alarm() const {
   if (files_) return alarm::calibration_waits(files_->id);
   return refused_.empty() ? "" : alarm::accepted_calibration_not_used(refused_);
 }

@@ -11,10 +11,10 @@
 
 namespace ols::station {
 
-class NextCalibration {
+class CalibrationFolderWatch {
  public:
   // `configured`: as in the configuration file. The folder's present content counts as read.
-  explicit NextCalibration(const StationSettings& configured);
+  explicit CalibrationFolderWatch(const StationSettings& configured);
 
   // Call in every turn. Looks at the folder once a second.
   void look(double now_s);
