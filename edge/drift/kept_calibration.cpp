@@ -49,7 +49,7 @@ bool KeptCalibration::adopts(double now_s, bool idle,
   next_.look(now_s);
   const CalibrationFiles* files = next_.waiting();
   if (!files) return false;
-  const std::string why = CalibrationInUse::conflict(*files, devices, count_rad);
+  const std::string why = ActiveCalibration::conflict(*files, devices, count_rad);
   if (!why.empty()) {
     next_.refuse(why);
     return false;

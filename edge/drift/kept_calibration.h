@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "base/process/clocks.h"
-#include "edge/calibration/calibration_in_use.h"
+#include "edge/calibration/active_calibration.h"
 #include "edge/drift/calibration_folder_watch.h"
 #include "edge/drift/reference_views.h"
 
@@ -56,7 +56,7 @@ class KeptCalibration {
   UtcNow now_;
   CalibrationFolderWatch next_;  // first, because a change while the folder is read counts as
                                  // another calibration
-  CalibrationInUse in_use_;
+  ActiveCalibration in_use_;
   std::unique_ptr<ReferenceViews> views_;  // null: no calibration in use, or no checks configured
   int doubt_revision_ = 0;
   std::uint64_t homings_ = 0;

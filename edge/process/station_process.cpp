@@ -285,7 +285,7 @@ StationReport StationProcess::report(const clock::ClockPair& now) {
   }
   for (const std::string& alarm : calibration_.alarms()) report.alarms.push_back(alarm);
   for (const std::string& alarm :
-       CalibrationInUse::other_devices(settings().serials, report.devices)) {
+       ActiveCalibration::other_devices(settings().serials, report.devices)) {
     report.alarms.push_back(alarm);
   }
   for (const std::string& alarm : persisted_.alarms()) report.alarms.push_back(alarm);

@@ -14,10 +14,10 @@
 
 namespace ols::station {
 
-class CalibrationInUse {
+class ActiveCalibration {
  public:
   // Reads the configured folder, if there is one. Never throws, whatever it contains.
-  explicit CalibrationInUse(const StationSettings& configured);
+  explicit ActiveCalibration(const StationSettings& configured);
 
   // The settings that the station works with; always the same object.
   const StationSettings& settings() const { return settings_; }

@@ -1,4 +1,4 @@
-#include "edge/calibration/calibration_in_use.h"
+#include "edge/calibration/active_calibration.h"
 
 #include <gtest/gtest.h>
 
@@ -21,11 +21,11 @@ class CalibrationInUseTest : public testing::Test {
     report.serial = serial;
     return report;
   }
-  test::CalibrationFolder files_{"calibration_in_use"};
+  test::CalibrationFolder files_{"active_calibration"};
 };
 
 TEST_F(CalibrationInUseTest, NoneConfiguredIsNothingToSay) {
-  const CalibrationInUse none(test::settings());
+  const ActiveCalibration none(test::settings());
   EXPECT_EQ(none.status().state, CalibrationState::kNone);
   EXPECT_EQ(none.settings().calibration_id, 5);
   EXPECT_FALSE(none.settings().station.calibration);
@@ -33,7 +33,7 @@ TEST_F(CalibrationInUseTest, NoneConfiguredIsNothingToSay) {
 }
 
 TEST_F(CalibrationInUseTest, TheStationWorksWithIt) {
-  const CalibrationInUse used(configured());
+  const ActiveCalibration used(configured());
   EXPECT_EQ(used.status().state, CalibrationState::kInUse);
   EXPECT_EQ(used.status().observed_utime_us, 1780000000000000);
   EXPECT_EQ(used.settings().calibration_id, used.status().id);
@@ -43,7 +43,7 @@ TEST_F(CalibrationInUseTest, TheStationWorksWithIt) {
 
 TEST_F(CalibrationInUseTest, AnUnreadableOneIsNamedAndTheStationGoesOn) {
   files_.put("instrument.toml", "rubbish = 1\n");
-  const CalibrationInUse refused(configured());
+  const ActiveCalibration refused(configured());
   EXPECT_EQ(refused.status().state, CalibrationState::kRefused);
   EXPECT_EQ(refused.settings().calibration_id, 5) << "its own values";
   EXPECT_FALSE(refused.settings().station.calibration);
@@ -55,19 +55,19 @@ TEST_F(CalibrationInUseTest, AnUnreadableOneIsNamedAndTheStationGoesOn) {
 TEST_F(CalibrationInUseTest, ADeviceThatSaysAnotherSerialNumberIsNamed) {
   InstrumentSerials configured;
   configured.camera = "C7";
-  EXPECT_TRUE(CalibrationInUse::other_devices(configured, {camera(""), camera("C7")}).empty());
-  EXPECT_TRUE(CalibrationInUse::other_devices(InstrumentSerials{}, {camera("C8")}).empty())
+  EXPECT_TRUE(ActiveCalibration::other_devices(configured, {camera(""), camera("C7")}).empty());
+  EXPECT_TRUE(ActiveCalibration::other_devices(InstrumentSerials{}, {camera("C8")}).empty())
       << "none is configured";
-  EXPECT_EQ(CalibrationInUse::other_devices(configured, {camera("C8")}),
+  EXPECT_EQ(ActiveCalibration::other_devices(configured, {camera("C8")}),
             std::vector<std::string>{"calibration: another camera than configured: it says 'C8', "
                                      "[serials] has 'C7'"});
   // By this a guided procedure knows the alarm.
-  EXPECT_EQ(alarm_of(CalibrationInUse::other_devices(configured, {camera("C8")}).front()).id,
+  EXPECT_EQ(alarm_of(ActiveCalibration::other_devices(configured, {camera("C8")}).front()).id,
             "other_device");
 }
 
 TEST_F(CalibrationInUseTest, ACameraThatIsAnotherEndsIt) {
-  CalibrationInUse used(configured());
+  ActiveCalibration used(configured());
   EXPECT_FALSE(used.refuses({camera("")})) << "it does not say";
   EXPECT_FALSE(used.refuses({camera("C7")}));
   EXPECT_TRUE(used.refuses({camera("C8")}));
@@ -81,7 +81,7 @@ TEST_F(CalibrationInUseTest, ACameraThatIsAnotherEndsIt) {
 TEST_F(CalibrationInUseTest, AUnitInAnotherStepModeEndsIt) {
   StationSettings settings = configured();
   settings.station.geometry.sd.heading_rad = radians(0.5);
-  CalibrationInUse used(settings);
+  ActiveCalibration used(settings);
   const double count = radians(11.5714 / 3600.0);
   EXPECT_FALSE(used.refuses(PanTilt{})) << "it does not say yet";
   EXPECT_FALSE(used.refuses(PanTilt{count, count}));

@@ -1,4 +1,4 @@
-#include "edge/calibration/calibration_in_use.h"
+#include "edge/calibration/active_calibration.h"
 
 #include <exception>
 
@@ -19,11 +19,11 @@ std::string other_serial(const InstrumentSerials& calibrated, const device::Devi
 
 }  // namespace
 
-CalibrationInUse::CalibrationInUse(const StationSettings& configured) : configured_(configured) {
+ActiveCalibration::ActiveCalibration(const StationSettings& configured) : configured_(configured) {
   read();
 }
 
-void CalibrationInUse::read() {
+void ActiveCalibration::read() {
   settings_ = configured_;
   if (configured_.calibration_folder.empty()) return;
   try {
@@ -34,9 +34,9 @@ void CalibrationInUse::read() {
   }
 }
 
-std::string CalibrationInUse::conflict(const CalibrationFiles& files,
-                                       const std::vector<device::DeviceReport>& devices,
-                                       const PanTilt& count_rad) {
+std::string ActiveCalibration::conflict(const CalibrationFiles& files,
+                                        const std::vector<device::DeviceReport>& devices,
+                                        const PanTilt& count_rad) {
   for (const device::DeviceReport& device : devices) {
     const std::string why = other_serial(files.serials, device);
     if (!why.empty()) return "instrument.toml: serials." + device.name + ": " + why;
@@ -48,7 +48,7 @@ std::string CalibrationInUse::conflict(const CalibrationFiles& files,
   return same ? "" : "the unit has another number of counts per turn";
 }
 
-std::vector<std::string> CalibrationInUse::other_devices(
+std::vector<std::string> ActiveCalibration::other_devices(
     const InstrumentSerials& configured, const std::vector<device::DeviceReport>& devices) {
   std::vector<std::string> alarms;
   for (const device::DeviceReport& device : devices) {
@@ -59,31 +59,31 @@ std::vector<std::string> CalibrationInUse::other_devices(
   return alarms;
 }
 
-bool CalibrationInUse::refuses(const std::vector<device::DeviceReport>& devices) {
+bool ActiveCalibration::refuses(const std::vector<device::DeviceReport>& devices) {
   const std::string why = files_ ? conflict(*files_, devices, {}) : "";
   if (!why.empty()) drop(configured_.calibration_folder + "/" + why);
   return !why.empty();
 }
 
-bool CalibrationInUse::refuses(const PanTilt& count_rad) {
+bool ActiveCalibration::refuses(const PanTilt& count_rad) {
   const std::string why = files_ ? conflict(*files_, {}, count_rad) : "";
   if (!why.empty()) drop(why);
   return !why.empty();
 }
 
-void CalibrationInUse::adopt(const CalibrationFiles& files) {
+void ActiveCalibration::adopt(const CalibrationFiles& files) {
   files_ = files;
   refused_.clear();
   settings_ = with_calibration(configured_, files);
 }
 
-void CalibrationInUse::drop(const std::string& why) {
+void ActiveCalibration::drop(const std::string& why) {
   refused_ = why;
   files_.reset();
   settings_ = configured_;
 }
 
-CalibrationStatus CalibrationInUse::status() const {
+CalibrationStatus ActiveCalibration::status() const {
   if (!files_) {
     return {refused_.empty() ? CalibrationState::kNone : CalibrationState::kRefused,
             configured_.calibration_id, 0, 0.0};
@@ -91,7 +91,7 @@ CalibrationStatus CalibrationInUse::status() const {
   return {CalibrationState::kInUse, files_->id, files_->observed_utime_us, files_->rms_rad};
 }
 
-std::vector<std::string> CalibrationInUse::alarms() const {
+std::vector<std::string> ActiveCalibration::alarms() const {
   if (refused_.empty()) return {};
   return {alarm::calibration_not_used(refused_)};
 }
