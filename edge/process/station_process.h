@@ -7,7 +7,7 @@
 #include <string>
 
 #include "base/process/service_notifier.h"
-#include "edge/drift/kept_calibration.h"
+#include "edge/drift/calibration_supervisor.h"
 #include "edge/frames/frame_desk.h"
 #include "edge/messages/messages_bus.h"
 #include "edge/process/device_set.h"
@@ -70,7 +70,7 @@ class StationProcess {
     double trigger_s = 0.0, status_s = 0.0, preview_s = 0.0;
   };
 
-  KeptCalibration calibration_;  // and the settings with it
+  CalibrationSupervisor calibration_;  // and the settings with it
   ServiceNotifier service_;
   StationClock clock_;
   std::optional<KeptPose> pose_;  // always there; another one with another calibration

@@ -1,4 +1,4 @@
-#include "edge/drift/kept_calibration.h"
+#include "edge/drift/calibration_supervisor.h"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 namespace ols::station {
 namespace {
 
-class KeptCalibrationTest : public testing::Test {
+class CalibrationSupervisorTest : public testing::Test {
  protected:
   StationSettings configured() const {
     StationSettings settings = test::settings();
@@ -21,7 +21,7 @@ class KeptCalibrationTest : public testing::Test {
     return settings;
   }
   // Whether the unit is moved within so many seconds.
-  static bool moves(KeptCalibration& kept, double seconds) {
+  static bool moves(CalibrationSupervisor& kept, double seconds) {
     kept.set_limits(travel());
     for (double now_s = 0.0; now_s < seconds; now_s += 1.0) {
       if (kept.step({now_s, true, PanTilt{}})) return true;
@@ -29,9 +29,10 @@ class KeptCalibrationTest : public testing::Test {
     return false;
   }
   // Of one round; none is looked at where the sun stands.
-  static std::size_t views_seen(const StationSettings& settings, const KeptCalibration::UtcNow& now,
+  static std::size_t views_seen(const StationSettings& settings,
+                                const CalibrationSupervisor::UtcNow& now,
                                 const calibration::SunKeepOut& sun) {
-    KeptCalibration kept(settings, now);
+    CalibrationSupervisor kept(settings, now);
     kept.set_limits(travel());
     PanTilt at;
     std::set<long> pans;
@@ -53,11 +54,11 @@ class KeptCalibrationTest : public testing::Test {
     limits.count = {5.61e-5, 5.61e-5};
     return limits;
   }
-  test::CalibrationFolder files_{"kept_calibration"};
+  test::CalibrationFolder files_{"calibration_supervisor"};
 };
 
 // The sun rises in one of the views, and no filter is on the lens.
-TEST_F(KeptCalibrationTest, WhereTheSunStandsItDoesNotLook) {
+TEST_F(CalibrationSupervisorTest, WhereTheSunStandsItDoesNotLook) {
   const StationSettings settings = configured();
   const StationModel model = read_calibration(files_.path, settings).calibration.model;
   std::int64_t utime_us = 1'773'964'800'000'000;  // 2026-03-20, midnight
@@ -73,31 +74,31 @@ TEST_F(KeptCalibrationTest, WhereTheSunStandsItDoesNotLook) {
   EXPECT_EQ(views_seen(settings, now, sun), 3U) << "soon after sunrise";
 }
 
-TEST_F(KeptCalibrationTest, AStationWithoutOneNeverMovesByItself) {
-  KeptCalibration none(test::settings());
+TEST_F(CalibrationSupervisorTest, AStationWithoutOneNeverMovesByItself) {
+  CalibrationSupervisor none(test::settings());
   EXPECT_FALSE(moves(none, 5000.0));
   EXPECT_TRUE(none.alarms().empty());
   EXPECT_TRUE(none.counters().empty());
   EXPECT_FALSE(none.take_doubt());
 }
 
-TEST_F(KeptCalibrationTest, OneWithAFolderStoresItsViewsFirst) {
-  KeptCalibration kept(configured());
+TEST_F(CalibrationSupervisorTest, OneWithAFolderStoresItsViewsFirst) {
+  CalibrationSupervisor kept(configured());
   EXPECT_EQ(kept.status().state, CalibrationState::kInUse);
   EXPECT_TRUE(moves(kept, 60.0));
   EXPECT_EQ(kept.counters().at("view_checks"), 0.0);
 }
 
-TEST_F(KeptCalibrationTest, ChecksCanBeSwitchedOff) {
+TEST_F(CalibrationSupervisorTest, ChecksCanBeSwitchedOff) {
   StationSettings settings = configured();
   settings.view_check_s = 0.0;
-  KeptCalibration kept(settings);
+  CalibrationSupervisor kept(settings);
   EXPECT_FALSE(moves(kept, 5000.0));
   EXPECT_EQ(kept.status().state, CalibrationState::kInUse);
 }
 
-TEST_F(KeptCalibrationTest, ARefusedOneIsCheckedNoMore) {
-  KeptCalibration kept(configured());
+TEST_F(CalibrationSupervisorTest, ARefusedOneIsCheckedNoMore) {
+  CalibrationSupervisor kept(configured());
   device::DeviceReport camera;
   camera.name = "camera";
   camera.serial = "another";
@@ -106,27 +107,27 @@ TEST_F(KeptCalibrationTest, ARefusedOneIsCheckedNoMore) {
   EXPECT_FALSE(moves(kept, 5000.0));
 }
 
-TEST_F(KeptCalibrationTest, OneOfAnotherStepModeIsCheckedNoMore) {
-  KeptCalibration kept(configured());
+TEST_F(CalibrationSupervisorTest, OneOfAnotherStepModeIsCheckedNoMore) {
+  CalibrationSupervisor kept(configured());
   EXPECT_TRUE(kept.refuses(PanTilt{1e-4, 1e-4}));
   EXPECT_EQ(kept.status().state, CalibrationState::kRefused);
   EXPECT_FALSE(moves(kept, 5000.0));
 }
 
-TEST_F(KeptCalibrationTest, ADoubtedOneStatesTheDoubt) {
+TEST_F(CalibrationSupervisorTest, ADoubtedOneStatesTheDoubt) {
   StationSettings settings = configured();
-  const CalibrationStatus before = KeptCalibration(settings).status();
+  const CalibrationStatus before = CalibrationSupervisor(settings).status();
   settings.state_folder = files_.path;
   const int red = static_cast<int>(DriftLevel::kRed),
             tripod = static_cast<int>(DriftCause::kTripod);
   files_.put("alfa.drift", "drift 1 " + std::to_string(before.id) + " " + std::to_string(red) +
                                " " + std::to_string(tripod) + " 0.003 0.001 0 0 0 0 0 0\n");
-  const CalibrationStatus doubted = KeptCalibration(settings).status();
+  const CalibrationStatus doubted = CalibrationSupervisor(settings).status();
   EXPECT_EQ(doubted.state, CalibrationState::kDoubted);
   EXPECT_NEAR(doubted.rms_rad, std::hypot(before.rms_rad, 0.003), 1e-12);
 }
 
-class AcceptedMeanwhile : public KeptCalibrationTest {
+class AcceptedMeanwhile : public CalibrationSupervisorTest {
  protected:
   AcceptedMeanwhile() {
     second_.setup = std::string(test::kSetup) + "# another\n";
@@ -148,7 +149,7 @@ class AcceptedMeanwhile : public KeptCalibrationTest {
     return report;
   }
   // A station at work, until its thread has read; true: it was taken up.
-  bool waits(KeptCalibration& kept, const std::string& serial) {
+  bool waits(CalibrationSupervisor& kept, const std::string& serial) {
     bool taken = false;
     eventually([&] {
       taken = kept.adopts(now_s_ += 1.5, false, {camera(serial)}, {}) || taken;
@@ -167,7 +168,7 @@ class AcceptedMeanwhile : public KeptCalibrationTest {
 };
 
 TEST_F(AcceptedMeanwhile, IsTakenUpOnceTheStationIsIdle) {
-  KeptCalibration kept(settings_);
+  CalibrationSupervisor kept(settings_);
   const auto before = kept.status().id;
   link(second_.path);
   EXPECT_FALSE(waits(kept, "C7")) << "at work";
@@ -181,7 +182,7 @@ TEST_F(AcceptedMeanwhile, IsTakenUpOnceTheStationIsIdle) {
 }
 
 TEST_F(AcceptedMeanwhile, OneOfAnotherCameraIsNotAndTheOldOneStands) {
-  KeptCalibration kept(settings_);
+  CalibrationSupervisor kept(settings_);
   const auto before = kept.status().id;
   link(second_.path);
   EXPECT_FALSE(waits(kept, "C8"));
@@ -191,7 +192,7 @@ TEST_F(AcceptedMeanwhile, OneOfAnotherCameraIsNotAndTheOldOneStands) {
 }
 
 TEST_F(AcceptedMeanwhile, EndsARefusal) {
-  KeptCalibration kept(settings_);
+  CalibrationSupervisor kept(settings_);
   ASSERT_TRUE(kept.refuses({camera("C8")}));
   link(second_.path);
   EXPECT_FALSE(waits(kept, "C7"));

@@ -1,4 +1,4 @@
-#include "edge/drift/kept_calibration.h"
+#include "edge/drift/calibration_supervisor.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,12 +8,12 @@
 
 namespace ols::station {
 
-KeptCalibration::KeptCalibration(const StationSettings& configured, UtcNow now)
+CalibrationSupervisor::CalibrationSupervisor(const StationSettings& configured, UtcNow now)
     : now_(std::move(now)), next_(configured), in_use_(configured) {
   begin();
 }
 
-void KeptCalibration::begin() {
+void CalibrationSupervisor::begin() {
   views_.reset();
   doubt_revision_ = 0;
   const StationSettings& now = settings();
@@ -31,21 +31,21 @@ void KeptCalibration::begin() {
   views_ = std::make_unique<ReferenceViews>(config, *now.station.calibration);
 }
 
-bool KeptCalibration::refuses(const std::vector<device::DeviceReport>& devices) {
+bool CalibrationSupervisor::refuses(const std::vector<device::DeviceReport>& devices) {
   if (!in_use_.refuses(devices)) return false;
   begin();
   return true;
 }
 
-bool KeptCalibration::refuses(const PanTilt& count_rad) {
+bool CalibrationSupervisor::refuses(const PanTilt& count_rad) {
   if (!in_use_.refuses(count_rad)) return false;
   begin();
   return true;
 }
 
-bool KeptCalibration::adopts(double now_s, bool idle,
-                             const std::vector<device::DeviceReport>& devices,
-                             const PanTilt& count_rad) {
+bool CalibrationSupervisor::adopts(double now_s, bool idle,
+                                   const std::vector<device::DeviceReport>& devices,
+                                   const PanTilt& count_rad) {
   next_.look(now_s);
   const CalibrationFiles* files = next_.waiting();
   if (!files) return false;
@@ -63,30 +63,30 @@ bool KeptCalibration::adopts(double now_s, bool idle,
   return !known;
 }
 
-void KeptCalibration::set_limits(const mount::Limits& limits) {
+void CalibrationSupervisor::set_limits(const mount::Limits& limits) {
   if (views_) views_->set_limits(limits);
 }
 
-std::optional<mount::Goal> KeptCalibration::step(const ViewTour::Situation& situation) {
+std::optional<mount::Goal> CalibrationSupervisor::step(const ViewTour::Situation& situation) {
   return views_ ? views_->step(situation) : std::nullopt;
 }
 
-void KeptCalibration::see(const camera::Frame& frame) {
+void CalibrationSupervisor::see(const camera::Frame& frame) {
   if (views_) views_->see(frame);
 }
 
-void KeptCalibration::note_homings(std::uint64_t homings) {
+void CalibrationSupervisor::note_homings(std::uint64_t homings) {
   if (std::exchange(homings_, homings) != homings && views_) views_->request();
 }
 
-std::optional<KeptCalibration::Doubt> KeptCalibration::take_doubt() {
+std::optional<CalibrationSupervisor::Doubt> CalibrationSupervisor::take_doubt() {
   if (!views_) return std::nullopt;
   const DriftWatch& watch = views_->watch();
   if (std::exchange(doubt_revision_, watch.revision()) == watch.revision()) return std::nullopt;
   return Doubt{watch.heading_doubt_rad(), watch.tilt_doubt_rad()};
 }
 
-CalibrationStatus KeptCalibration::status() const {
+CalibrationStatus CalibrationSupervisor::status() const {
   CalibrationStatus status = in_use_.status();
   const bool doubted = views_ && views_->watch().level() != DriftLevel::kNone;
   if (status.state == CalibrationState::kInUse && doubted) {
@@ -98,7 +98,7 @@ CalibrationStatus KeptCalibration::status() const {
   return status;
 }
 
-std::vector<std::string> KeptCalibration::alarms() const {
+std::vector<std::string> CalibrationSupervisor::alarms() const {
   std::vector<std::string> alarms = in_use_.alarms();
   if (std::string alarm = next_.alarm(); !alarm.empty()) alarms.push_back(std::move(alarm));
   if (views_) {
@@ -108,7 +108,7 @@ std::vector<std::string> KeptCalibration::alarms() const {
   return alarms;
 }
 
-std::map<std::string, double> KeptCalibration::counters() const {
+std::map<std::string, double> CalibrationSupervisor::counters() const {
   std::map<std::string, double> counters;
   if (!views_) return counters;
   counters["view_checks"] = static_cast<double>(views_->checks());

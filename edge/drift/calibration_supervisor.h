@@ -16,10 +16,10 @@
 
 namespace ols::station {
 
-class KeptCalibration {
+class CalibrationSupervisor {
  public:
   using UtcNow = std::function<std::int64_t()>;  // [us]: for the position of the sun
-  explicit KeptCalibration(const StationSettings& configured, UtcNow now = clock_utime_us);
+  explicit CalibrationSupervisor(const StationSettings& configured, UtcNow now = clock_utime_us);
 
   const StationSettings& settings() const { return in_use_.settings(); }
   // True if the calibration belongs to other devices and was dropped just now: settings() has
