@@ -61,7 +61,7 @@ struct AnswerRequest {
 // Whether stations may be led to a cue.
 struct CueRequest {
   std::int64_t number = 0;
-  CueOrder order;
+  wire::CueOrder order;
   std::optional<std::int64_t> heard_utime_us;  // as with a command
 };
 // Somebody handles an alarm: the event of that number.

@@ -65,7 +65,7 @@ class Console {
   std::vector<ProcedureAnswer> take_answers() { return procedures_.take(); }
 
   // Operators' decisions on cues since the last call.
-  std::vector<CueOrder> take_cue_orders() { return cues_.take(); }
+  std::vector<wire::CueOrder> take_cue_orders() { return cues_.take(); }
 
   // The videos that somebody watches.
   WatchedVideos watched_video() const;

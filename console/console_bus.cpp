@@ -98,11 +98,10 @@ void ConsoleBus::send(const std::vector<ProcedureAnswer>& answers, const Now& no
   }
 }
 
-void ConsoleBus::send(const std::vector<CueOrder>& orders, const Now& now) {
+void ConsoleBus::send(const std::vector<wire::CueOrder>& orders, const Now& now) {
   if (client_.bus() == nullptr) return;
-  for (const auto& [cue, allow] : orders) {
-    if (!sender_.send(*client_.bus(), wire::CueOrder{cue, allow}, sender_.next_id(), now.utime_us))
-      send_failed_ = true;
+  for (const wire::CueOrder& order : orders) {
+    if (!sender_.send(*client_.bus(), order, sender_.next_id(), now.utime_us)) send_failed_ = true;
   }
 }
 

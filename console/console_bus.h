@@ -20,7 +20,7 @@ class ConsoleBus {
   void turn(const Now& now);
   void send(const std::vector<wire::Order>& orders, const Now& now);
   void send(const std::vector<ProcedureAnswer>& answers, const Now& now);
-  void send(const std::vector<CueOrder>& orders, const Now& now);
+  void send(const std::vector<wire::CueOrder>& orders, const Now& now);
   // Why no order goes out; empty: orders go out.
   std::string trouble() const { return client_.trouble(); }
   // For people: the state of the bus.

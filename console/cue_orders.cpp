@@ -2,7 +2,8 @@
 
 namespace ols::console {
 
-std::string CueOrders::give(const CueOrder& order, Role role, const std::string& bus_trouble) {
+std::string CueOrders::give(const wire::CueOrder& order, Role role,
+                            const std::string& bus_trouble) {
   constexpr std::size_t kMost = 100;  // of a turn
   if (role == Role::kViewer) return "refused: a viewer may only look and stop";
   if (!bus_trouble.empty()) return bus_trouble;

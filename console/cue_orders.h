@@ -6,23 +6,19 @@
 #include <vector>
 
 #include "console/users.h"
+#include "wire/order.h"
 
 namespace ols::console {
-
-struct CueOrder {
-  std::string cue;
-  bool allow = false;
-};
 
 class CueOrders {
  public:
   // Why the order does not go out; empty: it does.
-  std::string give(const CueOrder& order, Role role, const std::string& bus_trouble);
+  std::string give(const wire::CueOrder& order, Role role, const std::string& bus_trouble);
   // The orders given since the last call.
-  std::vector<CueOrder> take() { return std::exchange(given_, {}); }
+  std::vector<wire::CueOrder> take() { return std::exchange(given_, {}); }
 
  private:
-  std::vector<CueOrder> given_;
+  std::vector<wire::CueOrder> given_;
 };
 
 }  // namespace ols::console
