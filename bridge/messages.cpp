@@ -56,11 +56,12 @@ std::optional<Track> track_from(Bytes payload) {
   return track;
 }
 
-std::optional<Sighting> sighting_from(const Headers& headers, Bytes payload) {
+std::optional<TargetReport> sighting_from(const Headers& headers, Bytes payload) {
   const auto claim = claim_of(headers);
   const auto track = track_from(payload);
   if (!claim || claim->target.empty() || !track) return std::nullopt;
-  return Sighting{claim->target, track->position_m, track->velocity_m_s, track->sd_m, claim->epoch};
+  return TargetReport{claim->target, track->position_m, track->velocity_m_s, track->sd_m,
+                      claim->epoch};
 }
 
 }  // namespace ols::bridge

@@ -16,6 +16,6 @@ std::optional<std::int64_t> target_id_of(Kind kind, Bytes payload);
 // target.
 std::optional<Track> track_from(Bytes payload);
 // Another owner's target, from such a message.
-std::optional<Sighting> sighting_from(const Headers& headers, Bytes payload);
+std::optional<TargetReport> sighting_from(const Headers& headers, Bytes payload);
 
 }  // namespace ols::bridge

@@ -57,7 +57,7 @@ void Ownership::hear(const Track& track, const Now& now) {
   if (is_new) seen.first_s = now.monotonic_s;
 }
 
-void Ownership::hear(const Sighting& sighting, const Now& now) {
+void Ownership::hear(const TargetReport& sighting, const Now& now) {
   const auto at = entries_.find(sighting.target);
   if (at == entries_.end()) return;
   Entry& entry = at->second;

@@ -40,7 +40,7 @@ struct Track {
 };
 
 // A target as just published by another owner.
-struct Sighting {
+struct TargetReport {
   std::string target;  // region-wide id
   Vector position_m{}, velocity_m_s{};
   double sd_m = 0.0;
@@ -63,7 +63,7 @@ class Ownership {
   explicit Ownership(OwnershipRules rules) : rules_(std::move(rules)) {}
 
   void hear(const Track& track, const Now& now);
-  void hear(const Sighting& sighting, const Now& now);
+  void hear(const TargetReport& sighting, const Now& now);
   // The store now has this record of a target.
   void learn(const std::string& target, const OwnerRecord& record, std::uint64_t revision,
              const Now& now);
@@ -109,7 +109,7 @@ class Ownership {
     std::uint64_t old_revision = 0, next_old_revision = 0;
     double marked_s = -1e9;
     double changed_s = 0.0;  // when its record was heard here
-    Sighting place;
+    TargetReport place;
     double seen_s = -1e9;  // when the target was at `place`
     std::string wished_by;
     double wished_s = -1e9;

@@ -214,7 +214,7 @@ inline void Border::publish(double east_m, double speed_m_s) {
   std::vector<Grant> grants;
   const auto who = publishers(&grants);
   for (std::size_t i = 0; i < who.size(); ++i) {
-    const Sighting said{grants[i].id, {east_m, 0, 0}, {speed_m_s, 0, 0}, 2.0, grants[i].epoch};
+    const TargetReport said{grants[i].id, {east_m, 0, 0}, {speed_m_s, 0, 0}, 2.0, grants[i].epoch};
     for (Node& other : nodes) {
       if (&other != who[i] && other.is_alive) other.ownership->hear(said, at(other));
     }

@@ -298,7 +298,7 @@ TEST(Ownership, AnAnswerIsThatOfItsRequest) {
 TEST(Ownership, AGreaterEpochEndsOnlyWhatTheStoreDoesNotConfirm) {
   Alone one;
   const auto hear = [&one](std::uint64_t epoch) {
-    one.ownership.hear(Sighting{one.target, {1, 2, 3}, {0, 0, 0}, 2.0, epoch}, one.now);
+    one.ownership.hear(TargetReport{one.target, {1, 2, 3}, {0, 0, 0}, 2.0, epoch}, one.now);
   };
   hear(99);
   EXPECT_TRUE(one.ownership.grant(5, one.now)) << "nobody can have taken it: the epoch is made up";
