@@ -1,5 +1,5 @@
 // ols-bench-bridge-load: bearings of many stations onto one bus, and when they reach another, for
-// tools/bench-bridge. It must not measure itself: a bearing is stamped right before it is sent, and
+// tools/bench bridge. It must not measure itself: a bearing is stamped right before it is sent, and
 // the kernel says when it arrived, so that nobody has to be awake then.
 #include <sys/socket.h>
 

@@ -1,6 +1,6 @@
 // ols-bench-bus-flood: how long a signed bearing takes from its station to the handler of a
 // receiver that subscribes as the fusion does, while somebody floods the bus with unsigned ones in
-// the same stations' names; for tools/bench-bus-flood.
+// the same stations' names; for tools/bench bus-flood.
 #include <unistd.h>
 
 #include <algorithm>

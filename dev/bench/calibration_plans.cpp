@@ -1,4 +1,4 @@
-// ols-bench-plans: where the product's procedures look, for tools/bench-calibration: what is
+// ols-bench-plans: where the product's procedures look, for tools/bench calibration: what is
 // measured there is to be what is driven in the field.
 #include <cstdio>
 #include <string>

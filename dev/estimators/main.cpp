@@ -51,7 +51,7 @@ int main(int argc, char** argv) {
           {"all", "least-squares", "filter", "paper", "targets", "meteors", "noise-only", "cost"}));
   std::string peer;
   app.add_option("--write-peer", peer,
-                 "instead: a folder for bearings and our filter's fixes, as tools/bench-estimators "
+                 "instead: a folder for bearings and our filter's fixes, as tools/bench estimators "
                  "gives them to Stone Soup");
   std::string folder;
   LongRecording recording;

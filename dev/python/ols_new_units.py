@@ -1,4 +1,4 @@
-"""What a calibration of all stations makes of the fusion's positions (tools/bench-new-units)."""
+"""What a calibration of all stations makes of the fusion's positions (tools/bench new-units)."""
 
 import argparse
 import json

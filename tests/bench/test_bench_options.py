@@ -1,4 +1,4 @@
-"""What may be asked of tools/bench-tracking."""
+"""What may be asked of tools/bench tracking."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""Every attack of tools/bench-attacks on a small live site, short and slow: none moves anything,
+"""Every attack of tools/bench attacks on a small live site, short and slow: none moves anything,
 none is lost track of. How fast the site stays under the greatest rate is for the bench to say."""
 
 import json

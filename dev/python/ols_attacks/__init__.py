@@ -1,1 +1,1 @@
-"""Attacks on a live site that requires signatures (tools/bench-attacks)."""
+"""Attacks on a live site that requires signatures (tools/bench attacks)."""

@@ -1,4 +1,10 @@
-"""See tools/bench-attacks."""
+"""Attacks a live simulated site that requires signatures: forged, replayed, mis-addressed and
+stale commands, by other roles and to other boots; bearings of invented stations and in real
+names, hostile values, statuses, a recording, a flood. Each at the greatest rate that the bus
+carries. Prints what was sent, what became of it, and how well the site tracked meanwhile;
+out/attacks/attacks.json has the same. On a machine that does nothing else; the load before is
+printed.
+"""
 
 import argparse
 import json
@@ -34,7 +40,7 @@ HEADINGS = (
 
 
 def arguments(words: list[str] | None) -> argparse.Namespace:
-    parser = argparse.ArgumentParser(prog="tools/bench-attacks", description=__doc__)
+    parser = argparse.ArgumentParser(prog="tools/bench attacks", description=__doc__)
     parser.add_argument("--seconds", type=float, default=10.0, help="of each attack [s]")
     parser.add_argument("--most", type=float, default=100_000.0, help="messages a second")
     parser.add_argument("--names", type=int, default=100_000, help="invented names")
@@ -225,7 +231,7 @@ def main(words: list[str] | None = None) -> int:
     try:
         rows = run(options)
     except SiteError as error:
-        print(f"tools/bench-attacks: {error}", file=sys.stderr)
+        print(f"tools/bench attacks: {error}", file=sys.stderr)
         return 1
     (options.output / "attacks.json").write_text(
         json.dumps({"load": load, "processors": os.cpu_count(), "rows": rows}, indent=1) + "\n"

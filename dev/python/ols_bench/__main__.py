@@ -1,4 +1,4 @@
-"""tools/bench-tracking: our tracker and OpenCV's, on clips with ground truth."""
+"""tools/bench tracking: our tracker and OpenCV's, on clips with ground truth."""
 
 import argparse
 import os
@@ -21,7 +21,7 @@ ROOT = Path(__file__).resolve().parents[3]
 
 
 def arguments() -> argparse.Namespace:
-    parser = argparse.ArgumentParser(prog="tools/bench-tracking", description=__doc__)
+    parser = argparse.ArgumentParser(prog="tools/bench tracking", description=__doc__)
     parser.add_argument(
         "clips",
         type=Path,
@@ -176,7 +176,7 @@ def main() -> None:
     try:
         bench(given)
     except (BadInput, OSError) as error:
-        sys.exit(f"bench-tracking: {error}")
+        sys.exit(f"tools/bench tracking: {error}")
     print((given.output / "tracking.md").read_text())
     print(f"Written to {given.output}")
 

@@ -1,4 +1,7 @@
-"""See tools/bench-batch."""
+"""Measures ols-batch on an archive of 200 simulated hours: beside ols-fuse, with two workers
+killed, and against one run of the estimators that is not cut into hours. On a machine that does
+nothing else; the load before is printed.
+"""
 
 import argparse
 import hashlib
@@ -157,7 +160,7 @@ def measure(arguments: argparse.Namespace, folder: Path) -> dict:
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(prog="tools/bench-batch", description=__doc__)
+    parser = argparse.ArgumentParser(prog="tools/bench batch", description=__doc__)
     parser.add_argument("--hours", type=int, default=200)
     parser.add_argument("--flight-s", type=float, default=60.0, help="[s] of each hour's flight")
     parser.add_argument("--rate", type=float, default=10.0, help="[Hz] of each station")

@@ -1,4 +1,7 @@
-"""See tools/bench-bridge."""
+"""Measures the way from a site's bus to the region's, over ols-bridge, leaf, hub and
+ols-bridge: bearings of simulated stations, from publication to the region's bus, and the
+processor that each part takes. On a machine that does nothing else; the load before is printed.
+"""
 
 import argparse
 import json
@@ -72,7 +75,7 @@ def measure(net: Network, options: argparse.Namespace) -> bool:
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(prog="bench-bridge")
+    parser = argparse.ArgumentParser(prog="tools/bench bridge")
     parser.add_argument("--stations", type=int, default=1000)
     parser.add_argument("--rate", type=float, default=15.0, help="[Hz] bearings of each")
     parser.add_argument("--seconds", type=float, default=20.0)

@@ -1,4 +1,9 @@
-"""See tools/bench-console."""
+"""Measures the console with five stations that exist only as messages and video: from the
+exposure to the pixels in a browser (by a number drawn into each picture), whether the overlay
+is of the same frame, from a target's publication to the map, the processor for ten viewers,
+drags of a box, first paint, size, memory with viewers coming and going. On a machine that does
+nothing else; the load before is printed.
+"""
 
 import argparse
 import os
@@ -222,7 +227,7 @@ class Bench:
 
 
 def arguments() -> argparse.Namespace:
-    parser = argparse.ArgumentParser(prog="tools/bench-console", description=__doc__)
+    parser = argparse.ArgumentParser(prog="tools/bench console", description=__doc__)
     parser.add_argument("--rate", type=float, default=5.0, help="of each station's video [Hz]")
     parser.add_argument("--frames", type=int, default=1000, help="that the browser is watched for")
     parser.add_argument("--targets", type=int, default=100, help="that the map is watched for")

@@ -1,6 +1,6 @@
-"""tools/bench-console --live: the demo's site with its console and a real browser. What ten viewers
+"""tools/bench console --live: the demo's site with its console and a real browser. What ten viewers
 cost the stations and the fusion, as ratios without and with them, and the console; a box dragged
-until its station tracks. A click in the overview's picture: tools/bench-lead-times."""
+until its station tracks. A click in the overview's picture: tools/bench lead-times."""
 
 import argparse
 import os

@@ -1,4 +1,7 @@
-"""See tools/bench-export."""
+"""Measures ols-export with every format to a receiver: from a target's publication to its
+datagram at the receiver, and the processor that it takes. On a machine that does nothing else;
+the load before is printed.
+"""
 
 import argparse
 import re
@@ -88,7 +91,7 @@ def publish(publisher, count: int, rate_hz: float, seconds: float, published: di
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(prog="tools/bench-export", description=__doc__)
+    parser = argparse.ArgumentParser(prog="tools/bench export", description=__doc__)
     parser.add_argument("--targets", type=int, default=200)
     parser.add_argument("--rate", type=float, default=15.0, help="[Hz] of each target on the bus")
     parser.add_argument("--output-rate", type=float, default=2.0, help="[Hz] of each output")

@@ -1,4 +1,8 @@
-"""See tools/bench-fusion-load."""
+"""Measures the live fusion under load: the real process on the loopback, with stations that
+exist only as messages. Prints processor time and the latency from the exposures to the targets;
+exits with 1 above 20 ms (95th percentile) or half of a core. On a machine that does nothing
+else.
+"""
 
 import argparse
 import math
@@ -165,7 +169,7 @@ def report(arguments: argparse.Namespace, published: Published, cores: float) ->
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(prog="tools/bench-fusion-load", description=__doc__)
+    parser = argparse.ArgumentParser(prog="tools/bench fusion-load", description=__doc__)
     parser.add_argument("--stations", type=int, default=100)
     parser.add_argument("--targets", type=int, default=1)
     parser.add_argument("--each", type=int, help="targets that a station sees; default: all")

@@ -1,4 +1,4 @@
-"""See tools/bench-fusion-recordings: the filter beside least squares, at the same instants.
+"""See tools/bench fusion-recordings: the filter beside least squares, at the same instants.
 
 Each folder holds stations.csv, bearings.csv (as ols-fuse reads them) and truth.csv (utime_us,
 latitude_deg, longitude_deg, height_m, phase: only `test` is judged). Fixes between two epochs of

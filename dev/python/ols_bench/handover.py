@@ -1,4 +1,8 @@
-"""See tools/bench-handover."""
+"""Measures hand-overs between two regions: a target flies to and fro over their border, seen by
+the stations of a site; fusions, bridges, leaf, hub and the store of owners are the real ones.
+In half of the crossings whoever owns the target is killed at a random moment: its fusion, or
+its fusion and its bridge. On a machine that does nothing else; a crossing takes ten seconds.
+"""
 
 import argparse
 import itertools
@@ -174,7 +178,7 @@ def run(options: argparse.Namespace, world: World) -> bool:
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(prog="bench-handover")
+    parser = argparse.ArgumentParser(prog="tools/bench handover")
     parser.add_argument("--crossings", type=int, default=100)
     parser.add_argument("--seed", type=int, default=23)
     options = parser.parse_args()

@@ -1,4 +1,7 @@
-"""See tools/bench-orders."""
+"""Measures an order's answer at the console: from a click (the message that the page sends) to
+the station's answer, with statuses twice a second and once a minute. On a machine that does
+nothing else; the load before is printed.
+"""
 
 import argparse
 import contextlib
@@ -51,7 +54,7 @@ def answers(address: str, count: int) -> list[tuple[float, dict]]:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(prog="tools/bench-orders", description=__doc__)
+    parser = argparse.ArgumentParser(prog="tools/bench orders", description=__doc__)
     parser.add_argument("--orders", type=int, default=200)
     parser.add_argument("--status-interval", type=float, nargs="+", default=[0.5, 60.0])
     arguments = parser.parse_args()

@@ -1,4 +1,4 @@
-"""tools/bench-tracker-synthetic: the tracker on the simulator's images, with exact truth."""
+"""tools/bench tracker-synthetic: the tracker on the simulator's images, with exact truth."""
 
 import argparse
 import subprocess
@@ -12,7 +12,7 @@ ROOT = Path(__file__).resolve().parents[3]
 
 
 def arguments() -> argparse.Namespace:
-    parser = argparse.ArgumentParser(prog="tools/bench-tracker-synthetic", description=__doc__)
+    parser = argparse.ArgumentParser(prog="tools/bench tracker-synthetic", description=__doc__)
     parser.add_argument("--runs", type=int, default=20, help="of each point (default: %(default)s)")
     parser.add_argument("--seed", type=int, default=1, help="of the first run")
     parser.add_argument("--mode", choices=("paper", "full"), default="full")
