@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
+#include <exception>
 #include <iostream>
 #include <optional>
 #include <string>
@@ -60,6 +61,21 @@ inline std::optional<int> parse_command_line(CLI::App& app, int argc, char** arg
     return kExitBadInput;
   }
   return std::nullopt;
+}
+
+// Parses the command line and calls `act`, which returns the exit status. 2 after any exception,
+// with one line that names it, also if the output cannot be written.
+template <class Act>
+int run_command(CLI::App& app, int argc, char** argv, const char* program, Act act) {
+  if (const auto status = parse_command_line(app, argc, argv, program)) return *status;
+  try {
+    const int status = act();
+    flush_output();
+    return status;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s: %s\n", program, error.what());
+    return kExitBadInput;
+  }
 }
 
 }  // namespace ols

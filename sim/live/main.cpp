@@ -159,13 +159,8 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", OLS_VERSION);
   Options options;
   define(app, options);
-  if (const auto status = ols::parse_command_line(app, argc, argv, "ols-sim")) return *status;
-  try {
+  return ols::run_command(app, argc, argv, "ols-sim", [&] {
     run(options);
-    ols::flush_output();
-  } catch (const std::exception& problem) {
-    std::cerr << "ols-sim: " << problem.what() << "\n";
-    return 2;
-  }
-  return 0;
+    return 0;
+  });
 }

@@ -99,12 +99,8 @@ int main(int argc, char** argv) {
   CLI::App app("Floods an LCM bus with foreign, damaged or forged messages until it is stopped.");
   Options options;
   define(app, options);
-  if (const auto status = ols::parse_command_line(app, argc, argv, "ols-sim-flood")) return *status;
-  try {
+  return ols::run_command(app, argc, argv, "ols-sim-flood", [&] {
     run(options);
-  } catch (const std::exception& problem) {
-    std::cerr << "ols-sim-flood: " << problem.what() << "\n";
-    return 2;
-  }
-  return 0;
+    return 0;
+  });
 }

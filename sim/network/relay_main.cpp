@@ -104,14 +104,10 @@ int main(int argc, char** argv) {
       "on the way. Prints its counts at the end.");
   Options options;
   define(app, options);
-  if (const auto status = ols::parse_command_line(app, argc, argv, "ols-sim-relay")) return *status;
-  options.impairments.delay_s = 1e-3 * options.delay_ms;
-  options.impairments.reorder_s = 1e-3 * options.reorder_ms;
-  try {
+  return ols::run_command(app, argc, argv, "ols-sim-relay", [&] {
+    options.impairments.delay_s = 1e-3 * options.delay_ms;
+    options.impairments.reorder_s = 1e-3 * options.reorder_ms;
     run(options);
-  } catch (const std::exception& problem) {
-    std::cerr << "ols-sim-relay: " << problem.what() << "\n";
-    return 2;
-  }
-  return 0;
+    return 0;
+  });
 }

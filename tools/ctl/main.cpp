@@ -118,16 +118,9 @@ int main(int argc, char** argv) {
       ->envname("LCM_DEFAULT_URL");
   ols::trust::add_trust_options(app, words.trust);
   ols::ctl::add_subcommands(app, words);
-  if (const auto status = ols::parse_command_line(app, argc, argv, "ols-ctl")) return *status;
-  try {
-    const int status = words.cues ? run_cues(words)
-                       : words.stop
-                           ? stop(words.url, words.trust, words.station)
-                           : run(words.url, words.trust, words.station, words.send, words.look);
-    ols::flush_output();
-    return status;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "ols-ctl: %s\n", error.what());
-    return ols::kExitBadInput;
-  }
+  return ols::run_command(app, argc, argv, "ols-ctl", [&] {
+    if (words.cues) return run_cues(words);
+    if (words.stop) return stop(words.url, words.trust, words.station);
+    return run(words.url, words.trust, words.station, words.send, words.look);
+  });
 }

@@ -262,8 +262,7 @@ int main(int argc, char** argv) {
   verified->add_option("log", words.log, "Log of ols-logger or lcm-logger")->required();
   verified->add_option("--lists", words.lists, "Folder of trust-*.toml; else the log's own");
   verified->add_option("--root-public", words.root_public, "The root's public key, to be sure");
-  if (const auto status = ols::parse_command_line(app, argc, argv, "ols-key")) return *status;
-  try {
+  return ols::run_command(app, argc, argv, "ols-key", [&] {
     ::umask(022);  // services read the lists; keys are written for their owner alone
     int status = 0;
     if (*site) site_new(words);
@@ -274,10 +273,6 @@ int main(int argc, char** argv) {
     if (*set) settings(words, above);
     if (*listed) list(words);
     if (*verified) status = verify(words);
-    ols::flush_output();
     return status;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "ols-key: %s\n", error.what());
-    return ols::kExitBadInput;
-  }
+  });
 }

@@ -312,15 +312,9 @@ int main(int argc, char** argv) {
   Options options;
   add_files(app, options);
   add_choices(app, options);
-  if (const auto status = ols::parse_command_line(app, argc, argv, "ols-fuse")) return *status;
-  try {
-    if (run(options) == 0) {
-      std::cerr << "ols-fuse: no position at all: " << options.output << " is not written\n";
-      return kExitNoPosition;
-    }
-  } catch (const std::exception& error) {
-    std::cerr << "ols-fuse: " << error.what() << '\n';
-    return ols::kExitBadInput;
-  }
-  return 0;
+  return ols::run_command(app, argc, argv, "ols-fuse", [&] {
+    if (run(options) != 0) return 0;
+    std::cerr << "ols-fuse: no position at all: " << options.output << " is not written\n";
+    return kExitNoPosition;
+  });
 }

@@ -104,14 +104,8 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", OLS_VERSION);
   Options options;
   add_options(app, options);
-  if (const auto status = ols::parse_command_line(app, argc, argv, "ols-stationing")) {
-    return *status;
-  }
-  try {
+  return ols::run_command(app, argc, argv, "ols-stationing", [&] {
     run(options);
-  } catch (const std::exception& error) {
-    std::cerr << "ols-stationing: " << error.what() << '\n';
-    return ols::kExitBadInput;
-  }
-  return 0;
+    return 0;
+  });
 }

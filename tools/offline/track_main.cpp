@@ -231,16 +231,10 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", OLS_VERSION);
   Arguments arguments;
   declare(app, arguments);
-  if (const auto status = ols::parse_command_line(app, argc, argv, "ols-track")) return *status;
   // Silences the decoder, so that an error is one line; a value set by the user is kept.
   ::setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0);
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   cv::setNumThreads(1);
-  try {
-    if (!run(arguments)) return kExitLost;
-  } catch (const std::exception& error) {
-    std::cerr << "ols-track: " << error.what() << '\n';
-    return ols::kExitBadInput;
-  }
-  return 0;
+  return ols::run_command(app, argc, argv, "ols-track",
+                          [&] { return run(arguments) ? 0 : kExitLost; });
 }

@@ -3,7 +3,6 @@
 #include <unistd.h>
 
 #include <cstdio>
-#include <exception>
 #include <filesystem>
 #include <iostream>
 #include <stdexcept>
@@ -212,16 +211,10 @@ int main(int argc, char** argv) {
                                 "Write configuration, keys and calibrations to this file instead");
   app.add_option("--restore", words.restore, "Restore such a file instead, and start the services")
       ->excludes(backup);
-  if (const auto status = ols::parse_command_line(app, argc, argv, "ols-setup")) return *status;
-  try {
+  return ols::run_command(app, argc, argv, "ols-setup", [&] {
     ::umask(022);  // the services read what is no secret, whatever root's own files are to be
     if (words.root.empty() && ::geteuid() != 0) throw std::runtime_error("must run as root");
     const setup::Host host(words.root);
-    const int status = do_what_is_asked(words, host);
-    ols::flush_output();
-    return status;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "ols-setup: %s\n", error.what());
-    return ols::kExitBadInput;
-  }
+    return do_what_is_asked(words, host);
+  });
 }
