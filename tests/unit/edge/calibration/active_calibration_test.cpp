@@ -8,7 +8,7 @@
 namespace ols::station {
 namespace {
 
-class CalibrationInUseTest : public testing::Test {
+class ActiveCalibrationTest : public testing::Test {
  protected:
   StationSettings configured() const {
     StationSettings settings = test::settings();
@@ -24,7 +24,7 @@ class CalibrationInUseTest : public testing::Test {
   test::CalibrationFolder files_{"active_calibration"};
 };
 
-TEST_F(CalibrationInUseTest, NoneConfiguredIsNothingToSay) {
+TEST_F(ActiveCalibrationTest, NoneConfiguredIsNothingToSay) {
   const ActiveCalibration none(test::settings());
   EXPECT_EQ(none.status().state, CalibrationState::kNone);
   EXPECT_EQ(none.settings().calibration_id, 5);
@@ -32,7 +32,7 @@ TEST_F(CalibrationInUseTest, NoneConfiguredIsNothingToSay) {
   EXPECT_TRUE(none.alarms().empty());
 }
 
-TEST_F(CalibrationInUseTest, TheStationWorksWithIt) {
+TEST_F(ActiveCalibrationTest, TheStationWorksWithIt) {
   const ActiveCalibration used(configured());
   EXPECT_EQ(used.status().state, CalibrationState::kInUse);
   EXPECT_EQ(used.status().observed_utime_us, 1780000000000000);
@@ -41,7 +41,7 @@ TEST_F(CalibrationInUseTest, TheStationWorksWithIt) {
   EXPECT_TRUE(used.alarms().empty());
 }
 
-TEST_F(CalibrationInUseTest, AnUnreadableOneIsNamedAndTheStationGoesOn) {
+TEST_F(ActiveCalibrationTest, AnUnreadableOneIsNamedAndTheStationGoesOn) {
   files_.put("instrument.toml", "rubbish = 1\n");
   const ActiveCalibration refused(configured());
   EXPECT_EQ(refused.status().state, CalibrationState::kRefused);
@@ -52,7 +52,7 @@ TEST_F(CalibrationInUseTest, AnUnreadableOneIsNamedAndTheStationGoesOn) {
 }
 
 // Without a calibration, too: the next one would be stored under the configured serial numbers.
-TEST_F(CalibrationInUseTest, ADeviceThatSaysAnotherSerialNumberIsNamed) {
+TEST_F(ActiveCalibrationTest, ADeviceThatSaysAnotherSerialNumberIsNamed) {
   InstrumentSerials configured;
   configured.camera = "C7";
   EXPECT_TRUE(ActiveCalibration::other_devices(configured, {camera(""), camera("C7")}).empty());
@@ -66,7 +66,7 @@ TEST_F(CalibrationInUseTest, ADeviceThatSaysAnotherSerialNumberIsNamed) {
             "other_device");
 }
 
-TEST_F(CalibrationInUseTest, ACameraThatIsAnotherEndsIt) {
+TEST_F(ActiveCalibrationTest, ACameraThatIsAnotherEndsIt) {
   ActiveCalibration used(configured());
   EXPECT_FALSE(used.refuses({camera("")})) << "it does not say";
   EXPECT_FALSE(used.refuses({camera("C7")}));
@@ -78,7 +78,7 @@ TEST_F(CalibrationInUseTest, ACameraThatIsAnotherEndsIt) {
             std::string::npos);
 }
 
-TEST_F(CalibrationInUseTest, AUnitInAnotherStepModeEndsIt) {
+TEST_F(ActiveCalibrationTest, AUnitInAnotherStepModeEndsIt) {
   StationSettings settings = configured();
   settings.station.geometry.sd.heading_rad = radians(0.5);
   ActiveCalibration used(settings);
