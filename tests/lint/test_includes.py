@@ -79,6 +79,7 @@ OTHER_DEVICES = [
     "edge/clock/clock_source.cpp",
     "edge/device/behind_control_loop.cpp",
     "edge/drift/calibration_folder_watch.cpp",
+    "edge/drift/calibration_supervisor.*",
     "edge/drift/reference_views.cpp",
     "edge/frames/frame_desk.*",
     "edge/frames/frame_post.*",
