@@ -10,6 +10,7 @@
 #include "base/bus/message_stamp.h"
 #include "base/text/plain_text.h"
 #include "central/admission/bearing_check.h"
+#include "conditions/alarm.h"
 #include "geometry/angles.h"
 #include "geometry/wgs84.h"
 #include "ols_msg/bearing_t.hpp"
