@@ -9,6 +9,7 @@ import { fromLonLat, transformExtent } from "ol/proj";
 import { boundingExtent, type Extent } from "ol/extent";
 import type { Coordinate } from "ol/coordinate";
 import { shownExtent } from "./overlays";
+import { Questions } from "./questions";
 
 // With zoom levels it is of tiles, with heights of an accuracy that was computed ahead.
 export type UserMap = { id: string; name: string; problem: string; attribution?: string; zoom?: [number, number]; bounds_deg?: [number, number, number, number]; above_m?: number[] };
@@ -83,6 +84,7 @@ export class AccuracyLayer {
   private readonly canvas = document.createElement("canvas");
   private extent: Extent | null = null; // of what is on the canvas; null: nothing
   private plans = new Map<string, Plan>(); // those that were looked at
+  private questions = new Questions();
   private cells: { path: Coordinate[]; colour: string }[] = []; // of the plan that is shown
   private readonly source = new ImageCanvas({
     ratio: 1,
@@ -97,10 +99,11 @@ export class AccuracyLayer {
   // Null: none. That of the site as it is covers the map's present view; a plan has its own extent,
   // to which this returns true if it could be shown.
   async show(choice: AccuracyChoice | null): Promise<boolean> {
+    const isNewest = this.questions.ask();
     this.layer.setVisible(choice !== null);
     this.cells = [];
     this.extent = null;
-    const shown = choice === null || (choice.plan === undefined ? await this.showSite(choice.above_m) : await this.showPlan(choice.plan, choice.above_m));
+    const shown = choice === null || (choice.plan === undefined ? await this.showSite(choice.above_m, isNewest) : await this.showPlan(choice.plan, choice.above_m, isNewest));
     this.source.changed();
     return shown;
   }
@@ -110,22 +113,25 @@ export class AccuracyLayer {
     return this.cells.length ? boundingExtent(this.cells.flatMap((cell) => cell.path)) : null;
   }
 
-  private async showSite(above_m: number): Promise<boolean> {
+  private async showSite(above_m: number, isNewest: () => boolean): Promise<boolean> {
     const extent = shownExtent(this.map);
     const box = transformExtent(extent, "EPSG:3857", "EPSG:4326").map((v) => v.toFixed(6));
     const response = await fetch(`/api/accuracy?box=${box.join()}&above=${above_m}`).catch(() => null);
-    if (!response?.ok) return false;
+    const accuracy = response?.ok ? await response.json() : null;
+    if (!isNewest()) return true; // it is the newer one's to say what is wrong
+    if (!accuracy) return false;
     this.extent = extent;
-    this.paint(await response.json());
+    this.paint(accuracy);
     return true;
   }
 
-  private async showPlan(id: string, above_m: number): Promise<boolean> {
+  private async showPlan(id: string, above_m: number, isNewest: () => boolean): Promise<boolean> {
     if (!this.plans.has(id)) {
       const response = await fetch(`/api/maps/${encodeURIComponent(id)}/accuracy`).catch(() => null);
       if (!response?.ok) return false;
       this.plans.set(id, await response.json());
     }
+    if (!isNewest()) return true;
     const cells = this.plans.get(id)!.heights.find((height) => height.above_m === above_m)?.cells ?? [];
     this.cells = cells.flatMap(([sd_m, ...corners]) => {
       const colour = colourOf(sd_m);

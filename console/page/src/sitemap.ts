@@ -26,6 +26,7 @@ import { distance, measures } from "./measures";
 import { beyond, boxesOver, shownExtent, takenByPanel } from "./overlays";
 import { placeOf } from "./placepanel";
 import { ScaleInMetres } from "./scale";
+import { Questions } from "./questions";
 import { followed } from "./site";
 import { lineShapes, stationShapes } from "./stationshapes";
 import { cueShapes, cueWords, targetShapes, targetWords } from "./targetshapes";
@@ -44,6 +45,7 @@ export class SiteMap {
   private land: VectorLayer<any>;
   private graticule: Graticule | null = null;
   private grid: Grid | null = null;
+  private grids = new Questions();
   private colours: Colours = readColours();
   private heightColours = heightColours();
   private newest_us = 0; // of the targets that are drawn
@@ -186,6 +188,7 @@ export class SiteMap {
   }
 
   private async settled() {
+    const isNewest = this.grids.ask();
     this.drawStill();
     this.draw(); // what is drawn at the size of the view
     if (this.accuracyShown && this.accuracyShown.plan === undefined) void this.accuracy.show(this.accuracyShown);
@@ -193,7 +196,9 @@ export class SiteMap {
     const isSmall = box[2] - box[0] < 3 && box[3] - box[1] < 3;
     this.graticule?.setVisible(!isSmall || !this.options.grid);
     const response = isSmall && this.options.grid ? await fetch(`/api/grid?box=${box.map((v) => v.toFixed(7)).join()}`).catch(() => null) : null;
-    this.grid = response?.ok ? await response.json() : null;
+    const grid = response?.ok ? await response.json() : null;
+    if (!isNewest()) return;
+    this.grid = grid;
     this.drawStill();
   }
 
