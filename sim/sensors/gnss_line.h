@@ -1,13 +1,18 @@
 // A GNSS receiver on a pseudo terminal in real time, sending NMEA for gpsd.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <functional>
-#include <memory>
+#include <mutex>
+#include <random>
+#include <stop_token>
 #include <string>
+#include <thread>
 
 #include "geometry/wgs84.h"
 #include "sim/scenario/faults.h"
+#include "sim/serial/pty.h"
 
 namespace ols::sim {
 
@@ -28,17 +33,30 @@ class GnssLine {
   // std::system_error.
   GnssLine(const GnssLineConfig& config, std::function<std::int64_t()> utime_us, std::uint64_t seed,
            const std::string& link = "");
-  ~GnssLine();
-  GnssLine(const GnssLine&) = delete;
-  GnssLine& operator=(const GnssLine&) = delete;
 
-  const std::string& device() const;  // the pty's slave
+  const std::string& device() const { return pty_.device(); }
 
   void set_faults(const GnssFaults& faults);  // from any thread
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  void run(const std::stop_token& stop);
+  void send_epoch();
+  void wander();  // first-order Gauss-Markov process
+  std::string spoilt(const std::string& sentences, double share);
+  Eigen::Vector3d normals();
+  GnssFaults current_faults();
+
+  const GnssLineConfig config_;
+  const std::function<std::int64_t()> utime_us_;
+  const LocalFrame frame_;
+  const Eigen::Vector3d sd_enu_m_;
+  std::mutex mutex_;  // for faults
+  GnssFaults faults_;
+  std::mt19937_64 random_;
+  std::normal_distribution<double> normal_;
+  Eigen::Vector3d error_enu_m_;
+  Pty pty_;
+  std::jthread thread_;  // last: it uses the rest
 };
 
 }  // namespace ols::sim

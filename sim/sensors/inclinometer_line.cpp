@@ -3,15 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <mutex>
-#include <random>
-#include <stop_token>
-#include <thread>
 
 #include "base/process/clocks.h"
 #include "geometry/angles.h"
 #include "sim/network/garble.h"
-#include "sim/serial/pty.h"
 
 namespace ols::sim {
 
@@ -28,82 +23,61 @@ std::string dpg2_lines(double x_rad, double y_rad) {
   return text;
 }
 
-struct InclinometerLine::Impl {
-  Impl(const InclinometerLineConfig& c, std::uint64_t seed, const std::string& link)
-      : config(c), random(seed), pty(link), device(pty.device()) {
-    x_zero_rad = config.zero_sd_rad * normal(random);
-    y_zero_rad = config.zero_sd_rad * normal(random);
-    thread = std::jthread([this](const std::stop_token& stop) { run(stop); });
-  }
-
-  void run(const std::stop_token& stop) {
-    double next_s = clock_monotonic_s();
-    while (!stop.stop_requested()) {
-      pty.wait(std::clamp(next_s - clock_monotonic_s(), 0.0, kLongestSleep_s));
-      const InclinometerFaults now = current_faults();
-      for (const char command : pty.read()) obey(command, now);
-      if (clock_monotonic_s() < next_s) continue;
-      next_s = std::max(next_s + 1.0 / config.rate_hz, clock_monotonic_s());
-      if (streaming) send(reading(now.stuck), now);
-    }
-  }
-
-  void obey(char command, const InclinometerFaults& now) {
-    if (command == 's') streaming = false;
-    if (command == 'S') streaming = true;
-    if (command == 'R') send(reading(now.stuck), now);
-    if (command == 'V') send(kVersion, now);
-  }
-
-  // Each axis of the sensor shows its own inclination to the horizontal.
-  std::string reading(bool stuck) {
-    const double x_rad = config.tilt_x_rad;
-    const double y_rad = std::asin(std::sin(config.tilt_y_rad) * std::cos(config.tilt_x_rad));
-    const double x_noise_rad = config.noise_sd_rad * normal(random);
-    const double y_noise_rad = config.noise_sd_rad * normal(random);
-    if (!stuck || last.empty()) {
-      last = dpg2_lines(x_rad + x_zero_rad + x_noise_rad, y_rad + y_zero_rad + y_noise_rad);
-    }
-    return last;
-  }
-
-  void send(std::string text, const InclinometerFaults& now) {
-    if (now.silent) return;
-    if (std::uniform_real_distribution<double>()(random) < now.garble_share) {
-      spoil_one_byte(text, random);
-    }
-    pty.write(text);
-  }
-
-  InclinometerFaults current_faults() {
-    const std::lock_guard lock(mutex);
-    return faults;
-  }
-
-  const InclinometerLineConfig config;
-  std::mutex mutex;  // for faults
-  InclinometerFaults faults;
-  std::mt19937_64 random;
-  std::normal_distribution<double> normal;
-  double x_zero_rad = 0.0, y_zero_rad = 0.0;
-  bool streaming = true;
-  std::string last;
-  Pty pty;
-  std::string device;
-  std::jthread thread;  // last: it uses the rest
-};
-
 InclinometerLine::InclinometerLine(const InclinometerLineConfig& config, std::uint64_t seed,
                                    const std::string& link)
-    : impl_(std::make_unique<Impl>(config, seed, link)) {}
+    : config_(config),
+      random_(seed),
+      x_zero_rad_(config.zero_sd_rad * normal_(random_)),
+      y_zero_rad_(config.zero_sd_rad * normal_(random_)),
+      pty_(link),
+      thread_([this](const std::stop_token& stop) { run(stop); }) {}
 
-InclinometerLine::~InclinometerLine() = default;
+void InclinometerLine::run(const std::stop_token& stop) {
+  double next_s = clock_monotonic_s();
+  while (!stop.stop_requested()) {
+    pty_.wait(std::clamp(next_s - clock_monotonic_s(), 0.0, kLongestSleep_s));
+    const InclinometerFaults now = current_faults();
+    for (const char command : pty_.read()) obey(command, now);
+    if (clock_monotonic_s() < next_s) continue;
+    next_s = std::max(next_s + 1.0 / config_.rate_hz, clock_monotonic_s());
+    if (streaming_) send(reading(now.stuck), now);
+  }
+}
 
-const std::string& InclinometerLine::device() const { return impl_->device; }
+void InclinometerLine::obey(char command, const InclinometerFaults& now) {
+  if (command == 's') streaming_ = false;
+  if (command == 'S') streaming_ = true;
+  if (command == 'R') send(reading(now.stuck), now);
+  if (command == 'V') send(kVersion, now);
+}
+
+std::string InclinometerLine::reading(bool stuck) {
+  const double x_rad = config_.tilt_x_rad;
+  const double y_rad = std::asin(std::sin(config_.tilt_y_rad) * std::cos(config_.tilt_x_rad));
+  const double x_noise_rad = config_.noise_sd_rad * normal_(random_);
+  const double y_noise_rad = config_.noise_sd_rad * normal_(random_);
+  if (!stuck || last_.empty()) {
+    last_ = dpg2_lines(x_rad + x_zero_rad_ + x_noise_rad, y_rad + y_zero_rad_ + y_noise_rad);
+  }
+  return last_;
+}
+
+void InclinometerLine::send(std::string text, const InclinometerFaults& now) {
+  if (now.silent) return;
+  if (std::uniform_real_distribution<double>()(random_) < now.garble_share) {
+    spoil_one_byte(text, random_);
+  }
+  pty_.write(text);
+}
+
+InclinometerFaults InclinometerLine::current_faults() {
+  const std::lock_guard lock(mutex_);
+  return faults_;
+}
 
 void InclinometerLine::set_faults(const InclinometerFaults& faults) {
-  const std::lock_guard lock(impl_->mutex);
-  impl_->faults = faults;
+  const std::lock_guard lock(mutex_);
+  faults_ = faults;
 }
 
 }  // namespace ols::sim

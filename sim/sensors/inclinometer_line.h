@@ -4,10 +4,14 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
+#include <mutex>
+#include <random>
+#include <stop_token>
 #include <string>
+#include <thread>
 
 #include "sim/scenario/faults.h"
+#include "sim/serial/pty.h"
 
 namespace ols::sim {
 
@@ -27,17 +31,29 @@ class InclinometerLine {
   // `link`: as for Pty. Throws std::system_error.
   InclinometerLine(const InclinometerLineConfig& config, std::uint64_t seed,
                    const std::string& link = "");
-  ~InclinometerLine();
-  InclinometerLine(const InclinometerLine&) = delete;
-  InclinometerLine& operator=(const InclinometerLine&) = delete;
 
-  const std::string& device() const;  // the pty's slave
+  const std::string& device() const { return pty_.device(); }
 
   void set_faults(const InclinometerFaults& faults);  // from any thread
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  void run(const std::stop_token& stop);
+  void obey(char command, const InclinometerFaults& now);
+  // Each axis of the sensor shows its own inclination to the horizontal.
+  std::string reading(bool stuck);
+  void send(std::string text, const InclinometerFaults& now);
+  InclinometerFaults current_faults();
+
+  const InclinometerLineConfig config_;
+  std::mutex mutex_;  // for faults
+  InclinometerFaults faults_;
+  std::mt19937_64 random_;
+  std::normal_distribution<double> normal_;
+  const double x_zero_rad_, y_zero_rad_;
+  bool streaming_ = true;
+  std::string last_;
+  Pty pty_;
+  std::jthread thread_;  // last: it uses the rest
 };
 
 }  // namespace ols::sim
