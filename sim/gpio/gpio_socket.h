@@ -3,8 +3,11 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
+#include <map>
+#include <mutex>
+#include <stop_token>
 #include <string>
+#include <thread>
 
 namespace ols::sim {
 
@@ -22,8 +25,6 @@ class GpioServer {
  public:
   explicit GpioServer(const GpioServerConfig& config);  // throws std::system_error
   ~GpioServer();
-  GpioServer(const GpioServer&) = delete;
-  GpioServer& operator=(const GpioServer&) = delete;
 
   void set_pressed(bool pressed);
   void hold_rearm(bool held);
@@ -36,8 +37,21 @@ class GpioServer {
   int clients() const;
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  void run(const std::stop_token& ended);
+  void greet();
+  void tell(int fd, int line) const;
+  void serve(int fd);
+  bool obey(int fd, const std::string& text);
+
+  const GpioServerConfig config_;
+  const int listener_, bell_;
+
+  mutable std::mutex mutex_;            // for everything below
+  std::map<int, std::string> clients_;  // the unfinished line of each
+  bool pressed_ = false, rearm_held_ = false, silent_ = false;
+  bool led_ = false, trigger_ = false;
+  std::uint64_t led_changes_ = 0, triggers_ = 0;
+  std::jthread thread_;  // last: it uses the rest
 };
 
 }  // namespace ols::sim
