@@ -125,8 +125,8 @@ class Passage {
   }
 
  private:
-  // Limits for bearings and statuses: twice as many as the place book holds stations. Limit for
-  // commands: separate, because they name stations that need not exist.
+  // Limits for bearings and statuses: twice as many as the bridge knows places of stations. Limit
+  // for commands: separate, because they name stations that need not exist.
   static constexpr std::size_t kMostChannels = 2 * StationPlaces::kMost + 1, kMostCommands = 10'000;
   using Judged = std::optional<Refusal>;
 

@@ -19,8 +19,8 @@ Picture stream_unit(std::int64_t utime_us, bool is_key) {
 
 // The station and instant of the next picture of this view, and how many units of a stream it has;
 // empty: none.
-std::string next_of(const LatestPictures& desk, LatestPictures::View& view) {
-  const auto bytes = desk.next(view);
+std::string next_of(const LatestPictures& latest, LatestPictures::View& view) {
+  const auto bytes = latest.next(view);
   if (!bytes) return "";
   const Json header = Json::parse(bytes->substr(4, bytes->rfind('}') - 3));
   const std::string name = header.at("station").get<std::string>() + header.at("utime_us").dump();
@@ -28,75 +28,75 @@ std::string next_of(const LatestPictures& desk, LatestPictures::View& view) {
 }
 
 TEST(LatestPictures, APreviewIsShownOnlyWhereNoVideoComes) {
-  LatestPictures desk;
+  LatestPictures latest;
   LatestPictures::View view{{"alfa"}, Codec::kJpeg, {}};
-  desk.hear(picture("alfa", 1'000'000, true));
-  EXPECT_EQ(next_of(desk, view), "alfa1000000");
-  desk.hear(picture("alfa", 2'000'000, false));
-  EXPECT_EQ(next_of(desk, view), "");
-  desk.hear(picture("alfa", 5'000'000, false));
-  EXPECT_EQ(next_of(desk, view), "alfa5000000") << "the video has ended";
+  latest.hear(picture("alfa", 1'000'000, true));
+  EXPECT_EQ(next_of(latest, view), "alfa1000000");
+  latest.hear(picture("alfa", 2'000'000, false));
+  EXPECT_EQ(next_of(latest, view), "");
+  latest.hear(picture("alfa", 5'000'000, false));
+  EXPECT_EQ(next_of(latest, view), "alfa5000000") << "the video has ended";
 }
 
 TEST(LatestPictures, EachStationGetsItsTurnOverASlowLink) {
-  LatestPictures desk;
+  LatestPictures latest;
   LatestPictures::View view{{"alfa", "bravo"}, Codec::kJpeg, {}};
   std::string seen;
   for (int i = 1; i <= 4; ++i) {
-    desk.hear(picture("alfa", i, true));
-    desk.hear(picture("bravo", i, true));
-    seen += next_of(desk, view) + " ";  // one for each two that come
+    latest.hear(picture("alfa", i, true));
+    latest.hear(picture("bravo", i, true));
+    seen += next_of(latest, view) + " ";  // one for each two that come
   }
   EXPECT_EQ(seen, "alfa1 bravo2 alfa3 bravo4 ");
 }
 
 TEST(LatestPictures, EachBrowserGetsItsCodec) {
-  LatestPictures desk;
+  LatestPictures latest;
   LatestPictures::View thin{{"alfa"}, Codec::kH264, {}}, wide{{"alfa"}, Codec::kJpeg, {}};
-  desk.hear(stream_unit(1, true));
-  desk.hear(picture("alfa", 2, true));
-  desk.hear(stream_unit(3, false));
-  EXPECT_EQ(next_of(desk, thin), "alfa3:2");
-  EXPECT_EQ(next_of(desk, wide), "alfa2");
-  EXPECT_EQ(next_of(desk, thin), "");
-  desk.hear(stream_unit(4, false));
-  EXPECT_EQ(next_of(desk, thin), "alfa4:1");
-  EXPECT_EQ(next_of(desk, wide), "");
+  latest.hear(stream_unit(1, true));
+  latest.hear(picture("alfa", 2, true));
+  latest.hear(stream_unit(3, false));
+  EXPECT_EQ(next_of(latest, thin), "alfa3:2");
+  EXPECT_EQ(next_of(latest, wide), "alfa2");
+  EXPECT_EQ(next_of(latest, thin), "");
+  latest.hear(stream_unit(4, false));
+  EXPECT_EQ(next_of(latest, thin), "alfa4:1");
+  EXPECT_EQ(next_of(latest, wide), "");
   wide.codec = Codec::kH264;
-  EXPECT_EQ(next_of(desk, wide), "alfa4:3") << "from the key frame on";
+  EXPECT_EQ(next_of(latest, wide), "alfa4:3") << "from the key frame on";
 }
 
 TEST(LatestPictures, WithoutAStreamAThinViewSeesPreviews) {
-  LatestPictures desk;
+  LatestPictures latest;
   LatestPictures::View thin{{"alfa"}, Codec::kH264, {}};
-  desk.hear(picture("alfa", 1'000'000, false));
-  EXPECT_EQ(next_of(desk, thin), "alfa1000000") << "none has come yet";
-  desk.hear(stream_unit(1'500'000, true));
-  EXPECT_EQ(next_of(desk, thin), "alfa1500000:1");
-  desk.hear(picture("alfa", 2'000'000, false));
-  EXPECT_EQ(next_of(desk, thin), "");
-  desk.hear(picture("alfa", 5'000'000, false));
-  EXPECT_EQ(next_of(desk, thin), "alfa5000000") << "it has ended";
+  latest.hear(picture("alfa", 1'000'000, false));
+  EXPECT_EQ(next_of(latest, thin), "alfa1000000") << "none has come yet";
+  latest.hear(stream_unit(1'500'000, true));
+  EXPECT_EQ(next_of(latest, thin), "alfa1500000:1");
+  latest.hear(picture("alfa", 2'000'000, false));
+  EXPECT_EQ(next_of(latest, thin), "");
+  latest.hear(picture("alfa", 5'000'000, false));
+  EXPECT_EQ(next_of(latest, thin), "alfa5000000") << "it has ended";
 }
 
 TEST(LatestPictures, AStationThatIsGoneIsForgotten) {
-  LatestPictures desk;
-  desk.hear(stream_unit(1, true));
-  desk.hear(picture("alfa", 1, true));
-  desk.keep_only([](const std::string&) { return false; });
+  LatestPictures latest;
+  latest.hear(stream_unit(1, true));
+  latest.hear(picture("alfa", 1, true));
+  latest.keep_only([](const std::string&) { return false; });
   LatestPictures::View thin{{"alfa"}, Codec::kH264, {}};
-  EXPECT_EQ(next_of(desk, thin), "");
+  EXPECT_EQ(next_of(latest, thin), "");
 }
 
 TEST(LatestPictures, TheNewestOfAllCanBeShownAgain) {
-  LatestPictures desk;
+  LatestPictures latest;
   LatestPictures::View view{{"alfa"}, Codec::kJpeg, {}};
-  desk.hear(picture("alfa", 1, true));
-  const auto then = desk.newest();
-  desk.hear(picture("alfa", 2, true));
-  EXPECT_EQ(next_of(desk, view), "alfa2");
-  desk.show(then);
-  EXPECT_EQ(next_of(desk, view), "alfa1");
+  latest.hear(picture("alfa", 1, true));
+  const auto then = latest.newest();
+  latest.hear(picture("alfa", 2, true));
+  EXPECT_EQ(next_of(latest, view), "alfa2");
+  latest.show(then);
+  EXPECT_EQ(next_of(latest, view), "alfa1");
 }
 
 }  // namespace
