@@ -28,6 +28,11 @@ std::optional<Parameters> match(std::string_view pattern, std::string_view said)
 
 }  // namespace
 
+std::string said_behind(std::string_view words, std::string_view sentence) {
+  const std::size_t at = sentence.find(words);
+  return std::string(at == std::string_view::npos ? sentence : sentence.substr(at + words.size()));
+}
+
 Alarm alarm_of(std::string_view sentence) {
   for (const AlarmSentence& one : alarm_sentences()) {
     if (auto found = match(one.english, sentence)) {
@@ -44,7 +49,7 @@ std::vector<Alarm> alarms_of(const std::vector<std::string>& sentences) {
 }
 
 const AlarmSentence& Alarm::row() const {
-  static constexpr AlarmSentence kUnknown{{}, {}, {}, "warning", {}};
+  static constexpr AlarmSentence kUnknown{{}, {}, {}, "warning", "docs/troubleshooting.md"};
   const auto known = std::ranges::find(alarm_sentences(), id, &AlarmSentence::id);
   return known == alarm_sentences().end() ? kUnknown : *known;
 }

@@ -32,7 +32,7 @@ struct Alarm {
   std::string key() const;
   // Its sentence with its subject, and "…" for whatever else changes while it holds.
   std::string gist() const;
-  // The same as a warning, without advice, where the table does not have it.
+  // A warning without words where the table does not have it.
   const AlarmSentence& row() const;
 
  private:
@@ -40,6 +40,9 @@ struct Alarm {
     return row().subject.find(" " + parameter + " ") != std::string_view::npos;
   }
 };
+// What a sentence says behind the first of these words: "no reply", of "ptu: no reply" and ": ".
+std::string said_behind(std::string_view words, std::string_view sentence);
+
 // Found by its words: where it is raised, and in logs of before messages said what it is.
 Alarm alarm_of(std::string_view sentence);
 std::vector<Alarm> alarms_of(const std::vector<std::string>& sentences);

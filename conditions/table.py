@@ -167,7 +167,7 @@ def of_the_programs() -> tuple[str, str]:
     for row, name, (english, _) in rows:
         subject = f" {' '.join(row['subject'])} " if "subject" in row else ""
         named = PARAMETER.sub(r"{\1}", english)
-        cells = (name, named, subject, row["severity"], plain(row["action"][0]))
+        cells = (name, named, subject, row["severity"], plain(row["action"][0]).replace("`", ""))
         sentences += f"    {{{', '.join(json.dumps(one) for one in cells)}}},\n"
     header = "".join(f"{declared(name, english)};\n" for _, name, (english, _) in rows)
     source = "".join(defined(name, english) for _, name, (english, _) in rows)
@@ -185,7 +185,9 @@ def main() -> int:
         case ["cpp", folder]:
             Path(folder).mkdir(parents=True, exist_ok=True)
             for name, text in zip(("alarms.h", "alarms.cpp"), of_the_programs(), strict=True):
-                (Path(folder) / name).write_text(text)
+                path = Path(folder) / name
+                if not path.exists() or path.read_text() != text:
+                    path.write_text(text)
         case _:
             print(__doc__, file=sys.stderr)
             return 2

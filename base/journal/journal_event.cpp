@@ -10,7 +10,7 @@ constexpr const char* kInformation = "6";
 JournalEvent about(const Alarm& alarm, bool begins) {
   JournalEvent event{.text = (begins ? "alarm: " : "over: ") + alarm.text, .bad = begins};
   event.alarm = alarm.id;
-  event.action = alarm.row().action.empty() ? "-" : alarm.row().action;
+  event.action = alarm.row().action;
   const std::size_t colon = alarm.text.find(": ");
   if (colon == std::string::npos) {
     event.reason = alarm.text;

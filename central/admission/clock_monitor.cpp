@@ -2,23 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <vector>
 
 #include "central/measurement/time_span.h"
+#include "conditions/alarm.h"
+#include "conditions/alarms.h"
 
 namespace ols::fusion {
 namespace {
 
 constexpr double kTighter = 0.7;  // of the limits, to end the quarantine
 constexpr std::size_t kLeastStationsToCompare = 3;
-
-std::string words(const char* format, double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
 
 }  // namespace
 
@@ -44,15 +39,15 @@ std::string ClockMonitor::judge(const std::string& name, const Station& station,
                                 const MessageTime& time) const {
   const double limit = station.quarantine.empty() ? 1.0 : kTighter;
   if (station.error_s > limit * config_.error_limit_s && others_are_better(name, time)) {
-    return words("it reports a clock error of %.2g s", station.error_s);
+    return said_behind(", ", alarm::station_clock_error(name, station.error_s));
   }
   if (time.delivering_count() < kLeastStationsToCompare) return "";
   const double offset_s = common_offset_s(station);
   if (offset_s > limit * config_.offset_limit_s) {
-    return words("its stamps are %.2g s ahead of the others'", offset_s);
+    return said_behind(", ", alarm::station_ahead(name, offset_s));
   }
   if (offset_s < -limit * config_.offset_limit_s && !station.synchronised) {
-    return words("its stamps are %.2g s behind the others'", -offset_s);
+    return said_behind(", ", alarm::station_behind(name, -offset_s));
   }
   return "";
 }

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
+#include "conditions/alarm.h"
+#include "conditions/alarms.h"
 #include "geometry/angles.h"
 
 namespace ols::fusion {
@@ -47,10 +48,7 @@ void PointingMonitor::judge(Station& station) const {
   const double spread =
       std::sqrt(std::max(0.0, station.squared / station.judged - mean.squaredNorm()));
   if (off < config_.least_off_rad || spread > config_.spread * off) return;
-  char text[96];
-  std::snprintf(text, sizeof text, "its bearings are %.2g deg off the target of the other stations",
-                degrees(off));
-  station.quarantine = text;
+  station.quarantine = said_behind(", ", alarm::station_off_target("", degrees(off)));
 }
 
 const std::string& PointingMonitor::quarantine(const std::string& station) const {

@@ -1,4 +1,4 @@
-// Why a camera cannot be used.
+// Why a camera cannot be used: an alarm as text (conditions/alarms.h).
 #pragma once
 
 #include <stdexcept>

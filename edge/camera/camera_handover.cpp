@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "base/process/clocks.h"
+#include "conditions/alarms.h"
 
 namespace ols::camera {
 namespace {
@@ -91,7 +92,7 @@ void CameraHandover::note_refused(const std::string& why, std::uint64_t lost,
   note_statistics(lost, statistics);
   ++facts_.counters.frames_refused;
   facts_.state = CameraState::kFault;
-  facts_.fault = why;
+  facts_.fault = alarm::camera_frames_refused(why);
   note_trouble(why);
 }
 

@@ -5,6 +5,9 @@
 #include <cstdio>
 #include <string_view>
 
+#include "conditions/alarm.h"
+#include "conditions/alarms.h"
+
 namespace ols::camera {
 namespace {
 
@@ -32,28 +35,17 @@ device::DeviceState device_state(CameraState state) {
   return device::DeviceState::kFault;
 }
 
-const char* to_string(PtpState state) {
+std::string alarm_of(PtpState state) {
   switch (state) {
-    case PtpState::kOff:
-      return "off";
     case PtpState::kSyncing:
-      return "not yet synchronised";
-    case PtpState::kSlave:
-      return "synchronised";
+      return alarm::ptp_not_yet();
     case PtpState::kMaster:
-      return "a master itself";
+      return alarm::ptp_master();
     case PtpState::kFault:
-      return "faulty";
-    case PtpState::kUnknown:
-      return "unknown";
+      return alarm::ptp_faulty();
+    default:
+      return alarm::ptp_off();
   }
-  return "unknown";
-}
-
-// Turns "camera refuses ..." into the alarm "camera: refuses ...".
-std::string without_subject(const std::string& what) {
-  constexpr std::string_view kSubject = "camera ";
-  return what.starts_with(kSubject) ? what.substr(kSubject.size()) : what;
 }
 
 // The time without frames, if it is too long.
@@ -69,30 +61,22 @@ std::optional<double> silence_s(const CameraConfig& config, const CameraFacts& f
 void add_alarms(const CameraConfig& config, const CameraFacts& facts, double now_s,
                 std::vector<std::string>& alarms) {
   const auto silent_s = silence_s(config, facts, now_s);
-  if (!facts.fault.empty()) alarms.push_back("camera: " + without_subject(facts.fault));
+  if (!facts.fault.empty()) alarms.push_back(facts.fault);
   if (silent_s) {
-    alarms.push_back(words("camera: no frames for %.1f s", *silent_s) +
-                     (is_timed(config.trigger) || facts.state == CameraState::kAbsent
-                          ? ""
-                          : ", it is waiting for a trigger"));
+    const bool waits = !is_timed(config.trigger) && facts.state != CameraState::kAbsent;
+    alarms.push_back(alarm::camera_no_frames(*silent_s) +
+                     (waits ? ", it is waiting for a trigger" : ""));
   } else if (facts.state == CameraState::kAbsent) {
-    alarms.push_back("camera: does not answer");
+    alarms.push_back(alarm::camera_silent());
   }
   if (facts.last_frame_s && facts.stamp_source == StampSource::kArrival)
-    alarms.push_back(
-        words("camera: time stamps are the host's, +-%.0f ms", 1e3 * facts.stamp_sd_s));
+    alarms.push_back(alarm::camera_stamps_of_host(1e3 * facts.stamp_sd_s));
   if (facts.incomplete_share > kManyIncomplete)
-    alarms.push_back(
-        words("camera: %.0f %% of the frames incomplete", 100.0 * facts.incomplete_share));
-  if (facts.missing_light > kMuchLight)
-    alarms.push_back("camera: image too dark at the exposure and gain limits");
-  if (facts.missing_light < 1.0 / kMuchLight)
-    alarms.push_back("camera: image too bright at the exposure and gain limits");
-  if (facts.ptp && *facts.ptp != PtpState::kSlave)
-    alarms.push_back(std::string("camera: PTP is ") + to_string(*facts.ptp));
-  if (facts.ptp_disagreement_s)
-    alarms.push_back(words("camera: PTP differs from the camera's latched clock by %.4f s",
-                           *facts.ptp_disagreement_s));
+    alarms.push_back(alarm::camera_frames_incomplete(100.0 * facts.incomplete_share));
+  if (facts.missing_light > kMuchLight) alarms.push_back(alarm::image_too_dark());
+  if (facts.missing_light < 1.0 / kMuchLight) alarms.push_back(alarm::image_too_bright());
+  if (facts.ptp && *facts.ptp != PtpState::kSlave) alarms.push_back(alarm_of(*facts.ptp));
+  if (facts.ptp_disagreement_s) alarms.push_back(alarm::ptp_differs(*facts.ptp_disagreement_s));
 }
 
 }  // namespace
@@ -106,7 +90,7 @@ device::DeviceReport make_camera_report(const CameraConfig& config, const Camera
   report.text += config.pixel_format + " " + std::to_string(config.width_px) + "x" +
                  std::to_string(config.height_px) + words(", %.1f Hz", facts.frame_rate_hz);
   if (facts.state != CameraState::kStreaming && !facts.last_error.empty())
-    report.text = facts.last_error;
+    report.text = said_behind("camera: ", facts.last_error);
   report.serial = facts.serial;
   report.last_good_s = facts.last_frame_s;
   report.last_error = facts.last_error;

@@ -38,7 +38,7 @@ struct CameraFacts {
 
   std::string identity;                // "AVT GT1290C 1234"; empty before the first opening
   std::string serial;                  // as the camera says it
-  std::string fault;                   // empty: no fault
+  std::string fault;                   // its alarm; empty: no fault
   std::optional<double> last_frame_s;  // CLOCK_MONOTONIC of the last complete frame's arrival
   std::optional<double> opened_s;      // of the last opening
   double frame_rate_hz = 0.0;          // recent

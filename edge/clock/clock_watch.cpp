@@ -4,6 +4,9 @@
 #include <cmath>
 #include <cstdio>
 
+#include "conditions/alarm.h"
+#include "conditions/alarms.h"
+
 namespace ols::clock {
 namespace {
 
@@ -31,10 +34,10 @@ std::string format(double seconds) {
   return text;
 }
 
-std::string format_step(double step_s, double ago_s) {
-  char text[64];
-  std::snprintf(text, sizeof text, "stepped by %+.3f s %.0f s ago", step_s, ago_s);
-  return text;
+ClockQuality alarmed(ClockQuality quality, const std::string& alarm) {
+  quality.text = said_behind(": ", alarm);
+  quality.alarm = alarm;
+  return quality;
 }
 
 }  // namespace
@@ -97,9 +100,7 @@ ClockQuality ClockWatch::unstepped(double monotonic_s) const {
   if (!good_) {
     quality.state = ClockState::kUnsynchronised;
     quality.error_s = kNeverSetSd_s;
-    quality.text = "not synchronised yet (" + reading_->source + ")";
-    quality.alarm = "clock: " + quality.text;
-    return quality;
+    return alarmed(quality, alarm::clock_not_synchronised(reading_->source));
   }
   const double age_s = std::max(0.0, monotonic_s - good_->time_s);
   const bool silent = monotonic_s - reading_->monotonic_s > kSilence_s;
@@ -111,12 +112,7 @@ ClockQuality ClockWatch::unstepped(double monotonic_s) const {
   }
   quality.state = ClockState::kUnsynchronised;
   quality.error_s = std::hypot(good_->error_s, config_.drift_per_s * age_s);
-  char text[96];
-  std::snprintf(text, sizeof text, "synchronisation lost %.0f s ago, error %s", age_s,
-                format(quality.error_s).c_str());
-  quality.text = text;
-  quality.alarm = "clock: " + quality.text;
-  return quality;
+  return alarmed(quality, alarm::clock_lost(age_s, format(quality.error_s)));
 }
 
 ClockQuality ClockWatch::quality(double monotonic_s) const {
@@ -134,9 +130,7 @@ ClockQuality ClockWatch::quality(double monotonic_s) const {
   quality.state = ClockState::kUnsynchronised;
   // Steps that cancel leave the clock as it was.
   quality.error_s = std::hypot(quality.error_s, step_->sum_s);
-  quality.text = format_step(last_step_s_, ago_s);
-  quality.alarm = "clock: " + quality.text;
-  return quality;
+  return alarmed(quality, alarm::clock_stepped(last_step_s_, ago_s));
 }
 
 }  // namespace ols::clock

@@ -80,7 +80,7 @@ DeviceReport DeviceThread::report() const {
     r.text = config_.opening;
   } else {
     r.text = link_.failure;
-    r.alarms.push_back(config_.name + ": " + link_.failure);
+    if (config_.alarm) r.alarms.push_back(config_.alarm(link_.failure));
   }
   return r;
 }

@@ -17,10 +17,12 @@ namespace ols::device {
 class DeviceThread {
  public:
   struct Config {
-    std::string name;            // of the device in its report and alarms: "gnss"
+    std::string name;            // of the device in its report: "gnss"
     std::string opening;         // the report's text until the first attempt to open has ended
     double first_pause_s = 0.2;  // before the device is reopened; doubles with each failure
     double max_pause_s = 5.0;
+    // Makes an alarm of a failure; null: its owner does.
+    std::string (*alarm)(const std::string& failure) = nullptr;
   };
   // Opens the device, calls opened() and serves the device until the stop is requested. Throws
   // std::exception when the device fails. A session that returns is started again at once.

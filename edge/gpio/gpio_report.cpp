@@ -31,7 +31,7 @@ device::DeviceReport make_gpio_report(const GpioConfig& config, const GpioFacts&
     report.state = device::DeviceState::kAbsent;
     report.text = facts.error;
     report.alarms.push_back(config.has_stop() ? alarm::gpio_stop_unreadable(facts.error)
-                                              : "gpio: " + facts.error);
+                                              : alarm::gpio_fails(facts.error));
   }
   return report;
 }

@@ -5,6 +5,7 @@
 #include <stop_token>
 
 #include "base/process/clocks.h"
+#include "conditions/alarms.h"
 #include "edge/device/device_thread.h"
 #include "edge/device/reading_queue.h"
 #include "edge/lens/lens_driver.h"
@@ -22,7 +23,7 @@ struct LensMotor::Impl {
   explicit Impl(const LensMotorConfig& c)
       : config(c),
         driver(c.poll_interval_s),
-        thread({"lens", "is being opened", kFirstPause_s, kMaxPause_s}) {}
+        thread({"lens", "is being opened", kFirstPause_s, kMaxPause_s, alarm::lens_fails}) {}
 
   void run(const std::stop_token& stop) {
     serial::SerialPort port(config.device, config.baud);

@@ -41,7 +41,7 @@ std::vector<std::string> KeptPose::alarms(double now_s) const {
     alarms.push_back(alarm::no_position());
   }
   if (const std::string trouble = store_.trouble(); !trouble.empty()) {
-    alarms.push_back("pose: " + trouble);
+    alarms.push_back(trouble);
   }
   return alarms;
 }

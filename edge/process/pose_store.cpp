@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "base/files/small_file.h"
+#include "conditions/alarms.h"
 
 namespace ols::station {
 namespace {
@@ -33,7 +34,7 @@ PoseStore::PoseStore(const std::string& file) : file_(file) {
   try {
     found_ = read(file);
   } catch (const std::exception& failure) {
-    refused_ = std::string("saved pose refused: ") + failure.what();
+    refused_ = alarm::saved_pose_refused(failure.what());
   }
 }
 
@@ -48,7 +49,7 @@ void PoseStore::keep(sensors::PersistedPose pose) {
 std::string PoseStore::trouble() const {
   if (!refused_.empty()) return refused_;
   const std::string failed = file_.trouble();
-  return failed.empty() ? "" : "cannot be saved: " + failed;
+  return failed.empty() ? "" : alarm::pose_unsaved(failed);
 }
 
 }  // namespace ols::station

@@ -1,22 +1,24 @@
 #include "edge/ptu/doubt_cause.h"
 
+#include "conditions/alarm.h"
+#include "conditions/alarms.h"
+
 namespace ols::ptu {
 
-const char* describe(PtuDoubtCause cause) {
+std::string alarm_of(PtuDoubtCause cause) {
   switch (cause) {
     case PtuDoubtCause::kPowerCycle:
-      return "lost power and was not seen to home since: home it, or reference-ok once "
-             "it was checked";
+      return alarm::ptu_lost_power();
     case PtuDoubtCause::kLimitHit:
-      return "ran into a limit and may have lost steps: home it, or reference-ok once it was "
-             "checked";
+      return alarm::ptu_ran_into_limit();
     case PtuDoubtCause::kHomingInterrupted:
-      return "homing was interrupted: home it, or reference-ok once it was checked";
+      return alarm::ptu_homing_interrupted();
     case PtuDoubtCause::kBeforeStart:
-      return "its reference was in doubt already before this start: home it, or reference-ok once "
-             "it was checked";
+      return alarm::ptu_reference_in_doubt();
   }
   return "";
 }
+
+std::string describe(PtuDoubtCause cause) { return said_behind(": ", alarm_of(cause)); }
 
 }  // namespace ols::ptu

@@ -1,24 +1,13 @@
 #include "edge/ptu/ptu_report.h"
 
-#include <cstdio>
+#include <utility>
 
+#include "conditions/alarms.h"
 #include "geometry/angles.h"
 
 namespace ols::ptu {
 
 namespace {
-
-std::string with_number(const char* format, double number) {
-  char text[120];
-  std::snprintf(text, sizeof text, format, number);
-  return text;
-}
-
-std::string describe(const PtuLoweredSpeed& lowered) {
-  return with_number("accelerates by only %.1f deg/s^2", degrees(lowered.acceleration_rad_s2)) +
-         with_number(", driven at %.1f deg/s at most, so that it stops in time by itself",
-                     degrees(lowered.speed_rad_s));
-}
 
 device::DeviceState state_of(const PtuStatus& status) {
   if (!status.port.open) return device::DeviceState::kAbsent;
@@ -44,20 +33,24 @@ std::string text_of(const PtuStatus& status, device::DeviceState state) {
 void add_alarms(const PtuConfig& config, const PtuStatus& status, double now_s,
                 device::DeviceReport& report) {
   constexpr double kOld_s = 1.0;
-  const auto alarm = [&report](const std::string& what) {
-    report.alarms.push_back("ptu: " + what);
-  };
-  if (status.emergency) alarm(status.standing ? "emergency stop" : "emergency stop, still moving");
-  if (report.state == device::DeviceState::kAbsent) alarm("no serial port: " + status.last_error);
-  if (report.state == device::DeviceState::kFault) alarm("halted, " + status.last_error);
-  if (status.not_referenced) alarm("no reference: home it");
-  if (status.homing) alarm("homing");
-  if (status.doubt && status.last_error != describe(*status.doubt)) alarm(describe(*status.doubt));
-  if (status.lowered_speed) alarm(describe(*status.lowered_speed));
+  using device::DeviceState;
   const bool silent = !status.last_good_s || now_s - *status.last_good_s > kOld_s;
-  if (report.state == device::DeviceState::kOk && silent) alarm("no angles");
+  const auto raise = [&report](std::string alarm) { report.alarms.push_back(std::move(alarm)); };
+  if (status.emergency) {
+    raise(status.standing ? alarm::ptu_emergency_stop() : alarm::ptu_emergency_stop_moving());
+  }
+  if (report.state == DeviceState::kAbsent) raise(alarm::ptu_no_port(status.last_error));
+  if (report.state == DeviceState::kFault) raise(alarm::ptu_halted(status.last_error));
+  if (status.not_referenced) raise(alarm::ptu_no_reference());
+  if (status.homing) raise(alarm::ptu_homing());
+  if (status.doubt && status.last_error != describe(*status.doubt)) raise(alarm_of(*status.doubt));
+  if (const auto& lowered = status.lowered_speed) {
+    raise(alarm::ptu_accelerates_slowly(degrees(lowered->acceleration_rad_s2),
+                                        degrees(lowered->speed_rad_s)));
+  }
+  if (report.state == DeviceState::kOk && silent) raise(alarm::ptu_no_angles());
   if (status.environment && status.environment->supply_V < config.supply_min_V) {
-    alarm(with_number("supply voltage low (%.1f V)", status.environment->supply_V));
+    raise(alarm::ptu_supply_low(status.environment->supply_V));
   }
 }
 

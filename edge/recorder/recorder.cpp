@@ -291,7 +291,7 @@ device::DeviceReport Recorder::report() const {
   if (const std::string wrong = impl_->wrong(); !wrong.empty()) {
     report.state = device::DeviceState::kFault;
     report.text = wrong;
-    report.alarms.push_back("recorder: " + wrong);
+    report.alarms.push_back(alarm::recorder_fails(wrong));
   } else if (!disk.good_s) {
     report.state = device::DeviceState::kStarting;
     report.text = impl_->config.folder;

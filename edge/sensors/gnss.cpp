@@ -7,6 +7,7 @@
 #include <stop_token>
 
 #include "base/process/clocks.h"
+#include "conditions/alarms.h"
 #include "edge/device/device_thread.h"
 #include "edge/device/reading_queue.h"
 #include "edge/sensors/gnss_from_gpsd.h"
@@ -49,7 +50,8 @@ std::string format(GpsdLink::Silence silence) {
 
 struct Gnss::Impl {
   explicit Impl(const GnssConfig& c)
-      : config(c), thread({"gnss", "is being connected", kFirstPause_s, kMaxPause_s}) {}
+      : config(c),
+        thread({"gnss", "is being connected", kFirstPause_s, kMaxPause_s, alarm::gnss_fails}) {}
 
   void run(const std::stop_token& stop) {
     GpsdLink link(config.host, config.port);
@@ -134,7 +136,7 @@ struct Gnss::Impl {
   void describe(device::DeviceReport& r) const {
     if (r.state == device::DeviceState::kFault) {
       if (silence != GpsdLink::Silence::kReceiverSilent) r.state = device::DeviceState::kAbsent;
-      if (!last) r.alarms.push_back("gnss: " + r.text);
+      if (!last) r.alarms.push_back(alarm::gnss_fails(r.text));
     } else if (r.state == device::DeviceState::kOk) {
       if (!last || !is_fix(*last)) r.state = device::DeviceState::kStarting;
       r.text = last ? format(*last) : "waiting for the receiver";

@@ -7,6 +7,7 @@
 #include <stop_token>
 
 #include "base/process/clocks.h"
+#include "conditions/alarms.h"
 #include "edge/device/device_thread.h"
 #include "edge/device/reading_queue.h"
 #include "edge/serial/serial_port.h"
@@ -34,7 +35,8 @@ struct Inclinometer::Impl {
   explicit Impl(const InclinometerConfig& c)
       : config(c),
         parser(c.range_rad),
-        thread({"inclinometer", "is being opened", kFirstPause_s, kMaxPause_s}) {}
+        thread({"inclinometer", "is being opened", kFirstPause_s, kMaxPause_s,
+                alarm::inclinometer_fails}) {}
 
   void run(const std::stop_token& stop) {
     serial::SerialPort port(config.device, config.baud,
@@ -123,7 +125,7 @@ struct Inclinometer::Impl {
 
   void describe(device::DeviceReport& r) const {
     if (r.state == device::DeviceState::kFault) {
-      if (!last) r.alarms.push_back("inclinometer: " + r.text);
+      if (!last) r.alarms.push_back(alarm::inclinometer_fails(r.text));
     } else if (r.state == device::DeviceState::kOk && !last) {
       r.state = device::DeviceState::kStarting;
       r.text = "waiting for readings";

@@ -13,6 +13,7 @@
 #include "base/net/ip_networks.h"
 #include "base/net/tcp_keepalive.h"
 #include "base/process/clocks.h"
+#include "conditions/alarms.h"
 #include "edge/device/behind_control_loop.h"
 #include "edge/device/device_thread.h"
 #include "edge/video/messages_video.h"
@@ -41,7 +42,7 @@ struct VideoServer::Impl {
         address(config.address),
         allowed(config.allow),
         sender(std::move(video_sender)),
-        thread({"video", "is being opened"}) {}
+        thread({.name = "video", .opening = "is being opened", .alarm = alarm::video_fails}) {}
 
   // --- of the serving thread
 

@@ -1,7 +1,6 @@
 """The documents: every link leads somewhere; troubleshooting.md knows what the sources can say."""
 
 import fnmatch
-import functools
 import re
 import shutil
 import sys
@@ -150,98 +149,11 @@ def test_sources_name_documents_that_exist():
 
 # ---- what the sources can say --------------------------------------------------------------------
 
-# Texts that begin with one of these are alarms, wherever they stand.
-SUBJECT = re.compile(
-    r"(bridge|bus|calibration|camera|clock|commands|computer|emergency stop|gnss|gpio|inclinometer"
-    r"|pose|ptu|recorder|stop|target|trust): (?=\S)"
-)
-# Texts and files whose texts become alarms elsewhere, with what is put before them there.
-CARRIED_ON = {
-    r"(its \w+ (is|are)|it reports) ": "station …: not used, ",
-    r"has followed for ": "station …: ",
-    r"bearings contradict ": "station …: ",
-    r"[^:]*: home it, or reference-ok": "ptu: ",
-}
-PASSED_ON = {
-    "timeliness_gate.cpp": "",
-    "fusion_conflict_monitor.cpp": "",
-    "clock_watch.cpp": "clock: ",
-    "ptu_report.cpp": "ptu: ",
-    "pose_store.cpp": "pose: ",
-    "gpsd_link.cpp": "gnss: ",
-    "gnss.cpp": "gnss: ",
-    "inclinometer.cpp": "inclinometer: ",
-    "lens_motor.cpp": "lens: ",
-    "gpio_lines_libgpiod.cpp": "gpio: … ",
-    "gpio_lines_socket.cpp": "gpio: … ",
-    "event_store.cpp": "recorder: ",
-    "serial_port.cpp": "inclinometer: … ",
-    "video_server.cpp": "video: ",
-}
-NO_ALARMS = {"config_words.cpp"}  # --check-config says it
-# A device's text that is no alarm, and what is written into files.
-NOT_ALARMS = re.compile(
-    r"clock: (no time service|synchronised by)|gnss: (is being connected|waiting for the receiver)"
-    r"|inclinometer: (is being opened|waiting for readings)|ptu: no unit|video: is being opened"
-    r"|lens: (is being opened|waiting for its positions)"
-    r"|.*(no configured|not configured|when an event was last removed to free space)"
-)
 
-
-def pattern_of(text: str) -> str:
-    """A regular expression of what a format string can print."""
-    parts = re.split(r"%%|%[-+#.0-9]*[a-z]+", text.replace('\\"', '"'))
-    return ".*".join(re.escape(part) for part in parts)
-
-
-def texts(source: str) -> list[str]:
-    """Texts that are put together with +, as patterns; what is no literal can be anything."""
-    source = re.sub(r"^#include .*$", "", source, flags=re.M)
-    code = re.sub(r'("(?:[^"\\\n]|\\.)*")|//[^\n]*', lambda m: m[1] or "", source)
-    code = re.sub(r'"\s+"', "", code)
-    found, before = [], 0
-    for literal in re.finditer(r'"((?:[^"\\\n]|\\.)*)"', code):
-        between = code[before : literal.start()]
-        goes_on = between.rstrip().endswith("+") and not re.search(r"[;{}?]", between)
-        if found and goes_on:
-            found[-1] += ".*" + pattern_of(literal[1])
-        else:
-            found.append(pattern_of(literal[1]))
-        before = literal.end()
-    return found
-
-
-def is_a_sentence(pattern: str) -> bool:
-    words = re.findall(r"[a-z']{2,}", pattern.replace("\\", ""))
-    return len(words) > 1 and "\\ " in pattern and pattern[0] != ","
-
-
-@functools.cache
-def alarms_of_the_sources() -> set[str]:
-    """Patterns of all that can be an alarm."""
-    said = [said for row in table.alarms(table.table()) for said in row["says"].items()]
-    sentences = {
-        name: ".*".join(map(re.escape, table.shown(english).split("…")))
-        for name, (english, _) in said
-    }
-    found = set()
-    for path in SOURCES:
-        if path.name in NO_ALARMS:
-            continue
-        source = path.read_text()
-        found |= {sentences[name] for name in re.findall(r"\balarm::(\w+)\(", source)}
-        for text in texts(source):
-            plain = text.replace("\\", "")
-            if path.name.startswith("aravis_") and plain.startswith("camera "):
-                found.add(text.replace("camera", "camera:", 1))
-            elif SUBJECT.match(plain):
-                found.add(text)
-            elif before := [CARRIED_ON[t] for t in CARRIED_ON if re.match(t, plain)]:
-                found.add(re.escape(before[0]) + text)
-            elif path.name in PASSED_ON and is_a_sentence(text):
-                found.add(re.escape(PASSED_ON[path.name]) + text)
-        found |= {f"ptu: {re.escape(what)}" for what in re.findall(r'\balarm\("([^"]+)"', source)}
-    return {text for text in found if not NOT_ALARMS.match(text.replace("\\", ""))}
+def raised() -> set[str]:
+    """The ids of the alarms that a line of the sources raises."""
+    everywhere = [*SOURCES, *(ROOT / "console").rglob("*.cpp")]
+    return {i for path in everywhere for i in re.findall(r"\balarm::(\w+)\b", path.read_text())}
 
 
 def listed(headings: str) -> list[str]:
@@ -254,16 +166,14 @@ def listed(headings: str) -> list[str]:
     return found
 
 
-def test_the_files_that_pass_texts_on_are_there():
-    assert set(PASSED_ON) <= {path.name for path in SOURCES}
+def test_every_alarm_of_the_table_is_raised():
+    assert raised() == {name for row in table.alarms(table.table()) for name in row["says"]}
 
 
-def test_every_alarm_is_in_troubleshooting():
-    alarms = listed("Alarm")
-    missing = [
-        p for p in alarms_of_the_sources() if not any(re.fullmatch(p + ".*", a) for a in alarms)
-    ]
-    assert sorted(missing) == []
+def test_no_alarm_is_raised_in_words_of_its_own():
+    own = re.compile(r'\balarms\.push_back\((?:std::string\()?"(?!and ).*')
+    found = [line for path in SOURCES for line in own.findall(path.read_text())]
+    assert found == []
 
 
 def test_every_alarm_has_its_words_in_two_languages():
@@ -279,19 +189,13 @@ def test_every_alarm_has_its_words_in_two_languages():
             assert german != english
             parameters |= set(names)
         assert set(row.get("subject", [])) <= parameters, row["says"]
-        for english, german in (row["meaning"], row["action"]):
-            assert bool(english) == bool(german), row["says"]
+        assert bool(row["meaning"][0]) == bool(row["meaning"][1]), row["says"]
+        assert all(row["action"]), row["says"]
 
 
 def test_troubleshooting_has_the_rows_of_the_table():
     document = TROUBLESHOOTING.read_text()
     assert table.of_the_documents(document) == document, "run conditions/table.py docs"
-
-
-def test_troubleshooting_knows_no_other_alarm():
-    patterns = alarms_of_the_sources()
-    unknown = [a for a in listed("Alarm") if not any(re.fullmatch(p + ".*", a) for p in patterns)]
-    assert unknown == []
 
 
 def reasons_of_the_sources() -> set[str]:

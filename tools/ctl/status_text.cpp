@@ -117,7 +117,7 @@ std::string full_status(const ols_msg::station_status_t& s, std::int64_t now_uti
   constexpr std::size_t kMost = 16;  // a forged status may have thousands
   for (const Alarm& alarm : alarms_of(s, kMost)) {
     text += "  " + alarm.text + "\n";
-    if (!alarm.row().action.empty()) text.append("    ").append(alarm.row().action).append("\n");
+    text.append("    ").append(alarm.row().action).append("\n");
   }
   if (s.alarm.size() > kMost) text += "  and " + std::to_string(s.alarm.size() - kMost) + " more\n";
   if (!s.last_error.empty()) {

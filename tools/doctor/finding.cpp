@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/text/plain_text.h"
+#include "conditions/alarm.h"
 
 namespace ols::doctor {
 namespace {
@@ -28,6 +29,8 @@ Verdict gravest(const Findings& findings) {
 }
 
 }  // namespace
+
+std::string advice_on(std::string_view alarm) { return std::string(alarm_of(alarm).row().action); }
 
 std::string number(double value, const char* format) {
   char text[64];

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace ols::doctor {
@@ -21,6 +22,9 @@ inline Finding warn(std::string what, std::string advice) {
 inline Finding fail(std::string what, std::string advice) {
   return {Verdict::kFail, std::move(what), std::move(advice)};
 }
+
+// What the table of conditions says to do about an alarm.
+std::string advice_on(std::string_view alarm);
 
 // A value in printf's notation, for the text of a finding.
 std::string number(double value, const char* format);

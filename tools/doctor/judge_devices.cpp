@@ -3,6 +3,9 @@
 #include <cerrno>
 #include <cstring>
 
+#include "conditions/alarm.h"
+#include "conditions/alarms.h"
+
 namespace ols::doctor {
 namespace {
 
@@ -20,32 +23,12 @@ std::string joined(const std::vector<std::string>& words) {
   return text;
 }
 
-const char* advice_for(const std::string& device) {
-  struct Advice {
-    const char* device;
-    const char* text;
-  };
-  static constexpr Advice kAdvice[] = {
-      {"camera", "check its power and cable; arv-tool-0.8 lists the cameras that answer"},
-      {"ptu",
-       "check its 12-30 V supply and the serial cable; then stop the station and run "
-       "ols-doctor again: it asks the unit itself"},
-      {"inclinometer", "check its cable; it streams at 9600 baud, some variants with even parity"},
-      {"lens",
-       "check its supply, its cable and [lens_motor] baud; it must speak VISCA at address 1"},
-      {"gnss", "check gpsd (systemctl status gpsd, cgps) and that the antenna sees the sky"},
-      {"gpio", "check that the chip is there (gpiodetect) and that user ols is in group gpio"},
-      {"recorder", "check the recorder's folder and the free space on its disk"}};
-  for (const Advice& advice : kAdvice) {
-    if (device == advice.device) return advice.text;
-  }
-  return "see the station's journal";
-}
-
-const char* advice_for(const device::DeviceReport& report) {
-  if (report.text.find("reference-ok") == std::string::npos) return advice_for(report.name);
-  return "clear its whole travel of people and cables, then ols-ctl STATION home; or compare its "
-         "angles with something known, then ols-ctl STATION reference-ok";
+// What to do about the alarm that a station raises of it.
+std::string advice_for(const std::string& device, const std::string& says) {
+  Alarm alarm = alarm_of(device + ": " + says);
+  if (alarm.id.empty() && device == "ptu") alarm = alarm_of(alarm::ptu_halted(says));
+  if (alarm.id.empty() && device == "camera") alarm = alarm_of(alarm::camera_silent());
+  return std::string(alarm.row().action);
 }
 
 std::string axis_text(const char* name, const PtuAxisAnswers& axis) {
@@ -110,7 +93,7 @@ Finding judge(const device::DeviceReport& device) {
   const std::string trouble = device.last_error.empty() || device.last_error == device.text
                                   ? std::string()
                                   : " (" + device.last_error + ")";
-  return fail(words + trouble, advice_for(device));
+  return fail(words + trouble, advice_for(device.name, device.text));
 }
 
 std::optional<Finding> judge_line(const std::string& name, const SerialFacts& serial) {
@@ -137,7 +120,7 @@ std::optional<Finding> judge_line(const std::string& name, const SerialFacts& se
     case ENOTTY:
       return fail(words + " is not a serial line", "correct the device in the configuration");
     default:
-      return fail(words + ": " + std::strerror(serial.error), advice_for(name));
+      return fail(words + ": " + std::strerror(serial.error), advice_for(name, ""));
   }
 }
 
@@ -202,7 +185,7 @@ Findings judge(const CameraAnswers& camera) {
   } else if (!camera.trouble.empty()) {
     findings.push_back(
         fail("camera: " + camera.trouble, camera.others.empty()
-                                              ? std::string(advice_for("camera"))
+                                              ? advice_for("camera", "")
                                               : "these answer: " + joined(camera.others) +
                                                     "; write one of them as device into [camera]"));
   } else {

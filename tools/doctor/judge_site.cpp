@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "conditions/alarms.h"
 #include "tools/doctor/judge_devices.h"
 
 namespace ols::doctor {
@@ -28,8 +29,7 @@ Finding judge_clock(const StationHeard& station) {
     case clock::ClockState::kUnsynchronised:
       break;
   }
-  return warn("clock: not synchronised, error " + error,
-              "chronyc sources shows why; bearings are flagged meanwhile");
+  return warn("clock: not synchronised, error " + error, advice_on(alarm::clock_lost(0.0, "")));
 }
 
 std::optional<Finding> judge_frames(const StationHeard& station) {
@@ -71,8 +71,7 @@ std::string distrusted(const std::map<std::string, double>& counters) {
 
 Finding judge_signatures(const BusHeard& bus) {
   if (!bus.trust_trouble.empty()) {
-    return fail("signatures: " + bus.trust_trouble,
-                std::string(alarm_of(bus.trust_trouble).row().action));
+    return fail("signatures: " + bus.trust_trouble, advice_on(bus.trust_trouble));
   }
   if (bus.is_verified) {
     const std::string refused = distrusted(bus.distrusted);
@@ -165,8 +164,8 @@ Findings judge(const StationHeard& station) {
   for (const device::DeviceReport& device : station.devices) findings.push_back(judge(device));
   findings.push_back(judge_clock(station));
   if (!station.position_known) {
-    findings.push_back(fail("pose: no position, and so no bearings",
-                            "survey the place into [pose], or wait for the GNSS receiver's fix"));
+    findings.push_back(
+        fail("pose: no position, and so no bearings", advice_on(alarm::no_position())));
   }
   if (const auto calibrated = judge_calibration(station.calibration)) {
     findings.push_back(*calibrated);

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/process/clocks.h"
+#include "conditions/alarms.h"
 #include "edge/camera/aravis/aravis_error.h"
 #include "edge/camera/aravis/aravis_features.h"
 #include "edge/camera/aravis/aravis_setup.h"
@@ -41,14 +42,12 @@ AravisDevice::BufferReturn::~BufferReturn() { arv_stream_push_buffer(stream, buf
 AravisDevice::AravisDevice(const AravisConfig& config) {
   AravisError error;
   camera_.reset(arv_camera_new(config.device.c_str(), error.out()));
-  if (camera_ == nullptr)
-    throw CameraAbsent("camera " + config.device + " does not answer: " + error.text());
+  if (camera_ == nullptr) throw CameraAbsent(alarm::camera_not_found(config.device, error.text()));
   if (arv_camera_is_gv_device(camera_.get()) == 0)
-    throw CameraUnfit("camera " + config.device + " is not a GigE Vision camera");
+    throw CameraUnfit(alarm::camera_not_gige(config.device));
   // Aravis continues without control, and then every setting is refused.
   if (arv_gv_device_is_controller(ARV_GV_DEVICE(device())) == 0)
-    throw CameraAbsent(
-        "camera is controlled by another program, or still by the previous connection");
+    throw CameraAbsent(alarm::camera_controlled());
   g_signal_connect(device(), "control-lost",
                    G_CALLBACK(+[](ArvDevice*, std::atomic<bool>* lost) { *lost = true; }),
                    &control_lost_);
@@ -97,7 +96,7 @@ void AravisDevice::start(const AravisConfig& config) {
   const AravisFeatures features(camera_.get());
   latch_by_feature_ = features.has("GevTimestampControlLatch") && features.has("GevTimestampValue");
   stream_.reset(arv_camera_create_stream(camera_.get(), nullptr, nullptr, error.out()));
-  if (stream_ == nullptr) throw CameraAbsent("camera provides no stream: " + error.text());
+  if (stream_ == nullptr) throw CameraAbsent(alarm::camera_no_stream(error.text()));
   g_object_set(stream_.get(), "socket-buffer", ARV_GV_STREAM_SOCKET_BUFFER_FIXED,
                "socket-buffer-size", config.socket_buffer, "frame-retention", kFrameRetention_us,
                nullptr);
@@ -106,11 +105,11 @@ void AravisDevice::start(const AravisConfig& config) {
   // A frame has few large packets: any number of them may be requested again.
   g_object_set(stream_.get(), "packet-request-ratio", 1.0, nullptr);
   const guint payload = arv_camera_get_payload(camera_.get(), error.out());
-  error.check<CameraAbsent>("camera does not report its payload");
+  error.check<CameraAbsent>(alarm::camera_hides_payload());
   for (int i = 0; i < kBuffers; ++i)
     arv_stream_push_buffer(stream_.get(), arv_buffer_new(payload, nullptr));
   arv_camera_start_acquisition(camera_.get(), error.out());
-  error.check<CameraAbsent>("camera does not start");
+  error.check<CameraAbsent>(alarm::camera_does_not_start());
 }
 
 ArvBuffer* AravisDevice::pop(double timeout_s) {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "conditions/alarms.h"
 #include "edge/camera/aravis/aravis_error.h"
 
 namespace ols::camera {
@@ -33,14 +34,14 @@ const char* AravisFeatures::name_of(const Feature& feature) const {
 
 void AravisFeatures::set_number(const Feature& feature, double value) const {
   const char* name = name_of(feature);
-  if (name == nullptr) throw CameraUnfit(std::string("camera has no ") + feature.what);
+  if (name == nullptr) throw CameraUnfit(alarm::camera_has_no(feature.what));
   AravisError error;
   if (is_real(camera_, name)) {
     arv_camera_set_float(camera_, name, value, error.out());
   } else {
     arv_camera_set_integer(camera_, name, std::llround(value), error.out());
   }
-  error.check<CameraUnfit>(std::string("camera refuses ") + name + " = " + text_of(value));
+  error.check<CameraUnfit>(alarm::camera_refuses_value(name, text_of(value)));
 }
 
 std::optional<double> AravisFeatures::number(const Feature& feature) const {
@@ -71,10 +72,10 @@ std::optional<std::pair<double, double>> AravisFeatures::bounds(const Feature& f
 
 void AravisFeatures::set_flag(const Feature& feature, bool value) const {
   const char* name = name_of(feature);
-  if (name == nullptr) throw CameraUnfit(std::string("camera has no ") + feature.what);
+  if (name == nullptr) throw CameraUnfit(alarm::camera_has_no(feature.what));
   AravisError error;
   arv_camera_set_boolean(camera_, name, value ? 1 : 0, error.out());
-  error.check<CameraUnfit>(std::string("camera refuses ") + name);
+  error.check<CameraUnfit>(alarm::camera_refuses(name));
 }
 
 bool AravisFeatures::offers(const char* choice, const char* entry) const {
@@ -86,7 +87,7 @@ bool AravisFeatures::offers(const char* choice, const char* entry) const {
 void AravisFeatures::choose(const char* choice, const char* entry) const {
   AravisError error;
   arv_camera_set_string(camera_, choice, entry, error.out());
-  error.check<CameraUnfit>(std::string("camera refuses ") + choice + " = " + entry);
+  error.check<CameraUnfit>(alarm::camera_refuses_value(choice, entry));
 }
 
 std::optional<std::string> AravisFeatures::chosen(const Feature& choice) const {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/process/clocks.h"
+#include "conditions/alarms.h"
 #include "edge/camera/tai_reference.h"
 
 namespace ols::camera {
@@ -88,8 +89,7 @@ void AravisSession::watch(bool received, double turn_s) {
     silence_s_ = 0.0;  // there was no trigger
   } else if (silent || device_.control_lost()) {
     device_.give_up();
-    throw CameraAbsent(silent ? "camera lost: no frame arrives"
-                              : "camera lost: it no longer answers");
+    throw CameraAbsent(silent ? alarm::camera_lost() : alarm::camera_lost_answer());
   }
 }
 

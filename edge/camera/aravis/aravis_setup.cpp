@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "conditions/alarms.h"
 #include "edge/camera/aravis/aravis_error.h"
 #include "edge/camera/aravis/aravis_features.h"
 #include "edge/camera/aravis/packet_plan.h"
@@ -85,14 +86,14 @@ const char* activation_of(const std::string& configured) {
 
 void check_near(double is, double wanted, const char* what, double tolerance) {
   if (std::abs(is - wanted) > tolerance)
-    throw CameraUnfit(std::string("camera has ") + what + " " + std::to_string(is) +
-                      " instead of " + std::to_string(wanted));
+    throw CameraUnfit(alarm::camera_has_other(std::string(what) + " " + std::to_string(is),
+                                              std::to_string(wanted)));
 }
 
 void set_pace(ArvCamera* camera, const AravisConfig& config, int packet_bytes) {
   AravisError error;
   const guint payload = arv_camera_get_payload(camera, error.out());
-  error.check<CameraAbsent>("camera does not report its payload");
+  error.check<CameraAbsent>(alarm::camera_hides_payload());
   const double rate_hz = config.trigger == TriggerMode::kFreeRun
                              ? std::max(config.frame_rate_hz, kFreeRun_hz)
                              : config.frame_rate_hz;
@@ -125,23 +126,21 @@ void set_picture(ArvCamera* camera, const AravisConfig& config) {
   // By code, because names differ: RGB8 is RGB8Packed in older cameras.
   const auto wanted = static_cast<ArvPixelFormat>(*pixel_format(config.pixel_format));
   arv_camera_set_pixel_format(camera, wanted, error.out());
-  error.check<CameraUnfit>("camera refuses pixel format " + config.pixel_format);
+  error.check<CameraUnfit>(alarm::camera_refuses_format(config.pixel_format));
   const ArvPixelFormat format = arv_camera_get_pixel_format(camera, error.out());
-  error.check<CameraAbsent>("camera does not report its pixel format");
+  error.check<CameraAbsent>(alarm::camera_hides_format());
   if (format != wanted)
-    throw CameraUnfit("camera insists on pixel format " + pixel_format_name(format) +
-                      " instead of " + config.pixel_format);
+    throw CameraUnfit(alarm::camera_other_format(pixel_format_name(format), config.pixel_format));
   const std::string size = std::to_string(config.width_px) + "x" + std::to_string(config.height_px);
   arv_camera_set_region(camera, 0, 0, config.width_px, config.height_px, error.out());
-  error.check<CameraUnfit>("camera refuses size " + size);
+  error.check<CameraUnfit>(alarm::camera_refuses_size(size));
   int x = 0, y = 0, width = 0, height = 0;
   arv_camera_get_region(camera, &x, &y, &width, &height, error.out());
-  error.check<CameraAbsent>("camera does not report its size");
+  error.check<CameraAbsent>(alarm::camera_hides_size());
   if (width != config.width_px || height != config.height_px)
-    throw CameraUnfit("camera insists on size " + std::to_string(width) + "x" +
-                      std::to_string(height) + " instead of " + size);
+    throw CameraUnfit(alarm::camera_other_size(width, height, size));
   arv_camera_set_acquisition_mode(camera, ARV_ACQUISITION_MODE_CONTINUOUS, error.out());
-  error.check<CameraUnfit>("camera refuses continuous acquisition");
+  error.check<CameraUnfit>(alarm::camera_refuses_acquisition());
 }
 
 void set_trigger(ArvCamera* camera, const AravisConfig& config) {
@@ -171,7 +170,7 @@ ExposureSetting set_exposure(ArvCamera* camera, const ExposureSetting& setting) 
   const AravisFeatures features(camera);
   features.set_number(kExposureTime, setting.exposure_us);
   const auto exposure_us = features.number(kExposureTime);
-  if (!exposure_us) throw CameraAbsent("camera does not report its exposure");
+  if (!exposure_us) throw CameraAbsent(alarm::camera_hides_exposure());
   if (!features.has(kGain)) return {.exposure_us = *exposure_us};
   features.set_number(kGain, setting.gain_dB);
   return {.exposure_us = *exposure_us, .gain_dB = features.number(kGain).value_or(setting.gain_dB)};
@@ -209,7 +208,7 @@ void set_ptp(ArvCamera* camera, const AravisConfig& config) {
   } else if (features.has(kPtpEnable)) {
     features.set_flag(kPtpEnable, on);
   } else if (on) {
-    throw CameraUnfit("camera has no PTP");
+    throw CameraUnfit(alarm::camera_has_no("PTP"));
   }
 }
 
@@ -225,13 +224,13 @@ void set_transport(ArvCamera* camera, const AravisConfig& config) {
   arv_camera_gv_set_packet_size_adjustment(camera, ARV_GV_PACKET_SIZE_ADJUSTMENT_NEVER);
   if (packet_size != 0) {
     arv_camera_gv_set_packet_size(camera, packet_size, error.out());
-    error.check<CameraUnfit>("camera refuses packets of " + std::to_string(packet_size) + " bytes");
+    error.check<CameraUnfit>(alarm::camera_refuses_packets(packet_size));
   } else {
     // By test packets. A camera that does not support them keeps its size.
     arv_camera_gv_auto_packet_size(camera, error.out());
   }
   const guint size = arv_camera_gv_get_packet_size(camera, error.out());
-  error.check<CameraAbsent>("camera does not report its packet size");
+  error.check<CameraAbsent>(alarm::camera_hides_packet_size());
   set_pace(camera, config, static_cast<int>(size));
 }
 

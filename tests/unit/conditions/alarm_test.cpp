@@ -37,15 +37,15 @@ TEST(Alarm, IsTheSameByItsSubjectWhateverElseChanges) {
             alarm_of(alarm::ptu_supply_low(11.4)).key());
   EXPECT_EQ(alarm_of(alarm::gnss_silent("59 s", "position kept")).key(),
             alarm_of(alarm::gnss_silent("2 min", "position kept")).key());
-  EXPECT_NE(alarm_of(alarm::station_ahead("s1", "3.0")).key(),
-            alarm_of(alarm::station_ahead("s2", "3.0")).key());
+  EXPECT_NE(alarm_of(alarm::station_ahead("s1", 3.0)).key(),
+            alarm_of(alarm::station_ahead("s2", 3.0)).key());
   EXPECT_NE(alarm_of(alarm::view_changed(1)).key(), alarm_of(alarm::view_changed(2)).key());
   EXPECT_NE(alarm_of(alarm::commands_refused(3, "slews", 10, "stale")).key(),
             alarm_of(alarm::commands_refused(3, "slews", 10, "replayed")).key());
 }
 
 TEST(Alarm, KeepsItsSubjectInItsGist) {
-  EXPECT_EQ(alarm_of(alarm::station_ahead("s1", "3.0")).gist(),
+  EXPECT_EQ(alarm_of(alarm::station_ahead("s1", 3.0)).gist(),
             "station s1: not used, its stamps are … s ahead of the others'");
 }
 
@@ -58,7 +58,7 @@ struct Status {
 // A program of another version has other words for it.
 TEST(Alarm, IsInAMessageByItsIdWhateverItsWords) {
   Status status;
-  set_alarms({alarm::image_too_dark(), alarm::station_ahead("s1", "3.0")}, status);
+  set_alarms({alarm::image_too_dark(), alarm::station_ahead("s1", 3.0)}, status);
   status.alarm[1] = "s1 lives in the future";
   const std::vector<Alarm> alarms = alarms_of(status);
   ASSERT_EQ(alarms.size(), 2U);
@@ -68,13 +68,13 @@ TEST(Alarm, IsInAMessageByItsIdWhateverItsWords) {
 
 TEST(Alarm, OfALogOfBeforeIsFoundByItsWords) {
   Status status;
-  status.alarm = {alarm::station_ahead("s1", "3.0")};
+  status.alarm = {alarm::station_ahead("s1", 3.0)};
   EXPECT_EQ(alarms_of(status).at(0).key(), "station_ahead s1");
 }
 
 TEST(Alarm, OfAForgedMessageTakesNoParametersOfNobody) {
   Status status;
-  set_alarms({alarm::station_ahead("s1", "3.0")}, status);
+  set_alarms({alarm::station_ahead("s1", 3.0)}, status);
   status.alarm_parameter_of = {-1, 7};
   EXPECT_TRUE(alarms_of(status).at(0).parameters.empty());
 }

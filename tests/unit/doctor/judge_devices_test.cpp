@@ -74,7 +74,7 @@ TEST(DoctorOnDevices, ALineThatCannotBeUsedNamesTheReason) {
     const char* advice;
   };
   for (const Case& c : {Case{ENOENT, "plug the adapter in"}, Case{EACCES, "group dialout"},
-                        Case{ENOTTY, "correct the device"}, Case{EIO, "supply"}}) {
+                        Case{ENOTTY, "correct the device"}, Case{EIO, "supply voltage"}}) {
     PtuAnswers ptu = good_ptu();
     ptu.serial.error = c.error;
     EXPECT_EQ(judge(ptu).size(), 1U);
@@ -100,7 +100,8 @@ TEST(DoctorOnDevices, AReportedDeviceKeepsItsWordsAndGetsAdvice) {
   gnss.state = device::DeviceState::kFault;
   gnss.text = "no fix";
   gnss.last_error = "no report for 6 s";
-  EXPECT_THAT(line(judge(gnss)), HasSubstr("FAIL  gnss: no fix (no report for 6 s)  — check gpsd"));
+  EXPECT_THAT(line(judge(gnss)),
+              HasSubstr("FAIL  gnss: no fix (no report for 6 s)  — systemctl status gpsd"));
   gnss.state = device::DeviceState::kStarting;
   EXPECT_EQ(judge(gnss).verdict, Verdict::kWarn);
   device::DeviceReport ptu = gnss;

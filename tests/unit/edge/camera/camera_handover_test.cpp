@@ -62,7 +62,7 @@ TEST_F(CameraHandoverTest, ATriggerIsTakenOnce) {
 TEST_F(CameraHandoverTest, AGoodFrameEndsAFault) {
   handover_.note_refused("a size of 4 x 4", 0, statistics_);
   EXPECT_EQ(handover_.facts().state, CameraState::kFault);
-  EXPECT_EQ(handover_.facts().fault, "a size of 4 x 4");
+  EXPECT_EQ(handover_.facts().fault, "camera: frames are refused: a size of 4 x 4");
   handover_.publish(numbered(1), 0, statistics_);
   EXPECT_EQ(handover_.facts().state, CameraState::kStreaming);
   EXPECT_EQ(handover_.facts().fault, "");

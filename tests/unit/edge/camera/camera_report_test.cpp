@@ -54,11 +54,11 @@ TEST(CameraReport, SilenceIsReportedWithinASecond) {
   EXPECT_EQ(report.state, device::DeviceState::kFault);
   CameraFacts lost = streaming();
   lost.state = CameraState::kAbsent;
-  lost.last_error = "camera lost: no frame arrives";
+  lost.last_error = "camera: lost: no frame arrives";
   const device::DeviceReport later = make_camera_report(CameraConfig{}, lost, 99.95 + 2.1);
   EXPECT_THAT(later.alarms, ElementsAre("camera: no frames for 2.1 s"));
   EXPECT_EQ(later.state, device::DeviceState::kAbsent);
-  EXPECT_EQ(later.text, "camera lost: no frame arrives");
+  EXPECT_EQ(later.text, "lost: no frame arrives");
 }
 
 TEST(CameraReport, ACameraThatWaitsForATriggerIsNotLost) {
@@ -91,7 +91,7 @@ TEST(CameraReport, WhatHoldsIsAnAlarm) {
                           "camera: PTP differs from the camera's latched clock by -1.0000 s"));
   CameraFacts unfit = streaming();
   unfit.state = CameraState::kFault;
-  unfit.fault = "camera insists on pixel format BayerRG8 instead of Mono8";
+  unfit.fault = "camera: insists on pixel format BayerRG8 instead of Mono8";
   EXPECT_THAT(make_camera_report(CameraConfig{}, unfit, 100.0).alarms,
               ElementsAre("camera: insists on pixel format BayerRG8 instead of Mono8"));
 }

@@ -6,12 +6,15 @@
 #include <atomic>
 #include <stdexcept>
 
+#include "conditions/alarms.h"
 #include "tests/unit/eventually.h"
 
 namespace ols::device {
 namespace {
 
-DeviceThread::Config quick() { return {"gnss", "is being connected", 0.001, 0.004}; }
+DeviceThread::Config quick() {
+  return {"gnss", "is being connected", 0.001, 0.004, alarm::gnss_fails};
+}
 
 // Serves until the stop is requested or it is no longer there.
 struct Device {

@@ -82,6 +82,8 @@ TEST(StationMessages, OneStatusTellsAll) {
   ASSERT_EQ(again.decode(bytes.data(), 0, static_cast<int>(bytes.size())),
             static_cast<int>(bytes.size()));
   EXPECT_EQ(again.alarm, status.alarm);
+  EXPECT_EQ(again.alarm_id, (std::vector<std::string>{"", "gnss_fails"}));
+  EXPECT_EQ(again.alarm_parameter_value, std::vector<std::string>{"no fix"});
 }
 
 TEST(StationMessages, APositionThatIsNotKnownIsNotTold) {

@@ -68,7 +68,7 @@ TEST_F(PoseStoreTest, ADamagedFileIsRefusedUntilItIsWrittenAnew) {
   std::ofstream(file) << "ols-pose 1\nposition 4";
   PoseStore memory(file);
   EXPECT_FALSE(memory.found().position);
-  EXPECT_EQ(memory.trouble(), "saved pose refused: " + file + ": is damaged: wrong checksum");
+  EXPECT_EQ(memory.trouble(), "pose: saved pose refused: " + file + ": is damaged: wrong checksum");
   memory.keep(pose);
   EXPECT_TRUE(eventually([&] { return memory.trouble().empty(); }));
   EXPECT_TRUE(holds(pose));
@@ -77,7 +77,7 @@ TEST_F(PoseStoreTest, ADamagedFileIsRefusedUntilItIsWrittenAnew) {
 TEST_F(PoseStoreTest, AFolderThatIsNotThereIsATrouble) {
   PoseStore memory(folder + "/none/a.pose");
   memory.keep(pose);
-  EXPECT_TRUE(eventually([&] { return memory.trouble().starts_with("cannot be saved: "); }));
+  EXPECT_TRUE(eventually([&] { return memory.trouble().starts_with("pose: cannot be saved: "); }));
   EXPECT_NE(memory.trouble().find("/none/a.pose"), std::string::npos) << memory.trouble();
 }
 
