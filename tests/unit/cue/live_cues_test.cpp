@@ -21,7 +21,7 @@ Report good(const std::string& name = "a") {
   return report;
 }
 
-LiveCues desk(int most = 8) {
+LiveCues live_cues(int most = 8) {
   InputRules rules;
   rules.name = "tak";
   rules.area_deg = {49.0, 16.0, 90.0, 17.0};
@@ -29,7 +29,7 @@ LiveCues desk(int most = 8) {
 }
 
 void expect_refused(const Report& report, const char* why, std::int64_t now_us = kNow_us) {
-  LiveCues fresh = desk();
+  LiveCues fresh = live_cues();
   fresh.take(0, {report}, now_us);
   EXPECT_TRUE(fresh.live(now_us).empty()) << why;
   EXPECT_EQ(fresh.counts()[0].refused.at(why), 1) << why;
@@ -38,7 +38,7 @@ void expect_refused(const Report& report, const char* why, std::int64_t now_us =
 }
 
 TEST(LiveCues, FillsInWhatASourceDoesNotSay) {
-  LiveCues one = desk();
+  LiveCues one = live_cues();
   Report report = good("x\n\x1b[2J");
   one.take(0, {report}, kNow_us);
   report = good("b");
@@ -102,7 +102,7 @@ TEST(LiveCues, RefusesWhatIsNotOfThePresent) {
 }
 
 TEST(LiveCues, ACueLastsAsLongAsItsSourceStandsByIt) {
-  LiveCues one = desk();
+  LiveCues one = live_cues();
   Report report = good();
   report.stale_us = kNow_us + 3'000'000;
   one.take(0, {report, good("b")}, kNow_us);
@@ -112,7 +112,7 @@ TEST(LiveCues, ACueLastsAsLongAsItsSourceStandsByIt) {
 }
 
 TEST(LiveCues, AnOvertakenPlaceIsStaleAndAFullDeskSaysSo) {
-  LiveCues one = desk(2);
+  LiveCues one = live_cues(2);
   Report newer = good();
   newer.utime_us += 500'000;
   newer.height_m = 500.0;
@@ -141,7 +141,7 @@ TEST(LiveCues, OneInputDoesNotTakeTheOthersPlaces) {
 }
 
 TEST(LiveCues, DifferentObjectsStayDifferent) {
-  LiveCues one = desk();
+  LiveCues one = live_cues();
   one.take(0, {good("\xc5\x99"), good("\xc5\x88"), good("??")}, kNow_us);
   const auto live = one.live(kNow_us);
   ASSERT_EQ(live.size(), 3U);
@@ -155,7 +155,7 @@ TEST(LiveCues, DifferentObjectsStayDifferent) {
 
 TEST(LiveCues, AClockThatIsSetBackLeavesNothingInTheFuture) {
   constexpr std::int64_t kBack_us = 5'000'000;
-  LiveCues one = desk();
+  LiveCues one = live_cues();
   one.take(0, {good()}, kNow_us);
   Report fresh = good();
   fresh.utime_us -= kBack_us;
@@ -167,7 +167,7 @@ TEST(LiveCues, AClockThatIsSetBackLeavesNothingInTheFuture) {
 }
 
 TEST(LiveCues, CountsWhatAReaderRefused) {
-  LiveCues one = desk();
+  LiveCues one = live_cues();
   one.take(0, {Refused{Refusal::kOwn, "brno.target.1.7"}}, kNow_us);
   EXPECT_EQ(one.counts()[0].refused.at("own"), 1);
 }
