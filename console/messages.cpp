@@ -1,9 +1,11 @@
 #include "console/messages.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/bus/channel_names.h"
+#include "base/bus/message_code.h"
 #include "base/text/plain_text.h"
 #include "conditions/alarm.h"
 #include "console/map_geometry.h"
@@ -59,17 +61,6 @@ Json lens_of(const Status& s) {
           {"iris", rounded(s.lens_position[2], 4)},
           {"focal_length_px", rounded(s.focal_length_px, 1)},
           {"focal_length_sd_px", rounded(s.focal_length_sd_px, 2)}};
-}
-
-const char* kind_of(const Status& s) {
-  switch (s.kind) {
-    case Status::KIND_OVERVIEW:
-      return "overview";
-    case Status::KIND_FIXED:
-      return "fixed";
-    default:
-      return "tracking";
-  }
 }
 
 // The alarms, and the keys by which the page finds their rows of the table and their events.
@@ -138,7 +129,7 @@ void add_pointing(const Status& s, Json& fields) {
   fields["image_px"] = {s.image_width_px, s.image_height_px};
   fields["pan_sign"] = s.pan_sign;
   fields["tilt_sign"] = s.tilt_sign;
-  fields["kind"] = kind_of(s);
+  fields["kind"] = word_of_code(s.kind, std::array{"tracking", "overview", "fixed"}, "tracking");
   fields["lens"] = lens_of(s);
   fields["field_of_view_deg"] = {angle_deg(s.field_of_view_rad[0]),
                                  angle_deg(s.field_of_view_rad[1])};

@@ -1,9 +1,12 @@
 #include "export/text.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+
+#include "base/bus/message_code.h"
 
 namespace ols::exports {
 namespace {
@@ -75,33 +78,12 @@ std::string xml(std::string_view text) {
 }
 
 const char* to_string(TrackState state) {
-  switch (state) {
-    case TrackState::kTentative:
-      return "tentative";
-    case TrackState::kCoasted:
-      return "coasted";
-    case TrackState::kEnded:
-      return "ended";
-    case TrackState::kConfirmed:
-      break;
-  }
-  return "confirmed";
+  return word_of_code(code(state), std::array{"tentative", "confirmed", "coasted", "ended"});
 }
 
 const char* to_string(ObjectClass object_class) {
-  switch (object_class) {
-    case ObjectClass::kDrone:
-      return "UAV";
-    case ObjectClass::kBird:
-      return "Bird";
-    case ObjectClass::kAircraft:
-      return "Aircraft";
-    case ObjectClass::kOther:
-      return "Other";
-    case ObjectClass::kUnknown:
-      break;
-  }
-  return "Unknown";
+  return word_of_code(code(object_class),
+                      std::array{"Unknown", "UAV", "Bird", "Aircraft", "Other"});
 }
 
 std::string callsign(const Target& target) { return "OLS " + std::to_string(target.id); }

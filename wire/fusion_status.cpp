@@ -1,5 +1,8 @@
 #include "wire/fusion_status.h"
 
+#include <array>
+
+#include "base/bus/message_code.h"
 #include "base/text/plain_text.h"
 #include "wire/read.h"
 
@@ -18,11 +21,7 @@ std::optional<ols_msg::fusion_status_t> heard_fusion_status(const BusMessage& me
 }
 
 const char* cue_state_name(std::int8_t state) {
-  using M = ols_msg::fusion_status_t;
-  return state == M::CUE_WAITING    ? "waiting"
-         : state == M::CUE_SEARCHED ? "searched"
-         : state == M::CUE_FOUND    ? "found"
-                                    : "forbidden";
+  return word_of_code(state, std::array{"waiting", "searched", "found", "forbidden"}, "forbidden");
 }
 
 }  // namespace ols::wire

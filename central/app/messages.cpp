@@ -104,6 +104,8 @@ void fill_appearance(const Appearance& appearance, ols_msg::target_t& message) {
   message.signal = appearance.signal;
 }
 
+static_assert(code(Solution::kRaysMiss) == ols_msg::target_t::SOLUTION_RAYS_MISS);
+static_assert(code(TrackState::kDeleted) == ols_msg::target_t::TRACK_DROPPED);
 static_assert(code(CalibrationState::kDoubted) == ols_msg::station_status_t::CALIBRATION_DOUBTED);
 static_assert(code(StationClock::kUnsynchronised) == ols_msg::bearing_t::CLOCK_UNSYNCHRONISED);
 static_assert(code(CueState::kForbidden) == ols_msg::fusion_status_t::CUE_FORBIDDEN);

@@ -2,7 +2,9 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 
+#include "base/bus/message_code.h"
 #include "geometry/angles.h"
 #include "geometry/wgs84.h"
 
@@ -30,25 +32,9 @@ Eigen::Matrix2d systematic_covariance(const Ray& ray, double range_m) {
 }
 
 const char* to_string(Solution solution) {
-  switch (solution) {
-    case Solution::kOk:
-      return "ok";
-    case Solution::kTooFewRays:
-      return "too-few-rays";
-    case Solution::kParallelRays:
-      return "parallel-rays";
-    case Solution::kBehindCamera:
-      return "behind-camera";
-    case Solution::kTooFar:
-      return "too-far";
-    case Solution::kNotConverged:
-      return "not-converged";
-    case Solution::kBearingOnly:
-      return "bearing-only";
-    case Solution::kRaysMiss:
-      return "rays-miss";
-  }
-  return "unknown";
+  return word_of_code(code(solution),
+                      std::array{"ok", "too-few-rays", "parallel-rays", "behind-camera", "too-far",
+                                 "not-converged", "bearing-only", "rays-miss"});
 }
 
 double crossing_angle(const std::vector<Ray>& rays, const std::vector<RayUse>& use) {

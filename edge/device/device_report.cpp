@@ -1,19 +1,13 @@
 #include "edge/device/device_report.h"
 
+#include <array>
+
+#include "base/bus/message_code.h"
+
 namespace ols::device {
 
 const char* to_string(DeviceState state) {
-  switch (state) {
-    case DeviceState::kAbsent:
-      return "absent";
-    case DeviceState::kStarting:
-      return "starting";
-    case DeviceState::kOk:
-      return "ok";
-    case DeviceState::kFault:
-      return "fault";
-  }
-  return "unknown";
+  return word_of_code(code(state), std::array{"absent", "starting", "ok", "fault"});
 }
 
 }  // namespace ols::device

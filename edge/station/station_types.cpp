@@ -1,32 +1,17 @@
 #include "edge/station/station_types.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "base/bus/message_code.h"
 #include "geometry/angles.h"
 
 namespace ols::station {
 
 const char* to_string(StationState state) {
-  switch (state) {
-    case StationState::kIdle:
-      return "idle";
-    case StationState::kManual:
-      return "manual";
-    case StationState::kTracking:
-      return "tracking";
-    case StationState::kCoasting:
-      return "coasting";
-    case StationState::kLost:
-      return "lost";
-    case StationState::kSlewed:
-      return "slewed";
-    case StationState::kStopped:
-      return "stopped";
-    case StationState::kEmergency:
-      return "emergency";
-  }
-  return "unknown";
+  return word_of_code(code(state), std::array{"idle", "manual", "tracking", "coasting", "lost",
+                                              "slewed", "stopped", "emergency"});
 }
 
 const char* to_string(Refusal refusal) {
