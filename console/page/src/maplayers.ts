@@ -128,7 +128,7 @@ export class AccuracyLayer {
   private async showPlan(id: string, above_m: number, isNewest: () => boolean): Promise<boolean> {
     if (!this.plans.has(id)) {
       const response = await fetch(`/api/maps/${encodeURIComponent(id)}/accuracy`).catch(() => null);
-      if (!response?.ok) return false;
+      if (!response?.ok) return !isNewest();
       this.plans.set(id, await response.json());
     }
     if (!isNewest()) return true;
