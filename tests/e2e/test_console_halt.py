@@ -1,5 +1,6 @@
 """The link between the browser and the console is cut while the operator holds the joystick: a real
-station's unit is at rest within lease + v/a, by the simulator's truth of its shaft."""
+station's unit comes to rest and stays there, by the simulator's truth of its shaft. How soon is
+judged in simulated time (tests/unit/edge/station/station_rate_test.cpp)."""
 
 import time
 
@@ -19,11 +20,8 @@ from playwright.sync_api import expect
 
 STATION = "alfa"
 SCENARIO = ROOT / "sim/scenarios/fig7.toml"
-LEASE_S = 0.3
-ACCELERATION_RAD_S2 = 1.0  # acceleration_deg_s2 of docs/configuration.md
 STANDING_RAD_S = 0.002  # a twentieth of the rate that is held
 BY_S = 0.02  # over which a rate of the shaft is taken
-RUNS = 3
 PATIENCE_S = 60.0
 
 
@@ -46,6 +44,11 @@ class Shaft(Observer):
         step = max(1, round(BY_S / np.median(np.diff(time_s))))
         turned = (pan_rad[step:] - pan_rad[:-step]) / (time_s[step:] - time_s[:-step])
         return time_s[step:], np.abs(turned)
+
+    def stands_since(self, cut_s):
+        """Half a second after the cut at the least, and for as long."""
+        until_s = self.samples[-1][0]
+        return until_s > cut_s + 1.0 and self.rates(until_s - 0.5)[1].max() < STANDING_RAD_S
 
 
 @pytest.fixture
@@ -101,36 +104,25 @@ def turn(page, shaft, bus, key):
     listen(bus, turns, seen)
 
 
-def halt(page, cable, shaft, bus, key):
-    """Cuts the link in the middle of a hold: the rate then [rad/s], and until when it moved [s]."""
-    turn(page, shaft, bus, key)
-    cut_s = cable.cut()
-    listen(bus, lambda: shaft.samples[-1][0] > cut_s + 2.5, lambda: "two more seconds of truth")
-    times, rates = shaft.rates(cut_s - 0.1)
-    moving = times[rates > STANDING_RAD_S]
-    rate = float(np.median(rates[times < cut_s]))
-    # And it stays there, whatever is still held, and by the station's own word.
-    cable.mend()
-    expect(page.get_by_text("No connection to the console")).to_be_hidden()
-    status, angle = shaft.status[STATION], shaft.samples[-1][1]
-    listen(
-        bus, lambda: shaft.status[STATION].utime > status.utime + 1_500_000, lambda: "its status"
-    )
-    assert shaft.samples[-1][1] == pytest.approx(angle, abs=1e-4)
-    assert shaft.status[STATION].pan_rad == pytest.approx(status.pan_rad, abs=1e-3)
-    page.keyboard.up(key)
-    return rate, float(moving[-1] - cut_s)
-
-
-def test_a_cut_link_during_a_hold_leaves_the_unit_at_rest_in_time(site):
+def test_a_cut_link_during_a_hold_leaves_the_unit_at_rest(site):
     shaft = Shaft()
     bus = Bus(LIVE_URL, shaft.receive, members_of_environment())
     with Cable(site) as cable, browser() as chromium:
         page = chromium.new_page(viewport={"width": 1280, "height": 800})
         page.goto(cable.address)
-        for run in range(RUNS):
-            picture(page, STATION).focus()
-            rate, rest_s = halt(page, cable, shaft, bus, ["ArrowRight", "ArrowLeft"][run % 2])
-            print(f"at {rate:.3f} rad/s: moves for {rest_s:.3f} s after the cut")
-            assert rate > 10 * STANDING_RAD_S
-            assert rest_s <= LEASE_S + rate / ACCELERATION_RAD_S2 + BY_S
+        picture(page, STATION).focus()
+        turn(page, shaft, bus, "ArrowRight")
+        cut_s = cable.cut()
+        stands = lambda: shaft.stands_since(cut_s)  # noqa: E731
+        listen(bus, stands, lambda: "the unit at rest")
+        no_connection = page.get_by_text("No connection to the console")
+        expect(no_connection).to_be_visible()
+        # And it stays there, whatever is still held, and by the station's own word.
+        cable.mend()
+        expect(no_connection).to_be_hidden()
+        status, angle = shaft.status[STATION], shaft.samples[-1][1]
+        later = lambda: shaft.status[STATION].utime > status.utime + 1_500_000  # noqa: E731
+        listen(bus, later, lambda: "its status")
+        assert shaft.samples[-1][1] == pytest.approx(angle, abs=1e-4)
+        assert shaft.status[STATION].pan_rad == pytest.approx(status.pan_rad, abs=1e-3)
+        page.keyboard.up("ArrowRight")
