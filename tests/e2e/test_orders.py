@@ -1,22 +1,17 @@
 """Orders are answered by their station at once, whatever the interval of its statuses."""
 
-import time
-
 import pytest
 from conftest import BIN, finished
 from console_site import Api
 from ols_bench import orders
 
-NOT_HEARD_S = 50.0  # before the second status
-
 
 @pytest.fixture(scope="module")
 def address(network, tmp_path_factory):
-    """Of a console that has heard one status of a station, and will hear the next in a minute."""
+    """Of a console that has heard one status of a station, and will hear the next in a minute: no
+    answer may take as long."""
     with orders.site(tmp_path_factory.mktemp("orders"), 60.0) as console:
-        begin_s = time.monotonic()
         yield console
-        assert time.monotonic() < begin_s + NOT_HEARD_S, "too slow a machine to tell"
 
 
 def ctl(*words):
