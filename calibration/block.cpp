@@ -144,6 +144,16 @@ class LevelBlock : public Block {
 
 }  // namespace
 
+StationModel posed_model(const State& state, const Sighting& sighting) {
+  StationModel model = state.stations[sighting.station].model;
+  if (sighting.pose) {
+    const Vector2d& off_rad = state.poses[*sighting.pose];
+    model.geometry.chain.pan_zero_rad += off_rad[0];
+    model.geometry.chain.tilt_zero_rad += off_rad[1];
+  }
+  return model;
+}
+
 BlockEquations eliminated(const MatrixXd& N, const VectorXd& b, double squares, Index columns,
                           Index shift, double damping) {
   const Index kept = columns + shift, nuisance = N.rows() - kept;

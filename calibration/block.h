@@ -53,9 +53,11 @@ class Block {
   virtual std::vector<BlockEquations> without_each(const State&, std::size_t) const { return {}; }
 };
 
+// The station's model at a sighting: the errors of a shared pose are turns of the two shafts.
+StationModel posed_model(const State& state, const Sighting& sighting);
+
 struct PixelBlockConfig {
   Layout layout;
-  std::vector<double> pose_sd_rad;  // by station: of a pose with only one sighting
   bool robust = false;
   bool absolute = true;  // a person has stated where its target is
 };

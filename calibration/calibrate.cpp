@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
-#include <set>
 
 #include "calibration/parameter_change.h"
 #include "calibration/snooping.h"
@@ -14,72 +13,8 @@
 namespace ols::calibration {
 namespace {
 
-constexpr double kPower = 0.8;
-
-bool is_finite(const Fit& fit) {
-  return std::isfinite(fit.misfit) && fit.covariance.allFinite() &&
-         (fit.covariance.diagonal().array() >= 0.0).all();
-}
-
 // Nothing of a fit is accepted before this.
 bool is_settled(const Fit& fit) { return fit.converged && is_finite(fit); }
-
-// The groups of the tests' kinds whose statistic is worst over their critical value; none above 1.
-class Snooping {
- public:
-  Snooping(const Adjustment& adjustment, const Levels& levels, const TellAdjusted& tell)
-      : adjustment_(adjustment), levels_(levels), tell_(tell) {}
-
-  Fit run() {
-    const Start start = find_start(adjustment_, levels_.mistaken);
-    Fit fit = adjustment_.fit(start.state, start.kept);
-    // Each round rejects one group or takes one back; a set that was tried before ends it.
-    // Observations that contradict each other may not converge before some are rejected.
-    while (is_finite(fit) && tried_.insert(fit.kept).second) {
-      if (tell_) tell_();
-      const auto change = next_change(fit);
-      if (!change) break;
-      std::vector<bool> kept = fit.kept;
-      kept[*change].flip();
-      fit = adjustment_.fit(fit.state, kept);
-    }
-    return fit;
-  }
-
- private:
-  double over_critical(const Fit& fit, std::size_t g) const {
-    const auto& groups = adjustment_.groups();
-    return test_statistic(adjustment_, fit, g) /
-           critical_value(groups[g], groups.size(), levels_.mistaken);
-  }
-  // First what passes is taken back, the best first: the heading may rest on one group yet.
-  std::optional<std::size_t> next_change(const Fit& fit) const {
-    std::optional<std::size_t> best, worst;
-    double least = 1.0, most = 1.0;
-    for (std::size_t g = 0; g < fit.kept.size(); ++g) {
-      if (!adjustment_.groups()[g].is_tested()) continue;
-      const double over = over_critical(fit, g);
-      if (!fit.kept[g] && over < least) {
-        best = g;
-        least = over;
-      } else if (fit.kept[g] && over > most) {
-        worst = g;
-        most = over;
-      }
-    }
-    if (best && !after(fit.kept, *best)) return best;
-    return worst;
-  }
-  bool after(std::vector<bool> kept, std::size_t g) const {
-    kept[g].flip();
-    return tried_.contains(kept);
-  }
-
-  const Adjustment& adjustment_;
-  Levels levels_;
-  const TellAdjusted& tell_;
-  std::set<std::vector<bool>> tried_;
-};
 
 std::string label(const Group& group) {
   return std::string(name(group.kind)) + (group.name.empty() ? "" : " '" + group.name + "'");
@@ -195,23 +130,6 @@ ModelTest global_test(const Adjustment& adjustment, const Fit& fit, double level
   return test;
 }
 
-std::vector<GroupTest> tests_of(const Adjustment& adjustment, const Fit& fit,
-                                const Levels& levels) {
-  std::vector<GroupTest> tests(adjustment.groups().size());
-  for (std::size_t g = 0; g < tests.size(); ++g) {
-    const Group& group = adjustment.groups()[g];
-    if (!group.is_tested()) continue;
-    const double critical = critical_value(group, tests.size(), levels.mistaken);
-    tests[g].rejected = !fit.kept[g];
-    tests[g].w = std::sqrt(std::max(0.0, test_statistic(adjustment, fit, g)));
-    tests[g].critical = std::sqrt(critical);
-    tests[g].detectable_rad = detectable_rad(
-        adjustment, fit, g,
-        least_noncentrality(critical, std::max(1, group.degrees_of_freedom), kPower));
-  }
-  return tests;
-}
-
 void add_residuals(const Adjustment& adjustment, Calibration& result) {
   std::size_t most = 0;
   for (const Group& group : adjustment.groups()) {
@@ -291,7 +209,8 @@ StationMatrix Calibration::covariance(const Network& network, std::size_t statio
 Calibration calibrate(const Adjustment& adjustment, const Levels& levels,
                       const TellAdjusted& tell) {
   Calibration result;
-  result.fit = Snooping(adjustment, levels, tell).run();
+  result.fit =
+      snoop(adjustment, find_start(adjustment, levels.mistaken), {.level = levels.mistaken}, tell);
   if (!is_settled(result.fit)) throw std::invalid_argument("the adjustment does not converge");
   check_majority(adjustment, result.fit);
   result.headings_known = !tells_instrument_alone(adjustment);
@@ -302,7 +221,7 @@ Calibration calibrate(const Adjustment& adjustment, const Levels& levels,
         "the observations do not determine a heading: the result is an instrument without a setup");
   }
   check_ambiguity(adjustment, result.fit, levels);
-  result.tests = tests_of(adjustment, result.fit, levels);
+  result.tests = tests_of(adjustment, result.fit, levels.mistaken);
   result.global = global_test(adjustment, result.fit, levels.misfit);
   if (result.global.variance_factor > result.global.critical) {
     result.scaled_by = std::sqrt(result.global.variance_factor);

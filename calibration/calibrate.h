@@ -7,26 +7,16 @@
 // not tested: a robust weight reduces those that do not fit.
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 
-#include "calibration/adjustment.h"
+#include "calibration/snooping.h"
 
 namespace ols::calibration {
 
 struct Levels {
   double mistaken = 1e-3;  // for the tests of all groups together
   double misfit = 0.05;    // for the global test
-};
-
-struct GroupTest {
-  bool rejected = false;
-  double w = 0.0;  // root of a chi-square with the group's degrees of freedom
-  double critical = 0.0;
-  // Minimal detectable bias (power 80 %) of the direction to the target: across, up. Infinite where
-  // the others do not check it.
-  Eigen::Vector2d detectable_rad = Eigen::Vector2d::Zero();
 };
 
 // The global test (overall model test) of the groups that are not rejected.
@@ -55,8 +45,6 @@ struct Calibration {
 class Contradiction : public std::invalid_argument {
   using std::invalid_argument::invalid_argument;
 };
-
-using TellAdjusted = std::function<void()>;
 
 // Throws Contradiction, and std::invalid_argument if a heading stays unknown. `tell` is called
 // after each adjustment.

@@ -133,7 +133,13 @@ class Builder {
 
   Sighting sighting_of(std::size_t i) const {
     const Observation& one = problem_.observations[i];
-    return {one.station, one.utime_us, one.reading, one.pixel, one.sd_px, poses_.of(i)};
+    return {one.station,
+            one.utime_us,
+            one.reading,
+            one.pixel,
+            one.sd_px,
+            poses_.of(i),
+            problem_.stations[one.station].pose_sd_rad};
   }
 
   TargetPtr target_of(const Observation& one) const {
@@ -261,7 +267,6 @@ class Builder {
   void add_block(Group& group, const std::vector<std::size_t>& members) {
     PixelBlockConfig config;
     config.layout = network_.layout;
-    config.pose_sd_rad = pose_sds();
     config.robust = group.kind == Kind::kScene;
     config.absolute = group.is_absolute();
     std::vector<Sighting> sightings;
@@ -294,7 +299,7 @@ class Builder {
       check_pixel(one);
       sightings.push_back({sighting_of(i), one.target, one.reference});
     }
-    const PixelBlockConfig config{network_.layout, pose_sds(), false, false};
+    const PixelBlockConfig config{network_.layout, false, false};
     if (group.kind == Kind::kLevelLine) {
       take(group, members, level_line_block(config, std::move(sightings)));
     } else if (group.kind == Kind::kCross) {
@@ -324,12 +329,6 @@ class Builder {
     if (farthest >= kApart * nearest) return;
     refuse(problem_, problem_.observations[members.front()], "distance_m",
            "two rulers are needed, the second at least a fifth farther away than the first");
-  }
-
-  std::vector<double> pose_sds() const {
-    std::vector<double> sds;
-    for (const StationPrior& station : problem_.stations) sds.push_back(station.pose_sd_rad);
-    return sds;
   }
 
   void take(Group& group, const std::vector<std::size_t>& members, BlockPtr block) {

@@ -22,13 +22,6 @@ using Eigen::VectorXd;
 // (Huber): features that were matched wrongly, things that moved.
 constexpr double kRobust = 2.5;
 
-// A shared pose's errors stand in the state as turns of the two shafts.
-StationModel posed(StationModel model, const Vector2d& off_rad) {
-  model.geometry.chain.pan_zero_rad += off_rad[0];
-  model.geometry.chain.tilt_zero_rad += off_rad[1];
-  return model;
-}
-
 // Across and up as seen from the station, by the target's x: as long as the ray is.
 Eigen::Matrix<double, 3, 2> shift_of(const Eigen::Vector3d& ray) {
   return ray.norm() * tangent_basis(azimuth_elevation_from_enu(ray));
@@ -136,8 +129,9 @@ void PixelBlock::fill(const Sighting& one, const PixelPrediction& image, const T
 Matrix2d PixelBlock::weight(const Sighting& one, const PixelPrediction& image,
                             const TargetView& view) const {
   Matrix2d R = one.sd_px * one.sd_px * Matrix2d::Identity();
-  const double pose_sd_rad = config_.pose_sd_rad[one.station];
-  if (!one.pose) R += pose_sd_rad * pose_sd_rad * image.by_shafts * image.by_shafts.transpose();
+  if (!one.pose) {
+    R += one.pose_sd_rad * one.pose_sd_rad * image.by_shafts * image.by_shafts.transpose();
+  }
   R += view.white_sd_m * view.white_sd_m * image.by_x * image.by_x.transpose();
   return R.inverse();
 }
@@ -145,9 +139,7 @@ Matrix2d PixelBlock::weight(const Sighting& one, const PixelPrediction& image,
 bool PixelBlock::row(const State& state, const VectorXd& nuisance, const Sighting& one,
                      Row& row) const {
   const TargetView view = target_->view(state, one, nuisance);
-  const StationModel& model = state.stations[one.station].model;
-  const auto image = predict_pixel(one.pose ? posed(model, state.poses[*one.pose]) : model,
-                                   one.reading, view.point);
+  const auto image = predict_pixel(posed_model(state, one), one.reading, view.point);
   if (!image || !image->pixel.allFinite()) return false;
   row.v = image->pixel - one.pixel;
   row.W = weight(one, *image, view);

@@ -111,14 +111,8 @@ BlockEquations EquationBlock::equations(const State& state, std::size_t block,
   failed.valid = false;
   std::vector<Vector2d> residuals;
   for (const TargetSighting& one : sightings_) {
-    StationModel model = state.stations[station_].model;
-    if (one.sighting.pose) {
-      const Vector2d& off_rad = state.poses[*one.sighting.pose];
-      model.geometry.chain.pan_zero_rad += off_rad[0];
-      model.geometry.chain.tilt_zero_rad += off_rad[1];
-    }
     Equation here;
-    if (!equation(model, one, nuisance, here)) return failed;
+    if (!equation(posed_model(state, one.sighting), one, nuisance, here)) return failed;
     RowVectorXd J = RowVectorXd::Zero(size);
     J.head<kModelParameters>() = here.by_parameters;
     J.tail(sd.size()) = here.by_nuisance;
@@ -127,7 +121,7 @@ BlockEquations EquationBlock::equations(const State& state, std::size_t block,
       const auto at = std::ranges::find(columns_, config_.layout.pose(*one.sighting.pose));
       J.segment<2>(at - columns_.begin()) = here.by_shafts;
     } else {
-      variance += here.by_shafts.squaredNorm() * std::pow(config_.pose_sd_rad[station_], 2);
+      variance += here.by_shafts.squaredNorm() * std::pow(one.sighting.pose_sd_rad, 2);
     }
     N.noalias() += J.transpose() * J / variance;
     b.noalias() += J.transpose() * (here.v / variance);

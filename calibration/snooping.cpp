@@ -72,8 +72,11 @@ MatrixXd prior_covariance(const Adjustment& adjustment) {
 // Which of the groups agree with a state, by the priors.
 class Agreement {
  public:
-  Agreement(const Adjustment& adjustment, double level)
-      : adjustment_(adjustment), level_(level), prior_(prior_covariance(adjustment)) {}
+  Agreement(const Adjustment& adjustment, double level, double variance = 1.0)
+      : adjustment_(adjustment),
+        level_(level),
+        variance_(variance),
+        prior_(prior_covariance(adjustment)) {}
 
   struct Vote {
     int agree = 0;
@@ -100,7 +103,7 @@ class Agreement {
     misfit = change_of_misfit(part_of(prior_, equations.columns), equations, 1.0);
     const Group& one = adjustment_.groups()[group];
     // Linearised far from the solution: generous.
-    return misfit < 4.0 * critical_value(one, adjustment_.groups().size(), level_);
+    return misfit < 4.0 * variance_ * critical_value(one, adjustment_.groups().size(), level_);
   }
   Vote vote(State state, const std::vector<std::size_t>& groups) const {
     Vote vote;
@@ -116,7 +119,7 @@ class Agreement {
 
  private:
   const Adjustment& adjustment_;
-  double level_;
+  double level_, variance_;
   MatrixXd prior_;
 };
 
@@ -167,6 +170,62 @@ double heading_of(const Adjustment& adjustment, std::size_t station, double leve
   }
   return heading;
 }
+
+class Snooping {
+ public:
+  Snooping(const Adjustment& adjustment, const Search& search)
+      : adjustment_(adjustment), search_(search) {}
+
+  Fit run(const Start& start, const TellAdjusted& tell) {
+    Fit fit = adjustment_.fit(start.state, start.kept);
+    // Observations that contradict each other may not converge before some are rejected.
+    while (is_finite(fit) && tried_.insert(fit.kept).second) {
+      if (tell) tell();
+      const auto change = next_change(fit);
+      if (!change) break;
+      std::vector<bool> kept = fit.kept;
+      kept[*change].flip();
+      fit = adjustment_.fit(fit.state, kept);
+    }
+    return fit;
+  }
+
+ private:
+  bool is_judged(std::size_t g) const {
+    return adjustment_.groups()[g].is_tested() && (search_.among.empty() || search_.among[g]);
+  }
+  double over_critical(const Fit& fit, std::size_t g) const {
+    const auto& groups = adjustment_.groups();
+    return test_statistic(adjustment_, fit, g) /
+           (search_.variance * critical_value(groups[g], groups.size(), search_.level));
+  }
+  // First what passes is taken back, the best first: the heading may rest on one group yet.
+  std::optional<std::size_t> next_change(const Fit& fit) const {
+    std::optional<std::size_t> best, worst;
+    double least = 1.0, most = 1.0;
+    for (std::size_t g = 0; g < fit.kept.size(); ++g) {
+      if (!is_judged(g)) continue;
+      const double over = over_critical(fit, g);
+      if (!fit.kept[g] && over < least) {
+        best = g;
+        least = over;
+      } else if (fit.kept[g] && over > most) {
+        worst = g;
+        most = over;
+      }
+    }
+    if (best && !after(fit.kept, *best)) return best;
+    return worst;
+  }
+  bool after(std::vector<bool> kept, std::size_t g) const {
+    kept[g].flip();
+    return tried_.contains(kept);
+  }
+
+  const Adjustment& adjustment_;
+  const Search& search_;
+  std::set<std::vector<bool>> tried_;
+};
 
 }  // namespace
 
@@ -227,13 +286,27 @@ std::optional<Bias> bias_without(const Adjustment& adjustment, const Fit& fit, s
   return bias;
 }
 
-Start find_start(const Adjustment& adjustment, double level) {
-  const Agreement agreement(adjustment, level);
-  std::vector<double> headings = stated_headings(adjustment);
-  for (std::size_t s = 0; s < headings.size(); ++s) {
-    headings[s] = heading_of(adjustment, s, level);
+std::vector<GroupTest> tests_of(const Adjustment& adjustment, const Fit& fit, double level) {
+  constexpr double kPower = 0.8;
+  std::vector<GroupTest> tests(adjustment.groups().size());
+  for (std::size_t g = 0; g < tests.size(); ++g) {
+    const Group& group = adjustment.groups()[g];
+    if (!group.is_tested()) continue;
+    const double critical = critical_value(group, tests.size(), level);
+    tests[g].rejected = !fit.kept[g];
+    tests[g].w = std::sqrt(std::max(0.0, test_statistic(adjustment, fit, g)));
+    tests[g].critical = std::sqrt(critical);
+    tests[g].detectable_rad = detectable_rad(
+        adjustment, fit, g,
+        least_noncentrality(critical, std::max(1, group.degrees_of_freedom), kPower));
   }
-  Start start{adjustment.start(headings), std::vector<bool>(adjustment.groups().size(), true)};
+  return tests;
+}
+
+Start start_at(const Adjustment& adjustment, const std::vector<double>& headings_rad, double level,
+               double variance) {
+  const Agreement agreement(adjustment, level, variance);
+  Start start{adjustment.start(headings_rad), std::vector<bool>(adjustment.groups().size(), true)};
   Fit at = agreement.begin_at(start.state);
   for (std::size_t g = 0; g < start.kept.size(); ++g) {
     double misfit = 0.0;
@@ -241,6 +314,24 @@ Start find_start(const Adjustment& adjustment, double level) {
     if (group.is_absolute()) start.kept[g] = agreement.agrees(at, g, misfit);
   }
   return start;
+}
+
+Start find_start(const Adjustment& adjustment, double level) {
+  std::vector<double> headings = stated_headings(adjustment);
+  for (std::size_t s = 0; s < headings.size(); ++s) {
+    headings[s] = heading_of(adjustment, s, level);
+  }
+  return start_at(adjustment, headings, level);
+}
+
+bool is_finite(const Fit& fit) {
+  return std::isfinite(fit.misfit) && fit.covariance.allFinite() &&
+         (fit.covariance.diagonal().array() >= 0.0).all();
+}
+
+Fit snoop(const Adjustment& adjustment, const Start& start, const Search& search,
+          const TellAdjusted& tell) {
+  return Snooping(adjustment, search).run(start, tell);
 }
 
 }  // namespace ols::calibration

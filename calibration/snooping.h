@@ -2,7 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <optional>
+#include <vector>
 
 #include "calibration/adjustment.h"
 
@@ -28,14 +30,44 @@ struct Bias {
 };
 std::optional<Bias> bias_without(const Adjustment& adjustment, const Fit& fit, std::size_t group);
 
-// The headings on which most groups agree with the priors, and these groups.
+// The critical value of a group's test.
+double critical_value(const Group& group, std::size_t groups, double level);
+
+// The tests of all groups; of untested ones, zeros.
+struct GroupTest {
+  bool rejected = false;
+  double w = 0.0;  // root of a chi-square with the group's degrees of freedom
+  double critical = 0.0;
+  // Minimal detectable bias (power 80 %) of the direction to the target: across, up. Infinite where
+  // the others do not check it.
+  Eigen::Vector2d detectable_rad = Eigen::Vector2d::Zero();
+};
+
+std::vector<GroupTest> tests_of(const Adjustment& adjustment, const Fit& fit, double level);
+
+// The headings of the stations, and the groups that agree with the priors there.
 struct Start {
   State state;
   std::vector<bool> kept;
 };
+// `variance`: of all observations, over what is stated.
+Start start_at(const Adjustment& adjustment, const std::vector<double>& headings_rad, double level,
+               double variance = 1.0);
+// At the headings on which most groups agree.
 Start find_start(const Adjustment& adjustment, double level);
 
-// The critical value of a group's test.
-double critical_value(const Group& group, std::size_t groups, double level);
+struct Search {
+  double level = 1e-3;      // for the tests of all groups together
+  double variance = 1.0;    // of all observations, over what is stated
+  std::vector<bool> among;  // by group: which may be kept; empty: all
+};
+using TellAdjusted = std::function<void()>;
+
+bool is_finite(const Fit& fit);
+
+// Data snooping. Each round takes back the rejected group that passes its test best, or rejects the
+// kept one that fails it worst; a set that was tried before ends it. `tell` is called each round.
+Fit snoop(const Adjustment& adjustment, const Start& start, const Search& search,
+          const TellAdjusted& tell = {});
 
 }  // namespace ols::calibration

@@ -21,6 +21,7 @@ struct Sighting {
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
   double sd_px = 0.0;
   std::optional<std::size_t> pose;  // shared with other sightings; nullopt: its own
+  double pose_sd_rad = 0.0;         // of each angle of its own pose
 };
 
 struct TargetView {

@@ -4,7 +4,7 @@
 #include <random>
 #include <stdexcept>
 
-#include "geometry/stationing.h"
+#include "calibration/stationing.h"
 
 namespace ols::sim {
 namespace {
@@ -63,13 +63,13 @@ double stepped(double angle_rad, double step_rad) {
   return step_rad * std::round(angle_rad / step_rad);
 }
 
-LandmarkSighting sighting(const StationTruth& station, const Sighted& sighted, double mark_sd_px,
-                          double step_rad, Draw& draw) {
+calibration::LandmarkSighting sighting(const StationTruth& station, const Sighted& sighted,
+                                       double mark_sd_px, double step_rad, Draw& draw) {
   const auto angles = aim_at(station.truth, sighted.true_ecef);
   if (!angles) {
     throw std::invalid_argument("station " + station.id + " cannot be turned to " + sighted.id);
   }
-  LandmarkSighting s;
+  calibration::LandmarkSighting s;
   s.landmark_ecef = sighted.told_ecef;
   s.landmark_sd_m = sighted.sd_m;
   s.pixel = view(station.truth, *angles, sighted.true_ecef).value().pixel;
@@ -94,15 +94,16 @@ void find_headings(const Scenario& scenario, std::uint64_t seed, double step_rad
     const std::vector<Sighted> sighted = how.by == StationingBy::kLandmarks
                                              ? common
                                              : others(before, i, on * how.each_other_sd_m, draw);
-    std::vector<LandmarkSighting> sightings;
+    std::vector<calibration::LandmarkSighting> sightings;
     sightings.reserve(sighted.size());
     for (const Sighted& each : sighted) {
       sightings.push_back(sighting(before[i], each, on * how.mark_sd_px, step_rad, draw));
     }
     // There are no gross errors here, so the test would be wrong in one stationing of a thousand.
-    constexpr StationingLevels kLevels{.mistaken = 1e-12};
+    constexpr calibration::Levels kLevels{.mistaken = 1e-12};
     stations[i].nominal =
-        station_by_landmarks(before[i].nominal, sightings, how.highest_rad, kLevels).station;
+        calibration::station_by_landmarks(before[i].nominal, sightings, how.highest_rad, kLevels)
+            .station;
   }
 }
 

@@ -1,5 +1,5 @@
 // The stationing of the world's stations, as by a field team: each station sights landmarks or
-// other stations, and the product's stationing finds its pose (geometry/stationing.h).
+// other stations, and the product's stationing finds its pose (calibration/stationing.h).
 #pragma once
 
 #include <cstdint>

@@ -34,7 +34,7 @@ ALLOWED = {
     "export": {"wire", "geometry", "base", "conditions"},
     "cue": {"wire", "export", "geometry", "base", "conditions"},
     "bridge": {"geometry", "base", "conditions"},
-    "sim": {"edge", "central", "geometry", "base", "conditions"},
+    "sim": {"edge", "central", "calibration", "geometry", "base", "conditions"},
     "tools": {*PRODUCT, "wire", "geometry", "base", "conditions"},
     "dev": {*PRODUCT, "tools", "sim", "wire", "geometry", "base", "conditions"},
 }

@@ -51,7 +51,7 @@ struct Sight {
     const Eigen::VectorXd sd = target->prior_sd();
     Eigen::VectorXd nuisance(sd.size());
     for (Eigen::Index i = 0; i < sd.size(); ++i) nuisance[i] = sd[i] * (x[1][i] - kOrigin);
-    const Sighting sighting{0, one->utime_us, one->reading, one->pixel, one->sd_px, {}};
+    const Sighting sighting{0, one->utime_us, one->reading, one->pixel, one->sd_px, {}, 0.0};
     const TargetView seen = target->view(at, sighting, nuisance);
     const auto image = predict_pixel(at.stations[0].model, one->reading, seen.point);
     if (!image) return false;

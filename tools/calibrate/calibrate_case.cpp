@@ -6,9 +6,9 @@
 #include "calibration/mistaken_sightings.h"
 #include "calibration/name_stars.h"
 #include "geometry/angles.h"
-#include "geometry/utm.h"
 #include "tools/calibrate/calibration_csv.h"
 #include "tools/calibrate/observation_file.h"
+#include "tools/calibrate/surveyed_place.h"
 
 namespace ols::calibration {
 namespace {
@@ -31,20 +31,6 @@ void set_resolution(Instrument& instrument, double resolution_arcsec) {
           " teeth: state the counts of a turn in the instrument ([unit])");
     }
     axis->counts_per_turn = counts;
-  }
-}
-
-Eigen::Vector3d place_of(const ReferenceRow& row, const std::string& path) {
-  if (const auto* place = std::get_if<GeodeticCells>(&row.place)) {
-    return ecef_from_geodetic(
-        {radians(place->latitude_deg), radians(place->longitude_deg), row.height_m});
-  }
-  const auto& utm = std::get<UtmCells>(row.place);
-  try {
-    return ecef_from_geodetic(
-        geodetic_from_utm({utm.zone, utm.northern, utm.easting_m, utm.northing_m}, row.height_m));
-  } catch (const std::invalid_argument& error) {
-    throw CsvError(path + ":" + std::to_string(row.line) + ": easting_m: " + error.what());
   }
 }
 
@@ -153,7 +139,7 @@ References references_in(const std::string& path) {
     if (row.star) {
       references[row.name] = star_of(*row.star);
     } else if (!row.utime_us) {
-      references[row.name] = FixedPoint{place_of(row, path), row.sd_m};
+      references[row.name] = FixedPoint{ecef_from_geodetic(surveyed_place(row, path)), row.sd_m};
     } else {
       if (row.sd_m <= 0.0) {
         throw CsvError(path + ":" + std::to_string(row.line) +
@@ -161,7 +147,7 @@ References references_in(const std::string& path) {
       }
       auto& entry = references.try_emplace(row.name, Trajectory{}).first->second;
       auto& trajectory = std::get<Trajectory>(entry);
-      trajectory.points.push_back({*row.utime_us, place_of(row, path)});
+      trajectory.points.push_back({*row.utime_us, ecef_from_geodetic(surveyed_place(row, path))});
       trajectory.sd_m = std::max(trajectory.sd_m, row.sd_m);
     }
   }

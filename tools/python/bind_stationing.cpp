@@ -1,12 +1,13 @@
 // Stationing and rectification, for Python.
 #include <pybind11/stl.h>
 
-#include "geometry/stationing.h"
+#include "calibration/stationing.h"
 #include "tools/python/bindings.h"
 #include "tools/python/eigen_caster.h"
 
 namespace ols::python {
 
+using namespace calibration;
 using py::arg;
 
 void bind_stationing(py::module_& m) {
@@ -23,10 +24,10 @@ void bind_stationing(py::module_& m) {
       .def_readwrite("w", &LandmarkTest::w)
       .def_readwrite("critical", &LandmarkTest::critical)
       .def_readwrite("detectable_m", &LandmarkTest::detectable_m, "(2,) across and up.");
-  data_class<GlobalTest>(m, "GlobalTest", "Of what is not set aside.")
-      .def_readwrite("variance_factor", &GlobalTest::variance_factor)
-      .def_readwrite("critical", &GlobalTest::critical)
-      .def_readwrite("redundancy", &GlobalTest::redundancy);
+  data_class<ModelTest>(m, "GlobalTest", "Of what is not set aside.")
+      .def_readwrite("variance_factor", &ModelTest::variance_factor)
+      .def_readwrite("critical", &ModelTest::critical)
+      .def_readwrite("redundancy", &ModelTest::redundancy);
   data_class<Stationing>(m, "Stationing", "A station's pose as landmarks show it.")
       .def_readwrite("station", &Stationing::station, "StationGeometry with its sd.")
       .def_readwrite("covariance", &Stationing::covariance,
@@ -41,7 +42,7 @@ void bind_stationing(py::module_& m) {
       [](const StationGeometry& rough, const std::vector<LandmarkSighting>& sightings,
          double highest_rad) { return station_by_landmarks(rough, sightings, highest_rad); },
       arg("rough"), arg("sightings"), arg("highest_rad"),
-      "Stationing from sightings; see geometry/stationing.h. ValueError, naming the sighting.");
+      "Stationing from sightings; see calibration/stationing.h. ValueError, naming the sighting.");
 }
 
 }  // namespace ols::python

@@ -50,7 +50,7 @@ TEST(PixelBlock, ItsGradientIsThatOfItsSquares) {
 TEST(PixelBlock, OnlyWhatHasNoPriorCostsDegreesOfFreedom) {
   const auto degrees_of_freedom = [](TargetPtr target) {
     const std::vector<Sighting> sightings(5);
-    return pixel_block(std::move(target), sightings, {.layout = {.stations = 1}, .pose_sd_rad = {}})
+    return pixel_block(std::move(target), sightings, {.layout = {.stations = 1}})
         ->degrees_of_freedom();
   };
   EXPECT_EQ(degrees_of_freedom(fixed_target({{0, 0, 6.4e6}, 0.1})), 10);

@@ -9,18 +9,18 @@
 #include "base/files/output_check.h"
 #include "base/process/command_line.h"
 #include "geometry/angles.h"
-#include "tools/offline/stationing_files.h"
+#include "tools/calibrate/stationing_files.h"
 
 namespace {
 
 struct Options {
-  ols::offline::StationingOptions stationing;
+  ols::calibration::StationingOptions stationing;
   std::string output;  // empty: the standard output
   bool in_place = false;
 };
 
 void add_options(CLI::App& app, Options& options) {
-  ols::offline::StationingOptions& o = options.stationing;
+  ols::calibration::StationingOptions& o = options.stationing;
   app.add_option("--station", o.station, "its configuration, as ols-station reads it")->required();
   app.add_option("--landmarks", o.landmarks,
                  "CSV: landmark,height_m,sd_m and latitude_deg,longitude_deg or "
@@ -71,28 +71,29 @@ void change_in_place(const std::string& path, const std::string& found) {
 }
 
 void run(const Options& options) {
-  const ols::offline::StationingOptions& files = options.stationing;
+  const ols::calibration::StationingOptions& files = options.stationing;
   ols::check_outputs({{"--station", files.station},
                       {"--landmarks", files.landmarks},
                       {"--sightings", files.sightings}},
                      {{"--output", options.output}});
-  const ols::offline::StationingCase before = ols::offline::read_stationing(options.stationing);
-  const ols::Stationing found =
-      ols::offline::find_station(before, ols::radians(options.stationing.highest_deg));
-  for (const std::string& warning : ols::offline::stationing_warnings(before, found)) {
+  const ols::calibration::StationingCase before =
+      ols::calibration::read_stationing(options.stationing);
+  const ols::calibration::Stationing found =
+      ols::calibration::find_station(before, ols::radians(options.stationing.highest_deg));
+  for (const std::string& warning : ols::calibration::stationing_warnings(before, found)) {
     std::cerr << "ols-stationing: " << warning << '\n';
   }
   const bool with_position = !options.stationing.at.empty();
   if (options.output.empty()) {
     std::ostringstream text;
-    ols::offline::write_stationing(text, before, found, with_position);
+    ols::calibration::write_stationing(text, before, found, with_position);
     std::cout << text.str();
     ols::flush_output();
     if (options.in_place) change_in_place(files.station, text.str());
     return;
   }
   ols::AtomicFile file(options.output);
-  ols::offline::write_stationing(file.stream(), before, found, with_position);
+  ols::calibration::write_stationing(file.stream(), before, found, with_position);
   file.commit();
 }
 

@@ -9,7 +9,8 @@
 //
 // The adjustment is tested by geodetic methods (W. Baarda, A Testing Procedure for Use in Geodetic
 // Networks, 1968; P. Teunissen, Testing Theory): data snooping finds mistaken landmarks
-// (geometry/data_snooping.h), then the global test finds stated deviations that are too small.
+// (calibration/mistaken_landmarks.h), then the global test finds stated deviations that are too
+// small.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,9 +21,9 @@
 #include <utility>
 #include <vector>
 
-#include "geometry/sight.h"
+#include "calibration/calibrate.h"
 
-namespace ols {
+namespace ols::calibration {
 
 // A landmark in a station's image. Its pixel and angles must have an error. Sightings of exactly
 // the same place belong to one landmark, and share the error of its coordinates.
@@ -60,11 +61,11 @@ struct StationingAlternative {
 };
 
 // Some landmarks must be mistaken, but the sightings do not show which.
-class LandmarksContradict : public std::invalid_argument {
+class LandmarksContradict : public Contradiction {
  public:
   LandmarksContradict(const std::string& why, std::vector<StationingAlternative> alternatives,
                       std::vector<std::size_t> failing = {})
-      : std::invalid_argument("stationing: " + why),
+      : Contradiction("stationing: " + why),
         why_(why),
         alternatives_(std::move(alternatives)),
         failing_(std::move(failing)) {}
@@ -83,12 +84,6 @@ class LandmarksContradict : public std::invalid_argument {
 // heading, tilt x, tilt y, mount z, mount x, mount y of ChainParameters.
 using PoseCovariance = Eigen::Matrix<double, 6, 6>;
 
-// Levels of significance: the rates at which each test rejects a correct hypothesis.
-struct StationingLevels {
-  double mistaken = 1e-3;  // of the w-tests of all landmarks together
-  double misfit = 0.05;    // of the global test
-};
-
 // The w-test of a landmark: all its sightings together against the others.
 struct LandmarkTest {
   std::vector<std::size_t> sightings;
@@ -101,13 +96,6 @@ struct LandmarkTest {
   // the station. Infinite if the others do not check it. A shift along the line of sight is not
   // detectable.
   Eigen::Vector2d detectable_m = Eigen::Vector2d::Zero();
-};
-
-// The global test (overall model test) of the landmarks that are not rejected.
-struct GlobalTest {
-  double variance_factor = 0.0;  // a posteriori; expected: 1
-  double critical = 0.0;
-  int redundancy = 0;
 };
 
 // 1-sigma of a line of sight near the horizon.
@@ -127,7 +115,7 @@ struct Stationing {
   std::vector<Eigen::Vector2d> residuals;
   std::vector<Eigen::Vector2d> residuals_rad;
   std::vector<LandmarkTest> landmarks;
-  GlobalTest global;
+  ModelTest global;
   // The w-test of each prior (tilt x, tilt y, mount z, mount x, mount y, east, north, up): standard
   // normal; 0 for a prior without a deviation.
   std::array<double, 8> stated_w{};
@@ -140,6 +128,6 @@ struct Stationing {
 // or of a landmark at the station. Throws LandmarksContradict.
 Stationing station_by_landmarks(const StationGeometry& rough,
                                 std::span<const LandmarkSighting> sightings, double highest_rad,
-                                const StationingLevels& levels = {});
+                                const Levels& levels = {});
 
-}  // namespace ols
+}  // namespace ols::calibration

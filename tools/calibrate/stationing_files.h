@@ -1,14 +1,14 @@
-// A surveyor's stationing: files in, a station's configuration out (geometry/stationing.h).
+// A surveyor's stationing: files in, a station's configuration out (calibration/stationing.h).
 #pragma once
 
 #include <ostream>
 #include <string>
 #include <vector>
 
+#include "calibration/stationing.h"
 #include "edge/config/config.h"
-#include "geometry/stationing.h"
 
-namespace ols::offline {
+namespace ols::calibration {
 
 struct StationingOptions {
   std::string station;    // its configuration, as ols-station reads it
@@ -50,4 +50,4 @@ void write_stationing(std::ostream& out, const StationingCase& before, const Sta
 // Warnings for standard error: one line per rejected landmark, and one if deviations were scaled.
 std::vector<std::string> stationing_warnings(const StationingCase& before, const Stationing& found);
 
-}  // namespace ols::offline
+}  // namespace ols::calibration

@@ -1,4 +1,4 @@
-#include "geometry/stationing.h"
+#include "calibration/stationing.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@
 #include "geometry/utm.h"
 #include "tests/unit/error_text.h"
 
-namespace ols {
+namespace ols::calibration {
 namespace {
 
 using Eigen::Vector2d;
@@ -193,6 +193,9 @@ TEST(Stationing, RefusesWhatIsNoSighting) {
   bad[1].pixel.x() = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THAT(refusal(c.rough, bad), testing::HasSubstr("sighting 2: pixel: not a finite"));
   bad = good;
+  bad[2].angles.pan_rad = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THAT(refusal(c.rough, bad), testing::HasSubstr("sighting 3: angles: not a finite"));
+  bad = good;
   bad[0].pixel_sd_px = 0.0;
   EXPECT_THAT(refusal(c.rough, bad), testing::HasSubstr("sighting 1: deviation: must be positive"));
   bad = good;
@@ -214,4 +217,4 @@ TEST(Stationing, RefusesWhatLeavesTheHeadingUnknown) {
 }
 
 }  // namespace
-}  // namespace ols
+}  // namespace ols::calibration

@@ -3,9 +3,9 @@
 #include <iomanip>
 
 #include "geometry/angles.h"
-#include "tools/offline/stationing_files.h"
+#include "tools/calibrate/stationing_files.h"
 
-namespace ols::offline {
+namespace ols::calibration {
 namespace {
 
 // Rounded for printing, without -0.00.
@@ -15,7 +15,7 @@ double rounded(double value, int digits) {
 }
 
 void write_global_test(std::ostream& out, const Stationing& found) {
-  const GlobalTest& test = found.global;
+  const ModelTest& test = found.global;
   out << std::setprecision(2) << "# Global test (5 %): variance factor " << test.variance_factor
       << ", critical " << test.critical << ", redundancy " << test.redundancy << ": ";
   if (found.scaled_by > 1.0) {
@@ -153,4 +153,4 @@ void write_stationing(std::ostream& out, const StationingCase& before, const Sta
   line("position_m", station.sd.position_m, 3);
 }
 
-}  // namespace ols::offline
+}  // namespace ols::calibration

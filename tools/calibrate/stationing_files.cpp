@@ -1,4 +1,4 @@
-#include "tools/offline/stationing_files.h"
+#include "tools/calibrate/stationing_files.h"
 
 #include <algorithm>
 #include <iomanip>
@@ -9,23 +9,10 @@
 #include "base/config/toml_config.h"
 #include "base/files/csv_files.h"
 #include "geometry/angles.h"
-#include "geometry/utm.h"
+#include "tools/calibrate/surveyed_place.h"
 
-namespace ols::offline {
+namespace ols::calibration {
 namespace {
-
-Geodetic place_of(const SurveyRow& point, const std::string& path) {
-  if (const auto* place = std::get_if<GeodeticCells>(&point.place)) {
-    return {radians(place->latitude_deg), radians(place->longitude_deg), point.height_m};
-  }
-  const auto& utm = std::get<UtmCells>(point.place);
-  try {
-    return geodetic_from_utm({utm.zone, utm.northern, utm.easting_m, utm.northing_m},
-                             point.height_m);
-  } catch (const std::invalid_argument& error) {
-    throw CsvError(path + ":" + std::to_string(point.line) + ": easting_m: " + error.what());
-  }
-}
 
 const SurveyRow& named(const std::vector<SurveyRow>& survey, const std::string& name) {
   return *std::ranges::find(survey, name, &SurveyRow::landmark);
@@ -51,7 +38,7 @@ StationGeometry rough_station(const StationingOptions& options,
       throw std::invalid_argument("--at: '" + options.at + "' is not in " + options.landmarks);
     }
     const SurveyRow& point = named(survey, options.at);
-    rough.position = place_of(point, options.landmarks);
+    rough.position = surveyed_place(point, options.landmarks);
     rough.sd.position_m = point.sd_m;
   } else if (!settings.pose.surveyed_position) {
     throw std::invalid_argument(options.station +
@@ -63,7 +50,7 @@ StationGeometry rough_station(const StationingOptions& options,
 LandmarkSighting sighting_of(const SightedRow& row, const SurveyRow& point,
                              const CameraIntrinsics& camera, const StationingOptions& options) {
   LandmarkSighting sighting;
-  sighting.landmark_ecef = ecef_from_geodetic(place_of(point, options.landmarks));
+  sighting.landmark_ecef = ecef_from_geodetic(surveyed_place(point, options.landmarks));
   sighting.landmark_sd_m = point.sd_m;
   sighting.pixel = {row.x_px.value_or(camera.cx_px), row.y_px.value_or(camera.cy_px)};
   sighting.pixel_sd_px = options.pixel_sd_px;
@@ -139,4 +126,4 @@ Stationing find_station(const StationingCase& before, double highest_rad) {
   }
 }
 
-}  // namespace ols::offline
+}  // namespace ols::calibration
