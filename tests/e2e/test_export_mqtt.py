@@ -6,6 +6,7 @@ import threading
 
 import jsonschema
 import pytest
+from conftest import finished
 from export_site import (
     CE_M,
     GEOID_M,
@@ -60,20 +61,12 @@ class Subscriber:
     """mosquitto_sub: the newest payload of each topic."""
 
     def __init__(self, *login):
-        command = ["mosquitto_sub", "-h", "127.0.0.1", "-p", str(MQTT_PORT)]
-        command += ["-t", "#", "-v", *login]
+        command = ["mosquitto_sub", "-h", "127.0.0.1", "-p", str(MQTT_PORT), "-t", "#", *login]
+        wait(lambda: finished(*command, "-E").returncode == 0, "the broker takes a subscriber")
         self.topics = {}
-
-        def connect():
-            self.process = subprocess.Popen(
-                command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True
-            )
-            try:
-                return self.process.wait(0.3) is None
-            except subprocess.TimeoutExpired:
-                return True
-
-        wait(connect, "the broker takes a subscriber")
+        self.process = subprocess.Popen(
+            [*command, "-v"], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True
+        )
         threading.Thread(target=self._read, daemon=True).start()
 
     def _read(self):
@@ -152,7 +145,6 @@ def test_a_broker_that_dies_and_returns_is_told_everything_again(tmp_path, broke
                 and "homeassistant/sensor/brno_station_alfa_state/config" in again.topics
             ),
             "everything again",
-            5.0,
         )
         again.end()
 
