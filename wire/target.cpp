@@ -47,7 +47,7 @@ const char* track_name(std::int8_t state) {
 const char* solution_name(std::int8_t solution) {
   return word_of_code(solution,
                       std::array{"ok", "too-few-rays", "parallel-rays", "behind-camera", "too-far",
-                                 "not-converged", "bearing-only", "rays-miss"});
+                                 "not-converged", "bearing-only", "rays-miss", "ambiguous"});
 }
 
 const char* class_name(std::int8_t object_class) {

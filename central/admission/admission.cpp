@@ -31,6 +31,17 @@ void Admission::allow_slews(const std::string& station, bool allowed) {
   if (known != registry_.all().end()) known->second.traits.commandable = allowed;
 }
 
+void Admission::note_target(const BearingMeasurement& measurement, std::int64_t target_id) {
+  const auto known = registry_.all().find(measurement.station);
+  if (known == registry_.all().end()) return;
+  KnownStation& station = known->second;
+  const bool sees_another = station.target_id != 0 && station.target_id != target_id &&
+                            station.saw_target.within(Activity::kDeliversS, measurement.utime_us);
+  if (measurement.is_tracklet && sees_another) return;
+  station.target_id = target_id;
+  station.saw_target.last_us = measurement.utime_us;
+}
+
 Admitted Admission::admit(const BearingMeasurement& measurement, FusionLog& log) {
   const BearingRefusal broken = check(measurement);
   if (broken != BearingRefusal::kNone) return {.refusal = broken};

@@ -46,6 +46,9 @@ class Admission {
   std::optional<std::string> know_station(const std::string& station, const StationTraits& traits,
                                           FusionLog& log);
   void allow_slews(const std::string& station, bool allowed);
+  // The station sees this target. A detector sees several: of its tracklets, the target counts that
+  // it saw first, until it sees that no more.
+  void note_target(const BearingMeasurement& measurement, std::int64_t target_id);
   // Message time was reset: forgets every judgement made by the old time.
   void begin_time_line();
 

@@ -12,6 +12,13 @@ namespace {
 
 constexpr std::size_t kOfAStation = 4;
 
+// The newest bearing that is no tracklet's; -1: none.
+std::ptrdiff_t newest_look(const UnassociatedBearings::Station& own) {
+  auto i = std::ssize(own.looks) - 1;
+  while (i >= 0 && own.looks[static_cast<std::size_t>(i)].is_tracklet) --i;
+  return i;
+}
+
 }  // namespace
 
 const UnassociatedBearings::Station& BearingLines::bearings_of(const std::string& station) const {
@@ -21,8 +28,11 @@ const UnassociatedBearings::Station& BearingLines::bearings_of(const std::string
 std::vector<std::string> BearingLines::stations(std::int64_t epoch_us) const {
   std::vector<std::string> found;
   for (const auto& [name, own] : tracks_.unassociated().stations()) {
-    const double age_s = std::abs(seconds(epoch_us - own.looks.back().utime_us));
-    const bool lately = age_s <= config_.max_age_s;
+    const auto newest = newest_look(own);
+    const bool lately =
+        newest >= 0 &&
+        std::abs(seconds(epoch_us - own.looks[static_cast<std::size_t>(newest)].utime_us)) <=
+            config_.max_age_s;
     if (lately && pointing_.quarantine(name).empty()) found.push_back(name);
   }
   return found;
@@ -36,7 +46,9 @@ std::vector<const BearingMeasurement*> BearingLines::of(const std::string& stati
   for (std::size_t i = own.looks.size(); i-- > 0;) {
     const BearingSummary& look = own.looks[i];
     if (std::abs(seconds(epoch_us - look.utime_us)) > config_.max_age_s) break;
-    if (look.track_id == 0 || std::ranges::find(names, look.track_id) != names.end()) continue;
+    if (look.track_id == 0 || look.is_tracklet ||
+        std::ranges::find(names, look.track_id) != names.end())
+      continue;
     names.push_back(look.track_id);
     if (!tracks_.takes(own.bearings[i], epoch_us, Activity::kFollowsS)) {
       lines.push_back(&own.bearings[i]);
@@ -48,7 +60,8 @@ std::vector<const BearingMeasurement*> BearingLines::of(const std::string& stati
 }
 
 const BearingMeasurement* BearingLines::newest_of(const std::string& station) const {
-  return &bearings_of(station).bearings.back();
+  const UnassociatedBearings::Station& own = bearings_of(station);
+  return &own.bearings[static_cast<std::size_t>(newest_look(own))];
 }
 
 std::optional<BearingOnly> BearingLines::at(const BearingMeasurement& newest,

@@ -1,5 +1,5 @@
-// Bearing-only tracks: lines of sight of stations that follow an object that no track explains.
-// Pure.
+// Bearing-only tracks: lines of sight of stations that follow an object that no track explains. A
+// tracklet is none: nobody has designated its object, and it may be anything. Pure.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +27,7 @@ class BearingLines {
   // assign ids in ascending order.
   std::vector<const BearingMeasurement*> of(const std::string& station,
                                             std::int64_t epoch_us) const;
-  // The newest bearing of a station.
+  // The newest bearing of one of stations().
   const BearingMeasurement* newest_of(const std::string& station) const;
   std::optional<BearingOnly> at(const BearingMeasurement& newest, std::int64_t epoch_us) const;
 

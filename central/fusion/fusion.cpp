@@ -52,6 +52,7 @@ Fusion::Fusion(const FusionConfig& config)
 void Fusion::know_station(const std::string& station, const StationTraits& traits) {
   const auto evicted = admission_.know_station(station, traits, log_);
   if (evicted) forget(*evicted);
+  if (traits.axis) tracks_.know_view(station, *traits.axis, traits.field_of_view_rad, now_us());
 }
 
 void Fusion::allow_slews(const std::string& station, bool allowed) {
@@ -63,15 +64,14 @@ FusionOutput Fusion::add(const BearingMeasurement& measurement) {
   const Admitted admitted = admission_.admit(measurement, log_);
   forget_what_changed(measurement, admitted);
   output.refusal = admitted.refusal;
-  if (output.refusal == BearingRefusal::kNone) {
-    output.refusal = associate(measurement, *admitted.station);
-  }
+  std::vector<ImageBearings> used;
+  if (output.refusal == BearingRefusal::kNone) output.refusal = take(measurement, used);
   note_refusal(output.refusal, measurement, admitted);
   const std::int64_t now = now_us();
   // After a silence "now" is old until most stations have sent again: nothing is published by it.
   if (now == 0 || admission_.is_future(measurement.utime_us)) return output;
   if (targets_.epoch_us() && seconds(*targets_.epoch_us() - now) > kStepBackS) begin_time_line();
-  if (output.refusal == BearingRefusal::kNone) targets_.hear(measurement, now);
+  for (const ImageBearings& image : used) targets_.hear(image.front(), now);
   targets_.tell(now, tracks_, admission_.clocks(), pointing_, output, log_);
   output.slews = slews_at(now);
   return output;
@@ -111,22 +111,42 @@ bool Fusion::allow_cue(const std::string& id, bool allow) {
   return taken;
 }
 
-// An offset from the others' clocks adds to the stated clock error.
-BearingRefusal Fusion::associate(const BearingMeasurement& measurement, KnownStation& station) {
+// An offset from the others' clocks adds to the stated clock error. `used`: the images of which a
+// bearing was used.
+BearingRefusal Fusion::take(const BearingMeasurement& measurement,
+                            std::vector<ImageBearings>& used) {
   BearingMeasurement judged = measurement;
   const double added_sd_s = admission_.clocks().added_sd_s(measurement.station);
   judged.clock_sd_s = std::hypot(measurement.clock_sd_s, added_sd_s);
-  const Associated associated = ols::fusion::associate(judged, tracks_, pointing_);
-  if (associated.explained && associated.result.track_id != 0) {
-    station.target_id = associated.result.track_id;
-    station.saw_target.last_us = measurement.utime_us;
+  BearingRefusal own = BearingRefusal::kNone;
+  for (ImageBearings& image : images_.add(judged, now_us())) {
+    const bool is_own = image.front().station == measurement.station &&
+                        image.front().utime_us == measurement.utime_us;
+    const std::vector<BearingRefusal> refusals = associate(image);
+    for (std::size_t i = 0; i + (is_own ? 1 : 0) < image.size(); ++i) {
+      if (refusals[i] != BearingRefusal::kNone) log_.count(to_string(refusals[i]));
+    }
+    if (is_own) own = refusals.back();
+    const bool is_used = std::ranges::count(refusals, BearingRefusal::kNone) > 0;
+    if (is_used) used.push_back(std::move(image));
   }
-  note_unassociated(measurement, associated.result);
-  if (associated.newly_so) {
-    log_.quarantine(measurement.station, pointing_.quarantine(measurement.station));
+  return own;
+}
+
+std::vector<BearingRefusal> Fusion::associate(const ImageBearings& image) {
+  const std::string& station = image.front().station;
+  std::vector<BearingRefusal> refusals;
+  for (const Associated& associated : ols::fusion::associate(image, tracks_, pointing_)) {
+    const BearingMeasurement& measurement = image[refusals.size()];
+    if (associated.explained && associated.result.track_id != 0) {
+      admission_.note_target(measurement, associated.result.track_id);
+    }
+    note_unassociated(measurement, associated.result);
+    if (associated.newly_so) log_.quarantine(station, pointing_.quarantine(station));
+    const bool used = associated.explained || !associated.quarantined;
+    refusals.push_back(used ? BearingRefusal::kNone : BearingRefusal::kQuarantine);
   }
-  const bool used = associated.explained || !associated.quarantined;
-  return used ? BearingRefusal::kNone : BearingRefusal::kQuarantine;
+  return refusals;
 }
 
 // A tentative track counts neither as an explanation nor as a contradiction.
@@ -138,12 +158,13 @@ void Fusion::note_unassociated(const BearingMeasurement& measurement, const Asso
     if (!by_tentative) unassociated_.explained(measurement.station);
   } else if (!std::ranges::any_of(tracks_.tracks(), is_established)) {
     unassociated_.explained(measurement.station);
-  } else if (measurement.track_id != 0) {
+  } else if (measurement.track_id != 0 && !measurement.is_tracklet) {
     unassociated_.unexplained(measurement.station, measurement.utime_us);
   }
 }
 
 void Fusion::forget(const std::string& station) {
+  images_.forget(station);
   pointing_.forget(station);
   unassociated_.forget(station);
   tracks_.forget_station(station);
@@ -178,6 +199,7 @@ void Fusion::note_refusal(BearingRefusal refusal, const BearingMeasurement& meas
 void Fusion::begin_time_line() {
   log_.count("time_stepped_back");
   log_.last_error = "message time stepped back: a new replay, or most stations' clocks changed";
+  images_.clear();
   targets_.clear();
   slews_.clear();
   tracks_.clear();

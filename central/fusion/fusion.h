@@ -10,8 +10,10 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "central/admission/admission.h"
+#include "central/admission/image_assembly.h"
 #include "central/admission/pointing_monitor.h"
 #include "central/admission/unassociated_monitor.h"
 #include "central/estimators/estimator.h"
@@ -61,7 +63,9 @@ class Fusion {
   const TrackManager& tracks() const { return tracks_; }
 
  private:
-  BearingRefusal associate(const BearingMeasurement& measurement, KnownStation& station);
+  // The fate of an admitted bearing; of one that waits for the others of its image, none yet.
+  BearingRefusal take(const BearingMeasurement& measurement, std::vector<ImageBearings>& used);
+  std::vector<BearingRefusal> associate(const ImageBearings& image);
   void note_unassociated(const BearingMeasurement& measurement, const Association& result);
   void forget(const std::string& station);
   void forget_what_changed(const BearingMeasurement& measurement, const Admitted& admitted);
@@ -72,6 +76,7 @@ class Fusion {
 
   FusionConfig config_;
   Admission admission_;
+  ImageAssembly images_;
   PointingMonitor pointing_;
   UnassociatedMonitor unassociated_;
   LiveTracks tracks_;

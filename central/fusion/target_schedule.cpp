@@ -4,6 +4,7 @@
 #include <set>
 
 #include "central/fusion/output_period.h"
+#include "central/fusion/target_appearance.h"
 #include "central/measurement/time_span.h"
 
 namespace ols::fusion {
@@ -123,7 +124,10 @@ FusedTarget TargetSchedule::locate(const Track& track, bool by_paper, const Trac
       return !clocks.quarantine(station.station).empty();
     });
   }
-  return target_of(epoch_us, track, estimator.name(), std::move(located));
+  FusedTarget target = target_of(epoch_us, track, estimator.name(), std::move(located));
+  if (target.estimate.solution == Solution::kOk)
+    target.appearance = appearance_of(track, target.estimate.position_ecef);
+  return target;
 }
 
 // Without an object: the reason, or the single bearing-only track. Also the bearing-only track of
@@ -139,8 +143,9 @@ void TargetSchedule::report_bearing_only(TrackManager& tracks, const PointingMon
   target.utime_us = epoch_us;
   target.estimator = config_.estimator;
   if (!located && stations.size() != 1) {
-    target.estimate.solution =
-        stations.empty() ? Solution::kTooFewRays : tracks.why_no_track_began();
+    target.estimate.solution = tracks.is_ambiguous() ? Solution::kAmbiguous
+                               : stations.empty()    ? Solution::kTooFewRays
+                                                     : tracks.why_no_track_began();
     for (const std::string& station : stations)
       target.stations.push_back({station, true, 1.0, 0.0});
     output.targets.push_back(target);

@@ -1,8 +1,9 @@
-// Associates a bearing with its track, and reports its pointing error to the monitor. Live and
-// offline share it. Pure.
+// Associates the bearings of an image with their tracks, and reports their pointing errors to the
+// monitor. Live and offline share it. Pure.
 #pragma once
 
-#include <string>
+#include <span>
+#include <vector>
 
 #include "central/admission/pointing_monitor.h"
 #include "central/tracking/track_manager.h"
@@ -16,7 +17,8 @@ struct Associated {
   bool newly_so = false;     // since this bearing
 };
 
-Associated associate(const BearingMeasurement& measurement, TrackManager& tracks,
-                     PointingMonitor& pointing);
+// The bearings of one image of a station; their fates in the same order.
+std::vector<Associated> associate(std::span<const BearingMeasurement> image, TrackManager& tracks,
+                                  PointingMonitor& pointing);
 
 }  // namespace ols::fusion

@@ -34,7 +34,7 @@ Eigen::Matrix2d systematic_covariance(const Ray& ray, double range_m) {
 const char* to_string(Solution solution) {
   return word_of_code(code(solution),
                       std::array{"ok", "too-few-rays", "parallel-rays", "behind-camera", "too-far",
-                                 "not-converged", "bearing-only", "rays-miss"});
+                                 "not-converged", "bearing-only", "rays-miss", "ambiguous"});
 }
 
 double crossing_angle(const std::vector<Ray>& rays, const std::vector<RayUse>& use) {

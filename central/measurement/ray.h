@@ -50,6 +50,7 @@ enum class Solution {
   kNotConverged,
   kBearingOnly,  // one station alone: a direction, no position
   kRaysMiss,     // rays do not intersect, or not for long enough to be one object
+  kAmbiguous,    // two stations see objects that may be paired in several ways
 };
 const char* to_string(Solution solution);
 

@@ -11,6 +11,8 @@
 namespace ols::fusion {
 namespace {
 
+auto exposure(const BearingMeasurement* m) { return std::tie(m->utime_us, m->station); }
+
 auto exposure_and_direction(const BearingMeasurement* m) {
   return std::tie(m->utime_us, m->station, m->sight.direction.azimuth_rad,
                   m->sight.direction.elevation_rad);
@@ -30,17 +32,21 @@ class Separation {
         ordered_(ordered),
         labels_(ordered.size(), 0) {}
 
-  void add(std::size_t index) {
-    const BearingMeasurement& measurement = *ordered_[index];
-    tracks_.advance(measurement.utime_us);
-    const Association result = associate(measurement, tracks_, pointing_).result;
-    labels_[index] = result.kind == Association::Kind::kTrack ? result.track_id : 0;
-    for (const auto& merged : tracks_.take_merged()) merged_.push_back(merged);
-    if (tracks_.counts().confirmed == confirmed_) return;
-    confirmed_ = tracks_.counts().confirmed;
-    for (const Track& track : tracks_.tracks()) {
-      if (is_established(track) && labelled_.insert(track.id).second) label_all_of(track, index);
+  // The image that begins with this bearing; returns the first bearing of the next one.
+  std::size_t add_image(std::size_t first) {
+    std::vector<BearingMeasurement> image;
+    std::size_t next = first;
+    do {
+      image.push_back(*ordered_[next++]);
+    } while (next < ordered_.size() && exposure(ordered_[next]) == exposure(ordered_[first]));
+    tracks_.advance(image.front().utime_us);
+    const std::vector<Associated> fates = associate(image, tracks_, pointing_);
+    for (std::size_t i = first; i < next; ++i) {
+      const Association& result = fates[i - first].result;
+      labels_[i] = result.kind == Association::Kind::kTrack ? result.track_id : 0;
     }
+    label_new_tracks(next - 1);
+    return next;
   }
 
   // The identity of the object of a bearing; 0: none.
@@ -51,6 +57,15 @@ class Separation {
   }
 
  private:
+  void label_new_tracks(std::size_t index) {
+    for (const auto& merged : tracks_.take_merged()) merged_.push_back(merged);
+    if (tracks_.counts().confirmed == confirmed_) return;
+    confirmed_ = tracks_.counts().confirmed;
+    for (const Track& track : tracks_.tracks()) {
+      if (is_established(track) && labelled_.insert(track.id).second) label_all_of(track, index);
+    }
+  }
+
   // When it is confirmed, a track has bearings that were given to it, or kept, while it had no
   // identity.
   void label_all_of(const Track& track, std::size_t newest) {
@@ -103,9 +118,11 @@ SeparatedBearings separate_objects(const MutableBearings& measurements, const Fu
   separated.duplicate = static_cast<std::size_t>(ordered.end() - doubled);
   ordered.erase(doubled, ordered.end());
   Separation separation(config, ordered);
-  for (std::size_t i = 0; i < ordered.size(); ++i) {
-    if (tell) tell();
-    separation.add(i);
+  for (std::size_t i = 0; i < ordered.size();) {
+    const std::size_t next = separation.add_image(i);
+    for (; i < next; ++i) {
+      if (tell) tell();
+    }
   }
   for (std::size_t i = 0; i < ordered.size(); ++i) {
     const std::int64_t object = separation.object_of(i);

@@ -100,7 +100,7 @@ class Recording {
   void add(const BearingMeasurement& measurement) {
     if (tell_) tell_();
     track_.advance(measurement.utime_us);
-    if (!associate(measurement, track_, pointing_).newly_so) return;
+    if (!associate({&measurement, 1}, track_, pointing_).front().newly_so) return;
     beside_.try_emplace(measurement.station, pointing_.quarantine(measurement.station));
   }
   void advance(std::int64_t utime_us) { track_.advance(utime_us); }

@@ -1,12 +1,21 @@
 #include "central/tracking/live_tracks.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 #include "central/measurement/time_span.h"
+#include "central/tracking/appearance.h"
 #include "central/tracking/position_guard.h"
+#include "geometry/assignment.h"
 
 namespace ols::fusion {
+namespace {
+
+constexpr double kConfirmed = 0.95, kDeleted = 0.05;  // probability of its existence
+
+}  // namespace
 
 LiveTracks::LiveTracks(const TrackManagerConfig& config)
     : TrackManager(config, config.filter, true), duplicates_(config.duplicates) {}
@@ -22,6 +31,7 @@ std::vector<LiveTracks::Candidate> LiveTracks::candidates(const BearingMeasureme
     const Track& track = tracks_[i];
     if (is_established(track) != confirmed || track.state == TrackState::kDeleted) continue;
     if (track.has_taken(measurement)) continue;
+    if (rate_nis(measurement, track.filter.summary()) > config_.filter.gate_nis) continue;
     Innovation seen = track.filter.innovation(measurement, errors_);
     if (seen.nis < config_.filter.gate_nis) found.push_back({i, std::move(seen)});
   }
@@ -29,22 +39,86 @@ std::vector<LiveTracks::Candidate> LiveTracks::candidates(const BearingMeasureme
   return found;
 }
 
-Association LiveTracks::add(const BearingMeasurement& measurement, bool may_begin) {
-  for (const bool confirmed : {true, false}) {
-    const auto near = candidates(measurement, confirmed);
-    if (near.empty()) continue;
-    if (confirmed) note_duplicates(measurement, near);
-    Track* const own = identities_.follower(measurement, tracks_);
-    const auto by_id =
-        std::ranges::find_if(near, [&](const Candidate& c) { return &tracks_[c.track] == own; });
-    if (by_id != near.end()) return give_to(*own, measurement, &by_id->seen);
-    if (confirmed && near.size() > 1 &&
-        near[1].seen.nis - near[0].seen.nis < config_.ambiguous_nis) {
-      ++counts_.ambiguous;
-      return {Association::Kind::kAmbiguous, 0};
+namespace {
+
+// For each row its column, or -1, and whether another column serves about as well.
+struct Choice {
+  std::vector<int> column;
+  std::vector<bool> is_ambiguous;
+};
+
+Choice choose(const Eigen::MatrixXd& cost, double unassigned, double least_difference) {
+  Choice choice{assign(cost, unassigned), {}};
+  const double least = cost_of(choice.column, cost, unassigned);
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  for (Eigen::Index row = 0; row < cost.rows(); ++row) {
+    const int column = choice.column[static_cast<std::size_t>(row)];
+    const bool has_others = (cost.row(row).array() < kNever).count() > 1;
+    bool ambiguous = false;
+    if (column >= 0 && has_others) {
+      Eigen::MatrixXd other = cost;
+      other(row, column) = kNever;
+      const std::vector<int> second = assign(other, unassigned);
+      ambiguous = second[static_cast<std::size_t>(row)] >= 0 &&
+                  cost_of(second, other, unassigned) - least < least_difference;
     }
-    return give_to(tracks_[near[0].track], measurement, &near[0].seen);
+    choice.is_ambiguous.push_back(ambiguous);
   }
+  return choice;
+}
+
+}  // namespace
+
+std::vector<Association> LiveTracks::add(std::span<const BearingMeasurement> image,
+                                         bool may_begin) {
+  std::vector<std::optional<Association>> fates(image.size());
+  give(image, true, fates);
+  give(image, false, fates);
+  std::vector<Association> all;
+  for (std::size_t i = 0; i < image.size(); ++i)
+    all.push_back(fates[i] ? *fates[i] : give_up(image[i], may_begin));
+  judge_existence(image);
+  return all;
+}
+
+void LiveTracks::give(std::span<const BearingMeasurement> image, bool confirmed,
+                      std::vector<std::optional<Association>>& fates) {
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  const auto rows = static_cast<Eigen::Index>(image.size());
+  Eigen::MatrixXd cost =
+      Eigen::MatrixXd::Constant(rows, static_cast<Eigen::Index>(tracks_.size()), kNever);
+  std::vector<std::vector<Candidate>> near(image.size());
+  for (std::size_t i = 0; i < image.size(); ++i) {
+    if (fates[i]) continue;
+    near[i] = candidates(image[i], confirmed);
+    const Track* const own = identities_.follower(image[i], tracks_);
+    const auto is_own = [&](const Candidate& c) { return &tracks_[c.track] == own; };
+    const bool has_own = std::ranges::any_of(near[i], is_own);
+    for (const Candidate& candidate : near[i]) {
+      if (has_own && !is_own(candidate)) continue;
+      cost(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(candidate.track)) =
+          candidate.seen.nis;
+    }
+  }
+  const Choice choice = choose(cost, 2.0 * config_.filter.gate_nis, config_.ambiguous_nis);
+  for (std::size_t i = 0; i < image.size(); ++i) {
+    if (near[i].empty()) continue;
+    if (confirmed) note_duplicates(image[i], near[i]);
+    const int column = choice.column[i];
+    if (column < 0) continue;
+    if (confirmed && choice.is_ambiguous[i]) {
+      ++counts_.ambiguous;
+      fates[i] = {Association::Kind::kAmbiguous, 0};
+      continue;
+    }
+    const auto chosen =
+        std::ranges::find(near[i], static_cast<std::size_t>(column), &Candidate::track);
+    fates[i] = give_to(tracks_[chosen->track], image[i], &chosen->seen);
+  }
+}
+
+// A bearing that no track explains.
+Association LiveTracks::give_up(const BearingMeasurement& measurement, bool may_begin) {
   // A station that follows an object still follows it, even if its bearings scatter. The filter
   // gets the bearing, so that it detects a manoeuvre beyond its models.
   if (Track* const own = identities_.follower(measurement, tracks_); own != nullptr) {
@@ -52,6 +126,8 @@ Association LiveTracks::add(const BearingMeasurement& measurement, bool may_begi
     if (result.kind == Association::Kind::kTrack) return result;
   }
   ++counts_.unexplained;
+  if (measurement.is_tracklet && takes(measurement, measurement.utime_us, Activity::kFollowsS))
+    return {};
   const bool room = static_cast<int>(tracks_.size()) < config_.max_tracks;
   return may_begin && room ? initiate(measurement) : Association{};
 }
@@ -62,7 +138,8 @@ void LiveTracks::note_duplicates(const BearingMeasurement& measurement,
   std::vector<std::int64_t> ids;
   for (const Candidate& candidate : near) {
     const Track& track = tracks_[candidate.track];
-    if (track.state == TrackState::kConfirmed) ids.push_back(track.id);
+    const bool is_open = track.state == TrackState::kConfirmed && !track.has_taken(measurement);
+    if (is_open) ids.push_back(track.id);
   }
   duplicates_.note(measurement, ids);
 }
@@ -72,10 +149,76 @@ Association LiveTracks::initiate(const BearingMeasurement& measurement) {
   if (!start) return {};
   errors_.learn(start->evidence);
   Track& begun = begin(std::move(start->track));
+  if (measurement.is_tracklet) begun.existence.begin();
   consider(begun);
   // It may be one of a station that has waited for its search.
   return begun.has_taken(measurement) ? Association{Association::Kind::kTrack, begun.id}
                                       : Association{};
+}
+
+// Of the image of a detector. A target that hardly anybody sees is not judged: it coasts.
+void LiveTracks::judge_existence(std::span<const BearingMeasurement> image) {
+  const BearingMeasurement& any = image.front();
+  if (!any.is_tracklet) return;
+  for (Track& track : tracks_) {
+    if (!track.existence.is_judged() || track.state == TrackState::kDeleted) continue;
+    if (track.has_taken(any)) {
+      track.existence.seen();
+    } else if (should_show(any, track)) {
+      track.existence.missed();
+    }
+    if (track.existence.probability() < kDeleted) track.state = TrackState::kDeleted;
+  }
+}
+
+// Two other stations see it, it is in the field of view, and as bright as there it would be found.
+bool LiveTracks::should_show(const BearingMeasurement& in_image, const Track& track) const {
+  constexpr double kFound = 8.0;  // signal
+  const Eigen::Vector3d p_ecef = track.filter.at(in_image.utime_us).mean.head<3>();
+  if (!views_.shows(in_image, p_ecef)) return false;
+  int others = 0;
+  double brightness = 0.0;
+  for (const auto& [station, bearings] : track.bearings) {
+    if (station == in_image.station || bearings.empty()) continue;
+    const BearingMeasurement& newest = bearings.back();
+    if (seconds(in_image.utime_us - newest.utime_us) > Activity::kDeliversS) continue;
+    ++others;
+    const double squared_m2 = (p_ecef - newest.sight.origin_ecef).squaredNorm();
+    brightness = std::max(brightness, newest.sighted.signal * squared_m2);
+  }
+  const double here_m2 = (p_ecef - in_image.sight.origin_ecef).squaredNorm();
+  return others >= 2 && (brightness == 0.0 || brightness / here_m2 >= kFound);
+}
+
+// Whether another tracklet that belongs to no confirmed track may be the object that one of its
+// two stations sees.
+bool LiveTracks::has_rival(const Track& track) const {
+  if (!track.existence.is_judged() || track.bearings.size() != 2) return false;
+  const auto rivals_of = [&](const std::vector<BearingMeasurement>& own,
+                             const std::vector<BearingMeasurement>& other) {
+    const auto is_rival = [&](const BearingMeasurement& m) {
+      return m.station == other.back().station && m.track_id != other.back().track_id &&
+             initiation_.may_meet(own.back(), m, errors_);
+    };
+    const auto pooled = initiation_.pool().stations().find(other.back().station);
+    const bool in_pool = pooled != initiation_.pool().stations().end() &&
+                         std::ranges::any_of(pooled->second.bearings, is_rival);
+    return in_pool || std::ranges::any_of(tracks_, [&](const Track& t) {
+             const auto seen = t.bearings.find(other.back().station);
+             return t.state == TrackState::kTentative && seen != t.bearings.end() &&
+                    !seen->second.empty() && is_rival(seen->second.back());
+           });
+  };
+  const auto& first = track.bearings.begin()->second;
+  const auto& second = track.bearings.rbegin()->second;
+  if (first.empty() || second.empty()) return false;
+  return rivals_of(first, second) || rivals_of(second, first);
+}
+
+bool LiveTracks::is_ambiguous() const {
+  return std::ranges::any_of(tracks_, [&](const Track& track) {
+    return track.state == TrackState::kTentative && has_rival(track);
+  });
 }
 
 bool LiveTracks::is_worth_confirming(const Track& track) const {
@@ -85,10 +228,11 @@ bool LiveTracks::is_worth_confirming(const Track& track) const {
     of_a_pair += count >= config_.confirm_pair_hits ? 1 : 0;
     hits += count;
   }
-  if (track.misses > hits) return false;
+  if (track.misses > hits || track.existence.probability() < kConfirmed) return false;
   if (stations >= config_.confirm_stations) return true;
   return of_a_pair >= 2 &&
-         seconds(track.filter.utime_us() - track.initiated_us) >= config_.confirm_s;
+         seconds(track.filter.utime_us() - track.initiated_us) >= config_.confirm_s &&
+         !has_rival(track);
 }
 
 bool LiveTracks::is_tentative_lost(double unseen_s) const {

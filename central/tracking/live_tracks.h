@@ -1,13 +1,18 @@
 // Live tracks of several targets, and the association of bearings with them. Pure.
 //
 // The rules (details in docs/fusion.md):
-//  - A bearing is associated with the confirmed track that explains it best, or else with the best
-//    tentative one. A track takes one bearing per exposure of a station.
-//  - If two confirmed tracks explain a bearing about equally well (they cross in that station's
-//    view), it is ambiguous and updates neither: the other stations distinguish them.
+//  - The bearings of one image are assigned to the confirmed tracks so that they are explained best
+//    together; what remains, to the tentative ones. A track takes one bearing per exposure of a
+//    station.
+//  - If the image is explained about equally well with a bearing at another confirmed track (they
+//    cross in that station's view), it is ambiguous and updates neither: the other stations
+//    distinguish them.
 //  - Unassociated bearings are kept for track initiation (track_initiation.h).
 //  - tentative -> confirmed: three stations have given two bearings each, or two stations five each
 //    for confirm_s; the track explains most of their bearings; and it has a position.
+//  - A track of tracklets is not confirmed while it may be a ghost: its existence is judged by the
+//    images of detectors (existence.h), and two stations alone may pair their objects in several
+//    ways. A tracklet that a target has belongs to no other.
 //  - tentative -> deleted: no two stations have seen it for tentative_delete_s, or it is a
 //    duplicate.
 //  - coasting -> deleted: no two stations have seen it for drop_s; or for coast_s, if one station
@@ -18,6 +23,9 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -33,7 +41,14 @@ class LiveTracks : public TrackManager {
   explicit LiveTracks(const TrackManagerConfig& config);
 
   using TrackManager::add;
-  Association add(const BearingMeasurement& measurement, bool may_begin) override;
+  std::vector<Association> add(std::span<const BearingMeasurement> image, bool may_begin) override;
+  // Where a station's camera looks; view_rad: the narrower field of view. The images of a detector
+  // that should show a target, and do not, count against its existence.
+  void know_view(const std::string& station, const AzimuthElevation& axis, double view_rad,
+                 std::int64_t utime_us) {
+    views_.know(station, axis, view_rad, utime_us);
+  }
+  bool is_ambiguous() const override;
   // Message time was reset: identities are not assigned again.
   void clear();
   // The duplicates merged since the last call (the newest 64), in the order of merging: pairs of
@@ -46,6 +61,13 @@ class LiveTracks : public TrackManager {
     Innovation seen;
   };
   std::vector<Candidate> candidates(const BearingMeasurement& measurement, bool confirmed) const;
+  // Gives the bearings without a fate to confirmed or to tentative tracks.
+  void give(std::span<const BearingMeasurement> image, bool confirmed,
+            std::vector<std::optional<Association>>& fates);
+  Association give_up(const BearingMeasurement& measurement, bool may_begin);
+  void judge_existence(std::span<const BearingMeasurement> image);
+  bool should_show(const BearingMeasurement& in_image, const Track& track) const;
+  bool has_rival(const Track& track) const;
   void note_duplicates(const BearingMeasurement& measurement, const std::vector<Candidate>& near);
   Association initiate(const BearingMeasurement& measurement);
   void merge(std::int64_t older, std::int64_t younger);
@@ -57,6 +79,7 @@ class LiveTracks : public TrackManager {
   void merge_duplicates() override;
 
   DuplicateTracks duplicates_;
+  StationViews views_;
   Merged merged_;
 };
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "central/measurement/time_span.h"
+#include "central/tracking/appearance.h"
 #include "geometry/angles.h"
 #include "geometry/wgs84.h"
 
@@ -56,6 +57,8 @@ Solution RayMeetings::meet(const LookedAt& a, const LookedAt& b, const BiasModel
   const double miss_m =
       s * gate_rad(a.measurement, dt_s, s, errors) + t * gate_rad(b.measurement, 0.0, t, errors);
   if (off_m > miss_m) return Solution::kRaysMiss;
+  if (!may_be_one(a.measurement, s, b.measurement, t, base.cross(u).normalized()))
+    return Solution::kRaysMiss;
   meeting = {(on_a + on_b) / 2.0, std::min(s, t), a.measurement.station, b.measurement.station,
              off_m / miss_m};
   return Solution::kOk;
@@ -83,6 +86,14 @@ std::ptrdiff_t RayMeetings::nearest(const UnassociatedBearings::Station& own,
     best = i;
   }
   return best;
+}
+
+bool RayMeetings::may_meet(const BearingMeasurement& a, const BearingMeasurement& b,
+                           const BiasModel& errors) const {
+  const BearingSummary look = summarise(a, R_ecef_enu(a.sight.origin_ecef));
+  const BearingSummary other = summarise(b, R_ecef_enu(b.sight.origin_ecef));
+  RayMeeting meeting;
+  return meet({a, look}, {b, other}, errors, meeting) == Solution::kOk;
 }
 
 std::vector<RayMeeting> RayMeetings::of(const BearingMeasurement& measurement,

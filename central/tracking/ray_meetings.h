@@ -36,6 +36,9 @@ class RayMeetings {
   std::vector<RayMeeting> of(const BearingMeasurement& measurement,
                              const UnassociatedBearings& bearings, const BiasModel& errors,
                              Solution& failure) const;
+  // Whether the two may be of one object.
+  bool may_meet(const BearingMeasurement& a, const BearingMeasurement& b,
+                const BiasModel& errors) const;
   // Generous bound of a target's angular motion in this time.
   double moved_rad(double dt_s) const;
   const MeetingConfig& config() const { return config_; }

@@ -29,7 +29,15 @@ const Track* RecordedTrack::located() const {
   return found == tracks_.end() ? nullptr : &*found;
 }
 
-Association RecordedTrack::add(const BearingMeasurement& measurement, bool may_begin) {
+std::vector<Association> RecordedTrack::add(std::span<const BearingMeasurement> image,
+                                            bool may_begin) {
+  std::vector<Association> all;
+  for (const BearingMeasurement& measurement : image)
+    all.push_back(add_one(measurement, may_begin));
+  return all;
+}
+
+Association RecordedTrack::add_one(const BearingMeasurement& measurement, bool may_begin) {
   Association given;
   if (!tracks_.empty()) {
     given = give_to(tracks_.front(), measurement);

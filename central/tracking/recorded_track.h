@@ -12,7 +12,9 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "central/tracking/track_manager.h"
 
@@ -23,7 +25,7 @@ class RecordedTrack : public TrackManager {
   explicit RecordedTrack(const TrackManagerConfig& config);
 
   using TrackManager::add;
-  Association add(const BearingMeasurement& measurement, bool may_begin) override;
+  std::vector<Association> add(std::span<const BearingMeasurement> image, bool may_begin) override;
   // Whether an initiation of several stations has confirmed the track.
   bool is_initiated() const { return proved_; }
   // The confirmed track; null: none.
@@ -35,6 +37,7 @@ class RecordedTrack : public TrackManager {
     std::int64_t newest_us = 0;
     double share = 1.0;
   };
+  Association add_one(const BearingMeasurement& measurement, bool may_begin);
   void note(const BearingMeasurement& measurement, bool used);
   void take_back(std::int64_t utime_us);
   void confirm_by_initiation(const BearingMeasurement& measurement);

@@ -9,6 +9,7 @@
 #include "central/filter/track_filter.h"
 #include "central/measurement/bearing_measurement.h"
 #include "central/measurement/ray.h"
+#include "central/tracking/existence.h"
 
 namespace ols::fusion {
 
@@ -29,6 +30,7 @@ struct Track {
   int misses = 0;                        // rejected bearings
   std::int64_t last_two_station_us = 0;  // when two stations last saw it
   StationBearings bearings;              // of the last second
+  Existence existence;
 
   // Whether it already has a bearing of this exposure of the station.
   bool has_taken(const BearingMeasurement& measurement) const;

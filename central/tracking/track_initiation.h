@@ -11,6 +11,7 @@
 // they take turns, so that the cost per bearing does not grow.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <deque>
 #include <optional>
@@ -19,6 +20,7 @@
 #include <utility>
 #include <vector>
 
+#include "central/measurement/time_span.h"
 #include "central/tracking/ray_meetings.h"
 #include "central/tracking/track.h"
 
@@ -58,6 +60,12 @@ class TrackInitiation {
   void give(const Track& track, const BiasModel& errors);
   void forget(const std::string& station) { pool_.forget(station); }
   void clear() { *this = TrackInitiation(config_, filter_); }
+  // Whether two bearings of about one time may be of one object.
+  bool may_meet(const BearingMeasurement& a, const BearingMeasurement& b,
+                const BiasModel& errors) const {
+    const double apart_s = std::abs(seconds(a.utime_us - b.utime_us));
+    return apart_s <= config_.meeting.pair_s && meetings_.may_meet(a, b, errors);
+  }
   const UnassociatedBearings& pool() const { return pool_; }
   // Why the last bearing began no track. Usually this is the reason why its ray and the last other
   // ray give no position. kRaysMiss: rays intersect, but the bearings of their stations do not

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -53,9 +54,13 @@ class TrackManager {
  public:
   virtual ~TrackManager() = default;
 
-  // may_begin: whether the bearing may take part in track initiation.
-  virtual Association add(const BearingMeasurement& measurement, bool may_begin) = 0;
-  Association add(const BearingMeasurement& measurement) { return add(measurement, true); }
+  // The bearings of one image, each of another object; their fates in the same order. may_begin:
+  // whether they may take part in track initiation.
+  virtual std::vector<Association> add(std::span<const BearingMeasurement> image,
+                                       bool may_begin) = 0;
+  Association add(const BearingMeasurement& measurement, bool may_begin = true) {
+    return add(std::span(&measurement, 1), may_begin).front();
+  }
   // Changes the tracks' states, by the fusion's time.
   void advance(std::int64_t now_us);
   void forget_station(const std::string& station);
@@ -72,6 +77,9 @@ class TrackManager {
   // Why the last bearing began no track, and why there is none at this instant.
   Solution why_no_track_began() const { return initiation_.why_no_track(); }
   Solution why_none(std::int64_t now_us) const { return initiation_.why_none(now_us); }
+  // Whether objects that two stations see may be paired in several ways, and no target is
+  // published for that reason.
+  virtual bool is_ambiguous() const { return false; }
   // The identity of a local track (the bearing's track_id) that no track explains: that of the
   // target to which it belonged, and later that of the target that it becomes. 0 for the first
   // confirm_s, in which ordinary targets are initiated, and for a bearing without a local track id.

@@ -22,7 +22,8 @@ BearingSummary summarise(const BearingMeasurement& measurement, const Eigen::Mat
           .direction_ecef = R_ecef_enu * enu_from_azimuth_elevation(sight.direction),
           .spread_rad = kLeastRad + kGenerous * std::sqrt(variance),
           .clock_sd_s = measurement.clock_sd_s,
-          .track_id = measurement.track_id};
+          .track_id = measurement.track_id,
+          .is_tracklet = measurement.is_tracklet};
 }
 
 void UnassociatedBearings::store(const BearingMeasurement& measurement) {

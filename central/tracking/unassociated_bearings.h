@@ -22,6 +22,7 @@ struct BearingSummary {
   double spread_rad = 0.0;  // generous bound of the angle off its target
   double clock_sd_s = 0.0;
   std::int64_t track_id = 0;
+  bool is_tracklet = false;
 
   // Whether it points at this position, within spread_rad and a margin.
   bool is_near(const Eigen::Vector3d& p_ecef, double more_rad) const;

@@ -17,12 +17,24 @@ Vector3d draw(std::mt19937_64& random) {
   return {x, y, z};
 }
 
+// What moves before one camera alone: an insect, a leaf.
+struct FalseTracklet {
+  std::int64_t id = 0;
+  double until_s = 0.0;
+  AzimuthElevation there;
+  Vector2d rate_rad_s = Vector2d::Zero();
+  double size_rad = 0.0, signal = 0.0;
+};
+
 struct Station {
   std::string id;
   Vector3d p_ecef;                           // true
   Vector3d says_ecef;                        // it says
   Vector3d rotation_rad = Vector3d::Zero();  // about east, north, up
   AzimuthElevation aim;
+  std::int64_t next_tracklet = 1;
+  std::vector<std::int64_t> of_target;  // the tracklet of each target
+  std::vector<FalseTracklet> false_ones;
 };
 
 AzimuthElevation direction(const Vector3d& from_ecef, const Vector3d& to_ecef) {
@@ -49,11 +61,66 @@ fusion::BearingMeasurement measurement(const WorldConfig& config, const Station&
   return s;
 }
 
-// GCC 12 warns wrongly of "s" + std::to_string(i).
-std::string name_of(std::size_t i) {
-  std::string name = "s";
-  name += std::to_string(i);
-  return name;
+AzimuthElevation moved(const AzimuthElevation& from, const Vector2d& by_rad) {
+  const double elevation = std::clamp(from.elevation_rad + by_rad.y(), -kPi / 2.0, kPi / 2.0);
+  return {wrap_two_pi(from.azimuth_rad + by_rad.x() / std::cos(elevation)), elevation};
+}
+
+void make_tracklet(const WorldConfig& config, std::int64_t id, const Vector2d& rate_rad_s,
+                   double size_rad, double signal, std::mt19937_64& random,
+                   fusion::BearingMeasurement& bearing) {
+  const double variance = config.rate_sd_rad_s * config.rate_sd_rad_s;
+  bearing.is_tracklet = true;
+  bearing.track_id = id;
+  bearing.sighted.rate_rad_s = rate_rad_s + config.rate_sd_rad_s * draw(random).head<2>();
+  bearing.sighted.rate_covariance = variance * Eigen::Matrix2d::Identity();
+  bearing.sighted.size_sd_rad = 3.0 * config.noise_rad;
+  bearing.sighted.size_rad = std::hypot(size_rad, bearing.sighted.size_sd_rad);
+  bearing.sighted.signal = signal;
+}
+
+// What the detector saw of target k, at its instant.
+void see_target(const WorldConfig& config, const Path& path, std::size_t k, double time_s,
+                Station& station, std::mt19937_64& random, fusion::BearingMeasurement& bearing) {
+  constexpr double kStepS = 0.02, kSignalAt1M = 5e6;
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  station.of_target.resize(std::max(station.of_target.size(), k + 1), 0);
+  std::int64_t& own = station.of_target[k];
+  if (own == 0 || uniform(random) < config.breaks_per_s / config.rate_hz)
+    own = station.next_tracklet++;
+  const Vector3d p_ecef = site().to_ecef(at(path, time_s).p_enu);
+  const AzimuthElevation a = direction(station.p_ecef,
+                                       site().to_ecef(at(path, time_s - kStepS).p_enu)),
+                         b = direction(station.p_ecef,
+                                       site().to_ecef(at(path, time_s + kStepS).p_enu));
+  const Vector2d rate(wrap_pi(b.azimuth_rad - a.azimuth_rad) * std::cos(a.elevation_rad),
+                      b.elevation_rad - a.elevation_rad);
+  const double range_m = (p_ecef - station.p_ecef).norm();
+  make_tracklet(config, own, rate / (2.0 * kStepS), config.size_m / range_m,
+                kSignalAt1M * config.size_m / (range_m * range_m), random, bearing);
+}
+
+void see_false_ones(const WorldConfig& config, double time_s, Station& station,
+                    std::mt19937_64& random, std::vector<fusion::BearingMeasurement>& all) {
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  std::poisson_distribution<int> born(config.false_per_frame /
+                                      (config.false_life_s * config.rate_hz));
+  std::exponential_distribution<double> life(1.0 / config.false_life_s);
+  std::erase_if(station.false_ones, [&](const FalseTracklet& f) { return f.until_s < time_s; });
+  for (int i = born(random); i > 0; --i) {
+    const double x = uniform(random), y = uniform(random);
+    const Vector2d off = config.view_rad * (2.0 * Vector2d(x, y) - Vector2d(1.0, 1.0));
+    station.false_ones.push_back({station.next_tracklet++, time_s + life(random),
+                                  moved(station.aim, off), 0.05 * draw(random).head<2>(),
+                                  2e-3 * uniform(random), 5.0 + 30.0 * uniform(random)});
+  }
+  const std::int64_t utime_us = kStartUs + std::llround(time_s * 1e6);
+  for (FalseTracklet& f : station.false_ones) {
+    f.there = moved(f.there, f.rate_rad_s / config.rate_hz);
+    all.push_back(
+        measurement(config, station, utime_us, f.there, config.noise_rad * draw(random).head<2>()));
+    make_tracklet(config, f.id, f.rate_rad_s, f.size_rad, f.signal, random, all.back());
+  }
 }
 
 // A Gauss-Markov process.
@@ -68,15 +135,14 @@ std::vector<Station> stations_of(const WorldConfig& config, std::mt19937_64& ran
   std::vector<Station> stations;
   for (std::size_t i = 0; i < config.stations_enu.size(); ++i) {
     Station station;
-    station.id = name_of(i);
+    station.id = name_of_station(i);
     station.p_ecef = site().to_ecef(config.stations_enu[i]);
     station.rotation_rad = rotation_sd_rad(config).cwiseProduct(draw(random));
     station.says_ecef = station.p_ecef;
     if (config.place_sd_m > 0.0) {
       station.says_ecef = site().to_ecef(config.stations_enu[i] + config.place_sd_m * draw(random));
     }
-    const Vector3d aim = config.aims_enu.empty() ? Vector3d(0, 0, 80) : config.aims_enu[i];
-    station.aim = direction(station.p_ecef, site().to_ecef(aim));
+    station.aim = aim_of(config, i);
     stations.push_back(station);
   }
   return stations;
@@ -87,6 +153,18 @@ std::vector<Station> stations_of(const WorldConfig& config, std::mt19937_64& ran
 Vector3d rotation_sd_rad(const WorldConfig& config) {
   return {config.bias_sd_rad, config.bias_sd_rad,
           std::hypot(config.bias_sd_rad, config.heading_sd_rad)};
+}
+
+// GCC 12 warns wrongly of "s" + std::to_string(i).
+std::string name_of_station(std::size_t station) {
+  std::string name = "s";
+  name += std::to_string(station);
+  return name;
+}
+
+AzimuthElevation aim_of(const WorldConfig& config, std::size_t station) {
+  const Vector3d aim = config.aims_enu.empty() ? Vector3d(0, 0, 80) : config.aims_enu[station];
+  return direction(site().to_ecef(config.stations_enu[station]), site().to_ecef(aim));
 }
 
 const LocalFrame& site() {
@@ -157,21 +235,29 @@ std::vector<fusion::BearingMeasurement> measure(const WorldConfig& config,
       const std::int64_t utime_us = kStartUs + std::llround(time_s * 1e6);
       const std::size_t first = measurements.size();
       wander(config, 1.0 / config.rate_hz, stations[k], random);
-      for (const Path& path : targets) {
+      for (std::size_t target = 0; target < targets.size(); ++target) {
+        const Path& path = targets[target];
         if (uniform(random) < config.missed) continue;
         const AzimuthElevation there =
             direction(stations[k].p_ecef, site().to_ecef(at(path, time_s).p_enu));
         const Vector2d off = shift_by_rotation(tangent_basis(there)) * stations[k].rotation_rad +
                              config.noise_rad * draw(random).head<2>();
         measurements.push_back(measurement(config, stations[k], utime_us, there, off));
+        if (config.tracklets)
+          see_target(config, path, target, time_s, stations[k], random, measurements.back());
       }
-      for (int i = config.false_per_frame > 0.0 ? false_ones(random) : 0; i > 0; --i) {
+      if (config.tracklets) see_false_ones(config, time_s, stations[k], random, measurements);
+      const bool at_random = config.false_per_frame > 0.0 && !config.tracklets;
+      for (int i = at_random ? false_ones(random) : 0; i > 0; --i) {
         const double x = uniform(random), y = uniform(random);
         const Vector2d off = config.view_rad * (2.0 * Vector2d(x, y) - Vector2d(1.0, 1.0));
         measurements.push_back(measurement(config, stations[k], utime_us, stations[k].aim, off));
       }
       std::shuffle(measurements.begin() + static_cast<std::ptrdiff_t>(first), measurements.end(),
                    random);
+      const auto count = static_cast<int>(measurements.size() - first);
+      for (std::size_t i = first; config.tracklets && i < measurements.size(); ++i)
+        measurements[i].image_bearings = count;
     }
   }
   return measurements;

@@ -28,6 +28,13 @@ struct WorldConfig {
   double missed = 0.0;           // share of a station's detections
   double false_per_frame = 0.0;  // mean number, Poisson
   double view_rad = 0.5;         // half width of the field of the false ones
+  // Whether the stations have detectors: bearings are of tracklets, which say what was seen. False
+  // ones are then of objects that only this station sees, each for some time and on its way.
+  bool tracklets = false;
+  double rate_sd_rad_s = 2e-3;  // of a tracklet's angular rate
+  double breaks_per_s = 0.05;   // of a target's tracklet: another id
+  double false_life_s = 2.0;    // mean, of a false tracklet
+  double size_m = 0.5;          // of targets
 };
 
 // 1-sigma of a station's rotation about east, north and up.
@@ -55,6 +62,10 @@ Path manoeuvring(const PathPoint& start, double acceleration_m_s2, double durati
 std::vector<fusion::BearingMeasurement> measure(const WorldConfig& config,
                                                 const std::vector<Path>& targets, double duration_s,
                                                 std::mt19937_64& random);
+
+// The id of a station, and the axis of its camera at the start.
+std::string name_of_station(std::size_t station);
+AzimuthElevation aim_of(const WorldConfig& config, std::size_t station);
 
 // n stations on a circle about the origin.
 std::vector<Eigen::Vector3d> circle(int n, double radius_m);

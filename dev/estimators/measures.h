@@ -21,6 +21,10 @@ void against_paper(int runs, Limits& limits);
 // Crossing targets with misses and false bearings.
 void several(int runs, Limits& limits);
 
+// Traffic that detectors see: ten crossing targets, four stations that stare, tracklets with
+// misses, breaks, and false ones. How many are found, how often identities change, ghosts an hour.
+void traffic(int runs, Limits& limits);
+
 // Meteors, which no drone's recording stands for: 0.3 to 5 s of 10 to 70 km/s at 80 to 200 km, 2 to
 // 6 cameras that state nothing but their noise. The recorded filter and its smoother against least
 // squares at the same instants.

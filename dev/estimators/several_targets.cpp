@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "dev/estimators/bearing_world.h"
 #include "geometry/angles.h"
+#include "geometry/assignment.h"
 
 namespace ols::bench {
 namespace {
@@ -43,39 +45,69 @@ class Judge {
  public:
   explicit Judge(const std::vector<Path>& truth) : truth_(truth), own_(truth.size(), 0) {}
 
+  // The targets of an epoch come with several bearings.
+  void take(const fusion::FusedTarget& target) {
+    if (!epoch_.empty() && epoch_.front().utime_us != target.utime_us) {
+      see(epoch_);
+      epoch_.clear();
+    }
+    epoch_.push_back(target);
+  }
+
+  IdentityScore score() const {
+    return {right_ / std::max(1.0, all_),
+            longest_ghost_s_,
+            switches_,
+            std::sqrt(squared_ / std::max(1.0, right_)),
+            found_ / std::max(1.0, all_),
+            static_cast<int>(std::ranges::count(ever_right_, false,
+                                                &decltype(ever_right_)::value_type::second))};
+  }
+
+ private:
   void see(const std::vector<fusion::FusedTarget>& targets) {
     const double time_s = 1e-6 * static_cast<double>(targets.front().utime_us - kStartUs);
-    std::vector<std::int64_t> nearest(truth_.size(), 0);
-    std::vector<double> least(truth_.size(), kNearM);
-    for (const fusion::FusedTarget& target : targets) {
-      if (target.estimate.solution != fusion::Solution::kOk) continue;
-      bool ghost = true;
-      for (std::size_t i = 0; i < truth_.size(); ++i) {
-        const Vector3d there = site().to_ecef(at(truth_[i], time_s).p_enu);
-        const double off_m = (target.estimate.position_ecef - there).norm();
-        ghost = ghost && off_m > kNearM;
-        if (off_m >= least[i]) continue;
-        least[i] = off_m;
-        nearest[i] = target.target_id;
-      }
-      double& since = ghost_since_s_.try_emplace(target.target_id, time_s).first->second;
+    const Eigen::MatrixXd off_m = distances(targets, time_s);
+    for (std::size_t k = 0; k < targets.size(); ++k) {
+      if (targets[k].estimate.solution != fusion::Solution::kOk) continue;
+      const bool ghost = (off_m.col(static_cast<Eigen::Index>(k)).array() > kNearM).all();
+      bool& ever_right = ever_right_.try_emplace(targets[k].target_id, false).first->second;
+      ever_right = ever_right || !ghost;
+      double& since = ghost_since_s_.try_emplace(targets[k].target_id, time_s).first->second;
       if (!ghost) since = time_s;
       longest_ghost_s_ = std::max(longest_ghost_s_, time_s - since);
     }
     if (time_s < kSettledS) return;
-    for (std::size_t i = 0; i < truth_.size(); ++i) judge(i, nearest[i], least[i]);
+    const std::vector<int> target = assign(off_m, kNearM);
+    for (std::size_t i = 0; i < truth_.size(); ++i) {
+      const auto k = static_cast<std::size_t>(target[i]);
+      if (target[i] < 0) {
+        all_ += 1.0;
+      } else {
+        judge(i, targets[k].target_id, off_m(static_cast<Eigen::Index>(i), target[i]));
+      }
+    }
   }
 
-  IdentityScore score() const {
-    return {right_ / std::max(1.0, all_), longest_ghost_s_, switches_,
-            std::sqrt(squared_ / std::max(1.0, right_))};
+  // Of each true object (row) from each target; without a position infinite.
+  Eigen::MatrixXd distances(const std::vector<fusion::FusedTarget>& targets, double time_s) const {
+    Eigen::MatrixXd off_m = Eigen::MatrixXd::Constant(std::ssize(truth_), std::ssize(targets),
+                                                      std::numeric_limits<double>::infinity());
+    for (Eigen::Index i = 0; i < off_m.rows(); ++i) {
+      const Vector3d there = site().to_ecef(at(truth_[static_cast<std::size_t>(i)], time_s).p_enu);
+      for (Eigen::Index k = 0; k < off_m.cols(); ++k) {
+        const fusion::Estimate& estimate = targets[static_cast<std::size_t>(k)].estimate;
+        if (estimate.solution == fusion::Solution::kOk)
+          off_m(i, k) = (estimate.position_ecef - there).norm();
+      }
+    }
+    return off_m;
   }
 
- private:
   // The right identity is the first that a target had.
   void judge(std::size_t i, std::int64_t id, double off_m) {
     all_ += 1.0;
-    if (id == 0) return;
+    found_ += 1.0;
     if (own_[i] == 0) own_[i] = id;
     if (id == own_[i]) {
       right_ += 1.0;
@@ -86,12 +118,27 @@ class Judge {
   }
 
   const std::vector<Path>& truth_;
+  std::vector<fusion::FusedTarget> epoch_;
   std::vector<std::int64_t> own_;
   std::map<std::size_t, std::int64_t> last_;
   std::map<std::int64_t, double> ghost_since_s_;
-  double all_ = 0.0, right_ = 0.0, squared_ = 0.0, longest_ghost_s_ = 0.0;
+  std::map<std::int64_t, bool> ever_right_;
+  double all_ = 0.0, found_ = 0.0, right_ = 0.0, squared_ = 0.0, longest_ghost_s_ = 0.0;
   int switches_ = 0;
 };
+
+constexpr std::int64_t kStatusUs = 500'000;
+
+void know_views(const WorldConfig& world, fusion::Fusion& fusion) {
+  for (std::size_t i = 0; i < world.stations_enu.size(); ++i) {
+    fusion::StationTraits traits;
+    traits.camera_ecef = site().to_ecef(world.stations_enu[i]);
+    traits.field_of_view_rad = 2.0 * world.view_rad;
+    traits.axis = aim_of(world, i);
+    traits.commandable = false;
+    fusion.know_station(name_of_station(i), traits);
+  }
+}
 
 }  // namespace
 
@@ -102,14 +149,21 @@ IdentityScore run_several(const SeveralTargets& scenario, std::uint64_t seed) {
   world.stations_enu = circle(scenario.stations, 250.0);
   world.missed = scenario.missed;
   world.false_per_frame = scenario.false_per_frame;
+  world.tracklets = scenario.tracklets;
+  if (scenario.tracklets) world.rate_hz = 15.0;
   const auto measurements = measure(world, truth, scenario.duration_s, random);
   fusion::FusionConfig config;
   config.paper_targets = 0;
   fusion::Fusion fusion(config);
   Judge judge(truth);
+  std::int64_t known_us = 0;
   for (const fusion::BearingMeasurement& measurement : measurements) {
+    if (scenario.tracklets && measurement.utime_us - known_us > kStatusUs) {
+      known_us = measurement.utime_us;
+      know_views(world, fusion);
+    }
     const fusion::FusionOutput output = fusion.add(measurement);
-    if (!output.targets.empty()) judge.see(output.targets);
+    for (const fusion::FusedTarget& target : output.targets) judge.take(target);
   }
   return judge.score();
 }

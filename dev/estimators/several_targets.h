@@ -12,6 +12,7 @@ struct SeveralTargets {
   double duration_s = 40.0;
   double missed = 0.1;
   double false_per_frame = 1.0;
+  bool tracklets = false;  // of detectors, in 15 images a second of cameras that stare
 };
 
 struct IdentityScore {
@@ -19,6 +20,8 @@ struct IdentityScore {
   double longest_ghost_s = 0.0;    // a confirmed track far from every target
   int switches = 0;                // a target's track has got another id
   double rms_m = 0.0;
+  double found = 0.0;  // share of target-seconds, by whichever identity
+  int ghosts = 0;      // identities that were never near a target
 };
 
 IdentityScore run_several(const SeveralTargets& scenario, std::uint64_t seed);

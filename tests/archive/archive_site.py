@@ -37,7 +37,7 @@ def filled(message: Any, chance: random.Random, utime: int) -> Any:
         else:
             continue
     lists = ("stations", "borders", "border_points", "devices", "alarms", "readings", "cues")
-    for name in (*lists, "alarm_ids", "alarm_parameters"):
+    for name in (*lists, "alarm_ids", "alarm_parameters", "classes"):
         if name in message.__slots__:
             setattr(message, name, 0)
     if "counters" in message.__slots__:

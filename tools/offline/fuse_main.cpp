@@ -105,6 +105,8 @@ const char* cause_of(ols::fusion::Solution solution) {
     case Solution::kRaysMiss:
       return "the lines of sight do not meet: is one station's place or north wrong, or do they "
              "see different objects?";
+    case Solution::kAmbiguous:
+      return "two stations see several objects, and it is open which belong together";
     case Solution::kNotConverged:
       return "the lines of sight contradict each other";
     case Solution::kOk:

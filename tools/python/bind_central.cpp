@@ -22,7 +22,8 @@ void bind_results(py::module_& m) {
       .value("TOO_FAR", fusion::Solution::kTooFar)
       .value("NOT_CONVERGED", fusion::Solution::kNotConverged)
       .value("BEARING_ONLY", fusion::Solution::kBearingOnly)
-      .value("RAYS_MISS", fusion::Solution::kRaysMiss);
+      .value("RAYS_MISS", fusion::Solution::kRaysMiss)
+      .value("AMBIGUOUS", fusion::Solution::kAmbiguous);
 
   data_class<fusion::RayUse>(m, "RayUse", "What became of one ray.")
       .def_readwrite("used", &fusion::RayUse::used, "False: set aside as an outlier.")

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cmath>
+#include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "central/tracking/track_manager.h"
 #include "tests/unit/central/flight.h"
@@ -17,9 +19,11 @@ class GivenTracks : public TrackManager {
 
   using TrackManager::add;
   // Every bearing belongs to the first track; without any it begins none.
-  Association add(const BearingMeasurement& measurement, bool) override {
-    if (tracks_.empty()) return {};
-    return give_to(tracks_.front(), measurement);
+  std::vector<Association> add(std::span<const BearingMeasurement> image, bool) override {
+    std::vector<Association> all(image.size());
+    for (std::size_t i = 0; i < image.size() && !tracks_.empty(); ++i)
+      all[i] = give_to(tracks_.front(), image[i]);
+    return all;
   }
   // A tentative track of something that stands here.
   Track& begin_at(const Eigen::Vector3d& p_enu, std::int64_t utime_us = kStart) {

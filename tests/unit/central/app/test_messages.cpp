@@ -338,6 +338,7 @@ TEST(Messages, SolutionsHaveTheNumbersOfTheMessage) {
   EXPECT_EQ(static_cast<int>(Solution::kNotConverged), int{M::SOLUTION_NOT_CONVERGED});
   EXPECT_EQ(static_cast<int>(Solution::kBearingOnly), int{M::SOLUTION_BEARING_ONLY});
   EXPECT_EQ(static_cast<int>(Solution::kRaysMiss), int{M::SOLUTION_RAYS_MISS});
+  EXPECT_EQ(static_cast<int>(Solution::kAmbiguous), int{M::SOLUTION_AMBIGUOUS});
 }
 
 }  // namespace

@@ -18,6 +18,15 @@ TEST(SeveralTargets, KeepTheirIdentitiesThroughCrossingsMissesAndFalseBearings) 
   EXPECT_GE(right, 0.95);
 }
 
+// Ten targets that cross; every station has a false tracklet in each image, too.
+TEST(SeveralTargets, OfDetectorsAreFoundAndNoGhostIsPublished) {
+  const IdentityScore score =
+      run_several({.targets = 10, .duration_s = 12.0, .tracklets = true}, 1);
+  EXPECT_GE(score.found, 0.95);
+  EXPECT_GE(score.by_right_identity, 0.9);
+  EXPECT_EQ(score.ghosts, 0);
+}
+
 TEST(SeveralTargets, OneTargetWithoutClutterIsTrackedThroughout) {
   const IdentityScore score =
       run_several({.targets = 1, .duration_s = 10.0, .missed = 0.0, .false_per_frame = 0.0}, 1);

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <random>
+#include <span>
 
 #include "dev/estimators/bearing_world.h"
 #include "tests/unit/central/scene.h"
@@ -73,6 +75,64 @@ TEST(LiveTracks, TwoStationsConfirmATrackByThatManyHitsOfEach) {
   const auto& hits = live.tracks().front().hits;
   ASSERT_EQ(hits.size(), 2U);
   EXPECT_EQ(std::min(hits.begin()->second, hits.rbegin()->second), 25);
+}
+
+// The bearing of the object comes second: one by one, the first in the gate would be taken.
+TEST(LiveTracks, OfAnImagesBearingsATrackTakesTheNearest) {
+  LiveTracks live{TrackManagerConfig{}};
+  bench::WorldConfig world{.stations_enu = test::square(), .aims_enu = {}};
+  std::mt19937_64 random(7);
+  const bench::Path path = bench::cruising({{60, 60, 150}, {3.0, 0.0, 0.0}}, 1e-6, 3.0, random);
+  const auto all = bench::measure(world, {path}, 3.0, random);
+  int images = 0, right = 0;
+  for (const BearingMeasurement& measurement : all) {
+    BearingMeasurement beside = measurement;
+    beside.sight.direction.elevation_rad += 1e-3;
+    const BearingMeasurement image[] = {beside, measurement};
+    const bool has_two =
+        measurement.station == "s0" && measurement.utime_us > bench::kStartUs + 2'000'000;
+    const auto fates = live.add(std::span(image).subspan(has_two ? 0 : 1), true);
+    live.advance(measurement.utime_us);
+    if (!has_two) continue;
+    ++images;
+    right += fates[1].kind == Association::Kind::kTrack ? 1 : 0;
+  }
+  EXPECT_GT(images, 20);
+  EXPECT_GE(right, 0.9 * images) << "noise makes the other the nearest in 5 % of them";
+}
+
+// Two objects in one plane with both stations, for four seconds.
+TEST(LiveTracks, TwoStationsConfirmNothingWhileTheirObjectsMayBePairedInTwoWays) {
+  constexpr double kPartS = 4.0, kEndS = 9.0;
+  bench::WorldConfig world{.stations_enu = {{-100, 0, 0}, {100, 0, 0}}, .aims_enu = {}};
+  world.tracklets = true;
+  world.breaks_per_s = 0.0;
+  world.rate_hz = 15.0;
+  std::mt19937_64 random(3);
+  bench::Path left, right;
+  for (int k = 0; k < (kEndS + 1.0) * bench::kPathHz; ++k) {
+    const double climbed = 4.0 * std::max(0.0, k / bench::kPathHz - kPartS);
+    left.push_back({{-20.0, 300.0, 100.0 + climbed}, {}});
+    right.push_back({{20.0, 300.0, 100.0}, {}});
+  }
+  LiveTracks live{TrackManagerConfig{}};
+  bool was_ambiguous = false;
+  for (const BearingMeasurement& m : bench::measure(world, {left, right}, kEndS, random)) {
+    live.add(m);
+    live.advance(m.utime_us);
+    was_ambiguous = was_ambiguous || live.is_ambiguous();
+    const bool together = m.utime_us < bench::kStartUs + static_cast<std::int64_t>(kPartS * 1e6);
+    if (together) {
+      ASSERT_EQ(live.counts().confirmed, 0);
+    }
+  }
+  EXPECT_TRUE(was_ambiguous);
+  EXPECT_FALSE(live.is_ambiguous());
+  ASSERT_EQ(std::ranges::count_if(live.tracks(), is_established), 2);
+  for (const Track& track : live.tracks()) {
+    const double x = std::abs(test::site().to_enu(track.filter.position()).x());
+    EXPECT_NEAR(x, 20.0, 3.0);
+  }
 }
 
 }  // namespace
