@@ -8,6 +8,7 @@ from typing import Any
 import lcm
 import numpy as np
 import ols_msg
+import pyarrow.parquet as pq
 from ols_archive.__main__ import main as ols_archive
 from ols_bench import flights
 
@@ -75,8 +76,9 @@ def archived(folder: Path, messages: Iterable["ols_msg.bearing_t"], name: str = 
     return folder / "archive"
 
 
-def flip_a_byte(path: Path, at: float = 0.4) -> None:
-    """Of the data pages, which make most of a file."""
+def flip_a_byte(path: Path) -> None:
+    """In the middle of the first column's data, which every reader reads."""
+    column = pq.ParquetFile(path).metadata.row_group(0).column(0)
     data = bytearray(path.read_bytes())
-    data[int(at * len(data))] ^= 0x40
+    data[column.data_page_offset + column.total_compressed_size // 2] ^= 0x40
     path.write_bytes(bytes(data))

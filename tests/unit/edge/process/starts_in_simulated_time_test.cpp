@@ -124,9 +124,9 @@ TEST_F(StationStarts, ADoubtOutlivesThemUntilAPersonVouches) {
   EXPECT_TRUE(give(Command::COMMAND_HOME));
   EXPECT_TRUE(is_said("homing"));
   EXPECT_TRUE(give(Command::COMMAND_STOP));
-  EXPECT_TRUE(is_said("homing was interrupted"));
+  EXPECT_TRUE(is_said("halted, homing was interrupted"));
   restart();
-  EXPECT_TRUE(is_said("its reference was in doubt already before this start"));
+  EXPECT_TRUE(is_said("halted, its reference was in doubt already before this start"));
   EXPECT_NE(wire::device_state(status_, "ptu"), ok_);
   EXPECT_TRUE(give(Command::COMMAND_REFERENCE_OK));
   EXPECT_TRUE(is_trusted());
