@@ -168,7 +168,8 @@ int act(const Arguments& arguments) {
   const ols::console::ConsoleConfig config = configuration(arguments);
   if (arguments.check_config) return 0;
   if (arguments.add_user.empty()) return run(arguments, config);
-  ols::as_bad_input([&] { ols::console::add_user(config.users, arguments.add_user, arguments.role); });
+  ols::as_bad_input(
+      [&] { ols::console::add_user(config.users, arguments.add_user, arguments.role); });
   std::fprintf(stderr, "ols-console: %s may log in; restart the console\n",
                arguments.add_user.c_str());
   return 0;

@@ -18,8 +18,8 @@ struct Sighted {
   Eigen::Vector2d rate_rad_s = Eigen::Vector2d::Zero();  // tangent plane, as the bearing's noise
   Eigen::Matrix2d rate_covariance = Eigen::Matrix2d::Zero();  // [rad^2/s^2] zero: rate unknown
   double size_rad = 0.0, size_sd_rad = 0.0;                   // largest extent
-  double signal = 0.0;                        // signal-to-noise ratio in one image
-  std::vector<double> class_probability{};    // in the order of target_t's CLASS_*
+  double signal = 0.0;                                        // signal-to-noise ratio in one image
+  std::vector<double> class_probability{};                    // in the order of target_t's CLASS_*
 
   bool has_rate() const { return rate_covariance.trace() > 0.0; }
 };

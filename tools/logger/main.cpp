@@ -80,6 +80,7 @@ int main(int argc, char** argv) {
     auto config = configuration_of(options, ols::logger::load_logger_config);
     if (!folder.empty()) config.folder = folder;
     if (options.check_config) return 0;
-    return ols::as_bad_input([&] { return output.empty() ? run(config) : run_into(output, config); });
+    return ols::as_bad_input(
+        [&] { return output.empty() ? run(config) : run_into(output, config); });
   });
 }
