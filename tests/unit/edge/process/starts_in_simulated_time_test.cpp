@@ -64,11 +64,16 @@ class StationStarts : public testing::Test {
 
   // Whether it is done.
   bool give(std::int8_t command) {
+    ++sequence_;
+    return send(command);
+  }
+  // The same under the last order's number again.
+  bool send(std::int8_t command) {
     Command message{};
     message.utime = clock_utime_us();
     message.schema_version = Command::SCHEMA_VERSION;
     message.boot_id = 7;
-    message.sequence = ++sequence_;
+    message.sequence = sequence_;
     message.station = "alfa";
     message.lease_s = 1.0;
     message.command = command;
@@ -132,6 +137,18 @@ TEST_F(StationStarts, ADoubtOutlivesThemUntilAPersonVouches) {
   EXPECT_TRUE(is_trusted());
   restart();
   EXPECT_TRUE(is_trusted());
+}
+
+// Whoever gave a stop and heard nothing sends it again: by then the station may have restarted.
+TEST_F(StationStarts, AStopIsAnsweredAndConfirmedBeforeAndAfterThem) {
+  EXPECT_TRUE(give(Command::COMMAND_STOP));
+  ASSERT_TRUE(reply_);
+  EXPECT_TRUE(wire::is_stopped(reply_->state));
+  restart();
+  EXPECT_TRUE(wire::is_stopped(status_.state));
+  EXPECT_TRUE(send(Command::COMMAND_STOP));
+  ASSERT_TRUE(reply_);
+  EXPECT_TRUE(wire::is_stopped(reply_->state));
 }
 
 }  // namespace
