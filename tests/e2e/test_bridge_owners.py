@@ -196,7 +196,8 @@ def test_a_target_changes_its_owner_after_the_hub_has_started_anew(sky):
     wait(lambda: sky.say() or not sky.west.status()["link"]["open"], "the loss is seen")
     sky.net.hub.start()
     sky.watcher.close()
-    sky.watcher = wait(watcher_of_targets, "the hub takes a client")
+    # A target that nobody tells of meanwhile is forgotten, and named anew.
+    sky.watcher = wait(lambda: sky.say() or watcher_of_targets(), "the hub takes a client")
     sky.until(lambda heard: heard[-1][4], "an owner that is confirmed")
     sky.fly(3000.0)
     sky.until(lambda heard: heard[-1][1] == EAST[0], "the other one has it")
