@@ -185,7 +185,6 @@ std::variant<StationPlace, MessageRefusal> station_place_from(const std::string&
   StationPlace place{message.station, {}};
   place.traits.calibration = {
       from_code(message.calibration_state, CalibrationState::kDoubted, CalibrationState::kNone),
-
       message.calibration_utime, message.calibration_sd_rad};
   // An overview station is driven by a person, a fixed one by nobody.
   place.traits.commandable =

@@ -54,6 +54,9 @@ TEST(BearingCheck, NamesWhatIsWrongWithWhatADetectorSaw) {
   EXPECT_EQ(refusal([](M& m) { m.sighted.signal = kNan; }), BearingRefusal::kNotFinite);
   EXPECT_EQ(refusal([](M& m) { m.image_bearings = -1; }), BearingRefusal::kOutOfRange);
   EXPECT_EQ(refusal([](M& m) { m.sighted.size_rad = -1e-3; }), BearingRefusal::kOutOfRange);
+  EXPECT_EQ(refusal([](M& m) { m.sighted.size_rad = 4.0; }), BearingRefusal::kOutOfRange);
+  EXPECT_EQ(refusal([](M& m) { m.sighted.size_sd_rad = -1e-3; }), BearingRefusal::kOutOfRange);
+  EXPECT_EQ(refusal([](M& m) { m.sighted.signal = -1.0; }), BearingRefusal::kOutOfRange);
   EXPECT_EQ(refusal([](M& m) { m.sighted.rate_covariance(0, 1) = 2e-6; }),
             BearingRefusal::kOutOfRange);
   EXPECT_EQ(refusal([](M& m) { m.sighted.class_probability = {kNan}; }),

@@ -135,5 +135,54 @@ TEST(LiveTracks, TwoStationsConfirmNothingWhileTheirObjectsMayBePairedInTwoWays)
   }
 }
 
+// Three stations with detectors and one object: until kAllS two of them see it, then one. All look
+// there; who does not see it sees another one, elsewhere.
+std::vector<BearingMeasurement> partly_seen(double all_s, double end_s) {
+  const auto square = test::square();
+  bench::WorldConfig world{.stations_enu = {square[0], square[1], square[2]}, .aims_enu = {}};
+  world.tracklets = true;
+  world.breaks_per_s = 0.0;
+  world.rate_hz = 15.0;
+  std::mt19937_64 random(7);
+  std::vector<BearingMeasurement> all;
+  for (const bool is_it : {true, false}) {
+    const Eigen::Vector3d from = is_it ? Eigen::Vector3d(0, 0, 150) : Eigen::Vector3d(0, 0, 900);
+    const bench::Path path = bench::cruising({from, {2.0, 0.0, 0.0}}, 1e-6, end_s, random);
+    for (BearingMeasurement& m : bench::measure(world, {path}, end_s, random)) {
+      const bool is_late = m.utime_us >= bench::kStartUs + static_cast<std::int64_t>(all_s * 1e6);
+      const bool sees_it = m.station == "s0" || (m.station == "s1" && !is_late);
+      if (sees_it != is_it) continue;
+      m.track_id = is_it ? 1 : 2;
+      all.push_back(std::move(m));
+    }
+  }
+  std::ranges::stable_sort(all, {}, &BearingMeasurement::utime_us);
+  return all;
+}
+
+TEST(LiveTracks, MissesDelayTheConfirmationAndCountOnlyWhileTwoOthersSeeTheTarget) {
+  constexpr double kAllS = 4.0, kEndS = 5.5;
+  TrackManagerConfig config;
+  config.confirm_pair_hits = 2;
+  config.confirm_s = 0.1;
+  LiveTracks live(config);
+  const Eigen::Vector3d there = test::site().to_ecef({5.0, 0.0, 150.0});
+  bool was_confirmed = false;
+  for (const BearingMeasurement& m : partly_seen(kAllS, kEndS)) {
+    live.know_view(m.station, test::direction_to(m.sight.origin_ecef, there), 1.0, m.utime_us);
+    live.add(m);
+    live.advance(m.utime_us);
+    const auto sure = std::ranges::find_if(live.tracks(), is_established);
+    if (sure == live.tracks().end() || was_confirmed) continue;
+    was_confirmed = true;
+    EXPECT_GE(sure->existence.probability(), 0.95);
+  }
+  ASSERT_TRUE(was_confirmed);
+  const auto low = [](const Track& track) {
+    return is_established(track) && test::site().to_enu(track.filter.position()).z() < 400.0;
+  };
+  EXPECT_EQ(std::ranges::count_if(live.tracks(), low), 1) << "one station alone still sees it";
+}
+
 }  // namespace
 }  // namespace ols::fusion
