@@ -220,7 +220,7 @@ void use_survey(ConfigTable& root, StationSettings& settings) {
   ConfigTable& pose = root.table("pose");
   const StationGeometry& geometry = settings.station.geometry;
   sensors::PoseEstimator::Config& estimator = settings.pose;
-  bool any_place = !settings.gnss.has_receiver();
+  bool any_place = !settings.gnss->is_configured();
   for (const char* key : {"latitude_deg", "longitude_deg", "height_m"})
     any_place = any_place || pose.has(key);
   if (any_place) {
@@ -229,8 +229,8 @@ void use_survey(ConfigTable& root, StationSettings& settings) {
     estimator.surveyed_position = geometry.position;
     estimator.surveyed_position_sd_m = geometry.sd.position_m;
   }
-  const bool levelled =
-      settings.inclinometer.device.empty() && root.table("calibration").table("sd").has("tilt_deg");
+  const bool levelled = !settings.inclinometer->is_configured() &&
+                        root.table("calibration").table("sd").has("tilt_deg");
   if (pose.has("tilt_x_deg") || pose.has("tilt_y_deg") || levelled) {
     estimator.surveyed_tilt_rad =
         Eigen::Vector2d(geometry.chain.tilt_x_rad, geometry.chain.tilt_y_rad);
@@ -263,7 +263,7 @@ void check_mount(const ConfigTable& root, const StationSettings& settings) {
 // A setting of one part that is also an input of another.
 void pass_on(StationSettings& settings) {
   StationConfig& station = settings.station;
-  sensors::set_sensors(settings.pose, settings.inclinometer, settings.gnss);
+  sensors::set_sensors(settings.pose, settings.inclinometer->config(), settings.gnss->config());
   const bool sees_colour = settings.tracker.mode == tracker::TrackerMode::kFull;
   settings.keep_raw = sees_colour || !settings.recorder.folder.empty();
   station.search_sd_px = std::min(station.search_sd_px, max_search_sd_px(station));
@@ -300,10 +300,10 @@ Section station_section(StationSettings& s) {
        serials_section(s.serials), s.camera.section("camera", "The camera."), lens_section(s),
        mount_section(s.mount), lens::lens_motor_section(s.lens),
        tracker::tracker_section(s.tracker), logic_section(s.station),
-       sensors::inclinometer_section(s.inclinometer), sensors::gnss_section(s.gnss),
-       gpio::gpio_section(s.gpio), recorder::recorder_section(s.recorder),
-       video::video_section(s.video), clock_section(s.clock), watchdog_section(s),
-       trust::trust_section(s.trust)},
+       s.inclinometer.section("inclinometer", "The inclinometer."),
+       s.gnss.section("gnss", "The GNSS receiver."), gpio::gpio_section(s.gpio),
+       recorder::recorder_section(s.recorder), video::video_section(s.video),
+       clock_section(s.clock), watchdog_section(s), trust::trust_section(s.trust)},
       [&s](ConfigTable& root) {
         use_survey(root, s);
         use_lens(root, s);

@@ -14,8 +14,6 @@
 #include "edge/lens/lens_motor.h"
 #include "edge/process/host_monitor.h"
 #include "edge/recorder/recorder.h"
-#include "edge/sensors/gnss.h"
-#include "edge/sensors/inclinometer.h"
 #include "edge/sensors/pose_estimator.h"
 #include "edge/station/station.h"
 #include "edge/tracker/tracker_config.h"
@@ -55,8 +53,8 @@ struct StationSettings {
   bool keep_raw = false;  // the camera's raw images, too
   ChosenMount mount{mount_kinds()};
   lens::LensMotorConfig lens;
-  sensors::InclinometerConfig inclinometer;
-  sensors::GnssConfig gnss;
+  ChosenInclinometer inclinometer{inclinometer_kinds()};
+  ChosenGnss gnss{gnss_kinds()};
   gpio::GpioConfig gpio;
   recorder::RecorderConfig recorder;
   video::VideoConfig video;

@@ -16,7 +16,7 @@ std::string words(const char* format, Values... values) {
 
 std::string position_words(const StationSettings& settings) {
   const auto& surveyed = settings.pose.surveyed_position;
-  const bool checked = settings.gnss.has_receiver();
+  const bool checked = settings.gnss->is_configured();
   if (!surveyed) return "position from GNSS";
   return words("position %.7f %.7f %.2f m surveyed%s", degrees(surveyed->latitude_rad),
                degrees(surveyed->longitude_rad), surveyed->height_m,
@@ -25,7 +25,7 @@ std::string position_words(const StationSettings& settings) {
 
 std::string tilt_words(const StationSettings& settings) {
   const auto& surveyed = settings.pose.surveyed_tilt_rad;
-  const bool sensor = !settings.inclinometer.device.empty();
+  const bool sensor = settings.inclinometer->is_configured();
   if (surveyed) {
     return words("tilt %.4f %.4f deg surveyed%s", degrees(surveyed->x()), degrees(surveyed->y()),
                  sensor ? ", checked by the inclinometer" : "");
@@ -46,11 +46,9 @@ std::vector<std::string> describe(const StationSettings& s) {
                   words(", %dx%d ", camera.width_px, camera.height_px) + camera.pixel_format +
                   words(" at %.1f Hz", camera.frame_rate_hz));
   lines.push_back("ptu: " + s.mount->words());
-  if (!s.inclinometer.device.empty()) {
-    lines.push_back("inclinometer: " + s.inclinometer.device +
-                    words(" at %d baud", s.inclinometer.baud));
-  }
-  if (s.gnss.has_receiver()) lines.push_back("gnss: gpsd at " + s.gnss.host + ":" + s.gnss.port);
+  if (s.inclinometer->is_configured())
+    lines.push_back("inclinometer: " + s.inclinometer->address());
+  if (s.gnss->is_configured()) lines.push_back("gnss: " + s.gnss->address());
   if (!s.gpio.chip.empty()) {
     lines.push_back("gpio: " + s.gpio.chip +
                     (s.gpio.has_stop() ? words(", emergency stop on line %d", s.gpio.stop_line)

@@ -3,6 +3,8 @@
 #include "edge/camera/aravis/aravis_kind.h"
 #include "edge/mount/fixed/fixed_kind.h"
 #include "edge/ptu/ptu_kind.h"
+#include "edge/sensors/dpg2/dpg2_inclinometer.h"
+#include "edge/sensors/gpsd/gpsd_receiver.h"
 
 namespace ols::station {
 
@@ -19,6 +21,18 @@ const std::vector<device::KindRow<mount::MountKind>>& mount_kinds() {
       {"flir", "A pan-tilt unit of FLIR (Directed Perception).", make_kind<ptu::PtuKind>},
       {"fixed", "The camera stands still: the station never moves it.",
        make_kind<mount::FixedKind>}};
+  return kinds;
+}
+
+const std::vector<device::KindRow<sensors::GnssKind>>& gnss_kinds() {
+  static const std::vector<device::KindRow<sensors::GnssKind>> kinds{
+      {"gpsd", "A receiver that gpsd reads.", make_kind<sensors::GpsdKind>}};
+  return kinds;
+}
+
+const std::vector<device::KindRow<sensors::InclinometerKind>>& inclinometer_kinds() {
+  static const std::vector<device::KindRow<sensors::InclinometerKind>> kinds{
+      {"dpg2", "A TE DPG2 on a serial line.", make_kind<sensors::Dpg2Kind>}};
   return kinds;
 }
 

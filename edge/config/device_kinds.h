@@ -1,18 +1,25 @@
-// The kinds of camera and mount that a station can have: what `kind` says in [camera] and [mount].
+// The kinds of device that a station can have: what `kind` says in [camera], [mount], [gnss] and
+// [inclinometer].
 // A new kind is a folder of its own and a row here.
 #pragma once
 
 #include "edge/camera/camera_kind.h"
 #include "edge/device/chosen_kind.h"
 #include "edge/mount/mount_kind.h"
+#include "edge/sensors/gnss.h"
+#include "edge/sensors/inclinometer.h"
 
 namespace ols::station {
 
 using ChosenCamera = device::ChosenKind<camera::CameraKind>;
 using ChosenMount = device::ChosenKind<mount::MountKind>;
+using ChosenGnss = device::ChosenKind<sensors::GnssKind>;
+using ChosenInclinometer = device::ChosenKind<sensors::InclinometerKind>;
 
 // The first one is the default.
 const std::vector<device::KindRow<camera::CameraKind>>& camera_kinds();
 const std::vector<device::KindRow<mount::MountKind>>& mount_kinds();
+const std::vector<device::KindRow<sensors::GnssKind>>& gnss_kinds();
+const std::vector<device::KindRow<sensors::InclinometerKind>>& inclinometer_kinds();
 
 }  // namespace ols::station

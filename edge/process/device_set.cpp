@@ -16,8 +16,8 @@ DeviceSet::DeviceSet(const StationSettings& settings, std::int64_t boot_id, Head
     video_.emplace(settings.video, video::VideoSender{settings.id, boot_id});
   }
   if (!settings.lens.device.empty()) lens_.emplace(settings.lens);
-  if (!settings.inclinometer.device.empty()) inclinometer_.emplace(settings.inclinometer);
-  if (settings.gnss.has_receiver()) gnss_.emplace(settings.gnss);
+  if (settings.inclinometer->is_configured()) inclinometer_ = settings.inclinometer->open();
+  if (settings.gnss->is_configured()) gnss_ = settings.gnss->open();
   if (!settings.gpio.chip.empty()) {
     gpio_.emplace(
         settings.gpio, [this](bool pressed) { on_stop(pressed); }, [this] { stop_.rearm(); });

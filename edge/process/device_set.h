@@ -62,8 +62,8 @@ class DeviceSet {
   std::optional<recorder::Recorder> recorder_;
   std::optional<video::VideoServer> video_;
   std::optional<lens::LensMotor> lens_;
-  std::optional<sensors::Inclinometer> inclinometer_;
-  std::optional<sensors::Gnss> gnss_;
+  std::unique_ptr<sensors::Inclinometer> inclinometer_;
+  std::unique_ptr<sensors::Gnss> gnss_;
   // The mount is destroyed before the camera, which may block: its destructor halts it. The GPIO
   // thread uses the mount and is destroyed first.
   Head head_;

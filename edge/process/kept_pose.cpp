@@ -19,8 +19,8 @@ std::string pose_file(const StationSettings& settings) {
 KeptPose::KeptPose(const StationSettings& settings, double now_s)
     : estimator_(settings.pose), store_(pose_file(settings)) {
   sensors::PersistedPose known = store_.found();
-  if (!settings.gnss.has_receiver()) known.position.reset();
-  if (settings.inclinometer.device.empty()) known.tilt.reset();
+  if (!settings.gnss->is_configured()) known.position.reset();
+  if (!settings.inclinometer->is_configured()) known.tilt.reset();
   estimator_.resume(known, now_s, clock_utime_us());
 }
 

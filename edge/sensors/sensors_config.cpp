@@ -1,63 +1,45 @@
-// The keys of [inclinometer] and [gnss].
+// The keys of [inclinometer] and [gnss] that every kind has.
 #include "edge/config/config_units.h"
 #include "edge/sensors/gnss.h"
 #include "edge/sensors/inclinometer.h"
 
 namespace ols::sensors {
 
-config::Section inclinometer_section(InclinometerConfig& c) {
-  return {
-      "inclinometer",
-      "The inclinometer (TE DPG2).",
-      {config::text("device", c.device, "Serial device; empty: none.").required_with_section(),
-       config::one_of("baud", c.baud, {600, 1200, 2400, 4800, 9600, 19200, 38400, 57600, 115200},
-                      "baud", "Rate of the serial line."),
-       config::word("parity", c.even_parity, {{"none", false}, {"even", true}},
-                    "Parity of the serial line; the BEI and AGS variants use even (8E1)."),
-       config::number("stale_s", c.stale_s, {0.2, 600.0}, "s",
-                      "Without a good reading for this long, the sensor has a fault."),
-       config::number("stuck_s", c.stuck_s, {1.0, 86400.0}, "s",
-                      "Without any change of a digit for this long, the sensor is stuck."),
-       config::flag("swap_axes", c.swap_axes, "Whether the sensor's X lies along ORIGIN's Y."),
-       config::one_of("x_sign", c.x_sign, {1, -1}, "",
-                      "Sign of the X axis, after swapping and zero."),
-       config::one_of("y_sign", c.y_sign, {1, -1}, "",
-                      "Sign of the Y axis, after swapping and zero."),
-       config::number("x_zero_deg", c.x_zero_rad, {-30.0, 30.0}, station::in_degrees(),
-                      "Reading of the X axis, after swapping, when ORIGIN is level."),
-       config::number("y_zero_deg", c.y_zero_rad, {-30.0, 30.0}, station::in_degrees(),
-                      "Reading of the Y axis, after swapping, when ORIGIN is level."),
-       config::number("range_deg", c.range_rad, {0.1, 80.0}, station::in_degrees(),
-                      "Readings beyond are refused."),
-       config::number("sd_deg", c.sd_rad, {1e-4, 10.0}, station::in_degrees(),
-                      "1-sigma of zero and mounting; averaging does not reduce it.")}};
+std::vector<config::Row> inclinometer_rows(InclinometerConfig& c) {
+  return {config::number("stale_s", c.stale_s, {0.2, 600.0}, "s",
+                         "Without a good reading for this long, the sensor has a fault."),
+          config::number("stuck_s", c.stuck_s, {1.0, 86400.0}, "s",
+                         "Without any change of a digit for this long, the sensor is stuck."),
+          config::flag("swap_axes", c.swap_axes, "Whether the sensor's X lies along ORIGIN's Y."),
+          config::one_of("x_sign", c.x_sign, {1, -1}, "",
+                         "Sign of the X axis, after swapping and zero."),
+          config::one_of("y_sign", c.y_sign, {1, -1}, "",
+                         "Sign of the Y axis, after swapping and zero."),
+          config::number("x_zero_deg", c.x_zero_rad, {-30.0, 30.0}, station::in_degrees(),
+                         "Reading of the X axis, after swapping, when ORIGIN is level."),
+          config::number("y_zero_deg", c.y_zero_rad, {-30.0, 30.0}, station::in_degrees(),
+                         "Reading of the Y axis, after swapping, when ORIGIN is level."),
+          config::number("range_deg", c.range_rad, {0.1, 80.0}, station::in_degrees(),
+                         "Readings beyond are refused."),
+          config::number("sd_deg", c.sd_rad, {1e-4, 10.0}, station::in_degrees(),
+                         "1-sigma of zero and mounting; averaging does not reduce it.")};
 }
 
-config::Section gnss_section(GnssConfig& c) {
-  return {
-      "gnss",
-      "The GNSS receiver, through gpsd.",
-      {config::text("host", c.host, "Host of gpsd; empty: no receiver.").required_with_section(),
-       config::integer_row(
-           "port", std::stoi(c.port), 1, 65535, "",
-           [&c](std::int64_t port) { c.port = std::to_string(port); }, "Port of gpsd."),
-       config::number("stale_s", c.stale_s, {0.5, 600.0}, "s",
-                      "Without a report for this long, the receiver has a fault."),
-       config::word("least_fix", c.least_fix,
-                    {{"3d", GnssFix::k3D},
-                     {"differential", GnssFix::kDifferential},
-                     {"rtk-float", GnssFix::kRtkFloat},
-                     {"rtk-fixed", GnssFix::kRtkFixed}},
-                    "Worse fixes are not used."),
-       config::numbers("ground_to_antenna_enu_m", {c.ground_to_antenna_enu_m.data(), 3},
-                       {-100.0, 100.0}, "m", "Antenna from GROUND: east, north, up."),
-       config::number("sd_floor_m", c.sd_floor_m, {1e-4, 100.0}, "m",
-                      "Minimum that a stated 1-sigma is taken for."),
-       config::number("error_sigmas", c.error_sigmas, {0.5, 3.0}, "sigma",
-                      "What gpsd's own error estimate means; used where the receiver sends no "
-                      "GST."),
-       config::number("accept_move_s", c.accept_move_s, {0.0, 86400.0}, "s",
-                      "A new position is adopted when it holds for this long; 0: never.")}};
+std::vector<config::Row> gnss_rows(GnssConfig& c) {
+  return {config::number("stale_s", c.stale_s, {0.5, 600.0}, "s",
+                         "Without a report for this long, the receiver has a fault."),
+          config::word("least_fix", c.least_fix,
+                       {{"3d", GnssFix::k3D},
+                        {"differential", GnssFix::kDifferential},
+                        {"rtk-float", GnssFix::kRtkFloat},
+                        {"rtk-fixed", GnssFix::kRtkFixed}},
+                       "Worse fixes are not used."),
+          config::numbers("ground_to_antenna_enu_m", {c.ground_to_antenna_enu_m.data(), 3},
+                          {-100.0, 100.0}, "m", "Antenna from GROUND: east, north, up."),
+          config::number("sd_floor_m", c.sd_floor_m, {1e-4, 100.0}, "m",
+                         "Minimum that a stated 1-sigma is taken for."),
+          config::number("accept_move_s", c.accept_move_s, {0.0, 86400.0}, "s",
+                         "A new position is adopted when it holds for this long; 0: never.")};
 }
 
 }  // namespace ols::sensors

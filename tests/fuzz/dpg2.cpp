@@ -1,6 +1,6 @@
 // What an inclinometer's line may say. However the bytes are cut, the angles are the same, and none
 // is beyond the range.
-#include "edge/sensors/dpg2.h"
+#include "edge/sensors/dpg2/dpg2_parser.h"
 
 #include <cmath>
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "edge/sensors/gnss_from_gpsd.h"
+#include "edge/sensors/gpsd/gnss_from_gpsd.h"
 #include "edge/sensors/pose_estimator.h"
 #include "tests/fuzz/fuzz_input.h"
 

@@ -18,6 +18,7 @@
 #include "edge/config/config.h"
 #include "edge/messages/messages_bus.h"
 #include "edge/ptu/ptu_kind.h"
+#include "edge/sensors/dpg2/dpg2_inclinometer.h"
 #include "export/export_config.h"
 #include "export/readiness.h"
 #include "tools/doctor/bus_listener.h"
@@ -44,13 +45,15 @@ Finding refused(const std::string& path, const ConfigError& error) {
   return fail(what, "correct that line; docs/configuration.md lists every key");
 }
 
-Findings examine_inclinometer(const sensors::InclinometerConfig& config, double patience_s) {
+// Of a sensor on a serial line the line is looked at first.
+Findings examine_inclinometer(const station::ChosenInclinometer& inclinometer, double patience_s) {
   Findings findings;
-  const auto line = judge_line("inclinometer", look_at_line(config.device, config.baud));
-  if (line) findings.push_back(*line);
-  if (!line || line->verdict != Verdict::kFail) {
-    findings.push_back(judge(ask_inclinometer(config, patience_s)));
+  if (const auto* dpg2 = inclinometer.as<sensors::Dpg2Kind>()) {
+    const auto line = judge_line("inclinometer", look_at_line(dpg2->dpg2.device, dpg2->dpg2.baud));
+    if (line) findings.push_back(*line);
+    if (line && line->verdict == Verdict::kFail) return findings;
   }
+  findings.push_back(judge(ask_inclinometer(*inclinometer, patience_s)));
   return findings;
 }
 
@@ -80,12 +83,14 @@ Findings examine_mount(const station::ChosenMount& mount, double patience_s) {
 Findings examine_devices(const station::StationSettings& settings, double patience_s) {
   Findings findings = examine_camera(settings.camera, patience_s);
   append(findings, examine_mount(settings.mount, patience_s));
-  if (!settings.inclinometer.device.empty()) {
+  if (settings.inclinometer->is_configured()) {
     append(findings, examine_inclinometer(settings.inclinometer, patience_s));
   }
   if (!settings.lens.device.empty()) append(findings, examine_lens(settings.lens, patience_s));
   if (!settings.gpio.chip.empty()) findings.push_back(judge(ask_gpio(settings.gpio)));
-  if (settings.gnss.has_receiver()) findings.push_back(judge(ask_gnss(settings.gnss, patience_s)));
+  if (settings.gnss->is_configured()) {
+    findings.push_back(judge(ask_gnss(*settings.gnss, patience_s)));
+  }
   findings.push_back(judge(ask_clock(settings.clock, patience_s)));
   return findings;
 }

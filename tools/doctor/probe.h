@@ -31,8 +31,8 @@ std::vector<CameraSeen> cameras_that_answer();
 CameraAnswers ask_camera(const camera::AravisConfig& config);
 
 // Runs the sensors' own drivers until each is well, at most `seconds`.
-device::DeviceReport ask_gnss(const sensors::GnssConfig& config, double seconds);
-device::DeviceReport ask_inclinometer(const sensors::InclinometerConfig& config, double seconds);
+device::DeviceReport ask_gnss(const sensors::GnssKind& kind, double seconds);
+device::DeviceReport ask_inclinometer(const sensors::InclinometerKind& kind, double seconds);
 device::DeviceReport ask_lens(const lens::LensMotorConfig& config, double seconds);
 // Reads the emergency stop. Outputs are not touched.
 device::DeviceReport ask_gpio(const gpio::GpioConfig& config);

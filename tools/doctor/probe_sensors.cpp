@@ -27,11 +27,6 @@ device::DeviceReport report_of(const auto& device, double seconds) {
   return device.report();
 }
 
-template <typename Sensor, typename Config>
-device::DeviceReport ask_sensor(const Config& config, double seconds) {
-  return report_of(Sensor(config), seconds);
-}
-
 }  // namespace
 
 device::DeviceReport ask_camera(const camera::CameraKind& kind, double seconds) {
@@ -42,16 +37,16 @@ device::DeviceReport ask_mount(const mount::MountKind& kind, double seconds) {
   return report_of(*kind.open(), seconds);
 }
 
-device::DeviceReport ask_gnss(const sensors::GnssConfig& config, double seconds) {
-  return ask_sensor<sensors::Gnss>(config, seconds);
+device::DeviceReport ask_gnss(const sensors::GnssKind& kind, double seconds) {
+  return report_of(*kind.open(), seconds);
 }
 
-device::DeviceReport ask_inclinometer(const sensors::InclinometerConfig& config, double seconds) {
-  return ask_sensor<sensors::Inclinometer>(config, seconds);
+device::DeviceReport ask_inclinometer(const sensors::InclinometerKind& kind, double seconds) {
+  return report_of(*kind.open(), seconds);
 }
 
 device::DeviceReport ask_lens(const lens::LensMotorConfig& config, double seconds) {
-  return ask_sensor<lens::LensMotor>(config, seconds);
+  return report_of(lens::LensMotor(config), seconds);
 }
 
 device::DeviceReport ask_gpio(const gpio::GpioConfig& config) {

@@ -2,6 +2,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
@@ -14,6 +15,7 @@
 #include "base/files/atomic_file.h"
 #include "base/files/small_file.h"
 #include "base/process/command_line.h"
+#include "edge/config/device_kinds.h"
 #include "tools/doctor/probe.h"
 #include "tools/setup/answers.h"
 #include "tools/setup/backup.h"
@@ -57,23 +59,22 @@ void take_known_devices(const setup::Host& host, setup::Answers& answers) {
   const std::string path = host.path("/etc/ols/" + answers.station + ".toml");
   if (!fs::exists(path)) return;
   const setup::Values known = setup::flat(ols::read_small_file(path, kLargestAnswers));
-  const auto take = [&](const std::string& key) {
-    const std::string* value = setup::find(known, key);
-    if (value != nullptr && setup::find(answers.values, "station." + key) == nullptr)
-      answers.values.emplace_back("station." + key, *value);
-  };
-  if (!setup::has_camera(answers.values)) take("camera.device");
-  if (setup::has_mount(answers.values)) return;
-  for (const char* key :
-       {"mount.kind", "mount.device", "mount.pan_deg", "mount.tilt_deg", "ptu.device"}) {
-    take(key);
+  const bool camera = !setup::has_camera(answers.values);
+  const bool mount = !setup::has_mount(answers.values);
+  for (const auto& [key, value] : known) {
+    const bool taken = (camera && key.starts_with("camera.")) ||
+                       (mount && (key.starts_with("mount.") || key.starts_with("ptu.")));
+    const std::string answer = "station." + key;
+    if (taken && setup::find(answers.values, answer) == nullptr)
+      answers.values.emplace_back(answer, value);
   }
 }
 
-// A device, or the word that there is nothing that moves.
+// A device, or the name of a kind that has none.
 void take_mount(const std::string& said, setup::Answers& answers) {
-  if (said != "fixed") return setup::add(answers.values, "station.mount.device", said);
-  setup::add(answers.values, "station.mount.kind", said);
+  const bool is_kind = std::ranges::any_of(ols::station::mount_kinds(),
+                                           [&](const auto& row) { return said == row.name; });
+  setup::add(answers.values, is_kind ? "station.mount.kind" : "station.mount.device", said);
 }
 
 void find_devices(setup::Answers& answers, bool asks) {

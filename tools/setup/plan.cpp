@@ -1,6 +1,7 @@
 #include "tools/setup/plan.h"
 
 #include "base/config/toml_text.h"
+#include "edge/config/device_kinds.h"
 #include "tools/setup/site_time.h"
 
 namespace ols::setup {
@@ -20,9 +21,10 @@ PlannedFile gpsd_file(const std::string& device) {
           "DEVICES=\"\"\n"};
 }
 
-bool is_other(const Values& values, const std::string& key, const std::string& kind) {
+// Another kind than the first one, whose device has to be found.
+bool is_other(const Values& values, const std::string& key, const auto& kinds) {
   const std::string* stated = find(values, key);
-  return stated != nullptr && *stated != toml_text(kind);
+  return stated != nullptr && *stated != toml_text(kinds.front().name);
 }
 
 PlannedFile time_file(const Answers& answers) {
@@ -44,11 +46,12 @@ std::string mount_device(const Values& values) {
 
 bool has_camera(const Values& values) {
   return find(values, "station.camera.device") != nullptr ||
-         is_other(values, "station.camera.kind", "aravis");
+         is_other(values, "station.camera.kind", station::camera_kinds());
 }
 
 bool has_mount(const Values& values) {
-  return !mount_device(values).empty() || is_other(values, "station.mount.kind", "flir");
+  return !mount_device(values).empty() ||
+         is_other(values, "station.mount.kind", station::mount_kinds());
 }
 
 Plan plan_station(const Answers& answers) {

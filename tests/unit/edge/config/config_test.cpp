@@ -10,6 +10,8 @@
 
 #include "base/config/toml_config.h"
 #include "edge/ptu/ptu_kind.h"
+#include "edge/sensors/dpg2/dpg2_inclinometer.h"
+#include "edge/sensors/gpsd/gpsd_receiver.h"
 #include "geometry/angles.h"
 #include "tests/unit/error_text.h"
 #include "tests/unit/temp_dir.h"
@@ -80,7 +82,7 @@ TEST_F(StationConfigFile, SensorsMaySupplyThePose) {
   const auto settings = load(kStart + kGnss + kTilt + "[pose]\nheading_deg = 10\n");
   EXPECT_FALSE(settings.pose.surveyed_position);
   EXPECT_FALSE(settings.pose.surveyed_tilt_rad);
-  EXPECT_EQ(settings.gnss.host, "127.0.0.1");
+  EXPECT_EQ(settings.gnss.as<sensors::GpsdKind>()->gpsd.host, "127.0.0.1");
 }
 
 TEST_F(StationConfigFile, TheSurveyOverridesTheSensors) {

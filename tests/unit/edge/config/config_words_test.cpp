@@ -3,6 +3,8 @@
 
 #include "edge/config/config.h"
 #include "edge/ptu/ptu_kind.h"
+#include "edge/sensors/dpg2/dpg2_inclinometer.h"
+#include "edge/sensors/gpsd/gpsd_receiver.h"
 #include "geometry/angles.h"
 
 namespace ols::station {
@@ -41,8 +43,8 @@ TEST(ConfigWords, ASurveyIsCheckedByTheSensorsThereAre) {
   EXPECT_THAT(describe(settings),
               Contains(HasSubstr("position 49.5000000 16.2500000 310.00 m surveyed; tilt 0.5000 "
                                  "-0.2500 deg surveyed; heading")));
-  settings.gnss.host = "localhost";
-  settings.inclinometer.device = "/dev/dpg2";
+  settings.gnss.as<sensors::GpsdKind>()->gpsd.host = "localhost";
+  settings.inclinometer.as<sensors::Dpg2Kind>()->dpg2.device = "/dev/dpg2";
   const auto lines = describe(settings);
   EXPECT_THAT(lines, Contains(HasSubstr("surveyed, checked by GNSS")));
   EXPECT_THAT(lines, Contains(HasSubstr("surveyed, checked by the inclinometer")));

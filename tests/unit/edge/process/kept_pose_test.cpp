@@ -6,6 +6,8 @@
 #include <fstream>
 
 #include "base/process/clocks.h"
+#include "edge/sensors/dpg2/dpg2_inclinometer.h"
+#include "edge/sensors/gpsd/gpsd_receiver.h"
 #include "geometry/angles.h"
 #include "tests/unit/folder_test.h"
 
@@ -21,8 +23,8 @@ class KeptPoseTest : public FolderTest<> {
   KeptPoseTest() {
     settings_.id = "alfa";
     settings_.state_folder = folder_;
-    settings_.gnss.host = "localhost";
-    settings_.inclinometer.device = "/dev/dpg2";
+    settings_.gnss.as<sensors::GpsdKind>()->gpsd.host = "localhost";
+    settings_.inclinometer.as<sensors::Dpg2Kind>()->dpg2.device = "/dev/dpg2";
   }
 
   void persist() const {
@@ -54,11 +56,11 @@ TEST_F(KeptPoseTest, ResumesThePoseOfTheLastRun) {
 // The sensor would never confirm it.
 TEST_F(KeptPoseTest, WhatAMissingSensorMeasuredIsNotResumed) {
   persist();
-  settings_.gnss.host.clear();
+  settings_.gnss.as<sensors::GpsdKind>()->gpsd.host.clear();
   EXPECT_EQ(KeptPose(settings_, 10.0).pose(10.0).position_source, sensors::PoseSource::kNone);
   EXPECT_EQ(KeptPose(settings_, 10.0).pose(10.0).tilt_source, sensors::PoseSource::kSensor);
-  settings_.gnss.host = "localhost";
-  settings_.inclinometer.device.clear();
+  settings_.gnss.as<sensors::GpsdKind>()->gpsd.host = "localhost";
+  settings_.inclinometer.as<sensors::Dpg2Kind>()->dpg2.device.clear();
   EXPECT_EQ(KeptPose(settings_, 10.0).pose(10.0).position_source, sensors::PoseSource::kSensor);
   EXPECT_EQ(KeptPose(settings_, 10.0).pose(10.0).tilt_source, sensors::PoseSource::kNone);
 }

@@ -1,5 +1,5 @@
 // Messages are taken as gpsd 3.22 wrote them, read by libgps itself.
-#include "edge/sensors/gnss_from_gpsd.h"
+#include "edge/sensors/gpsd/gnss_from_gpsd.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "base/config/config_section.h"
+#include "edge/sensors/dpg2/dpg2_inclinometer.h"
+#include "edge/sensors/gpsd/gpsd_receiver.h"
 #include "edge/sensors/pose_estimator_config.h"
 #include "geometry/angles.h"
 #include "tests/unit/error_text.h"
@@ -8,18 +10,18 @@
 namespace ols::sensors {
 namespace {
 
-InclinometerConfig inclinometer(const std::string& text) {
+Dpg2Config inclinometer(const std::string& text) {
   ConfigFile file(text, "t.toml");
-  InclinometerConfig config;
-  config::read(inclinometer_section(config), file.root().table("inclinometer"));
-  return config;
+  Dpg2Kind kind;
+  config::read(kind.section(), file.root().table("inclinometer"));
+  return kind.dpg2;
 }
 
-GnssConfig gnss(const std::string& text) {
+GpsdConfig gnss(const std::string& text) {
   ConfigFile file(text, "t.toml");
-  GnssConfig config;
-  config::read(gnss_section(config), file.root().table("gnss"));
-  return config;
+  GpsdKind kind;
+  config::read(kind.section(), file.root().table("gnss"));
+  return kind.gpsd;
 }
 
 std::string error_of(auto&& read) {

@@ -7,6 +7,8 @@
 #include "edge/camera/aravis/aravis_kind.h"
 #include "edge/config/config.h"
 #include "edge/ptu/ptu_kind.h"
+#include "edge/sensors/dpg2/dpg2_inclinometer.h"
+#include "edge/sensors/gpsd/gpsd_receiver.h"
 #include "edge/station/persisted_station_state.h"
 #include "tests/unit/temp_dir.h"
 
@@ -42,9 +44,12 @@ TEST(StationFiles, AreReadByTheStationAsTheNominalGeometry) {
     EXPECT_EQ(g.sd.position_m, truth.nominal.sd.position_m);
     EXPECT_EQ(read.clock.assumed_sd_s, truth.clock_sd_s);
     EXPECT_EQ(read.mount.as<ptu::PtuKind>()->unit.device, "/tmp/lines/" + truth.id + ".ptu");
-    EXPECT_EQ(read.inclinometer.device, "/tmp/lines/" + truth.id + ".inclinometer");
-    EXPECT_EQ(read.gnss.port, std::to_string(2950 + (&truth - world.stations().data())));
-    EXPECT_EQ(read.gnss.ground_to_antenna_enu_m, world.scenario().gnss.ground_to_antenna_enu_m);
+    EXPECT_EQ(read.inclinometer.as<sensors::Dpg2Kind>()->dpg2.device,
+              "/tmp/lines/" + truth.id + ".inclinometer");
+    EXPECT_EQ(read.gnss.as<sensors::GpsdKind>()->gpsd.port,
+              std::to_string(2950 + (&truth - world.stations().data())));
+    EXPECT_EQ(read.gnss->config().ground_to_antenna_enu_m,
+              world.scenario().gnss.ground_to_antenna_enu_m);
     EXPECT_NEAR(read.camera.as<camera::AravisKind>()->aravis.exposure_us, 2000.0, 1e-9);
   }
   std::filesystem::remove_all(folder);
@@ -74,7 +79,8 @@ TEST(StationFiles, AreReadFromAFolderOfAnyName) {
   const station::StationSettings read = station::load_station_settings(folder / (id + ".toml"));
   EXPECT_EQ(read.state_folder, state);
   EXPECT_EQ(read.mount.as<ptu::PtuKind>()->unit.device, lines + "/" + id + ".ptu");
-  EXPECT_EQ(read.inclinometer.device, lines + "/" + id + ".inclinometer");
+  EXPECT_EQ(read.inclinometer.as<sensors::Dpg2Kind>()->dpg2.device,
+            lines + "/" + id + ".inclinometer");
   std::filesystem::remove_all(folder);
 }
 

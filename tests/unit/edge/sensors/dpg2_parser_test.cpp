@@ -1,4 +1,4 @@
-#include "edge/sensors/dpg2.h"
+#include "edge/sensors/dpg2/dpg2_parser.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "edge/sensors/gnss.h"
+#include "edge/sensors/gpsd/gpsd_receiver.h"
 
 #include <cstdio>
 #include <mutex>
@@ -10,8 +10,8 @@
 #include "conditions/alarms.h"
 #include "edge/device/device_thread.h"
 #include "edge/device/reading_queue.h"
-#include "edge/sensors/gnss_from_gpsd.h"
-#include "edge/sensors/gpsd_link.h"
+#include "edge/sensors/gpsd/gnss_from_gpsd.h"
+#include "edge/sensors/gpsd/gpsd_link.h"
 
 namespace ols::sensors {
 
@@ -48,8 +48,8 @@ std::string format(GpsdLink::Silence silence) {
 
 }  // namespace
 
-struct Gnss::Impl {
-  explicit Impl(const GnssConfig& c)
+struct GpsdReceiver::Impl {
+  explicit Impl(const GpsdConfig& c)
       : config(c),
         thread({"gnss", "is being connected", kFirstPause_s, kMaxPause_s, alarm::gnss_fails}) {}
 
@@ -143,7 +143,7 @@ struct Gnss::Impl {
     }
   }
 
-  const GnssConfig config;
+  const GpsdConfig config;
   mutable std::mutex mutex;  // of everything below but the thread
   device::ReadingQueue<GnssReading> readings;
   std::optional<GnssReading> last;
@@ -153,18 +153,18 @@ struct Gnss::Impl {
   device::DeviceThread thread;  // last: it uses the rest
 };
 
-Gnss::Gnss(const GnssConfig& config) : impl_(std::make_unique<Impl>(config)) {
+GpsdReceiver::GpsdReceiver(const GpsdConfig& config) : impl_(std::make_unique<Impl>(config)) {
   if (config.host.empty()) return;
   impl_->thread.start([impl = impl_.get()](const std::stop_token& stop) { impl->run(stop); });
 }
 
-Gnss::~Gnss() = default;
+GpsdReceiver::~GpsdReceiver() = default;
 
-std::vector<GnssReading> Gnss::take_readings() {
+std::vector<GnssReading> GpsdReceiver::take_readings() {
   const std::lock_guard lock(impl_->mutex);
   return impl_->readings.take();
 }
 
-device::DeviceReport Gnss::report() const { return impl_->report(); }
+device::DeviceReport GpsdReceiver::report() const { return impl_->report(); }
 
 }  // namespace ols::sensors

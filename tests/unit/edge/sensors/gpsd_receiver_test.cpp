@@ -1,6 +1,6 @@
 // The receiver's thread on a real gpsd that reads a simulated receiver. Function only: deadlines
 // are generous, and nothing is judged by how long it took.
-#include "edge/sensors/gnss.h"
+#include "edge/sensors/gpsd/gpsd_receiver.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -26,8 +26,8 @@ sim::GnssLineConfig receiver() {
   return c;
 }
 
-GnssConfig config(const std::string& port) {
-  GnssConfig c;
+GpsdConfig config(const std::string& port) {
+  GpsdConfig c;
   c.host = "127.0.0.1";
   c.port = port;
   c.stale_s = 1.5;
@@ -67,7 +67,7 @@ class GnssOnGpsd : public testing::Test {
 
 TEST_F(GnssOnGpsd, GivesTheAntennaWithTheReceiversOwnErrors) {
   const GpsdProcess gpsd(line_.device(), port_);
-  Gnss gnss(config(port_));
+  GpsdReceiver gnss(config(port_));
   // Also once all satellites have been told of.
   ASSERT_TRUE(comes(gnss, [](const GnssReading& r) {
     return r.fix == GnssFix::kRtkFixed && r.satellites_used == 14 && r.sd_enu_m.x() < 1.0;
@@ -88,7 +88,7 @@ TEST_F(GnssOnGpsd, GivesTheAntennaWithTheReceiversOwnErrors) {
 
 TEST_F(GnssOnGpsd, ALostFixAndASilentReceiverAreToldAndHeal) {
   const GpsdProcess gpsd(line_.device(), port_);
-  Gnss gnss(config(port_));
+  GpsdReceiver gnss(config(port_));
   ASSERT_TRUE(reports(gnss, device::DeviceState::kOk, "RTK fixed"));
   sim::GnssFaults faults;
   faults.no_fix = true;
@@ -107,7 +107,7 @@ TEST_F(GnssOnGpsd, ALostFixAndASilentReceiverAreToldAndHeal) {
 
 TEST_F(GnssOnGpsd, AJumpComesThrough) {
   const GpsdProcess gpsd(line_.device(), port_);
-  Gnss gnss(config(port_));
+  GpsdReceiver gnss(config(port_));
   sim::GnssFaults faults;
   faults.jump_m = 100.0;
   line_.set_faults(faults);
@@ -120,7 +120,7 @@ TEST_F(GnssOnGpsd, AJumpComesThrough) {
 
 TEST_F(GnssOnGpsd, GarbledSentencesAreLeftOut) {
   const GpsdProcess gpsd(line_.device(), port_);
-  Gnss gnss(config(port_));
+  GpsdReceiver gnss(config(port_));
   sim::GnssFaults faults;
   faults.garble_share = 0.2;
   line_.set_faults(faults);
@@ -137,7 +137,7 @@ TEST_F(GnssOnGpsd, GarbledSentencesAreLeftOut) {
 }
 
 TEST_F(GnssOnGpsd, AGpsdThatIsNotThereOrGoesIsToldAndFoundAgain) {
-  Gnss gnss(config(port_));
+  GpsdReceiver gnss(config(port_));
   ASSERT_TRUE(reports(gnss, device::DeviceState::kAbsent, "no gpsd at 127.0.0.1:" + port_));
   EXPECT_FALSE(gnss.report().alarms.empty());
   {
@@ -152,7 +152,7 @@ TEST_F(GnssOnGpsd, AGpsdThatIsNotThereOrGoesIsToldAndFoundAgain) {
 
 TEST_F(GnssOnGpsd, AGpsdWithoutReceiverIsToldFromOneThatIsNotThere) {
   const GpsdProcess gpsd("", port_);
-  Gnss gnss(config(port_));
+  GpsdReceiver gnss(config(port_));
   ASSERT_TRUE(reports(gnss, device::DeviceState::kAbsent, "gpsd has no receiver"));
   EXPECT_EQ(gnss.report().alarms.size(), 1U);
 }
@@ -161,7 +161,7 @@ TEST_F(GnssOnGpsd, AReceiverThatIsPulledOutIsToldAndGpsdIsLeftAlone) {
   const std::string link = temp_dir() + "ols_gnss_" + std::to_string(::getpid());
   auto line = std::make_unique<sim::GnssLine>(receiver(), clock_utime_us, 6, link);
   const GpsdProcess gpsd(link, port_);
-  Gnss gnss(config(port_));
+  GpsdReceiver gnss(config(port_));
   ASSERT_TRUE(reports(gnss, device::DeviceState::kOk, "RTK fixed"));
   line.reset();
   // Longer than it would wait for a receiver that is there and says nothing.
@@ -171,7 +171,7 @@ TEST_F(GnssOnGpsd, AReceiverThatIsPulledOutIsToldAndGpsdIsLeftAlone) {
 }
 
 TEST(Gnss, WithoutAHostThereIsNone) {
-  Gnss gnss(GnssConfig{});
+  GpsdReceiver gnss(GpsdConfig{});
   EXPECT_TRUE(gnss.take_readings().empty());
   EXPECT_EQ(gnss.report().state, device::DeviceState::kAbsent);
   EXPECT_EQ(gnss.report().text, "not configured");

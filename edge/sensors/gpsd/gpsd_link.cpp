@@ -1,4 +1,4 @@
-#include "edge/sensors/gpsd_link.h"
+#include "edge/sensors/gpsd/gpsd_link.h"
 
 #include <unistd.h>
 

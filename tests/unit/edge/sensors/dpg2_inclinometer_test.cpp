@@ -1,5 +1,5 @@
 // The inclinometer's thread on a real pty with a simulated sensor behind it. Function only.
-#include "edge/sensors/inclinometer.h"
+#include "edge/sensors/dpg2/dpg2_inclinometer.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -24,8 +24,8 @@ sim::InclinometerLineConfig sensor() {
   return c;
 }
 
-InclinometerConfig config(const std::string& device) {
-  InclinometerConfig c;
+Dpg2Config config(const std::string& device) {
+  Dpg2Config c;
   c.device = device;
   c.stale_s = 1.0;
   c.stuck_s = 2.0;
@@ -41,7 +41,7 @@ bool reports(const Inclinometer& inclinometer, device::DeviceState state, const 
 
 TEST(Inclinometer, GivesTheTiltAndTheVersion) {
   const sim::InclinometerLine line(sensor(), 1);
-  Inclinometer inclinometer(config(line.device()));
+  Dpg2Inclinometer inclinometer(config(line.device()));
   std::vector<TiltReading> readings;
   ASSERT_TRUE(eventually([&] {
     for (const auto& r : inclinometer.take_readings()) readings.push_back(r);
@@ -66,7 +66,7 @@ TEST(Inclinometer, GarbledLinesAreCountedAndTheRestIsRead) {
   sim::InclinometerFaults faults;
   faults.garble_share = 0.3;
   line.set_faults(faults);
-  Inclinometer inclinometer(config(line.device()));
+  Dpg2Inclinometer inclinometer(config(line.device()));
   EXPECT_TRUE(eventually([&] {
     const auto counters = inclinometer.report().counters;
     return counters.at("inclinometer_garbled") >= 3 && counters.at("inclinometer_readings") >= 20;
@@ -75,7 +75,7 @@ TEST(Inclinometer, GarbledLinesAreCountedAndTheRestIsRead) {
 
 TEST(Inclinometer, SilenceAndAStuckSensorAreToldAndHeal) {
   sim::InclinometerLine line(sensor(), 3);
-  Inclinometer inclinometer(config(line.device()));
+  Dpg2Inclinometer inclinometer(config(line.device()));
   ASSERT_TRUE(reports(inclinometer, device::DeviceState::kOk, "x +0.4"));
   sim::InclinometerFaults faults;
   faults.silent = true;
@@ -99,13 +99,13 @@ TEST(Inclinometer, ASensorThatWasStoppedIsStartedAgain) {
     port.write("s");
     port.drain(1.0);
   }
-  Inclinometer inclinometer(config(line.device()));
+  Dpg2Inclinometer inclinometer(config(line.device()));
   EXPECT_TRUE(reports(inclinometer, device::DeviceState::kOk, "x +0.4"));
 }
 
 TEST(Inclinometer, ADeviceThatIsNotThereYetOrVanishesIsOpenedAgain) {
   const std::string link = temp_dir() + "ols_inclinometer_" + std::to_string(::getpid());
-  Inclinometer inclinometer(config(link));
+  Dpg2Inclinometer inclinometer(config(link));
   ASSERT_TRUE(reports(inclinometer, device::DeviceState::kAbsent, link + ": cannot be opened"));
   EXPECT_EQ(inclinometer.report().alarms.size(), 1U);
   auto line = std::make_unique<sim::InclinometerLine>(sensor(), 5, link);
@@ -119,14 +119,14 @@ TEST(Inclinometer, ADeviceThatIsNotThereYetOrVanishesIsOpenedAgain) {
 
 TEST(Inclinometer, EvenParityIsAccepted) {
   const sim::InclinometerLine line(sensor(), 7);
-  InclinometerConfig even = config(line.device());
+  Dpg2Config even = config(line.device());
   even.even_parity = true;
-  Inclinometer inclinometer(even);
+  Dpg2Inclinometer inclinometer(even);
   EXPECT_TRUE(reports(inclinometer, device::DeviceState::kOk, "x +0.4"));
 }
 
 TEST(Inclinometer, WithoutADeviceThereIsNone) {
-  Inclinometer inclinometer(InclinometerConfig{});
+  Dpg2Inclinometer inclinometer(Dpg2Config{});
   EXPECT_EQ(inclinometer.report().state, device::DeviceState::kAbsent);
   EXPECT_EQ(inclinometer.report().text, "not configured");
   EXPECT_TRUE(inclinometer.report().alarms.empty());

@@ -10,14 +10,9 @@
 #include <string_view>
 #include <vector>
 
-namespace ols::sensors {
+#include "edge/sensors/inclinometer.h"
 
-// The angles that the sensor reports for its two axes.
-struct AxisAngles {
-  double time_s = 0.0;  // arrival of the line that completed the pair
-  double x_rad = 0.0;
-  double y_rad = 0.0;
-};
+namespace ols::sensors {
 
 // They only increase.
 struct Dpg2Counters {

@@ -1,4 +1,4 @@
-#include "edge/sensors/gnss_from_gpsd.h"
+#include "edge/sensors/gpsd/gnss_from_gpsd.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "edge/sensors/inclinometer.h"
+#include "edge/sensors/dpg2/dpg2_inclinometer.h"
 
 #include <cstdio>
 #include <mutex>
@@ -10,6 +10,7 @@
 #include "conditions/alarms.h"
 #include "edge/device/device_thread.h"
 #include "edge/device/reading_queue.h"
+#include "edge/sensors/dpg2/dpg2_parser.h"
 #include "edge/serial/serial_port.h"
 #include "geometry/angles.h"
 
@@ -31,8 +32,8 @@ std::string in_degrees(const AxisAngles& angles) {
 
 }  // namespace
 
-struct Inclinometer::Impl {
-  explicit Impl(const InclinometerConfig& c)
+struct Dpg2Inclinometer::Impl {
+  explicit Impl(const Dpg2Config& c)
       : config(c),
         parser(c.range_rad),
         thread({"inclinometer", "is being opened", kFirstPause_s, kMaxPause_s,
@@ -134,7 +135,7 @@ struct Inclinometer::Impl {
     }
   }
 
-  const InclinometerConfig config;
+  const Dpg2Config config;
   mutable std::mutex mutex;  // of everything below but the thread
   Dpg2Parser parser;
   device::ReadingQueue<TiltReading> readings;
@@ -144,19 +145,19 @@ struct Inclinometer::Impl {
   device::DeviceThread thread;  // last: it uses the rest
 };
 
-Inclinometer::Inclinometer(const InclinometerConfig& config)
+Dpg2Inclinometer::Dpg2Inclinometer(const Dpg2Config& config)
     : impl_(std::make_unique<Impl>(config)) {
   if (config.device.empty()) return;
   impl_->thread.start([impl = impl_.get()](const std::stop_token& stop) { impl->run(stop); });
 }
 
-Inclinometer::~Inclinometer() = default;
+Dpg2Inclinometer::~Dpg2Inclinometer() = default;
 
-std::vector<TiltReading> Inclinometer::take_readings() {
+std::vector<TiltReading> Dpg2Inclinometer::take_readings() {
   const std::lock_guard lock(impl_->mutex);
   return impl_->readings.take();
 }
 
-device::DeviceReport Inclinometer::report() const { return impl_->report(); }
+device::DeviceReport Dpg2Inclinometer::report() const { return impl_->report(); }
 
 }  // namespace ols::sensors

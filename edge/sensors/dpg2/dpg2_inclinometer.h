@@ -1,0 +1,47 @@
+// A digital inclinometer (TE DPG2) on a serial line. A thread opens the device, and reopens it
+// after a failure. report() states what is wrong.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "edge/sensors/inclinometer.h"
+
+namespace ols::sensors {
+
+struct Dpg2Config : InclinometerConfig {
+  std::string device;  // serial device; empty: no inclinometer
+  int baud = 9600;
+  bool even_parity = false;  // BEI and AGS variants: 8E1
+};
+
+class Dpg2Inclinometer : public Inclinometer {
+ public:
+  explicit Dpg2Inclinometer(const Dpg2Config& config);
+  ~Dpg2Inclinometer() override;
+  Dpg2Inclinometer(const Dpg2Inclinometer&) = delete;
+  Dpg2Inclinometer& operator=(const Dpg2Inclinometer&) = delete;
+
+  std::vector<TiltReading> take_readings() override;
+  device::DeviceReport report() const override;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+class Dpg2Kind : public InclinometerKind {
+ public:
+  config::Section section() override;
+  const InclinometerConfig& config() const override { return dpg2; }
+  bool is_configured() const override { return !dpg2.device.empty(); }
+  std::string address() const override;
+  std::unique_ptr<Inclinometer> open() const override {
+    return std::make_unique<Dpg2Inclinometer>(dpg2);
+  }
+
+  Dpg2Config dpg2;
+};
+
+}  // namespace ols::sensors

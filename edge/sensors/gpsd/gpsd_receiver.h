@@ -1,0 +1,44 @@
+// A GNSS receiver that gpsd reads (libgps). A thread connects to gpsd, and reconnects after a loss.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "edge/sensors/gnss.h"
+
+namespace ols::sensors {
+
+struct GpsdConfig : GnssConfig {
+  std::string host;  // of gpsd; empty: the station has no receiver
+  std::string port = "2947";
+  double error_sigmas = 1.0;  // number of sigmas in gpsd's own errors; used without GST
+};
+
+class GpsdReceiver : public Gnss {
+ public:
+  explicit GpsdReceiver(const GpsdConfig& config);
+  ~GpsdReceiver() override;
+  GpsdReceiver(const GpsdReceiver&) = delete;
+  GpsdReceiver& operator=(const GpsdReceiver&) = delete;
+
+  std::vector<GnssReading> take_readings() override;
+  device::DeviceReport report() const override;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+class GpsdKind : public GnssKind {
+ public:
+  config::Section section() override;
+  const GnssConfig& config() const override { return gpsd; }
+  bool is_configured() const override { return !gpsd.host.empty(); }
+  std::string address() const override { return "gpsd at " + gpsd.host + ":" + gpsd.port; }
+  std::unique_ptr<Gnss> open() const override { return std::make_unique<GpsdReceiver>(gpsd); }
+
+  GpsdConfig gpsd;
+};
+
+}  // namespace ols::sensors
