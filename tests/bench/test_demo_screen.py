@@ -5,6 +5,7 @@ import math
 import os
 
 import ols_msg
+import pytest
 from conftest import BIN, finished
 from ols_demo import __main__ as demo
 from ols_demo.inside import write_in_site
@@ -100,3 +101,17 @@ def test_a_command_runs_in_the_network_of_the_demo(tmp_path):
     script.write_text(script.read_text().replace(running, "process=/proc/4194305"))
     done = finished(script, *look)
     assert done.returncode == 1 and done.stderr.endswith("the demo has ended\n")
+
+
+@pytest.mark.parametrize(
+    ("words", "missing"),
+    [
+        (["--headless"], "ols-station, ols-fusion, ols-sim, ols-key:"),
+        (["--console-only", "run.lcmlog"], "ols-console:"),
+    ],
+)
+def test_programs_that_are_not_built_are_named(tmp_path, monkeypatch, capsys, words, missing):
+    line = ["tools/demo", "--bin", str(tmp_path), "--output", str(tmp_path / "out"), *words]
+    monkeypatch.setattr("sys.argv", line)
+    assert demo.main() == 1
+    assert f"tools/demo: {tmp_path} has no {missing} build with" in capsys.readouterr().err

@@ -21,6 +21,7 @@ from ols_demo.site import Site, SiteError, bring_up_loopback
 from ols_demo.wiring import Wiring, add_site_options
 
 DESIGNATION_S = 60.0
+PROGRAMS = ["ols-station", "ols-fusion", "ols-sim", "ols-key"]
 
 
 def arguments() -> argparse.Namespace:
@@ -139,10 +140,20 @@ def summary(result: dict) -> str:
     return "\n".join(lines)
 
 
+def check_programs(binaries: Path, needed: list[str]) -> None:
+    missing = [name for name in needed if not os.access(binaries / name, os.X_OK)]
+    if missing:
+        raise SiteError(
+            f"{binaries} has no {', '.join(missing)}: build with "
+            f"`tools/build release {' '.join(missing)}`, or name the folder with --bin"
+        )
+
+
 def replay(options: argparse.Namespace) -> int:
     """Shows a recorded log on the console until it is interrupted."""
     wiring = Wiring(options.bin, options.scenario, options.seed, options.output)
     try:
+        check_programs(options.bin, ["ols-console"])
         bring_up_loopback([])
         with Site(options.output / "replay-logs") as site:
             address = wiring.start_console(site, doorway(), replay=options.console_only.resolve())
@@ -166,6 +177,7 @@ def main() -> int:
     for former in (report_of(options), plot_of(options)):
         former.unlink(missing_ok=True)  # of a run that fails nothing is to be read
     try:
+        check_programs(options.bin, PROGRAMS + ([] if options.headless else ["ols-console"]))
         bring_up_loopback(wiring.prepare())
         with Site(options.output / "logs") as site:
             wiring.start(site)
