@@ -2,8 +2,9 @@
 
 export const DASH = "–";
 
+// What is rounded to zero has no sign.
 export function fixed(value: number | null | undefined, decimals: number, unit = ""): string {
-  return value == null || !isFinite(value) ? DASH : value.toFixed(decimals) + unit;
+  return value == null || !isFinite(value) ? DASH : value.toFixed(decimals).replace(/^-(?=[0.]+$)/, "") + unit;
 }
 
 // Of "1000 mm".
@@ -14,9 +15,11 @@ export function gridName(at_m: number, step_m: number): string {
   return (at_m / 1000).toFixed(Math.max(0, 3 - Math.floor(Math.log10(step_m) + 1e-9)));
 }
 
+// From 000° to less than 360°, also once it is rounded.
 export function bearing(deg: number | null | undefined, decimals = 1): string {
-  if (deg == null) return DASH;
-  return `${deg.toFixed(decimals).padStart(decimals ? 4 + decimals : 3, "0")}°`;
+  if (deg == null || !isFinite(deg)) return DASH;
+  const rounded = Number((((deg % 360) + 360) % 360).toFixed(decimals)) % 360;
+  return `${rounded.toFixed(decimals).padStart(decimals ? 4 + decimals : 3, "0")}°`;
 }
 
 export function utc(utime_us: number, withDate = false): string {

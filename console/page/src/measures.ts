@@ -3,6 +3,7 @@
 
 import { DASH, fixed, spacedMgrs } from "./format";
 import { remember, remembered } from "./memory";
+import { t } from "./words";
 
 export const UNITS = ["m_s", "km_h", "nautical"] as const;
 export const POSITIONS = ["degrees", "minutes", "seconds", "mgrs"] as const;
@@ -36,6 +37,14 @@ export function length(m: Known, decimals = 0): string {
 export function speed(m_s: Known, decimals = 0): string {
   if (measures.units === "nautical") return fixed(times(m_s, 3600 / MILE_M), decimals, " kn");
   return measures.units === "km_h" ? fixed(times(m_s, 3.6), decimals, " km/h") : fixed(m_s, decimals, " m/s");
+}
+
+// Of a vertical speed: "sinking 1.2 m/s". Level is what would be written as zero.
+export function climb(up_m_s: Known): string {
+  if (up_m_s == null || !isFinite(up_m_s)) return DASH;
+  const written = speed(Math.abs(up_m_s), 1);
+  if (written === speed(0, 1)) return t("level");
+  return `${t(up_m_s > 0 ? "climbing" : "sinking")} ${written}`;
 }
 
 // In which unit rings and grids of about this step are round, and its name.

@@ -7,7 +7,7 @@ import { bearing, DASH, fixed } from "./format";
 import type { Link } from "./link";
 import { heightRange, stepOf } from "./heights";
 import { heightColours } from "./mapfeatures";
-import { length, speed } from "./measures";
+import { climb, length, speed } from "./measures";
 import { PanelFrame, PanelRow, PointThere, PositionRows, type OnPoint } from "./panel";
 import { nameOf, stretches, targetState, type Target } from "./site";
 import { named, t } from "./words";
@@ -142,7 +142,7 @@ export function TargetPanel({ target, link, mayCommand, onPoint, onName, onClose
         <PositionRows of={target} />
         <PanelRow word="height">{length(height_m, 1)}</PanelRow>
         <PanelRow word="speed">
-          {speed(target.speed_m_s, 1)}, {bearing(target.course_deg, 0)}, {t("climb")} {speed(target.velocity_enu_m_s?.[2], 1)}
+          {speed(target.speed_m_s, 1)}, {bearing(target.course_deg, 0)}, {climb(target.velocity_enu_m_s?.[2])}
         </PanelRow>
         <PanelRow word="object_class">
           <Appearance of={target} />

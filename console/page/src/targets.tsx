@@ -56,7 +56,7 @@ function LineRow({ line }: { line: Line }) {
     <tr class="line">
       <td>{DASH}</td>
       <td colSpan={COLUMNS.length - 1}>
-        {line.id}: {t("line_only")}, {t("azimuth")} {bearing(line.azimuth_deg, 2)} {t("elevation")} {fixed(line.elevation_deg, 2)}°
+        {line.id}: {t("line_only")}, {t("azimuth")} {bearing(line.azimuth_deg, 2)} {t("elevation")} {fixed(line.elevation_deg, 2, "°")}
       </td>
     </tr>
   );
