@@ -8,10 +8,8 @@
 #include <atomic>
 #include <cerrno>
 #include <chrono>
-#include <cmath>
 #include <cstdio>
 #include <cstring>
-#include <ctime>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string>
@@ -22,6 +20,7 @@
 #include "base/bus/bus_datagram.h"
 #include "base/bus/multicast_socket.h"
 #include "base/process/clocks.h"
+#include "dev/bench/load.h"
 #include "dev/bench/program.h"
 #include "ols_msg/bearing_t.hpp"
 
@@ -72,28 +71,19 @@ struct Station {
   std::int64_t sequence = 0;
 };
 
-// Evenly in time, station after station; what fell due while this process did not run follows at
-// once. Returns the number of those that were sent.
+// Station after station. Returns the number of those that were sent.
 std::size_t send(const Arguments& arguments) {
   ols::MulticastSocket socket(ols::parse_lcm_url(arguments.from));
   std::vector<Station> stations;
   for (std::size_t i = 0; i < arguments.stations; ++i) stations.emplace_back(i, arguments.bytes);
-  const double per_s = arguments.rate_hz * static_cast<double>(stations.size());
-  const auto total = static_cast<std::size_t>(std::llround(per_s * arguments.seconds));
-  const double begin_s = ols::clock_monotonic_s();
+  const double rate_hz = arguments.rate_hz * static_cast<double>(stations.size());
   std::size_t sent = 0;
-  for (std::size_t turn = 0; turn < total; ++turn) {
-    const double early_s = begin_s + static_cast<double>(turn) / per_s - ols::clock_monotonic_s();
-    if (early_s > 0.0) {
-      constexpr std::int64_t kNap_ns = 500'000;  // a few bearings each time
-      const timespec nap{0, std::max(kNap_ns, static_cast<std::int64_t>(1e9 * early_s))};
-      ::nanosleep(&nap, nullptr);
-    }
+  ols::bench::at_rate(rate_hz, arguments.seconds, [&](std::size_t turn) {
     Station& station = stations[turn % stations.size()];
     put(++station.sequence, station.datagram.data() + station.sequence_at);
     put(ols::clock_utime_us(), station.datagram.data() + station.payload_at + kUtimeAt);
     if (!socket.send(station.datagram)) ++sent;
-  }
+  });
   return sent;
 }
 

@@ -3,10 +3,10 @@
 // that of all frames the median of those in which the target is believed in.
 #include <benchmark/benchmark.h>
 
-#include <algorithm>
 #include <opencv2/core/utility.hpp>
 #include <vector>
 
+#include "dev/bench/load.h"
 #include "dev/bench/synthetic_cases.h"
 #include "edge/tracker/belief.h"
 #include "edge/tracker/tracker.h"
@@ -41,12 +41,6 @@ Clip make_clip(const cv::Size& size) {
   return clip;
 }
 
-double quantile(std::vector<double> values, double share) {
-  const auto index = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + index, values.end());
-  return values[static_cast<std::size_t>(index)];
-}
-
 // Forwards and backwards through the clip: it never ends. Nothing leaps, but at both ends camera
 // and target turn about at once; a tracker that expects them to go on loses the target there, and
 // the search for it is part of the measure.
@@ -79,11 +73,12 @@ void track(benchmark::State& state, ols::tracker::TrackerMode mode) {
     if (result.output->belief >= ols::tracker::kBelieved) believed_ms.push_back(1e3 * taken_s);
     state.SetIterationTime(taken_s);
   }
-  state.counters["median_ms"] = quantile(taken_ms, 0.5);
-  state.counters["p99_ms"] = quantile(taken_ms, 0.99);
+  state.counters["median_ms"] = ols::bench::quantile(taken_ms, 0.5);
+  state.counters["p99_ms"] = ols::bench::quantile(taken_ms, 0.99);
   state.counters["believed"] =
       static_cast<double>(believed_ms.size()) / static_cast<double>(taken_ms.size());
-  if (!believed_ms.empty()) state.counters["median_believed_ms"] = quantile(believed_ms, 0.5);
+  if (!believed_ms.empty())
+    state.counters["median_believed_ms"] = ols::bench::quantile(believed_ms, 0.5);
 }
 
 void in_full_mode(benchmark::State& state) { track(state, ols::tracker::TrackerMode::kFull); }

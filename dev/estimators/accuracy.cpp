@@ -60,7 +60,7 @@ struct Geometry {
 // Each geometry counts alike, whatever its size.
 void one_epoch(const Geometry& geometry, int run, std::mt19937_64& random, Sums& sums) {
   std::uniform_real_distribution<double> uniform;
-  WorldConfig world{.stations_enu = circle(2 + run % 5, geometry.size_m), .aims_enu = {}};
+  WorldConfig world{.stations_enu = circle(2 + run % 5, geometry.size_m)};
   world.noise_rad = 3e-4;
   world.bias_sd_rad = geometry.systematic_rad;
   const double angle = 2.0 * kPi * uniform(random);
@@ -110,7 +110,7 @@ Sums fly(const FilterCase& filter, int runs) {
   Sums sums;
   for (int run = 0; run < runs; ++run) {
     std::mt19937_64 random(static_cast<std::uint64_t>(run) + 1);
-    WorldConfig world{.stations_enu = circle(4, 250.0), .aims_enu = {}};
+    WorldConfig world{.stations_enu = circle(4, 250.0)};
     world.bias_sd_rad = filter.tilt_sd_rad;
     world.heading_sd_rad = filter.heading_sd_rad;
     world.bias_time_s = filter.time_s;
@@ -225,7 +225,7 @@ void against_paper(int runs, Limits& limits) {
   std::map<std::string, Squares> squares;
   for (int run = 0; run < runs; ++run) {
     std::mt19937_64 random(static_cast<std::uint64_t>(run) + 1);
-    const WorldConfig world{.stations_enu = circle(4, 400.0), .aims_enu = {}, .bias_sd_rad = 0.0};
+    const WorldConfig world{.stations_enu = circle(4, 400.0), .bias_sd_rad = 0.0};
     const Path path = manoeuvring({{0, 0, 150}, {12, 5, 0}}, 6.0, kDurationS, random);
     const auto bearings = measure(world, {path}, kDurationS, random);
     for (const Way& way : ways) follow(way, bearings, path, squares[way.name]);

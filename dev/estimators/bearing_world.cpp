@@ -17,6 +17,13 @@ Vector3d draw(std::mt19937_64& random) {
   return {x, y, z};
 }
 
+// In the field of view, from its middle [rad].
+Vector2d anywhere(const WorldConfig& config, std::mt19937_64& random) {
+  std::uniform_real_distribution<double> uniform(-config.view_rad, config.view_rad);
+  const double x = uniform(random), y = uniform(random);
+  return {x, y};
+}
+
 // What moves before one camera alone: an insect, a leaf.
 struct FalseTracklet {
   std::int64_t id = 0;
@@ -41,29 +48,27 @@ AzimuthElevation direction(const Vector3d& from_ecef, const Vector3d& to_ecef) {
   return azimuth_elevation_from_enu(R_ecef_enu(from_ecef).transpose() * (to_ecef - from_ecef));
 }
 
+AzimuthElevation moved(const AzimuthElevation& from, const Vector2d& by_rad) {
+  const double elevation = std::clamp(from.elevation_rad + by_rad.y(), -kPi / 2.0, kPi / 2.0);
+  return {wrap_two_pi(from.azimuth_rad + by_rad.x() / std::cos(elevation)), elevation};
+}
+
 fusion::BearingMeasurement measurement(const WorldConfig& config, const Station& station,
-                                       std::int64_t utime_us, AzimuthElevation d,
+                                       std::int64_t utime_us, const AzimuthElevation& there,
                                        const Vector2d& off_rad) {
   fusion::BearingMeasurement s;
   s.station = station.id;
   s.utime_us = utime_us;
   s.sight.origin_ecef = station.says_ecef;
-  d.elevation_rad = std::clamp(d.elevation_rad + off_rad.y(), -kPi / 2.0, kPi / 2.0);
-  d.azimuth_rad = wrap_two_pi(d.azimuth_rad + off_rad.x() / std::cos(d.elevation_rad));
-  s.sight.direction = d;
+  s.sight.direction = moved(there, off_rad);
   s.sight.covariance_white = Eigen::Matrix2d::Identity() * config.noise_rad * config.noise_rad;
   if (config.bias_stated) {
     s.sight.origin_sd_enu_m.setConstant(config.place_sd_m);
-    const Eigen::Matrix<double, 2, 3> B = shift_by_rotation(tangent_basis(d));
+    const Eigen::Matrix<double, 2, 3> B = shift_by_rotation(tangent_basis(s.sight.direction));
     const Vector3d variance = rotation_sd_rad(config).array().square();
     s.sight.covariance_systematic = B * variance.asDiagonal() * B.transpose();
   }
   return s;
-}
-
-AzimuthElevation moved(const AzimuthElevation& from, const Vector2d& by_rad) {
-  const double elevation = std::clamp(from.elevation_rad + by_rad.y(), -kPi / 2.0, kPi / 2.0);
-  return {wrap_two_pi(from.azimuth_rad + by_rad.x() / std::cos(elevation)), elevation};
 }
 
 void make_tracklet(const WorldConfig& config, std::int64_t id, const Vector2d& rate_rad_s,
@@ -108,11 +113,10 @@ void see_false_ones(const WorldConfig& config, double time_s, Station& station,
   std::exponential_distribution<double> life(1.0 / config.false_life_s);
   std::erase_if(station.false_ones, [&](const FalseTracklet& f) { return f.until_s < time_s; });
   for (int i = born(random); i > 0; --i) {
-    const double x = uniform(random), y = uniform(random);
-    const Vector2d off = config.view_rad * (2.0 * Vector2d(x, y) - Vector2d(1.0, 1.0));
-    station.false_ones.push_back({station.next_tracklet++, time_s + life(random),
-                                  moved(station.aim, off), 0.05 * draw(random).head<2>(),
-                                  2e-3 * uniform(random), 5.0 + 30.0 * uniform(random)});
+    const AzimuthElevation there = moved(station.aim, anywhere(config, random));
+    station.false_ones.push_back({station.next_tracklet++, time_s + life(random), there,
+                                  0.05 * draw(random).head<2>(), 2e-3 * uniform(random),
+                                  5.0 + 30.0 * uniform(random)});
   }
   const std::int64_t utime_us = kStartUs + std::llround(time_s * 1e6);
   for (FalseTracklet& f : station.false_ones) {
@@ -163,8 +167,8 @@ std::string name_of_station(std::size_t station) {
 }
 
 AzimuthElevation aim_of(const WorldConfig& config, std::size_t station) {
-  const Vector3d aim = config.aims_enu.empty() ? Vector3d(0, 0, 80) : config.aims_enu[station];
-  return direction(site().to_ecef(config.stations_enu[station]), site().to_ecef(aim));
+  const Vector3d middle(0, 0, 80);
+  return direction(site().to_ecef(config.stations_enu[station]), site().to_ecef(middle));
 }
 
 const LocalFrame& site() {
@@ -249,8 +253,7 @@ std::vector<fusion::BearingMeasurement> measure(const WorldConfig& config,
       if (config.tracklets) see_false_ones(config, time_s, stations[k], random, measurements);
       const bool at_random = config.false_per_frame > 0.0 && !config.tracklets;
       for (int i = at_random ? false_ones(random) : 0; i > 0; --i) {
-        const double x = uniform(random), y = uniform(random);
-        const Vector2d off = config.view_rad * (2.0 * Vector2d(x, y) - Vector2d(1.0, 1.0));
+        const Vector2d off = anywhere(config, random);
         measurements.push_back(measurement(config, stations[k], utime_us, stations[k].aim, off));
       }
       std::shuffle(measurements.begin() + static_cast<std::ptrdiff_t>(first), measurements.end(),

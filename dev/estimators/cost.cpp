@@ -1,5 +1,3 @@
-#include <time.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -7,8 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "dev/bench/load.h"
 #include "dev/estimators/bearing_world.h"
 #include "dev/estimators/measures.h"
+#include "tools/offline/timing_csv.h"
 
 namespace ols::bench {
 namespace {
@@ -27,13 +27,6 @@ struct Load {
   double place_sd_m = 0.0;
 };
 
-// Processor time of this thread: other load on the machine does not count.
-double used_s() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
 // In the order of time. The targets of a group fly at different heights.
 std::vector<fusion::BearingMeasurement> bearings_of(const Load& load) {
   std::mt19937_64 random(9);
@@ -41,10 +34,8 @@ std::vector<fusion::BearingMeasurement> bearings_of(const Load& load) {
   for (int group = 0; group < load.groups; ++group) {
     const Vector3d centre(4000.0 * (group % 12), 4000.0 * (group / 12), 0.0);
     // Every real station states how far its pose may be off.
-    WorldConfig world{.stations_enu = circle(load.each, 300.0),
-                      .aims_enu = {},
-                      .rate_hz = load.rate_hz,
-                      .bias_sd_rad = 1e-3};
+    WorldConfig world{
+        .stations_enu = circle(load.each, 300.0), .rate_hz = load.rate_hz, .bias_sd_rad = 1e-3};
     world.place_sd_m = load.place_sd_m;
     for (Vector3d& place : world.stations_enu) place += centre;
     std::vector<Path> paths;
@@ -73,21 +64,15 @@ struct Spans {
   }
 };
 
-double percentile(std::vector<double>& values, double share) {
-  if (values.empty()) return 0.0;
-  std::ranges::sort(values);
-  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
-}
-
-void print(const Load& load, const fusion::Fusion& fusion, Spans& spans) {
+void print(const Load& load, const fusion::Fusion& fusion, const Spans& spans) {
   std::printf("%s, places to %g m (%g tracks confirmed): ", load.name.c_str(), load.place_sd_m,
               fusion.health().counters.at("tracks_confirmed"));
-  std::printf("p50 %6.2f us, p99 %7.2f us, longest %7.2f us; ", percentile(spans.all, 0.5),
-              percentile(spans.all, 0.99), percentile(spans.all, 1.0));
-  std::printf("with targets p50 %7.2f us, p99 %7.2f us; ", percentile(spans.with_targets, 0.5),
-              percentile(spans.with_targets, 0.99));
+  std::printf("p50 %6.2f us, p99 %7.2f us, longest %7.2f us; ", quantile(spans.all, 0.5),
+              quantile(spans.all, 0.99), quantile(spans.all, 1.0));
+  std::printf("with targets p50 %7.2f us, p99 %7.2f us; ", quantile(spans.with_targets, 0.5),
+              quantile(spans.with_targets, 0.99));
   std::printf("with the paper's p99 %7.2f us; with slews p99 %7.2f us; ",
-              percentile(spans.with_paper, 0.99), percentile(spans.with_slews, 0.99));
+              quantile(spans.with_paper, 0.99), quantile(spans.with_slews, 0.99));
 }
 
 // Where the places are off by so much that they matter, each station has states for its own.
@@ -97,9 +82,9 @@ void cost_of(const Load& load, double most_cores, double most_ms, Limits& limits
   double born_s = 0.0, later_s = 0.0;
   for (const fusion::BearingMeasurement& measurement : bearings_of(load)) {
     const bool first = measurement.utime_us - kStartUs <= std::llround(1e6 * kBornS);
-    const double begun_s = used_s();
+    const double begun_s = offline::thread_time_s();
     const fusion::FusionOutput output = fusion.add(measurement);
-    const double span_s = used_s() - begun_s;
+    const double span_s = offline::thread_time_s() - begun_s;
     (first ? born_s : later_s) += span_s;
     (first ? born : later).add(1e6 * span_s, output);
   }
@@ -109,11 +94,11 @@ void cost_of(const Load& load, double most_cores, double most_ms, Limits& limits
       "%.2f us CPU a bearing, of a core at %g Hz %.2f; first second: %.2f of a core, "
       "longest %.0f us\n",
       1e6 * later_s / static_cast<double>(later.all.size()), load.rate_hz, cores, born_s / kBornS,
-      percentile(born.all, 1.0));
-  limits.at_most("p99 of a bearing [ms]", 1e-3 * percentile(later.all, 0.99), most_ms);
-  limits.at_most("p99 of those that bring targets [ms]",
-                 1e-3 * percentile(later.with_targets, 0.99), most_ms);
-  limits.at_most("longest [ms]", 1e-3 * percentile(later.all, 1.0), 20.0);
+      quantile(born.all, 1.0));
+  limits.at_most("p99 of a bearing [ms]", 1e-3 * quantile(later.all, 0.99), most_ms);
+  limits.at_most("p99 of those that bring targets [ms]", 1e-3 * quantile(later.with_targets, 0.99),
+                 most_ms);
+  limits.at_most("longest [ms]", 1e-3 * quantile(later.all, 1.0), 20.0);
   limits.at_most("cores", cores, most_cores);
 }
 

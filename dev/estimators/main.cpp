@@ -1,12 +1,11 @@
 // ols-bench-estimators: how near the estimators come to their bounds, how consistent their
 // covariances are, how well targets are kept apart, and what a bearing costs. Prints one table a
 // measure; exits with 1 where a measure of accuracy misses its limit.
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <string>
 
-#include "base/process/command_line.h"
+#include "dev/bench/program.h"
 #include "dev/estimators/long_recording.h"
 #include "dev/estimators/measures.h"
 #include "dev/estimators/peer.h"
@@ -38,7 +37,8 @@ bool measure(const std::string& what, bool quick, int runs) {
 
 int main(int argc, char** argv) {
   std::setvbuf(stdout, nullptr, _IOLBF, 0);
-  CLI::App app{"Monte Carlo measures of the estimators on simulated bearings"};
+  CLI::App app("Monte Carlo measures of the estimators on simulated bearings",
+               "ols-bench-estimators");
   int runs = 100;
   bool quick = false;
   std::string what = "all";
@@ -67,24 +67,16 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(1, 100))
       ->capture_default_str();
   app.add_flag("--anonymous", anonymous, "without the column `target`");
-  if (const auto status = parse_command_line(app, argc, argv, "ols-bench-estimators")) {
-    return *status;
-  }
-  try {
+  bool holds = true;
+  const int status = run_program(app, argc, argv, [&] {
+    recording.are_named = !anonymous;
     if (!peer.empty()) {
       write_peer_runs(peer, runs);
-      return 0;
-    }
-    if (!folder.empty()) {
-      recording.are_named = !anonymous;
+    } else if (!folder.empty()) {
       write_long_recording(folder, recording);
-      return 0;
+    } else {
+      holds = measure(what, quick, runs);
     }
-    const bool holds = measure(what, quick, runs);
-    flush_output();
-    return holds ? 0 : kExitMissed;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "ols-bench-estimators: %s\n", error.what());
-    return kExitBadInput;
-  }
+  });
+  return holds ? status : kExitMissed;
 }

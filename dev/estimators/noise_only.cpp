@@ -14,8 +14,7 @@ constexpr double kFlightS = 12.0, kWarmS = 2.0, kRateHz = 10.0;
 const PathPoint kStart{{-60, 40, 80}, {9.0, -6.0, 1.0}};
 
 Recording recorded(int stations, double rate_hz, Path path, std::mt19937_64& random) {
-  const WorldConfig world{
-      .stations_enu = circle(stations, 250.0), .aims_enu = {}, .rate_hz = rate_hz};
+  const WorldConfig world{.stations_enu = circle(stations, 250.0), .rate_hz = rate_hz};
   Recording recording;
   recording.bearings = measure(world, {path}, kFlightS, random);
   fusion::guess_clocks(recording.bearings);

@@ -1,15 +1,14 @@
 #include "dev/estimators/peer.h"
 
-#include <sys/resource.h>
-
-#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <optional>
 #include <stdexcept>
 
 #include "central/tracking/recorded_track.h"
+#include "dev/bench/load.h"
 #include "dev/estimators/bearing_world.h"
+#include "tools/offline/timing_csv.h"
 
 namespace ols::bench {
 namespace {
@@ -31,13 +30,6 @@ void put(std::ostream& out, const Vector3d& v) {
   out << ',' << v.x() << ',' << v.y() << ',' << v.z();
 }
 
-double user_s() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_utime.tv_sec) +
-         1e-6 * static_cast<double>(usage.ru_utime.tv_usec);
-}
-
 // The filter of one object, as it runs on recordings, with what the other is given, too: the true
 // motion, and no other model, and the noise, white and Gaussian as stated.
 fusion::TrackManagerConfig pinned() {
@@ -57,7 +49,7 @@ std::vector<std::optional<Vector3d>> our_fixes(
     const std::vector<fusion::BearingMeasurement>& bearings, std::vector<double>& cpu_us) {
   std::vector<std::optional<Vector3d>> fixes;
   fixes.reserve(bearings.size());
-  const double before_s = user_s();
+  const double before_s = offline::thread_time_s();
   fusion::RecordedTrack track(pinned());
   for (const fusion::BearingMeasurement& measurement : bearings) {
     track.add(measurement);
@@ -65,7 +57,8 @@ std::vector<std::optional<Vector3d>> our_fixes(
     const bool found = !tracks.empty() && fusion::is_established(tracks.front());
     fixes.push_back(found ? std::optional(tracks.front().filter.position()) : std::nullopt);
   }
-  cpu_us.push_back(1e6 * (user_s() - before_s) / static_cast<double>(bearings.size()));
+  cpu_us.push_back(1e6 * (offline::thread_time_s() - before_s) /
+                   static_cast<double>(bearings.size()));
   return fixes;
 }
 
@@ -73,7 +66,7 @@ std::vector<std::optional<Vector3d>> our_fixes(
 
 void write_peer_runs(const std::string& folder, int runs) {
   std::filesystem::create_directories(folder);
-  const WorldConfig world{.stations_enu = circle(4, 250.0), .aims_enu = {}, .bias_sd_rad = 1e-6};
+  const WorldConfig world{.stations_enu = circle(4, 250.0), .bias_sd_rad = 1e-6};
   auto stations = opened(folder, "stations.csv", "station,east_m,north_m,up_m");
   for (std::size_t i = 0; i < world.stations_enu.size(); ++i) {
     stations << 's' << i;
@@ -103,9 +96,7 @@ void write_peer_runs(const std::string& folder, int runs) {
     }
   }
   auto pinned_file = opened(folder, "pinned.csv", "noise_rad,disturbance,cpu_us");
-  const auto middle = cpu_us.begin() + static_cast<std::ptrdiff_t>(cpu_us.size() / 2);
-  std::ranges::nth_element(cpu_us, middle);
-  pinned_file << world.noise_rad << ',' << kDisturbance << ',' << *middle << '\n';
+  pinned_file << world.noise_rad << ',' << kDisturbance << ',' << quantile(cpu_us, 0.5) << '\n';
 }
 
 }  // namespace ols::bench

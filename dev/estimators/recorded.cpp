@@ -6,6 +6,7 @@
 #include <map>
 
 #include "central/offline/offline_fusion.h"
+#include "dev/bench/load.h"
 
 namespace ols::bench {
 namespace {
@@ -53,11 +54,7 @@ Score score_of(const Errors& errors, const std::vector<std::int64_t>& instants) 
     squared += error.size_m * error.size_m / n;
     score.nees += error.nees / n;
   }
-  std::ranges::sort(sizes);
-  const auto rank = [&](double share) {
-    return sizes[static_cast<std::size_t>(share * static_cast<double>(sizes.size() - 1))];
-  };
-  score.size_m = {rank(0.5), std::sqrt(squared), rank(0.95)};
+  score.size_m = {quantile(sizes, 0.5), std::sqrt(squared), quantile(sizes, 0.95)};
   return score;
 }
 
@@ -91,24 +88,20 @@ double AgainstLeastSquares::worse_percent(std::size_t i) const {
 }
 
 void AgainstLeastSquares::print() const {
-  std::vector<double> nees = nees_;
-  std::ranges::sort(nees);
   std::printf(
       "  %s over least squares, %zu recordings: median %.3f, RMS %.3f, p95 %.3f (worse in "
       "%.0f, %.0f, %.0f %%); NEES of an axis 10 %% %.2f, median %.2f, 90 %% %.2f\n",
-      name_.c_str(), nees.size(), ratio(0), ratio(1), ratio(2), worse_percent(0), worse_percent(1),
-      worse_percent(2), nees[nees.size() / 10], nees[nees.size() / 2], nees[nees.size() * 9 / 10]);
+      name_.c_str(), nees_.size(), ratio(0), ratio(1), ratio(2), worse_percent(0), worse_percent(1),
+      worse_percent(2), quantile(nees_, 0.1), quantile(nees_, 0.5), quantile(nees_, 0.9));
 }
 
 void AgainstLeastSquares::judge(Limits& limits, double least_nees) const {
   print();
-  std::vector<double> nees = nees_;
-  std::ranges::nth_element(nees, nees.begin() + std::ssize(nees) / 2);
   const char* const sizes[] = {"median", "RMS", "95 %"};
   for (std::size_t i = 0; i < std::size(sizes); ++i) {
     limits.at_most(std::string(sizes[i]) + " over that of least squares", ratio(i), 1.02);
   }
-  limits.within("normalised error squared of an axis", nees[nees.size() / 2], least_nees, 2.5);
+  limits.within("normalised error squared of an axis", quantile(nees_, 0.5), least_nees, 2.5);
 }
 
 }  // namespace ols::bench

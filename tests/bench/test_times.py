@@ -129,7 +129,7 @@ def test_a_table_has_the_largest_rows_and_the_total_of_all():
     assert sums.table("tests", sums.ranked("tests", rows), top=2).splitlines() == [
         "## tests",
         "",
-        "| | processor_s | wall_s |",
+        "| name | processor_s | wall_s |",
         "|---|---:|---:|",
         "| b | 0.50 | 3.00 |",
         r"| c\|d |  | 2.00 |",

@@ -9,9 +9,10 @@ import subprocess
 from pathlib import Path
 
 import numpy as np
+from ols_bench.markdown import table
 
 from ols_accuracy import plan, run_plots, theory_plots
-from ols_accuracy.document import DOCUMENT, PICTURES, beside, metres, replace_part, table
+from ols_accuracy.document import DOCUMENT, PICTURES, beside, metres, replace_part
 from ols_accuracy.runs import (
     EACH_OTHER,
     KINDS,

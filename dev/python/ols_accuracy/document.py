@@ -11,11 +11,6 @@ DOCUMENT = ROOT / "docs/accuracy.md"
 PICTURES = ROOT / "docs/accuracy"
 
 
-def table(header: list[str], rows: list[list[str]]) -> str:
-    lines = [header, ["---"] + ["---:"] * (len(header) - 1), *rows]
-    return "\n".join("| " + " | ".join(line) + " |" for line in lines)
-
-
 def replace_part(name: str, text: str, document: Path = DOCUMENT) -> None:
     """Between <!-- name --> and <!-- /name --> of the document."""
     content = document.read_text()

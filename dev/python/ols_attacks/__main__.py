@@ -17,13 +17,14 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+from ols_bench import markdown
 from ols_bench.processes import datagrams_dropped, resident_bytes
 from ols_demo.__main__ import Run
 from ols_demo.site import Site, SiteError, bring_up_loopback
 from ols_demo.wiring import Wiring, add_site_options
 
 from ols_attacks.attacks import Attack, Known, all_attacks, stolen_key
-from ols_attacks.sender import folder_of, send
+from ols_attacks.sender import send
 from ols_attacks.watch import Watch
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -62,15 +63,12 @@ class Bench:
         self._keys = wiring.keys["OLS_KEYS"]
         self.usual: dict[str, Any] = {}
 
-    def _folder(self, victim: str) -> Path:
-        """Of its process in /proc."""
+    def _pid(self, victim: str) -> int:
         name = "ols-fusion" if victim == "fusion" else f"ols-station-{victim}"
-        return folder_of(self._site.processes[name].pid)
+        return self._site.processes[name].pid
 
     def memory(self) -> dict[str, float]:
-        return {
-            name: resident_bytes(self._folder(name)) / 1e6 for name in ("fusion", *self.stations)
-        }
+        return {name: resident_bytes(self._pid(name)) / 1e6 for name in ("fusion", *self.stations)}
 
     def calm(self, name: str) -> dict[str, Any]:
         self.watch.begin()
@@ -90,13 +88,13 @@ class Bench:
         return [self.suffer(attack)]
 
     def suffer(self, attack: Attack) -> dict[str, Any]:
-        folder, watch = self._folder(attack.victim), self.watch
+        pid, watch = self._pid(attack.victim), self.watch
         before, lost, obeyed = (
             watch.counted(attack.victim),
-            datagrams_dropped(folder),
+            datagrams_dropped(pid),
             watch.obeyed(),
         )
-        sent = self._while_attacked(attack, folder)
+        sent = self._while_attacked(attack, pid)
         row = {"attack": attack.name, "sent": sent, **watch.figures()}
         if not attack.may_be_believed:  # else that name is silent until its key is revoked
             row["itself_after_s"] = self._until_itself(time.monotonic())
@@ -108,7 +106,7 @@ class Bench:
                 for reason, count in after.items()
                 if count > before.get(reason, 0.0)
             }
-            row["dropped"] = datagrams_dropped(folder) - lost
+            row["dropped"] = datagrams_dropped(pid) - lost
             if sum(row["refused"].values()) + row["dropped"] >= sent or time.monotonic() > end:
                 break
         # What the kernel drops is others' too: some fewer than none may remain.
@@ -121,13 +119,13 @@ class Bench:
         self._site.check()
         return row
 
-    def _while_attacked(self, attack: Attack, folder: Path) -> int:
+    def _while_attacked(self, attack: Attack, pid: int) -> int:
         context = multiprocessing.get_context("forkserver")
         context.set_forkserver_preload(["ols_attacks.sender"])
         report = context.Queue()
         # An attack at a rate of its own keeps it; the others go as fast as the bus carries.
         most = min(attack.most_hz, self._options.most)
-        words = (attack.messages, self._options.seconds, most, attack.most_hz, folder, report)
+        words = (attack.messages, self._options.seconds, most, attack.most_hz, pid, report)
         sender = context.Process(target=send, args=words, daemon=True)
         sender.start()
         # What came while it was made must not count as late.
@@ -161,7 +159,7 @@ def pair_ms(pair: list[float] | None) -> str:
 
 
 def table(rows: list[dict[str, Any]]) -> str:
-    lines = [f"| {' | '.join(HEADINGS)} |", f"|{'---|' * len(HEADINGS)}"]
+    lines = []
     for row in rows:
         refused = ", ".join(f"{count} {reason}" for reason, count in row.get("refused", {}).items())
         attacked = [
@@ -175,8 +173,8 @@ def table(rows: list[dict[str, Any]]) -> str:
             *(pair_ms(row["bearing_s"]), pair_ms(row["target_s"])),
             *(f"{row['memory_mb']['fusion']:.1f}", again),
         ]
-        lines.append(f"| {' | '.join([row['attack'], *attacked, *figures])} |")
-    return "\n".join(lines)
+        lines.append([row["attack"], *attacked, *figures])
+    return markdown.table(HEADINGS, lines)
 
 
 def falls_short(rows: list[dict[str, Any]]) -> list[str]:

@@ -3,9 +3,7 @@
 In a process of its own, so that what measures is not slowed by what attacks."""
 
 import math
-import os
 import time
-from pathlib import Path
 from typing import Any
 
 import lcm
@@ -21,32 +19,17 @@ LEAST_HZ = 500.0
 AT_ONCE = 200
 
 
-def folder_of(pid: int) -> Path:
-    """Of a process in /proc, which may be that of another namespace than ours."""
-    if Path("/proc/self").readlink().name == str(os.getpid()):
-        return Path(f"/proc/{pid}")
-    own = os.readlink("/proc/self/ns/pid")
-    for folder in Path("/proc").glob("[0-9]*"):
-        try:
-            names = (folder / "status").read_text().split("NSpid:")[1].splitlines()[0].split()
-            if names[-1] == str(pid) and os.readlink(folder / "ns/pid") == own:
-                return folder
-        except OSError:
-            continue  # ended meanwhile, or not ours
-    raise ProcessLookupError(pid)
-
-
 def send(
-    messages: Messages, seconds: float, most_hz: float, stated_hz: float, folder: Path, report: Any
+    messages: Messages, seconds: float, most_hz: float, stated_hz: float, victim: int, report: Any
 ) -> None:
-    """report: a queue, for a word at the beginning and then the number that was sent. At a stated
-    rate if it is finite, else as the victim's socket takes it: slower when it loses some,
-    faster when it does not."""
+    """victim: its process; report: a queue, for a word at the beginning and then the number that
+    was sent. At a stated rate if it is finite, else as the victim's socket takes it: slower when it
+    loses some, faster when it does not."""
     bus = lcm.LCM(LIVE_URL)
     fixed = math.isfinite(stated_hz)
     rate, sent, due = most_hz if fixed else min(START_HZ, most_hz), 0, 0.0
     report.put("begins")
-    lost, begin = datagrams_dropped(folder), time.monotonic()
+    lost, begin = datagrams_dropped(victim), time.monotonic()
     now, look = begin, begin + LOOK_S
     while now < begin + seconds:
         before, now = now, time.monotonic()
@@ -58,7 +41,7 @@ def send(
             due -= 1.0
         if now >= look:
             look = now + LOOK_S
-            lost_now = datagrams_dropped(folder)
+            lost_now = datagrams_dropped(victim)
             if not fixed:
                 faster = min(most_hz, rate * FASTER)
                 rate = max(LEAST_HZ, rate * SLOWER) if lost_now > lost else faster

@@ -1,7 +1,7 @@
 """Measures the console with five stations that exist only as messages and video: from the
 exposure to the pixels in a browser (by a number drawn into each picture), whether the overlay
 is of the same frame, from a target's publication to the map, the processor for ten viewers,
-drags of a box, first paint, size, memory with viewers coming and going. On a machine that does
+first paint, size, memory with viewers coming and going. On a machine that does
 nothing else; the load before is printed.
 """
 
@@ -190,41 +190,6 @@ class Bench:
             "flat",
         )
 
-    def drags(self, count: int) -> None:
-        """A box dragged on the large picture until the station says that it tracks."""
-        done, times = 0, []
-        with browser() as chromium:
-            page = chromium.new_page(viewport={"width": 1500, "height": 900})
-            page.goto(self.address)
-            canvas = page.locator(".eye.large canvas[data-utime-us]")
-            canvas.wait_for(timeout=PATIENCE_S * 1000)
-            for number in range(count):
-                self.paper.designations.clear()
-                name = canvas.get_attribute("aria-label")
-                self.paper.states[name] = 0
-                box = canvas.bounding_box()
-                page.mouse.move(box["x"] + 0.4 * box["width"], box["y"] + 0.4 * box["height"])
-                press_s = time.monotonic()
-                page.mouse.down()
-                page.mouse.move(
-                    box["x"] + 0.6 * box["width"], box["y"] + 0.6 * box["height"], steps=3
-                )
-                page.mouse.up()
-                start = time.monotonic()
-                while not self.paper.designations and time.monotonic() - start < 5.0:
-                    time.sleep(0.005)
-                times.append(time.monotonic() - start)
-                done += bool(self.paper.designations)
-                if not self.paper.designations:
-                    print(f"drag {number} designates nothing; it took {start - press_s:.2f} s")
-                page.wait_for_timeout(100 + 10 * (number % 5))
-        p95 = 1000 * np.percentile(times, 95)
-        line(
-            "drags of a box that designate",
-            f"{done} of {count}, p95 {p95:.0f} ms",
-            f"{count} of {count}, <= 1 s",
-        )
-
 
 def arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog="tools/bench console", description=__doc__)
@@ -237,7 +202,6 @@ def arguments() -> argparse.Namespace:
     parser.add_argument("--only-memory", action="store_true", help="nothing but the visits")
     parser.add_argument("--live", action="store_true", help="with the demo's site instead")
     parser.add_argument("--drags", type=int, default=20, help="of a box, live")
-    parser.add_argument("--rounds", type=int, default=4, help="without and with viewers, live")
     parser.add_argument("--seed", type=int, default=1, help="of the live site")
     return parser.parse_args()
 
@@ -254,7 +218,6 @@ def main() -> int:
         if not options.only_memory:
             bench.size()
             bench.viewers(options.viewers, options.seconds)
-            bench.drags(options.drags)
             bench.focus(options.frames)
             bench.targets(options.targets)
         bench.memory(options.memory)

@@ -1,12 +1,10 @@
-"""tools/bench console --live: the demo's site with its console and a real browser. What ten viewers
-cost the stations and the fusion, as ratios without and with them, and the console; a box dragged
+"""tools/bench console --live: the demo's site with its console and a real browser; a box dragged
 until its station tracks. A click in the overview's picture: tools/bench lead-times."""
 
 import argparse
 import os
 import tempfile
 import time
-from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
@@ -18,51 +16,13 @@ from ols_demo.site import Site, bring_up_loopback
 from ols_demo.wiring import Wiring
 
 from ols_bench.line import line
-from ols_bench.plain_viewer import PlainViewer
-from ols_bench.processes import cpu_s, first_thread_cpu_s
 
 ROOT = Path(__file__).resolve().parents[3]
 BIN = ROOT / "build/release/bin"
 SCENARIO = ROOT / "sim/scenarios/overview.toml"
 OVERVIEW = "overview"
 PATIENCE_S = 90.0
-VIEWERS_HZ = 5.0
 REFUSES_AFTER_STOP_S = 1.2  # a little more than the second for which a station does
-
-
-class Timed(Views):
-    """Also: how long after its exposure each target was heard."""
-
-    def __init__(self):
-        super().__init__()
-        self.delays_s: list[float] = []
-
-    def receive(self, channel, message):
-        super().receive(channel, message)
-        if channel == "OLS_TARGET":
-            self.delays_s.append(time.time() - message.utime * 1e-6)
-
-    def turns_p99_s(self) -> list[float]:
-        """Of each station that tracks by itself, of its last thousand turns."""
-        own = [status for station, status in self.status.items() if station != OVERVIEW]
-        readings = [dict(zip(s.reading_name, s.reading_value, strict=True)) for s in own]
-        return [one["turn_p99_s"] for one in readings]
-
-    def frames_lost(self) -> float:
-        """Of all stations since their start."""
-        counts = [counters(status) for status in self.status.values()]
-        return sum(c.get("frames_lost", 0.0) + c.get("frames_incomplete", 0.0) for c in counts)
-
-
-@dataclass
-class Cost:
-    """Of some seconds with so many viewers."""
-
-    delays_s: list[float] = field(default_factory=list)
-    turns_s: list[float] = field(default_factory=list)
-    lost: float = 0.0
-    cores: list[float] = field(default_factory=list)  # of the console
-    loops: list[float] = field(default_factory=list)  # the same, of all control loops
 
 
 class Live:
@@ -71,10 +31,8 @@ class Live:
         bring_up_loopback(wiring.prepare())
         wiring.start(site, log=False)
         self.address = wiring.start_console(site)
-        self.pid = site.processes["ols-console"].pid
-        self.stations = [site.processes[f"ols-station-{name}"].pid for name in wiring.stations]
         self.all = wiring.stations
-        self.views = Timed()
+        self.views = Views()
         self.bus = Bus(LIVE_URL, self.views.receive, members_of_environment())
         self.operator = Pointer(self.bus, self.views, seed)
 
@@ -87,8 +45,6 @@ class Live:
     def command(self, station: str, what: str) -> None:
         done = f'"{BIN}/ols-ctl" --lcm-url "{LIVE_URL}" {station} {what} >/dev/null'
         os.system(done)
-
-    # --- the measures
 
     def drags(self, page, count: int) -> None:
         """Each station in turn is stopped, so that the fusion leaves it alone, is pointed, and is
@@ -135,61 +91,6 @@ class Live:
         taken = "accepted" if self._designations(station) > accepted else "not accepted"
         return f"{taken}, then {self.views.state(station)}; since its start {refused}"
 
-    def viewers(self, count: int, seconds: float, rounds: int) -> None:
-        """In turn without and with viewers, so that what else the computer does is in both."""
-        costs = {0: Cost(), count: Cost()}
-        for viewers in [0, count] * rounds:
-            self._measure(costs[viewers], viewers, seconds)
-        without, seen = costs[0], costs[count]
-        for what, of, share, most in (
-            ("exposure to target, p95", "delays_s", 95, 1.1),
-            ("a turn of the control loop, p99, median of the stations", "turns_s", 50, 1.05),
-        ):
-            samples = [getattr(cost, of) for cost in (without, seen)]
-            a, b = (1000 * np.percentile(of, share) for of in samples)
-            line(
-                what,
-                f"{a:.1f} ms; {count} viewers {b:.1f} ms: {b / a:.2f} x",
-                f"<= {most} x ({len(samples[0])} and {len(samples[1])} of them)",
-            )
-        a, b = (float(np.mean(cost.loops)) for cost in (without, seen))
-        line(
-            "processor of all control loops",
-            f"{a:.3f} cores; {count} viewers {b:.3f}: {b / a:.2f} x",
-            "none: what viewers cost them beside waiting for a core",
-        )
-        line(
-            "frames lost by all stations",
-            f"{without.lost:.0f}; {count} viewers {seen.lost:.0f}",
-            "0 more",
-        )
-        line(
-            f"console's processor, {count} viewers at {VIEWERS_HZ:g} Hz",
-            f"{np.mean(seen.cores):.2f} cores (nobody {np.mean(without.cores):.2f})",
-            "<= 0.5 cores",
-        )
-
-    def _measure(self, cost: Cost, viewers: int, seconds: float) -> None:
-        looking = [PlainViewer(self.address, self.all, VIEWERS_HZ) for _ in range(viewers)]
-        for one in looking:
-            one.start()
-        self._listen(1.0)
-        self.views.delays_s.clear()
-        lost, spent_s, start = self.views.frames_lost(), cpu_s(self.pid), time.monotonic()
-        loops_s = self._loops_s()
-        self._listen(seconds)
-        cost.delays_s += self.views.delays_s
-        cost.turns_s += self.views.turns_p99_s()
-        cost.lost += self.views.frames_lost() - lost
-        took_s = time.monotonic() - start
-        cost.cores.append((cpu_s(self.pid) - spent_s) / took_s)
-        cost.loops.append((self._loops_s() - loops_s) / took_s)
-        for one in looking:
-            one.end()
-
-    def _loops_s(self) -> float:
-        return sum(map(first_thread_cpu_s, self.stations))
-
     def _listen(self, seconds: float) -> None:
         end = time.monotonic() + seconds
         while time.monotonic() < end:
@@ -209,6 +110,5 @@ def main(options: argparse.Namespace) -> int:
             page.goto(live.address)
             page.get_by_role("img", name=OVERVIEW, exact=True).wait_for(timeout=30_000)
             live.drags(page, options.drags)
-        live.viewers(options.viewers, options.seconds, options.rounds)
         site.check()
     return 0

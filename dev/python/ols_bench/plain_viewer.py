@@ -1,13 +1,12 @@
-"""A browser's WebSocket to the console without the browser: asks for pictures, reads everything,
-takes no more than so many of each station a second."""
+"""A browser's WebSocket to the console without the browser."""
 
 import base64
+import contextlib
 import json
 import os
 import socket
 import struct
 import threading
-import time
 from urllib.parse import urlparse
 
 
@@ -68,39 +67,19 @@ class LiveSocket:
 
 
 class PlainViewer(threading.Thread):
-    def __init__(self, address: str, stations: list[str], rate_hz: float | None = None):
-        """rate_hz: None: as fast as they come."""
+    """Takes the pictures of these stations as fast as they come."""
+
+    def __init__(self, address: str, stations: list[str]):
         super().__init__(daemon=True)
-        self._period_s = 1.0 / rate_hz if rate_hz else None
-        self._stations = stations
         self.bytes = 0
-        self._live = LiveSocket(address)
-        self._socket = self._live.socket
-        self._live.say({"do": "watch", "pictures": stations})
-        if self._period_s:
-            self._socket.settimeout(self._period_s)
-            self._take()
-
-    def _take(self) -> None:
-        self._live.say({"do": "taken", "pictures": self._stations, "state": True})
-
-    def _receive(self) -> bytes | None:
-        """None: nothing for a period."""
-        try:
-            return self._socket.recv(1 << 16)
-        except TimeoutError:
-            return None
+        live = LiveSocket(address)
+        live.say({"do": "watch", "pictures": stations})
+        self._socket = live.socket
 
     def run(self) -> None:
-        taken_s = time.monotonic()
-        try:
-            while (data := self._receive()) != b"":
-                self.bytes += len(data or b"")
-                if self._period_s and time.monotonic() >= taken_s + self._period_s:
-                    taken_s += self._period_s
-                    self._take()
-        except OSError:
-            return
+        with contextlib.suppress(OSError):
+            while data := self._socket.recv(1 << 16):
+                self.bytes += len(data)
 
     def end(self) -> None:
         self._socket.shutdown(socket.SHUT_RDWR)

@@ -30,6 +30,8 @@ from stonesoup.types.hypothesis import SingleHypothesis
 from stonesoup.types.state import GaussianState
 from stonesoup.updater.kalman import ExtendedKalmanUpdater
 
+from ols_bench.markdown import table
+
 WARM_S = 4.0
 LEAST_TIMES_FASTER = 300.0
 START = datetime(2024, 1, 1)
@@ -143,12 +145,13 @@ def main():
     (folder / "peer.json").write_text(json.dumps(figures, indent=1) + "\n")
     low, high = figures["ratio_95"]
     ours, theirs = figures["cpu_us"], figures["stonesoup_cpu_us"]
-    print(f"| {figures['runs']} paired runs | ours | Stone Soup's EKF |")
-    print("|---|---:|---:|")
-    print(f"| RMSE | {figures['rmse_m']:.4f} m | {figures['stonesoup_rmse_m']:.4f} m |")
-    print(f"| processor time a bearing | {ours:.1f} us | {theirs:.0f} us |")
-    print(f"| RMSE over Stone Soup's, 95 % | {low:.4f} to {high:.4f} | 1 |")
-    print(f"| times faster | {figures['times_faster']:.0f} | 1 |")
+    rows = [
+        ["RMSE", f"{figures['rmse_m']:.4f} m", f"{figures['stonesoup_rmse_m']:.4f} m"],
+        ["processor time a bearing", f"{ours:.1f} us", f"{theirs:.0f} us"],
+        ["RMSE over Stone Soup's, 95 %", f"{low:.4f} to {high:.4f}", "1"],
+        ["times faster", f"{figures['times_faster']:.0f}", "1"],
+    ]
+    print(table([f"{figures['runs']} paired runs", "ours", "Stone Soup's EKF"], rows))
     for miss in misses(figures):
         print(f"stonesoup_peer: MISS: {miss}", file=sys.stderr)
     return 1 if misses(figures) else 0

@@ -5,8 +5,9 @@ from pathlib import Path
 
 import numpy as np
 
+from ols_bench.markdown import table
 from ols_bench.synthetic import HIDDEN_SWEEPS
-from ols_bench.tables import finite, table, text
+from ols_bench.tables import finite, text
 
 # The sweeps that the limits below judge.
 PROPERTIES = ("size", "contrast", "blur", "speed")

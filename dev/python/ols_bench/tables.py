@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
+from ols_bench.markdown import table
 from ols_bench.results import ALL, Result, spread
 
 Results = dict[str, dict[str, Result]]  # tracker, folder
@@ -44,15 +45,6 @@ SEED_COLUMNS = {
     "absent after the tenth frame, believed in": "late_absent_believed",
     "found again ≤ 0.5 s": "found_again_in_time",
 }
-
-
-def line(cells: list[str] | tuple[str, ...]) -> str:
-    return "| " + " | ".join(cells) + " |"
-
-
-def table(columns: list[str] | tuple[str, ...], rows: list[list[str]]) -> str:
-    rule = "|---" + "|---:" * (len(columns) - 1) + "|"
-    return "\n".join([line(columns), rule, *map(line, rows)])
 
 
 def text(value: float | None, form: str = ".3f") -> str:

@@ -219,8 +219,8 @@ def positions(recording: Recording, start_us: int, end_us: int) -> list[Any]:
 
 def target_arrivals_us(recording: Recording, start_us: int, end_us: int) -> list[int]:
     """The arrival times of targets with a position."""
-    both = zip(recording.targets.get(JOINT, []), recording.arrivals_us.get(JOINT, []), strict=True)
-    return [at for target, at in both if target.solution == OK and start_us <= at <= end_us]
+    arrived = between_arrivals(recording, JOINT, start_us, end_us)
+    return [at for target, at in arrived if target.solution == OK]
 
 
 def longest_gap_s(arrivals_us: list[int], start_us: int, end_us: int) -> float:
@@ -230,15 +230,8 @@ def longest_gap_s(arrivals_us: list[int], start_us: int, end_us: int) -> float:
 
 def bearing_ages_s(recording: Recording, station: str, start_us: int, end_us: int) -> np.ndarray:
     """(n, 2): arrival times of bearings [s after start], and their ages then [s]."""
-    channel = f"OLS_BEARING_{station}"
-    both = zip(
-        recording.bearings.get(station, []), recording.arrivals_us.get(channel, []), strict=True
-    )
-    rows = [
-        ((at - start_us) * 1e-6, (at - bearing.utime) * 1e-6)
-        for bearing, at in both
-        if start_us <= at <= end_us
-    ]
+    arrived = between_arrivals(recording, f"OLS_BEARING_{station}", start_us, end_us)
+    rows = [((at - start_us) * 1e-6, (at - bearing.utime) * 1e-6) for bearing, at in arrived]
     return np.array(rows).reshape(-1, 2)
 
 

@@ -13,6 +13,8 @@ from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
+from ols_bench import markdown
+
 from ols_faults.case import CASES, Case, Check, judged
 from ols_faults.evidence import Evidence
 
@@ -72,13 +74,12 @@ def try_all(names: list[str], evidences: dict[str, Evidence]) -> list[Trial]:
 
 
 def table(trials: list[Trial]) -> str:
-    lines = ["| case | check | mutation | measured with it | failed as it must |", "|---" * 5 + "|"]
-    for t in trials:
-        cells = (t.case, t.check, t.mutation, t.measured, f"**NO**: {t.verdict}")
-        if t.failed_as_it_must:
-            cells = (*cells[:-1], "yes")
-        lines.append("| " + " | ".join(cell.replace("|", "/") for cell in cells) + " |")
-    return "\n".join(lines)
+    columns = ["case", "check", "mutation", "measured with it", "failed as it must"]
+    said = ["yes" if t.failed_as_it_must else f"**NO**: {t.verdict}" for t in trials]
+    rows = [
+        (t.case, t.check, t.mutation, t.measured, how) for t, how in zip(trials, said, strict=True)
+    ]
+    return markdown.table(columns, rows)
 
 
 def write(folder: Path, trials: list[Trial]) -> Path:

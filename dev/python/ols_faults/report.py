@@ -3,6 +3,8 @@
 import json
 from pathlib import Path
 
+from ols_bench import markdown
+
 from ols_faults.case import CASES, Outcome
 
 
@@ -23,13 +25,12 @@ def details(outcome: Outcome) -> str:
 
 
 def table(outcomes: dict[str, Outcome]) -> str:
-    rows = ["| case | fault | must happen | measured | recovery | |", "|---|---|---|---|---|---|"]
+    rows = []
     for name, outcome in outcomes.items():
         case = CASES[name]
-        cells = [name, case.fault, case.criterion, details(outcome)]
-        cells += [seconds(outcome.recovery_s), verdict(outcome)]
-        rows.append("| " + " | ".join(cell.replace("|", "/") for cell in cells) + " |")
-    return "\n".join(rows)
+        facts = [case.fault, case.criterion, details(outcome), seconds(outcome.recovery_s)]
+        rows.append([name, *facts, verdict(outcome)])
+    return markdown.table(["case", "fault", "must happen", "measured", "recovery", ""], rows)
 
 
 def as_json(outcome: Outcome) -> dict[str, object]:

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 import ols_msg
 from ols_demo import evaluate
-from ols_demo.bus import LIVE_URL, counters
+from ols_demo.bus import LIVE_URL
 from ols_demo.observer import STATES, Observer
 from ols_demo.operator import Operator
 from ols_demo.recording import Recording
@@ -162,16 +162,10 @@ class Session:
         return self.observer.status.get(station)
 
     def statuses_since(self, station: str, since_us: int) -> list[Any]:
-        arrivals = self.heard.arrivals_us.get(f"OLS_STATUS_{station}", [])
-        both = zip(self.heard.statuses.get(station, []), arrivals, strict=True)
-        return [status for status, at in both if at >= since_us]
+        return measure.statuses(self.heard, station, since_us, self.now_us())
 
     def state(self, station: str) -> str:
         return self.observer.state(station)
-
-    def counter(self, station: str, name: str) -> float:
-        status = self.status(station)
-        return counters(status).get(name, 0.0) if status else 0.0
 
     def fresh_status(self, station: str, deadline_s: float = 3.0) -> Any:
         """Waits for a status sent after this call; None if none comes."""

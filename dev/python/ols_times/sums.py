@@ -4,6 +4,8 @@ import os.path
 import re
 from collections.abc import Iterable, Mapping
 
+from ols_bench import markdown
+
 Row = dict[str, str | float | None]
 SUMMED = ("times", "processor_s", "wall_s")
 # Else by processor_s.
@@ -138,10 +140,9 @@ def ranked(title: str, rows: Iterable[Row]) -> list[Row]:
 def table(title: str, rows: list[Row], top: int = 30) -> str:
     """Markdown: the first rows, and the total of all."""
     keys = [key for key in (*SUMMED, "with_nested_s") if any(key in row for row in rows)]
-    lines = [f"## {title}", "", f"| | {' | '.join(keys)} |", "|---|" + "---:|" * len(keys)]
-    for row in [*rows[:top], total(f"total of {len(rows)}", rows)]:
-        digits = {key: 0 if key == "times" else 2 for key in keys}
-        cells = [f"{row[key]:.{digits[key]}f}" if key in row else "" for key in keys]
-        name = str(row["name"]).replace("|", r"\|")
-        lines.append(f"| {name} | {' | '.join(cells)} |")
-    return "\n".join(lines) + "\n"
+    digits = {key: 0 if key == "times" else 2 for key in keys}
+    lines = [
+        [row["name"], *(f"{row[key]:.{digits[key]}f}" if key in row else "" for key in keys)]
+        for row in [*rows[:top], total(f"total of {len(rows)}", rows)]
+    ]
+    return f"## {title}\n\n{markdown.table(['name', *keys], lines)}\n"

@@ -1,0 +1,35 @@
+// What benchmarks under load share.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <vector>
+
+#include "base/process/clocks.h"
+
+namespace ols::bench {
+
+// Calls `act` with 0, 1, … evenly in time; what fell due while this process did not run follows at
+// once.
+void at_rate(double rate_hz, double seconds, const auto& act) {
+  constexpr timespec kNap{0, 200'000};  // some messages of a flood each time
+  const double begin_s = clock_monotonic_s();
+  const auto total = static_cast<std::size_t>(std::llround(rate_hz * seconds));
+  for (std::size_t turn = 0; turn < total;) {
+    const double passed_s = clock_monotonic_s() - begin_s;
+    const auto due = std::min(total, static_cast<std::size_t>(passed_s * rate_hz) + 1);
+    while (turn < due) act(turn++);
+    ::nanosleep(&kNap, nullptr);
+  }
+}
+
+// The value that this share of the others does not exceed; NaN of none.
+inline double quantile(std::vector<double> values, double share) {
+  if (values.empty()) return NAN;
+  const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::ranges::nth_element(values, values.begin() + at);
+  return values[static_cast<std::size_t>(at)];
+}
+
+}  // namespace ols::bench
