@@ -49,7 +49,13 @@ def test_no_text_is_cut_or_covered(busy):
     assert found_at_each_size(busy) == {}
     languages.select_option("de")
     expect(busy.get_by_role("complementary", name="Ziel 7")).to_be_visible()
+    busy.set_viewport_size({"width": 1280, "height": 720})
+    busy.get_by_text("Maus und Tasten").click()
+    hint = busy.get_by_text("Rahmen um das Objekt ziehen")
+    expect(hint).to_be_visible()
     assert found_at_each_size(busy) == {}
+    busy.keyboard.press("Escape")
+    expect(hint).to_be_hidden()
 
 
 WORD = re.compile(r"[A-Za-zÄÖÜäöüß]{3,}")
@@ -119,6 +125,7 @@ def test_what_is_large_is_a_choice_and_is_remembered(busy):
     busy.get_by_role("button", name="Pictures large").click()
     assert width_of(picture(busy, "charlie")) > 1.3 * small
     assert width_of(region(busy, "Map")) < width_of(region(busy, "Targets"))
+    busy.get_by_text("Mouse and keys").click()
     assert found_at_each_size(busy) == {}
     busy.set_viewport_size({"width": 1500, "height": 900})
     busy.get_by_role("button", name="Only this picture").click()

@@ -1,7 +1,9 @@
 // The stations' pictures: the selected one large, the others small.
 
 import { h } from "preact";
+import { useState } from "preact/hooks";
 import { ArrangementChoice, type Arrangement } from "./arrangement";
+import { useEscape } from "./escape";
 import { Eye } from "./eye";
 import type { Link } from "./link";
 import type { Designate, Point } from "./onpicture";
@@ -17,6 +19,19 @@ function mostWanted(stations: Station[], selected: string): string[] {
   const rank = (station: Station) => (station.id === selected ? 0 : station.stale ? 2 : 1);
   const first = [...stations].sort((a, b) => rank(a) - rank(b)).slice(0, MOST_WATCHED);
   return first.map((station) => station.id).sort();
+}
+
+// What mouse, fingers and keys do in a picture.
+function HandHint() {
+  const [isOpen, setOpen] = useState(false);
+  useEscape(isOpen, () => setOpen(false));
+  return (
+    <details class="hint" open={isOpen} onToggle={(event) => setOpen(event.currentTarget.open)}>
+      <summary>{t("mouse_and_keys")}</summary>
+      <p>{t("designate_hint")}</p>
+      <p>{t("hand_hint")}</p>
+    </details>
+  );
 }
 
 type Props = {
@@ -62,7 +77,7 @@ export function VideoView({ link, selected, mayCommand, arrangement, onSelect, o
               <div class="video-tools">
                 <ArrangementChoice {...arrangement} />
                 {!link.replay && <ThinLinkChoice {...thin} />}
-                {mayCommand && <p class="hint">{`${t("designate_hint")} ${t("hand_hint")}`}</p>}
+                {mayCommand && <HandHint />}
               </div>
             )}
           </div>

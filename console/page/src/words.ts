@@ -153,6 +153,7 @@ const WORDS = {
   tilt_angle: ["Tilt °", "Neigung °"],
   record: ["Record", "Aufnehmen"],
   label: ["Label", "Name der Aufnahme"],
+  mouse_and_keys: ["Mouse and keys", "Maus und Tasten"],
   designate_hint: ["Drag a box around the object. Keyboard: Enter, arrows, Shift with arrows, Enter.", "Rahmen um das Objekt ziehen. Tastatur: Enter, Pfeile, Umschalt mit Pfeilen, Enter."],
   hand_hint: ["Click: centre there. Hold: joystick (arrows). Wheel, pinch, + and -: zoom. Shift with click: look here (L). While a station tracks, and for one finger: By hand (M) first.", "Klick: dort zentrieren. Halten: Joystick (Pfeile). Rad, zwei Finger, + und -: Zoom. Umschalt und Klick: hierher schauen (L). Während eine Station verfolgt, und für einen Finger: zuerst Von Hand (M)."],
   pictures_large: ["Pictures large", "Bilder groß"],
