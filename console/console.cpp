@@ -54,7 +54,10 @@ void Console::hear(const StationHeard& station, const Now& now) {
   }
 }
 
-void Console::hear(const wire::Reply& reply) { orders_.hear(reply); }
+void Console::hear(const wire::Reply& reply) {
+  orders_.hear(reply);
+  cues_.hear(reply);
+}
 
 void Console::hear_bearing(const std::string& station, const Json& bearing) {
   site_.hear_bearing(station, bearing);
@@ -175,14 +178,15 @@ void Console::act(std::uint64_t id, const AnswerRequest& request, const Now& now
 
 void Console::act(std::uint64_t id, const CueRequest& request, const Now& now) {
   const Viewer& viewer = viewers_.at(id);
-  const auto& [cue, allow] = request.order;
+  const auto& [cue, allow, unnumbered] = request.order;
   const bool is_too_late = allow && is_late(request.heard_utime_us, now, kLateCommand_us);
   const std::string refusal = is_replay()   ? kReplay
                               : is_too_late ? kTooLate
-                                            : cues_.give(request.order, viewer.role, bus_trouble_);
+                                            : cues_.refusal(viewer.role, bus_trouble_);
+  if (!refusal.empty()) return answer(id, request.number, "", refusal);
   const std::string what = (allow ? "allows cue " : "forbids cue ") + cue;
-  if (refusal.empty()) site_.note({now.utime_us, "command", "", viewer.name, what, "sent"});
-  answer(id, request.number, "", refusal);
+  const auto event = site_.note({now.utime_us, "command", "", viewer.name, what, "sent"});
+  cues_.give(request.order, {id, request.number, event}, now.monotonic_s);
 }
 
 void Console::act(std::uint64_t id, const AcknowledgeRequest& request, const Now&) {
@@ -364,7 +368,9 @@ void Console::tell_all(const Json& message) {
 
 void Console::tell_outcomes(const Now& now) {
   std::set<std::string> unconfirmed;
-  for (const Verdict& verdict : orders_.finished(now.monotonic_s)) {
+  std::vector<Verdict> verdicts = orders_.finished(now.monotonic_s);
+  std::ranges::move(cues_.finished(now.monotonic_s), std::back_inserter(verdicts));
+  for (const Verdict& verdict : verdicts) {
     site_.conclude(verdict.ticket.event, verdict.why.empty() ? "done" : verdict.why);
     answer(verdict.ticket.viewer, verdict.ticket.number, verdict.station, verdict.why);
     if (verdict.ticket.is_for_all && !verdict.why.empty()) unconfirmed.insert(verdict.station);

@@ -45,12 +45,15 @@ void ConsoleBus::subscribe(LcmBus& bus) {
   bus.subscribe(std::string(kFusionStatusChannel), [this](const BusMessage& message) {
     if (auto heard = fusion_from(message)) console_.hear(*heard, now_);
   });
-  bus.subscribe(station_channel(kReplyChannel, ".+"), [this](const BusMessage& message) {
-    auto reply = wire::heard_reply(message);
-    if (!reply || reply->order.boot_id != boot_id_) return;
-    reply->order.boot_id = 0;  // as the console numbers its orders
-    console_.hear(*reply);
-  });
+  for (const std::string& channel :
+       {station_channel(kReplyChannel, ".+"), std::string(kCueReplyChannel)}) {
+    bus.subscribe(channel, [this](const BusMessage& message) {
+      auto reply = wire::heard_reply(message);
+      if (!reply || reply->order.boot_id != boot_id_) return;
+      reply->order.boot_id = 0;  // as the console numbers its orders
+      console_.hear(*reply);
+    });
+  }
   bus.subscribe(
       station_channel(kPreviewChannel, ".+"),
       [this](const BusMessage& message) {
@@ -101,7 +104,7 @@ void ConsoleBus::send(const std::vector<ProcedureAnswer>& answers, const Now& no
 void ConsoleBus::send(const std::vector<wire::CueOrder>& orders, const Now& now) {
   if (client_.bus() == nullptr) return;
   for (const wire::CueOrder& order : orders) {
-    if (!sender_.send(*client_.bus(), order, sender_.next_id(), now.utime_us)) send_failed_ = true;
+    if (!sender_.send(*client_.bus(), order, now.utime_us)) send_failed_ = true;
   }
 }
 

@@ -58,6 +58,7 @@ struct Order {
 struct CueOrder {
   std::string cue;
   bool allow = false;
+  OrderId id = {};
 };
 
 // What a station said to an order, or the fusion to one on a cue.

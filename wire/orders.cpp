@@ -99,10 +99,9 @@ std::optional<Reply> heard_reply(const BusMessage& message) {
                .is_stopped = is_stopped(said->state)};
 }
 
-bool OrderSender::send(LcmBus& bus, const CueOrder& order, OrderId id,
-                       std::int64_t utime_us) const {
+bool OrderSender::send(LcmBus& bus, const CueOrder& order, std::int64_t utime_us) const {
   ols_msg::cue_order_t message{};
-  stamp_message(message, utime_us, boot_id_, id.sequence);
+  stamp_message(message, utime_us, boot_id_, order.id.sequence);
   message.lease_s = kLease_s;
   message.cue = order.cue;
   message.allow = order.allow ? 1 : 0;

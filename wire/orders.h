@@ -27,7 +27,7 @@ class OrderSender {
   // `order.id`: of its own, of this sender. `utime_us`: this host's UTC. False if the network is
   // down.
   bool send(LcmBus& bus, const Order& order, std::int64_t utime_us) const;
-  bool send(LcmBus& bus, const CueOrder& order, OrderId id, std::int64_t utime_us) const;
+  bool send(LcmBus& bus, const CueOrder& order, std::int64_t utime_us) const;
 
  private:
   template <class Message>

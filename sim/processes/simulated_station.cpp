@@ -1,6 +1,7 @@
 #include "sim/processes/simulated_station.h"
 
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 #include "base/process/clocks.h"
@@ -90,8 +91,12 @@ void SimulatedStation::restart() {
 }
 
 station::Head SimulatedStation::head(const station::StationSettings& settings) {
+  const auto* flir = settings.mount.as<ptu::PtuKind>();
+  if (flir == nullptr) {
+    throw std::invalid_argument(settings.id + ": a station in simulated time has a unit of FLIR");
+  }
   auto camera = std::make_unique<CameraInHand>(settings.camera->config());
-  auto ptu = std::make_unique<UnitInHand>(settings.mount.as<ptu::PtuKind>()->unit);
+  auto ptu = std::make_unique<UnitInHand>(flir->unit);
   camera_ = camera.get();
   ptu_ = ptu.get();
   return {std::move(camera), std::move(ptu)};

@@ -134,6 +134,7 @@ def test_it_plays_and_pauses_at_a_speed(page, replay):
     wait(lambda: abs(shown_s(replay) - 5) < 0.2, "5 s")
     bar(page).get_by_label("Speed").select_option("30")
     bar(page).get_by_role("button", name="Play").click()
+    expect(bar(page).get_by_role("button", name="Pause")).to_be_visible()
     wait(lambda: shown_s(replay) > 30, "30 s of the recording")
     pause(page)
     at = shown_s(replay)

@@ -56,7 +56,7 @@ LAST_WORDS = {
         "port",
         "camera",
         "mount",
-        "gnss",
+        "receiver",
         "gpio",
         "gpsd",
         "libgpiod",

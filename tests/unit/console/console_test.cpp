@@ -409,6 +409,10 @@ TEST(Console, ACueIsAllowedAndControlIsTakenInTimeOrNotAtAll) {
   const auto says = [&](const std::string& what, std::int64_t heard_us) {
     const auto heard = R"(,"number":8,"heard_us":)" + std::to_string(heard_us) + "}";
     console.take(operating, R"({"do":)" + what + heard, {1.0, 10'000'000});
+    for (const auto& order : console.take_cue_orders()) {
+      console.hear(wire::Reply{.order = order.id, .is_accepted = true});
+    }
+    static_cast<void>(console.turn({1.0, 10'000'000}));
     return answer_in(received(console, operating, {1.0, 10'000'000})).at("accepted") == true;
   };
   for (const char* what : {R"("cue","cue":"a","allow":true)", R"("take","station":"alfa")"}) {
@@ -426,13 +430,16 @@ TEST(Console, AnOperatorsWordOnACueGoesOutAndAViewersDoesNot) {
   EXPECT_TRUE(console.take_cue_orders().empty());
   const auto operating = console.open("ana", Role::kOperator);
   console.take(operating, allow, {1.0, 5});
-  EXPECT_TRUE(answer_in(received(console, operating, {1.0, 5})).at("accepted"));
   const auto orders = console.take_cue_orders();
   ASSERT_EQ(orders.size(), 1U);
   EXPECT_EQ(orders[0].cue, "tak.a");
-  const Json noted = console.state({1.0, 5}).at("events")[0];
-  EXPECT_EQ(noted.at("text"), "allows cue tak.a");
-  EXPECT_EQ(noted.at("outcome"), "sent") << "the fusion has not said anything yet";
+  const auto noted = [&] { return console.state({1.0, 5}).at("events")[0]; };
+  EXPECT_EQ(noted().at("text"), "allows cue tak.a");
+  EXPECT_EQ(noted().at("outcome"), "sent") << "the fusion has not said anything yet";
+  console.hear(wire::Reply{.order = orders[0].id, .is_accepted = true});
+  static_cast<void>(console.turn({1.1, 6}));
+  EXPECT_EQ(noted().at("outcome"), "done");
+  EXPECT_TRUE(answer_in(received(console, operating, {1.1, 6})).at("accepted"));
   console.replay_is({{"name", "x"}}, true);
   console.take(operating, allow, {2.0, 6});
   EXPECT_TRUE(console.take_cue_orders().empty()) << "what was is not commanded";

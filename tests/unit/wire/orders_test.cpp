@@ -73,8 +73,8 @@ TEST(OrderSender, NumbersItsWordsOnCues) {
     if (decode_of_schema(message, order)) heard.push_back(order);
   });
   OrderSender sender(17);
-  sender.send(bus, {"tak.anna", true}, sender.next_id(), 1'000);
-  sender.send(bus, {"tak.anna", false}, sender.next_id(), 2'000);
+  sender.send(bus, {"tak.anna", true, sender.next_id()}, 1'000);
+  sender.send(bus, {"tak.anna", false, sender.next_id()}, 2'000);
   while (heard.size() < 2) ASSERT_GT(bus.handle(5'000), 0);
   std::int64_t number = 0;
   for (const auto& order : heard) {
