@@ -167,8 +167,8 @@ std::string name_of_station(std::size_t station) {
 }
 
 AzimuthElevation aim_of(const WorldConfig& config, std::size_t station) {
-  const Vector3d middle(0, 0, 80);
-  return direction(site().to_ecef(config.stations_enu[station]), site().to_ecef(middle));
+  const Vector3d aim = config.aims_enu.empty() ? Vector3d(0, 0, 80) : config.aims_enu[station];
+  return direction(site().to_ecef(config.stations_enu[station]), site().to_ecef(aim));
 }
 
 const LocalFrame& site() {

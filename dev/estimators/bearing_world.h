@@ -17,6 +17,7 @@ inline constexpr std::int64_t kStartUs = 1'700'000'000'000'000;
 
 struct WorldConfig {
   std::vector<Eigen::Vector3d> stations_enu;  // [m]
+  std::vector<Eigen::Vector3d> aims_enu;      // where each looks, for false bearings; empty: centre
   double rate_hz = 30.0;                      // frames of each station, evenly staggered
   double noise_rad = 3e-4;
   double bias_sd_rad = 0.0;      // of each station's rotation about east, north and up: its bias
@@ -62,7 +63,7 @@ std::vector<fusion::BearingMeasurement> measure(const WorldConfig& config,
                                                 const std::vector<Path>& targets, double duration_s,
                                                 std::mt19937_64& random);
 
-// The id of a station, and the axis of its camera: at the middle of the site.
+// The id of a station, and the axis of its camera at the start.
 std::string name_of_station(std::size_t station);
 AzimuthElevation aim_of(const WorldConfig& config, std::size_t station);
 
