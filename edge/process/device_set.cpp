@@ -5,7 +5,12 @@
 namespace ols::station {
 
 Head configured_head(const StationSettings& settings) {
-  return {settings.camera->open(settings.keep_raw), settings.mount->open()};
+  Head head;
+  if (settings.inclinometer->is_configured()) head.inclinometer = settings.inclinometer->open();
+  if (settings.gnss->is_configured()) head.gnss = settings.gnss->open();
+  head.camera = settings.camera->open(settings.keep_raw);
+  head.mount = settings.mount->open();
+  return head;
 }
 
 DeviceSet::DeviceSet(const StationSettings& settings, std::int64_t boot_id, Head head)
@@ -16,8 +21,6 @@ DeviceSet::DeviceSet(const StationSettings& settings, std::int64_t boot_id, Head
     video_.emplace(settings.video, video::VideoSender{settings.id, boot_id});
   }
   if (!settings.lens.device.empty()) lens_.emplace(settings.lens);
-  if (settings.inclinometer->is_configured()) inclinometer_ = settings.inclinometer->open();
-  if (settings.gnss->is_configured()) gnss_ = settings.gnss->open();
   if (!settings.gpio.chip.empty()) {
     gpio_.emplace(
         settings.gpio, [this](bool pressed) { on_stop(pressed); }, [this] { stop_.rearm(); });
@@ -37,20 +40,20 @@ void DeviceSet::rearm() {
 }
 
 void DeviceSet::feed(sensors::PoseEstimator& estimator) {
-  if (inclinometer_) {
-    for (const sensors::TiltReading& reading : inclinometer_->take_readings())
+  if (head_.inclinometer) {
+    for (const sensors::TiltReading& reading : head_.inclinometer->take_readings())
       estimator.add(reading);
   }
-  if (gnss_) {
-    for (const sensors::GnssReading& reading : gnss_->take_readings()) estimator.add(reading);
+  if (head_.gnss) {
+    for (const sensors::GnssReading& reading : head_.gnss->take_readings()) estimator.add(reading);
   }
 }
 
 std::vector<device::DeviceReport> DeviceSet::reports() const {
   std::vector<device::DeviceReport> reports{head_.camera->report(), head_.mount->report()};
   if (lens_) reports.push_back(lens_->report());
-  if (inclinometer_) reports.push_back(inclinometer_->report());
-  if (gnss_) reports.push_back(gnss_->report());
+  if (head_.inclinometer) reports.push_back(head_.inclinometer->report());
+  if (head_.gnss) reports.push_back(head_.gnss->report());
   if (gpio_) reports.push_back(gpio_->report());
   if (recorder_) reports.push_back(recorder_->report());
   if (video_) reports.push_back(video_->report());

@@ -21,9 +21,12 @@
 
 namespace ols::station {
 
-// What turns and sees.
+// What turns and sees, and measures where it stands and how level.
 struct Head {
+  std::unique_ptr<sensors::Inclinometer> inclinometer;  // null: none is configured
+  std::unique_ptr<sensors::Gnss> gnss;                  // likewise
   std::unique_ptr<camera::Camera> camera;
+  // The first to be destroyed: its destructor halts it, and others may block.
   std::unique_ptr<mount::Mount> mount;
 };
 using OpenHead = std::function<Head(const StationSettings&)>;
@@ -62,10 +65,7 @@ class DeviceSet {
   std::optional<recorder::Recorder> recorder_;
   std::optional<video::VideoServer> video_;
   std::optional<lens::LensMotor> lens_;
-  std::unique_ptr<sensors::Inclinometer> inclinometer_;
-  std::unique_ptr<sensors::Gnss> gnss_;
-  // The mount is destroyed before the camera, which may block: its destructor halts it. The GPIO
-  // thread uses the mount and is destroyed first.
+  // The GPIO thread uses the mount and is destroyed first.
   Head head_;
   std::optional<gpio::Gpio> gpio_;
 };

@@ -99,7 +99,21 @@ station::Head SimulatedStation::head(const station::StationSettings& settings) {
   auto ptu = std::make_unique<UnitInHand>(flir->unit);
   camera_ = camera.get();
   ptu_ = ptu.get();
-  return {std::move(camera), std::move(ptu)};
+  station::Head head{nullptr, nullptr, std::move(camera), std::move(ptu)};
+  inclinometer_ = nullptr;
+  gnss_ = nullptr;
+  if (settings.inclinometer->is_configured()) {
+    auto own =
+        std::make_unique<InclinometerInHand>(world_, index_, settings.inclinometer->config());
+    inclinometer_ = own.get();
+    head.inclinometer = std::move(own);
+  }
+  if (settings.gnss->is_configured()) {
+    auto own = std::make_unique<GnssInHand>(world_, index_);
+    gnss_ = own.get();
+    head.gnss = std::move(own);
+  }
+  return head;
 }
 
 void SimulatedStation::set_faults(const StationFaults& faults) {
@@ -111,6 +125,8 @@ PanTilt SimulatedStation::angles() const { return unit_.angles_at(clock_monotoni
 
 void SimulatedStation::step(double time_s) {
   exchange_bytes();
+  if (inclinometer_) inclinometer_->step(faults_.inclinometer, clock_monotonic_s());
+  if (gnss_) gnss_->step(faults_.gnss, clock_monotonic_s());
   expose(time_s);
   if (++steps_ % kStepsOfTurn == 0) process_->turn();
 }

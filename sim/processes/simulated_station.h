@@ -10,6 +10,7 @@
 
 #include "edge/camera/frame_statistics.h"
 #include "edge/process/station_process.h"
+#include "sim/processes/sensors_in_hand.h"
 #include "sim/processes/simulated_time.h"
 #include "sim/ptu/faults.h"
 #include "sim/world/exposed_unit.h"
@@ -27,8 +28,9 @@ class SimulatedStation {
     ViewTruth view;
   };
 
-  // Camera and mount are the only devices that may be configured, the mount as a FLIR unit. A time
-  // service says that the station's clock is right. World and time must outlive the station.
+  // Camera, mount, inclinometer and GNSS receiver are the only devices that may be configured, the
+  // mount as a FLIR unit. A time service says that the station's clock is right. World and time
+  // must outlive the station.
   SimulatedStation(const World& world, std::size_t index, station::StationSettings settings,
                    SimulatedTime& time);
   ~SimulatedStation();
@@ -60,6 +62,8 @@ class SimulatedStation {
   // Of the process.
   CameraInHand* camera_ = nullptr;
   UnitInHand* ptu_ = nullptr;
+  InclinometerInHand* inclinometer_ = nullptr;  // null: none is configured
+  GnssInHand* gnss_ = nullptr;                  // likewise
   camera::FrameStatistics statistics_;
   std::unique_ptr<station::StationProcess> process_;
 };

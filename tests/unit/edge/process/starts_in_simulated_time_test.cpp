@@ -1,87 +1,16 @@
 // What a station knows of its unit's reference over its starts: its whole process in simulated
 // time.
-#include <gtest/gtest.h>
-#include <spdlog/spdlog.h>
-
-#include <algorithm>
-#include <optional>
-#include <string>
-
-#include "base/bus/channel_names.h"
-#include "base/bus/lcm_bus.h"
-#include "base/process/clocks.h"
-#include "ols_msg/command_reply_t.hpp"
-#include "ols_msg/ptu_command_t.hpp"
-#include "sim/processes/simulated_station.h"
-#include "sim/scenario/station_files.h"
-#include "tests/unit/logger/temporary_folder.h"
-#include "wire/station_status.h"
+#include "tests/unit/edge/process/station_in_simulated_time.h"
 
 namespace ols::station {
 namespace {
 
-using Command = ols_msg::ptu_command_t;
-constexpr const char* kBus = "memq://starts";
+using test::Command;
 constexpr const char* kGears = "ptu: no reference";
-constexpr double kHoming_s = 120.0, kPatience_s = 20.0;
 
-class StationStarts : public testing::Test {
+class StationStarts : public test::StationInSimulatedTime {
  protected:
-  StationStarts() : time_(1'700'000'000'000'000), world_(scenario(), 5), bus_(kBus) {
-    sim::write_station_files(world_, {kBus, folder_.path(), folder_ / "state"}, folder_.path());
-    StationSettings settings = load_station_settings(folder_ / "alfa.toml");
-    settings.video.address.clear();
-    settings.host.silence_s = 1e9;  // it reads this host, in this host's time
-    spdlog::set_level(spdlog::level::off);
-    bus_.subscribe(station_channel(kStatusChannel, "alfa"), [this](const BusMessage& message) {
-      if (auto heard = wire::heard_status(message)) status_ = std::move(*heard);
-    });
-    bus_.subscribe(station_channel(kReplyChannel, "alfa"), [this](const BusMessage& message) {
-      ols_msg::command_reply_t reply{};
-      if (decode_of_schema(message, reply) && reply.order_sequence == sequence_) reply_ = reply;
-    });
-    station_.emplace(world_, 0, settings, time_);
-    time_.at_each_step([this](double) { bus_.handle(0); });
-    EXPECT_TRUE(is_trusted());
-  }
-
-  static sim::Scenario scenario() {
-    sim::Scenario s = sim::load_scenario(std::string(OLS_SCENARIOS) + "/calibration.toml");
-    s.frame_rate_hz = 1.0;
-    s.inclinometer.on = s.gnss.on = false;
-    return s;
-  }
-
-  bool is_trusted() {
-    return time_.pass(kHoming_s, [this] { return wire::device_state(status_, "ptu") == ok_; });
-  }
-  bool is_said(const std::string& words) {
-    return time_.pass(kHoming_s, [&] {
-      return std::ranges::any_of(
-          status_.alarm, [&](const auto& alarm) { return alarm.find(words) != alarm.npos; });
-    });
-  }
-
-  // Whether it is done.
-  bool give(std::int8_t command) {
-    ++sequence_;
-    return send(command);
-  }
-  // The same under the last order's number again.
-  bool send(std::int8_t command) {
-    Command message{};
-    message.utime = clock_utime_us();
-    message.schema_version = Command::SCHEMA_VERSION;
-    message.boot_id = 7;
-    message.sequence = sequence_;
-    message.station = "alfa";
-    message.lease_s = 1.0;
-    message.command = command;
-    reply_.reset();
-    bus_.publish(station_channel(kPtuChannel, "alfa"), message);
-    EXPECT_TRUE(time_.pass(kPatience_s, [this] { return reply_.has_value(); }));
-    return reply_ && reply_->accepted;
-  }
+  StationStarts() : StationInSimulatedTime(scenario()) {}
 
   void set_faults(bool power_cycle, bool line_gone) {
     sim::StationFaults faults;
@@ -90,22 +19,6 @@ class StationStarts : public testing::Test {
     faults.ptu.line_gone = line_gone;
     station_->set_faults(faults);
   }
-
-  void restart() {
-    const auto boot = status_.boot_id;
-    station_->restart();
-    EXPECT_TRUE(time_.pass(kPatience_s, [&] { return status_.boot_id != boot; }));
-  }
-
-  const std::string ok_ = wire::device_name(ols_msg::station_status_t::DEVICE_OK);
-  logger::TemporaryFolder folder_;
-  sim::SimulatedTime time_;
-  const sim::World world_;
-  LcmBus bus_;
-  ols_msg::station_status_t status_{};
-  std::optional<ols_msg::command_reply_t> reply_;
-  std::int64_t sequence_ = 0;
-  std::optional<sim::SimulatedStation> station_;
 };
 
 TEST_F(StationStarts, LostGearsOutliveEachAndNobodyVouchesForThem) {
