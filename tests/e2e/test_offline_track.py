@@ -340,3 +340,38 @@ def test_clip_is_not_overwritten_by_its_own_boxes(clip):
     result = track(clip, clip)
     assert result.returncode == 2 and "--output" in result.stderr
     assert clip.read_bytes() == before
+
+
+def detect(source, output, *options) -> subprocess.CompletedProcess:
+    return finished(BIN / "ols-track", "--detect", "--input", source, "--output", output, *options)
+
+
+def test_detects_without_a_box(clip, tmp_path):
+    output, mount = tmp_path / "detections.csv", tmp_path / "mount.csv"
+    mount.write_text(
+        "frame,azimuth_deg,elevation_deg,hfov_deg\n"
+        + "".join(f"{frame},10,2,30\n" for frame in range(FRAMES))
+    )
+    result = detect(clip, output, "--mount", mount)
+    assert result.returncode == 0, result.stderr
+    lines = output.read_text().splitlines()
+    assert lines[0] == "frame,id,x,y,w,h,confidence,class"
+    last = [row for row in csv.DictReader(lines) if int(row["frame"]) == FRAMES - 1]
+    assert [row["class"] for row in last] == ["other"]
+    assert 0.5 < float(last[0]["confidence"]) <= 1.0
+    centre = [float(last[0][a]) + float(last[0][size]) / 2 for a, size in (("x", "w"), ("y", "h"))]
+    assert np.hypot(*(np.array(centre) - corner(FRAMES - 1) - SIDE / 2)) < 6.0
+
+
+def test_detection_refuses_what_it_cannot_use(clip, tmp_path):
+    output, mount = tmp_path / "detections.csv", tmp_path / "mount.csv"
+    refused(detect(tmp_path / "none.mp4", output), output, "none.mp4")
+    refused(detect(clip, output, "--mount", mount), output, "mount.csv: cannot be read")
+    mount.write_text("frame,azimuth_deg,elevation_deg,hfov_deg\n0,10,95,30\n")
+    refused(detect(clip, output, "--mount", mount), output, "mount.csv:2: elevation_deg", "95")
+    refused(detect(clip, output, "--init", init(0)), output, "--detect")
+    refused(track(clip, output, "--mount", mount), output, "--mount", "--detect")
+    refused(detect(clip, output, "--false-alarms", "0"), output, "--false-alarms")
+    before = clip.read_bytes()
+    assert detect(clip, clip).returncode == 2
+    assert clip.read_bytes() == before

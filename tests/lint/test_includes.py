@@ -41,7 +41,7 @@ ALLOWED = {
 NOT_JUDGED = {"tools", "dev"}  # programs of users and developers, which may touch anything
 
 PURE_FOLDERS = (
-    *("geometry/", "calibration/", "edge/tracker/", "bridge/ownership/"),
+    *("geometry/", "calibration/", "edge/detector/", "edge/tracker/", "bridge/ownership/"),
     *("central/admission/", "central/cues/", "central/estimators/", "central/filter/"),
     *("central/fusion/", "central/measurement/", "central/offline/", "central/tracking/"),
     *("export/asterix/", "export/files/", "export/mqtt/", "export/sapient/", "export/tak/"),

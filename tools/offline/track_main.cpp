@@ -1,4 +1,5 @@
-// ols-track: follows one target through a clip and writes boxes.csv.
+// ols-track: follows one target through a clip and writes boxes.csv; or detects everything that
+// flies or moves in it.
 #include <cstdint>
 #include <cstdlib>
 #include <iostream>
@@ -14,6 +15,7 @@
 #include "base/process/progress.h"
 #include "edge/tracker/tracker.h"
 #include "tools/offline/boxes_csv.h"
+#include "tools/offline/detection_run.h"
 #include "tools/offline/frame_source.h"
 #include "tools/offline/timing_csv.h"
 #include "tools/offline/tracker_setup.h"
@@ -30,6 +32,9 @@ struct Arguments {
   std::string mode;
   std::string timing;
   std::uint64_t seed = 1;
+  bool detect = false;
+  std::string mount;
+  double false_an_hour = 1.0;
   std::string output;
 };
 
@@ -38,12 +43,27 @@ void declare(CLI::App& app, Arguments& arguments) {
                  "clip, folder of pictures (by name, numbers as numbers) or pattern such as "
                  "frames/%06d.png")
       ->required();
-  app.add_option("--init", arguments.init,
-                 "the target's box in the start frame: X,Y of the top-left corner, W,H [px]")
-      ->required()
-      ->expected(4)
-      ->delimiter(',');
+  auto* const task = app.add_option_group("task");
+  auto* const init =
+      task->add_option("--init", arguments.init,
+                       "the target's box in the start frame: X,Y of the top-left corner, W,H [px]")
+          ->expected(4)
+          ->delimiter(',');
+  auto* const detect = task->add_flag("--detect", arguments.detect,
+                                      "no target is given: find everything that flies or moves");
+  task->require_option(1);
+  app.add_option(
+         "--mount", arguments.mount,
+         "with --detect: CSV file frame,azimuth_deg,elevation_deg,hfov_deg of a camera that "
+         "turns")
+      ->needs(detect);
+  app.add_option("--false-alarms", arguments.false_an_hour,
+                 "with --detect: objects an hour that are none, which are allowed")
+      ->check(CLI::Range(1e-3, 1e4))
+      ->needs(detect)
+      ->capture_default_str();
   app.add_option("--start-frame", arguments.start_frame, "frame of --init, counted from 0")
+      ->needs(init)
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   app.add_option("--config", arguments.config, "TOML file with a table [tracker]");
@@ -56,8 +76,11 @@ void declare(CLI::App& app, Arguments& arguments) {
   app.add_option("--seed", arguments.seed, "of the random numbers: equal seeds give equal boxes")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
-  app.add_option("--output", arguments.output,
-                 "boxes.csv: frame,x,y,w,h [px],belief [0..1],state (tracking, coasting, lost)")
+  app.add_option(
+         "--output", arguments.output,
+         "boxes.csv: frame,x,y,w,h [px],belief [0..1],state (tracking, coasting, lost); with "
+         "--detect: frame,id,x,y,w,h [px],confidence [0..1],class, a row for each confirmed "
+         "object in each frame")
       ->required();
 }
 
@@ -223,6 +246,12 @@ bool run(const Arguments& arguments) {
   return following.commit();
 }
 
+int detect(const Arguments& arguments) {
+  ols::offline::run_detection({arguments.input, arguments.mount, arguments.output, arguments.timing,
+                               arguments.false_an_hour});
+  return 0;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -235,6 +264,8 @@ int main(int argc, char** argv) {
   ::setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0);
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   cv::setNumThreads(1);
-  return ols::run_command(app, argc, argv, "ols-track",
-                          [&] { return run(arguments) ? 0 : kExitLost; });
+  return ols::run_command(app, argc, argv, "ols-track", [&] {
+    if (arguments.detect) return detect(arguments);
+    return run(arguments) ? 0 : kExitLost;
+  });
 }

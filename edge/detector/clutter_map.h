@@ -1,0 +1,39 @@
+// How often each part of the image shows what is no target.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <opencv2/core.hpp>
+#include <vector>
+
+namespace ols::detector {
+
+// Detections and tentative tracklets by tile of the image, forgotten over half a minute. Those of
+// confirmed objects do not count, so that an object does not raise its own threshold.
+class ClutterMap {
+ public:
+  explicit ClutterMap(const cv::Size& image);
+
+  void next_image(double interval_s);
+  void add_detection(const Eigen::Vector2d& pixel);
+  void add_start(const Eigen::Vector2d& pixel);
+
+  // [1/px^2] Expected unexplained detections in an image.
+  double density(const Eigen::Vector2d& pixel) const;
+  // [1/h] Tracklets that begin in the tile.
+  double starts_an_hour(const Eigen::Vector2d& pixel) const;
+  static constexpr int kColumns = 8;
+  static constexpr int kRows = 6;
+
+ private:
+  struct Tile {
+    double detections, starts;  // forgotten sums
+  };
+  std::size_t tile(const Eigen::Vector2d& pixel) const;
+
+  cv::Size image_;
+  std::vector<Tile> tiles_;
+  double images_, seconds_;  // forgotten sums
+};
+
+}  // namespace ols::detector

@@ -1,0 +1,69 @@
+#include "edge/detector/detector.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <utility>
+
+namespace ols::detector {
+namespace {
+
+constexpr int kMotionWidth_px = 640;  // of the image for ego-motion, maximum
+constexpr int kMoverWidth_px = 400;   // of the image for movers, maximum
+
+// A spot's place is the better one: a mover of about its size there is the same object.
+void join(std::vector<Detection>& spots, const std::vector<Detection>& movers) {
+  const std::size_t count = spots.size();
+  for (const Detection& mover : movers) {
+    const auto same = [&](const Detection& spot) {
+      const Eigen::Vector2d apart = (spot.pixel - mover.pixel).cwiseAbs();
+      const Eigen::Vector2d reach = 0.5 * mover.size_px + Eigen::Vector2d(4.0, 4.0);
+      return apart.x() < reach.x() && apart.y() < reach.y() &&
+             mover.size_px.prod() < 16.0 * spot.size_px.prod();
+    };
+    const auto end = spots.begin() + static_cast<std::ptrdiff_t>(count);
+    if (std::none_of(spots.begin(), end, same)) spots.push_back(mover);
+  }
+}
+
+}  // namespace
+
+Detector::Detector(const DetectorConfig& config, const cv::Size& image)
+    : ego_motion_(tracker::TrackerConfig{}, tracker::HomographyFit::kLeastSquares),
+      spots_(config.spots),
+      movers_(config.movers),
+      book_(config.tracklets, image) {}
+
+std::optional<Eigen::Matrix3d> Detector::measure_motion(
+    const tracker::ReducedFrame& frame, const std::optional<Eigen::Matrix3d>& predicted) {
+  if (!time_s_) {
+    ego_motion_.start(frame);
+    return std::nullopt;
+  }
+  const auto estimate = ego_motion_.step(frame, cv::Rect2d(), predicted);
+  if (estimate.homography) return estimate.homography;
+  return predicted;
+}
+
+Detector::Result Detector::advance(const cv::Mat& gray, double time_s,
+                                   const std::optional<Eigen::Matrix3d>& predicted) {
+  const tracker::ReducedFrame frame = tracker::reduce_frame(gray, kMotionWidth_px);
+  const tracker::ReducedFrame small = tracker::reduce_frame(gray, kMoverWidth_px);
+  const std::optional<Eigen::Matrix3d> motion = measure_motion(frame, predicted);
+  const double interval_s = time_s_ ? time_s - *time_s_ : 0.0;
+  time_s_ = time_s;
+  std::optional<Eigen::Matrix3d> reduced_motion;
+  if (motion) reduced_motion = small.to_full().inverse() * *motion * small.to_full();
+  const auto movers = movers_.find(small, time_s, reduced_motion);
+  Result result;
+  result.suspended = !movers.has_value();
+  result.detections = spots_.find(gray);
+  if (result.suspended) {
+    ++suspended_images_;
+  } else {
+    join(result.detections, *movers);
+  }
+  book_.advance(result.detections, motion, interval_s);
+  return result;
+}
+
+}  // namespace ols::detector

@@ -1,0 +1,50 @@
+// Finds whatever flies or moves in a camera's images, without being told. Pure: no clock, no files.
+#pragma once
+
+#include <Eigen/Core>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <vector>
+
+#include "edge/detector/mover_finder.h"
+#include "edge/detector/spot_finder.h"
+#include "edge/detector/tracklet_book.h"
+#include "edge/tracker/ego_motion.h"
+
+namespace ols::detector {
+
+struct DetectorConfig {
+  SpotConfig spots;
+  MoverConfig movers;
+  TrackletConfig tracklets;
+};
+
+class Detector {
+ public:
+  Detector(const DetectorConfig& config, const cv::Size& image);
+
+  struct Result {
+    std::vector<Detection> detections;  // of this image alone
+    bool suspended = false;             // everything changed at once: no movers are looked for
+  };
+  // `gray`: 8-bit, one channel, always of the same size. `predicted`: the mount's motion, which
+  // maps the previous image's pixels to this one's; the image corrects it.
+  Result advance(const cv::Mat& gray, double time_s,
+                 const std::optional<Eigen::Matrix3d>& predicted);
+
+  const std::vector<Tracklet>& tracklets() const { return book_.tracklets(); }
+  long suspended_images() const { return suspended_images_; }
+
+ private:
+  std::optional<Eigen::Matrix3d> measure_motion(const tracker::ReducedFrame& frame,
+                                                const std::optional<Eigen::Matrix3d>& predicted);
+
+  tracker::EgoMotionEstimator ego_motion_;
+  SpotFinder spots_;
+  MoverFinder movers_;
+  TrackletBook book_;
+  std::optional<double> time_s_;  // of the newest image
+  long suspended_images_ = 0;
+};
+
+}  // namespace ols::detector

@@ -1,0 +1,43 @@
+// Finds what differs from the aligned scene: movers before the ground.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "edge/detector/detection.h"
+#include "edge/detector/scene_background.h"
+#include "edge/tracker/ego_motion.h"
+
+namespace ols::detector {
+
+struct MoverConfig {
+  double threshold_sd = 6.0;        // of the difference, in the tile's own standard deviations
+  double least_levels = 10.0;       // [grey levels] minimum difference
+  double least_area_px = 8.0;       // of the reduced image
+  double most_side_fraction = 0.6;  // of the image's side
+  std::size_t most = 30;            // maximum number, largest first
+};
+
+class MoverFinder {
+ public:
+  explicit MoverFinder(const MoverConfig& config) : config_(config) {}
+
+  // `motion`: previous to present image, pixels of the reduced frame; empty: unknown, begins anew.
+  // Empty: the whole image changed at once (exposure, a cloud's edge, a cut).
+  std::optional<std::vector<Detection>> find(const tracker::ReducedFrame& frame, double time_s,
+                                             const std::optional<Eigen::Matrix3d>& motion);
+
+ private:
+  bool everything_changed(const cv::Mat& noise) const;
+  void learn(const cv::Mat& noise, double time_s);
+  cv::Mat exceedances(const cv::Mat& difference) const;
+  std::vector<Detection> parts(const cv::Mat& mask, const cv::Mat& fresh, const cv::Mat& difference,
+                               const tracker::ReducedFrame& frame) const;
+
+  MoverConfig config_;
+  SceneBackground background_;
+  cv::Mat usual_;          // [grey levels] difference of each tile
+  double learnt_s_ = 0.0;  // when
+};
+
+}  // namespace ols::detector

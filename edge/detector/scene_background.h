@@ -1,0 +1,46 @@
+// The scene without its movers, as the camera sees it now.
+#pragma once
+
+#include <Eigen/Core>
+#include <deque>
+#include <opencv2/core.hpp>
+
+namespace ols::detector {
+
+// The median of three images of the last second, each aligned with the present one: whoever moves
+// leaves its place in at least two of them. It starts after a moment, and needs no camera at rest.
+class SceneBackground {
+ public:
+  void clear() { kept_.clear(); }
+  // The camera turned: `motion` maps the previous image's pixels to the present one's.
+  void advance(const Eigen::Matrix3d& motion);
+  // Whether three images are there, the oldest of at least `kLeastAge_s`.
+  bool ready(double time_s) const;
+  // Darkest and brightest level within a pixel of each place.
+  struct Range {
+    cv::Mat low, high;
+  };
+  // Places that an earlier image does not show are 0 in `seen`.
+  struct Scene {
+    Range usual;  // of the median
+    Range ever;   // of all three images
+    cv::Mat seen;
+  };
+  Scene scene(double time_s) const;
+  void remember(const cv::Mat& image, double time_s);
+
+ private:
+  static constexpr double kLeastAge_s = 0.25;
+  static constexpr double kSpan_s = 0.9;
+
+  struct Kept {
+    cv::Mat image;
+    double time_s;
+    Eigen::Matrix3d to_present;
+  };
+  const Kept& aged(double age_s, double time_s) const;
+
+  std::deque<Kept> kept_;  // oldest first
+};
+
+}  // namespace ols::detector

@@ -1,0 +1,109 @@
+#include "edge/detector/tracklet.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "edge/tracker/particle.h"
+
+namespace ols::detector {
+namespace {
+
+constexpr double kLearning = 0.2;  // of size and signal, for each image
+
+}  // namespace
+
+Tracklet::Tracklet(long id, const Detection& detection, double image_width_px)
+    : id_(id),
+      pixel_(detection.pixel),
+      size_px_(detection.size_px),
+      origin_(detection.pixel),
+      mark_(detection.pixel),
+      rest_(detection.pixel),
+      first_pixel_(detection.pixel),
+      acceleration_px_s2_(0.4 * image_width_px),
+      signal_to_noise_(detection.signal_to_noise) {
+  const double speed_px_s = 0.25 * image_width_px;
+  const double sd_px = detection.sd_px();
+  covariance_ << sd_px * sd_px, 0.0, 0.0, speed_px_s * speed_px_s;
+  clear_ = detection.clear ? 1 : 0;
+}
+
+void Tracklet::predict(const Eigen::Matrix3d& motion, double interval_s) {
+  const Eigen::Vector2d moved = tracker::transform(motion, pixel_);
+  velocity_px_s_ =
+      tracker::transform(motion, Eigen::Vector2d(pixel_ + velocity_px_s_ * interval_s)) - moved;
+  if (interval_s > 0.0) velocity_px_s_ /= interval_s;
+  pixel_ = moved + velocity_px_s_ * interval_s;
+  for (Eigen::Vector2d* const at : {&origin_, &mark_, &rest_})
+    *at = tracker::transform(motion, *at);
+  Eigen::Matrix2d step;
+  step << 1.0, interval_s, 0.0, 1.0;
+  const Eigen::Vector2d push(0.5 * interval_s * interval_s, interval_s);
+  covariance_ = step * covariance_ * step.transpose() +
+                push * push.transpose() * acceleration_px_s2_ * acceleration_px_s2_;
+  covariance_(0, 0) += 0.04;  // the camera's motion is known to a fifth of a pixel
+  unseen_s_ += interval_s;
+  age_s_ += interval_s;
+  measure_way(interval_s);
+}
+
+// In steps of a moment, so that the jitter of single images does not lengthen the path.
+void Tracklet::measure_way(double interval_s) {
+  constexpr double kStep_s = 0.2, kRest_s = 3.0;
+  if ((marked_s_ += interval_s) >= kStep_s) {
+    path_px_ += (pixel_ - mark_).norm();
+    mark_ = pixel_;
+    marked_s_ = 0.0;
+  }
+  if ((rested_s_ += interval_s) >= kRest_s) {
+    rests_ = (pixel_ - rest_).norm() < 2.0 + 0.1 * size_px_.minCoeff();
+    rest_ = pixel_;
+    rested_s_ = 0.0;
+  }
+}
+
+void Tracklet::forget_way() {
+  origin_ = mark_ = rest_ = first_pixel_ = pixel_;
+  path_px_ = reach_px_ = rested_s_ = marked_s_ = 0.0;
+  rests_ = false;
+}
+
+double Tracklet::innovation_variance(const Detection& detection) const {
+  return covariance_(0, 0) + detection.sd_px() * detection.sd_px();
+}
+
+double Tracklet::distance(const Detection& detection) const {
+  return (detection.pixel - pixel_).squaredNorm() / innovation_variance(detection);
+}
+
+double Tracklet::density(const Detection& detection) const {
+  return std::exp(-0.5 * distance(detection)) /
+         (2.0 * std::numbers::pi * innovation_variance(detection));
+}
+
+void Tracklet::update(const Detection& detection) {
+  const Eigen::Vector2d gain = covariance_.col(0) / innovation_variance(detection);
+  const Eigen::Vector2d off = detection.pixel - pixel_;
+  pixel_ += gain(0) * off;
+  velocity_px_s_ += gain(1) * off;
+  covariance_ -= gain * covariance_.row(0).eval();
+  size_px_ += kLearning * (detection.size_px - size_px_);
+  signal_to_noise_ += kLearning * (detection.signal_to_noise - signal_to_noise_);
+  ++detections_;
+  if (detection.clear) ++clear_;
+  unseen_s_ = 0.0;
+  seen_ = true;
+  reach_px_ = std::max(reach_px_, (pixel_ - first_pixel_).norm());
+}
+
+void Tracklet::confirm() {
+  confirmed_ = true;
+  confirmed_clear_ = confirmed_clear_ || mostly_clear();
+}
+
+void Tracklet::weigh(double log_ratio, double most) {
+  log_ratio_ = std::min(log_ratio_ + log_ratio, most);
+}
+
+}  // namespace ols::detector

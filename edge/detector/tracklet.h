@@ -1,0 +1,73 @@
+// One object that may be: its motion in the image and what speaks for it.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "edge/detector/detection.h"
+
+namespace ols::detector {
+
+// Constant velocity, full-frame pixels and seconds. The two axes share one covariance.
+class Tracklet {
+ public:
+  Tracklet(long id, const Detection& detection, double image_width_px);
+
+  // To the next image; `motion` maps the previous image's pixels to its.
+  void predict(const Eigen::Matrix3d& motion, double interval_s);
+  void update(const Detection& detection);
+  void miss() { seen_ = false; }
+
+  // Squared distance in standard deviations, and the density of that deviation [1/px^2].
+  double distance(const Detection& detection) const;
+  double density(const Detection& detection) const;
+
+  // The sequential test: log likelihood ratio of an object against clutter.
+  void weigh(double log_ratio, double most);
+  double log_ratio() const { return log_ratio_; }
+  void confirm();
+  void doubt() { confirmed_ = false; }
+  bool confirmed() const { return confirmed_; }
+  bool confirmed_clear() const { return confirmed_clear_; }  // when its detections were clear spots
+
+  long id() const { return id_; }
+  const Eigen::Vector2d& pixel() const { return pixel_; }
+  const Eigen::Vector2d& velocity_px_s() const { return velocity_px_s_; }
+  const Eigen::Vector2d& size_px() const { return size_px_; }
+  double signal_to_noise() const { return signal_to_noise_; }
+  bool seen() const { return seen_; }  // in the newest image
+  double unseen_s() const { return unseen_s_; }
+  double age_s() const { return age_s_; }
+  bool mostly_clear() const { return clear_ > 0.7 * detections_; }
+  // How far it is from where it began, and by how long a way; the camera's motion taken away.
+  double way_px() const { return (pixel_ - origin_).norm(); }
+  double path_px() const { return path_px_ + (pixel_ - mark_).norm(); }
+  // How far the scene moved in the image since it began, and how far at most it was in the image
+  // from where it began.
+  double scene_shift_px() const { return (origin_ - first_pixel_).norm(); }
+  double reach_px() const { return reach_px_; }
+  // It has not moved relative to the scene in the last seconds.
+  bool rests() const { return rests_; }
+  // The camera's motion was unknown: what it moved until now means nothing.
+  void forget_way();
+
+ private:
+  void measure_way(double interval_s);
+  double innovation_variance(const Detection& detection) const;
+
+  long id_;
+  Eigen::Vector2d pixel_, velocity_px_s_ = Eigen::Vector2d::Zero(), size_px_;
+  // Where it began, was a moment ago, and a second ago, carried along with the scene.
+  Eigen::Vector2d origin_, mark_, rest_;
+  Eigen::Vector2d first_pixel_;  // where it began in the image
+  double reach_px_ = 0.0;
+  double marked_s_ = 0.0, rested_s_ = 0.0;  // for how long these are kept
+  double path_px_ = 0.0;                    // up to the mark
+  Eigen::Matrix2d covariance_;              // of position and velocity, each axis
+  double acceleration_px_s2_;               // standard deviation
+  double signal_to_noise_;
+  double log_ratio_ = 0.0, unseen_s_ = 0.0, age_s_ = 0.0;
+  int detections_ = 1, clear_ = 0;
+  bool confirmed_ = false, confirmed_clear_ = false, seen_ = true, rests_ = false;
+};
+
+}  // namespace ols::detector

@@ -1,0 +1,133 @@
+#include "edge/detector/tracklet_book.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ols::detector {
+namespace {
+
+constexpr double kGate = 16.0;      // squared standard deviations
+constexpr double kReserve = 6.0;    // [log] that a confirmed tracklet keeps for misses
+constexpr double kRejected = -2.5;  // [log] the test's lower bound
+
+}  // namespace
+
+TrackletBook::TrackletBook(const TrackletConfig& config, const cv::Size& image)
+    : config_(config), clutter_(image), image_(image) {}
+
+// For each tracklet the index of its detection, -1: none. Confirmed ones choose first, then the
+// closest.
+std::vector<int> TrackletBook::assign(const std::vector<Detection>& detections) const {
+  struct Pair {
+    std::size_t tracklet, detection;
+    double cost;
+  };
+  std::vector<Pair> pairs;
+  for (std::size_t i = 0; i < tracklets_.size(); ++i) {
+    for (std::size_t j = 0; j < detections.size(); ++j) {
+      const double distance = tracklets_[i].distance(detections[j]);
+      if (distance > kGate) continue;
+      const double rank = tracklets_[i].confirmed() ? 0.0 : 2.0 * kGate;
+      pairs.push_back({i, j, rank + distance});
+    }
+  }
+  std::stable_sort(pairs.begin(), pairs.end(),
+                   [](const Pair& a, const Pair& b) { return a.cost < b.cost; });
+  std::vector<int> assigned(tracklets_.size(), -1);
+  std::vector<bool> taken(detections.size(), false);
+  for (const Pair& pair : pairs) {
+    if (assigned[pair.tracklet] >= 0 || taken[pair.detection]) continue;
+    assigned[pair.tracklet] = static_cast<int>(pair.detection);
+    taken[pair.detection] = true;
+  }
+  return assigned;
+}
+
+// By Wald: of the tracklets of clutter, at most exp(-bound) pass. As many begin in a tile as the
+// clutter map says, and each tile has the same share of the false ones that are allowed.
+double TrackletBook::needed(const Tracklet& tracklet) const {
+  const double allowed = config_.false_an_hour / (ClutterMap::kColumns * ClutterMap::kRows);
+  return std::max(3.0, std::log(clutter_.starts_an_hour(tracklet.pixel()) / allowed));
+}
+
+void TrackletBook::weigh_hit(Tracklet& tracklet, const Detection& detection) {
+  const double ratio =
+      config_.detected * tracklet.density(detection) / clutter_.density(detection.pixel);
+  const double most = detection.clear ? config_.most_log_ratio : config_.most_ground_log_ratio;
+  const double log_ratio = std::clamp(std::log(ratio), -3.0, most);
+  tracklet.weigh(log_ratio, needed(tracklet) + kReserve);
+}
+
+void TrackletBook::weigh_miss(Tracklet& tracklet) {
+  tracklet.weigh(std::log(1.0 - config_.detected), needed(tracklet) + kReserve);
+}
+
+// While the camera turns, what moves along with the scene is a part of it, and what stays where it
+// is in the image is a part of the camera: a speck on the lens, a burnt-in text.
+bool TrackletBook::belongs_to_scene_or_camera(const Tracklet& tracklet) const {
+  constexpr double kTold_px = 4.0;   // a smaller turn tells nothing: the motion's own error
+  constexpr double kAlong = 0.2;     // of the turn: parallax, and the error again
+  constexpr double kFixed_px = 1.5;  // no controller holds a target as still as that
+  const double shift_px = tracklet.scene_shift_px();
+  if (shift_px < kTold_px) return false;
+  return tracklet.way_px() < kTold_px / 2.0 + kAlong * shift_px || tracklet.reach_px() < kFixed_px;
+}
+
+// What stays where it is before the ground is a part of it: foliage, a stone, an edge of a
+// misaligned image. A spot before clear sky needs not move.
+bool TrackletBook::moves_or_flies(const Tracklet& tracklet) const {
+  if (belongs_to_scene_or_camera(tracklet)) return false;
+  if (tracklet.mostly_clear()) return true;
+  const double way_px = tracklet.way_px();
+  return way_px > 5.0 + 0.5 * tracklet.size_px().minCoeff() &&
+         way_px > config_.least_directness * tracklet.path_px();
+}
+
+void TrackletBook::judge(Tracklet& tracklet) const {
+  if (tracklet.log_ratio() >= needed(tracklet) && moves_or_flies(tracklet)) tracklet.confirm();
+  if (tracklet.rests() && !tracklet.confirmed_clear()) tracklet.doubt();
+  if (belongs_to_scene_or_camera(tracklet)) tracklet.doubt();
+}
+
+bool TrackletBook::hopeless(const Tracklet& tracklet) const {
+  const Eigen::Vector2d& pixel = tracklet.pixel();
+  const bool outside =
+      pixel.x() < 0.0 || pixel.y() < 0.0 || pixel.x() >= image_.width || pixel.y() >= image_.height;
+  if (outside) return true;
+  if (tracklet.confirmed()) return tracklet.unseen_s() > config_.coast_s;
+  return tracklet.log_ratio() < kRejected || tracklet.unseen_s() > 0.5 * config_.coast_s;
+}
+
+void TrackletBook::advance(const std::vector<Detection>& detections,
+                           const std::optional<Eigen::Matrix3d>& motion, double interval_s) {
+  clutter_.next_image(interval_s);
+  for (Tracklet& tracklet : tracklets_) {
+    tracklet.predict(motion.value_or(Eigen::Matrix3d::Identity()), interval_s);
+    if (!motion) tracklet.forget_way();
+  }
+  const std::vector<int> assigned = assign(detections);
+  std::vector<bool> taken(detections.size(), false);
+  for (std::size_t i = 0; i < tracklets_.size(); ++i) {
+    Tracklet& tracklet = tracklets_[i];
+    if (assigned[i] < 0) {
+      tracklet.miss();
+      weigh_miss(tracklet);
+      continue;
+    }
+    const auto index = static_cast<std::size_t>(assigned[i]);
+    taken[index] = true;
+    weigh_hit(tracklet, detections[index]);
+    if (!tracklet.confirmed()) clutter_.add_detection(detections[index].pixel);
+    tracklet.update(detections[index]);
+    judge(tracklet);
+  }
+  std::erase_if(tracklets_, [this](const Tracklet& tracklet) { return hopeless(tracklet); });
+  for (std::size_t j = 0; j < detections.size(); ++j) {
+    if (taken[j]) continue;
+    clutter_.add_detection(detections[j].pixel);
+    clutter_.add_start(detections[j].pixel);
+    tracklets_.emplace_back(next_id_++, detections[j], image_.width);
+  }
+}
+
+}  // namespace ols::detector

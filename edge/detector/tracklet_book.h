@@ -1,0 +1,51 @@
+// The tracklets of one camera: assignment, and confirmation by a sequential test.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "edge/detector/clutter_map.h"
+#include "edge/detector/detection.h"
+#include "edge/detector/tracklet.h"
+
+namespace ols::detector {
+
+struct TrackletConfig {
+  double false_an_hour = 1.0;  // confirmed tracklets of clutter, for the whole camera
+  double detected = 0.8;       // probability that an object is detected in an image
+  // Clutter repeats itself in successive images: one detection counts no more than this.
+  double most_log_ratio = 1.5;         // of a spot before clear sky
+  double most_ground_log_ratio = 0.7;  // of anything else
+  double least_directness = 0.7;       // of what moves before the ground: way by path
+  double coast_s = 0.4;                // an object that is not seen remains this long
+};
+
+class TrackletBook {
+ public:
+  TrackletBook(const TrackletConfig& config, const cv::Size& image);
+
+  // `motion` maps the previous image's pixels to the present one's; empty: unknown.
+  void advance(const std::vector<Detection>& detections,
+               const std::optional<Eigen::Matrix3d>& motion, double interval_s);
+  const std::vector<Tracklet>& tracklets() const { return tracklets_; }
+
+ private:
+  std::vector<int> assign(const std::vector<Detection>& detections) const;
+  void weigh_hit(Tracklet& tracklet, const Detection& detection);
+  void weigh_miss(Tracklet& tracklet);
+  // Of the sequential test in this tile [log].
+  double needed(const Tracklet& tracklet) const;
+  void judge(Tracklet& tracklet) const;
+  bool belongs_to_scene_or_camera(const Tracklet& tracklet) const;
+  bool moves_or_flies(const Tracklet& tracklet) const;
+  bool hopeless(const Tracklet& tracklet) const;
+
+  TrackletConfig config_;
+  ClutterMap clutter_;
+  cv::Size image_;
+  std::vector<Tracklet> tracklets_;
+  long next_id_ = 1;
+};
+
+}  // namespace ols::detector

@@ -1,0 +1,151 @@
+#include "edge/detector/tracklet_book.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <opencv2/core.hpp>
+#include <random>
+#include <set>
+#include <vector>
+
+#include "edge/detector/detection.h"
+#include "edge/detector/tracklet.h"
+
+namespace ols::detector {
+namespace {
+
+constexpr double kTick_s = 1.0 / 30.0;
+const cv::Size kView(640, 480);
+const Eigen::Matrix3d kStill = Eigen::Matrix3d::Identity();
+
+Detection clear_spot(double x, double y) {
+  return {{x, y}, {3.0, 3.0}, 10.0, true, Evidence::kSpot, true};
+}
+
+long confirmed(const TrackletBook& book) {
+  long count = 0;
+  for (const Tracklet& tracklet : book.tracklets()) count += tracklet.confirmed() ? 1 : 0;
+  return count;
+}
+
+// A quarter of an hour of clear spots that nothing connects.
+double false_an_hour(double allowed) {
+  constexpr double kHours = 0.25;
+  std::mt19937 random(3);
+  std::poisson_distribution<int> number(4.0);
+  std::uniform_real_distribution<double> x(0.0, kView.width), y(0.0, kView.height);
+  TrackletConfig config;
+  config.false_an_hour = allowed;
+  TrackletBook book(config, kView);
+  std::set<long> ids;
+  for (int image = 0; image < kHours * 3600.0 / kTick_s; ++image) {
+    std::vector<Detection> detections;
+    for (int i = number(random); i > 0; --i) detections.push_back(clear_spot(x(random), y(random)));
+    book.advance(detections, kStill, kTick_s);
+    for (const Tracklet& tracklet : book.tracklets()) {
+      if (tracklet.confirmed()) ids.insert(tracklet.id());
+    }
+  }
+  return static_cast<double>(ids.size()) / kHours;
+}
+
+TEST(TrackletBook, ConfirmsClutterAtMostAtTheRateThatIsSet) {
+  EXPECT_LE(false_an_hour(40.0), 40.0);
+}
+
+TEST(TrackletBook, ConfirmsWhatStaysThenLosesIt) {
+  TrackletBook book(TrackletConfig{}, kView);
+  int image = 0;
+  while (confirmed(book) == 0 && image < 30) {
+    book.advance({clear_spot(100.0 + 2 * image, 200.0)}, kStill, kTick_s);
+    ++image;
+  }
+  EXPECT_GT(image, 5) << "one image proves nothing";
+  EXPECT_LT(image, 20);
+  for (int missed = 0; missed < 10; ++missed) book.advance({}, kStill, kTick_s);
+  EXPECT_EQ(confirmed(book), 1) << "a third of a second is bridged";
+  for (int missed = 0; missed < 10; ++missed) book.advance({}, kStill, kTick_s);
+  EXPECT_TRUE(book.tracklets().empty());
+}
+
+TEST(TrackletBook, KeepsTheIdentityOfWhatItCannotSeeForAMoment) {
+  TrackletBook book(TrackletConfig{}, kView);
+  for (int image = 0; image < 60; ++image) {
+    const bool hidden = image >= 40 && image < 47;
+    std::vector<Detection> detections;
+    if (!hidden) detections.push_back(clear_spot(100.0 + 2 * image, 200.0));
+    book.advance(detections, kStill, kTick_s);
+  }
+  ASSERT_EQ(book.tracklets().size(), 1U);
+  EXPECT_EQ(book.tracklets()[0].id(), 1);
+}
+
+TEST(TrackletBook, BeforeTheGroundOnlyWhatTravelsIsConfirmed) {
+  for (const double step_px : {0.0, 2.0}) {
+    TrackletBook book(TrackletConfig{}, kView);
+    for (int image = 0; image < 60; ++image) {
+      Detection detection = clear_spot(100.0 + step_px * image, 200.0);
+      detection.clear = false;
+      book.advance({detection}, kStill, kTick_s);
+    }
+    EXPECT_EQ(confirmed(book), step_px > 0.0 ? 1 : 0) << step_px;
+  }
+}
+
+// A clear spot that began with a turning camera and moves `own_px` an image relative to the scene,
+// which moves `scene_px`.
+long confirmed_in_turn(double scene_px, double own_px) {
+  Eigen::Matrix3d motion = kStill;
+  motion(0, 2) = scene_px;
+  TrackletBook book(TrackletConfig{}, kView);
+  for (int image = 0; image < 60; ++image) {
+    book.advance({clear_spot(300.0 + (scene_px + own_px) * image, 200.0)}, motion, kTick_s);
+  }
+  return confirmed(book);
+}
+
+TEST(TrackletBook, WhileTheCameraTurnsPartsOfSceneAndCameraAreNoObjects) {
+  EXPECT_EQ(confirmed_in_turn(3.0, 0.0), 0) << "moves along with the scene";
+  EXPECT_EQ(confirmed_in_turn(3.0, -3.0), 0) << "stays in the image";
+  EXPECT_EQ(confirmed_in_turn(3.0, -2.8), 1) << "nearly held in the image by the camera";
+  EXPECT_EQ(confirmed_in_turn(3.0, 1.5), 1);
+  EXPECT_EQ(confirmed_in_turn(0.0, 0.0), 1) << "hovers, and the camera rests";
+}
+
+TEST(TrackletBook, WhatFlewIsNotDoubtedWhenItHoversBeforeTheGround) {
+  TrackletBook book(TrackletConfig{}, kView);
+  for (int image = 0; image < 240; ++image) {
+    Detection detection = clear_spot(100.0 + std::min(image, 60), 200.0);
+    detection.clear = image < 60;
+    book.advance({detection}, kStill, kTick_s);
+  }
+  EXPECT_EQ(confirmed(book), 1);
+}
+
+TEST(TrackletBook, CrowdedTileNeedsMoreThanAnEmptyOne) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> x(0.0, 80.0), y(0.0, 80.0);  // the first tile
+  TrackletBook book(TrackletConfig{}, kView);
+  const auto clutter = [&](std::vector<Detection> detections) {
+    for (int i = 0; i < 5; ++i) detections.push_back(clear_spot(x(random), y(random)));
+    return detections;
+  };
+  for (int image = 0; image < 300; ++image) book.advance(clutter({}), kStill, kTick_s);
+  int quiet = 0;
+  while (confirmed(book) == 0 && quiet < 60) {
+    book.advance(clutter({clear_spot(400.0, 300.0)}), kStill, kTick_s);
+    ++quiet;
+  }
+  EXPECT_LT(quiet, 20) << "the clutter of one corner makes the rest blind";
+  int crowded = 0;
+  while (confirmed(book) == 1 && crowded < 120) {
+    book.advance(clutter({clear_spot(400.0, 300.0), clear_spot(40.0, 40.0)}), kStill, kTick_s);
+    ++crowded;
+  }
+  EXPECT_GT(crowded, quiet);
+  EXPECT_LT(crowded, 120);
+}
+
+}  // namespace
+}  // namespace ols::detector
