@@ -55,7 +55,11 @@ class Judge {
   }
 
   IdentityScore score() const {
-    return {right_ / std::max(1.0, all_), longest_ghost_s_, switches_, found_ / std::max(1.0, all_),
+    return {right_ / std::max(1.0, all_),
+            longest_ghost_s_,
+            switches_,
+            std::sqrt(squared_ / std::max(1.0, right_)),
+            found_ / std::max(1.0, all_),
             static_cast<int>(std::ranges::count(ever_right_, false,
                                                 &decltype(ever_right_)::value_type::second))};
   }
@@ -80,7 +84,7 @@ class Judge {
       if (target[i] < 0) {
         all_ += 1.0;
       } else {
-        judge(i, targets[k].target_id);
+        judge(i, targets[k].target_id, off_m(static_cast<Eigen::Index>(i), target[i]));
       }
     }
   }
@@ -101,11 +105,14 @@ class Judge {
   }
 
   // The right identity is the first that a target had.
-  void judge(std::size_t i, std::int64_t id) {
+  void judge(std::size_t i, std::int64_t id, double off_m) {
     all_ += 1.0;
     found_ += 1.0;
     if (own_[i] == 0) own_[i] = id;
-    if (id == own_[i]) right_ += 1.0;
+    if (id == own_[i]) {
+      right_ += 1.0;
+      squared_ += off_m * off_m;
+    }
     if (last_[i] != 0 && id != last_[i]) ++switches_;
     last_[i] = id;
   }
@@ -116,7 +123,7 @@ class Judge {
   std::map<std::size_t, std::int64_t> last_;
   std::map<std::int64_t, double> ghost_since_s_;
   std::map<std::int64_t, bool> ever_right_;
-  double all_ = 0.0, found_ = 0.0, right_ = 0.0, longest_ghost_s_ = 0.0;
+  double all_ = 0.0, found_ = 0.0, right_ = 0.0, squared_ = 0.0, longest_ghost_s_ = 0.0;
   int switches_ = 0;
 };
 

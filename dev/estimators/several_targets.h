@@ -19,6 +19,7 @@ struct IdentityScore {
   double by_right_identity = 0.0;  // share of target-seconds
   double longest_ghost_s = 0.0;    // a confirmed track far from every target
   int switches = 0;                // a target's track has got another id
+  double rms_m = 0.0;
   double found = 0.0;  // share of target-seconds, by whichever identity
   int ghosts = 0;      // identities that were never near a target
 };
