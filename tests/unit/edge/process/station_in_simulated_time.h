@@ -68,12 +68,12 @@ class StationInSimulatedTime : public testing::Test {
   }
 
   // Whether it is done.
-  bool give(std::int8_t command) {
+  bool give(std::int8_t command, double pan_rad = 0.0) {
     ++sequence_;
-    return send(command);
+    return send(command, pan_rad);
   }
   // The same under the last order's number again.
-  bool send(std::int8_t command) {
+  bool send(std::int8_t command, double pan_rad = 0.0) {
     Command message{};
     message.utime = clock_utime_us();
     message.schema_version = Command::SCHEMA_VERSION;
@@ -82,6 +82,7 @@ class StationInSimulatedTime : public testing::Test {
     message.station = "alfa";
     message.lease_s = 1.0;
     message.command = command;
+    message.pan_rad = pan_rad;
     reply_.reset();
     bus_.publish(station_channel(kPtuChannel, "alfa"), message);
     EXPECT_TRUE(time_.pass(kPatience_s, [this] { return reply_.has_value(); }));

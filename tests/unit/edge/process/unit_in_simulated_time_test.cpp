@@ -1,5 +1,5 @@
-// What a station knows of its unit's reference over its starts: its whole process in simulated
-// time.
+// What a station makes of its unit: of a cut line, and of the unit's reference over its starts. Its
+// whole process in simulated time.
 #include "tests/unit/edge/process/station_in_simulated_time.h"
 
 namespace ols::station {
@@ -12,14 +12,42 @@ class StationStarts : public test::StationInSimulatedTime {
  protected:
   StationStarts() : StationInSimulatedTime(scenario()) {}
 
-  void set_faults(bool power_cycle, bool line_gone) {
+  void set_faults(bool power_cycle, bool line_gone, bool line_cut = false) {
     sim::StationFaults faults;
     faults.ptu.power_cycle = power_cycle;
     faults.ptu.homes_then = false;
     faults.ptu.line_gone = line_gone;
+    faults.ptu.line_cut = line_cut;
     station_->set_faults(faults);
   }
 };
+
+using StationLine = StationStarts;
+
+TEST_F(StationLine, ACutOneIsSaidHaltsTheUnitAndHeals) {
+  const auto has_come_to = [this](double pan_rad) {
+    return time_.pass(test::kPatience_s, [&] {
+      const double true_rad = station_->angles().pan_rad;
+      return std::abs(true_rad - pan_rad) < 0.01 && std::abs(true_rad - status_.pan_rad) < 1e-3;
+    });
+  };
+  EXPECT_TRUE(give(Command::COMMAND_POINT, 0.2));
+  EXPECT_TRUE(has_come_to(0.2));
+  EXPECT_TRUE(give(Command::COMMAND_POINT, 2.0));
+  EXPECT_TRUE(time_.pass(test::kPatience_s, [this] { return station_->angles().pan_rad > 0.4; }));
+  set_faults(false, false, true);
+  EXPECT_TRUE(is_said("ptu: halted, no "));
+  EXPECT_NE(wire::device_state(status_, "ptu"), ok_);
+  time_.pass(1.0);
+  const double there_rad = station_->angles().pan_rad;
+  EXPECT_LT(there_rad, 1.5);
+  time_.pass(5.0);
+  EXPECT_EQ(station_->angles().pan_rad, there_rad);
+  set_faults(false, false);
+  EXPECT_TRUE(is_trusted());
+  EXPECT_TRUE(give(Command::COMMAND_POINT, -0.2));
+  EXPECT_TRUE(has_come_to(-0.2));
+}
 
 TEST_F(StationStarts, LostGearsOutliveEachAndNobodyVouchesForThem) {
   set_faults(true, false);
