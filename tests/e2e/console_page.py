@@ -4,6 +4,7 @@ whether everybody can use it."""
 import contextlib
 import re
 import time
+from pathlib import Path
 
 from conftest import ROOT, wait
 from console_site import DEADLINE_S, PASSWORD, add_user, address_of, console_command
@@ -11,6 +12,10 @@ from ols_demo.site import Site
 from playwright.sync_api import expect
 
 AXE = ROOT / "build/page-libraries/node_modules/axe-core/axe.min.js"
+CUT_TEXT = Path(__file__).with_name("cut_text.js").read_text()
+DRAWN_TEXT = Path(__file__).with_name("drawn_text.js").read_text()
+SIZES = [(1500, 900), (1280, 720), (1024, 768), (768, 1024), (390, 844)]
+THEMES = ["night", "day", "sunlight"]  # the last with the largest letters
 expect.set_options(timeout=DEADLINE_S * 1000)
 
 
@@ -18,6 +23,7 @@ expect.set_options(timeout=DEADLINE_S * 1000)
 def two_consoles(folder):
     """Addresses: of one that is open, of one with users."""
     add_user(folder / "users", "ana", PASSWORD, "operator")
+    add_user(folder / "users", "eva", PASSWORD, "admin")
     addresses = []
     with Site(folder / "logs") as site:
         for name, users in (("open", "nobody"), ("closed", "users")):
@@ -68,6 +74,24 @@ def axe_finds(page):
     page.evaluate(AXE.read_text())
     found = page.evaluate("axe.run({resultTypes: ['violations']})")["violations"]
     return [(v["id"], [n["html"][:120] for n in v["nodes"]][:3]) for v in found]
+
+
+def found_at_each_size(page, within="body"):
+    """Texts that are cut or covered. A page with a map was loaded with DRAWN_TEXT."""
+    found = {}
+    for width, height in SIZES:
+        page.set_viewport_size({"width": width, "height": height})
+        found[width, height] = page.evaluate(CUT_TEXT, within)
+    return {size: texts for size, texts in found.items() if texts}
+
+
+def unreadable(page, within="body"):
+    """What axe-core has against it in any theme, and which texts are cut in the last."""
+    found = []
+    for theme in THEMES:
+        page.evaluate("(theme) => (document.documentElement.dataset.theme = theme)", theme)
+        found += [(theme, *finding) for finding in axe_finds(page)]
+    return found + list(found_at_each_size(page, within).items())
 
 
 def place(canvas, across, down):

@@ -2,7 +2,9 @@
 // What lies outside of a scrolled part is looked at where it is scrolled to; what would have to be
 // scrolled sideways counts as cut, and so does what the pictures' part would have to be scrolled for: it has
 // the small pictures alone to scroll to. What is written on the map is looked at by drawn_text.js.
-async () => {
+// Within one element, if a selector names it: a dialog covers what it stands before.
+async (selector) => {
+  const whole = document.querySelector(selector);
   const style = new CSSStyleSheet();
   style.replaceSync("* { pointer-events: auto !important; }"); // or nothing is found where nothing can be clicked
   document.adoptedStyleSheets = [style];
@@ -78,8 +80,8 @@ async () => {
     found.push(...seen);
   }
 
-  if (document.querySelector(".map-canvas").checkVisibility()) await lookAtMapOnceItIsDrawn();
-  const walker = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
+  if (whole.querySelector(".map-canvas")?.checkVisibility()) await lookAtMapOnceItIsDrawn();
+  const walker = document.createTreeWalker(whole, NodeFilter.SHOW_TEXT);
   const texts = [];
   while (walker.nextNode()) if (walker.currentNode.data.trim()) texts.push(walker.currentNode);
   for (const node of texts) {
@@ -87,7 +89,7 @@ async () => {
     range.selectNodeContents(node);
     look(node.parentElement, node.data, () => range.getClientRects());
   }
-  for (const control of document.querySelectorAll("select, input:not([type=checkbox], [type=range])")) {
+  for (const control of whole.querySelectorAll("select, input:not([type=checkbox], [type=range])")) {
     const text = control.tagName === "SELECT" ? (control.selectedOptions[0]?.text ?? "") : control.value;
     look(control, text, () => [control.getBoundingClientRect()]);
     if (!isHidden(control) && !hasRoom(control, text)) say("cut", text, control);

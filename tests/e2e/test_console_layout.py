@@ -4,19 +4,24 @@ it is cut or covered; what is large is a choice, and so are units and positions.
 import math
 import re
 import tomllib
-from pathlib import Path
 
 import ols_msg
 import pytest
 from conftest import ROOT, wait
-from console_page import picture, region, watched_page
+from console_page import (
+    DRAWN_TEXT,
+    found_at_each_size,
+    picture,
+    region,
+    unreadable,
+    watched_page,
+)
+from console_site import DEADLINE_S, PASSWORD
 from playwright.sync_api import expect
 
 pytest_plugins = ["console_fixtures"]
 
-CUT_TEXT = Path(__file__).with_name("cut_text.js").read_text()
-DRAWN_TEXT = Path(__file__).with_name("drawn_text.js").read_text()
-SIZES = [(1500, 900), (1280, 720), (1024, 768), (768, 1024), (390, 844)]
+LONGEST_NAME = "bereitschaft-flugplatz-nord-schicht-zwei"
 STATUS = ols_msg.station_status_t
 
 
@@ -36,14 +41,6 @@ def busy(page, paper):
     paper.alarms.clear()
 
 
-def found_at_each_size(page):
-    found = {}
-    for width, height in SIZES:
-        page.set_viewport_size({"width": width, "height": height})
-        found[width, height] = page.evaluate(CUT_TEXT)
-    return {size: texts for size, texts in found.items() if texts}
-
-
 def test_no_text_is_cut_or_covered(busy):
     languages = busy.get_by_label("Language")
     assert found_at_each_size(busy) == {}
@@ -56,6 +53,37 @@ def test_no_text_is_cut_or_covered(busy):
     assert found_at_each_size(busy) == {}
     busy.keyboard.press("Escape")
     expect(hint).to_be_hidden()
+
+
+def enter(page, password):
+    page.locator("[name=name]").fill("eva")
+    page.locator("[name=password]").fill(password)
+    page.locator("form button").click()
+
+
+def answer_with_many_users(route):
+    """As of a large site, one of them with the longest name."""
+    names = ["eva", LONGEST_NAME, *(f"operator-{number}" for number in range(18))]
+    route.fulfill(json={"users": [{"name": n, "role": "admin", "sessions": 1} for n in names]})
+
+
+@pytest.mark.parametrize("locale", ["en-GB", "de-DE"])
+def test_who_logs_in_and_who_keeps_the_users_can_read_all_of_it(chromium, consoles, locale):
+    context = chromium.new_context(color_scheme="dark", locale=locale)
+    page = context.new_page()
+    page.set_default_timeout(DEADLINE_S * 1000)
+    page.goto(consoles[1])
+    enter(page, "not " + PASSWORD)
+    expect(page.get_by_role("alert")).not_to_be_empty()
+    assert unreadable(page) == []
+    enter(page, PASSWORD)
+    page.route("**/api/users", answer_with_many_users)
+    page.get_by_role("button", name=re.compile("Users|Benutzer")).click()
+    row = page.get_by_role("dialog").get_by_role("row").filter(has_text=LONGEST_NAME)
+    row.get_by_role("button").last.click()
+    expect(row.get_by_role("alert")).to_be_visible()
+    assert unreadable(page, ".bar") == [], "the dialog is below it and covers nothing of it"
+    context.close()
 
 
 WORD = re.compile(r"[A-Za-zÄÖÜäöüß]{3,}")

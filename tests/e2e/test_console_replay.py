@@ -8,7 +8,7 @@ import sys
 import numpy as np
 import pytest
 from conftest import BIN, GOLDEN_LOG, finished, wait
-from console_page import axe_finds
+from console_page import DRAWN_TEXT, found_at_each_size, unreadable
 from console_site import DEADLINE_S, Api, PaperSite, address_of
 from ols_demo.site import Site
 from PIL import Image
@@ -167,8 +167,16 @@ def test_recorded_frames_are_shown(page, replay):
     )
 
 
-def test_axe_finds_nothing(page):
-    assert axe_finds(page) == []
+def test_all_of_it_can_be_read_in_two_languages(page):
+    page.add_init_script(DRAWN_TEXT)
+    page.reload()
+    pause(page)
+    go(page, SECONDS / 2)
+    expect(page.locator(".stations .badge")).to_have_count(1)
+    assert found_at_each_size(page) == {}
+    page.get_by_label("Language").select_option("de")
+    expect(page.get_by_role("region", name="Wiedergabe")).to_be_visible()
+    assert unreadable(page) == []
 
 
 def test_a_damaged_log_is_said_and_the_rest_shown(network, tmp_path):

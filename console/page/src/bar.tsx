@@ -1,7 +1,7 @@
 // The bar on top of the page: the state of the site, the time, the choices of how the page looks, who is
 // logged in, and the stop of all.
 
-import { h, Fragment } from "preact";
+import { h, Fragment, type ComponentChildren } from "preact";
 import { conditionOf, holds, inWords } from "./conditions";
 import { utc } from "./format";
 import type { Link, Session } from "./link";
@@ -89,10 +89,10 @@ function LoggedIn({ session, name, onLogOut, onUsers }: LoggedInProps) {
   );
 }
 
-type BarProps = Omit<LoggedInProps, "name"> & { link: Link; look: Look; stopped: string[]; onStop: () => void; onRelease: (stations: string[]) => void };
+type BarProps = Omit<LoggedInProps, "name"> & { link: Link; look: Look; stopped: string[]; onStop: () => void; onRelease: (stations: string[]) => void; children: ComponentChildren };
 
-// `stopped`: the stations that this person may release.
-export function Bar({ link, look, stopped, onStop, onRelease, ...person }: BarProps) {
+// `stopped`: the stations that this person may release. `children`: what opens below it.
+export function Bar({ link, look, stopped, onStop, onRelease, children, ...person }: BarProps) {
   return (
     <header class="bar">
       <h1>OLS</h1>
@@ -111,6 +111,7 @@ export function Bar({ link, look, stopped, onStop, onRelease, ...person }: BarPr
           {t("stop_all")} <kbd>Esc</kbd>
         </button>
       )}
+      {children}
     </header>
   );
 }

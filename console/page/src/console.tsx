@@ -117,11 +117,12 @@ export function Console({ session, look, onLoggedOut }: Props) {
         onRelease={(stations) => orders.releaseAll(stations)}
         onLogOut={onLoggedOut}
         onUsers={() => setUsersOpen(true)}
-      />
+      >
+        {isUsersOpen && <Users self={session.name} onClose={() => setUsersOpen(false)} />}
+      </Bar>
       <AlarmSpoken link={link} />
       {!link.isUp && <p class="link-lost" role="alert">{t("link_lost")}</p>}
       {link.replay && <ReplayBar link={link} />}
-      {isUsersOpen && <Users self={session.name} onClose={() => setUsersOpen(false)} />}
       <main class={`views ${arrangement.isAlone ? "alone" : arrangement.large}`}>
         <MapView link={link} version={version} theme={look.theme} selected={target || `station:${station}`} onPick={pick} />
         <Panel link={link} selected={target} mayCommand={mayCommand} orders={orders} onClose={() => setTarget("")} />

@@ -106,21 +106,23 @@ export function Users({ self, onClose }: { self: string; onClose: () => void }) 
           {t("close")}
         </button>
       </div>
-      <table>
-        <thead>
-          <tr>
-            <th>{t("name")}</th>
-            <th>{t("role")}</th>
-            <th>{t("logged_in")}</th>
-            <th>{t("what")}</th>
-          </tr>
-        </thead>
-        <tbody>
-          {users.map((user) => (
-            <UserRow key={user.name} user={user} isSelf={user.name === self} change={change} />
-          ))}
-        </tbody>
-      </table>
+      <div class="scroll">
+        <table>
+          <thead>
+            <tr>
+              <th>{t("name")}</th>
+              <th>{t("role")}</th>
+              <th>{t("logged_in")}</th>
+              <th>{t("what")}</th>
+            </tr>
+          </thead>
+          <tbody>
+            {users.map((user) => (
+              <UserRow key={user.name} user={user} isSelf={user.name === self} change={change} />
+            ))}
+          </tbody>
+        </table>
+      </div>
       <EnterUser change={change} />
       <p class="users-hint">{t("users_hint")}</p>
       <p role="status">{said}</p>
