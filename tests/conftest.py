@@ -56,7 +56,6 @@ LONGEST = [
     "test_console_halt.py",
     "test_batch.py",
     "test_doctor.py",
-    "test_sensors.py",
     "test_station_instrument.py",
     "test_station_alone.py",
     "test_cues.py",
