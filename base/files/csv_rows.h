@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cstddef>
 #include <cstring>
 #include <fstream>
 #include <memory>
@@ -119,7 +120,8 @@ void read_header(Reader<kColumns>& reader, const std::string& path,
 }
 
 // A file whose last line always has a line end: without one, the library would read past the end of
-// the file.
+// the file. A zero byte, of which a loss of power leaves whole blocks, would end a row for the
+// library, and an empty row is left out without a word.
 class EndedLines : public io::ByteSourceBase {
  public:
   explicit EndedLines(const std::string& path) : path_(path), file_(path, std::ios::binary) {
@@ -131,6 +133,7 @@ class EndedLines : public io::ByteSourceBase {
     file_.read(buffer, size);
     if (file_.bad()) throw CsvError(path_ + ": cannot be read");
     auto count = static_cast<int>(file_.gcount());
+    check_text({buffer, static_cast<std::size_t>(count)});
     if (count > 0) last_ = buffer[count - 1];
     // The line end is added together with the file's last bytes, not later: if the file fits into
     // the buffer, the library reads nothing more.
@@ -139,8 +142,17 @@ class EndedLines : public io::ByteSourceBase {
   }
 
  private:
+  void check_text(std::string_view bytes) {
+    const std::string_view text = bytes.substr(0, bytes.find('\0'));
+    line_ += std::ranges::count(text, '\n');
+    if (text.size() == bytes.size()) return;
+    throw CsvError(path_ + ":" + std::to_string(line_) +
+                   ": row: has a zero byte: the file is damaged, or no CSV in UTF-8");
+  }
+
   std::string path_;
   std::ifstream file_;
+  std::ptrdiff_t line_ = 1;
   char last_ = '\n';
 };
 

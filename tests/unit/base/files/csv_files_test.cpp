@@ -123,6 +123,15 @@ TEST_F(CsvFilesTest, NamesTheBadStation) {
   EXPECT_THROW(read_stations(folder_), CsvError);
 }
 
+// As a loss of power leaves them, or a file in UTF-16: a row that begins with one seemed empty.
+TEST_F(CsvFilesTest, NamesAZeroByte) {
+  const std::string good = std::string(kStations) + "a,1,2,3\n", zeros(4, '\0');
+  for (const std::string& end : {zeros, zeros + "\n", zeros + "b,1,2,3\n", "b,1,2" + zeros}) {
+    EXPECT_EQ(error_of_stations(good + end),
+              "s.csv:3: row: has a zero byte: the file is damaged, or no CSV in UTF-8");
+  }
+}
+
 TEST_F(CsvFilesTest, NamesTheBadBearing) {
   const std::string head = kBearings;
   EXPECT_EQ(error_of_bearings(head + "1600000000000000,a,0,0,1\n"), "none");
