@@ -199,6 +199,17 @@ def test_stations_that_are_exchanged_are_suspected(folder):
     assert "ols-fuse: behind-camera: the lines of sight meet behind a station: is" in result.stderr
 
 
+def test_latitude_and_longitude_that_are_exchanged_are_named(folder):
+    with (folder / "stations.csv").open("a") as file:
+        file.write("south,16.6,49.197,250\n")
+    (folder / "fixes.csv").write_text("of an earlier run")
+    result = fuse_in(folder)
+    assert result.returncode == 2
+    said = r"stations.csv: south is 455\d km from the other stations: are latitude and longitude ex"
+    assert re.search(said, result.stderr), result.stderr
+    assert (folder / "fixes.csv").read_text() == "of an earlier run"
+
+
 @pytest.mark.parametrize("sigma_deg", [0.01, 0.0001745])
 def test_radians_are_told_from_degrees(folder, sigma_deg):
     """A target east of both stations that flies north; their headings are far from north."""

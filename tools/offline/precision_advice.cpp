@@ -13,6 +13,7 @@
 #include "geometry/angles.h"
 #include "geometry/placement.h"
 #include "tools/offline/geojson.h"
+#include "tools/offline/near_place.h"
 #include "tools/offline/precision_options.h"
 #include "tools/offline/precision_site_files.h"
 

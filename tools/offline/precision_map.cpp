@@ -15,6 +15,7 @@
 #include "base/files/output_check.h"
 #include "base/process/progress.h"
 #include "geometry/angles.h"
+#include "tools/offline/near_place.h"
 #include "tools/offline/precision_options.h"
 #include "tools/offline/precision_site_files.h"
 

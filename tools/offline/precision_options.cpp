@@ -1,11 +1,5 @@
 #include "tools/offline/precision_options.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <sstream>
-#include <stdexcept>
-
 #include "geometry/angles.h"
 
 namespace ols::offline {
@@ -58,20 +52,6 @@ std::vector<PlannedStation> planned_stations(const std::vector<StationRow>& rows
   std::vector<PlannedStation> stations;
   for (const StationRow& row : rows) stations.push_back(planned_station(row, options));
   return stations;
-}
-
-void require_near(const std::string& name, const Geodetic& place, const std::vector<Geodetic>& near,
-                  const std::string& of) {
-  constexpr double kFarthest_m = 500e3;  // as the fusion has it
-  double nearest_m = std::numeric_limits<double>::infinity();
-  for (const Geodetic& other : near) {
-    nearest_m = std::min(nearest_m, (ecef_from_geodetic(place) - ecef_from_geodetic(other)).norm());
-  }
-  if (nearest_m <= kFarthest_m) return;
-  std::ostringstream text;
-  text << name << " is " << std::lround(1e-3 * nearest_m) << " km from " << of
-       << ": are latitude and longitude exchanged?";
-  throw std::invalid_argument(text.str());
 }
 
 PlannedTarget planned_target(const Geodetic& place, const MeasurementOptions& o) {

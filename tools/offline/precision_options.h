@@ -33,12 +33,6 @@ std::vector<PlannedStation> planned_stations(const std::vector<StationRow>& rows
                                              const MeasurementOptions& options);
 PlannedStation planned_station(const Geodetic& place, const MeasurementOptions& options);
 
-// Detects exchanged latitude and longitude, which put a site on another continent. Throws
-// std::invalid_argument if `place` is beyond the range of any camera from each of `near`, which
-// belong to `of`.
-void require_near(const std::string& name, const Geodetic& place, const std::vector<Geodetic>& near,
-                  const std::string& of);
-
 // A target that flies at the options' speed in an unknown direction.
 PlannedTarget planned_target(const Geodetic& place, const MeasurementOptions& options);
 

@@ -8,6 +8,7 @@
 #include "central/offline/offline_fusion.h"
 #include "geometry/angles.h"
 #include "geometry/wgs84.h"
+#include "tools/offline/near_place.h"
 
 namespace ols::offline {
 namespace {
@@ -27,6 +28,19 @@ std::map<std::string, LineOfSight> places_of(const std::vector<StationRow>& stat
     sight.origin_sd_enu_m.setConstant(station.position_sd_m.value_or(0.0));
   }
   return places;
+}
+
+// One that stands further from all others cannot see what they see.
+void require_neighbours(const std::string& path, const std::vector<StationRow>& stations) {
+  std::vector<Geodetic> places;
+  for (const StationRow& s : stations)
+    places.push_back({radians(s.latitude_deg), radians(s.longitude_deg), s.height_m});
+  for (std::size_t i = 0; places.size() > 1 && i < places.size(); ++i) {
+    std::vector<Geodetic> others = places;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+    require_near(path + ": " + stations[i].station, places[i], others, "the other stations",
+                 2.0 * kCameraRange_m);
+  }
 }
 
 // `unit_rad` is the unit of the row's angles, one degree unless radians were exported.
@@ -98,6 +112,7 @@ void require_degrees(const std::string& path, const std::vector<StationRow>& sta
 RecordedBearings read_recorded_bearings(const std::string& stations_path,
                                         const std::string& bearings_path) {
   const auto stations = read_stations(stations_path);
+  require_neighbours(stations_path, stations);
   bool can_be_radians = true;
   RecordedBearings recording = recorded(bearings_path, stations, kDegree_rad, can_be_radians);
   if (can_be_radians) require_degrees(bearings_path, stations, recording);

@@ -17,7 +17,8 @@ struct RecordedBearings {
   std::vector<std::uint32_t> target_of{};
 };
 
-// Throws CsvError, also if the angles can only be radians, despite the names of the columns.
+// Throws CsvError, also if the angles can only be radians, despite the names of the columns; and
+// std::invalid_argument if a station stands where it cannot see what the others see.
 RecordedBearings read_recorded_bearings(const std::string& stations_path,
                                         const std::string& bearings_path);
 
