@@ -176,8 +176,9 @@ def test_precision_has_a_picture(tmp_path, kind, options):
 def test_what_cannot_be_plotted_is_said_in_words(tmp_path, monkeypatch):
     picture, table, none = (tmp_path / name for name in ("picture.png", "table.csv", "none.csv"))
 
-    def said(kind, source):
-        monkeypatch.setattr(sys, "argv", ["precision-plot", kind, str(source), str(picture)])
+    def said(kind, source, *more):
+        words = ["precision-plot", kind, str(source), str(picture), *map(str, more)]
+        monkeypatch.setattr(sys, "argv", words)
         with pytest.raises(SystemExit) as ended:
             plot.main()
         return ended.value.code
@@ -191,3 +192,17 @@ def test_what_cannot_be_plotted_is_said_in_words(tmp_path, monkeypatch):
     table.write_bytes(bytes(range(256)))
     assert f"{table}: cannot be drawn" in said("map", table)
     assert said("map", none) == f"precision-plot: {none}: No such file or directory"
+    table.write_text(
+        "above_stations_m,latitude_deg,longitude_deg,horizontal_m,up_sd_m\n1,2,3,4,5\n"
+    )
+    stations = tmp_path / "stations.csv"
+    for text, what in (
+        ("station,latitude_deg\na,1\n", "has no column longitude_deg"),
+        (
+            "station,latitude_deg,longitude_deg\na,1,x\n",
+            "column longitude_deg has a word",
+        ),
+    ):
+        stations.write_text(text)
+        told = said("map", table, "--stations", stations)
+        assert told == f"precision-plot: {stations}: {what}"

@@ -115,6 +115,9 @@ def test_a_wrong_configuration_is_named(alone, tmp_path):
     missing = Diagnosis("--config", tmp_path / "none.toml")
     assert missing.status == FAILURES
     assert "there is no such file" in missing.of("configuration")[0]["advice"]
+    folder = Diagnosis("--config", tmp_path)
+    assert folder.status == FAILURES
+    assert "this is a folder" in folder.of("configuration")[0]["advice"]
 
 
 def test_devices_are_asked_where_no_station_runs(devices):

@@ -41,6 +41,7 @@ Finding refused(const std::string& path, const ConfigError& error) {
   if (::access(path.c_str(), F_OK) != 0) {
     return fail(what, "there is no such file: is its name right? ols-setup writes these files");
   }
+  if (fs::is_directory(path)) return fail(what, "this is a folder: name the file in it");
   if (::access(path.c_str(), R_OK) != 0) return fail(what, "run ols-doctor with sudo");
   return fail(what, "correct that line; docs/configuration.md lists every key");
 }

@@ -3,6 +3,7 @@
 import argparse
 import csv
 import sys
+import warnings
 from pathlib import Path
 
 from ols_accuracy import theory_plots
@@ -17,6 +18,7 @@ def main() -> None:
     arguments = parser.parse_args()
     if arguments.picture.suffix not in (".png", ".svg"):
         parser.error(f"{arguments.picture}: must end in .png or .svg")
+    warnings.simplefilter("ignore")  # of numpy, of numbers that cannot be drawn: said below
     try:
         if arguments.kind == "map":
             theory_plots.site_map(arguments.source, arguments.picture, arguments.stations)
@@ -30,7 +32,9 @@ def main() -> None:
     except OSError as problem:
         sys.exit(f"precision-plot: {problem.filename}: {problem.strerror}")
     except theory_plots.BadTable as problem:
-        sys.exit(f"precision-plot: {problem}: not what `ols-precision {arguments.kind}` writes")
+        is_source = problem.path == arguments.source
+        whose = f": not what `ols-precision {arguments.kind}` writes" if is_source else ""
+        sys.exit(f"precision-plot: {problem}{whose}")
     except (TypeError, ValueError, csv.Error):
         sys.exit(
             f"precision-plot: {arguments.source}: cannot be drawn: not what "

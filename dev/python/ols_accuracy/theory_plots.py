@@ -15,6 +15,10 @@ from ols_accuracy.style import MAP, OURS, PAPER, STATION, save
 class BadTable(ValueError):
     """In words for a person, with the file."""
 
+    def __init__(self, path: Path, what: str):
+        super().__init__(f"{path}: {what}")
+        self.path = path
+
 
 class Table(dict[str, np.ndarray]):
     """Columns of the CSV at `path`."""
@@ -24,7 +28,7 @@ class Table(dict[str, np.ndarray]):
         self._path = path
 
     def __missing__(self, name: str) -> np.ndarray:
-        raise BadTable(f"{self._path}: has no column {name}")
+        raise BadTable(self._path, f"has no column {name}")
 
 
 def columns(path: Path) -> Table:
@@ -32,7 +36,7 @@ def columns(path: Path) -> Table:
     with open(path, newline="") as file:
         rows = list(csv.DictReader(file))
     if not rows:
-        raise BadTable(f"{path}: has no row")
+        raise BadTable(path, "has no row")
     result = Table(path)
     for name in rows[0]:
         cells = [row[name] for row in rows]
@@ -141,6 +145,9 @@ def site_map(source: Path, output: Path, stations: Path | None = None) -> None:
     """Maps of the horizontal and the vertical 1-sigma, a row each height."""
     table = columns(source)
     places = columns(stations) if stations else None
+    for name in ("longitude_deg", "latitude_deg") if places else ():
+        if places[name].dtype.kind != "f":
+            raise BadTable(stations, f"column {name} has a word")
     heights = np.unique(table["above_stations_m"])
     figure, axes = plt.subplots(
         len(heights), 2, figsize=(11, 4.6 * len(heights)), squeeze=False, sharex=True, sharey=True
