@@ -110,6 +110,8 @@ class PaperSite(threading.Thread):
     def _judge(self, order: Any, name: str) -> bool:
         """Whether the station of this order carries it out; it counts that, and answers."""
         reason = self.refusing.get(order.station, "") if name != "stop" else ""
+        if name == "rate" and self.states[order.station] == STATUS.STATE_STOPPED:
+            reason = reason or "stopped"  # a joystick that is still held must not start the unit
         self._count(order.station, f"refused_{reason}" if reason else f"{name}_accepted")
         if not reason:
             self.states[order.station] = self._state_after(order.station, name)

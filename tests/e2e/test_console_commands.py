@@ -129,11 +129,15 @@ def test_a_refusal_is_in_the_stations_words(page, paper):
 
 
 def test_one_key_stops_all(page, paper):
-    picture(page, "alfa")
+    picture(page, "alfa").focus()
     paper.commands.clear()
     page.keyboard.press("Escape")
     every = {(name, "stop") for name in ("alfa", "bravo", "charlie")}
     wait(lambda: every <= set(paper.commands), "a stop for each")
+    expect(region(page, "Stations").get_by_text("stopped")).to_have_count(3)
+    page.keyboard.down("ArrowRight")
+    wait(lambda: paper.counters["alfa"].get("refused_stopped"), "a rate that moves nothing")
+    page.keyboard.up("ArrowRight")
     expect(region(page, "Stations").get_by_text("stopped")).to_have_count(3)
 
 

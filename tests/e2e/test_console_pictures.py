@@ -8,11 +8,13 @@ import numpy as np
 import ols
 import pytest
 from conftest import wait
-from console_page import picture, two_consoles, watched_page
-from console_site import FULL_PX, PLACES, TARGET, browser, paper_site
+from console_page import picture
+from console_site import FULL_PX, PLACES, TARGET, paper_site
 from ols_bench.paper_video import PaperCamera, PaperVideo
 from ols_demo.places import geodetic
 from playwright.sync_api import expect
+
+pytest_plugins = ["console_fixtures"]
 
 FOCAL_LENGTH_PX = 4000.0
 ELEVATION_RAD = np.radians(1.0)
@@ -53,24 +55,6 @@ def paper(network):
     for video in videos.values():
         video.shutdown()
         video.server_close()
-
-
-@pytest.fixture(scope="module")
-def address(paper, tmp_path_factory):
-    with two_consoles(tmp_path_factory.mktemp("console")) as addresses:
-        yield addresses[0]
-
-
-@pytest.fixture(scope="module")
-def chromium():
-    with browser() as started:
-        yield started
-
-
-@pytest.fixture
-def page(chromium, address):
-    with watched_page(chromium, address) as opened:
-        yield opened
 
 
 def pixels(page, station, x, y, width, height):
