@@ -1,9 +1,8 @@
 // What an inclinometer's line may say. However the bytes are cut, the angles are the same, and none
 // is beyond the range.
-#include "edge/sensors/dpg2/dpg2_parser.h"
-
 #include <cmath>
 
+#include "edge/sensors/dpg2/dpg2_parser.h"
 #include "tests/fuzz/fuzz_input.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
