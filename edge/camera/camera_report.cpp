@@ -11,7 +11,9 @@
 namespace ols::camera {
 namespace {
 
-constexpr double kSilence_s = 0.5;  // plus three frame periods: an alarm
+constexpr double kSilence_s = 0.5;  // or three frame periods: a fault
+// A busy computer leaves out some frames: an alarm is what lasts longer.
+constexpr double kAlarmingSilence_s = 1.5;
 constexpr double kMuchLight = 1.3;  // factor
 
 template <typename... Values>
@@ -48,19 +50,19 @@ std::string alarm_of(PtpState state) {
   }
 }
 
-// The time without frames, if it is too long.
-std::optional<double> silence_s(const CameraConfig& config, const CameraFacts& facts,
-                                double now_s) {
+// The time without frames, if it is longer than this and three frame periods.
+std::optional<double> silence_s(const CameraConfig& config, const CameraFacts& facts, double now_s,
+                                double longest_s = kSilence_s) {
   const auto since = facts.last_frame_s ? facts.last_frame_s : facts.opened_s;
   if (!since) return std::nullopt;
   const double silent_s = now_s - *since;
-  if (silent_s <= std::max(kSilence_s, 3.0 / config.frame_rate_hz)) return std::nullopt;
+  if (silent_s <= std::max(longest_s, 3.0 / config.frame_rate_hz)) return std::nullopt;
   return silent_s;
 }
 
 void add_alarms(const CameraConfig& config, const CameraFacts& facts, double now_s,
                 std::vector<std::string>& alarms) {
-  const auto silent_s = silence_s(config, facts, now_s);
+  const auto silent_s = silence_s(config, facts, now_s, kAlarmingSilence_s);
   if (!facts.fault.empty()) alarms.push_back(facts.fault);
   if (silent_s) {
     const bool waits = !is_timed(config.trigger) && facts.state != CameraState::kAbsent;
@@ -97,10 +99,10 @@ device::DeviceReport make_camera_report(const CameraConfig& config, const Camera
   report.errors = facts.errors;
   add_alarms(config, facts, now_s, report.alarms);
   // Frames have just stopped: the camera's thread will report it after its timeout.
-  if (report.state == device::DeviceState::kOk && is_timed(config.trigger) &&
-      silence_s(config, facts, now_s)) {
+  const auto silent_s = silence_s(config, facts, now_s);
+  if (report.state == device::DeviceState::kOk && is_timed(config.trigger) && silent_s) {
     report.state = device::DeviceState::kFault;
-    report.text = report.alarms.front();
+    report.text = said_behind("camera: ", alarm::camera_no_frames(*silent_s));
   }
   report.readings = {{"camera_exposure_us", facts.exposure.exposure_us},
                      {"camera_gain_dB", facts.exposure.gain_dB},

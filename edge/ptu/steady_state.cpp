@@ -8,6 +8,7 @@ namespace {
 
 constexpr int kBoundsRefused = 3;         // refusals for travel or speed within
 constexpr double kBoundsRefused_s = 5.0;  // this time: the unit's bounds have changed
+constexpr const char* kDisturbedLine = "replies are late, missing or garbled";
 
 }  // namespace
 
@@ -78,7 +79,7 @@ void PtuSteadyState::watch(double time_s) {
   if (!failure) return;
   const bool garbled = *failure == Polling::Failure::kGarbled;
   ++(garbled ? counters_.garbled : counters_.timeouts);
-  send_all_again(garbled ? "a reply was garbled" : "replies are missing", time_s);
+  send_all_again(kDisturbedLine, time_s);
 }
 
 void PtuSteadyState::abandon(double time_s) {
@@ -92,9 +93,13 @@ void PtuSteadyState::send_all_again(std::string because, double time_s) {
   commands_.send_all_again();
 }
 
+// What comes within a second is one disturbance: of a reply that is late, each line is unexpected.
 void PtuSteadyState::note_corrected(std::string what, double time_s) {
-  if (time_s - corrected_.since_s > kCorrected_s) corrected_ = {0, time_s};
-  ++corrected_.times;
+  if (time_s - corrected_.since_s > kCorrected_s) corrected_ = {.since_s = time_s};
+  if (time_s - corrected_.last_s > kDisturbed_s) {
+    ++corrected_.times;
+    corrected_.last_s = time_s;
+  }
   error_ = std::move(what);
 }
 
@@ -111,7 +116,7 @@ void PtuSteadyState::take(const PtuReply& reply, double time_s, double late_s) {
     unit_restarted();
   } else if (!polling_.under_way()) {
     ++counters_.garbled;
-    note_corrected("an unexpected reply", time_s);
+    note_corrected(kDisturbedLine, time_s);
     polling_.unexpected_reply();
   } else if (const auto done = polling_.take(reply, late_s)) {
     finish(*done, time_s);
@@ -121,7 +126,7 @@ void PtuSteadyState::take(const PtuReply& reply, double time_s, double late_s) {
 void PtuSteadyState::finish(const PollCycle& done, double time_s) {
   if (done.command_lost()) {
     ++counters_.garbled;
-    send_all_again("a reply to a command is missing", time_s);
+    send_all_again(kDisturbedLine, time_s);
   }
   judge_refusals(done.refusals(), time_s);
   judge_modes(done);

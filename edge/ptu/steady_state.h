@@ -56,7 +56,7 @@ class PtuSteadyState {
   const std::optional<PtuEnvironment>& environment() const { return environment_.newest; }
   std::optional<double> last_good_s() const { return angles_.last_good_s(); }
   bool standing() const { return angles_.standing(); }
-  // Empty as long as the line is corrected only now and then.
+  // Empty as long as the line is corrected only now and then, or in one short disturbance.
   std::string last_error() const {
     return corrected_.times >= kManyCorrected ? error_ : std::string();
   }
@@ -68,11 +68,13 @@ class PtuSteadyState {
     bool asked = false;  // in the cycle that is under way
     std::optional<PtuEnvironment> newest = {};
   };
-  static constexpr int kManyCorrected = 10;  // within kCorrected_s
+  static constexpr int kManyCorrected = 10;  // disturbances within kCorrected_s
   static constexpr double kCorrected_s = 60.0;
+  static constexpr double kDisturbed_s = 1.0;
   struct Corrected {
     int times = 0;
     double since_s = 0.0;
+    double last_s = -1e9;  // the beginning of the newest disturbance
   };
   struct BoundsRefused {
     int times = 0;

@@ -70,6 +70,24 @@ TEST_F(SteadyState, PollsTheUnitAndSendsItToItsGoal) {
   EXPECT_EQ(counters_.timeouts + counters_.garbled + counters_.refused_positions, 0u);
 }
 
+// Of a cycle that is late all its lines come after it was given up.
+TEST_F(SteadyState, ShortDisturbancesOfItsLineAreNoErrorUntilThereAreMany) {
+  const auto disturb = [this] {
+    silent = true;
+    run(0.3);
+    for (int i = 0; i < 20; ++i) unit_.take(reply(), time_s_, 0.0);
+    silent = false;
+    run(2.0);
+  };
+  run(0.1);
+  for (int i = 0; i < 9; ++i) disturb();
+  EXPECT_EQ(unit_.last_error(), "");
+  EXPECT_GE(counters_.timeouts, 9U) << "they are counted all the same";
+  disturb();
+  EXPECT_EQ(unit_.last_error(), "replies are late, missing or garbled");
+  EXPECT_FALSE(unit_.trouble());
+}
+
 TEST_F(SteadyState, MovesNothingBeforeItKnowsWhereTheUnitIs) {
   goal = PanTilt{0.2, 0.0};
   change = [](const std::string&, PtuReply& r) { r.echoed = true; };
