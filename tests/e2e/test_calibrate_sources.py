@@ -9,8 +9,10 @@ import time
 import tomllib
 from datetime import UTC, datetime
 
+import numpy as np
 import pytest
 from conftest import BIN, finished
+from PIL import Image
 
 
 def aircraft(*arguments, **options):
@@ -80,7 +82,8 @@ def test_a_clock_that_is_not_synchronised_is_refused(time_service, receiver, tmp
     assert "--clock-is-right" in done.stderr
     assert not (tmp_path / "out.csv").exists()
     done = aircraft(*arguments, env=time_service("Normal"))
-    assert done.returncode == 0, done.stderr
+    assert done.returncode == 1, done.stderr
+    assert "has closed the connection before --duration was over" in done.stderr
     assert len((tmp_path / "out.csv").read_text().splitlines()) == 3
 
 
@@ -101,7 +104,8 @@ def test_a_receiver_whose_clock_is_off_is_refused(
     assert f"{words} this computer's clock" in done.stderr
     assert not (tmp_path / "out.csv").exists()
     done = aircraft("--input", receiver(0.0, text), *arguments, env=normal)
-    assert done.returncode == 0, done.stderr
+    assert done.returncode == 1, done.stderr  # it closes at once
+    assert "2 positions\n" in done.stdout
 
 
 def test_what_a_receiver_has_heard_becomes_references(tmp_path):
@@ -122,6 +126,14 @@ def test_what_a_receiver_has_heard_becomes_references(tmp_path):
         "4ca2d6,49.5100000,16.2500000,10058.4,10.0,1780000010500000",
     ]
     assert "is not overwritten" in aircraft(*inputs, "--format", "json", "--output", output).stderr
+    silent = tmp_path / "silent.json"
+    silent.write_text('{"now": 1780000010, "aircraft": []}')
+    done = aircraft(
+        *inputs, "--input", silent, "--format", "json", "--output", tmp_path / "without.csv"
+    )
+    assert done.returncode == 1
+    assert f"{silent}: no position with a height above the ellipsoid" in done.stderr
+    assert (tmp_path / "without.csv").read_text() == output.read_text()
 
 
 def test_barometric_heights_are_refused_in_words(tmp_path):
@@ -131,18 +143,51 @@ def test_barometric_heights_are_refused_in_words(tmp_path):
     assert "its heights are barometric" in done.stderr
 
 
+CHESSBOARD = "data/calibration/opencv_chessboard"
+
+
+def camera_of(pictures, output):
+    command = [BIN / "ols-calibrate", "camera", "--columns", "9", "--rows", "6"]
+    return finished(*command, "--pictures", *pictures, "--output", output)
+
+
+def test_pictures_that_tell_less_than_they_should(shared, tmp_path):
+    """Without the board: usual, unless most are; one that was bent is a fault."""
+    boards = sorted((shared / CHESSBOARD).glob("left*.jpg"))[:8]
+    width, height = Image.open(boards[0]).size
+    empty = [tmp_path / f"empty{k}.png" for k in range(9)]
+    for path in empty:
+        Image.new("L", (width, height), 128).save(path)
+
+    done = camera_of([*boards, empty[0]], tmp_path / "one")
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.startswith("8 of 9 pictures, residuals ")
+    assert f"{empty[0]}: the board is not found" in done.stderr
+    assert "residuals" not in done.stderr
+
+    done = camera_of([*boards, *empty], tmp_path / "most")
+    assert done.returncode == 1
+    assert "most pictures do not show the board: check --board" in done.stderr
+    assert done.stdout.startswith("8 of 17 pictures, ")
+
+    bent = np.asarray(Image.open(boards[0]).convert("L"))
+    columns = np.arange(width) + 6 * np.sin(np.arange(width) / 50)
+    Image.fromarray(bent[:, columns.clip(0, width - 1).astype(int)]).save(tmp_path / "bent.png")
+    done = camera_of([*boards[1:], tmp_path / "bent.png"], tmp_path / "bent")
+    assert done.returncode == 1, done.stderr
+    assert "bent.png: its corners are off by" in done.stderr
+
+
 @pytest.mark.parametrize("camera", ["left", "right"])
 def test_a_camera_from_chessboards(shared, tmp_path, camera):
     """Against OpenCV's own fit with the same corner window, within a fifth of its standard errors:
     what is told is what OpenCV tells (board_fit_test)."""
-    data = shared / "data/calibration/opencv_chessboard"
+    data = shared / CHESSBOARD
     measured = json.loads((data / "reference.json").read_text())["measured"]
     expected = next(value for key, value in measured.items() if key.endswith("_5"))[
         f"{camera}_free"
     ]
-    command = [BIN / "ols-calibrate", "camera", "--columns", "9", "--rows", "6", "--pictures"]
-    command += [*sorted(data.glob(f"{camera}*.jpg")), "--output", tmp_path / "camera"]
-    done = finished(*command)
+    done = camera_of(sorted(data.glob(f"{camera}*.jpg")), tmp_path / "camera")
     assert done.returncode == 0, done.stderr
     found = tomllib.loads((tmp_path / "camera/instrument.toml").read_text())
     values, sds = found["values"], found["sd"]

@@ -159,6 +159,22 @@ def test_a_damaged_recording_is_named_and_what_is_left_is_used(site, tmp_path):
     assert output.read_text()
 
 
+def test_a_station_that_contributes_nothing_is_named(site, tmp_path):
+    other = tmp_path / "elsewhere.toml"
+    other.write_text((site / f"round/{NEW}.toml").read_text().replace(NEW, "elsewhere"))
+    configurations = [part for s in KNOWN for part in ("--station", site / f"round/{s}.toml")]
+    recording = ("--recording", site / "flight/sightings.lcm")
+    output = tmp_path / "tracks.jsonl"
+    done = run(
+        *(CALIBRATE, "tracks", *configurations, "--station", other, *recording),
+        *("--output", output),
+    )
+    assert done.returncode == 1, done.stderr
+    assert "station 'elsewhere': nothing that it has followed can be used" in done.stderr
+    assert "track 'alfa:" in done.stdout
+    assert output.read_text()
+
+
 def test_one_station_alone_has_no_track(site, tmp_path):
     done = tracks(site, tmp_path / "tracks.jsonl", stations=(NEW,))
     assert done.returncode == 2

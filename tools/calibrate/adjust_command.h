@@ -14,9 +14,6 @@
 
 namespace ols::calibration {
 
-// Exit status of `adjust`: the results are written, and at least one finding is bad.
-inline constexpr int kExitNotWithinLimits = 1;
-
 // An adjustment and the results of its stations.
 struct Adjusted {
   Case what;

@@ -28,6 +28,7 @@ namespace {
 
 // An aircraft flies 10 m in this time.
 constexpr double kClock_s = 0.05;
+constexpr const char* kNoPosition = "no position with a height above the ellipsoid";
 
 // By this host's clock a position gets its time, or is judged.
 void check_clock() {
@@ -158,8 +159,8 @@ class Connection {
   Connection(const Connection&) = delete;
   Connection& operator=(const Connection&) = delete;
 
-  // Until the other end closes, or for so long.
-  void read(double duration_s, Feed& feed, Received& received) const {
+  // For so long. False: the other end has closed before.
+  bool read(double duration_s, Feed& feed, Received& received) const {
     using Clock = std::chrono::steady_clock;
     const auto end = Clock::now() + std::chrono::duration<double>(duration_s);
     std::vector<std::uint8_t> buffer(65536);
@@ -169,10 +170,11 @@ class Connection {
       received.add(0);
       if (::poll(&waited, 1, kLook_ms) <= 0) continue;
       const ssize_t count = ::read(fd_, buffer.data(), buffer.size());
-      if (count <= 0) return;
+      if (count <= 0) return false;
       feed.take({buffer.data(), static_cast<std::size_t>(count)});
       received.add(static_cast<std::size_t>(count));
     }
+    return true;
   }
 
  private:
@@ -193,16 +195,20 @@ void read_file(const std::string& path, Feed& feed, Received& received) {
   if (file.bad()) throw std::runtime_error(path + ": cannot be read to its end");
 }
 
-void read_input(const std::string& input, const AircraftOptions& options, Feed& feed,
-                Received& received) {
+// What is missing of it, as a sentence; empty: nothing.
+std::string read_input(const std::string& input, const AircraftOptions& options, Feed& feed,
+                       Received& received) {
+  std::string trouble;
   const std::size_t colon = input.rfind(':');
   const bool is_file = std::filesystem::exists(input) || colon == std::string::npos;
   if (is_file) {
     read_file(input, feed, received);
   } else {
     if (!options.clock_is_right) check_clock();
-    Connection(input.substr(0, colon), input.substr(colon + 1), input)
-        .read(options.duration_s, feed, received);
+    const Connection receiver(input.substr(0, colon), input.substr(colon + 1), input);
+    if (!receiver.read(options.duration_s, feed, received)) {
+      trouble = input + ": the receiver has closed the connection before --duration was over";
+    }
   }
   try {
     feed.end();
@@ -210,6 +216,7 @@ void read_input(const std::string& input, const AircraftOptions& options, Feed& 
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(input + ": " + error.what());
   }
+  return trouble;
 }
 
 void check(const AircraftOptions& options) {
@@ -278,31 +285,36 @@ std::string reference_rows(std::vector<AircraftPosition> positions, double sd_m)
   return out.str();
 }
 
-std::vector<std::string> write_aircraft(const AircraftOptions& options, const TellSteps& tell) {
+CommandReport write_aircraft(const AircraftOptions& options, const TellSteps& tell) {
   check(options);
+  CommandReport report;
   std::vector<AircraftPosition> positions;
   int barometric_only = 0;
   Received received(options.inputs, tell);
   for (const std::string& input : options.inputs) {
     Feed feed(options);
-    read_input(input, options, feed, received);
+    const std::string trouble = read_input(input, options, feed, received);
+    if (!trouble.empty()) report.faults.push_back(trouble);
+    if (feed.positions.empty()) report.faults.push_back(input + ": " + kNoPosition);
     positions.insert(positions.end(), feed.positions.begin(), feed.positions.end());
     barometric_only += feed.barometric_only;
   }
-  std::vector<std::string> remarks;
   if (barometric_only > 0) {
-    remarks.push_back(std::to_string(barometric_only) +
-                      " positions have a barometric height alone and are left out: it is wrong by "
-                      "tens to hundreds of metres");
+    report.notes.push_back(std::to_string(barometric_only) +
+                           " positions have a barometric height alone and are left out: it is "
+                           "wrong by tens to hundreds of metres");
   }
   if (positions.empty()) {
-    throw std::runtime_error("--input: no position with a height above the ellipsoid" +
-                             (remarks.empty() ? "" : ": " + remarks.front()));
+    throw std::runtime_error("--input: " + std::string(kNoPosition) +
+                             (report.notes.empty() ? "" : ": " + report.notes.front()));
   }
+  const std::string rows = reference_rows(std::move(positions), options.sd_m);
   AtomicFile file(options.output);
-  file.stream() << reference_rows(std::move(positions), options.sd_m);
+  file.stream() << rows;
   file.commit();
-  return remarks;
+  const auto count = std::ranges::count(rows, '\n') - 1;  // without the heading
+  report.summary.push_back(options.output + ": " + std::to_string(count) + " positions");
+  return report;
 }
 
 }  // namespace ols::calibration

@@ -8,6 +8,7 @@
 
 #include "base/process/progress.h"
 #include "calibration/adsb.h"
+#include "tools/calibrate/command_report.h"
 
 namespace ols::calibration {
 
@@ -30,8 +31,8 @@ std::string receiver_clock_trouble(std::int64_t least_delay_us);
 // another name. One with a single position is left out.
 std::string reference_rows(std::vector<AircraftPosition> positions, double sd_m);
 
-// Reads and writes; returns remarks for a person. Throws std::runtime_error naming input or option.
+// Reads and writes. Throws std::runtime_error naming input or option.
 // `tell`: progress in bytes of all inputs, also while a receiver is silent.
-std::vector<std::string> write_aircraft(const AircraftOptions& options, const TellSteps& tell = {});
+CommandReport write_aircraft(const AircraftOptions& options, const TellSteps& tell = {});
 
 }  // namespace ols::calibration

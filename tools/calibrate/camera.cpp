@@ -6,6 +6,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 #include "tools/calibrate/board_fit.h"
 #include "tools/calibrate/output_folder.h"
@@ -43,46 +44,78 @@ std::string covariance_text(const BoardCamera& camera) {
   return out.str();
 }
 
-}  // namespace
-
-std::vector<std::string> write_camera(const CameraOptions& options) {
-  check_board(options.shape);
-  const auto folder = checked_folder(options.output);
+struct Boards {
   std::vector<BoardView> views;
-  std::vector<std::string> names, remarks;
+  std::vector<std::string> names;    // the picture of each view
+  std::vector<std::string> without;  // pictures without the board in whole
   cv::Size size;
+};
+
+Boards read_boards(const CameraOptions& options) {
+  Boards found;
   for (const std::string& path : options.pictures) {
     const cv::Mat picture = cv::imread(path, cv::IMREAD_GRAYSCALE);
     if (picture.empty()) throw std::runtime_error(path + ": is not a picture that can be read");
-    if (size.area() > 0 && picture.size() != size) {
+    if (found.size.area() > 0 && picture.size() != found.size) {
       throw std::runtime_error(path + ": is of another size than the pictures before it");
     }
-    size = picture.size();
+    found.size = picture.size();
     BoardView view = find_board(picture, options.shape);
     if (view.pixels.empty()) {
-      remarks.push_back(path + ": the board is not found, or not in whole");
+      found.without.push_back(path);
       continue;
     }
-    views.push_back(std::move(view));
-    names.push_back(path);
+    found.views.push_back(std::move(view));
+    found.names.push_back(path);
   }
-  const BoardCamera camera = fit_boards(views, size);
+  return found;
+}
+
+// Of a view whose corners do not fit to those of the others.
+std::vector<std::string> suspects(const Boards& boards, const BoardCamera& camera) {
   constexpr double kSuspect_px = 0.3;
-  for (std::size_t i = 0; i < views.size(); ++i) {
+  std::vector<std::string> said;
+  for (std::size_t i = 0; i < boards.views.size(); ++i) {
     if (camera.view_rms_px[i] < std::max(kSuspect_px, 2.0 * camera.rms_px)) continue;
     std::ostringstream text;
-    text << names[i] << ": its corners are off by " << std::setprecision(2) << camera.view_rms_px[i]
-         << " px: take it again";
-    remarks.push_back(text.str());
+    text << boards.names[i] << ": its corners are off by " << std::setprecision(2)
+         << camera.view_rms_px[i] << " px: leave it out, or take it again";
+    said.push_back(text.str());
   }
-  std::ostringstream summary;
-  summary << views.size() << " pictures, residuals " << std::setprecision(3) << camera.rms_px
-          << " px, focal length " << std::setprecision(7) << camera.values[0] << " px +- "
-          << std::setprecision(2) << std::sqrt(camera.covariance(0, 0));
-  remarks.push_back(summary.str());
+  return said;
+}
+
+std::string summary_of(const Boards& boards, const BoardCamera& camera) {
+  std::ostringstream out;
+  out << boards.views.size() << " of " << boards.views.size() + boards.without.size()
+      << " pictures, residuals " << std::setprecision(3) << camera.rms_px << " px, focal length "
+      << std::setprecision(7) << camera.values[0] << " px +- " << std::setprecision(2)
+      << std::sqrt(camera.covariance(0, 0));
+  return out.str();
+}
+
+CommandReport report_on(const Boards& boards, const BoardCamera& camera) {
+  CommandReport report{{summary_of(boards, camera)}, {}, suspects(boards, camera)};
+  for (const std::string& path : boards.without) {
+    report.notes.push_back(path + ": the board is not found, or not in whole: left out");
+  }
+  if (boards.without.size() > boards.views.size()) {
+    report.faults.push_back(
+        "most pictures do not show the board: check --board, --columns and --rows");
+  }
+  return report;
+}
+
+}  // namespace
+
+CommandReport write_camera(const CameraOptions& options) {
+  check_board(options.shape);
+  const auto folder = checked_folder(options.output);
+  const Boards boards = read_boards(options);
+  const BoardCamera camera = fit_boards(boards.views, boards.size);
   write_folder(folder, {{"instrument.toml", instrument_text(camera)},
                         {"camera-covariance.csv", covariance_text(camera)}});
-  return remarks;
+  return report_on(boards, camera);
 }
 
 }  // namespace ols::calibration

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "tools/calibrate/board_detection.h"
+#include "tools/calibrate/command_report.h"
 
 namespace ols::calibration {
 
@@ -14,8 +15,8 @@ struct CameraOptions {
   std::string output;
 };
 
-// Writes the folder; returns remarks for a person. Throws std::runtime_error or
-// std::invalid_argument naming picture or option.
-std::vector<std::string> write_camera(const CameraOptions& options);
+// Writes the folder. Some pictures always miss the board; if most do, the fault is rather that of
+// its description. Throws std::runtime_error or std::invalid_argument naming picture or option.
+CommandReport write_camera(const CameraOptions& options);
 
 }  // namespace ols::calibration

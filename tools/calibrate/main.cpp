@@ -2,7 +2,6 @@
 #include <filesystem>
 #include <iostream>
 #include <new>
-#include <utility>
 
 #include "base/files/atomic_file.h"
 #include "base/files/output_check.h"
@@ -11,6 +10,7 @@
 #include "tools/calibrate/adjust_command.h"
 #include "tools/calibrate/aircraft.h"
 #include "tools/calibrate/camera.h"
+#include "tools/calibrate/command_report.h"
 #include "tools/calibrate/output_folder.h"
 #include "tools/calibrate/procedure_commands.h"
 #include "tools/calibrate/tracks.h"
@@ -100,7 +100,9 @@ void add_tracks_options(CLI::App& app, calibration::TracksOptions& o) {
   app.add_option("--output", o.output, "JSON lines for --observations; it must be new")->required();
 }
 
-constexpr int kExitDamaged = 1;  // an input; the result is of the rest of it
+constexpr const char* kExitStatus =
+    "Exit status: 0 the result is within its limits and made of everything that was given; 1 it is "
+    "not, or was not accepted, and the messages say why; 2 there is no result.";
 
 // Nothing that stands there is overwritten: another calibration, an input.
 fs::path output_folder(const calibration::CaseOptions& o) {
@@ -119,15 +121,19 @@ int adjust(const calibration::CaseOptions& options) {
   std::size_t done = 0;
   const auto tell = [&] { progress(++done, 0); };
   const auto adjusted = calibration::adjust_into(options, output_folder(options), tell);
-  for (const std::string& line : adjusted.notes) {
-    std::cerr << "ols-calibrate: " << line << '\n';
-  }
   const std::vector<std::string> bad = calibration::bad_findings(adjusted);
-  for (const std::string& line : bad) std::cerr << "ols-calibrate: BAD  " << line << '\n';
-  if (bad.empty()) return 0;
-  std::cerr << "ols-calibrate: not within the limits; the results are in " << options.output
-            << '\n';
-  return calibration::kExitNotWithinLimits;
+  const int status = calibration::tell({{}, adjusted.notes, bad});
+  if (status != 0) {
+    std::cerr << "ols-calibrate: not within the limits; the results are in " << options.output
+              << '\n';
+  }
+  return status;
+}
+
+int told(const calibration::CommandReport& report) {
+  const int status = calibration::tell(report);
+  ols::flush_output();
+  return status;
 }
 
 }  // namespace
@@ -137,6 +143,7 @@ int main(int argc, char** argv) {
   CLI::App app{"Calibrates a station: its instrument, and how the tripod stands."};
   app.set_version_flag("--version", OLS_VERSION);
   app.require_subcommand(1);
+  app.footer(kExitStatus);  // also of the subcommands
   calibration::CaseOptions options;
   add_options(*app.add_subcommand("adjust", "One adjustment of all observations."), options);
   calibration::ProcedureOptions procedure;
@@ -161,21 +168,13 @@ int main(int argc, char** argv) {
   try {
     if (!procedure.name.empty()) return calibration::run_procedure(procedure);
     if (zooms->parsed()) return calibration::run_zoom(zoom);
-    std::vector<std::string> remarks;
-    bool is_damaged = false;
     if (heard->parsed()) {
-      remarks = calibration::write_aircraft(aircraft, ols::Progress("ols-calibrate", "bytes"));
-    } else if (followed->parsed()) {
-      calibration::TracksReport report = calibration::write_tracks(tracks);
-      remarks = std::move(report.remarks);
-      is_damaged = report.is_damaged;
-    } else if (boards->parsed()) {
-      remarks = calibration::write_camera(camera);
-    } else {
-      return adjust(options);
+      const ols::Progress progress("ols-calibrate", "bytes");
+      return told(calibration::write_aircraft(aircraft, progress));
     }
-    for (const std::string& line : remarks) std::cerr << "ols-calibrate: " << line << '\n';
-    if (is_damaged) return kExitDamaged;
+    if (followed->parsed()) return told(calibration::write_tracks(tracks));
+    if (boards->parsed()) return told(calibration::write_camera(camera));
+    return adjust(options);
   } catch (const std::bad_alloc&) {
     std::cerr << "ols-calibrate: the memory does not suffice for so many observations: leave some "
                  "of them out\n";
@@ -184,5 +183,4 @@ int main(int argc, char** argv) {
     std::cerr << "ols-calibrate: " << error.what() << '\n';
     return ols::kExitBadInput;
   }
-  return 0;
 }

@@ -3,13 +3,12 @@
 #include <stdexcept>
 
 #include "base/process/clocks.h"
+#include "tools/calibrate/command_report.h"
 
 namespace ols::calibration {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr int kExitNotAccepted = 1;
 
 // Sets it aside; where it is, and what can be done with it.
 std::string set_aside(const ProcedureSession& session, CalibrationStore& store) {
@@ -74,12 +73,12 @@ int finish(const Procedure& procedure, Outcome outcome, const StationFiles& stat
   if (outcome == Outcome::kAborted) {
     person.tell("Aborted. The old calibration stays in use; the observations are kept in " +
                 set_aside(*procedure.session, store));
-    return kExitNotAccepted;
+    return kExitLookAtIt;
   }
   if (!procedure.adjusted) {
     const fs::path kept = store.interrupt(running);
     person.tell("There is no result; the observations are kept in " + kept.string());
-    return kExitNotAccepted;
+    return kExitLookAtIt;
   }
   procedure.session->take_result();
   const std::int64_t number = procedure.adjusted->results.front().calibration_id;
@@ -106,7 +105,7 @@ int finish(const Procedure& procedure, Outcome outcome, const StationFiles& stat
   line.previous = store.current().value_or("");
   store.note(line);
   person.tell("The old calibration stays in use; this one is in " + kept.string());
-  return kExitNotAccepted;
+  return kExitLookAtIt;
 }
 
 }  // namespace ols::calibration

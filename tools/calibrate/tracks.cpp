@@ -1,8 +1,10 @@
 #include "tools/calibrate/tracks.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <stdexcept>
-#include <utility>
+#include <string>
+#include <vector>
 
 #include "base/files/atomic_file.h"
 #include "base/files/output_check.h"
@@ -22,25 +24,43 @@ void check(const TracksOptions& options) {
   }
 }
 
-void note(std::vector<std::string>& remarks, std::size_t count, const char* what) {
-  if (count > 0) remarks.push_back(std::to_string(count) + " sightings " + what);
+void note(std::vector<std::string>& said, std::size_t count, const char* what) {
+  if (count > 0) said.push_back(std::to_string(count) + " sightings " + what);
 }
 
-std::vector<std::string> remarks_of(const SightingLog& log, const Instants& instants) {
-  std::vector<std::string> remarks = log.damage;
-  note(remarks, log.unusable, "cannot be read: left out");
-  note(remarks, log.of_others, "are of stations that --station does not name");
-  note(remarks, log.unsynchronised, "are of a station that did not know the time: left out");
-  note(remarks, log.disbelieved, "were hardly believed by the tracker: left out");
-  note(remarks, instants.lonely, "have no other on the other side of a whole second: left out");
-  note(remarks, 2 * instants.unsure,
+// The tracker's doubts and a unit that turns round are of every flight; a station that contributes
+// nothing, a clock that is wrong and a damaged recording are not.
+CommandReport report_on(const SightingLog& log, const Instants& instants,
+                        const FollowedObservations& found, const std::vector<std::string>& names) {
+  CommandReport report{found.remarks, {}, log.damage};
+  note(report.notes, log.of_others, "are of stations that --station does not name");
+  note(report.notes, log.disbelieved, "were hardly believed by the tracker: left out");
+  note(report.notes, instants.lonely,
+       "have no other on the other side of a whole second: left out");
+  note(report.notes, 2 * instants.unsure,
        "are of a unit that turned round, or of which nobody knows from where it came: left out");
-  return remarks;
+  note(report.faults, log.unusable, "cannot be read: left out");
+  note(report.faults, log.unsynchronised, "are of a station that did not know the time: left out");
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (std::ranges::count(found.observations, i, &Observation::station) > 0) continue;
+    report.faults.push_back("station '" + names[i] + "': nothing that it has followed can be used");
+  }
+  return report;
+}
+
+std::runtime_error nothing_found(const CommandReport& report) {
+  std::string why =
+      "--recording: nothing that two stations, or a station and --aircraft, have "
+      "seen at the same instants";
+  for (const auto* lines : {&report.faults, &report.notes, &report.summary}) {
+    for (const std::string& line : *lines) why += "; " + line;
+  }
+  return std::runtime_error(why);
 }
 
 }  // namespace
 
-TracksReport write_tracks(const TracksOptions& options) {
+CommandReport write_tracks(const TracksOptions& options) {
   check(options);
   const Case stations = read_stations(options.stations);
   const Problem& problem = stations.problem;
@@ -50,21 +70,14 @@ TracksReport write_tracks(const TracksOptions& options) {
   const FollowedObservations found =
       followed(instants.instants, problem.stations, problem.names, references_in(options.aircraft),
                Progress("ols-calibrate", "tracks of stations"));
-  std::vector<std::string> remarks = remarks_of(log, instants);
-  remarks.insert(remarks.end(), found.remarks.begin(), found.remarks.end());
-  if (found.observations.empty()) {
-    std::string why =
-        "--recording: nothing that two stations, or a station and --aircraft, have "
-        "seen at the same instants";
-    for (const std::string& remark : remarks) why += "; " + remark;
-    throw std::runtime_error(why);
-  }
+  CommandReport report = report_on(log, instants, found, problem.names);
+  if (found.observations.empty()) throw nothing_found(report);
   AtomicFile file(options.output);
   for (const Observation& one : found.observations) {
     file.stream() << observation_lines({one}, problem.names[one.station]);
   }
   file.commit();
-  return {std::move(remarks), !log.damage.empty()};
+  return report;
 }
 
 }  // namespace ols::calibration

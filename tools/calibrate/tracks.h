@@ -2,9 +2,9 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "tools/calibrate/calibrate_case.h"
+#include "tools/calibrate/command_report.h"
 #include "tools/calibrate/sighting_log.h"
 
 namespace ols::calibration {
@@ -16,12 +16,7 @@ struct TracksOptions {
   std::string output;
 };
 
-struct TracksReport {
-  std::vector<std::string> remarks;  // for a person
-  bool is_damaged = false;           // a recording; what is left of it was used
-};
-
 // Writes. Throws std::runtime_error naming file or option.
-TracksReport write_tracks(const TracksOptions& options);
+CommandReport write_tracks(const TracksOptions& options);
 
 }  // namespace ols::calibration

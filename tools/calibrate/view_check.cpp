@@ -2,6 +2,7 @@
 #include <stdexcept>
 
 #include "base/process/clocks.h"
+#include "tools/calibrate/command_report.h"
 #include "tools/calibrate/procedure_stages.h"
 #include "tools/calibrate/view_stage.h"
 
@@ -72,7 +73,7 @@ int run_check(const ProcedureOptions& options, const StationFiles& station,
   link.release();
   person.tell(complete ? looked->verdict() : "Aborted: no result about the tripod");
   announce(runner, !complete, *looked);
-  return complete && looked->stands() ? 0 : 1;
+  return complete && looked->stands() ? 0 : kExitLookAtIt;
 }
 
 }  // namespace ols::calibration

@@ -16,6 +16,7 @@
 #include "calibration/procedure/sun_keep_out.h"
 #include "calibration/zoom_fit.h"
 #include "tools/calibrate/calibrate_case.h"
+#include "tools/calibrate/command_report.h"
 #include "tools/calibrate/procedure_stages.h"
 #include "tools/calibrate/station_link.h"
 #include "wire/orders.h"
@@ -259,7 +260,7 @@ int run_zoom(const ZoomOptions& o) {
   file.stream() << text;
   file.commit();
   std::printf("written: %s\n", o.output.c_str());
-  return static_cast<int>(points.size()) == o.positions ? 0 : 1;
+  return static_cast<int>(points.size()) == o.positions ? 0 : kExitLookAtIt;
 }
 
 }  // namespace ols::calibration
