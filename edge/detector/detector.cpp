@@ -25,6 +25,21 @@ void join(std::vector<Detection>& spots, const std::vector<Detection>& movers) {
   }
 }
 
+// Of the likeliest object before the sky, with a margin. Its corners are often the only ones there,
+// and would make the scene move along with it.
+cv::Rect2d clearest_box(const std::vector<Tracklet>& tracklets) {
+  constexpr double kMargin_px = 8.0;
+  const Tracklet* clearest = nullptr;
+  for (const Tracklet& tracklet : tracklets) {
+    if (!tracklet.mostly_clear()) continue;
+    if (!clearest || tracklet.log_ratio() > clearest->log_ratio()) clearest = &tracklet;
+  }
+  if (!clearest) return {};
+  const Eigen::Vector2d side = clearest->size_px().array() + 2.0 * kMargin_px;
+  const Eigen::Vector2d corner = clearest->pixel() - 0.5 * side;
+  return {corner.x(), corner.y(), side.x(), side.y()};
+}
+
 }  // namespace
 
 Detector::Detector(const DetectorConfig& config, const cv::Size& image)
@@ -39,7 +54,7 @@ std::optional<Eigen::Matrix3d> Detector::measure_motion(
     ego_motion_.start(frame);
     return std::nullopt;
   }
-  const auto estimate = ego_motion_.step(frame, cv::Rect2d(), predicted);
+  const auto estimate = ego_motion_.step(frame, clearest_box(book_.tracklets()), predicted);
   if (estimate.homography) return estimate.homography;
   return predicted;
 }

@@ -65,21 +65,9 @@ bool MoverFinder::everything_changed(const cv::Mat& noise) const {
   return *middle > config_.least_levels;
 }
 
-// A large mover fills several tiles and would raise their threshold beyond its own difference. It
-// passes, though, and foliage stays: the threshold falls at once, and doubles in a second at most.
-void MoverFinder::learn(const cv::Mat& noise, double time_s) {
-  if (usual_.size() == noise.size()) {
-    const cv::Mat most = usual_ * std::exp2(time_s - learnt_s_);
-    cv::min(noise, most, usual_);
-  } else {
-    usual_ = noise;
-  }
-  learnt_s_ = time_s;
-}
-
-cv::Mat MoverFinder::exceedances(const cv::Mat& difference) const {
+cv::Mat MoverFinder::exceedances(const cv::Mat& difference, const cv::Mat& noise) const {
   cv::Mat threshold;
-  cv::resize(usual_, threshold, difference.size(), 0, 0, cv::INTER_LINEAR);
+  cv::resize(noise, threshold, difference.size(), 0, 0, cv::INTER_LINEAR);
   cv::Mat levels, mask;
   threshold.convertTo(levels, CV_8U, config_.threshold_sd);
   cv::max(levels, config_.least_levels, levels);
@@ -139,9 +127,8 @@ std::optional<std::vector<Detection>> MoverFinder::find(
       background_.remember(frame.image, time_s);
       return std::nullopt;
     }
-    learn(noise, time_s);
-    const cv::Mat fresh = exceedances(outside(frame.image, scene.ever) & scene.seen);
-    found = parts(exceedances(difference), fresh, difference, frame);
+    const cv::Mat fresh = exceedances(outside(frame.image, scene.ever) & scene.seen, noise);
+    found = parts(exceedances(difference, noise), fresh, difference, frame);
   }
   background_.remember(frame.image, time_s);
   return found;

@@ -29,15 +29,12 @@ class MoverFinder {
 
  private:
   bool everything_changed(const cv::Mat& noise) const;
-  void learn(const cv::Mat& noise, double time_s);
-  cv::Mat exceedances(const cv::Mat& difference) const;
+  cv::Mat exceedances(const cv::Mat& difference, const cv::Mat& noise) const;
   std::vector<Detection> parts(const cv::Mat& mask, const cv::Mat& fresh, const cv::Mat& difference,
                                const tracker::ReducedFrame& frame) const;
 
   MoverConfig config_;
   SceneBackground background_;
-  cv::Mat usual_;          // [grey levels] difference of each tile
-  double learnt_s_ = 0.0;  // when
 };
 
 }  // namespace ols::detector

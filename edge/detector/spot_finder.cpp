@@ -5,7 +5,9 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
+#include <numeric>
 #include <opencv2/imgproc.hpp>
+#include <optional>
 #include <utility>
 
 namespace ols::detector {
@@ -60,8 +62,16 @@ class Ring {
     for (std::size_t i = 0; i < count_; ++i) values_[i] = std::abs(values_[i] - median_);
   }
   int median() const { return median_; }
-  double noise() { return std::max(kFloor, 1.4826 * order(0.5)); }
   double clutter() { return order(0.95); }
+  // Of the lower three quarters of the deviations. Their median would be a whole grey level: a
+  // noise of 1 and one of 2 could not be told apart.
+  double noise() {
+    constexpr double kShare = 0.75, kNormal = 1.943;  // by the mean of |z| below its 75 %
+    order(kShare);
+    const auto end = values_.begin() + static_cast<std::ptrdiff_t>(kShare * (count_ - 1.0)) + 1;
+    const double sum = std::accumulate(values_.begin(), end, 0.0);
+    return std::max(kFloor, kNormal * sum / static_cast<double>(end - values_.begin()));
+  }
 
  private:
   int order(double share) {
@@ -74,27 +84,48 @@ class Ring {
   int median_ = 0;
 };
 
-// Centre and size of what is inside the ring beyond two fifths of the peak, pixels of the level.
+// Centre and size of a spot, pixels of the level.
 struct Extent {
   Eigen::Vector2d centre, size;
 };
-Extent extent_of(const cv::Mat& level, const cv::Point& at, double surroundings, double peak) {
+
+// The connected pixels beyond two fifths of the peak. Empty where they reach the ring's outer edge:
+// the end of a branch or a mast hangs on what is larger.
+std::optional<Extent> island_at(const cv::Mat& level, const cv::Point& at, double surroundings,
+                                double peak) {
+  const cv::Rect inside({}, level.size());
+  cv::Mat_<std::uint8_t> visited = cv::Mat_<std::uint8_t>::zeros(2 * kReach + 1, 2 * kReach + 1);
+  std::vector<cv::Point> border;  // relative to `at`
   double weights = 0.0;
   Eigen::Vector2d first = Eigen::Vector2d::Zero();
   cv::Rect bounds;
-  for (int y = std::max(0, at.y - kInside - 1); y <= std::min(level.rows - 1, at.y + kInside + 1);
-       ++y) {
-    for (int x = std::max(0, at.x - kInside - 1); x <= std::min(level.cols - 1, at.x + kInside + 1);
-         ++x) {
-      const double value = (level.at<std::uint8_t>(y, x) - surroundings) / peak;
-      if (value < 0.4) continue;
-      weights += value;
-      first += value * Eigen::Vector2d(x, y);
-      bounds |= cv::Rect(x, y, 1, 1);
+  const auto visit = [&](const cv::Point& off) {
+    if (!inside.contains(at + off)) return;
+    std::uint8_t& mark = visited(off.y + kReach, off.x + kReach);
+    if (mark != 0) return;
+    mark = 1;
+    const double value = (level.at<std::uint8_t>(at + off) - surroundings) / peak;
+    if (value < 0.4) return;
+    weights += value;
+    first += value * Eigen::Vector2d(off.x, off.y);
+    bounds |= cv::Rect(at + off, cv::Size(1, 1));
+    border.push_back(off);
+  };
+  const auto visit_around = [&](const cv::Point& off) {
+    for (int y = -1; y <= 1; ++y) {
+      for (int x = -1; x <= 1; ++x) visit(off + cv::Point(x, y));
     }
+  };
+  visit_around({0, 0});
+  while (!border.empty()) {
+    const cv::Point off = border.back();
+    border.pop_back();
+    if (std::max(std::abs(off.x), std::abs(off.y)) == kReach) return std::nullopt;
+    visit_around(off);
   }
-  if (weights <= 0.0) return {Eigen::Vector2d(at.x, at.y), Eigen::Vector2d(1.0, 1.0)};
-  return {first / weights, Eigen::Vector2d(bounds.width, bounds.height)};
+  if (weights <= 0.0) return std::nullopt;
+  return Extent{Eigen::Vector2d(at.x, at.y) + first / weights,
+                Eigen::Vector2d(bounds.width, bounds.height)};
 }
 
 // Whether one pixel of the full image has most of a spot's light. Optics spread that of an object
@@ -195,16 +226,17 @@ void SpotFinder::find_in(const cv::Mat& gray, const cv::Mat& level, int reductio
       const double height = std::abs(peak);
       if (height < config_.least_levels || height < config_.threshold_sd * ring.noise()) continue;
       if (ring.clutter() > config_.most_clutter * height) continue;
-      const Extent extent = extent_of(level, {x, y}, ring.median(), peak);
+      const std::optional<Extent> extent = island_at(level, {x, y}, ring.median(), peak);
+      if (!extent) continue;
       const double usual =
           usual_.at<std::uint16_t>(y * usual_.rows / level.rows, x * usual_.cols / level.cols);
       const double noise = std::max(kFloor * kUnits, 1.4826 * usual);
       // Pixel centres: full = (reduced + 0.5) * reduction - 0.5.
-      const Eigen::Vector2d centre = (extent.centre.array() + 0.5) * reduction - 0.5;
+      const Eigen::Vector2d centre = (extent->centre.array() + 0.5) * reduction - 0.5;
       const double light = peak * 9.0 * reduction * reduction;
       const bool clear =
           here[x] > config_.threshold_sd * noise && !lone_pixel(gray, centre, ring.median(), light);
-      spots.push_back({centre, extent.size * reduction, height / ring.noise(), peak > 0.0,
+      spots.push_back({centre, extent->size * reduction, height / ring.noise(), peak > 0.0,
                        Evidence::kSpot, clear});
     }
   }

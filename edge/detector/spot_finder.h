@@ -11,7 +11,7 @@
 namespace ols::detector {
 
 struct SpotConfig {
-  double threshold_sd = 6.0;  // of the peak, in standard deviations of the ring around it
+  double threshold_sd = 5.0;  // of the peak, in standard deviations of the ring around it
   double least_levels = 2.0;  // [grey levels] minimum peak
   double most_clutter = 0.5;  // of the ring's deviations (their 95 %), as a part of the peak
   int levels = 5;             // of the pyramid: each finds spots of twice the size

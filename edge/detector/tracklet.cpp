@@ -22,11 +22,18 @@ Tracklet::Tracklet(long id, const Detection& detection, double image_width_px)
       rest_(detection.pixel),
       first_pixel_(detection.pixel),
       acceleration_px_s2_(0.4 * image_width_px),
-      signal_to_noise_(detection.signal_to_noise) {
+      signal_to_noise_(detection.signal_to_noise),
+      brighter_(detection.brighter) {
+  begin_motion(detection, image_width_px);
+  clear_ = detection.clear ? 1 : 0;
+}
+
+void Tracklet::begin_motion(const Detection& detection, double image_width_px) {
   const double speed_px_s = 0.25 * image_width_px;
   const double sd_px = detection.sd_px();
+  pixel_ = detection.pixel;
+  velocity_px_s_.setZero();
   covariance_ << sd_px * sd_px, 0.0, 0.0, speed_px_s * speed_px_s;
-  clear_ = detection.clear ? 1 : 0;
 }
 
 void Tracklet::predict(const Eigen::Matrix3d& motion, double interval_s) {
@@ -88,6 +95,21 @@ void Tracklet::update(const Detection& detection) {
   pixel_ += gain(0) * off;
   velocity_px_s_ += gain(1) * off;
   covariance_ -= gain * covariance_.row(0).eval();
+  count(detection);
+}
+
+void Tracklet::leap(const Detection& detection, double image_width_px) {
+  begin_motion(detection, image_width_px);
+  count(detection);
+}
+
+bool Tracklet::resembles(const Detection& detection) const {
+  constexpr double kMost = 4.0;  // of the areas' ratio
+  const double ratio = std::max(1.0, detection.size_px.prod()) / std::max(1.0, size_px_.prod());
+  return detection.brighter == brighter_ && ratio < kMost && ratio > 1.0 / kMost;
+}
+
+void Tracklet::count(const Detection& detection) {
   size_px_ += kLearning * (detection.size_px - size_px_);
   signal_to_noise_ += kLearning * (detection.signal_to_noise - signal_to_noise_);
   ++detections_;

@@ -15,8 +15,12 @@ class Tracklet {
   // To the next image; `motion` maps the previous image's pixels to its.
   void predict(const Eigen::Matrix3d& motion, double interval_s);
   void update(const Detection& detection);
+  // Found again where the prediction does not lead: position and velocity begin anew.
+  void leap(const Detection& detection, double image_width_px);
   void miss() { seen_ = false; }
 
+  // Of the same polarity and about the same size.
+  bool resembles(const Detection& detection) const;
   // Squared distance in standard deviations, and the density of that deviation [1/px^2].
   double distance(const Detection& detection) const;
   double density(const Detection& detection) const;
@@ -51,6 +55,8 @@ class Tracklet {
   void forget_way();
 
  private:
+  void begin_motion(const Detection& detection, double image_width_px);
+  void count(const Detection& detection);
   void measure_way(double interval_s);
   double innovation_variance(const Detection& detection) const;
 
@@ -65,6 +71,7 @@ class Tracklet {
   Eigen::Matrix2d covariance_;              // of position and velocity, each axis
   double acceleration_px_s2_;               // standard deviation
   double signal_to_noise_;
+  bool brighter_;
   double log_ratio_ = 0.0, unseen_s_ = 0.0, age_s_ = 0.0;
   int detections_ = 1, clear_ = 0;
   bool confirmed_ = false, confirmed_clear_ = false, seen_ = true, rests_ = false;

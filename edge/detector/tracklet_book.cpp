@@ -43,6 +43,25 @@ std::vector<int> TrackletBook::assign(const std::vector<Detection>& detections) 
   return assigned;
 }
 
+// A shaken camera, or one whose motion is not known, throws a target out of its prediction. Before
+// a clear sky there is nothing to mistake it for: a confirmed object goes on at the only spot
+// nearby that nobody else claims, if it looks alike.
+void TrackletBook::leap(const std::vector<Detection>& detections, std::vector<bool>& taken) {
+  constexpr double kReach = 0.05;  // of the image's width, for an image
+  for (Tracklet& tracklet : tracklets_) {
+    if (tracklet.seen() || !tracklet.confirmed_clear()) continue;
+    const double reach_px = kReach * image_.width;
+    std::vector<std::size_t> near_by;
+    for (std::size_t j = 0; j < detections.size(); ++j) {
+      if (taken[j] || !detections[j].clear) continue;
+      if ((detections[j].pixel - tracklet.pixel()).norm() < reach_px) near_by.push_back(j);
+    }
+    if (near_by.size() != 1 || !tracklet.resembles(detections[near_by[0]])) continue;
+    taken[near_by[0]] = true;
+    tracklet.leap(detections[near_by[0]], image_.width);
+  }
+}
+
 // By Wald: of the tracklets of clutter, at most exp(-bound) pass. As many begin in a tile as the
 // clutter map says, and each tile has the same share of the false ones that are allowed.
 double TrackletBook::needed(const Tracklet& tracklet) const {
@@ -121,6 +140,7 @@ void TrackletBook::advance(const std::vector<Detection>& detections,
     tracklet.update(detections[index]);
     judge(tracklet);
   }
+  leap(detections, taken);
   std::erase_if(tracklets_, [this](const Tracklet& tracklet) { return hopeless(tracklet); });
   for (std::size_t j = 0; j < detections.size(); ++j) {
     if (taken[j]) continue;

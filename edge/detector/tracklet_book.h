@@ -32,6 +32,7 @@ class TrackletBook {
 
  private:
   std::vector<int> assign(const std::vector<Detection>& detections) const;
+  void leap(const std::vector<Detection>& detections, std::vector<bool>& taken);
   void weigh_hit(Tracklet& tracklet, const Detection& detection);
   void weigh_miss(Tracklet& tracklet);
   // Of the sequential test in this tile [log].

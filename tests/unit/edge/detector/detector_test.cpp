@@ -29,9 +29,14 @@ using Scene = std::function<cv::Mat(int)>;
 // A detector that has looked at a scene through a noisy camera for `images` images.
 class Watch {
  public:
-  explicit Watch(const Scene& scene, int images = kImages, const Eigen::Vector2d& shift = {0, 0}) {
-    Eigen::Matrix3d motion = Eigen::Matrix3d::Identity();
-    motion.topRightCorner<2, 1>() = shift;
+  // `shift`: what the mount says that the camera's turn moves the scene by in an image.
+  explicit Watch(const Scene& scene, int images = kImages,
+                 const std::optional<Eigen::Vector2d>& shift = Eigen::Vector2d(0.0, 0.0)) {
+    std::optional<Eigen::Matrix3d> motion;
+    if (shift) {
+      motion = Eigen::Matrix3d::Identity();
+      motion->topRightCorner<2, 1>() = *shift;
+    }
     for (int i = 0; i < images; ++i) {
       cv::Mat picture = scene(i), noise(kSize, CV_32F), gray;
       random_.fill(noise, cv::RNG::NORMAL, 0.0, kNoise);
@@ -154,6 +159,29 @@ TEST(Detector, EdgeOfACloudIsNoObject) {
     return image;
   });
   EXPECT_EQ(watch.confirmed(), 0U);
+}
+
+TEST(Detector, EndOfABranchIsNoObject) {
+  const Watch watch([](int) {
+    cv::Mat image = sky();
+    cv::line(image, {150, 239}, {150, 100}, cv::Scalar(200.0), 3);
+    cv::line(image, {60, 239}, {90, 130}, cv::Scalar(60.0), 2);
+    return image;
+  });
+  EXPECT_EQ(watch.confirmed(), 0U);
+}
+
+// Nothing but its own corners could tell how the camera moved.
+TEST(Detector, OnlyThingBeforeTheSkyDoesNotCarryTheSceneAlong) {
+  const Watch watch(
+      [](int i) {
+        cv::Mat image = sky();
+        add(image, {60 + i, 100, 5, 4}, 80.0);
+        add(image, {61 + i, 101, 2, 1}, 50.0);
+        return image;
+      },
+      90, std::nullopt);
+  expect_at(watch.only(), 62 + 89, 101.5);
 }
 
 TEST(Detector, DefectOfTheSensorIsNoObject) {

@@ -81,6 +81,17 @@ TEST(TrackletBook, KeepsTheIdentityOfWhatItCannotSeeForAMoment) {
   EXPECT_EQ(book.tracklets()[0].id(), 1);
 }
 
+TEST(TrackletBook, ShakenCameraDoesNotEndAnObjectBeforeTheSky) {
+  TrackletBook book(TrackletConfig{}, kView);
+  double x = 300.0;
+  for (int image = 0; image < 90; ++image) {
+    if (image > 30 && image % 10 == 0) x += image % 20 == 0 ? 25.0 : -25.0;
+    book.advance({clear_spot(x, 200.0)}, kStill, kTick_s);
+  }
+  ASSERT_EQ(book.tracklets().size(), 1U);
+  EXPECT_EQ(book.tracklets()[0].id(), 1);
+}
+
 TEST(TrackletBook, BeforeTheGroundOnlyWhatTravelsIsConfirmed) {
   for (const double step_px : {0.0, 2.0}) {
     TrackletBook book(TrackletConfig{}, kView);
