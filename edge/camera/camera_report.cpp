@@ -12,7 +12,8 @@ namespace ols::camera {
 namespace {
 
 constexpr double kSilence_s = 0.5;  // or three frame periods: a fault
-// A busy computer leaves out some frames: an alarm is what lasts longer.
+// A busy computer leaves out some frames: an alarm is what lasts longer, or makes the camera be
+// opened again.
 constexpr double kAlarmingSilence_s = 1.5;
 constexpr double kMuchLight = 1.3;  // factor
 
@@ -62,7 +63,8 @@ std::optional<double> silence_s(const CameraConfig& config, const CameraFacts& f
 
 void add_alarms(const CameraConfig& config, const CameraFacts& facts, double now_s,
                 std::vector<std::string>& alarms) {
-  const auto silent_s = silence_s(config, facts, now_s, kAlarmingSilence_s);
+  const bool is_open = facts.state == CameraState::kStreaming;
+  const auto silent_s = silence_s(config, facts, now_s, is_open ? kAlarmingSilence_s : kSilence_s);
   if (!facts.fault.empty()) alarms.push_back(facts.fault);
   if (silent_s) {
     const bool waits = !is_timed(config.trigger) && facts.state != CameraState::kAbsent;

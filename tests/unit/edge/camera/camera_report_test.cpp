@@ -60,6 +60,9 @@ TEST(CameraReport, SilenceIsAFaultWithinASecondAndAnAlarmIfItLasts) {
   lost.last_error = "camera: lost: no frame arrives";
   const device::DeviceReport later = make_camera_report(CameraConfig{}, lost, 99.95 + 2.1);
   EXPECT_THAT(later.alarms, ElementsAre("camera: no frames for 2.1 s"));
+  EXPECT_THAT(make_camera_report(CameraConfig{}, lost, 99.95 + 1.2).alarms,
+              ElementsAre("camera: no frames for 1.2 s"))
+      << "the same alarm from the moment when it is given up";
   EXPECT_EQ(later.state, device::DeviceState::kAbsent);
   EXPECT_EQ(later.text, "lost: no frame arrives");
 }
