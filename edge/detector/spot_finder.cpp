@@ -220,26 +220,35 @@ void SpotFinder::find_in(const cv::Mat& gray, const cv::Mat& level, int reductio
     const auto* nearby = greatest_.ptr<std::uint16_t>(y);
     for (int x = kMargin; x < level.cols - kMargin; ++x) {
       if (here[x] < least || here[x] < nearby[x]) continue;
-      if (!stands_out(level, {x, y}, small_sum_.at<std::uint16_t>(y, x) / 9)) continue;
-      Ring ring(level, {x, y});
-      const double peak = small_sum_.at<std::uint16_t>(y, x) / 9.0 - ring.median();
-      const double height = std::abs(peak);
-      if (height < config_.least_levels || height < config_.threshold_sd * ring.noise()) continue;
-      if (ring.clutter() > config_.most_clutter * height) continue;
-      const std::optional<Extent> extent = island_at(level, {x, y}, ring.median(), peak);
-      if (!extent) continue;
-      const double usual =
-          usual_.at<std::uint16_t>(y * usual_.rows / level.rows, x * usual_.cols / level.cols);
-      const double noise = std::max(kFloor * kUnits, 1.4826 * usual);
-      // Pixel centres: full = (reduced + 0.5) * reduction - 0.5.
-      const Eigen::Vector2d centre = (extent->centre.array() + 0.5) * reduction - 0.5;
-      const double light = peak * 9.0 * reduction * reduction;
-      const bool clear =
-          here[x] > config_.threshold_sd * noise && !lone_pixel(gray, centre, ring.median(), light);
-      spots.push_back({centre, extent->size * reduction, height / ring.noise(), peak > 0.0,
-                       Evidence::kSpot, clear});
+      if (auto spot = spot_at(gray, level, {x, y}, reduction)) spots.push_back(*spot);
     }
   }
+}
+
+std::optional<Detection> SpotFinder::spot_at(const cv::Mat& gray, const cv::Mat& level,
+                                             const cv::Point& at, int reduction) const {
+  const int sum = small_sum_.at<std::uint16_t>(at);
+  if (!stands_out(level, at, sum / 9)) return std::nullopt;
+  Ring ring(level, at);
+  const double peak = sum / 9.0 - ring.median();
+  const double height = std::abs(peak), noise = ring.noise();
+  if (height < config_.least_levels || height < config_.threshold_sd * noise) return std::nullopt;
+  if (ring.clutter() > config_.most_clutter * height) return std::nullopt;
+  const std::optional<Extent> extent = island_at(level, at, ring.median(), peak);
+  if (!extent) return std::nullopt;
+  // Pixel centres: full = (reduced + 0.5) * reduction - 0.5.
+  const Eigen::Vector2d centre = (extent->centre.array() + 0.5) * reduction - 0.5;
+  const double light = peak * 9.0 * reduction * reduction;
+  const bool clear = exceeds_surroundings(at) && !lone_pixel(gray, centre, ring.median(), light);
+  return Detection{centre,     extent->size * reduction, height / noise,
+                   peak > 0.0, Evidence::kSpot,          clear};
+}
+
+bool SpotFinder::exceeds_surroundings(const cv::Point& at) const {
+  const double usual = usual_.at<std::uint16_t>(at.y * usual_.rows / residual_.rows,
+                                                at.x * usual_.cols / residual_.cols);
+  const double noise = std::max(kFloor * kUnits, 1.4826 * usual);
+  return residual_.at<std::uint16_t>(at) > config_.threshold_sd * noise;
 }
 
 std::vector<Detection> SpotFinder::find(const cv::Mat& gray) {

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <opencv2/core.hpp>
+#include <optional>
 #include <vector>
 
 #include "edge/detector/detection.h"
@@ -31,6 +32,9 @@ class SpotFinder {
  private:
   void find_in(const cv::Mat& gray, const cv::Mat& level, int reduction,
                std::vector<Detection>& spots);
+  std::optional<Detection> spot_at(const cv::Mat& gray, const cv::Mat& level, const cv::Point& at,
+                                   int reduction) const;
+  bool exceeds_surroundings(const cv::Point& at) const;
   void residual(const cv::Mat& level);
   void measure_surroundings();
 

@@ -133,7 +133,7 @@ TEST(Detector, BrightOneDoesNotHideItsNeighbour) {
   const Watch watch([](int) {
     cv::Mat image = sky();
     add(image, {100, 80, 4, 4}, 130.0);
-    add(image, {114, 80, 3, 3}, 25.0);
+    add(image, {109, 80, 3, 3}, 25.0);
     return image;
   });
   EXPECT_EQ(watch.confirmed(), 2U);
