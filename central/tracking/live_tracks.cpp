@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <string>
 #include <utility>
 
 #include "central/measurement/time_span.h"
@@ -73,7 +75,9 @@ std::vector<Association> LiveTracks::add(std::span<const BearingMeasurement> ima
                                          bool may_begin) {
   std::vector<std::optional<Association>> fates(image.size());
   give(image, true, fates);
+  const auto of_targets = fates;
   give(image, false, fates);
+  note_clutter(image, of_targets, fates);
   std::vector<Association> all;
   for (std::size_t i = 0; i < image.size(); ++i)
     all.push_back(fates[i] ? *fates[i] : give_up(image[i], may_begin));
@@ -114,6 +118,22 @@ void LiveTracks::give(std::span<const BearingMeasurement> image, bool confirmed,
     const auto chosen =
         std::ranges::find(near[i], static_cast<std::size_t>(column), &Candidate::track);
     fates[i] = give_to(tracks_[chosen->track], image[i], &chosen->seen);
+  }
+}
+
+void LiveTracks::note_clutter(std::span<const BearingMeasurement> image,
+                              std::span<const std::optional<Association>> of_targets,
+                              std::span<const std::optional<Association>> of_any) {
+  for (std::size_t i = 0; i < image.size(); ++i) {
+    const BearingMeasurement& m = image[i];
+    if (!m.is_tracklet) continue;
+    if (of_targets[i] && of_targets[i]->kind == Association::Kind::kTrack) {
+      clutter_.claimed(m);
+    } else if (of_any[i]) {
+      clutter_.undecided(m);
+    } else if (!takes(m, m.utime_us, Activity::kFollowsS)) {
+      clutter_.unclaimed(m);
+    }
   }
 }
 
@@ -215,9 +235,24 @@ bool LiveTracks::has_rival(const Track& track) const {
   return rivals_of(first, second) || rivals_of(second, first);
 }
 
+// Whether that happens oftener than may be published, with as long an agreement as theirs.
+bool LiveTracks::may_agree_by_chance(const Track& track) const {
+  if (!track.existence.is_judged()) return false;
+  std::vector<std::pair<int, std::string>> most;  // a third one may have a bearing by chance, too
+  for (const auto& [name, count] : track.hits) most.emplace_back(count, name);
+  std::ranges::sort(most, std::greater<>());
+  if (most.size() < 2) return false;
+  const bool is_a_pair = most.size() == 2 || most[2].first < config_.confirm_hits;
+  const double agreed_s = seconds(track.filter.utime_us() - track.initiated_us);
+  return is_a_pair &&
+         clutter_.pairs_a_day(most[0].second, most[1].second,
+                              std::max(agreed_s, config_.confirm_s)) > most_of_a_pair();
+}
+
 bool LiveTracks::is_ambiguous() const {
   return std::ranges::any_of(tracks_, [&](const Track& track) {
-    return track.state == TrackState::kTentative && has_rival(track);
+    return track.state == TrackState::kTentative &&
+           (has_rival(track) || may_agree_by_chance(track));
   });
 }
 
@@ -232,7 +267,7 @@ bool LiveTracks::is_worth_confirming(const Track& track) const {
   if (stations >= config_.confirm_stations) return true;
   return of_a_pair >= 2 &&
          seconds(track.filter.utime_us() - track.initiated_us) >= config_.confirm_s &&
-         !has_rival(track);
+         !has_rival(track) && !may_agree_by_chance(track);
 }
 
 bool LiveTracks::is_tentative_lost(double unseen_s) const {
@@ -278,6 +313,7 @@ void LiveTracks::merge(std::int64_t older, std::int64_t younger) {
 void LiveTracks::clear() {
   clear_tracks();
   duplicates_ = DuplicateTracks(config_.duplicates);
+  clutter_ = {};
   merged_.clear();
 }
 

@@ -11,8 +11,8 @@
 //  - tentative -> confirmed: three stations have given two bearings each, or two stations five each
 //    for confirm_s; the track explains most of their bearings; and it has a position.
 //  - A track of tracklets is not confirmed while it may be a ghost: its existence is judged by the
-//    images of detectors (existence.h), and two stations alone may pair their objects in several
-//    ways. A tracklet that a target has belongs to no other.
+//    images of detectors (existence.h), two stations alone may pair their objects in several ways,
+//    and may agree by chance (clutter.h). A tracklet that a target has belongs to no other.
 //  - tentative -> deleted: no two stations have seen it for tentative_delete_s, or it is a
 //    duplicate.
 //  - coasting -> deleted: no two stations have seen it for drop_s; or for coast_s, if one station
@@ -29,6 +29,7 @@
 #include <utility>
 #include <vector>
 
+#include "central/tracking/clutter.h"
 #include "central/tracking/duplicate_tracks.h"
 #include "central/tracking/track_manager.h"
 
@@ -68,6 +69,13 @@ class LiveTracks : public TrackManager {
   void judge_existence(std::span<const BearingMeasurement> image);
   bool should_show(const BearingMeasurement& in_image, const Track& track) const;
   bool has_rival(const Track& track) const;
+  void note_clutter(std::span<const BearingMeasurement> image,
+                    std::span<const std::optional<Association>> of_targets,
+                    std::span<const std::optional<Association>> of_any);
+  bool may_agree_by_chance(const Track& track) const;
+  double most_of_a_pair() const {
+    return config_.chance_pairs_a_day / clutter_.pairs_of_stations();
+  }
   void note_duplicates(const BearingMeasurement& measurement, const std::vector<Candidate>& near);
   Association initiate(const BearingMeasurement& measurement);
   void merge(std::int64_t older, std::int64_t younger);
@@ -80,6 +88,7 @@ class LiveTracks : public TrackManager {
 
   DuplicateTracks duplicates_;
   StationViews views_;
+  Clutter clutter_;
   Merged merged_;
 };
 

@@ -31,6 +31,7 @@ struct TrackManagerConfig {
   int confirm_hits = 2;       // of each of them
   int confirm_pair_hits = 5;  // of each of two, if only two see it
   double confirm_s = 0.7;
+  double chance_pairs_a_day = 1.0;  // max expected number of ghosts of two stations
   double tentative_delete_s = 0.4;
   double coast_s = 0.5;
   double drop_s = Activity::kSupportsS;

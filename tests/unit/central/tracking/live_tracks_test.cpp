@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <set>
 #include <span>
 
 #include "dev/estimators/bearing_world.h"
@@ -182,6 +183,44 @@ TEST(LiveTracks, MissesDelayTheConfirmationAndCountOnlyWhileTwoOthersSeeTheTarge
     return is_established(track) && test::site().to_enu(track.filter.position()).z() < 400.0;
   };
   EXPECT_EQ(std::ranges::count_if(live.tracks(), low), 1) << "one station alone still sees it";
+}
+
+// Five minutes of four stations that have clutter: when the confirmed tracks began that were more
+// than 20 m from the object, and whether it was found.
+struct Found {
+  std::set<std::int64_t> ghosts;
+  bool target = false;
+};
+Found found_in_clutter(double chance_pairs_a_day) {
+  constexpr double kEndS = 300.0;
+  bench::WorldConfig world{.stations_enu = test::square(), .aims_enu = {}};
+  world.tracklets = true;
+  world.rate_hz = 10.0;
+  world.false_per_frame = 2.0;
+  std::mt19937_64 random(5);
+  const bench::Path path = bench::cruising({{-60, 80, 90}, {1.0, 0.0, 0.0}}, 0.05, kEndS, random);
+  LiveTracks live{TrackManagerConfig{.chance_pairs_a_day = chance_pairs_a_day}};
+  Found found;
+  for (const BearingMeasurement& m : bench::measure(world, {path}, kEndS, random)) {
+    live.add(m);
+    live.advance(m.utime_us);
+    const double time_s = 1e-6 * static_cast<double>(m.utime_us - bench::kStartUs);
+    for (const Track& track : live.tracks()) {
+      if (!is_established(track)) continue;
+      const Eigen::Vector3d there = test::site().to_enu(track.filter.position());
+      const bool is_it = (there - bench::at(path, time_s).p_enu).norm() < 20.0;
+      if (!is_it) found.ghosts.insert(track.initiated_us);
+      found.target = found.target || is_it;
+    }
+  }
+  return found;
+}
+
+TEST(LiveTracks, AgreementOfTwoStationsByChanceIsNoTarget) {
+  EXPECT_GE(found_in_clutter(1e9).ghosts.size(), 1U) << "else this shows nothing";
+  const Found found = found_in_clutter(TrackManagerConfig{}.chance_pairs_a_day);
+  EXPECT_EQ(found.ghosts.size(), 0U);
+  EXPECT_TRUE(found.target) << "the delay ends";
 }
 
 }  // namespace
