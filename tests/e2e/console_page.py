@@ -60,6 +60,20 @@ def picture(page, station):
     return canvas
 
 
+def enlarge(page, station):
+    """The station's picture, large. A click while the page is being laid out may hit nothing."""
+    shown = picture(page, station)
+    large = shown.locator("xpath=ancestor::*[@class='cell large']")
+
+    def click():
+        shown.click()
+        with contextlib.suppress(AssertionError):  # one on a large picture is an order
+            expect(large).to_have_count(1, timeout=5000)
+
+    wait(large.count, f"{station} is large", turn=click)
+    return shown
+
+
 def leave_unanswered(page, path):
     """Requests for the path are never answered. Chromium says so a little before it is true of what
     the page asks next, so a request of this function's own has to be caught first."""

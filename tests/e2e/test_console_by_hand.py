@@ -6,7 +6,7 @@ import time
 
 import pytest
 from conftest import wait
-from console_page import axe_finds, drag, picture, place, region
+from console_page import axe_finds, drag, enlarge, picture, place, region
 from console_site import DEADLINE_S, FULL_PX, PASSWORD, add_user, address_of, console_command
 from ols_demo.site import Site
 from playwright.sync_api import expect
@@ -166,8 +166,7 @@ def test_the_wheel_moves_a_motorised_lens(page, overview):
 
 
 def test_plus_zooms_the_lens_while_it_is_held(page, overview):
-    picture(page, "charlie").click()
-    canvas = picture(page, "charlie")
+    canvas = enlarge(page, "charlie")
     canvas.focus()
     page.keyboard.down("+")
     wait(lambda: len(overview.lens_commands) > 2, "rates that are renewed")

@@ -8,7 +8,7 @@ import numpy as np
 import ols
 import pytest
 from conftest import wait
-from console_page import picture
+from console_page import enlarge, picture
 from console_site import FULL_PX, PLACES, TARGET, paper_site
 from ols_bench.paper_video import PaperCamera, PaperVideo
 from ols_demo.places import geodetic
@@ -107,7 +107,7 @@ def test_targets_and_stations_are_where_the_camera_sees_them(page):
         ),
         "bravo in alfa's picture, and no target there",
     )
-    picture(page, "charlie").click()
+    enlarge(page, "charlie")
     wait(lambda: has("charlie", is_target, *middle), "the target in charlie's picture")
 
 
@@ -118,7 +118,7 @@ def test_the_caption_says_where_the_axis_of_this_picture_pointed(page):
 
 
 def test_the_cross_is_where_the_axis_meets_the_picture(page):
-    picture(page, "bravo").click()
+    enlarge(page, "bravo")
 
     def is_cross(x, y):
         around = pixels(page, "bravo", x - 20, y - 20, 40, 40).astype(int).min(axis=2)

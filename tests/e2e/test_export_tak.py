@@ -184,8 +184,9 @@ def test_a_receiver_that_stops_reading_costs_nobody_else(tmp_path):
         wait(fills, "the receiver that does not read is given up", 120.0)
         assert max(len(sent[taken]) for taken in sent if taken) > 1, "the other one waits for it"
         assert exporter.output("deaf")["displaced"] > 0
-        # Little waits in the system's buffers, where it would grow old.
-        assert exporter.output("deaf")["bytes"] < 1_000_000
+        # Little waits in the system's buffers, where it would grow old. On a busy machine it has
+        # been given up several times until then.
+        assert exporter.output("deaf")["bytes"] < 500_000 * len(deaf.connections)
         assert exporter.output("other")["trouble"] == ""
 
 
