@@ -178,13 +178,13 @@ void Console::act(std::uint64_t id, const AnswerRequest& request, const Now& now
 
 void Console::act(std::uint64_t id, const CueRequest& request, const Now& now) {
   const Viewer& viewer = viewers_.at(id);
-  const auto& [cue, allow, unnumbered] = request.order;
+  const bool allow = request.order.allow;
   const bool is_too_late = allow && is_late(request.heard_utime_us, now, kLateCommand_us);
   const std::string refusal = is_replay()   ? kReplay
                               : is_too_late ? kTooLate
                                             : cues_.refusal(viewer.role, bus_trouble_);
   if (!refusal.empty()) return answer(id, request.number, "", refusal);
-  const std::string what = (allow ? "allows cue " : "forbids cue ") + cue;
+  const std::string what = (allow ? "allows cue " : "forbids cue ") + request.order.cue;
   const auto event = site_.note({now.utime_us, "command", "", viewer.name, what, "sent"});
   cues_.give(request.order, {id, request.number, event}, now.monotonic_s);
 }

@@ -237,16 +237,15 @@ bool LiveTracks::has_rival(const Track& track) const {
 
 // Whether that happens oftener than may be published, with as long an agreement as theirs.
 bool LiveTracks::may_agree_by_chance(const Track& track) const {
-  if (!track.existence.is_judged()) return false;
+  const double agreed_s = seconds(track.filter.utime_us() - track.initiated_us);
+  if (!track.existence.is_judged() || agreed_s < config_.confirm_s) return false;
   std::vector<std::pair<int, std::string>> most;  // a third one may have a bearing by chance, too
   for (const auto& [name, count] : track.hits) most.emplace_back(count, name);
   std::ranges::sort(most, std::greater<>());
   if (most.size() < 2) return false;
   const bool is_a_pair = most.size() == 2 || most[2].first < config_.confirm_hits;
-  const double agreed_s = seconds(track.filter.utime_us() - track.initiated_us);
   return is_a_pair &&
-         clutter_.pairs_a_day(most[0].second, most[1].second,
-                              std::max(agreed_s, config_.confirm_s)) > most_of_a_pair();
+         clutter_.pairs_a_day(most[0].second, most[1].second, agreed_s) > most_of_a_pair();
 }
 
 bool LiveTracks::is_ambiguous() const {

@@ -37,7 +37,7 @@ constexpr const char* kFusion = "fusion";
 constexpr std::size_t kStations = 4;
 constexpr std::int64_t kBoot = 100;
 
-// A member of the site whose keys are in a folder: the fusion, or a station
+// A member of the site whose keys are in a folder: the fusion, or a station.
 std::shared_ptr<trust::BusTrust> member(const std::string& keys, const std::string& name) {
   trust::Self self;
   self.name = name;

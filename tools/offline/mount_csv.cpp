@@ -2,14 +2,12 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <numbers>
 
 #include "base/files/csv_rows.h"
+#include "geometry/angles.h"
 
 namespace ols::offline {
 namespace {
-
-constexpr double kRad = std::numbers::pi / 180.0;
 
 // Pixels to directions of the camera (x right, y down, z forward).
 Eigen::Matrix3d directions(double hfov_rad, const cv::Size& image) {
@@ -34,9 +32,9 @@ MountFile::MountFile(const std::string& path) {
   const csv::Header<4> header{{"frame", "azimuth_deg", "elevation_deg", "hfov_deg"}, 4};
   csv::for_each_row<4>(path, header, [this](const csv::Row<4>& row) {
     const auto frame = row.number<long>(0, 0, 1'000'000'000);
-    const Pointing pointing{row.number<double>(1, -360.0, 360.0) * kRad,
-                            row.number<double>(2, -90.0, 90.0) * kRad,
-                            row.number<double>(3, 0.001, 170.0) * kRad};
+    const Pointing pointing{radians(row.number<double>(1, -360.0, 360.0)),
+                            radians(row.number<double>(2, -90.0, 90.0)),
+                            radians(row.number<double>(3, 0.001, 170.0))};
     if (!pointings_.emplace(frame, pointing).second) row.fail(0, "the frame has a row already");
   });
 }
