@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "geometry/assignment.h"
 
 namespace ols::detector {
 namespace {
@@ -15,32 +18,20 @@ constexpr double kRejected = -2.5;  // [log] the test's lower bound
 TrackletBook::TrackletBook(const TrackletConfig& config, const cv::Size& image)
     : config_(config), clutter_(image), image_(image) {}
 
-// For each tracklet the index of its detection, -1: none. Confirmed ones choose first, then the
-// closest.
+// For each tracklet the index of its detection, -1: none. As many as possible get one, confirmed
+// ones before the others, and the nearest of these.
 std::vector<int> TrackletBook::assign(const std::vector<Detection>& detections) const {
-  struct Pair {
-    std::size_t tracklet, detection;
-    double cost;
-  };
-  std::vector<Pair> pairs;
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  Eigen::MatrixXd cost(tracklets_.size(), detections.size());
   for (std::size_t i = 0; i < tracklets_.size(); ++i) {
+    const double rank = tracklets_[i].confirmed() ? 0.0 : 2.0 * kGate;
     for (std::size_t j = 0; j < detections.size(); ++j) {
       const double distance = tracklets_[i].distance(detections[j]);
-      if (distance > kGate) continue;
-      const double rank = tracklets_[i].confirmed() ? 0.0 : 2.0 * kGate;
-      pairs.push_back({i, j, rank + distance});
+      cost(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
+          distance > kGate ? kNever : rank + distance;
     }
   }
-  std::stable_sort(pairs.begin(), pairs.end(),
-                   [](const Pair& a, const Pair& b) { return a.cost < b.cost; });
-  std::vector<int> assigned(tracklets_.size(), -1);
-  std::vector<bool> taken(detections.size(), false);
-  for (const Pair& pair : pairs) {
-    if (assigned[pair.tracklet] >= 0 || taken[pair.detection]) continue;
-    assigned[pair.tracklet] = static_cast<int>(pair.detection);
-    taken[pair.detection] = true;
-  }
-  return assigned;
+  return ols::assign(cost, 4.0 * kGate);
 }
 
 // A shaken camera, or one whose motion is not known, throws a target out of its prediction. Before

@@ -69,6 +69,19 @@ TEST(TrackletBook, ConfirmsWhatStaysThenLosesIt) {
   EXPECT_TRUE(book.tracklets().empty());
 }
 
+TEST(TrackletBook, AConfirmedObjectKeepsTheOnlyDetectionThoughAnotherIsNearer) {
+  TrackletBook book(TrackletConfig{}, kView);
+  for (int image = 0; image < 30; ++image) {
+    book.advance({clear_spot(100.0, 200.0)}, kStill, kTick_s);
+  }
+  ASSERT_EQ(confirmed(book), 1);
+  book.advance({clear_spot(100.0, 200.0), clear_spot(103.0, 200.0)}, kStill, kTick_s);
+  book.advance({clear_spot(101.7, 200.0)}, kStill, kTick_s);
+  for (const Tracklet& tracklet : book.tracklets()) {
+    EXPECT_EQ(tracklet.seen(), tracklet.confirmed()) << tracklet.pixel().x();
+  }
+}
+
 TEST(TrackletBook, KeepsTheIdentityOfWhatItCannotSeeForAMoment) {
   TrackletBook book(TrackletConfig{}, kView);
   for (int image = 0; image < 60; ++image) {
