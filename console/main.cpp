@@ -120,7 +120,13 @@ class RecordedSite : public Shown {
   RecordedSite(const Arguments& arguments, ols::console::Console& console)
       : replay_(arguments.replay, recorded_frames(arguments.frames), console) {}
 
-  void turn(const ols::console::Now& now) override { replay_.turn(now.monotonic_s); }
+  void turn(const ols::console::Now& now) override {
+    const bool was_read = replay_.is_read();
+    replay_.turn(now.monotonic_s);
+    if (replay_.is_read() && !was_read && !replay_.problem().empty()) {
+      spdlog::warn("replay: {}", replay_.problem());
+    }
+  }
   std::string in_one_line() const override { return replay_.in_one_line(); }
 
  private:

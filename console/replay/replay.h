@@ -23,6 +23,9 @@ class Replay {
   // Call often: reads, plays, carries out viewers' requests.
   void turn(double monotonic_s);
   std::string in_one_line() const;
+  bool is_read() const { return is_scanned_; }  // the whole log
+  // What is wrong with the log and the frames so far, in words for a person; empty: nothing.
+  std::string problem() const;
 
   static constexpr int kScannedAtOnce = 1500;  // messages per turn; each takes some 20 us
   static constexpr int kPlayedAtOnce = 1500;
@@ -44,7 +47,6 @@ class Replay {
   void show_frames();
   void tell();
   void tell_timeline();
-  std::string problem() const;
   // Processes the log up to an instant; false if there is more than for one turn.
   bool catch_up(Console& console, std::int64_t until_us);
 

@@ -17,7 +17,7 @@
 namespace ols::exports {
 namespace {
 
-constexpr int kKeepAlive_s = 10;
+constexpr int kKeepAlive_s = 5;  // the least that the library takes
 constexpr std::size_t kLongestPassword = 4096;
 
 std::string first_line(const std::string& path) {
@@ -186,7 +186,11 @@ void MqttLink::wait(int wake_fd, double seconds) {
       {{mosquitto_socket(client_->session), POLLIN, 0}, {wake_fd, POLLIN, 0}}};
   ::poll(ready.data(), ready.size(), static_cast<int>(1e3 * seconds));
   if (ready[0].revents != 0) check(take(), "read");
-  check(mosquitto_loop_misc(client_->session), "keep alive");
+  const int result = mosquitto_loop_misc(client_->session);
+  if (result == MOSQ_ERR_KEEPALIVE) {
+    throw LinkError(address_.host + ":" + std::to_string(address_.port) + ": does not answer");
+  }
+  check(result, "keep alive");
 }
 
 // Without a farewell that would keep the last will from being sent: "offline" is said by the

@@ -78,6 +78,13 @@ def test_programs_say_what_they_do_and_need_without_the_extra(program, tmp_path)
     assert "install ols[archive]" in done.stderr
 
 
+@pytest.mark.parametrize("package", ["pandas", "pyarrow"])
+def test_frames_name_the_extra_that_they_need(package):
+    code = f"import sys; sys.modules['{package}'] = None; import ols.frames"
+    done = run(sys.executable, "-c", code, PYTHONPATH=str(BUILT))
+    assert done.stderr.endswith("install ols[archive]\n"), done.stderr
+
+
 def test_its_help_lists_classes_and_type_checkers_know_them(wheel):
     code = "import ols, pydoc; print(pydoc.plain(pydoc.render_doc(ols)))"
     told = run(sys.executable, "-c", code, PYTHONPATH=str(BUILT)).stdout

@@ -35,11 +35,19 @@ def write_event(folder, utime_us):
     (event / "frames.csv").write_text("\n".join(rows) + "\n")
 
 
+def damage(log):
+    """Garbage before it, a cut-off end, and a target of another version."""
+    whole = log.read_bytes()
+    body = whole.index(b"OLS_TARGET") + len("OLS_TARGET")
+    log.write_bytes(b"garbage" + whole[:body] + bytes(8) + whole[body + 8 : -10])
+
+
 @pytest.fixture(scope="module")
 def replay(network, tmp_path_factory):
     """The address of a console that replays, and the log's first time."""
     folder = tmp_path_factory.mktemp("replay")
     start_us = PaperSite().write_log(folder / "run.lcmlog", SECONDS)
+    damage(folder / "run.lcmlog")
     write_event(folder / "events", start_us + 40_000_000)
     with Site(folder / "logs") as site:
         options = ("--frames", f"alfa={folder / 'events'}")
@@ -173,22 +181,13 @@ def test_all_of_it_can_be_read_in_two_languages(page):
     pause(page)
     go(page, SECONDS / 2)
     expect(page.locator(".stations .badge")).to_have_count(1)
+    expect(bar(page).get_by_role("alert")).to_contain_text("damaged, the first is byte 0; the end")
     assert found_at_each_size(page) == {}
     page.get_by_label("Language").select_option("de")
-    expect(page.get_by_role("region", name="Wiedergabe")).to_be_visible()
+    said = page.get_by_role("region", name="Wiedergabe").get_by_role("alert")
+    expect(said).to_contain_text("beschädigt, das erste ist Byte 0; das Ende ist abgeschnitten; 1 ")
+    expect(said).not_to_contain_text(re.compile("damaged|cut|another"))
     assert unreadable(page) == []
-
-
-def test_a_damaged_log_is_said_and_the_rest_shown(network, tmp_path):
-    PaperSite().write_log(tmp_path / "run.lcmlog", 5)
-    whole = (tmp_path / "run.lcmlog").read_bytes()
-    (tmp_path / "damaged.lcmlog").write_bytes(b"garbage" + whole[:-10])
-    with Site(tmp_path / "logs") as site:
-        site.start_and_wait("damaged", command(tmp_path / "damaged.lcmlog"), "ready")
-        api = Api(address_of(site, "damaged"))
-        state = wait(lambda: (s := api.state())["replay"]["read"] == 1 and s, "all of it")
-        assert "damaged, the first is byte 0; the end is cut off" in state["replay"]["problem"]
-        wait(lambda: len(api.state()["stations"]) == 3, "the stations")
 
 
 @pytest.mark.parametrize("content", [None, b"", b"a letter"])
@@ -202,9 +201,11 @@ def test_what_is_no_log_is_named(tmp_path, content):
 
 
 def test_the_demo_replays_its_log(network, tmp_path):
-    """tools/demo --console-only: the console alone, at the address that it prints."""
+    """tools/demo --console-only: the console alone, at the address that it prints. The terminal
+    says what the page says of a damaged log."""
     log = tmp_path / "run.lcmlog"
     PaperSite().write_log(log, 5)
+    damage(log)
     demo = [sys.executable, "-m", "ols_demo", "--console-only", str(log)]
     process = subprocess.Popen(
         [*demo, "--output", str(tmp_path / "out"), "--bin", str(BIN)],
@@ -215,6 +216,8 @@ def test_the_demo_replays_its_log(network, tmp_path):
     try:
         address = next(m[1] for line in process.stdout if (m := re.search(r"(http\S+)", line)))
         assert Api(address).state()["replay"]["file"] == "run.lcmlog"
+        warning = next(line for line in process.stdout if "[warning]" in line)
+        assert "byte 0; the end is cut off; 1 message is damaged or of another version" in warning
     finally:
         process.terminate()
         process.wait(DEADLINE_S)

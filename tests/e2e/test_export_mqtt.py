@@ -231,19 +231,24 @@ def test_a_broker_that_sends_rubbish_is_named_and_stops_nothing(tmp_path, broker
         assert exporter.output("home")["trouble"] == ""
 
 
-def test_a_broker_that_sends_what_nobody_asked_for_is_left(tmp_path, broker, subscriber):
-    """A message as long as MQTT has them: the library would keep all of it in memory."""
+def test_a_broker_that_sends_what_nobody_asked_for_or_nothing_is_left(tmp_path, broker, subscriber):
+    """A message as long as MQTT has them: the library would keep all of it in memory. One that does
+    not read does not answer pings."""
     longest = b"\x30\xff\xff\xff\x7f\x00\x01a"
     babblers = {
         "after": Babbler(b"\x20\x02\x00\x00" + longest + bytes(1 << 20)),
         "before": Babbler(longest + bytes(1 << 20)),
         "answer": Babbler(b"\x20\xff\xff\xff\x7f" + bytes(1 << 20)),
+        "silent": Babbler(b"\x20\x02\x00\x00"),
     }
     publisher = Publisher()
     with Exporter(tmp_path, beside(babblers)) as exporter:
         for name in babblers:
             publisher.until(
-                lambda n=name: "unasked" in exporter.output(n).get("trouble", ""),
+                lambda n=name: re.search(
+                    "does not answer" if n == "silent" else "unasked",
+                    exporter.output(n).get("trouble", ""),
+                ),
                 f"{name} is named",
             )
         others_go_on(publisher, subscriber)

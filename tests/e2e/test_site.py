@@ -4,10 +4,13 @@ Function only: how fast and how exact it is says tools/demo on an idle machine.
 """
 
 import json
+import os
+import re
 import select
 import subprocess
 import sys
 import time
+from os.path import relpath
 
 import lcm
 import numpy as np
@@ -17,6 +20,7 @@ from console_site import Api, address_of
 from ols_demo import recording
 from ols_demo.bus import decode
 from ols_demo.site import Site
+from PIL import Image
 
 REPLAY_URL = "udpm://239.255.76.77:7777?ttl=0"
 SLEW_URL = "udpm://239.255.76.78:7778?ttl=0"
@@ -31,7 +35,7 @@ def run(network, tmp_path_factory):
     command = [sys.executable, "-m", "ols_demo", "--headless", "--seconds", str(RUN_S)]
     # Small pictures: two ordinary processors have other tests to run as well.
     command += ["--scenario", str(ROOT / "sim/scenarios/faults.toml")]
-    command += ["--report", str(report), "--output", str(folder), "--bin", str(BIN)]
+    command += ["--report", str(report), "--output", str(folder), "--bin", relpath(BIN, ROOT)]
     done = finished(*command, cwd=ROOT)
     assert done.returncode == 0, done.stdout + done.stderr
     return folder
@@ -60,7 +64,9 @@ def test_the_target_is_located(report):
 def test_report_and_plot_are_whole(run, report):
     for key in ("scenario", "seed", "latency", "stations", "fixes"):
         assert key in report
-    assert (run / "r.png").read_bytes().startswith(b"\x89PNG")
+    drawn, in_docs = (Image.open(one).text for one in (run / "r.png", ROOT / "docs/demo.png"))
+    assert drawn["Description"].startswith("Plan\neast, m\n")
+    assert in_docs == drawn, "docs/demo.png is old: run tools/demo, take its out/demo/report.png"
     assert (run / "run.lcmlog").stat().st_size > 0
 
 
@@ -131,6 +137,21 @@ def test_a_replay_gives_the_targets_of_the_live_run_and_moves_nothing(run):
     assert max(apart) < 0.1
     assert not any(channel.startswith("OLS_SLEW") for channel in channels_in(out))
     assert any(channel.startswith("OLS_SLEW") for channel in channels_in(slews))
+
+
+def test_the_steps_of_getting_started_are_done_again_over_what_is_there(run, tmp_path):
+    """Its replay and first look, as they are written, where an earlier time has left a file."""
+    blocks = re.findall(r"```\n(.*?)```", (ROOT / "docs/getting-started.md").read_text(), re.S)
+    replay = next(block for block in blocks if "lcm-logplayer" in block).split("--net bash\n")[1]
+    look = next(block for block in blocks if "lcm.EventLog" in block)
+    (tmp_path / "out/demo").mkdir(parents=True)
+    (tmp_path / "out/demo/run.lcmlog").symlink_to(run / "run.lcmlog")
+    (tmp_path / "out/replay.lcmlog").write_bytes(b"of an earlier time")
+    (tmp_path / "build").symlink_to(ROOT / "build")
+    unsigned = {**os.environ, "OLS_TRUST": "off"}
+    steps = replay.replace("lcm-logplayer", "lcm-logplayer -s 3") + look
+    done = finished("unshare", "--net", "bash", "-c", steps, cwd=tmp_path, env=unsigned)
+    assert re.search(r"^\d{16} 1 49\.\d{7} 16\.\d{7} .* m [2-4]$", done.stdout, re.M), done.stderr
 
 
 def test_a_log_of_former_messages_is_fused(network, tmp_path, monkeypatch):

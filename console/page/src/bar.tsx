@@ -44,7 +44,7 @@ function Chips({ link }: { link: Link }) {
   );
 }
 
-function LookChoice({ theme, language, onTheme, onLanguage }: Look) {
+export function LookChoice({ theme, language, onTheme, onLanguage }: Look) {
   return (
     <Fragment>
       <select aria-label={t("theme")} value={theme} onChange={(e) => onTheme(e.currentTarget.value)}>

@@ -2,11 +2,14 @@
 
 import { h } from "preact";
 import { useState } from "preact/hooks";
+import { type Look, LookChoice } from "./bar";
 import { inWords } from "./conditions";
 import type { Session } from "./link";
 import { t } from "./words";
 
-export function LogIn({ onSession }: { onSession: (session: Session) => void }) {
+const UNANSWERED = "link_lost";
+
+export function LogIn({ look, onSession }: { look: Look; onSession: (session: Session) => void }) {
   const [problem, setProblem] = useState("");
   const submit = async (event: Event) => {
     event.preventDefault();
@@ -16,7 +19,7 @@ export function LogIn({ onSession }: { onSession: (session: Session) => void }) 
       headers: { "Content-Type": "application/json" },
       body: JSON.stringify({ name: form.get("name"), password: form.get("password") }),
     }).catch(() => null);
-    if (!response) return setProblem(t("link_lost"));
+    if (!response) return setProblem(UNANSWERED);
     const said = await response.json();
     if (response.ok) onSession({ open: false, ...said });
     else setProblem(said.error);
@@ -34,7 +37,10 @@ export function LogIn({ onSession }: { onSession: (session: Session) => void }) 
           <input name="password" type="password" autocomplete="current-password" required />
         </label>
         <button class="primary">{t("log_in")}</button>
-        <p role="alert">{inWords(problem)}</p>
+        <p role="alert">{problem === UNANSWERED ? t(UNANSWERED) : inWords(problem)}</p>
+        <div class="settings">
+          <LookChoice {...look} />
+        </div>
       </form>
     </main>
   );

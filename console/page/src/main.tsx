@@ -27,7 +27,6 @@ function Page() {
     setSession(null);
   };
   if (session === undefined) return null;
-  if (session === null) return <LogIn onSession={setSession} />;
   const look = {
     theme,
     language,
@@ -40,6 +39,7 @@ function Page() {
       setTheLanguage(wanted);
     },
   };
+  if (session === null) return <LogIn look={look} onSession={setSession} />;
   return <Console session={session} look={look} onLoggedOut={logOut} />;
 }
 

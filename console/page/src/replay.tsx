@@ -144,7 +144,7 @@ export function ReplayBar({ link }: { link: Link }) {
   return (
     <section class="replay" aria-label={t("replay")}>
       <WhatOf state={state} left_out={timeline.marks_left_out} />
-      {state.problem && <p class="replay-problem" role="alert">{inWords(state.problem)}</p>}
+      {state.problem && <p class="replay-problem" role="alert">{state.problem.split("; ").map(inWords).join("; ")}</p>}
       <div class="replay-tools">
         <button type="button" class="play" onClick={play}>
           {state.playing ? t("pause") : t("play")}

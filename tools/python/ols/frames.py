@@ -15,9 +15,14 @@ from collections import Counter
 from pathlib import Path
 
 import numpy as np
-import pandas as pd
 
 import ols
+
+try:
+    import pandas as pd
+    import pyarrow  # noqa: F401 (of ols_archive, which is only imported where it is needed)
+except ModuleNotFoundError as missing:
+    raise ModuleNotFoundError(f"{missing}: install ols[archive]", name=missing.name) from missing
 
 SCALARS = (
     *("utime", "boot_id", "track_id", "calibration_id", "azimuth_rad", "elevation_rad", "belief"),

@@ -152,52 +152,51 @@ def check_programs(binaries: Path, needed: list[str]) -> None:
 def replay(options: argparse.Namespace) -> int:
     """Shows a recorded log on the console until it is interrupted."""
     wiring = Wiring(options.bin, options.scenario, options.seed, options.output)
-    try:
-        check_programs(options.bin, ["ols-console"])
-        bring_up_loopback([])
-        with Site(options.output / "replay-logs") as site:
-            address = wiring.start_console(site, doorway(), replay=options.console_only.resolve())
-            print(f"the console replays it in a browser: {address}", flush=True)
+    check_programs(options.bin, ["ols-console"])
+    bring_up_loopback([])
+    with Site(options.output / "replay-logs") as site:
+        address = wiring.start_console(site, doorway(), replay=options.console_only.resolve())
+        print(f"the console replays it in a browser: {address}", flush=True)
+        with open(site.logs / "ols-console.log") as said:
             while True:
+                print(*(line for line in said if "[warning]" in line), sep="", end="", flush=True)
                 time.sleep(0.5)
                 site.check()
-    except SiteError as error:
-        print(f"tools/demo: {error}", file=sys.stderr)
-        return 1
-    except KeyboardInterrupt:
-        return 0
+
+
+def demonstrate(options: argparse.Namespace) -> int:
+    """Runs the site and reports on it."""
+    wiring = Wiring(options.bin, options.scenario, options.seed, options.output, signed=True)
+    for former in (report_of(options), plot_of(options)):
+        former.unlink(missing_ok=True)  # of a run that fails nothing is to be read
+    check_programs(options.bin, PROGRAMS + ([] if options.headless else ["ols-console"]))
+    bring_up_loopback(wiring.prepare())
+    with Site(options.output / "logs") as site:
+        wiring.start(site)
+        if not options.headless:
+            address = wiring.start_console(site, doorway())
+            print(f"the console shows it in a browser: {address}", flush=True)
+        in_site = write_in_site(options.output, options.bin, wiring.keys)
+        print(f"commands to its stations: {in_site} ols-ctl all status", flush=True)
+        run = Run(options, wiring.keys["OLS_KEYS"])
+        run.designate(site, wiring.tracking_stations)
+        window = run.watch(site)
+        print("ending the processes")
+    result = write_report(options, window, wiring.log)
+    print(summary(result))
+    return 0 if result["fixes"] else 1
 
 
 def main() -> int:
     options = arguments()
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
-    if options.console_only:
-        return replay(options)
-    wiring = Wiring(options.bin, options.scenario, options.seed, options.output, signed=True)
-    for former in (report_of(options), plot_of(options)):
-        former.unlink(missing_ok=True)  # of a run that fails nothing is to be read
     try:
-        check_programs(options.bin, PROGRAMS + ([] if options.headless else ["ols-console"]))
-        bring_up_loopback(wiring.prepare())
-        with Site(options.output / "logs") as site:
-            wiring.start(site)
-            if not options.headless:
-                address = wiring.start_console(site, doorway())
-                print(f"the console shows it in a browser: {address}", flush=True)
-            in_site = write_in_site(options.output, options.bin, wiring.keys)
-            print(f"commands to its stations: {in_site} ols-ctl all status", flush=True)
-            run = Run(options, wiring.keys["OLS_KEYS"])
-            run.designate(site, wiring.tracking_stations)
-            window = run.watch(site)
-            print("ending the processes")
-        result = write_report(options, window, wiring.log)
-    except SiteError as error:
+        return replay(options) if options.console_only else demonstrate(options)
+    except (SiteError, OSError) as error:
         print(f"tools/demo: {error}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:
-        return 130
-    print(summary(result))
-    return 0 if result["fixes"] else 1
+        return 0 if options.console_only else 130
 
 
 if __name__ == "__main__":

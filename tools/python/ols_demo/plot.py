@@ -10,6 +10,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 import ols
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 from matplotlib.patches import Ellipse
 
 from ols_demo.evaluate import JOINT, PAPER, covariance_matrix, errors_enu, solved
@@ -116,8 +117,18 @@ def draw_axes(axes: list[Axes], recording: Recording, window: tuple[int, int]) -
     axes[0].legend(fontsize=8)
 
 
+def labels(figure: Figure) -> str:
+    """What is written on each of its parts, without what differs between runs."""
+    texts = []
+    for axes in figure.axes:
+        legend = axes.get_legend()
+        texts += [axes.get_title(), axes.get_xlabel(), axes.get_ylabel()]
+        texts += [text.get_text() for text in legend.get_texts()] if legend else []
+    return "\n".join(texts)
+
+
 def save(path: Path, recording: Recording, window: tuple[int, int], title: str) -> None:
-    """Writes the plot; its format follows the suffix."""
+    """Writes the plot, a PNG file with its labels in the description."""
     figure = plt.figure(figsize=(14, 9), layout="constrained")
     grid = figure.add_gridspec(3, 4)
     draw_plan(figure.add_subplot(grid[:2, :2]), recording, window)
@@ -125,5 +136,5 @@ def save(path: Path, recording: Recording, window: tuple[int, int], title: str) 
     below = grid[2, :].subgridspec(1, 3)
     draw_axes([figure.add_subplot(below[k]) for k in range(3)], recording, window)
     figure.suptitle(title)
-    figure.savefig(path, dpi=110)
+    figure.savefig(path, dpi=110, metadata={"Description": labels(figure)})
     plt.close(figure)

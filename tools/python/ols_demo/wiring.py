@@ -33,7 +33,8 @@ class Wiring:
     ):
         """signed: all processes sign, by keys that are made for this run, and require it of the
         others. Else as the environment says."""
-        self._bin, self._scenario, self._seed, self._signed = binaries, scenario, seed, signed
+        self._bin, self._scenario = binaries.resolve(), scenario.resolve()
+        self._seed, self._signed = seed, signed
         self.keys: dict[str, str] = {}  # the environment of all processes
         self._output = output.resolve()
         self.configs: dict[str, Path] = {}
