@@ -53,6 +53,17 @@ bool EventList::explains_another(const Event& error, const std::string& key) con
   });
 }
 
+// A device reports an error, and an alarm follows when it lasts.
+std::deque<EventList::Kept>::iterator EventList::first_sign(const Event& event,
+                                                            const std::string& key) {
+  if (event.kind != "alarm") return events_.end();
+  return std::ranges::find_if(events_, [&](const Kept& kept) {
+    return kept.event.kind == "error" && kept.event.station == event.station &&
+           event.utime_us - kept.event.utime_us < kAnswer_us &&
+           (kept.key == key || subject(kept.event.text) == subject(event.text));
+  });
+}
+
 // Alarms that hold are kept as long as there is anything else.
 void EventList::forget_oldest() {
   const auto oldest = std::ranges::find_if_not(events_, &Kept::holds);
@@ -69,6 +80,11 @@ std::uint64_t EventList::add(Event event, Revision& revision) {
     known->event.text = std::move(event.text);
     known->over_us.reset();
     std::rotate(known, known + 1, events_.end());
+    return events_.back().number;
+  }
+  if (const auto sign = first_sign(event, key); sign != events_.end()) {
+    *sign = {sign->number, ++revision, std::move(event), key, 1, {}, {}};
+    std::rotate(sign, sign + 1, events_.end());
     return events_.back().number;
   }
   events_.push_back({++numbers_, ++revision, std::move(event), key, 1, {}, {}});

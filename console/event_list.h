@@ -26,7 +26,7 @@ class EventList {
   // Returns its number, by which its outcome can be added. An event, except a command, that is
   // repeated within kRepeat_us is counted and moves to the end: it must not push out other events.
   // An alarm stands until it is ended. An error that only explains an alarm or a refused command is
-  // not listed (0).
+  // not listed (0); one that comes shortly before its alarm becomes that alarm's row.
   std::uint64_t add(Event event, Revision& revision);
   void conclude(std::uint64_t number, const std::string& outcome, Revision& revision);
 
@@ -54,6 +54,7 @@ class EventList {
     bool holds() const { return event.kind == "alarm" && !over_us; }
   };
   std::deque<Kept>::iterator repeated(const Event& event, const std::string& key);
+  std::deque<Kept>::iterator first_sign(const Event& event, const std::string& key);
   bool explains_another(const Event& error, const std::string& key) const;
   void forget_oldest();
 

@@ -7,14 +7,21 @@ void RefusalLog::note(const std::string& what) {
   ++number_;
 }
 
-void RefusalLog::refuse(const std::string& kind, const std::string& why) {
+void RefusalLog::count(const std::string& why) {
   counters_["messages_refused"] += 1;
   counters_["messages_refused_" + why] += 1;
+}
+
+void RefusalLog::refuse(const std::string& kind, const std::string& why) {
+  count(why);
   note(kind + " refused: " + why);
 }
 
+// The next slew takes the place of one that came late: only many of them are worth a word.
 void RefusalLog::refuse_at_gate(const std::string& kind, const std::string& why, double now_s) {
-  at_gate_.note(kind == "SLEW" ? "slews" : kind + " commands", why, now_s);
+  const bool is_slew = kind == "SLEW";
+  at_gate_.note(is_slew ? "slews" : kind + " commands", why, now_s);
+  if (is_slew) return count(why);
   refuse(kind, why);
 }
 

@@ -25,6 +25,8 @@ class RefusalLog {
   const std::map<std::string, double>& counters() const { return counters_; }
 
  private:
+  void count(const std::string& why);
+
   RefusalMonitor at_gate_;
   std::map<std::string, double> counters_;
   std::string last_;

@@ -1,6 +1,7 @@
 """MQTT with mosquitto: what a broker, a subscriber and Home Assistant's discovery get."""
 
 import json
+import re
 import subprocess
 import threading
 

@@ -63,6 +63,24 @@ TEST(EventList, AnAlarmIsOneRowWhateverItsNumbersAndWhateverErrorExplainsIt) {
   EXPECT_NE(events.add({6, "error", "alfa", "", "camera x does not answer: no", ""}, revision), 0U);
 }
 
+TEST(EventList, AnErrorBecomesTheAlarmThatFollowsIt) {
+  EventList events;
+  Revision revision = 0;
+  events.add({1, "error", "bravo", "", "camera x does not answer: no", ""}, revision);
+  const auto number =
+      events.add({1, "error", "alfa", "", "camera x does not answer: no", ""}, revision);
+  events.add({2, "alarm", "alfa", "", "ptu: no reply", ""}, revision);
+  const Revision before = revision;
+  const Event alarm{3, "alarm", "alfa", "", "camera: no frames for 3 s", ""};
+  EXPECT_EQ(events.add(alarm, revision), number);
+  ASSERT_EQ(events.since(before).size(), 1U);
+  EXPECT_EQ(events.since(before)[0].at("kind"), "alarm");
+  EXPECT_EQ(events.since(0).size(), 3U);
+  events.add({1, "error", "alfa", "", "gnss x does not answer", ""}, revision);
+  events.add({1 + 60'000'000, "alarm", "alfa", "", "gnss: no fix for 3 s", ""}, revision);
+  EXPECT_EQ(events.since(0).size(), 5U) << "a minute later it is another";
+}
+
 TEST(EventList, TheAlarmsOfTwoStationsAreTwo) {
   EventList events;
   Revision revision = 0;

@@ -23,6 +23,7 @@ TEST(RefusalLog, CommandsThatAreNotFreshAgainAndAgainAreAnAlarm) {
   for (int i = 0; i < 3; ++i) log.refuse_at_gate("SLEW", "stale", 10.0);
   EXPECT_EQ(log.alarms(10.0), std::vector<std::string>{"commands: 3 slews refused in 10 s: stale"});
   EXPECT_EQ(log.counters().at("messages_refused_stale"), 3.0);
+  EXPECT_EQ(log.last(), "") << "the alarm says it";
 }
 
 }  // namespace
