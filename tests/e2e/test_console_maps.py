@@ -6,7 +6,7 @@ import subprocess
 
 import pytest
 from conftest import BIN, wait
-from console_page import axe_finds
+from console_page import DRAWN_TEXT, axe_finds, found_at_each_size
 from console_site import (
     CHROMIUM,
     DEADLINE_S,
@@ -77,6 +77,7 @@ def page(address):
         )
         opened = browser.new_page(viewport={"width": 1280, "height": 800}, color_scheme="dark")
         opened.set_default_timeout(DEADLINE_S * 1000)
+        opened.add_init_script(DRAWN_TEXT)
         opened.goto(address)
         opened.get_by_label("Name").fill("ana")
         opened.get_by_label("Password").fill(PASSWORD)
@@ -233,11 +234,14 @@ def test_axe_finds_nothing_in_any_theme(page):
     page.get_by_label("Theme").select_option("Night")
 
 
-def test_nothing_lies_outside_of_a_tablets_screen(page):
-    for width, height in ((1024, 768), (768, 1024)):
-        page.set_viewport_size({"width": width, "height": height})
-        assert page.evaluate("document.documentElement.scrollWidth") <= width
-        expect(page.get_by_role("button", name="Stop all")).to_be_in_viewport()
+def test_layers_and_legend_can_be_read_on_every_screen(page):
+    open_layers(page)
+    map_of(page).get_by_role("combobox", name="Accuracy").select_option(label="at + 100 m")
+    expect(map_of(page).get_by_role("list", name="Accuracy")).to_contain_text("≤ 10 m")
+    assert found_at_each_size(page) == {}
+    map_of(page).get_by_role("button", name="3-D").click()
+    assert found_at_each_size(page) == {}
+    map_of(page).get_by_role("button", name="3-D").click()
     page.set_viewport_size({"width": 1280, "height": 800})
 
 
