@@ -10,6 +10,7 @@ import pytest
 from conftest import ROOT, wait
 from console_page import (
     DRAWN_TEXT,
+    SIZES,
     found_at_each_size,
     picture,
     region,
@@ -44,6 +45,9 @@ def busy(page, paper):
 def test_no_text_is_cut_or_covered(busy):
     languages = busy.get_by_label("Language")
     assert found_at_each_size(busy) == {}
+    for width, height in SIZES:
+        busy.set_viewport_size({"width": width, "height": height})
+        expect(busy.locator(".utc")).to_be_in_viewport(ratio=1)
     languages.select_option("de")
     expect(busy.get_by_role("complementary", name="Ziel 7")).to_be_visible()
     busy.set_viewport_size({"width": 1280, "height": 720})

@@ -238,10 +238,9 @@ def test_layers_and_legend_can_be_read_on_every_screen(page):
     open_layers(page)
     map_of(page).get_by_role("combobox", name="Accuracy").select_option(label="at + 100 m")
     expect(map_of(page).get_by_role("list", name="Accuracy")).to_contain_text("≤ 10 m")
+    assert found_at_each_size(page, ".layers") == {}
+    map_of(page).get_by_text("Layers").click()
     assert found_at_each_size(page) == {}
-    map_of(page).get_by_role("button", name="3-D").click()
-    assert found_at_each_size(page) == {}
-    map_of(page).get_by_role("button", name="3-D").click()
     page.set_viewport_size({"width": 1280, "height": 800})
 
 
