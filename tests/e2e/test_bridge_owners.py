@@ -2,6 +2,7 @@
 at the border, a killed owner replaced, and a store that does not answer."""
 
 import itertools
+import math
 import signal
 import time
 
@@ -30,7 +31,7 @@ WEST, EAST = (11, "[49.0, 16.0, 50.0, 17.0]"), (22, "[49.0, 17.0, 50.0, 18.0]")
 OWNERS = '[ownership]\nshare = true\nname = "{}"\ndomain = "hub"\ncell_deg = {}\n'
 
 
-def target(target_id, east_m, sequence):
+def target(target_id, east_m, sequence, speed_m_s=0.0):
     message = made(ols_msg.target_t, boot_id=target_id, sequence=sequence, target_id=target_id)
     message.track_state = message.TRACK_CONFIRMED
     message.latitude_deg = LATITUDE_DEG
@@ -38,7 +39,8 @@ def target(target_id, east_m, sequence):
     message.height_m = HEIGHT_M
     place = geodetic(message.latitude_deg, message.longitude_deg, HEIGHT_M)
     message.position_ecef_m = list(ols.ecef_from_geodetic(place))
-    message.velocity_ecef_m_s = [0.0] * 3
+    east = math.radians(message.longitude_deg)
+    message.velocity_ecef_m_s = [-speed_m_s * math.sin(east), speed_m_s * math.cos(east), 0.0]
     message.position_covariance_enu_m2 = [4.0, 0.0, 0.0, 4.0, 0.0, 4.0]
     return message.encode()
 
@@ -56,6 +58,7 @@ class Sky:
         self.buses = [Listener(self.net.region_url), Listener(bus_url(7669))]
         self.watcher = watcher_of_targets()
         self.numbers, self.said_s, self.east_m = itertools.count(1), {}, -3000.0
+        self.speed_m_s = 0.0
 
     def other_fusion(self):
         """Of the same region."""
@@ -71,7 +74,7 @@ class Sky:
         number = next(self.numbers)
         self.said_s[number] = time.monotonic()
         for bus, (name, _) in zip(self.buses, (WEST, EAST), strict=True):
-            bus.bus.publish("OLS_TARGET", target(name, self.east_m, number))
+            bus.bus.publish("OLS_TARGET", target(name, self.east_m, number, self.speed_m_s))
             bus.bus.publish("OLS_SLEW_alfa", slew("alfa", number, target_id=name))
             bus.handle(10)
 
@@ -102,13 +105,14 @@ class Sky:
         return name
 
     def fly(self, to_m, speed_m_s=1500.0):
-        last = time.monotonic()
-        step = 1.0 if to_m > self.east_m else -1.0
-        while (to_m - self.east_m) * step > 0:
+        """Its messages say how fast: one that was lost for a moment is known again where it is."""
+        last, self.speed_m_s = time.monotonic(), math.copysign(speed_m_s, to_m - self.east_m)
+        while (to_m - self.east_m) * self.speed_m_s > 0:
             self.say()
             now = time.monotonic()
-            self.east_m += step * min(speed_m_s * (now - last), 40.0)
+            self.east_m += self.speed_m_s * (now - last)
             last = now
+        self.speed_m_s = 0.0
 
     def close(self):
         self.watcher.close()
