@@ -1,8 +1,10 @@
 #include "edge/command/slew_search.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "conditions/alarms.h"
+#include "edge/tracker/object_at.h"
 
 namespace ols::station {
 
@@ -100,8 +102,68 @@ bool SlewSearch::looks_for_anything(const FollowedTarget& target) const {
   return !target.on_trial() && in_view_.to_s - in_view_.own_from_s > config_.own_target_s;
 }
 
-std::optional<cv::Rect2d> SlewSearch::acquire(const std::deque<camera::Frame>& frames,
-                                              const PointingModel& pointing, const Slew& slew) {
+// It is where the slew leads, and moves as the slew does. Along a line nobody knows how the target
+// moves: then it must move at all.
+bool SlewSearch::behaves(const detector::Tracklet& tracklet, const camera::Frame& frame,
+                         const PointingModel& pointing, const Slew& slew) const {
+  constexpr double kSigmas = 4.0, kMoment_s = 0.1;
+  constexpr double kRateOff_px_s = 50.0;  // of the slew's rate: the fusion's is some moments old
+  const auto where = expected(frame, pointing, slew);
+  if (!where || !tracklet.seen()) return false;
+  const Eigen::Vector2d off = tracklet.measured_pixel() - where->pixel;
+  const Eigen::Vector2d beside = off - off.dot(where->line) * where->line;
+  if (beside.norm() > kSigmas * search_sd_px(pointing, *slew)) return false;
+  if (slew->searches_line()) return tracklet.way_px() >= config_.acquisition.place_px;
+  const auto next =
+      pointing.pixel_of(where->angles, direction_at(*slew, frame.mid_exposure_s + kMoment_s));
+  if (!next) return false;
+  const Eigen::Vector2d rate_off = tracklet.velocity_px_s() - (*next - where->pixel) / kMoment_s;
+  return rate_off.norm() <= std::hypot(kSigmas * tracklet.velocity_sd_px_s(), kRateOff_px_s);
+}
+
+// The tracker begins in the detector's picture, with the object's outline there.
+std::optional<SlewSearch::Acquired> SlewSearch::choose(const std::deque<camera::Frame>& frames,
+                                                       const detector::Found& found,
+                                                       const PointingModel& pointing,
+                                                       const Slew& slew) const {
+  constexpr double kFresh_s = 0.5, kPadding = 0.2;
+  const auto frame =
+      std::ranges::find(frames, found.mid_exposure_s, &camera::Frame::mid_exposure_s);
+  if (frame == frames.end() || frames.back().mid_exposure_s - found.mid_exposure_s > kFresh_s) {
+    return std::nullopt;
+  }
+  const detector::Tracklet* only = nullptr;
+  for (const detector::Tracklet& tracklet : found.confirmed) {
+    if (!behaves(tracklet, *frame, pointing, slew)) continue;
+    if (only != nullptr) return std::nullopt;
+    only = &tracklet;
+  }
+  if (only == nullptr) return std::nullopt;
+  if (const auto outline = tracker::object_at(frame->gray, only->measured_pixel())) {
+    return Acquired{&*frame, *outline};
+  }
+  const Eigen::Vector2d side = (1.0 + kPadding) * only->size_px().array() + 2.0;
+  const Eigen::Vector2d corner = only->measured_pixel().array() + 0.5 - 0.5 * side.array();
+  return Acquired{&*frame, {corner.x(), corner.y(), side.x(), side.y()}};
+}
+
+std::optional<SlewSearch::Acquired> SlewSearch::acquire(const std::deque<camera::Frame>& frames,
+                                                        const std::optional<detector::Found>& found,
+                                                        const PointingModel& pointing,
+                                                        const Slew& slew) {
+  if (found) {
+    if (const auto chosen = choose(frames, *found, pointing, slew)) {
+      counters_["acquisitions_by_tracklet"] += 1;
+      acquisition_.clear();
+      return chosen;
+    }
+  }
+  const auto box = look(frames, pointing, slew);
+  return box ? std::optional(Acquired{&frames.back(), *box}) : std::nullopt;
+}
+
+std::optional<cv::Rect2d> SlewSearch::look(const std::deque<camera::Frame>& frames,
+                                           const PointingModel& pointing, const Slew& slew) {
   const camera::Frame& frame = frames.back();
   const auto now = expected_in_picture(frame, pointing, slew);
   if (!now) {

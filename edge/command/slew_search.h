@@ -9,6 +9,7 @@
 #include <string>
 
 #include "edge/camera/frame.h"
+#include "edge/detector/detector_work.h"
 #include "edge/frames/pointing_model.h"
 #include "edge/station/followed_target.h"
 #include "edge/station/station_config.h"
@@ -46,9 +47,15 @@ class SlewSearch {
   // target does so after own_target_s without seeing it there, because the designation may have
   // been wrong.
   bool looks_for_anything(const FollowedTarget& target) const;
-  // The box of the object that behaves as the slew predicts in these frames, oldest first.
-  std::optional<cv::Rect2d> acquire(const std::deque<camera::Frame>& frames,
-                                    const PointingModel& pointing, const Slew& slew);
+  struct Acquired {
+    const camera::Frame* frame;  // one of those that were given
+    cv::Rect2d box;              // of the object in it
+  };
+  // The object that behaves as the slew predicts: the detector's only confirmed one that does, else
+  // one that shows in these frames, oldest first.
+  std::optional<Acquired> acquire(const std::deque<camera::Frame>& frames,
+                                  const std::optional<detector::Found>& found,
+                                  const PointingModel& pointing, const Slew& slew);
   // The trial of an acquired target begins; the trial has failed, and the own target is searched
   // for again.
   void begin_trial(double time_s) { searched_s_ = time_s; }
@@ -78,6 +85,13 @@ class SlewSearch {
                                                      const PointingModel& pointing,
                                                      const Slew& slew);
   double search_sd_px(const PointingModel& pointing, const SlewCommand& slew) const;
+  std::optional<Acquired> choose(const std::deque<camera::Frame>& frames,
+                                 const detector::Found& found, const PointingModel& pointing,
+                                 const Slew& slew) const;
+  bool behaves(const detector::Tracklet& tracklet, const camera::Frame& frame,
+               const PointingModel& pointing, const Slew& slew) const;
+  std::optional<cv::Rect2d> look(const std::deque<camera::Frame>& frames,
+                                 const PointingModel& pointing, const Slew& slew);
 
   const StationConfig config_;
   tracker::Acquisition acquisition_;

@@ -208,6 +208,19 @@ Section logic_section(StationConfig& station) {
                           "1-sigma of the target's angular acceleration, in the motion model.")}};
 }
 
+Section detector_section(DetectionConfig& detection) {
+  return {"detector",
+          "Finds what flies or moves without a designation, and sends bearings of it.",
+          {config::flag("enabled", detection.enabled, "Whether the station looks by itself."),
+           config::number("rate_hz", detection.rate_hz, {4.0, 60.0}, "1/s",
+                          "Maximum rate of the images that it looks at."),
+           config::number("false_alarms_per_hour", detection.detector.tracklets.false_an_hour,
+                          {1e-3, 1000.0}, "1/h",
+                          "How many confirmed objects may be none; fewer are confirmed later."),
+           config::integer("max_bearings", detection.max_bearings, 1, 100, "",
+                           "Maximum number of bearings of an image, the likeliest objects.")}};
+}
+
 Section mount_section(ChosenMount& mount) {
   Section section = mount.section("mount", "What carries the camera.");
   section.former_name = "ptu";
@@ -299,8 +312,8 @@ Section station_section(StationSettings& s) {
       {pose_section(s), chain_section(s.station.geometry.chain), calibration_section(s),
        serials_section(s.serials), s.camera.section("camera", "The camera."), lens_section(s),
        mount_section(s.mount), lens::lens_motor_section(s.lens),
-       tracker::tracker_section(s.tracker), logic_section(s.station),
-       s.inclinometer.section("inclinometer", "The inclinometer."),
+       tracker::tracker_section(s.tracker), detector_section(s.station.detection),
+       logic_section(s.station), s.inclinometer.section("inclinometer", "The inclinometer."),
        s.gnss.section("gnss", "The GNSS receiver."), gpio::gpio_section(s.gpio),
        recorder::recorder_section(s.recorder), video::video_section(s.video),
        clock_section(s.clock), watchdog_section(s), trust::trust_section(s.trust)},

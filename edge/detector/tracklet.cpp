@@ -21,6 +21,8 @@ Tracklet::Tracklet(long id, const Detection& detection, double image_width_px)
       mark_(detection.pixel),
       rest_(detection.pixel),
       first_pixel_(detection.pixel),
+      measured_pixel_(detection.pixel),
+      measured_sd_px_(detection.sd_px()),
       acceleration_px_s2_(0.4 * image_width_px),
       signal_to_noise_(detection.signal_to_noise),
       brighter_(detection.brighter) {
@@ -112,6 +114,8 @@ bool Tracklet::resembles(const Detection& detection) const {
 void Tracklet::count(const Detection& detection) {
   size_px_ += kLearning * (detection.size_px - size_px_);
   signal_to_noise_ += kLearning * (detection.signal_to_noise - signal_to_noise_);
+  measured_pixel_ = detection.pixel;
+  measured_sd_px_ = detection.sd_px();
   ++detections_;
   if (detection.clear) ++clear_;
   unseen_s_ = 0.0;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 
 #include "edge/detector/detection.h"
 
@@ -36,6 +37,10 @@ class Tracklet {
   long id() const { return id_; }
   const Eigen::Vector2d& pixel() const { return pixel_; }
   const Eigen::Vector2d& velocity_px_s() const { return velocity_px_s_; }
+  double velocity_sd_px_s() const { return std::sqrt(covariance_(1, 1)); }  // each axis
+  // Its newest detection: where it was, and that one's own deviation, each axis.
+  const Eigen::Vector2d& measured_pixel() const { return measured_pixel_; }
+  double measured_sd_px() const { return measured_sd_px_; }
   const Eigen::Vector2d& size_px() const { return size_px_; }
   double signal_to_noise() const { return signal_to_noise_; }
   bool seen() const { return seen_; }  // in the newest image
@@ -65,6 +70,8 @@ class Tracklet {
   // Where it began, was a moment ago, and a second ago, carried along with the scene.
   Eigen::Vector2d origin_, mark_, rest_;
   Eigen::Vector2d first_pixel_;  // where it began in the image
+  Eigen::Vector2d measured_pixel_;
+  double measured_sd_px_;
   double reach_px_ = 0.0;
   double marked_s_ = 0.0, rested_s_ = 0.0;  // for how long these are kept
   double path_px_ = 0.0;                    // up to the mark

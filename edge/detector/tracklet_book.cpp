@@ -110,7 +110,9 @@ bool TrackletBook::hopeless(const Tracklet& tracklet) const {
 
 void TrackletBook::advance(const std::vector<Detection>& detections,
                            const std::optional<Eigen::Matrix3d>& motion, double interval_s) {
+  constexpr double kForget_s = 1.0;  // a pause: what is there now may be any other object
   clutter_.next_image(interval_s);
+  if (interval_s > kForget_s) tracklets_.clear();
   for (Tracklet& tracklet : tracklets_) {
     tracklet.predict(motion.value_or(Eigen::Matrix3d::Identity()), interval_s);
     if (!motion) tracklet.forget_way();

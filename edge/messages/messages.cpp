@@ -144,6 +144,20 @@ double Sender::monotonic_s(std::int64_t utime_us) const {
   return (static_cast<double>(utime_us) - static_cast<double>(utc_minus_monotonic_us)) * 1e-6;
 }
 
+namespace {
+
+void fill_detected(const DetectedObject& object, ols_msg::bearing_t& message) {
+  message.detected = 1;
+  message.image_bearings = static_cast<std::int16_t>(object.image_bearings);
+  for (int i = 0; i < 2; ++i) message.rate_rad_s[i] = object.rate_rad_s[i];
+  symmetric(object.rate_covariance, message.rate_covariance_rad2_s2);
+  message.size_rad = object.size_rad;
+  message.size_sd_rad = object.size_sd_rad;
+  message.signal = object.signal;
+}
+
+}  // namespace
+
 ols_msg::bearing_t to_message(const Bearing& bearing, const Sender& sender,
                               const StationSettings& settings, std::int64_t sequence) {
   ols_msg::bearing_t message{};
@@ -165,6 +179,7 @@ ols_msg::bearing_t to_message(const Bearing& bearing, const Sender& sender,
                              ? ols_msg::bearing_t::STAMP_CAMERA
                              : ols_msg::bearing_t::STAMP_ARRIVAL;
   message.clock_error_s = sender.clock.error_s;
+  if (bearing.detected) fill_detected(*bearing.detected, message);
   return message;
 }
 

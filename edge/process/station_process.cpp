@@ -56,6 +56,8 @@ StationProcess::StationProcess(const StationSettings& configured, std::int64_t b
       journal_(settings().id, write_to_journal),
       devices_(settings(), boot_id, outside.open_head(settings())),
       frames_(settings().station.angles) {
+  const DetectionConfig& detection = settings().station.detection;
+  if (detection.enabled) detector_.emplace(detection.detector);
   const double now_s = clock_monotonic_s();
   station_.set_pose(pose_->pose(now_s));
   resume_hold(now_s);
@@ -86,10 +88,12 @@ void StationProcess::turn() {
   take_angles();
   // Again, because the tracker takes time: publications carry the present time.
   const clock::ClockPair now = look_at_clocks();
+  detect(now.monotonic_s);
   const StationOutput output = station_.step(now.monotonic_s);
   for (const Bearing& bearing : output.bearings) {
     bus_.send(bearing);
-    if (settings().station.zoom) continue;  // a sighting tells no focal length
+    // A sighting tells no focal length, and a calibration uses what was designated.
+    if (settings().station.zoom || bearing.detected) continue;
     const std::int64_t utime_us = clock_.utime_us(bearing.mid_exposure_s);
     for (const Sighting& sighting : frames_.sightings(bearing, utime_us)) bus_.send(sighting);
   }
@@ -188,6 +192,12 @@ void StationProcess::show_frame(const camera::Frame& frame) {
   if (!shown) return;
   shown->utime_us = clock_.utime_us(frame.mid_exposure_s);
   video->offer(std::move(*shown));
+}
+
+void StationProcess::detect(double now_s) {
+  if (!detector_) return;
+  if (auto found = detector_->take()) station_.on_found(std::move(*found));
+  if (auto picture = station_.picture_to_search(now_s)) detector_->give(std::move(*picture));
 }
 
 void StationProcess::take_zoom() {
@@ -346,6 +356,7 @@ void StationProcess::add_host(double now_s, StationReport& report) {
   report.alarms.insert(report.alarms.end(), host.alarms.begin(), host.alarms.end());
   report.readings.merge(host.readings);
   report.counters["slow_turns"] = static_cast<double>(host_.slow_turns());
+  if (detector_) report.readings["detector_image_s"] = detector_->picture_s();
 }
 
 void StationProcess::show(const StationReport& report) {

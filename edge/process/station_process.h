@@ -10,6 +10,7 @@
 #include "edge/drift/calibration_supervisor.h"
 #include "edge/frames/frame_desk.h"
 #include "edge/messages/messages_bus.h"
+#include "edge/process/detector_thread.h"
 #include "edge/process/device_set.h"
 #include "edge/process/host_monitor.h"
 #include "edge/process/kept_pose.h"
@@ -48,6 +49,7 @@ class StationProcess {
   void receive_commands();
   double take_frame();  // how long it waited for one [s]
   void show_frame(const camera::Frame& frame);
+  void detect(double now_s);
   void take_zoom();
   void take_angles();
   std::optional<mount::Goal> goal(const StationOutput& output, double now_s);
@@ -81,6 +83,7 @@ class StationProcess {
   PersistedStationState persisted_;
   StationJournal journal_;
   DeviceSet devices_;
+  std::optional<DetectorThread> detector_;  // null: not enabled
   FrameDesk frames_;
   std::optional<camera::Frame> newest_;
   bool halted_ = false;  // the mount refuses to move until it is re-armed

@@ -1,22 +1,57 @@
 #include "edge/station/bearing_queue.h"
 
 #include <cmath>
+#include <utility>
+
+#include "geometry/direction.h"
 
 namespace ols::station {
+namespace {
 
+// 2x2: the motion of the direction on its tangent plane for a pixel's [rad/px].
+std::optional<Eigen::Matrix2d> radians_of_pixels(const PixelSight& pixel, const LineOfSight& line,
+                                                 const UnitAngles& angles,
+                                                 const PointingModel& pointing) {
+  const auto tangent = tangent_basis(line.direction);
+  Eigen::Matrix2d J;
+  for (int axis = 0; axis < 2; ++axis) {
+    PixelSight beside = pixel;
+    beside.pixel(axis) += 1.0;
+    const auto there = pointing.sight(beside, angles);
+    if (!there) return std::nullopt;
+    J.col(axis) = tangent.transpose() * enu_from_azimuth_elevation(there->direction);
+  }
+  return J;
+}
+
+DetectedObject object_of(const DetectedPixel& seen, const Eigen::Matrix2d& J) {
+  const double scale = std::sqrt(std::abs(J.determinant()));
+  DetectedObject object;
+  object.image_bearings = seen.image_bearings;
+  object.rate_rad_s = J * seen.velocity_px_s;
+  object.rate_covariance = std::pow(seen.velocity_sd_px_s, 2) * J * J.transpose();
+  object.size_rad = scale * seen.size_px;
+  object.size_sd_rad = scale * seen.size_sd_px;
+  object.signal = seen.signal;
+  return object;
+}
+
+}  // namespace
+
+// An image of the detector is older than the tracker's newest: it need not wait for that one's
+// angles.
 std::vector<MadeBearing> BearingQueue::take(const PointingModel& pointing, double now_s) {
   std::vector<MadeBearing> bearings;
-  while (!waiting_.empty()) {
-    const PixelMeasurement& measured = waiting_.front();
+  std::erase_if(waiting_, [&](const PixelMeasurement& measured) {
     const auto angles = pointing.angles_at(measured.mid_exposure_s);
     const bool bracketed = angles && angles->interpolated;
-    if (!bracketed && now_s - measured.arrived_s < angle_wait_s_) break;
+    if (!bracketed && now_s - measured.arrived_s < angle_wait_s_) return false;
     if (auto made = make(measured, pointing)) {
       made->to_send = worth_sending(made->bearing, pointing, now_s);
-      bearings.push_back(*made);
+      bearings.push_back(std::move(*made));
     }
-    waiting_.pop_front();
-  }
+    return true;
+  });
   return bearings;
 }
 
@@ -28,8 +63,8 @@ std::optional<MadeBearing> BearingQueue::make(const PixelMeasurement& measured,
     return std::nullopt;
   }
   PixelSight pixel;
-  pixel.pixel = measured.output.pixel;
-  pixel.covariance_px2 = measured.output.covariance_px2;
+  pixel.pixel = measured.pixel;
+  pixel.covariance_px2 = measured.covariance_px2;
   const double sd = measured.designation_sd_px;
   pixel.covariance_systematic_px2 = Eigen::Matrix2d::Identity() * (sd * sd);
   // The frame's own stamp adds to the time jitter of the angles.
@@ -42,13 +77,17 @@ std::optional<MadeBearing> BearingQueue::make(const PixelMeasurement& measured,
     return std::nullopt;
   }
   Bearing bearing{measured.mid_exposure_s, *line,
-                  measured.output.belief,  measured.track_id,
+                  measured.belief,         measured.track_id,
                   measured.stamp_sd_s,     measured.stamp_source};
   bearing.pose_revision = pointing.pose_revision();
   bearing.sight.origin_sd_enu_m = pointing.pose().position_sd_enu_m;
-  bearing.pixel = measured.output.pixel;
-  bearing.covariance_px2 = measured.output.covariance_px2;
+  bearing.pixel = measured.pixel;
+  bearing.covariance_px2 = measured.covariance_px2;
   bearing.designation_sd_px = measured.designation_sd_px;
+  if (measured.detected) {
+    const auto J = radians_of_pixels(pixel, *line, *angles, pointing);
+    bearing.detected = object_of(*measured.detected, J.value_or(Eigen::Matrix2d::Zero()));
+  }
   return MadeBearing{bearing, angles->reported};
 }
 
@@ -61,6 +100,10 @@ bool BearingQueue::worth_sending(const Bearing& bearing, const PointingModel& po
   if (now_s - bearing.mid_exposure_s > max_age_s_) {
     counters_["bearings_too_old"] += 1;
     return false;
+  }
+  if (bearing.detected) {
+    counters_["tracklet_bearings"] += 1;
+    return true;
   }
   counters_["bearings"] += 1;
   constexpr double kSmoothing = 0.1;

@@ -1,4 +1,5 @@
-// Pixels that wait for the PTU angles of their exposure, and the bearings computed from them. Pure.
+// Pixels of the followed target and of detected objects that wait for the PTU angles of their
+// exposure, and the bearings computed from them. Pure.
 #pragma once
 
 #include <cstdint>
@@ -11,18 +12,29 @@
 #include "edge/frames/pointing_model.h"
 #include "edge/station/station_config.h"
 #include "edge/station/station_types.h"
-#include "edge/tracker/tracker.h"
 
 namespace ols::station {
+
+// What the detector says of an object besides.
+struct DetectedPixel {
+  Eigen::Vector2d velocity_px_s = Eigen::Vector2d::Zero();  // relative to the scene
+  double velocity_sd_px_s = 0.0;                            // each axis
+  double size_px = 0.0, size_sd_px = 0.0;                   // largest extent
+  double signal = 0.0;                                      // to noise
+  int image_bearings = 0;                                   // as Bearing has it
+};
 
 struct PixelMeasurement {
   double arrived_s = 0.0;
   double mid_exposure_s = 0.0;
   double stamp_sd_s = 0.0;
   camera::StampSource stamp_source = camera::StampSource::kCamera;
-  tracker::TrackerOutput output;
+  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d covariance_px2 = Eigen::Matrix2d::Zero();  // white
+  double belief = 0.0;
   std::int64_t track_id = 0;
   double designation_sd_px = 0.0;
+  std::optional<DetectedPixel> detected{};  // empty: of the followed target
 };
 
 struct MadeBearing {
@@ -42,7 +54,8 @@ class BearingQueue {
   // The pixels whose angles are known, and those that have waited long enough.
   std::vector<MadeBearing> take(const PointingModel& pointing, double now_s);
 
-  double frame_latency_s() const { return frame_latency_s_; }  // mid-exposure to bearing, smoothed
+  // Mid-exposure to bearing, smoothed; of the followed target.
+  double frame_latency_s() const { return frame_latency_s_; }
   const std::map<std::string, double>& counters() const { return counters_; }
 
  private:

@@ -25,7 +25,7 @@ tracker::TrackerInput input_of(const camera::Frame& frame) {
 
 void FollowedTarget::begin(Kind kind, double time_s) {
   kind_ = kind;
-  track_id_ = ++last_track_id_;
+  track_id_ = new_track_id();
   tracked_s_ = time_s;
   last_output_.reset();
 }

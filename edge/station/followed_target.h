@@ -43,6 +43,8 @@ class FollowedTarget {
   bool exists() const { return kind_ != Kind::kNone; }
   bool on_trial() const { return kind_ == Kind::kUnproven; }
   std::int64_t track_id() const { return track_id_; }
+  // For another object of this station: an id is one object.
+  std::int64_t new_track_id() { return ++last_track_id_; }
   double centring_sd_px() const;  // of the box on the target
   const std::optional<tracker::TrackerOutput>& last_output() const { return last_output_; }
   // For exactly this frame; null: the tracker has not had it.

@@ -16,6 +16,7 @@ Station::Station(const StationConfig& config, std::unique_ptr<tracker::TargetTra
       target_(config, std::move(tracker)),
       search_(config),
       bearings_(config),
+      detected_(config),
       motion_(config.motion) {}
 
 void Station::on_angles(const mount::AngleSample& sample) { pointing_.add(sample); }
@@ -34,6 +35,17 @@ void Station::on_frame(const camera::Frame& frame, double now_s) {
     drop_unproven(frame.mid_exposure_s);
   }
   if (mode_.is(StationState::kSlewed)) look_along_slew(frame);
+  if (mode_.reference() != mount::Reference::kTrusted) return;
+  const auto* followed =
+      mode_.is(StationState::kTracking) ? target_.output_of(frame.mid_exposure_s) : nullptr;
+  detected_.on_frame(frame, followed ? std::optional(followed->box) : std::nullopt, now_s);
+}
+
+void Station::on_found(detector::Found found) {
+  const auto new_track_id = [this] { return target_.new_track_id(); };
+  for (PixelMeasurement& pixel : detected_.on_found(std::move(found), new_track_id, now_s_)) {
+    bearings_.add(std::move(pixel));
+  }
 }
 
 void Station::use(const StationGeometry& geometry,
@@ -56,8 +68,16 @@ void Station::track(const camera::Frame& frame) {
   const bool believed = output->belief >= config_.tracking_belief;
   judge_belief(there && believed, frame.mid_exposure_s);
   if (mode_.is(StationState::kTracking) && believed) {
-    bearings_.add({std::max(now_s_, frame.mid_exposure_s), frame.mid_exposure_s, frame.stamp_sd_s,
-                   frame.stamp_source, *output, target_.track_id(), target_.centring_sd_px()});
+    bearings_.add({.arrived_s = std::max(now_s_, frame.mid_exposure_s),
+                   .mid_exposure_s = frame.mid_exposure_s,
+                   .stamp_sd_s = frame.stamp_sd_s,
+                   .stamp_source = frame.stamp_source,
+                   .pixel = output->pixel,
+                   .covariance_px2 = output->covariance_px2,
+                   .belief = output->belief,
+                   .track_id = target_.track_id(),
+                   .designation_sd_px = target_.centring_sd_px(),
+                   .detected = {}});
   }
 }
 
@@ -103,10 +123,20 @@ void Station::drop_unproven(double time_s) {
 void Station::look_along_slew(const camera::Frame& frame) {
   search_.note_in_view(frame, pointing_, slew_.command());
   if (!search_.looks_for_anything(target_)) return;
-  const auto box = search_.acquire(frames_.frames(), pointing_, slew_.command());
-  if (!box || !target_.try_found(frame, *box)) return;
-  search_.begin_trial(frame.mid_exposure_s);
+  const auto found =
+      search_.acquire(frames_.frames(), detected_.newest(), pointing_, slew_.command());
+  if (!found || !target_.try_found(*found->frame, found->box)) return;
+  const double began_s = found->frame->mid_exposure_s;
+  search_.begin_trial(began_s);
   believed_in_a_row_ = 0;
+  follow_since(began_s);
+}
+
+// What began in an older frame is followed through those since then.
+void Station::follow_since(double mid_exposure_s) {
+  for (const camera::Frame* frame : frames_.since(mid_exposure_s)) {
+    if (follows_target()) track(*frame);
+  }
 }
 
 void Station::set_reference(mount::Reference reference) {
@@ -120,6 +150,7 @@ void Station::set_reference(mount::Reference reference) {
 // looks for it again.
 void Station::forget_angles() {
   pointing_.forget_angles();
+  detected_.forget_angles();
   motion_.clear();
   bearings_.clear();
   target_.forget_angles();
@@ -163,10 +194,7 @@ Refusal Station::designate(const DesignateCommand& command, double now_s) {
   motion_.clear();
   bearings_.clear();
   enter(StationState::kTracking);
-  // The operator saw an old frame: the target is followed through those since then.
-  for (const camera::Frame* frame : frames_.since(start->mid_exposure_s)) {
-    if (follows_target()) track(*frame);
-  }
+  follow_since(start->mid_exposure_s);
   return count(Refusal::kNone, "designate");
 }
 
@@ -306,7 +334,7 @@ StationOutput Station::step(double now_s) {
   expire(now_s_);
   StationOutput output;
   for (const MadeBearing& made : bearings_.take(pointing_, now_s_)) {
-    follow(made);
+    if (!made.bearing.detected) follow(made);
     if (made.to_send) output.bearings.push_back(made.bearing);
   }
   output.goal = goal(now_s);
@@ -389,8 +417,8 @@ std::vector<std::string> Station::alarms() const {
 // Each part uses its own counter names.
 std::map<std::string, double> Station::counters() const {
   auto all = counters_;
-  for (const auto* part :
-       {&mode_.counters(), &target_.counters(), &search_.counters(), &bearings_.counters()}) {
+  for (const auto* part : {&mode_.counters(), &target_.counters(), &search_.counters(),
+                           &bearings_.counters(), &detected_.counters()}) {
     all.insert(part->begin(), part->end());
   }
   if (pointing_.pose_revision() > 0) {

@@ -19,6 +19,7 @@
 #include "edge/mount/goal.h"
 #include "edge/station/angular_track.h"
 #include "edge/station/bearing_queue.h"
+#include "edge/station/detected_objects.h"
 #include "edge/station/followed_target.h"
 #include "edge/station/station_config.h"
 #include "edge/station/station_mode.h"
@@ -57,6 +58,12 @@ class Station {
   }
   // A frame older than max_age_s at now_s is dropped: the tracker gets no backlog.
   void on_frame(const camera::Frame& frame, double now_s);
+  // For the detector, if one runs: the picture to be looked at now, one at a time; then what was
+  // found in it. Pictures are given while the mount is sure of its angles, in every state.
+  std::optional<detector::Picture> picture_to_search(double now_s) {
+    return detected_.take(pointing_, now_s);
+  }
+  void on_found(detector::Found found);
   // The PTU's travel, once it is known.
   void set_limits(const mount::Limits& limits) { pointing_.set_limits(limits); }
   // Another geometry, with a calibration or without one, while the station runs. What was measured
@@ -137,6 +144,7 @@ class Station {
   Refusal stand_at(const PanTilt& angles, const char* command, double now_s);
   bool follows_target() const { return target_.exists() && mode_.may_track(); }
   void track(const camera::Frame& frame);
+  void follow_since(double mid_exposure_s);
   void judge_belief(bool believed, double time_s);
   void drop_unproven(double time_s);
   void look_along_slew(const camera::Frame& frame);
@@ -152,6 +160,7 @@ class Station {
   SlewSearch search_;
   ActiveSlew slew_;
   BearingQueue bearings_;
+  DetectedObjects detected_;
   AngularTrack motion_;
   ManualMotion manual_;
   UnitActions actions_;

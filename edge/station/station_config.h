@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "edge/detector/detector.h"
 #include "edge/lens/zoom_lens.h"
 #include "edge/mount/angle_history.h"
 #include "edge/mount/limits.h"
@@ -12,6 +13,13 @@
 #include "geometry/station_calibration.h"
 
 namespace ols::station {
+
+struct DetectionConfig {
+  bool enabled = true;
+  double rate_hz = 10.0;  // of the images that the detector looks at, maximum
+  int max_bearings = 16;  // of an image's tracklets, the likeliest
+  detector::DetectorConfig detector;
+};
 
 struct StationConfig {
   StationGeometry geometry;
@@ -38,6 +46,7 @@ struct StationConfig {
   double prediction_error_px = 20.0;
   int disagreeing_frames = 5;  // consecutive; raise the alarm
   tracker::AcquisitionConfig acquisition;
+  DetectionConfig detection;
   bool moves = true;              // false: the mount is fixed
   bool homing_allowed = true;     // on command
   bool rearm_over_bus = false;    // by any sender; else only by a person at the station

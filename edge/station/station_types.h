@@ -31,6 +31,15 @@ const char* to_string(StationState state);
 // Whether one pose lies outside the stated uncertainty of the other.
 bool differs(const sensors::StationPose& stated, const sensors::StationPose& now);
 
+// What a detector says of its object besides the direction. Zeros: unknown.
+struct DetectedObject {
+  int image_bearings = 0;  // of the detector, of this image, with this one
+  Eigen::Vector2d rate_rad_s = Eigen::Vector2d::Zero();       // cross-elevation, elevation
+  Eigen::Matrix2d rate_covariance = Eigen::Matrix2d::Zero();  // [rad^2/s^2]
+  double size_rad = 0.0, size_sd_rad = 0.0;                   // largest extent
+  double signal = 0.0;                                        // signal-to-noise ratio
+};
+
 // A bearing before it becomes a message.
 struct Bearing {
   double mid_exposure_s = 0.0;
@@ -45,6 +54,7 @@ struct Bearing {
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
   Eigen::Matrix2d covariance_px2 = Eigen::Matrix2d::Zero();  // white
   double designation_sd_px = 0.0;                            // stays
+  std::optional<DetectedObject> detected{};  // of a detector's tracklet; empty: of the target
 };
 
 struct DesignateCommand {

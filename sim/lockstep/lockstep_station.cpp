@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "edge/mount/fixed/fixed_kind.h"
 #include "edge/tracker/tracker.h"
@@ -12,14 +13,16 @@ namespace {
 constexpr double kZoomSd = 0.001, kZoomPoll_s = 0.05;
 constexpr double kStampSd_s = 20e-6;    // of the camera's time stamps
 constexpr double kTransport_s = 0.004;  // of a frame over the wire
+constexpr double kDetection_s = 0.03;   // of an image
 constexpr std::uint64_t kStationTag = 5000, kUnitTag = 6000, kTrackerTag = 7000;
 
-station::StationConfig station_config(const World& world, std::size_t index,
+station::StationConfig station_config(const World& world, std::size_t index, bool pictures,
                                       const std::optional<StationCalibration>& calibration) {
   station::StationConfig config;
   config.geometry = calibration ? calibration->model.geometry : world.stations()[index].nominal;
   config.calibration = calibration;
   config.overview = world.scenario().stations[index].overview;
+  config.detection.enabled = pictures && world.scenario().detector_on;
   const auto& points = world.stations()[index].zoom_points;
   if (!points.empty()) config.zoom.emplace(ZoomTable(points), kZoomSd);
   if (const auto& fixed = world.scenario().stations[index].fixed) {
@@ -57,11 +60,14 @@ LockstepStation::LockstepStation(const World& world, std::size_t index, const Fi
       mount_(make_lockstep_mount(world, index, derived_seed(world.seed(), kUnitTag + index),
                                  monotonic_s(0.0))),
       exposed_(world.stations()[index].unit, world.ptu_unit_config()),
-      config_(station_config(world, index, calibration)),
+      config_(station_config(world, index, fidelity.pictures, calibration)),
       station_(config_,
                make_tracker(fidelity, views_, derived_seed(world.seed(), kTrackerTag + index))),
       operator_(world, index, fidelity, noise_, *mount_, station_),
       told_{station::FrameService(config_.angles)} {
+  if (config_.detection.enabled) {
+    detection_.emplace(Detection{detector::PictureDetector(config_.detection.detector)});
+  }
   const ZoomScenario& zoom = world.scenario().stations[index].zoom;
   if (zoom.is_fixed()) return;
   lens_.emplace(Lens{LensUnit({.zoom_travel_s = zoom.travel_s}, monotonic_s(0.0)),
@@ -78,6 +84,7 @@ std::vector<station::Bearing> LockstepStation::advance(double time_s) {
   move_lens(time_s);
   expose(time_s);
   operate(time_s);
+  detect(time_s);
   const double now_s = monotonic_s(time_s);
   station::StationOutput output = station_.step(now_s);
   mount_->set_goal(output.goal);
@@ -123,6 +130,17 @@ void LockstepStation::expose(double time_s) {
   operator_.see({stamp_s, exposure, view});
   station_.on_frame(frame);
   if (designated() || left_alone()) take_note(mid_s, view);
+}
+
+void LockstepStation::detect(double time_s) {
+  if (!detection_) return;
+  if (detection_->found && time_s >= detection_->ready_s) {
+    station_.on_found(*std::exchange(detection_->found, std::nullopt));
+  }
+  if (const auto picture = station_.picture_to_search(monotonic_s(time_s))) {
+    detection_->found = detection_->detector.look(*picture);
+    detection_->ready_s = time_s + kDetection_s;
+  }
 }
 
 void LockstepStation::take_note(double mid_s, const ViewTruth& view) {

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "edge/detector/detector_work.h"
 #include "edge/frames/sighting_desk.h"
 #include "edge/lens/lens_driver.h"
 #include "edge/station/station.h"
@@ -77,12 +78,19 @@ class LockstepStation {
     station::FrameService unit;
     station::SightingDesk desk = {};
   };
+  // Its result takes some time, as that of the detector's thread.
+  struct Detection {
+    detector::PictureDetector detector;
+    std::optional<detector::Found> found{};
+    double ready_s = 0.0;
+  };
   struct Shutter {
     double phase_s = 0.0;  // of the exposures
     std::int64_t next = 0;
   };
   void move_lens(double time_s);
   void expose(double time_s);
+  void detect(double time_s);
   void take_note(double mid_s, const ViewTruth& view);
   void operate(double time_s);
 
@@ -97,6 +105,7 @@ class LockstepStation {
   ViewMemory views_;
   station::StationConfig config_;
   station::Station station_;
+  std::optional<Detection> detection_;
   LockstepOperator operator_;
   StationRecord record_;
   Told told_;

@@ -159,6 +159,7 @@ struct Scenario {
   InclinometerScenario inclinometer;
   GnssScenario gnss;
   GpioScenario gpio;
+  bool detector_on = false;  // the stations look for objects by themselves
   Errors errors;
   UnitErrorsScenario unit_errors;
   StationingScenario stationing;

@@ -144,6 +144,7 @@ std::string station_file(const World& world, std::size_t station,
   write_gpio(out, world.scenario(), options.line_folder + "/" + truth.id);
   write_lens_motor(out, truth, options.line_folder + "/" + truth.id);
   write_video(out, world.scenario().stations[station]);
+  out << "\n[detector]\nenabled = " << (world.scenario().detector_on ? "true" : "false") << "\n";
   return out.str();
 }
 

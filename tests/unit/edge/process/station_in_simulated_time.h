@@ -83,6 +83,7 @@ class StationInSimulatedTime : public testing::Test {
     message.lease_s = 1.0;
     message.command = command;
     message.pan_rad = pan_rad;
+    message.tilt_rad = tilt_rad_;
     reply_.reset();
     bus_.publish(station_channel(kPtuChannel, "alfa"), message);
     EXPECT_TRUE(time_.pass(kPatience_s, [this] { return reply_.has_value(); }));
@@ -103,6 +104,7 @@ class StationInSimulatedTime : public testing::Test {
   ols_msg::station_status_t status_{};
   std::optional<ols_msg::command_reply_t> reply_;
   std::int64_t sequence_ = 0;
+  double tilt_rad_ = 0.0;  // of orders to point
   std::optional<sim::SimulatedStation> station_;
 };
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "geometry/angles.h"
 
 namespace ols::station {
@@ -22,8 +24,8 @@ class BearingQueueTest : public testing::Test {
   static PixelMeasurement pixel(double time_s) {
     PixelMeasurement pixel;
     pixel.arrived_s = pixel.mid_exposure_s = time_s;
-    pixel.output.pixel = {639.5, 479.5};
-    pixel.output.covariance_px2 = Eigen::Matrix2d::Identity();
+    pixel.pixel = {639.5, 479.5};
+    pixel.covariance_px2 = Eigen::Matrix2d::Identity();
     pixel.track_id = 7;
     return pixel;
   }
@@ -43,6 +45,32 @@ TEST_F(BearingQueueTest, WaitsForTheAnglesOnBothSidesOfTheExposure) {
   EXPECT_EQ(made.front().bearing.track_id, 7);
   EXPECT_TRUE(queue.take(pointing, 10.04).empty()) << "once";
   EXPECT_NEAR(queue.frame_latency_s(), 0.002, 1e-9);
+}
+
+TEST_F(BearingQueueTest, OneOfADetectedObjectStatesItsRateAndSize) {
+  for (const double time_s : {10.0, 10.02, 10.04}) pointing.add(sample(time_s));
+  queue.add(pixel(10.05));
+  PixelMeasurement detected = pixel(10.01);
+  detected.detected = DetectedPixel{.velocity_px_s = {100.0, -50.0},
+                                    .velocity_sd_px_s = 10.0,
+                                    .size_px = 6.0,
+                                    .size_sd_px = 2.0,
+                                    .signal = 9.0,
+                                    .image_bearings = 3};
+  queue.add(detected);
+  const auto made = queue.take(pointing, 10.051);
+  ASSERT_EQ(made.size(), 1U) << "it does not wait for the newer one";
+  const double px_rad = 1.0 / config().geometry.camera.fx_px;
+  const DetectedObject& object = made.front().bearing.detected.value();
+  EXPECT_NEAR(object.rate_rad_s.x(), 100.0 * px_rad, 0.01 * px_rad);
+  EXPECT_NEAR(object.rate_rad_s.y(), 50.0 * px_rad, 0.01 * px_rad);
+  EXPECT_NEAR(std::sqrt(object.rate_covariance(0, 0)), 10.0 * px_rad, 0.01 * px_rad);
+  EXPECT_NEAR(object.size_rad, 6.0 * px_rad, 0.01 * px_rad);
+  EXPECT_NEAR(object.size_sd_rad, 2.0 * px_rad, 0.01 * px_rad);
+  EXPECT_EQ(object.signal, 9.0);
+  EXPECT_EQ(object.image_bearings, 3);
+  EXPECT_EQ(queue.counters().at("tracklet_bearings"), 1.0);
+  EXPECT_EQ(queue.frame_latency_s(), 0.0) << "that is the followed target's";
 }
 
 TEST_F(BearingQueueTest, DoesNotWaitForever) {

@@ -1,0 +1,41 @@
+// Runs the detector in its own thread, behind the control loop: an image takes it tens of
+// milliseconds.
+#pragma once
+
+#include <condition_variable>
+#include <mutex>
+#include <optional>
+#include <stop_token>
+#include <thread>
+
+#include "edge/detector/detector_work.h"
+
+namespace ols::station {
+
+class DetectorThread {
+ public:
+  explicit DetectorThread(const detector::DetectorConfig& config);
+  ~DetectorThread() = default;  // waits for the current picture
+  DetectorThread(const DetectorThread&) = delete;
+  DetectorThread& operator=(const DetectorThread&) = delete;
+
+  // Never waits. One picture at a time: the next one after take() has given the last one's result.
+  void give(detector::Picture picture);
+  std::optional<detector::Found> take();
+  double picture_s() const { return picture_s_; }  // that a picture takes, smoothed
+
+ private:
+  void work(const std::stop_token& stop);
+
+  detector::PictureDetector detector_;
+  std::mutex mutex_;
+  std::condition_variable_any arrived_;
+  std::condition_variable found_;
+  std::optional<detector::Picture> picture_;
+  bool works_ = false;  // a picture is there, or is looked at
+  std::optional<detector::Found> result_;
+  double taken_s_ = 0.0, picture_s_ = 0.0;
+  std::jthread thread_;  // last: it uses the others
+};
+
+}  // namespace ols::station
