@@ -89,6 +89,9 @@ TEST(ConsoleMessages, ABearingIsOfTheStationOfItsChannel) {
   bearing.azimuth_rad = 1.0;
   EXPECT_EQ(bearing_from(on("OLS_BEARING_alfa", bearing))->first, "alfa");
   EXPECT_FALSE(bearing_from(on("OLS_BEARING_bravo", bearing)));
+  bearing.detected = 1;
+  EXPECT_FALSE(bearing_from(on("OLS_BEARING_alfa", bearing))) << "of an object it does not follow";
+  bearing.detected = 0;
   ++bearing.schema_version;
   EXPECT_FALSE(bearing_from(on("OLS_BEARING_alfa", bearing)));
 }

@@ -59,6 +59,9 @@ TEST(ExportMessages, ALineFromItsCamera) {
   EXPECT_NEAR(line->camera.latitude_deg, 47.4, 1e-9);
   EXPECT_NEAR(line->camera.height_m, 601.0, 1e-6);
   EXPECT_NEAR(line->cross_sd_deg, degrees(5e-4), 1e-12);
+  message.detected = 1;
+  EXPECT_FALSE(line_from(on("OLS_BEARING_alfa", message), kSite)) << "no target yet";
+  message.detected = 0;
   message.azimuth_rad = std::nan("");
   EXPECT_FALSE(line_from(on("OLS_BEARING_alfa", message), kSite));
 }

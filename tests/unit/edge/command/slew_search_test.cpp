@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <deque>
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include "geometry/angles.h"
 #include "tests/unit/edge/station/station_fixture.h"
@@ -53,6 +56,74 @@ TEST_F(SlewSearchTest, SendsTheTrackerToTheSlewsPixelFromTimeToTime) {
   EXPECT_TRUE(search_.send_tracker(frame(1.6), pointing_, slew()));
   search_.restart(false);
   EXPECT_TRUE(search_.send_tracker(frame(1.7), pointing_, slew())) << "a new search begins";
+}
+
+// A detector's object, confirmed after half a second on this way.
+detector::Tracklet object(long id, const Eigen::Vector2d& pixel,
+                          const Eigen::Vector2d& velocity_px_s = Eigen::Vector2d::Zero()) {
+  constexpr double kImage_s = 0.1;
+  constexpr int kImages = 6;
+  detector::Detection detection;
+  detection.size_px = {8.0, 6.0};
+  detection.clear = true;
+  detection.pixel = pixel - (kImages - 1) * kImage_s * velocity_px_s;
+  detector::Tracklet tracklet(id, detection, 1280.0);
+  for (int i = 1; i < kImages; ++i) {
+    detection.pixel += kImage_s * velocity_px_s;
+    tracklet.predict(Eigen::Matrix3d::Identity(), kImage_s);
+    tracklet.update(detection);
+  }
+  tracklet.confirm();
+  return tracklet;
+}
+
+class AcquisitionOfTracklets : public SlewSearchTest {
+ protected:
+  // Empty sky: the station's own look at the images finds nothing.
+  std::optional<SlewSearch::Acquired> acquired(std::vector<detector::Tracklet> objects,
+                                               const SlewSearch::Slew& slew, double now_s = 1.2) {
+    frames_ = {frame(1.0), frame(now_s)};
+    for (camera::Frame& one : frames_) one.gray = cv::Mat(960, 1280, CV_8U, cv::Scalar(150));
+    return search_.acquire(frames_, detector::Found{1.0, std::move(objects), false}, pointing_,
+                           slew);
+  }
+  const Eigen::Vector2d middle_{639.5, 479.5};
+  std::deque<camera::Frame> frames_;
+};
+
+TEST_F(AcquisitionOfTracklets, TheOnlyOneThatBehavesAsTheSlewIsChosenInTheImageThatShowsIt) {
+  const auto there = acquired({object(1, {1100, 200}), object(2, {644, 484})}, slew());
+  ASSERT_TRUE(there);
+  EXPECT_EQ(there->frame->mid_exposure_s, 1.0);
+  EXPECT_NEAR(there->box.x + 0.5 * there->box.width, 644.5, 0.1);
+  EXPECT_NEAR(there->box.y + 0.5 * there->box.height, 484.5, 0.1);
+  EXPECT_GT(there->box.width, 8.0);
+  EXPECT_EQ(search_.counters().at("acquisitions_by_tracklet"), 1.0);
+}
+
+TEST_F(AcquisitionOfTracklets, OneElsewhereOrOfOtherSpeedIsNot) {
+  EXPECT_FALSE(acquired({object(1, {1100, 200})}, slew()));
+  EXPECT_FALSE(acquired({object(1, middle_, {400.0, 0.0})}, slew()));
+  SlewSearch::Slew moving = slew();
+  moving->effect_s = 1.0;
+  moving->azimuth_rate_rad_s = 400.0 / config_.geometry.camera.fx_px;
+  EXPECT_TRUE(acquired({object(1, middle_, {400.0, 0.0})}, moving));
+}
+
+TEST_F(AcquisitionOfTracklets, OfTwoNoneIs) {
+  EXPECT_FALSE(acquired({object(1, {640, 480}), object(2, {660, 480})}, slew()));
+}
+
+TEST_F(AcquisitionOfTracklets, AnOldResultIsNone) {
+  EXPECT_FALSE(acquired({object(1, middle_)}, slew(), 1.6));
+}
+
+TEST_F(AcquisitionOfTracklets, AlongALineItMustMove) {
+  SlewSearch::Slew line = slew();
+  line->line = {1.0, 0.0};
+  EXPECT_FALSE(acquired({object(1, {900, 480})}, line));
+  EXPECT_TRUE(acquired({object(1, {900, 480}, {100.0, 0.0})}, line));
+  EXPECT_FALSE(acquired({object(1, {900, 700}, {100.0, 0.0})}, line)) << "beside it";
 }
 
 TEST_F(SlewSearchTest, SendsItNowhereBeforeThePtuHasArrived) {

@@ -120,6 +120,28 @@ TEST(StationMessages, AnotherPoseIsAnotherCalibration) {
   EXPECT_GE(std::min({first, second, third}), 0);
 }
 
+TEST(StationMessages, ABearingOfADetectedObjectSaysSo) {
+  const StationSettings settings;
+  Bearing bearing;
+  EXPECT_FALSE(to_message(bearing, sender(), settings, 1).detected);
+  bearing.detected = DetectedObject{.image_bearings = 3,
+                                    .rate_rad_s = {0.1, -0.2},
+                                    .rate_covariance = Eigen::Vector2d(4.0, 9.0).asDiagonal(),
+                                    .size_rad = 0.003,
+                                    .size_sd_rad = 0.001,
+                                    .signal = 12.0};
+  const auto message = to_message(bearing, sender(), settings, 1);
+  EXPECT_TRUE(message.detected);
+  EXPECT_EQ(message.image_bearings, 3);
+  EXPECT_EQ(message.rate_rad_s[1], -0.2);
+  EXPECT_EQ(message.rate_covariance_rad2_s2[0], 4.0);
+  EXPECT_EQ(message.rate_covariance_rad2_s2[1], 0.0);
+  EXPECT_EQ(message.rate_covariance_rad2_s2[2], 9.0);
+  EXPECT_EQ(message.size_rad, 0.003);
+  EXPECT_EQ(message.size_sd_rad, 0.001);
+  EXPECT_EQ(message.signal, 12.0);
+}
+
 TEST(StationMessages, OnlySpansOfTimeAreRecorded) {
   ols_msg::record_t message;
   message.event_utime = 0;

@@ -11,18 +11,19 @@ namespace ols::station {
 namespace {
 
 using test::Command;
-constexpr double kPasses_s = 12.0;
+constexpr double kPeriod_s = 40.0;
 
-// The drone passes the middle of the site at that time, 75 m above it.
+// The drone passes the middle of the site twice in a period, 75 m above it.
 sim::Scenario passing() {
   sim::Scenario s = sim::load_scenario(std::string(OLS_SCENARIOS) + "/faults.toml");
   s.detector_on = true;
   s.inclinometer.on = s.gnss.on = s.gpio.on = false;
-  auto line = std::make_shared<sim::Line>();
-  line->v_enu = {6.0, 3.0, 0.0};
-  line->start_enu = Eigen::Vector3d(0.0, 0.0, 75.0) - kPasses_s * line->v_enu;
+  auto path = std::make_shared<sim::Lissajous>();
+  path->centre_enu = {0.0, 0.0, 75.0};
+  path->amplitude_m = {60.0, 30.0, 0.0};
+  path->period_s.setConstant(kPeriod_s);
   s.targets.resize(1);
-  s.targets.front().trajectory = line;
+  s.targets.front().trajectory = path;
   return s;
 }
 
@@ -57,7 +58,7 @@ TEST_F(StationDetects, WhatCrossesItsView) {
   ASSERT_TRUE(angles);
   tilt_rad_ = angles->tilt_rad;
   ASSERT_TRUE(give(Command::COMMAND_POINT, angles->pan_rad));
-  ASSERT_TRUE(time_.pass(test::kPatience_s, [this] { return bearings_.size() > 15; }));
+  ASSERT_TRUE(time_.pass(kPeriod_s, [this] { return bearings_.size() > 15; }));
   std::set<std::int64_t> ids;
   for (const ols_msg::bearing_t& bearing : bearings_) {
     EXPECT_TRUE(bearing.detected);
