@@ -32,8 +32,10 @@ void DetectedObjects::on_frame(const camera::Frame& frame,
   constexpr double kEarly = 0.25;  // of a period: the frames' own jitter
   if (!config_.enabled) return;
   const double period_s = 1.0 / config_.rate_hz;
-  const bool is_due = frame.mid_exposure_s >= due_s_ - kEarly * period_s;
-  if (is_due) due_s_ = std::max(due_s_ + period_s, frame.mid_exposure_s);
+  const double mid_s = frame.mid_exposure_s;
+  const bool is_due = mid_s >= due_s_ - kEarly * period_s;
+  // At that rate on average; after a pause it begins anew.
+  if (is_due) due_s_ = (mid_s > due_s_ + period_s ? mid_s : due_s_) + period_s;
   if (is_due && waiting_) counters_["detector_images_dropped"] += 1;
   // While the last picture is looked at, every newer frame is the better one.
   if (is_due || (waiting_ && looks_)) waiting_ = Look{frame, followed, now_s};

@@ -96,17 +96,17 @@ TEST_F(DetectedObjectsTest, ItWaitsForTheAnglesAfterTheExposureButNotForLong) {
 }
 
 TEST_F(DetectedObjectsTest, WhileItIsBusyTheNewestWinsAndOthersAreCounted) {
-  frame(0.1);
-  taken_ = take(0.1);
+  frame(0.3);
+  taken_ = take(0.3);
   ASSERT_TRUE(taken_);
-  for (const double time_s : {0.2, 0.25, 0.3, 0.35}) {
+  for (const double time_s : {0.4, 0.45, 0.5, 0.55}) {
     frame(time_s);
     EXPECT_FALSE(take(time_s)) << "one at a time";
   }
   found({});
-  taken_ = take(0.36);
+  taken_ = take(0.56);
   ASSERT_TRUE(taken_);
-  EXPECT_EQ(taken_->mid_exposure_s, 0.35);
+  EXPECT_EQ(taken_->mid_exposure_s, 0.55);
   EXPECT_EQ(counter("detector_images_dropped"), 1.0);
 }
 
