@@ -1,8 +1,8 @@
 // Automatic exposure that protects the target's contrast. Pure.
 //
-// Gray levels are proportional to light until they saturate, and so is the contrast between target
-// and surround. So the brighter of the two is brought to a level just below saturation, and the
-// rest of the image is ignored. Without a target the mean of the whole image is brought to a middle
+// Gray levels grow with the light until they saturate, and so does the contrast between target and
+// surround. So the brighter of the two is brought to a level just below saturation, and the rest of
+// the image is ignored. Without a target the mean of the whole image is brought to a middle
 // level. Exposure is raised before gain, because gain also amplifies noise; the maximum exposure is
 // the limit of motion blur.
 #pragma once
@@ -45,7 +45,8 @@ class AutoExposure {
   std::optional<ExposureSetting> step(const PictureLevels& levels);
   void applied(const ExposureSetting& setting) { setting_ = setting; }
 
-  // The factor of light that the image lacks (> 1), or has in excess, because of the limits.
+  // By which factor the image is too dark (> 1) or too bright (< 1) at the limits of exposure and
+  // gain.
   double missing_factor() const { return missing_; }
 
  private:

@@ -24,7 +24,7 @@ class CameraHandover {
   // Ends the camera's thread.
   void end();
   bool ended() const;
-  // Until the end, or for this time.
+  // Returns after this time, or when the thread is to end.
   void wait(double duration_s);
 
   // For the camera's thread.
@@ -35,7 +35,8 @@ class CameraHandover {
     const std::lock_guard lock(mutex_);
     change(facts_);
   }
-  // A good frame, after `lost` missing ones; without pixels if a newer one is already waiting.
+  // Takes a good frame that follows `lost` missing ones. It has no pixels if a newer one is already
+  // waiting.
   void publish(Frame frame, std::uint64_t lost, const FrameStatistics& statistics);
   void note_incomplete(std::uint64_t lost, const FrameStatistics& statistics);
   // A complete frame that is not as configured.

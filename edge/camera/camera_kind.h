@@ -15,7 +15,7 @@ class CameraKind {
   virtual ~CameraKind() = default;
   virtual config::Section section() = 0;  // refers to this object
   virtual const CameraConfig& config() const = 0;
-  virtual std::string address() const = 0;  // what to look for, for a person
+  virtual std::string address() const = 0;  // what it looks for, in words
   // Starts to look for the camera and returns at once. `keep_raw`: also keeps its raw images, for a
   // recorder and the tracker's colours.
   virtual std::unique_ptr<Camera> open(bool keep_raw) const = 0;

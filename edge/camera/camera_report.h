@@ -24,7 +24,7 @@ struct CameraCounters {                 // only rise
   std::uint64_t frames_captured = 0;    // complete and of the configured size and format
   std::uint64_t frames_lost = 0;        // missing in the camera's numbering
   std::uint64_t frames_incomplete = 0;  // packets missing
-  std::uint64_t frames_late = 0;        // captured, but a newer one was there before next() came
+  std::uint64_t frames_late = 0;        // captured, but replaced by a newer one before next()
   std::uint64_t frames_refused = 0;     // wrong size or format
   std::uint64_t reconnects = 0;         // opened again after it had streamed or failed
 };
@@ -44,7 +44,7 @@ struct CameraFacts {
   double frame_rate_hz = 0.0;          // recent
   double incomplete_share = 0.0;       // recent
   ExposureSetting exposure;
-  double missing_light = 1.0;  // factor of light that automatic exposure lacks at its limits
+  double missing_light = 1.0;  // AutoExposure::missing_factor()
   std::optional<double> temperature_degC;
   StampSource stamp_source = StampSource::kCamera;
   double stamp_sd_s = 0.0;
@@ -52,7 +52,7 @@ struct CameraFacts {
   std::optional<double> ptp_disagreement_s;
 };
 
-// The share of recent frames of which packets may be missing before it is a fault.
+// It is a fault if packets are missing in a larger share of the recent frames.
 inline constexpr double kManyIncomplete = 0.02;
 
 device::DeviceReport make_camera_report(const CameraConfig& config, const CameraFacts& facts,

@@ -3,8 +3,8 @@
 //
 // Two sources. A *latch* reads the camera's clock between two readings of the station's clock: the
 // true instant lies in between, whatever the network delay. The *arrival* of a frame gives only a
-// bound: not earlier than its stamp plus a roughly known delay; the earliest of many is the
-// tightest.
+// bound: no frame arrives before its stamp plus a delay that is roughly known. The earliest of many
+// arrivals is the tightest bound.
 #pragma once
 
 #include <cstdint>
@@ -44,8 +44,8 @@ class ClockMap {
   // From the latches; empty without any.
   std::optional<MappedTime> from_latches(std::int64_t device_ns) const;
 
-  // From the arrivals: the instant `delay_s` before the earliest possible arrival of such a stamp.
-  // sd_s is that of the envelope, without that of the delay. Empty without any.
+  // From the arrivals: the earliest possible arrival of a frame with this stamp, minus `delay_s`.
+  // sd_s covers the fit to the earliest arrivals, but no error of the delay. Empty without any.
   std::optional<MappedTime> from_arrivals(std::int64_t device_ns, double delay_s) const;
 
   int latches() const { return static_cast<int>(latches_.size()); }

@@ -19,8 +19,8 @@ struct FrameTime {
   StampSource source = StampSource::kCamera;
 };
 
-// TAI, the time of a PTP slave, on the station's monotonic clock: through the station's UTC and the
-// leap seconds.
+// Converts TAI, the time of a PTP slave, to the station's monotonic clock, by the station's UTC and
+// the leap seconds.
 struct TaiReference {
   std::int64_t monotonic_minus_tai_ns = 0;
   double sd_s = 0.0;  // 1-sigma, of the station's UTC and of the master combined
@@ -38,11 +38,11 @@ class FrameClock {
 
   ClockMap& map() { return map_; }
 
-  // While the camera's clock is TAI and the station's UTC can be trusted; otherwise empty. A second
-  // source besides the latches: the better one is used while they agree, the latches if they do
-  // not.
+  // Call with a reference while the camera's clock is TAI and the station's UTC can be trusted,
+  // else with nothing. It is a second source beside the latches. While the two agree, the more
+  // accurate one is used; otherwise the latches are.
   void set_tai(const std::optional<TaiReference>& reference) { tai_ = reference; }
-  // The difference of PTP from the latches [s] if both uncertainties cannot explain it.
+  // PTP minus latches [s], if their uncertainties do not explain the difference.
   std::optional<double> tai_disagreement_s() const { return tai_disagreement_s_; }
 
   // `device_ns`: the camera's own stamp, empty if it has none. `arrival_s`: of the frame's first

@@ -13,8 +13,8 @@ struct AngleSample {
   double time_s = 0.0;     // station's monotonic clock: estimate of when the unit read its counters
   double time_sd_s = 0.0;  // 1-sigma of that estimate (white)
   PanTilt angles;
-  // Set if the tilt's instant is known with another accuracy than the pan's; and how much later it
-  // is.
+  // Set if the tilt was read at another instant than the pan: the 1-sigma of that instant, and how
+  // much later it was.
   std::optional<double> tilt_time_sd_s = {};
   double tilt_delay_s = 0.0;
   PanTilt doubt = {};  // [rad] 1-sigma of further errors of each angle
@@ -38,8 +38,9 @@ class AngleHistory {
     double max_gap_s = 0.25;            // no interpolation across more than this
     double max_extrapolation_s = 0.15;  // no answer further than this after the newest sample
     double step_rad = 5.61e-5;          // one encoder step: 11.5714 arc seconds
-    // Accelerations between two samples: the first one always; more where the unit was commanded
-    // to accelerate or the neighbouring samples show it; after the newest sample up to the second.
+    // Accelerations. Between two samples the first value is expected, and more where the unit was
+    // commanded to accelerate or the neighbouring samples show that it did. After the newest sample
+    // the unit may have begun to accelerate by up to the second value.
     double acceleration_sd_rad_s2 = 0.04;
     double acceleration_max_rad_s2 = 1.0;
   };

@@ -1,4 +1,5 @@
-// From which side an axis came to where it stands: its backlash decides on that. Pure.
+// From which side each axis came to its present angle, which decides where its backlash leaves it.
+// Pure.
 #pragma once
 
 #include <deque>
@@ -19,11 +20,11 @@ class ApproachHistory {
   explicit ApproachHistory(const PanTilt& step) : step_(step) {}
   void set_step(const PanTilt& step) { step_ = step; }
 
-  // In time order; entries older than `span_s` before it are dropped but for the one in force.
+  // In time order. Changes older than ten seconds are forgotten, except the one still in force.
   void add(double time_s, const PanTilt& reported);
   void clear();
 
-  // In force at this instant; after the newest sample, the newest.
+  // The approach in force at this instant; after the newest sample, the newest one.
   Approach at(double time_s) const;
 
  private:

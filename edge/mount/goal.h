@@ -12,7 +12,7 @@ struct Goal {
   PanTilt rate;                // [rad/s] feed-forward; 0 for a fixed goal
   double valid_until_s = 0.0;  // the mount halts after this
   bool rate_only = false;      // only the rates are wanted, from wherever the mount is
-  bool rests = false;          // a fixed goal that nothing moves: the mount comes to rest there
+  bool rests = false;          // a fixed goal: the mount comes to rest there
 };
 
 }  // namespace ols::mount

@@ -1,5 +1,5 @@
-// What a station needs of whatever carries its camera: angles with their times and errors, and
-// obedience. Angles are the mount's own [rad], times are CLOCK_MONOTONIC [s].
+// What a station needs of the mount that carries its camera: angles with their times and errors,
+// and a way to command them. Angles are the mount's own [rad], times are CLOCK_MONOTONIC [s].
 //
 // The mount may be absent, vanish and come back at any time; it then has no samples, and its report
 // says why. Until the first goal, or home(), nothing moves. Every method may be called from any
@@ -25,8 +25,8 @@ class Mount {
   Mount(const Mount&) = delete;
   Mount& operator=(const Mount&) = delete;
 
-  // The goal from now on; nothing: halt. Dropped in an emergency, and whenever the mount or its
-  // reference is lost.
+  // Sets the goal; nothing: halt. The goal is dropped in an emergency, and whenever the mount or
+  // its reference is lost.
   virtual void set_goal(const std::optional<Goal>& goal) = 0;
   // Angle samples since the last call, oldest first.
   virtual std::vector<AngleSample> take_samples() = 0;
@@ -42,13 +42,14 @@ class Mount {
   // Finds the reference again; the mount may sweep its whole travel. Ignored in an emergency.
   virtual void home() = 0;
   virtual void stop_homing() = 0;
-  // Whether a mount that is configured to homes by itself may do so now; not allowed at first.
+  // Permits the mount to home by itself, if it is configured to. Not permitted at first.
   virtual void allow_rehoming(bool allowed) = 0;
   // Homings ordered by this process; each may leave the angles at another zero.
   virtual std::uint64_t homings() const = 0;
   // A person confirms the reference.
   virtual void reference_ok() = 0;
-  // The doubt that an earlier process persisted, and that of this one for the next.
+  // Restores the doubt that an earlier process persisted; and the doubt to persist for the next
+  // one.
   virtual void restore_doubt(const std::optional<ReferenceDoubt>& doubt) = 0;
   virtual std::optional<ReferenceDoubt> doubt_to_persist() const = 0;
 

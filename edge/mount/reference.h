@@ -12,7 +12,7 @@ namespace ols::mount {
 enum class Reference {
   kUnknown,  // no usable mount
   kMissing,  // the mount must be homed, or it is homing
-  kDoubted,  // no samples, and goals are ignored, until it was homed or its reference confirmed
+  kDoubted,  // no samples, and goals are ignored, until it is homed or its reference confirmed
   kTrusted,
 };
 
@@ -26,7 +26,7 @@ struct ReferenceDoubt {
   bool operator==(const ReferenceDoubt&) const = default;
 };
 
-// The persisted form is one word. All of the words; the first one stands for a trusted reference.
+// All words of the persisted form, which is one word. The first stands for a trusted reference.
 const std::vector<std::string>& doubt_words();
 std::string to_word(const std::optional<ReferenceDoubt>& doubt);
 // A word that is not one of doubt_words() counts as the most serious doubt.

@@ -20,18 +20,18 @@ class AngleIntake {
 
   // Commands were sent that change the unit's speed by this [rad/s].
   void commanded(const PanTilt& change_rad_s);
-  // The positions of a complete cycle; `change_rad_s`: of its commands, which may still take
-  // effect.
+  // Takes the positions of a complete cycle. `change_rad_s`: by how much its commands change the
+  // speed, perhaps not yet.
   PositionCheck::Verdict take(const PollCycle& done, const PanTilt& change_rad_s, double time_s);
 
-  // At this time, or else the newest ones; nothing before the first sample.
+  // The angles at this time, or the newest if no sample covers it; nothing before the first sample.
   std::optional<PanTilt> angles_at(double time_s) const;
   std::optional<double> newest_s() const;  // instant of the newest sample
   PanTilt rate_rad_s() const { return check_.rate_rad_s(); }
   bool standing() const { return check_.standing(); }
 
   std::vector<mount::AngleSample> take_samples() { return samples_.take(); }
-  std::optional<double> last_good_s() const { return last_good_s_; }  // when it was taken in
+  std::optional<double> last_good_s() const { return last_good_s_; }  // when it arrived
 
  private:
   PanTilt commanded_rad_s2(double time_s) const;

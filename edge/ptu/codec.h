@@ -63,7 +63,7 @@ struct PtuReply {
   std::string text;              // after the `*` or `!`, trimmed
   std::optional<double> number;  // the first word of the text that is a number
   double began_s = 0.0;          // instant by which the `*` or `!` was complete
-  double ended_s = 0.0;          // and by which the first byte of the line end was
+  double ended_s = 0.0;          // the same for the first byte of the line end
 
   // The number as a count: whole and within 32 bits.
   std::optional<std::int32_t> count() const;

@@ -36,13 +36,13 @@ class PtuDriver {
   // unit and when it sets another rate.
   int line_baud() const;
 
-  // The goal of the unit from now on; nothing: halt. Takes effect with the next poll. Dropped in
-  // an emergency and whenever the unit or its reference is lost.
+  // Sets the goal; nothing: halt. It takes effect with the next poll, and is dropped in an
+  // emergency and whenever the unit or its reference is lost.
   void set_goal(const std::optional<mount::Goal>& goal);
 
-  // Nothing moves from now on: halts are sent until the unit was seen to stand, and no other motion
-  // command before clear_emergency(). Returns the bytes to write at once; drop bytes that are not
-  // on the line yet first.
+  // Halts the unit: sends halts until it is seen to stand, and no other motion command before
+  // clear_emergency(). Returns the bytes to write at once. Before writing them, drop all bytes that
+  // are not on the line yet.
   std::string emergency_halt(double time_s);
   void clear_emergency() { emergency_ = false; }
   bool in_emergency() const { return emergency_; }
@@ -50,7 +50,7 @@ class PtuDriver {
   // Halts the unit, waits until it stands and homes it: R sweeps the whole travel. Ignored in an
   // emergency, and abandoned when the unit does not answer.
   void home(double time_s);
-  // Abandons homing, and sends a halt to a unit that homes already. Some units ignore it.
+  // Abandons homing. A unit that already homes is sent a halt, which some units ignore.
   void stop_homing(double time_s);
   // Whether PtuRehome::kWhenUnreferenced applies now. home() is always possible.
   void allow_rehoming(bool allowed) { rehoming_allowed_ = allowed; }
@@ -95,7 +95,7 @@ class PtuDriver {
     bool answered;  // the unit had answered at this baud rate
     std::optional<int> listening_baud = {};
   };
-  // How far the unit ever came; never goes back.
+  // The furthest that the unit has come since the start.
   enum class Progress { kNone, kFaulted, kReady };
 
   // How long bytes may have waited before they were read: the longer of the last two pauses between

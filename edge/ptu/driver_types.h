@@ -10,13 +10,14 @@
 namespace ols::ptu {
 
 // Whether the driver homes a unit whose reference is missing or in doubt. Homing sweeps the whole
-// travel, whatever stands there, so only the configuration or a person can allow it.
+// travel, even if something stands there, so only the configuration or a person can allow it.
 enum class PtuRehome {
   kNever,             // a fault until a person homes the unit or confirms its reference
   kWhenUnreferenced,  // R, once after each loss
 };
 
-// The unit accelerates less than configured, so the driver limits its speed until it stops in time.
+// The unit accelerates less than configured, so the driver limits its speed, so that it stops in
+// time.
 struct PtuLoweredSpeed {
   double acceleration_rad_s2, speed_rad_s;
 };
@@ -31,8 +32,8 @@ struct PtuConfig {
   double environment_interval_s = 5.0;  // supply voltage and temperatures; 0: never
   double supply_min_V = 11.5;           // a lower one is an alarm
   PtuRehome rehome = PtuRehome::kNever;
-  // The unit's own setting, as delivered: a unit that was switched on just before the driver first
-  // talks to it answers only after it has homed, so its reference is trusted.
+  // As the unit is set when delivered: it homes when it is switched on, and does not answer until
+  // it has. Its reference is therefore trusted when it first answers the driver.
   bool homes_at_power_up = true;
   bool home_despite_keep_out = false;                  // on command
   char step_mode = 0, hold_power = 0, move_power = 0;  // PtuStartOptions

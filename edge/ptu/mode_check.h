@@ -1,6 +1,6 @@
 // If a ready unit begins to echo or to reply verbosely, switches that off without a restart. The
-// unit may have lost power and be in velocity mode or have other ramps, so it gets no motion
-// command until it has answered that this is not so. Pure.
+// unit may have lost power, and may now be in velocity mode or have other ramps. So it gets no
+// motion command until its answers show that it is not and has not. Pure.
 #pragma once
 
 #include <cstdint>

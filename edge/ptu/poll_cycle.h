@@ -31,7 +31,7 @@ class PollCycle {
   const std::string& bytes() const { return request_.bytes(); }
   // When the last byte of the request is on the line.
   double sent_out_s() const;
-  // When all replies are there, if the unit takes no longer than `slack_s` over them.
+  // When all replies will have arrived, if the unit takes no longer than `slack_s` for them.
   double due_s(double slack_s) const;
 
   // `late_s`: the reply's bytes may have waited up to this long before they were read.

@@ -42,15 +42,15 @@ class PtuHandover : public mount::Mount {
   PtuStatus status() const;
   device::DeviceReport report() const override;
 
-  // For whoever moves the bytes. A turn: what has arrived; what is to be sent, at which rate, and
-  // whether the line is to be opened again.
+  // For the owner of the line. One turn takes what has arrived, and returns what to send, at which
+  // rate, and whether to open the line again.
   struct Turn {
     std::string request;
     int baud = 0;
     bool link_lost = false;
   };
   Turn turn(const std::string& arrived);
-  // What goes out before everything else; nothing: no emergency has begun since the last call.
+  // The halt to send before everything else; nothing: no emergency has begun since the last call.
   std::optional<std::string> take_halt();
   int line_baud() const;
   // The line was gone: the unit may be another one.

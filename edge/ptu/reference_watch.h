@@ -56,7 +56,7 @@ class ReferenceWatch {
 
   std::optional<PtuDoubtCause> cause() const;
   std::optional<mount::ReferenceDoubt> doubt() const;
-  // Neither was the unit homed since its reference was last trusted nor was a homing broken off.
+  // Since the reference was last trusted, the unit was not homed and no homing was broken off.
   bool may_home_automatically() const;
 
  private:

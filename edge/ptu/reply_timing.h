@@ -24,7 +24,7 @@ class ReplyTiming {
   ReplyTiming(double byte_s, double usual_latency_s)
       : byte_s_(byte_s), usual_latency_s_(usual_latency_s) {}
 
-  // A position. `first`: of the cycle, so that the unit was idle before.
+  // A position. `first`: it is the first of the cycle, so the unit was idle before.
   PtuReading read_at(const PtuReply& reply, double asked_s, double late_s, bool first) const;
   double latency_s(const PtuReply& reply, double asked_s) const;
 

@@ -4,8 +4,8 @@
 // *positions*: in every cycle the goal a short look-ahead in the future, at the speed that arrives
 // there in time. While commands arrive, the unit never reaches the commanded position and moves
 // smoothly; when they stop, it brakes and stops after at most the look-ahead (or 1/gain, if longer)
-// plus its braking time. Where it is to come to rest it goes on its own ramp: the goal itself is
-// commanded, as soon as it is within that reach.
+// plus its braking time. For a goal at which the unit is to rest, the goal itself is commanded as
+// soon as it is within reach, and the unit brakes on its own ramp.
 #pragma once
 
 #include <optional>
@@ -39,10 +39,10 @@ std::optional<ServoCommand> servo_step(const ServoConfig& config, const mount::L
                                        const std::optional<mount::Goal>& goal, const PanTilt& now,
                                        double time_s, const PanTilt& now_rate = {});
 
-// How long the unit still moves at most when its host fails while it moves at this speed.
+// The longest time for which the unit moves on if its host fails while it moves at this speed.
 double runs_on_s(const ServoConfig& config, double speed_rad_s);
 
-// From kRunsOnSpeed_rad_s, or its maximum speed if lower, it may move on for at most this time.
+// The limit of runs_on_s() at kRunsOnSpeed_rad_s, or at the maximum speed if that is lower.
 constexpr double kRunsOnAtMost_s = 1.0;
 constexpr double kRunsOnSpeed_rad_s = 0.349066;  // 20 deg/s
 bool runs_on_too_long(const ServoConfig& config);

@@ -40,12 +40,13 @@ struct AravisConfig : CameraConfig {
   double retry_s = 0.5;  // between attempts to open
 
   int packet_size = 0;  // [byte] IP packet of the stream; 0: as large as the path allows
-  // The kernel's ring buffer, which needs CAP_NET_RAW. Without it the station's capabilities can be
-  // dropped; nothing is lost while packets are paced or the buffer is large.
+  // Receives packets through the kernel's ring buffer, which needs CAP_NET_RAW. Without the ring
+  // buffer the station needs no capability; it loses no packets while they are paced, or while the
+  // socket's buffer is large.
   bool packet_socket = false;
   int socket_buffer = 8 << 20;  // [byte] requested; the kernel grants up to net.core.rmem_max
-  // Between two packets. -1: automatic, none if the socket's buffer holds some frames, otherwise
-  // such that a frame takes packet_spread of the frame period.
+  // The pause between two packets. -1: automatic. There is then no pause if the socket's buffer
+  // holds some frames; otherwise a frame is spread over packet_spread of the frame period.
   double packet_delay_us = -1.0;
   double packet_spread = 0.6;
   bool packet_resend = true;  // request lost packets again where the camera can

@@ -18,13 +18,12 @@ struct FixedMountConfig {
   PanTilt angles;
 };
 
-// The size of a count of a mount that has no encoder: what a station tells of angles is told in
-// counts.
+// A fixed mount has no encoder, but a station reports angles in counts: the size of such a count.
 inline constexpr double kVirtualCount_rad = radians(1e-4);
 
 Limits fixed_limits(const PanTilt& angles);
 std::string fixed_words(const PanTilt& angles);  // "fixed at pan 10.00, tilt 5.00 deg"
-// Twenty samples a second up to now, after the one at `last_s`; of a long time only the newest.
+// The samples after `last_s` up to now, twenty a second; after a long time only the newest.
 std::vector<AngleSample> fixed_samples(const PanTilt& angles, double last_s, double now_s);
 
 class FixedMount : public Mount {
