@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "console/aiming.h"
+#include "wire/cue_values.h"
 
 namespace ols::console {
 namespace {
@@ -184,7 +185,10 @@ void Console::act(std::uint64_t id, const CueRequest& request, const Now& now) {
                               : is_too_late ? kTooLate
                                             : cues_.refusal(viewer.role, bus_trouble_);
   if (!refusal.empty()) return answer(id, request.number, "", refusal);
-  const std::string what = (allow ? "allows cue " : "forbids cue ") + request.order.cue;
+  const bool is_target = target_named(request.order.cue).has_value();
+  const std::string what = (is_target ? (allow ? "allows target " : "dismisses target ")
+                                      : (allow ? "allows cue " : "forbids cue ")) +
+                           request.order.cue;
   const auto event = site_.note({now.utime_us, "command", "", viewer.name, what, "sent"});
   cues_.give(request.order, {id, request.number, event}, now.monotonic_s);
 }

@@ -1,6 +1,7 @@
 #include "wire/cue_values.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 
 namespace ols {
@@ -34,6 +35,14 @@ CueFault fault_of(const CueValues& cue) {
   if (!is_finite(cue)) return CueFault::kNotFinite;
   if (!is_possible(cue)) return CueFault::kOutOfRange;
   return std::abs(cue.latitude_deg) > kPole_deg ? CueFault::kPole : CueFault::kNone;
+}
+
+std::optional<std::int64_t> target_named(const std::string& name) {
+  std::int64_t id = 0;
+  const char* end = name.data() + name.size();
+  const auto [stop, error] = std::from_chars(name.data(), end, id);
+  if (error != std::errc{} || stop != end || id <= 0) return std::nullopt;
+  return id;
 }
 
 }  // namespace ols

@@ -3,6 +3,9 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
 
 namespace ols {
 
@@ -20,5 +23,9 @@ enum class CueFault {
   kPole,        // east and north are undefined there
 };
 CueFault fault_of(const CueValues& cue);
+
+// The number of the target that an order names in place of a cue; nullopt: it names a cue. The name
+// of a cue (INPUT.NAME) is never a number alone.
+std::optional<std::int64_t> target_named(const std::string& name);
 
 }  // namespace ols

@@ -8,6 +8,7 @@
 #include "base/journal/journal.h"
 #include "base/process/clocks.h"
 #include "conditions/alarms.h"
+#include "wire/cue_values.h"
 
 namespace ols::fusion {
 namespace {
@@ -158,10 +159,13 @@ std::string FusionProcess::obey(const CueOrder& order) {
   constexpr std::size_t kSenders = 1000;  // forged ones bring any number
   if (cue_orders_.size() >= kSenders) cue_orders_.clear();
   cue_orders_[order.boot_id] = order.sequence;
-  write_to_journal(
-      {.text = "cue " + order.cue + ": an operator " + (order.allow ? "allows" : "forbids") + " it",
-       .id = event::kCueOrder});
+  write_to_journal({.text = (target_named(order.cue) ? "target " : "cue ") + order.cue +
+                            ": an operator " + (order.allow ? "allows" : "forbids") + " it",
+                    .id = event::kCueOrder});
   if (fusion_.allow_cue(order.cue, order.allow)) return {};
+  if (target_named(order.cue)) {
+    return settings_.fusion.handover.mode == HandoverMode::kOff ? "handover_off" : "no_target";
+  }
   return settings_.fusion.cues.allow == CueAllowance::kNever ? "cues_not_allowed" : "no_cue";
 }
 

@@ -110,6 +110,34 @@ Section cues_section(CueConfig& c) {
            config::integer("most", c.most, 1, 64, "", "Maximum number of cues at the same time.")}};
 }
 
+Section handover_section(HandoverConfig& c) {
+  return {"handover",
+          "Which targets lead stations that nobody has designated (docs/fusion.md, section 8).",
+          {config::word("mode", c.mode,
+                        {{"off", HandoverMode::kOff},
+                         {"propose", HandoverMode::kPropose},
+                         {"automatic", HandoverMode::kAutomatic}},
+                        "off: targets that only detectors have found lead no station; propose: "
+                        "each waits for an operator; automatic: each leads at once."),
+           config::word_list("classes", c.classes,
+                             {{"unknown", ObjectClass::kUnknown},
+                              {"drone", ObjectClass::kDrone},
+                              {"bird", ObjectClass::kBird},
+                              {"aircraft", ObjectClass::kAircraft},
+                              {"other", ObjectClass::kOther}},
+                             "Classes that lead at once where the mode is automatic; the others "
+                             "wait for an operator."),
+           config::texts("staring", c.staring, "Stations that are never led anywhere."),
+           config::number("seek_s", c.seek_s, {0.0, 60.0}, "s",
+                          "A lost target is looked for this long where it must be by then."),
+           config::number("remember_s", c.remember_s, {0.0, 60.0}, "s",
+                          "A dismissed target that comes back under another number within this "
+                          "time stays dismissed."),
+           config::number("acceleration_sd_m_s2", c.acceleration_sd_m_s2, {0.0, 100.0}, "m/s^2",
+                          "1-sigma of a lost target's acceleration: how fast it becomes "
+                          "uncertain where it is.")}};
+}
+
 std::vector<config::Row> admission_rows(FusionConfig& c) {
   return {
       config::choice("estimator", c.estimator, {"filter", "least-squares", "paper"},
@@ -138,18 +166,19 @@ std::vector<config::Row> admission_rows(FusionConfig& c) {
 
 Section fusion_section(FusionSettings& s) {
   FusionConfig& fusion = s.fusion;
-  Section root{"",
-               "",
-               {config::bus_url(s.lcm_url),
-                config::number("status_interval_s", s.status_interval_s, {0.05, 60.0}, "s",
-                               "Interval of the status messages."),
-                config::number("slew_clock_tolerance_s", s.slew_clock_tolerance_s, {0.1, 60.0}, "s",
-                               "Targets and slews further from this host's clock are withheld.")},
-               {alignment_section(fusion.estimators.alignment),
-                paper_section(fusion.estimators.paper), motion_section(fusion.tracks.filter.motion),
-                station_errors_section(fusion.tracks.errors), tracks_section(fusion.tracks),
-                slew_section(fusion.slew), clocks_section(fusion.admission.clocks),
-                cues_section(fusion.cues), trust::trust_section(s.trust)}};
+  Section root{
+      "",
+      "",
+      {config::bus_url(s.lcm_url),
+       config::number("status_interval_s", s.status_interval_s, {0.05, 60.0}, "s",
+                      "Interval of the status messages."),
+       config::number("slew_clock_tolerance_s", s.slew_clock_tolerance_s, {0.1, 60.0}, "s",
+                      "Targets and slews further from this host's clock are withheld.")},
+      {alignment_section(fusion.estimators.alignment), paper_section(fusion.estimators.paper),
+       motion_section(fusion.tracks.filter.motion), station_errors_section(fusion.tracks.errors),
+       tracks_section(fusion.tracks), slew_section(fusion.slew),
+       clocks_section(fusion.admission.clocks), cues_section(fusion.cues),
+       handover_section(fusion.handover), trust::trust_section(s.trust)}};
   std::ranges::move(admission_rows(fusion), std::back_inserter(root.rows));
   return root;
 }

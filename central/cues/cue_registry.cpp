@@ -13,13 +13,6 @@ constexpr double kGate = 16.3;     // of the squared distance in three dimension
 constexpr double kSettle_s = 0.1;  // between two looks at which target is where
 constexpr double kLeap = 100.0;    // of the squared distance: no motion of the one that was allowed
 
-bool is_there(const CueAim& aim, const Track& track, std::int64_t now_us) {
-  const KinematicState cue = aim.at(now_us), target = track.filter.at(now_us);
-  const Eigen::Vector3d off = (target.mean - cue.mean).head<3>();
-  const Eigen::Matrix3d both = (target.covariance + cue.covariance).topLeftCorner<3, 3>();
-  return off.dot(both.llt().solve(off)) <= kGate;
-}
-
 bool leaps(const CueAim& before, const Cue& cue) {
   const KinematicState expected = before.at(cue.state_us), now = CueAim{cue, 0.0}.at(cue.state_us);
   const Eigen::Vector3d off = (now.mean - expected.mean).head<3>();
@@ -28,6 +21,28 @@ bool leaps(const CueAim& before, const Cue& cue) {
 }
 
 }  // namespace
+
+bool is_there(const CueAim& aim, const Track& track, std::int64_t now_us) {
+  const KinematicState cue = aim.at(now_us), target = track.filter.at(now_us);
+  const Eigen::Vector3d off = (target.mean - cue.mean).head<3>();
+  const Eigen::Matrix3d both = (target.covariance + cue.covariance).topLeftCorner<3, 3>();
+  return off.dot(both.llt().solve(off)) <= kGate;
+}
+
+CueHealth health_of(const CueAim& aim, CueState state, std::int64_t target_id,
+                    std::int64_t now_us) {
+  const KinematicState now = aim.at(now_us);
+  const Eigen::Matrix3d R = R_ecef_enu(aim.cue.place);
+  const Eigen::Matrix3d enu = R.transpose() * now.covariance.topLeftCorner<3, 3>() * R;
+  return {aim.cue.id,
+          aim.cue.label,
+          state,
+          target_id,
+          seconds(now_us - aim.cue.state_us),
+          geodetic_from_ecef(now.mean.head<3>()),
+          std::sqrt(enu(0, 0)),
+          std::sqrt(enu(2, 2))};
+}
 
 bool CueRegistry::is_silent(const Live& live, std::int64_t present_us) const {
   return std::abs(seconds(present_us - live.heard_us)) > kHold_s ||
@@ -100,12 +115,8 @@ std::vector<CueAim> CueRegistry::aims(std::int64_t now_us) const {
 std::vector<CueHealth> CueRegistry::health(std::int64_t now_us) const {
   std::vector<CueHealth> all;
   for (const auto& [id, live] : cues_) {
-    const KinematicState now = CueAim{live.cue, config_.acceleration_sd_m_s2}.at(now_us);
-    const Eigen::Matrix3d R = R_ecef_enu(live.cue.place);
-    const Eigen::Matrix3d enu = R.transpose() * now.covariance.topLeftCorner<3, 3>() * R;
-    all.push_back({id, live.cue.label, state_of(live), live.target_id,
-                   seconds(now_us - live.cue.state_us), geodetic_from_ecef(now.mean.head<3>()),
-                   std::sqrt(enu(0, 0)), std::sqrt(enu(2, 2))});
+    const CueAim aim{live.cue, config_.acceleration_sd_m_s2};
+    all.push_back(health_of(aim, state_of(live), live.target_id, now_us));
   }
   return all;
 }

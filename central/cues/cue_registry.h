@@ -25,6 +25,12 @@ struct CueHealth {
   double horizontal_sd_m = 0.0, vertical_sd_m = 0.0;
 };
 
+// Whether the target is where the cue is: 99.9 % of both errors.
+bool is_there(const CueAim& aim, const Track& track, std::int64_t now_us);
+
+// The report on one cue.
+CueHealth health_of(const CueAim& aim, CueState state, std::int64_t target_id, std::int64_t now_us);
+
 class CueRegistry {
  public:
   explicit CueRegistry(const CueConfig& config) : config_(config) {}

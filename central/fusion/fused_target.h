@@ -10,6 +10,7 @@
 #include "central/admission/bearing_check.h"
 #include "central/estimators/estimator.h"
 #include "central/fusion/slew_planner.h"
+#include "central/tracking/target_appearance.h"
 #include "central/tracking/track.h"
 
 namespace ols::fusion {
@@ -20,16 +21,6 @@ struct BearingOnly {
   std::int64_t track_id = 0;  // the station's own id
   LineOfSight sight;          // at the epoch
   Eigen::Vector2d rate_rad_s = Eigen::Vector2d::Zero();
-};
-
-enum class ObjectClass { kUnknown, kDrone, kBird, kAircraft, kOther };
-
-// What the object is and how well it is seen; 0: unknown.
-struct Appearance {
-  ObjectClass object_class = ObjectClass::kUnknown;  // the most probable one
-  double class_probability = 0.0;                    // 0..1 of this class
-  double size_m = 0.0, size_sd_m = 0.0;              // largest extent, and its 1-sigma
-  double signal = 0.0;  // signal-to-noise ratio in one picture, of the station that sees it best
 };
 
 struct FusedTarget {

@@ -7,6 +7,7 @@
 
 #include "central/fusion/track_intake.h"
 #include "central/measurement/time_span.h"
+#include "wire/cue_values.h"
 
 namespace ols::fusion {
 namespace {
@@ -30,8 +31,9 @@ Fusion::Fusion(const FusionConfig& config)
       unassociated_(config.unassociated),
       tracks_(config.tracks),
       targets_(schedule_of(config)),
-      slews_(config.slew, config.tracks.drop_s),
-      cues_(config.cues) {
+      slews_(config.slew, config.tracks.drop_s, config.handover.staring),
+      cues_(config.cues),
+      handover_(config.handover) {
   if (!make_estimator(config.estimator, config.estimators)) {
     throw std::invalid_argument("unknown estimator " + config.estimator);
   }
@@ -79,8 +81,10 @@ FusionOutput Fusion::add(const BearingMeasurement& measurement) {
 
 std::vector<Slew> Fusion::slews_at(std::int64_t now_us) {
   if (!cues_.empty()) cues_.settle(now_us, tracks_.tracks());
+  handover_.settle(now_us, tracks_.tracks());
   const BearingLines lines(tracks_, pointing_, config_.estimators.alignment);
-  auto slews = slews_.plan(now_us, admission_.stations(), lines, tracks_.tracks(), cues_);
+  auto slews =
+      slews_.plan(now_us, admission_.stations(), lines, tracks_.tracks(), cues_, handover_);
   log_.count("slews", static_cast<double>(slews.size()));
   return slews;
 }
@@ -105,9 +109,13 @@ std::vector<Slew> Fusion::add(const Cue& cue, std::int64_t present_us) {
 }
 
 bool Fusion::allow_cue(const std::string& id, bool allow) {
-  const bool taken = cues_.order(id, allow);
+  const auto target = target_named(id);
+  const bool taken = target ? handover_.order(*target, allow) : cues_.order(id, allow);
   log_.count(taken ? "cue_orders" : "cue_orders_refused");
-  if (!taken) log_.last_error = "cue " + id + ": unknown, or the search for cues is switched off";
+  if (!taken) {
+    log_.last_error = (target ? "target " : "cue ") + id + ": unknown, or the " +
+                      (target ? "hand-over" : "search for cues") + " is switched off";
+  }
   return taken;
 }
 
@@ -202,6 +210,7 @@ void Fusion::begin_time_line() {
   images_.clear();
   targets_.clear();
   slews_.clear();
+  handover_.clear();
   tracks_.clear();
   pointing_.clear();
   unassociated_.clear();
@@ -211,6 +220,7 @@ void Fusion::begin_time_line() {
 FusionHealth Fusion::health(std::int64_t present_us) const {
   FusionHealth health = health_of(admission_, pointing_, unassociated_, tracks_, log_);
   health.cues = cues_.health(present_us == 0 ? now_us() : present_us);
+  std::ranges::move(handover_.health(now_us()), std::back_inserter(health.cues));
   return health;
 }
 

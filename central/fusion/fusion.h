@@ -36,6 +36,7 @@ struct FusionConfig {
   PointingConfig pointing{};
   UnassociatedConfig unassociated{};
   CueConfig cues{};
+  HandoverConfig handover{};
 };
 
 class Fusion {
@@ -53,14 +54,15 @@ class Fusion {
   // Takes a target reported from outside. It may cause slews, nothing else. present_us: this host's
   // UTC; in a replay, the message's time.
   std::vector<Slew> add(const Cue& cue, std::int64_t present_us);
-  // An operator's decision on a cue. False if there is no such cue, or if the site uses none.
+  // An operator's decision on a cue, or on a target by its number (target_named()). False if there
+  // is no such cue or target, or if the site uses none.
   bool allow_cue(const std::string& id, bool allow);
   void end_silent_cues(std::int64_t present_us) { cues_.end_silent(present_us); }
 
   // present_us: the time for which the positions of cues are given.
   FusionHealth health(std::int64_t present_us = 0) const;
   std::int64_t now_us() const { return admission_.time().now_us(); }
-  const TrackManager& tracks() const { return tracks_; }
+  const LiveTracks& tracks() const { return tracks_; }
 
  private:
   // The fate of an admitted bearing; of one that waits for the others of its image, none yet.
@@ -83,6 +85,7 @@ class Fusion {
   TargetSchedule targets_;
   SlewSchedule slews_;
   CueRegistry cues_;
+  HandoverPolicy handover_;
   FusionLog log_;
 };
 

@@ -21,6 +21,12 @@ void turn(Slew& slew, const Eigen::Vector2d& offset_rad) {
   d.elevation_rad = elevation;
 }
 
+// Whether its newest bearing of the target is its detector's.
+bool sees_by_detector(const Track& track, const std::string& station) {
+  const auto own = track.bearings.find(station);
+  return own != track.bearings.end() && !own->second.empty() && own->second.back().is_tracklet;
+}
+
 std::string cue_key(const CueAim& aim) { return "cue/" + aim.cue.id; }
 std::string line_key(const CueAim& aim) { return cue_key(aim) + "/line"; }
 std::string line_key(const CueRay& ray) { return ray.station + "/" + std::to_string(ray.track_id); }
@@ -70,27 +76,60 @@ SlewPlanner::Search& SlewPlanner::search_of(const std::string& station, std::int
   return search;
 }
 
-// The target that it sees, else the one that it is being led to, else the one that the fewest see.
-const Track* SlewPlanner::target_for(const SlewStation& station,
-                                     const std::vector<const Track*>& targets,
-                                     std::map<std::int64_t, int>& seen_by) {
-  const auto by_id = [&](std::int64_t id) -> const Track* {
-    const auto found = std::ranges::find(targets, id, [](const Track* t) { return t->id; });
-    return found == targets.end() ? nullptr : *found;
-  };
-  if (const Track* own = by_id(station.follows)) {
-    searches_.erase(station.station);
-    return own;
+void SlewPlanner::allocate(SlewRound& round, std::span<const SlewStation> stations,
+                           const std::vector<Track>& tracks) const {
+  std::vector<AllocatedTarget> targets;
+  const std::vector<const Track*> with_position = targets_of(round, tracks);
+  for (const Track* track : with_position) {
+    const auto worth = round.worth.find(track->id);
+    targets.push_back(
+        {track->id, track->filter.position(), worth == round.worth.end() ? 1.0 : worth->second});
   }
+  std::vector<AllocatedStation> all;
+  for (const SlewStation& station : stations) {
+    const auto& traits = station.traits;
+    AllocatedStation one{station.station, traits.camera_ecef, traits.axis, station.is_led(),
+                         station.follows};
+    const auto seen = std::ranges::find(with_position, station.follows, &Track::id);
+    one.by_detector = seen != with_position.end() && sees_by_detector(**seen, station.station);
+    if (const auto search = searches_.find(station.station); search != searches_.end()) {
+      one.led_to = search->second.target_id;
+      one.led_s = search->second.searched_s(round.now_us);
+    }
+    all.push_back(std::move(one));
+  }
+  round.allocation = fusion::allocate(targets, all, config_.line);
+}
+
+std::vector<const Track*> SlewPlanner::targets_of(const SlewRound& round,
+                                                  const std::vector<Track>& tracks) const {
+  std::vector<const Track*> targets;
+  for (const Track& track : tracks) {
+    const auto worth = round.worth.find(track.id);
+    const bool leads = worth == round.worth.end() || worth->second > 0.0;
+    if (leads && is_established(track) &&
+        seconds(round.now_us - track.filter.utime_us()) <= config_.coast_s &&
+        seconds(round.now_us - track.last_two_station_us) <= config_.coast_s) {
+      targets.push_back(&track);
+    }
+  }
+  return targets;
+}
+
+const Track* SlewPlanner::target_for(SlewRound& round, const SlewStation& station,
+                                     const std::vector<const Track*>& targets) {
+  const auto own = round.allocation.find(station.station);
+  if (own == round.allocation.end()) return nullptr;
+  const auto target = std::ranges::find(targets, own->second, &Track::id);
+  if (target == targets.end()) return nullptr;
   const auto search = searches_.find(station.station);
-  if (search != searches_.end()) {
-    if (const Track* led_to = by_id(search->second.target_id)) return led_to;
+  const bool is_led_to = search != searches_.end() && search->second.target_id == own->second;
+  if (station.follows == own->second) {
+    searches_.erase(station.station);
+  } else if (!is_led_to) {
+    ++round.seen_by[own->second];
   }
-  if (targets.empty()) return nullptr;
-  const Track* fewest = *std::ranges::min_element(
-      targets, {}, [&](const Track* t) { return std::pair(seen_by[t->id], t->id); });
-  ++seen_by[fewest->id];
-  return fewest;
+  return *target;
 }
 
 // The one that it is being led to, else the one to which the fewest are; instead of a target only
@@ -223,7 +262,7 @@ Slew SlewPlanner::along(const SlewRound& round, const SlewStation& station,
 
 std::optional<Slew> SlewPlanner::slew_of(SlewRound& round, const SlewStation& station,
                                          const std::vector<const Track*>& targets) {
-  const Track* target = target_for(station, targets, round.seen_by);
+  const Track* target = target_for(round, station, targets);
   if (const CueAim* cue = cue_for(round, station, target)) {
     const bool by_line = round.cue_on_ray == cue->cue.id && is_wide(*cue, station, round.now_us);
     const bool is_new = searches_[station.station].cue != cue->cue.id;
@@ -242,17 +281,11 @@ std::optional<Slew> SlewPlanner::slew_of(SlewRound& round, const SlewStation& st
 std::vector<Slew> SlewPlanner::plan(SlewRound& round, std::span<const SlewStation> stations,
                                     const std::vector<Track>& tracks) {
   const std::int64_t now_us = round.now_us;
-  std::vector<const Track*> targets;
-  for (const Track& track : tracks) {
-    if (is_established(track) && seconds(now_us - track.filter.utime_us()) <= config_.coast_s &&
-        seconds(now_us - track.last_two_station_us) <= config_.coast_s) {
-      targets.push_back(&track);
-    }
-  }
+  const std::vector<const Track*> targets = targets_of(round, tracks);
   count_searches(round);
   std::vector<Slew> slews;
   for (const SlewStation& station : stations) {
-    if (!station.traits.commandable) {
+    if (!station.is_led()) {
       searches_.erase(station.station);
       continue;
     }

@@ -1,8 +1,8 @@
 // Decides where each station is to point at the time when it can act. Pure.
 //
-//  - A station that sees a target is led to its predicted position.
-//  - A station that sees none is led to the target that the fewest stations see. While the
-//    direction is less certain than its field of view, it searches along a spiral over the
+//  - A station is led to the predicted position of the target that it has been allocated
+//    (station_allocation.h): the one that it sees, or one that needs it. While it does not see it,
+//    and the direction is less certain than its field of view, it searches along a spiral over the
 //    uncertainty, nearest first.
 //  - If no position is known but one station sees a target, the others search along that station's
 //    ray (line_search.h).
@@ -27,6 +27,7 @@
 #include "central/admission/station_registry.h"
 #include "central/cues/cue.h"
 #include "central/fusion/line_search.h"
+#include "central/fusion/station_allocation.h"
 #include "central/tracking/track.h"
 #include "geometry/direction.h"
 #include "geometry/slew_limits.h"
@@ -69,12 +70,16 @@ struct SlewStation {
   std::string station;
   StationTraits traits;
   std::int64_t follows = 0;  // the target that it sees; 0: none
+  bool stares = false;       // it is never led
+  bool is_led() const { return traits.commandable && !stares; }
 };
 
 // What is common to all stations at one instant.
 struct SlewRound {
   std::int64_t now_us = 0;
   std::map<std::int64_t, int> seen_by{};          // number of stations that see each target
+  std::map<std::int64_t, double> worth{};         // of each target; absent: 1; 0: it leads nobody
+  Allocation allocation{};                        // of the stations to the targets
   std::set<std::string> bearing_only_stations{};  // stations with a bearing-only track
   std::optional<CueRay> ray{};                    // the ray that is searched
   LinePrior prior{};                              // where on it the target is expected
@@ -88,8 +93,11 @@ class SlewPlanner {
  public:
   explicit SlewPlanner(const SlewConfig& config = {}) : config_(config) {}
 
-  // Plans for all or some stations, and counts in the round how many are sent to each target. Of
-  // `tracks`, the confirmed ones count, and coasting ones for coast_s.
+  // Decides in the round which target each station has. Of `tracks`, the confirmed ones count, and
+  // coasting ones for coast_s.
+  void allocate(SlewRound& round, std::span<const SlewStation> stations,
+                const std::vector<Track>& tracks) const;
+  // Plans for all or some stations, and counts in the round how many are sent to each target.
   std::vector<Slew> plan(SlewRound& round, std::span<const SlewStation> stations,
                          const std::vector<Track>& tracks);
   void forget(const std::string& station) { searches_.erase(station); }
@@ -105,8 +113,10 @@ class SlewPlanner {
     std::string cue{};                 // the id of that cue
     double searched_s(std::int64_t now_us) const;
   };
-  const Track* target_for(const SlewStation& station, const std::vector<const Track*>& targets,
-                          std::map<std::int64_t, int>& seen_by);
+  std::vector<const Track*> targets_of(const SlewRound& round,
+                                       const std::vector<Track>& tracks) const;
+  const Track* target_for(SlewRound& round, const SlewStation& station,
+                          const std::vector<const Track*>& targets);
   // Null: no cue for this station.
   const CueAim* cue_for(const SlewRound& round, const SlewStation& station, const Track* target);
   void count_searches(SlewRound& round);

@@ -1,6 +1,8 @@
 #include "central/fusion/slew_schedule.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <numeric>
 
@@ -28,19 +30,34 @@ CueRay cue_ray(const BearingOnly& line, std::int64_t now_us) {
 
 }  // namespace
 
+// A target that leads nobody is as if the station did not see it.
+SlewStation SlewSchedule::station_of(const std::string& name, const KnownStation& station,
+                                     std::int64_t now_us) const {
+  const std::int64_t seen = station.follows(now_us);
+  const auto worth = round_.worth.find(seen);
+  const bool leads = worth == round_.worth.end() || worth->second > 0.0;
+  return {name, station.traits, leads ? seen : 0,
+          std::ranges::find(staring_, name) != staring_.end()};
+}
+
 void SlewSchedule::begin(std::int64_t now_us, const StationRegistry& stations,
-                         const BearingLines& lines, const CueRegistry& cues) {
+                         const BearingLines& lines, const std::vector<Track>& tracks,
+                         const CueRegistry& cues, const HandoverPolicy& handover) {
   begun_us_ = now_us;
   next_ = "";
   round_ = {.now_us = now_us};
+  for (const Track& track : tracks) round_.worth[track.id] = handover.worth(track);
+  std::vector<SlewStation> all;
   for (const auto& [name, station] : stations.all()) {
-    const std::int64_t target = station.follows(now_us);
-    if (target != 0) ++round_.seen_by[target];
+    all.push_back(station_of(name, station, now_us));
+    if (all.back().follows != 0) ++round_.seen_by[all.back().follows];
   }
+  planner_.allocate(round_, all, tracks);
   round_.cues = cues.aims(now_us);
+  std::ranges::move(handover.lost(now_us), std::back_inserter(round_.cues));
   cue(now_us, lines);
   if (!round_.ray) return;
-  share_out(now_us, stations);
+  share_out(all);
   narrow_by_cue();
 }
 
@@ -61,15 +78,15 @@ void SlewSchedule::cue(std::int64_t now_us, const BearingLines& lines) {
 }
 
 // Where the stations that search stand to see a target: over the circle that they make.
-void SlewSchedule::share_out(std::int64_t now_us, const StationRegistry& stations) {
+void SlewSchedule::share_out(const std::vector<SlewStation>& stations) {
   std::vector<Eigen::Vector3d> places;
-  for (const auto& [name, station] : stations.all()) {
-    if (!station.traits.commandable || station.traits.camera_ecef.isZero()) continue;
+  for (const SlewStation& station : stations) {
+    if (!station.is_led() || station.traits.camera_ecef.isZero()) continue;
     places.push_back(station.traits.camera_ecef);
     const bool searches =
-        station.follows(now_us) == 0 && !round_.bearing_only_stations.contains(name);
+        station.follows == 0 && !round_.bearing_only_stations.contains(station.station);
     const auto rank = static_cast<int>(round_.shares.size());
-    if (searches) round_.shares.emplace(name, LineShare{rank, 0});
+    if (searches) round_.shares.emplace(station.station, LineShare{rank, 0});
   }
   for (auto& [name, share] : round_.shares) share.of = static_cast<int>(round_.shares.size());
   if (places.empty()) return;
@@ -103,7 +120,7 @@ void SlewSchedule::narrow_by_cue() {
 
 std::vector<Slew> SlewSchedule::plan(std::int64_t now_us, const StationRegistry& stations,
                                      const BearingLines& lines, const std::vector<Track>& tracks,
-                                     const CueRegistry& cues) {
+                                     const CueRegistry& cues, const HandoverPolicy& handover) {
   // Cues come with another clock than bearings.
   if (begun_us_ && seconds(*begun_us_ - now_us) > kStepBack_s) {
     begun_us_.reset();
@@ -111,14 +128,14 @@ std::vector<Slew> SlewSchedule::plan(std::int64_t now_us, const StationRegistry&
   }
   if (next_ && seconds(now_us - *begun_us_) > give_up_s_) next_.reset();
   if (!next_ && is_due(begun_us_, now_us, config_.rate_hz)) {
-    begin(now_us, stations, lines, cues);
+    begin(now_us, stations, lines, tracks, cues, handover);
   }
   if (!next_) return {};
   round_.now_us = now_us;  // a round may take a while; each slew is for the time of its creation
   std::vector<SlewStation> some;
   auto station = stations.all().lower_bound(*next_);
   for (; station != stations.all().end() && some.size() < kStationsABearing; ++station) {
-    some.push_back({station->first, station->second.traits, station->second.follows(now_us)});
+    some.push_back(station_of(station->first, station->second, now_us));
   }
   next_.reset();
   if (station != stations.all().end()) next_ = station->first;

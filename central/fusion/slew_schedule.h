@@ -5,39 +5,46 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "central/admission/station_registry.h"
 #include "central/cues/cue_registry.h"
 #include "central/fusion/bearing_lines.h"
 #include "central/fusion/slew_planner.h"
+#include "central/handover/handover_policy.h"
 
 namespace ols::fusion {
 
 class SlewSchedule {
  public:
   // give_up_s: a round that has not ended after this time is abandoned.
-  SlewSchedule(const SlewConfig& config, double give_up_s)
-      : config_(config), give_up_s_(give_up_s), planner_(config) {}
+  // staring: stations that are never led.
+  SlewSchedule(const SlewConfig& config, double give_up_s, std::vector<std::string> staring = {})
+      : config_(config), give_up_s_(give_up_s), staring_(std::move(staring)), planner_(config) {}
 
   // The slews that are due with one bearing or cue, at the time "now".
   std::vector<Slew> plan(std::int64_t now_us, const StationRegistry& stations,
                          const BearingLines& lines, const std::vector<Track>& tracks,
-                         const CueRegistry& cues);
+                         const CueRegistry& cues, const HandoverPolicy& handover);
   // Whether a round is unfinished: its next part is due at once.
   bool is_in_round() const { return next_.has_value(); }
   void forget(const std::string& station) { planner_.forget(station); }
-  void clear() { *this = SlewSchedule(config_, give_up_s_); }
+  void clear() { *this = SlewSchedule(config_, give_up_s_, staring_); }
 
  private:
   void begin(std::int64_t now_us, const StationRegistry& stations, const BearingLines& lines,
-             const CueRegistry& cues);
+             const std::vector<Track>& tracks, const CueRegistry& cues,
+             const HandoverPolicy& handover);
+  SlewStation station_of(const std::string& name, const KnownStation& station,
+                         std::int64_t now_us) const;
   void cue(std::int64_t now_us, const BearingLines& lines);
-  void share_out(std::int64_t now_us, const StationRegistry& stations);
+  void share_out(const std::vector<SlewStation>& stations);
   void narrow_by_cue();
 
   SlewConfig config_;
   double give_up_s_;
+  std::vector<std::string> staring_;
   SlewPlanner planner_;
   SlewRound round_;
   std::string cued_by_;                   // the station whose ray the others search along

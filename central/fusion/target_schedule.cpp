@@ -4,8 +4,8 @@
 #include <set>
 
 #include "central/fusion/output_period.h"
-#include "central/fusion/target_appearance.h"
 #include "central/measurement/time_span.h"
+#include "central/tracking/target_appearance.h"
 
 namespace ols::fusion {
 namespace {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <vector>
 
@@ -89,6 +90,16 @@ double Clutter::pairs_a_day(const std::string& a, const std::string& b, double a
   const double stay = drift_rad_s / std::max(drift_rad_s, spread_rad_s);
   const double live = std::exp(-agreed_s * (1.0 / da.life_s + 1.0 / db.life_s));
   return began * gate_rad / height_rad * stay * live;
+}
+
+double Clutter::published_a_day(double agreed_s, double most_of_a_pair) const {
+  double sum = 0.0;
+  for (auto a = stations_.begin(); a != stations_.end(); ++a) {
+    for (auto b = std::next(a); b != stations_.end(); ++b) {
+      sum += std::min(pairs_a_day(a->first, b->first, agreed_s), most_of_a_pair);
+    }
+  }
+  return sum;
 }
 
 int Clutter::pairs_of_stations() const {

@@ -24,6 +24,10 @@ class Clutter {
   // for so long.
   double pairs_a_day(const std::string& a, const std::string& b, double agreed_s) const;
   int pairs_of_stations() const;
+  // The expected number a day of such pairs that are published as targets, for the whole site,
+  // where no third station looks: those that agree for agreed_s, of each pair of stations at most
+  // so many.
+  double published_a_day(double agreed_s, double most_of_a_pair) const;
 
  private:
   struct Tracklet {

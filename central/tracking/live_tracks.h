@@ -50,6 +50,10 @@ class LiveTracks : public TrackManager {
     views_.know(station, axis, view_rad, utime_us);
   }
   bool is_ambiguous() const override;
+  // The number of ghosts a day that two stations alone are expected to bring, by their clutter now.
+  double predicted_ghosts_a_day() const {
+    return clutter_.published_a_day(config_.confirm_s, most_of_a_pair());
+  }
   // Message time was reset: identities are not assigned again.
   void clear();
   // The duplicates merged since the last call (the newest 64), in the order of merging: pairs of

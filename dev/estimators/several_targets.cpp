@@ -165,7 +165,9 @@ IdentityScore run_several(const SeveralTargets& scenario, std::uint64_t seed) {
     const fusion::FusionOutput output = fusion.add(measurement);
     for (const fusion::FusedTarget& target : output.targets) judge.take(target);
   }
-  return judge.score();
+  IdentityScore score = judge.score();
+  score.predicted_ghosts_a_day = fusion.tracks().predicted_ghosts_a_day();
+  return score;
 }
 
 }  // namespace ols::bench

@@ -20,8 +20,9 @@ struct IdentityScore {
   double longest_ghost_s = 0.0;    // a confirmed track far from every target
   int switches = 0;                // a target's track has got another id
   double rms_m = 0.0;
-  double found = 0.0;  // share of target-seconds, by whichever identity
-  int ghosts = 0;      // identities that were never near a target
+  double found = 0.0;                   // share of target-seconds, by whichever identity
+  int ghosts = 0;                       // identities that were never near a target
+  double predicted_ghosts_a_day = 0.0;  // by the fusion's own model, at the end
 };
 
 IdentityScore run_several(const SeveralTargets& scenario, std::uint64_t seed);

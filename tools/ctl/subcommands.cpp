@@ -123,18 +123,19 @@ void add_cue_commands(CLI::App& app, Words& words) {
     if (words.station == "fusion") return;
     throw CLI::ValidationError(name, "is for the fusion: ols-ctl fusion " + std::string(name));
   };
-  app.add_subcommand("cues", "Show the cues from outside (ols-ctl fusion cues)")
+  app.add_subcommand("cues",
+                     "Show cues from outside, and targets found by detection (ols-ctl fusion cues)")
       ->callback([of_fusion] { of_fusion("cues"); });
   const auto word = [&](const char* name, const char* help, bool allow) {
     auto* command = app.add_subcommand(name, help);
-    command->add_option("cue", words.label, "Its name, as shown by cues")->required();
+    command->add_option("cue", words.label, "Its name or number, as shown by cues")->required();
     command->callback([&words, of_fusion, name, allow] {
       of_fusion(name);
       words.cue_order = wire::CueOrder{words.label, allow};
     });
   };
-  word("allow", "Let stations be led to a cue (ols-ctl fusion allow CUE)", true);
-  word("forbid", "Let no station be led to a cue any more", false);
+  word("allow", "Let stations be led to a cue or target (ols-ctl fusion allow CUE)", true);
+  word("forbid", "Let no station be led to a cue or target any more", false);
 }
 
 void add_other_commands(CLI::App& app, Words& words) {

@@ -87,7 +87,7 @@ type PanelProps = { link: Link; selected: string; mayCommand: boolean; orders: O
 function Panel({ link, selected, mayCommand, orders, onClose }: PanelProps) {
   const target = link.site.targets.get(selected.replace("target:", ""));
   const rest = { link, mayCommand, onPoint: (station: string, place: Place) => orders.command(station, "point", place), onClose };
-  if (target) return <TargetPanel key={selected} target={target} onName={(name) => orders.nameTarget(target.id, name)} {...rest} />;
+  if (target) return <TargetPanel key={selected} target={target} onName={(name) => orders.nameTarget(target.id, name)} onCue={(cue, allow) => orders.cue(cue, allow)} {...rest} />;
   return placeOf(selected) && <PlacePanel key={selected} selected={selected} {...rest} />;
 }
 

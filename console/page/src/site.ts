@@ -98,7 +98,8 @@ export type Target = {
 };
 export type TrailPoint = [number, number, number]; // longitude, latitude [deg], height [m]
 export type Line = { id: string; stale: boolean; target: string; azimuth_deg: number; elevation_deg: number; sd_deg: number };
-// What others know of a target; stations are led there when an operator allows it.
+// What others know of a target, or a target that detectors have found (id: its number); stations are led
+// there when an operator allows it.
 export type Cue = {
   id: string;
   label: string;
@@ -144,6 +145,9 @@ export type Site = {
   events: SiteEvent[]; // newest first
 };
 
+export const isTarget = (cue: Cue) => /^\d+$/.test(cue.id);
+// A target that is there is drawn as such.
+export const cuesOnMap = (fusion: Fusion | null | undefined) => (fusion?.cues ?? []).filter((cue) => !isTarget(cue) || !cue.target);
 export const nameOf = (target: Target) => target.name || target.id;
 
 const MOST_EVENTS = 500;

@@ -27,7 +27,7 @@ import { beyond, boxesOver, shownExtent, takenByPanel } from "./overlays";
 import { placeOf } from "./placepanel";
 import { ScaleInMetres } from "./scale";
 import { Questions } from "./questions";
-import { followed } from "./site";
+import { cuesOnMap, followed } from "./site";
 import { lineShapes, stationShapes } from "./stationshapes";
 import { cueShapes, cueWords, targetShapes, targetWords } from "./targetshapes";
 import { trailShapes } from "./trailshapes";
@@ -267,7 +267,7 @@ export class SiteMap {
     this.pen.font = FONT;
     for (const one of site.targets.values()) add(`target:${one.id}`, targetWords(one), one.longitude_deg, one.latitude_deg);
     for (const one of site.stations.values()) add(`station:${one.id}`, one.id, one.longitude_deg, one.latitude_deg);
-    for (const one of site.fusion?.cues ?? []) add(`cue:${one.id}`, cueWords(one), one.longitude_deg, one.latitude_deg);
+    for (const one of cuesOnMap(site.fusion)) add(`cue:${one.id}`, cueWords(one), one.longitude_deg, one.latitude_deg);
     names.sort((a, b) => Number(b.id === this.selected) - Number(a.id === this.selected));
     this.sides = sidesOf(names, this.sides, this.over);
   }

@@ -9,6 +9,7 @@ import { heightRange, stepOf } from "./heights";
 import { heightColours } from "./mapfeatures";
 import { climb, length, speed } from "./measures";
 import { PanelFrame, PanelRow, PointThere, PositionRows, type OnPoint } from "./panel";
+import { WordOn } from "./targets";
 import { nameOf, stretches, targetState, type Target } from "./site";
 import { named, t } from "./words";
 
@@ -122,11 +123,12 @@ function Appearance({ of }: { of: Target }) {
   return <>{named("t", of.class) + sure + size + signal}</>;
 }
 
-type PanelProps = { target: Target; link: Link; mayCommand: boolean; onPoint: OnPoint; onName: (name: string) => void; onClose: () => void };
+type PanelProps = { target: Target; link: Link; mayCommand: boolean; onPoint: OnPoint; onCue: (cue: string, allow: boolean) => void; onName: (name: string) => void; onClose: () => void };
 
-export function TargetPanel({ target, link, mayCommand, onPoint, onName, onClose }: PanelProps) {
+export function TargetPanel({ target, link, mayCommand, onPoint, onCue, onName, onClose }: PanelProps) {
   const age_s = Math.max(0, (link.now_us() - target.utime_us) / 1e6);
   const { latitude_deg, longitude_deg, height_m } = target;
+  const handover = link.site.fusion?.cues?.find((cue) => cue.id === target.id);
   return (
     <PanelFrame
       label={`${t("target")} ${target.id}`}
@@ -153,6 +155,11 @@ export function TargetPanel({ target, link, mayCommand, onPoint, onName, onClose
         <PanelRow word="seen_by">
           <SeenBy target={target} />
         </PanelRow>
+        {handover && (
+          <PanelRow word="handover">
+            {named("h", handover.state)} <WordOn cue={handover} mayCommand={mayCommand} onCue={onCue} />
+          </PanelRow>
+        )}
         <PanelRow word="crossing">{fixed(target.crossing_angle_deg, 0, "°")}</PanelRow>
         <PanelRow word="age">{fixed(age_s, 1, " s")}</PanelRow>
         <PanelRow word="trail">

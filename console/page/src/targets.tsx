@@ -1,12 +1,12 @@
 // The table of targets, lines of sight and cues beside the map.
 
-import { h } from "preact";
+import { h, Fragment } from "preact";
 import { useState } from "preact/hooks";
 import { bearing, DASH, fixed } from "./format";
 import type { Link } from "./link";
 import { length, position, speed } from "./measures";
 import { MeasuresChoice } from "./measureschoice";
-import { nameOf, targetState, type Cue, type Line, type Target } from "./site";
+import { isTarget, nameOf, targetState, type Cue, type Line, type Target } from "./site";
 import { named, t, Word } from "./words";
 
 type Column = { word: Word; of: (target: Target) => string | number | null; text: (target: Target, link: Link) => string };
@@ -35,17 +35,29 @@ const STATES = ["confirmed", "tentative", "coasted", "stale"];
 
 type TargetsProps = { link: Link; selected: string; mayCommand: boolean; onSelect: (pick: string) => void; onCue: (cue: string, allow: boolean) => void };
 
-// What others know of targets, and the operator's word on it.
-function CueRow({ cue, mayCommand, onCue }: { cue: Cue; mayCommand: boolean; onCue: TargetsProps["onCue"] }) {
+// The operator's word on what others know of a target, or on a target that detectors have found.
+export function WordOn({ cue, mayCommand, onCue }: { cue: Cue; mayCommand: boolean; onCue: TargetsProps["onCue"] }) {
   const isAllowed = cue.state === "searched" || cue.state === "found";
+  const button = (word: Word, allow: boolean) => (
+    <button type="button" disabled={!mayCommand} onClick={() => onCue(cue.id, allow)}>
+      {t(word)}
+    </button>
+  );
+  if (!isTarget(cue)) return button(isAllowed ? "cue_forbid" : "cue_allow", !isAllowed);
+  return (
+    <Fragment>
+      {!isAllowed && button("handover_allow", true)} {cue.state !== "forbidden" && button("handover_dismiss", false)}
+    </Fragment>
+  );
+}
+
+function CueRow({ cue, mayCommand, onCue }: { cue: Cue; mayCommand: boolean; onCue: TargetsProps["onCue"] }) {
   return (
     <tr class="line">
       <td>{cue.target || DASH}</td>
       <td colSpan={COLUMNS.length - 1}>
-        {t("cue")} {cue.id} {cue.label}: {named("s", cue.state)}, {length(cue.height_m)} ±{length(cue.horizontal_sd_m)}{" "}
-        <button type="button" disabled={!mayCommand} onClick={() => onCue(cue.id, !isAllowed)}>
-          {t(isAllowed ? "cue_forbid" : "cue_allow")}
-        </button>
+        {t(isTarget(cue) ? "target" : "cue")} {cue.id} {cue.label}: {named(isTarget(cue) ? "h" : "s", cue.state)}, {length(cue.height_m)} ±{length(cue.horizontal_sd_m)}{" "}
+        <WordOn cue={cue} mayCommand={mayCommand} onCue={onCue} />
       </td>
     </tr>
   );

@@ -11,7 +11,7 @@ import type { Link } from "./link";
 import type { Side } from "./labels";
 import { Colours, nameAt, offset, shape, stretch } from "./mapfeatures";
 import { length, speed } from "./measures";
-import { nameOf, targetState, type Cue, type Target } from "./site";
+import { cuesOnMap, isTarget, nameOf, targetState, type Cue, type Target } from "./site";
 import { named } from "./words";
 
 const VELOCITY_S = 5;
@@ -37,7 +37,7 @@ export function targetWords(target: Target): string {
   const moves = target.stale ? named("s", targetState(target)) : speed(target.speed_m_s);
   return `${nameOf(target)}   ${length(target.height_m)}   ${moves}`;
 }
-export const cueWords = (cue: Cue) => `${cue.label || cue.id}   ${named("s", cue.state)}`;
+export const cueWords = (cue: Cue) => `${cue.label || cue.id}   ${named(isTarget(cue) ? "h" : "s", cue.state)}`;
 
 export function targetShapes(target: Target, c: Colours, selected: boolean, side?: Side | null): Feature[] {
   if (target.latitude_deg == null) return [];
@@ -69,7 +69,7 @@ export function targetShapes(target: Target, c: Colours, selected: boolean, side
 export function cueShapes(link: Link, c: Colours, sides: Map<string, Side | null>): Feature[] {
   const out: Feature[] = [];
   if (link.site.fusion?.stale) return out;
-  for (const cue of link.site.fusion?.cues ?? []) {
+  for (const cue of cuesOnMap(link.site.fusion)) {
     if (cue.latitude_deg == null || cue.longitude_deg == null) continue;
     const at = fromLonLat([cue.longitude_deg, cue.latitude_deg]);
     const colour = cue.state === "searched" ? c.accent : c.tentative;

@@ -34,6 +34,9 @@ const WORDS = {
   cue: ["cue", "Hinweis"],
   cue_allow: ["allow", "zulassen"],
   cue_forbid: ["forbid", "untersagen"],
+  handover: ["Hand-over", "Übergabe"],
+  handover_allow: ["Hand over", "Übergeben"],
+  handover_dismiss: ["Not this one", "Dieses nicht"],
   ok: ["ok", "ok"],
   of: ["of", "von"],
   day: ["Day", "Tag"],
@@ -291,6 +294,10 @@ const WORDS = {
   s_searched: ["searched", "wird gesucht"],
   s_found: ["found", "gefunden"],
   s_forbidden: ["forbidden", "untersagt"],
+  h_waiting: ["proposed", "vorgeschlagen"],
+  h_found: ["leads stations", "führt Stationen"],
+  h_searched: ["lost, looked for", "verloren, wird gesucht"],
+  h_forbidden: ["dismissed", "verworfen"],
   s_confirmed: ["confirmed", "bestätigt"],
   s_stale: ["not seen now", "nicht mehr gesehen"],
   s_coasted: ["coasted", "überbrückt"],
@@ -316,7 +323,7 @@ export function inLanguage<T>(both: [T, T]): T {
 }
 
 // A word for a value that comes from the server; itself if there is none.
-export function named(prefix: "s" | "k" | "v" | "c" | "p" | "o" | "g" | "t" | "m", value: string): string {
+export function named(prefix: "s" | "k" | "v" | "c" | "p" | "o" | "g" | "h" | "t" | "m", value: string): string {
   const word = `${prefix}_${value}` as Word;
   return word in WORDS ? t(word) : value;
 }

@@ -48,5 +48,12 @@ TEST(CueValues, TheSpeedIsThatOfAllAxes) {
   EXPECT_EQ(fault_of(cue), CueFault::kOutOfRange);
 }
 
+TEST(CueValues, ATargetIsNamedByANumberAndACueNeverIs) {
+  EXPECT_EQ(target_named("17"), 17);
+  for (const char* name : {"", "0", "-3", "7a", "tak.7", "99999999999999999999"}) {
+    EXPECT_FALSE(target_named(name)) << name;
+  }
+}
+
 }  // namespace
 }  // namespace ols

@@ -89,9 +89,9 @@ TEST(FusionCues, AStepBackBeginsANewRound) {
   const PointingMonitor pointing;
   const BearingLines lines(tracks, pointing, config.estimators.alignment);
   SlewSchedule schedule({}, 1.0);
-  const auto first = schedule.plan(kStart, stations, lines, {}, cues);
+  const auto first = schedule.plan(kStart, stations, lines, {}, cues, HandoverPolicy({}));
   ASSERT_TRUE(schedule.is_in_round());
-  const auto again = schedule.plan(kStart - 600'000, stations, lines, {}, cues);
+  const auto again = schedule.plan(kStart - 600'000, stations, lines, {}, cues, HandoverPolicy({}));
   ASSERT_FALSE(again.empty());
   EXPECT_EQ(again.front().station, first.front().station);
 }

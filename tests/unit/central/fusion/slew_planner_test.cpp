@@ -37,6 +37,7 @@ std::vector<Slew> plan(SlewPlanner& planner, std::int64_t now_us,
                        const std::vector<SlewStation>& stations, const std::vector<Track>& tracks) {
   SlewRound round{.now_us = now_us};
   for (const SlewStation& station : stations) ++round.seen_by[station.follows];
+  planner.allocate(round, stations, tracks);
   return planner.plan(round, stations, tracks);
 }
 

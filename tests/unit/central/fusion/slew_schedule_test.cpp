@@ -43,7 +43,7 @@ class SlewScheduleTest : public testing::Test {
   }
   std::vector<Slew> plan(const CueRegistry& book = CueRegistry({})) {
     const BearingLines lines(tracks, pointing, alignment);
-    return schedule.plan(now_us, stations, lines, tracks.tracks(), book);
+    return schedule.plan(now_us, stations, lines, tracks.tracks(), book, handover);
   }
   static std::vector<std::string> names(const std::vector<Slew>& slews) {
     std::vector<std::string> found;
@@ -64,6 +64,7 @@ class SlewScheduleTest : public testing::Test {
   GivenTracks tracks;
   PointingMonitor pointing;
   AlignmentConfig alignment;
+  HandoverPolicy handover{{}};
   SlewSchedule schedule{SlewConfig{}, kGiveUp_s};
   std::int64_t now_us = kStart;
 };

@@ -1,4 +1,4 @@
-#include "central/fusion/target_appearance.h"
+#include "central/tracking/target_appearance.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,134 @@
+#include "central/handover/handover_policy.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "central/measurement/time_span.h"
+
+namespace ols::fusion {
+namespace {
+
+constexpr double kSettle_s = 0.1;  // between two looks at the tracks
+constexpr double kWordWorth =
+    10.0;  // of a target that an operator wants, over one that he does not know
+
+bool is_followed_by_tracker(const Track& track) {
+  return std::ranges::any_of(track.bearings, [](const auto& own) {
+    return std::ranges::any_of(own.second, [](const auto& m) { return !m.is_tracklet; });
+  });
+}
+
+// Where a target is and will be, as of a cue.
+CueAim aim_of(const Track& track, double acceleration_sd_m_s2) {
+  const std::int64_t then_us = track.filter.utime_us();
+  const KinematicState state = track.filter.at(then_us);
+  const Geodetic place = geodetic_from_ecef(state.mean.head<3>());
+  const Eigen::Matrix3d R = R_ecef_enu(place);
+  const Eigen::Matrix3d enu = R.transpose() * state.covariance.topLeftCorner<3, 3>() * R;
+  Cue cue;
+  cue.id = std::to_string(track.id);
+  cue.utime_us = cue.state_us = then_us;
+  cue.place = place;
+  cue.horizontal_sd_m = std::sqrt(std::max(enu(0, 0), enu(1, 1)));
+  cue.vertical_sd_m = std::sqrt(enu(2, 2));
+  cue.velocity_enu_m_s = R.transpose() * state.mean.segment<3>(3);
+  cue.velocity_sd_m_s = std::sqrt(state.covariance.block<3, 3>(3, 3).trace() / 3.0);
+  return {cue, acceleration_sd_m_s2};
+}
+
+}  // namespace
+
+void HandoverPolicy::settle(std::int64_t now_us, const std::vector<Track>& tracks) {
+  if (settled_us_ && std::abs(seconds(now_us - *settled_us_)) < kSettle_s) return;
+  settled_us_ = now_us;
+  for (auto& [id, known] : targets_) known.is_live = false;
+  for (const Track& track : tracks) {
+    if (is_established(track)) note(track, now_us);
+  }
+  std::erase_if(targets_, [&](const auto& target) {
+    const Known& known = target.second;
+    return !known.is_live && !is_sought(known, now_us) && !is_remembered(known, now_us);
+  });
+}
+
+// A tracker that came before the fusion led anybody there was started by an operator.
+void HandoverPolicy::note(const Track& track, std::int64_t now_us) {
+  const bool is_new = !targets_.contains(track.id);
+  Known& known = targets_[track.id];
+  known.is_live = true;
+  const bool may_be_designated = is_new || !leads(known);
+  if (may_be_designated && is_followed_by_tracker(track)) known.is_designated = true;
+  known.last = aim_of(track, config_.acceleration_sd_m_s2);
+  known.object_class = appearance_of(track, track.filter.position()).object_class;
+  if (is_new) inherit(known, track, now_us);
+}
+
+// The places of lost targets within reach of this one end: one that is found is sought no more, and
+// a dismissal passes on once.
+void HandoverPolicy::inherit(Known& known, const Track& track, std::int64_t now_us) {
+  for (auto other = targets_.begin(); other != targets_.end();) {
+    const bool is_it = !other->second.is_live && is_there(other->second.last, track, now_us);
+    if (is_it && other->second.allowed) known.allowed = other->second.allowed;
+    other = is_it ? targets_.erase(other) : std::next(other);
+  }
+}
+
+bool HandoverPolicy::order(std::int64_t target_id, bool allow) {
+  const auto known = targets_.find(target_id);
+  if (config_.mode == HandoverMode::kOff || known == targets_.end()) return false;
+  known->second.allowed = allow;
+  return true;
+}
+
+bool HandoverPolicy::leads(const Known& known) const {
+  if (known.allowed) return *known.allowed;
+  if (known.is_designated) return true;
+  if (config_.mode != HandoverMode::kAutomatic) return false;
+  return std::ranges::find(config_.classes, known.object_class) != config_.classes.end();
+}
+
+// A target that is not known yet is judged as it is.
+double HandoverPolicy::worth(const Track& track) const {
+  const auto found = targets_.find(track.id);
+  const bool is_designated =
+      found == targets_.end() ? is_followed_by_tracker(track) : found->second.is_designated;
+  const bool is_led = found == targets_.end() ? is_designated : leads(found->second);
+  if (!is_led) return 0.0;
+  const bool is_wanted = is_designated || found->second.allowed.value_or(false);
+  return track.existence.probability() * (is_wanted ? kWordWorth : 1.0);
+}
+
+bool HandoverPolicy::is_sought(const Known& known, std::int64_t now_us) const {
+  return config_.mode != HandoverMode::kOff && leads(known) &&
+         seconds(now_us - known.last.cue.state_us) <= config_.seek_s;
+}
+
+bool HandoverPolicy::is_remembered(const Known& known, std::int64_t now_us) const {
+  return known.allowed == false && seconds(now_us - known.last.cue.state_us) <= config_.remember_s;
+}
+
+std::vector<CueAim> HandoverPolicy::lost(std::int64_t now_us) const {
+  std::vector<CueAim> aims;
+  for (const auto& [id, known] : targets_) {
+    if (!known.is_live && is_sought(known, now_us)) aims.push_back(known.last);
+  }
+  return aims;
+}
+
+CueState HandoverPolicy::state_of(const Known& known) const {
+  if (known.allowed == false) return CueState::kForbidden;
+  if (!leads(known)) return CueState::kWaiting;
+  return known.is_live ? CueState::kFound : CueState::kSearched;
+}
+
+std::vector<CueHealth> HandoverPolicy::health(std::int64_t now_us) const {
+  std::vector<CueHealth> all;
+  if (config_.mode == HandoverMode::kOff) return all;
+  for (const auto& [id, known] : targets_) {
+    if (known.is_designated && !known.allowed && known.is_live) continue;
+    all.push_back(health_of(known.last, state_of(known), known.is_live ? id : 0, now_us));
+  }
+  return all;
+}
+
+}  // namespace ols::fusion

@@ -1,0 +1,81 @@
+// Which targets lead stations. A target that an operator has designated in a picture always does.
+// One that only detectors have found does so by the site's policy and the operator's word: it is
+// proposed, allowed or dismissed. Pure.
+//
+//  - off: targets of detections lead nobody. propose: each waits for an operator. automatic: each
+//    leads at once if its class is one of `classes`; the others wait for an operator.
+//  - An operator's word on a target, also a designated one, counts at once and as long as the
+//  target has its number.
+//  - A dismissed target that is lost and found again under another number stays dismissed: the
+//    first new target where it must be by then inherits the word.
+//  - A target that led stations and is lost is looked for where it must be by then, with growing
+//    uncertainty, until it is found or seek_s are over.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "central/cues/cue_registry.h"
+#include "central/tracking/target_appearance.h"
+
+namespace ols::fusion {
+
+enum class HandoverMode { kOff, kPropose, kAutomatic };
+
+struct HandoverConfig {
+  HandoverMode mode = HandoverMode::kOff;
+  // That lead by themselves if automatic.
+  std::vector<ObjectClass> classes{ObjectClass::kUnknown, ObjectClass::kDrone, ObjectClass::kBird,
+                                   ObjectClass::kAircraft, ObjectClass::kOther};
+  std::vector<std::string> staring{};  // stations that are never led
+  double seek_s = 10.0;                // how long a lost target is looked for
+  double remember_s = 10.0;            // how long the place of a dismissed one is remembered
+  double acceleration_sd_m_s2 = 3.0;   // growth of a lost target's uncertainty
+};
+
+class HandoverPolicy {
+ public:
+  explicit HandoverPolicy(const HandoverConfig& config) : config_(config) {}
+
+  // Takes note of which targets there are, at a limited rate.
+  void settle(std::int64_t now_us, const std::vector<Track>& tracks);
+  // An operator's decision. False if there is no such target, or if the mode is off.
+  bool order(std::int64_t target_id, bool allow);
+  // How much a station at this target is worth; 0: it leads nobody. The operator's own targets are
+  // worth more than those that lead by themselves, and doubtful ones less.
+  double worth(const Track& track) const;
+  // Lost targets, as places to look at.
+  std::vector<CueAim> lost(std::int64_t now_us) const;
+  // Targets that were found by detection or that an operator has judged, each under its number, in
+  // the states of a cue: waiting (proposed), found (it leads stations), searched (lost, looked
+  // for), forbidden (dismissed). None if the mode is off.
+  std::vector<CueHealth> health(std::int64_t now_us) const;
+  void clear() {
+    targets_.clear();
+    settled_us_.reset();
+  }
+
+ private:
+  struct Known {
+    CueAim last;  // its last state
+    ObjectClass object_class = ObjectClass::kUnknown;
+    bool is_designated = false;     // a tracker followed it before the fusion led anybody there
+    bool is_live = false;           // there is a track of it
+    std::optional<bool> allowed{};  // the operator's decision
+  };
+  void note(const Track& track, std::int64_t now_us);
+  void inherit(Known& known, const Track& track, std::int64_t now_us);
+  bool leads(const Known& known) const;
+  bool is_sought(const Known& known, std::int64_t now_us) const;
+  bool is_remembered(const Known& known, std::int64_t now_us) const;
+  CueState state_of(const Known& known) const;
+
+  HandoverConfig config_;
+  std::map<std::int64_t, Known> targets_;  // by their numbers
+  std::optional<std::int64_t> settled_us_;
+};
+
+}  // namespace ols::fusion

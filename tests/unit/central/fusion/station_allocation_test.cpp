@@ -1,0 +1,135 @@
+#include "central/fusion/station_allocation.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/unit/central/scene.h"
+
+namespace ols::fusion {
+namespace {
+
+using Eigen::Vector3d;
+using test::site;
+
+AllocatedTarget target_at(std::int64_t id, const Vector3d& p_enu, double worth = 1.0) {
+  return {id, site().to_ecef(p_enu), worth};
+}
+
+// Looks at `at_enu`.
+AllocatedStation station_at(const std::string& name, const Vector3d& p_enu,
+                            const Vector3d& at_enu = {0, 1000, 50}) {
+  AllocatedStation station;
+  station.name = name;
+  station.camera_ecef = site().to_ecef(p_enu);
+  station.axis = azimuth_elevation_from_enu(R_ecef_enu(station.camera_ecef).transpose() *
+                                            (site().to_ecef(at_enu) - station.camera_ecef));
+  return station;
+}
+
+AllocatedStation seeing(AllocatedStation station, std::int64_t target, bool by_detector) {
+  station.sees = target;
+  station.by_detector = by_detector;
+  return station;
+}
+
+const Vector3d kLeft(-200, 400, 60), kRight(200, 400, 60);
+
+Allocation run(const std::vector<AllocatedTarget>& targets,
+               const std::vector<AllocatedStation>& stations) {
+  return allocate(targets, stations, {});
+}
+
+int led_to(const Allocation& allocation, std::int64_t target) {
+  return static_cast<int>(
+      std::ranges::count(allocation, target, [](const auto& one) { return one.second; }));
+}
+
+TEST(StationAllocation, EachTargetGetsTwoStationsBeforeAnyGetsAThird) {
+  const std::vector<AllocatedTarget> targets = {target_at(1, kLeft, 10.0), target_at(2, kRight)};
+  const auto four = run(targets, {station_at("a", {-300, 0, 0}), station_at("b", {-100, 0, 0}),
+                                  station_at("c", {100, 0, 0}), station_at("d", {300, 0, 0})});
+  EXPECT_EQ(led_to(four, 1), 2);
+  EXPECT_EQ(led_to(four, 2), 2);
+  const auto three = run(targets, {station_at("a", {-300, 0, 0}), station_at("b", {-100, 0, 0}),
+                                   station_at("c", {100, 0, 0})});
+  EXPECT_EQ(led_to(three, 1), 2) << "the one that is worth more first";
+  EXPECT_EQ(led_to(three, 2), 1);
+}
+
+TEST(StationAllocation, TheTwoSeeItUnderAGoodAngle) {
+  // b looks at the target already, but stands behind a.
+  const auto allocation =
+      run({target_at(1, kLeft), target_at(2, {-200, 4000, 60}, 1e-3)},
+          {seeing(station_at("a", {-200, 0, 0}), 1, false), station_at("b", {-200, -50, 0}, kLeft),
+           station_at("c", {300, 300, 0})});
+  EXPECT_EQ(allocation.at("c"), 1);
+  EXPECT_EQ(allocation.at("b"), 2);
+}
+
+TEST(StationAllocation, TheStationThatIsThereSoonestGoes) {
+  const auto allocation =
+      run({target_at(1, kLeft), target_at(2, kRight)},
+          {station_at("a", {-10, 0, 0}, kRight), station_at("b", {10, 0, 0}, kLeft)});
+  EXPECT_EQ(allocation.at("a"), 2);
+  EXPECT_EQ(allocation.at("b"), 1);
+}
+
+TEST(StationAllocation, WhatATrackerFollowsIsNeverTaken) {
+  const auto allocation = run({target_at(1, kLeft), target_at(2, kRight, 100.0)},
+                              {seeing(station_at("a", {-300, 0, 0}), 1, false),
+                               seeing(station_at("b", {-100, 0, 0}), 1, false),
+                               seeing(station_at("c", {100, 0, 0}), 1, false)});
+  EXPECT_EQ(led_to(allocation, 1), 3);
+}
+
+TEST(StationAllocation, WhatADetectorSeesIsLeftToTwoGoodOnes) {
+  const std::vector<AllocatedTarget> targets = {target_at(1, kLeft), target_at(2, kRight)};
+  const auto three = run(targets, {seeing(station_at("a", {-300, 0, 0}), 1, true),
+                                   seeing(station_at("b", {0, 0, 0}), 1, true),
+                                   seeing(station_at("c", {100, 0, 0}), 1, true)});
+  EXPECT_EQ(led_to(three, 1), 2);
+  EXPECT_EQ(led_to(three, 2), 1);
+  const auto two = run(targets, {seeing(station_at("a", {-300, 0, 0}), 1, true),
+                                 seeing(station_at("b", {100, 0, 0}), 1, true)});
+  EXPECT_EQ(led_to(two, 1), 2);
+}
+
+// A station that stares sees a target; it is not led, but one more is enough.
+TEST(StationAllocation, AStaringStationCountsAndIsNotLed) {
+  AllocatedStation overview = seeing(station_at("o", {-300, 0, 0}), 1, true);
+  overview.is_led = false;
+  const auto allocation = run({target_at(1, kLeft), target_at(2, kRight)},
+                              {overview, station_at("a", {100, 0, 0}, kLeft),
+                               station_at("b", {-100, 0, 0}), station_at("c", {300, 0, 0})});
+  EXPECT_FALSE(allocation.contains("o"));
+  EXPECT_EQ(led_to(allocation, 1), 1);
+  EXPECT_EQ(led_to(allocation, 2), 2);
+}
+
+TEST(StationAllocation, ALeaseHoldsAndALittleGainTakesNoStation) {
+  AllocatedStation a = station_at("a", {0, 0, 0}, kRight);
+  a.led_to = 1;
+  const auto towards = [&](double worth, double led_s) {
+    a.led_s = led_s;
+    return run({target_at(1, {-1, 400, 60}), target_at(2, {1, 400, 60}, worth)}, {a}).at("a");
+  };
+  EXPECT_EQ(towards(100.0, 2.0), 1) << "the lease";
+  EXPECT_EQ(towards(1.3, 4.0), 1) << "a little gain";
+  EXPECT_EQ(towards(100.0, 4.0), 2);
+}
+
+TEST(StationAllocation, WhoIsLeftGoesWhereTheFewestAre) {
+  const auto allocation = run(
+      {target_at(1, kLeft), target_at(2, kRight)},
+      {seeing(station_at("a", {-300, 0, 0}), 1, false),
+       seeing(station_at("b", {0, 0, 0}), 1, false), seeing(station_at("c", {100, 0, 0}), 1, false),
+       seeing(station_at("d", {0, 100, 0}), 2, false),
+       seeing(station_at("e", {400, 0, 0}), 2, false), station_at("f", {0, 10, 0}, kLeft)});
+  EXPECT_EQ(allocation.at("f"), 2);
+}
+
+TEST(StationAllocation, WithoutTargetsThereIsNone) {
+  EXPECT_TRUE(run({}, {station_at("a", {0, 0, 0})}).empty());
+}
+
+}  // namespace
+}  // namespace ols::fusion
