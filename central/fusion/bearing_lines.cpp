@@ -12,14 +12,14 @@ namespace {
 
 constexpr std::size_t kOfAStation = 4;
 
-// The newest bearing that is no tracklet's; -1: none.
-std::ptrdiff_t newest_look(const UnassociatedBearings::Station& own) {
+}  // namespace
+
+// The newest bearing that counts; -1: none.
+std::ptrdiff_t BearingLines::newest_look(const UnassociatedBearings::Station& own) const {
   auto i = std::ssize(own.looks) - 1;
-  while (i >= 0 && own.looks[static_cast<std::size_t>(i)].is_tracklet) --i;
+  while (i >= 0 && !with_tracklets_ && own.looks[static_cast<std::size_t>(i)].is_tracklet) --i;
   return i;
 }
-
-}  // namespace
 
 const UnassociatedBearings::Station& BearingLines::bearings_of(const std::string& station) const {
   return tracks_.unassociated().stations().at(station);
@@ -46,7 +46,7 @@ std::vector<const BearingMeasurement*> BearingLines::of(const std::string& stati
   for (std::size_t i = own.looks.size(); i-- > 0;) {
     const BearingSummary& look = own.looks[i];
     if (std::abs(seconds(epoch_us - look.utime_us)) > config_.max_age_s) break;
-    if (look.track_id == 0 || look.is_tracklet ||
+    if (look.track_id == 0 || (look.is_tracklet && !with_tracklets_) ||
         std::ranges::find(names, look.track_id) != names.end())
       continue;
     names.push_back(look.track_id);
@@ -55,7 +55,7 @@ std::vector<const BearingMeasurement*> BearingLines::of(const std::string& stati
     }
   }
   std::ranges::sort(lines, {}, [](const BearingMeasurement* line) { return line->track_id; });
-  if (lines.size() > kOfAStation) lines.resize(kOfAStation);
+  if (!with_tracklets_ && lines.size() > kOfAStation) lines.resize(kOfAStation);
   return lines;
 }
 

@@ -1,5 +1,6 @@
 // Bearing-only tracks: lines of sight of stations that follow an object that no track explains. A
-// tracklet is none: nobody has designated its object, and it may be anything. Pure.
+// tracklet is none: nobody has designated its object, and it may be anything. But where the site's
+// hand-over is automatic, stations are led along the lines of tracklets, too. Pure.
 #pragma once
 
 #include <cstdint>
@@ -18,13 +19,13 @@ namespace ols::fusion {
 class BearingLines {
  public:
   BearingLines(const TrackManager& tracks, const PointingMonitor& pointing,
-               const AlignmentConfig& config)
-      : tracks_(tracks), pointing_(pointing), config_(config) {}
+               const AlignmentConfig& config, bool with_tracklets = false)
+      : tracks_(tracks), pointing_(pointing), config_(config), with_tracklets_(with_tracklets) {}
 
   // Stations that have recently sent an unassociated bearing.
   std::vector<std::string> stations(std::int64_t epoch_us) const;
   // The newest bearing of each local track that no target takes, smallest ids first: most trackers
-  // assign ids in ascending order.
+  // assign ids in ascending order. Without tracklets the first four.
   std::vector<const BearingMeasurement*> of(const std::string& station,
                                             std::int64_t epoch_us) const;
   // The newest bearing of one of stations().
@@ -32,11 +33,13 @@ class BearingLines {
   std::optional<BearingOnly> at(const BearingMeasurement& newest, std::int64_t epoch_us) const;
 
  private:
+  std::ptrdiff_t newest_look(const UnassociatedBearings::Station& own) const;
   const UnassociatedBearings::Station& bearings_of(const std::string& station) const;
 
   const TrackManager& tracks_;
   const PointingMonitor& pointing_;
   const AlignmentConfig& config_;
+  bool with_tracklets_;
 };
 
 }  // namespace ols::fusion

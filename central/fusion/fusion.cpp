@@ -82,7 +82,8 @@ FusionOutput Fusion::add(const BearingMeasurement& measurement) {
 std::vector<Slew> Fusion::slews_at(std::int64_t now_us) {
   if (!cues_.empty()) cues_.settle(now_us, tracks_.tracks());
   handover_.settle(now_us, tracks_.tracks());
-  const BearingLines lines(tracks_, pointing_, config_.estimators.alignment);
+  const bool with_tracklets = config_.handover.mode == HandoverMode::kAutomatic;
+  const BearingLines lines(tracks_, pointing_, config_.estimators.alignment, with_tracklets);
   auto slews =
       slews_.plan(now_us, admission_.stations(), lines, tracks_.tracks(), cues_, handover_);
   log_.count("slews", static_cast<double>(slews.size()));

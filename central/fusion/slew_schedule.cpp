@@ -61,20 +61,50 @@ void SlewSchedule::begin(std::int64_t now_us, const StationRegistry& stations,
   narrow_by_cue();
 }
 
+// A station's line: of what it has been told to follow, else of the oldest tracklet that has not
+// been searched in vain. Null: none.
+const BearingMeasurement* SlewSchedule::line_of(
+    const std::string& station, const std::vector<const BearingMeasurement*>& own) const {
+  const auto told = std::ranges::find_if(own, [](const auto* line) { return !line->is_tracklet; });
+  if (told != own.end()) return *told;
+  const auto fresh = std::ranges::find_if(own, [&](const auto* line) {
+    return !in_vain_.contains({station, line->track_id});
+  });
+  return fresh == own.end() ? nullptr : *fresh;
+}
+
 // The ray of the round before, while it lasts: another one would begin all searches anew.
 void SlewSchedule::cue(std::int64_t now_us, const BearingLines& lines) {
-  std::map<std::string, CueRay> rays;
+  std::map<std::pair<bool, std::string>, CueRay> rays;  // tracklets' behind the others
   for (const std::string& station : lines.stations(now_us)) {
-    const auto own = lines.of(station, now_us);
-    if (own.empty()) continue;  // many detections, not an object that it follows
-    round_.bearing_only_stations.insert(station);
-    if (!rays.empty() && station != cued_by_) continue;
-    if (const auto line = lines.at(*own.front(), now_us)) rays[station] = cue_ray(*line, now_us);
+    const BearingMeasurement* own = line_of(station, lines.of(station, now_us));
+    if (own == nullptr) continue;  // many detections, not an object that it follows
+    if (!own->is_tracklet) round_.bearing_only_stations.insert(station);
+    const std::pair key{own->is_tracklet, station};
+    if (!rays.empty() && rays.begin()->first < key && station != cued_by_) continue;
+    if (const auto line = lines.at(*own, now_us)) rays[key] = cue_ray(*line, now_us);
   }
   if (rays.empty()) return;
-  const auto before = rays.find(cued_by_);
+  const bool by_tracklet = rays.begin()->first.first;
+  const auto before = rays.find({by_tracklet, cued_by_});
   round_.ray = before != rays.end() ? before->second : rays.begin()->second;
   cued_by_ = round_.ray->station;
+  round_.bearing_only_stations.insert(cued_by_);
+  if (by_tracklet) note_tracklet(now_us);
+}
+
+// A tracklet may be of anything, and of something that no other station can see.
+void SlewSchedule::note_tracklet(std::int64_t now_us) {
+  constexpr double kLongest_s = 10.0;
+  constexpr std::size_t kMost = 1000;
+  const std::pair tracklet{round_.ray->station, round_.ray->track_id};
+  if (tracklet_ != tracklet) {
+    tracklet_ = tracklet;
+    tracklet_since_us_ = now_us;
+  }
+  if (seconds(now_us - tracklet_since_us_) < kLongest_s) return;
+  if (in_vain_.size() >= kMost) in_vain_.clear();
+  in_vain_.insert(tracklet);
 }
 
 // Where the stations that search stand to see a target: over the circle that they make.

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -38,7 +39,10 @@ class SlewSchedule {
              const HandoverPolicy& handover);
   SlewStation station_of(const std::string& name, const KnownStation& station,
                          std::int64_t now_us) const;
+  const BearingMeasurement* line_of(const std::string& station,
+                                    const std::vector<const BearingMeasurement*>& own) const;
   void cue(std::int64_t now_us, const BearingLines& lines);
+  void note_tracklet(std::int64_t now_us);
   void share_out(const std::vector<SlewStation>& stations);
   void narrow_by_cue();
 
@@ -47,9 +51,12 @@ class SlewSchedule {
   std::vector<std::string> staring_;
   SlewPlanner planner_;
   SlewRound round_;
-  std::string cued_by_;                   // the station whose ray the others search along
-  std::optional<std::int64_t> begun_us_;  // the last round
-  std::optional<std::string> next_;       // the next station of the round; nullopt: it is over
+  std::string cued_by_;                            // the station whose ray the others search along
+  std::pair<std::string, std::int64_t> tracklet_;  // of that ray, if it is a tracklet's
+  std::int64_t tracklet_since_us_ = 0;
+  std::set<std::pair<std::string, std::int64_t>> in_vain_;  // tracklets that were searched
+  std::optional<std::int64_t> begun_us_;                    // the last round
+  std::optional<std::string> next_;  // the next station of the round; nullopt: it is over
 };
 
 }  // namespace ols::fusion

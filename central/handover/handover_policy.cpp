@@ -41,7 +41,10 @@ CueAim aim_of(const Track& track, double acceleration_sd_m_s2) {
 void HandoverPolicy::settle(std::int64_t now_us, const std::vector<Track>& tracks) {
   if (settled_us_ && std::abs(seconds(now_us - *settled_us_)) < kSettle_s) return;
   settled_us_ = now_us;
-  for (auto& [id, known] : targets_) known.is_live = false;
+  for (auto& [id, known] : targets_) {
+    known.is_live = std::ranges::any_of(
+        tracks, [&](const Track& track) { return track.id == id && is_established(track); });
+  }
   for (const Track& track : tracks) {
     if (is_established(track)) note(track, now_us);
   }
@@ -63,12 +66,13 @@ void HandoverPolicy::note(const Track& track, std::int64_t now_us) {
   if (is_new) inherit(known, track, now_us);
 }
 
-// The places of lost targets within reach of this one end: one that is found is sought no more, and
-// a dismissal passes on once.
+// A lost target that is where this one is has been found: it is sought no more, and the word on it
+// passes on, once.
 void HandoverPolicy::inherit(Known& known, const Track& track, std::int64_t now_us) {
   for (auto other = targets_.begin(); other != targets_.end();) {
     const bool is_it = !other->second.is_live && is_there(other->second.last, track, now_us);
     if (is_it && other->second.allowed) known.allowed = other->second.allowed;
+    if (is_it && other->second.is_designated) known.is_designated = true;
     other = is_it ? targets_.erase(other) : std::next(other);
   }
 }
@@ -104,7 +108,8 @@ bool HandoverPolicy::is_sought(const Known& known, std::int64_t now_us) const {
 }
 
 bool HandoverPolicy::is_remembered(const Known& known, std::int64_t now_us) const {
-  return known.allowed == false && seconds(now_us - known.last.cue.state_us) <= config_.remember_s;
+  return (known.is_designated || known.allowed == false) &&
+         seconds(now_us - known.last.cue.state_us) <= config_.remember_s;
 }
 
 std::vector<CueAim> HandoverPolicy::lost(std::int64_t now_us) const {
@@ -125,7 +130,9 @@ std::vector<CueHealth> HandoverPolicy::health(std::int64_t now_us) const {
   std::vector<CueHealth> all;
   if (config_.mode == HandoverMode::kOff) return all;
   for (const auto& [id, known] : targets_) {
-    if (known.is_designated && !known.allowed && known.is_live) continue;
+    const bool is_told = known.is_live ? !known.is_designated || known.allowed.has_value()
+                                       : known.allowed == false || is_sought(known, now_us);
+    if (!is_told) continue;
     all.push_back(health_of(known.last, state_of(known), known.is_live ? id : 0, now_us));
   }
   return all;

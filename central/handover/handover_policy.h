@@ -6,8 +6,8 @@
 //    leads at once if its class is one of `classes`; the others wait for an operator.
 //  - An operator's word on a target, also a designated one, counts at once and as long as the
 //  target has its number.
-//  - A dismissed target that is lost and found again under another number stays dismissed: the
-//    first new target where it must be by then inherits the word.
+//  - A target that is lost and found again under another number keeps the word: the first new
+//    target where it must be by then inherits it.
 //  - A target that led stations and is lost is looked for where it must be by then, with growing
 //    uncertainty, until it is found or seek_s are over.
 #pragma once
@@ -32,7 +32,7 @@ struct HandoverConfig {
                                    ObjectClass::kAircraft, ObjectClass::kOther};
   std::vector<std::string> staring{};  // stations that are never led
   double seek_s = 10.0;                // how long a lost target is looked for
-  double remember_s = 10.0;            // how long the place of a dismissed one is remembered
+  double remember_s = 10.0;            // how long the word on a lost one is remembered
   double acceleration_sd_m_s2 = 3.0;   // growth of a lost target's uncertainty
 };
 
