@@ -27,6 +27,7 @@ bool measure(const std::string& what, bool quick, int runs) {
   if (all || what == "paper") against_paper(std::max(20, runs / 5), limits);
   if (all || what == "targets") several(std::max(2, runs / 5), limits);
   if (what == "traffic" || (all && !quick)) traffic(std::max(2, runs / 10), limits);
+  if (what == "handover" || (all && !quick)) handover(std::max(2, runs / 2), limits);
   if (all || what == "meteors") meteors(2 * runs, limits);
   if (all || what == "noise-only") noise_only(runs, limits);
   if (what == "cost" || (all && !quick)) cost(limits);
@@ -46,10 +47,12 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(2, 100000))
       ->capture_default_str();
   app.add_flag("--quick", quick, "the measures of accuracy alone, in half of the runs");
-  app.add_option("measure", what,
-                 "all, least-squares, filter, paper, targets, traffic, meteors, noise-only or cost")
+  app.add_option(
+         "measure", what,
+         "all, least-squares, filter, paper, targets, traffic, handover, meteors, noise-only or "
+         "cost")
       ->check(CLI::IsMember({"all", "least-squares", "filter", "paper", "targets", "traffic",
-                             "meteors", "noise-only", "cost"}));
+                             "handover", "meteors", "noise-only", "cost"}));
   std::string peer;
   app.add_option("--write-peer", peer,
                  "instead: a folder for bearings and our filter's fixes, as tools/bench estimators "

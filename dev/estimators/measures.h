@@ -25,6 +25,10 @@ void several(int runs, Limits& limits);
 // misses, breaks, and false ones. How many are found, how often identities change, ghosts an hour.
 void traffic(int runs, Limits& limits);
 
+// A target that detectors find: how long until it is confirmed, and until the stations that turn
+// have it from an overview station, with automatic hand-over.
+void handover(int runs, Limits& limits);
+
 // Meteors, which no drone's recording stands for: 0.3 to 5 s of 10 to 70 km/s at 80 to 200 km, 2 to
 // 6 cameras that state nothing but their noise. The recorded filter and its smoother against least
 // squares at the same instants.

@@ -1,0 +1,87 @@
+// A site that hands targets over, in simulated time and without pictures: an overview station that
+// stares at everything, and stations that turn to where the fusion leads them. Detectors report
+// what has been in view for a while. Deterministic by the seed.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "central/fusion/fusion.h"
+
+namespace ols::bench {
+
+struct FlyingTarget {
+  Eigen::Vector3d p_enu = Eigen::Vector3d::Zero();  // [m] when it appears
+  Eigen::Vector3d v_enu = Eigen::Vector3d::Zero();
+  double appears_s = 0.0;
+  double goes_s = 1e9;
+};
+
+struct HandoverSiteConfig {
+  std::vector<Eigen::Vector3d> stations_enu;  // that turn [m]; all look up to the north at first
+  std::optional<Eigen::Vector3d> overview_enu{};
+  bool stations_turn = true;  // false: they stare at all of the sky, too
+  std::vector<FlyingTarget> targets;
+  double view_rad = 0.08;  // field of view of those that turn
+  double rate_hz = 15.0;
+  double noise_rad = 3e-4;
+  double confirm_s = 0.3;  // in view until the detector reports it: docs/detection.md
+  double delay_s = 0.1;    // from the exposure to the fusion
+  double slew_s = 0.05;    // from the fusion to the servo
+  fusion::FusionConfig fusion{};
+};
+
+class HandoverSite {
+ public:
+  HandoverSite(const HandoverSiteConfig& config, std::uint64_t seed);
+
+  void run_until(double time_s);
+  fusion::Fusion& fusion() { return fusion_; }
+  // The stations whose detectors report the target now, without the overview.
+  std::vector<std::string> holders(std::size_t target) const;
+  // The established target of the fusion that is at this one now; 0: none.
+  std::int64_t found(std::size_t target) const;
+  // When the overview station first reported it.
+  std::optional<double> first_seen_s(std::size_t target) const;
+
+ private:
+  struct Station {
+    std::string name;
+    Eigen::Vector3d p_ecef;
+    bool sees_all = false;
+    AzimuthElevation axis;
+    double speed_rad_s = 0.0;
+    std::optional<fusion::Slew> slew{};
+    std::map<std::size_t, double> in_view_s{};        // since when, by target
+    std::map<std::size_t, std::int64_t> track_ids{};  // of reported ones
+  };
+  struct Sent {
+    double at_s = 0.0;
+    fusion::BearingMeasurement bearing;
+  };
+  Eigen::Vector3d place(std::size_t target, double time_s) const;
+  bool is_there(std::size_t target, double time_s) const;
+  void turn(Station& station);
+  void look(Station& station);
+  fusion::BearingMeasurement measured(const Station& station, std::size_t target,
+                                      const AzimuthElevation& there);
+  void deliver();
+  std::int64_t utime_us(double time_s) const;
+
+  HandoverSiteConfig config_;
+  std::mt19937_64 random_;
+  fusion::Fusion fusion_;
+  std::vector<Station> stations_;
+  std::vector<Sent> sent_;
+  std::vector<std::pair<double, fusion::Slew>> slews_;
+  std::map<std::size_t, double> first_seen_s_;
+  std::int64_t next_track_id_ = 1;
+  std::int64_t tick_ = 0;
+};
+
+}  // namespace ols::bench
