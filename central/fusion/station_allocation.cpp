@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <set>
 #include <tuple>
 
@@ -12,10 +13,10 @@ namespace ols::fusion {
 namespace {
 
 constexpr double kLease_s = 3.0;
-constexpr double kKeep = 1.5;       // the score of the present target over its own
-constexpr double kReact_s = 0.5;    // of every hand-over, besides the turn
-constexpr double kGoodSine = 0.34;  // of two lines that cross at 20 degrees
-constexpr std::size_t kMost = 64;   // free stations, and targets in need, that are compared
+constexpr double kKeep = 1.5;          // the score of the present target over its own
+constexpr double kReact_s = 0.5;       // of every hand-over, besides the turn
+constexpr double kGoodSine = 0.34;     // of two lines that cross at 20 degrees
+constexpr std::size_t kCompared = 64;  // free stations, and targets in need, that are compared
 
 class Allocator {
  public:
@@ -71,7 +72,7 @@ class Allocator {
     std::vector<std::size_t> all = held_by_[target];
     if (with != kNone) all.push_back(with);
     std::erase(all, without);
-    for (std::size_t i = 0; i < std::min(all.size(), kMost); ++i) {
+    for (std::size_t i = 0; i < std::min(all.size(), kCompared); ++i) {
       const Eigen::Vector3d one = line(all[i], target);
       for (std::size_t j = 0; j < i; ++j) {
         if (one.cross(line(all[j], target)).norm() >= kGoodSine) return true;
@@ -99,10 +100,10 @@ class Allocator {
     }
     std::ranges::stable_sort(needy, std::greater{},
                              [&](std::size_t i) { return targets_[i].worth; });
-    needy.resize(std::min(needy.size(), kMost));
+    needy.resize(std::min(needy.size(), kCompared));
     std::vector<std::size_t> movable = free_;
     movable.insert(movable.end(), spare_.begin(), spare_.end());
-    movable.resize(std::min(movable.size(), kMost));
+    movable.resize(std::min(movable.size(), kCompared));
     std::vector<Pair> all;
     for (const std::size_t k : movable) {
       for (const std::size_t i : needy) {
