@@ -111,31 +111,32 @@ Section cues_section(CueConfig& c) {
 }
 
 Section handover_section(HandoverConfig& c) {
-  return {"handover",
-          "Which targets lead stations that nobody has designated (docs/fusion.md, section 8).",
-          {config::word("mode", c.mode,
-                        {{"off", HandoverMode::kOff},
-                         {"propose", HandoverMode::kPropose},
-                         {"automatic", HandoverMode::kAutomatic}},
-                        "off: targets that only detectors have found lead no station; propose: "
-                        "each waits for an operator; automatic: each leads at once."),
-           config::word_list("classes", c.classes,
-                             {{"unknown", ObjectClass::kUnknown},
-                              {"drone", ObjectClass::kDrone},
-                              {"bird", ObjectClass::kBird},
-                              {"aircraft", ObjectClass::kAircraft},
-                              {"other", ObjectClass::kOther}},
-                             "Classes that lead at once where the mode is automatic; the others "
-                             "wait for an operator."),
-           config::texts("staring", c.staring, "Stations that are never led anywhere."),
-           config::number("seek_s", c.seek_s, {0.0, 60.0}, "s",
-                          "A lost target is looked for this long where it must be by then."),
-           config::number("remember_s", c.remember_s, {0.0, 60.0}, "s",
-                          "A dismissed target that comes back under another number within this "
-                          "time stays dismissed."),
-           config::number("acceleration_sd_m_s2", c.acceleration_sd_m_s2, {0.0, 100.0}, "m/s^2",
-                          "1-sigma of a lost target's acceleration: how fast it becomes "
-                          "uncertain where it is.")}};
+  return {
+      "handover",
+      "Whether targets that only detectors have found lead stations (docs/fusion.md, section 8).",
+      {config::word("mode", c.mode,
+                    {{"off", HandoverMode::kOff},
+                     {"propose", HandoverMode::kPropose},
+                     {"automatic", HandoverMode::kAutomatic}},
+                    "off: they lead none; propose: each waits for an operator; automatic: "
+                    "each leads at once."),
+       config::word_list("classes", c.classes,
+                         {{"unknown", ObjectClass::kUnknown},
+                          {"drone", ObjectClass::kDrone},
+                          {"bird", ObjectClass::kBird},
+                          {"aircraft", ObjectClass::kAircraft},
+                          {"other", ObjectClass::kOther}},
+                         "Classes that lead at once where the mode is automatic; the others "
+                         "wait for an operator."),
+       config::texts("staring", c.staring, "Stations that are never led anywhere."),
+       config::number("seek_s", c.seek_s, {0.0, 60.0}, "s",
+                      "A lost target is looked for this long where it must be by then."),
+       config::number("remember_s", c.remember_s, {0.0, 60.0}, "s",
+                      "A dismissed target that comes back under another number within this "
+                      "time stays dismissed."),
+       config::number("acceleration_sd_m_s2", c.acceleration_sd_m_s2, {0.0, 100.0}, "m/s^2",
+                      "1-sigma of a lost target's acceleration: how fast it becomes "
+                      "uncertain where it is.")}};
 }
 
 std::vector<config::Row> admission_rows(FusionConfig& c) {
