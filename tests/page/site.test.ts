@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { canGoBack, isAtWork, lostForAll, stopped } from "../../console/page/src/byhand";
-import { apply, emptySite, silence, stationState, stretches, targetState, type Station, type Target } from "../../console/page/src/site";
+import { apply, cuesOnMap, emptySite, isTarget, silence, stationState, stretches, targetState, type Cue, type Fusion, type Station, type Target } from "../../console/page/src/site";
 
 const station = (id: string, state: string, more = {}) => ({ id, state, stale: false, ...more });
 const target = (second: number, more = {}) => ({ id: "7", state: "confirmed", stale: false, utime_us: second * 1e6, longitude_deg: second, latitude_deg: 1, height_m: 2, ...more });
@@ -63,4 +63,12 @@ test("stations are lost for all when no target has a position", () => {
   assert.deepEqual(lostForAll(siteOf(stations)), ["a", "b"]);
   assert.deepEqual(lostForAll(siteOf(stations, [target(1, { stale: true })])), ["a", "b"]);
   assert.deepEqual(lostForAll(siteOf(stations, [target(1)])), []);
+});
+
+test("a cue whose name is a number is a target of detectors, drawn as a cue only while it is lost", () => {
+  const cue = (id: string, target: string) => ({ id, target }) as Cue;
+  assert.deepEqual([isTarget(cue("7", "7")), isTarget(cue("tak.7", "7"))], [true, false]);
+  const fusion = { cues: [cue("tak.a", "7"), cue("7", "7"), cue("8", "")] } as Fusion;
+  assert.deepEqual(cuesOnMap(fusion).map((one) => one.id), ["tak.a", "8"]);
+  assert.deepEqual(cuesOnMap(null), []);
 });

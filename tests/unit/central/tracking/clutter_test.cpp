@@ -59,6 +59,13 @@ TEST(Clutter, CountsNothingThatATargetTook) {
   EXPECT_EQ(clutter_of_a_minute(true).pairs_a_day("a", "b", 1.0), 0.0);
 }
 
+TEST(Clutter, OfASitePublishesAtMostSoManyOfEachPair) {
+  const Clutter clutter = clutter_of_a_minute();
+  const double a_day = clutter.pairs_a_day("a", "b", 1.0);
+  EXPECT_DOUBLE_EQ(clutter.published_a_day(1.0, 100.0), a_day);
+  EXPECT_DOUBLE_EQ(clutter.published_a_day(1.0, 0.5 * a_day), 0.5 * a_day);
+}
+
 TEST(Clutter, IsNoneOfAnUnknownStation) {
   const Clutter clutter = clutter_of_a_minute();
   EXPECT_EQ(clutter.pairs_a_day("a", "c", 1.0), 0.0);
