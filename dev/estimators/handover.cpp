@@ -36,7 +36,7 @@ double handed_over_s(std::uint64_t seed) {
   config.stations_enu = circle(4, 100.0);
   config.overview_enu = Vector3d(0, 0, 5);
   config.targets = {drone_at(300.0, random)};
-  config.fusion.handover.mode = fusion::HandoverMode::kAutomatic;
+  config.handover.mode = fusion::HandoverMode::kAutomatic;
   HandoverSite site(config, seed);
   for (double t = 0.0; t < kPatience_s; t += kStep_s) {
     site.run_until(t);

@@ -27,7 +27,7 @@ double angle_of(const AzimuthElevation& a, const AzimuthElevation& b) {
 }  // namespace
 
 HandoverSite::HandoverSite(const HandoverSiteConfig& config, std::uint64_t seed)
-    : config_(config), random_(seed), fusion_(config.fusion) {
+    : config_(config), random_(seed), fusion_({.handover = config.handover}) {
   const AzimuthElevation north{0.0, 0.2};
   for (std::size_t i = 0; i < config.stations_enu.size(); ++i) {
     stations_.push_back(

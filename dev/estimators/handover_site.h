@@ -33,7 +33,7 @@ struct HandoverSiteConfig {
   double confirm_s = 0.3;  // in view until the detector reports it: docs/detection.md
   double delay_s = 0.1;    // from the exposure to the fusion
   double slew_s = 0.05;    // from the fusion to the servo
-  fusion::FusionConfig fusion{};
+  fusion::HandoverConfig handover{};
 };
 
 class HandoverSite {

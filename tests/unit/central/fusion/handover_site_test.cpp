@@ -19,7 +19,7 @@ HandoverSiteConfig site_with(HandoverMode mode, std::vector<FlyingTarget> target
   config.stations_enu = circle(4, 100.0);
   config.overview_enu = Vector3d(0, 0, 5);
   config.targets = std::move(targets);
-  config.fusion.handover.mode = mode;
+  config.handover.mode = mode;
   return config;
 }
 
@@ -78,7 +78,7 @@ TEST(HandoverSite, AProposedTargetLeadsStationsOnceItIsAllowedAndNoMoreWhenItIsD
 
 TEST(HandoverSite, AStationThatStaresIsNeverLed) {
   HandoverSiteConfig config = site_with(HandoverMode::kAutomatic, {in_the_south()});
-  config.fusion.handover.staring = {name_of_station(0)};
+  config.handover.staring = {name_of_station(0)};
   HandoverSite site(config, kSeed);
   site.run_until(15.0);
   EXPECT_EQ(site.holders(0).size(), 3U);
