@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "central/handover/handover_policy.h"
+
 namespace ols::sim {
 
 // A wrong designation by a station's operator, instead of the first target.
@@ -21,6 +23,7 @@ struct Fidelity {
   double pixel_sd_px = 0.3;
   std::vector<std::string> not_designated = {};  // stations without a designation
   std::vector<Misdesignation> misdesignated = {};
+  fusion::HandoverMode handover = fusion::HandoverMode::kOff;
 };
 
 }  // namespace ols::sim

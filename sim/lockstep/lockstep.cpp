@@ -28,7 +28,7 @@ Lockstep::Lockstep(const World& world, const Fidelity& fidelity,
       bearings_(world.scenario().errors.messages, derived_seed(world.seed(), kBearingTag)),
       slews_(world.scenario().errors.messages, derived_seed(world.seed(), kSlewTag)),
       newest_slew_us_(world.stations().size(), 0),
-      fusion_(fusion::FusionConfig{}) {
+      fusion_({.handover = {.mode = fidelity.handover}}) {
   auto renderers = fidelity.pictures
                        ? make_renderers(world)
                        : std::vector<std::unique_ptr<Renderer>>(world.stations().size());

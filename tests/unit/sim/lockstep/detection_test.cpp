@@ -148,7 +148,9 @@ TEST_F(OneStation, SendsNothingOfTheSceneryWhileItTurns) {
 // its slews bring the stations' trackers onto it.
 TEST(DetectingSite, FindsTheDroneAndHoldsIt) {
   const World world(passing(8.0), 7);
-  Lockstep site(world, nobody_designates(world.scenario()));
+  Fidelity fidelity = nobody_designates(world.scenario());
+  fidelity.handover = fusion::HandoverMode::kAutomatic;
+  Lockstep site(world, fidelity);
   site.run(2.0);
   for (std::size_t i = 0; i < 4; ++i) {
     station::Station& station = site.station(world.stations()[i].id).station();
