@@ -61,20 +61,32 @@ void SlewSchedule::begin(std::int64_t now_us, const StationRegistry& stations,
   narrow_by_cue();
 }
 
-// A station's line: of what it has been told to follow, else of the oldest tracklet that has not
-// been searched in vain. Null: none.
-const BearingMeasurement* SlewSchedule::line_of(
-    const std::string& station, const std::vector<const BearingMeasurement*>& own) const {
+// A station's line: of what it has been told to follow, else of the oldest tracklet that may be
+// searched. Null: none.
+const BearingMeasurement* SlewSchedule::line_of(const std::string& station,
+                                                const std::vector<const BearingMeasurement*>& own) {
   const auto told = std::ranges::find_if(own, [](const auto* line) { return !line->is_tracklet; });
   if (told != own.end()) return *told;
-  const auto fresh = std::ranges::find_if(own, [&](const auto* line) {
-    return !in_vain_.contains({station, line->track_id});
+  const auto one = std::ranges::find_if(own, [&](const auto* line) {
+    return may_search({station, line->track_id});
   });
-  return fresh == own.end() ? nullptr : *fresh;
+  return one == own.end() ? nullptr : *one;
+}
+
+// Not at once: the other stations may be about to see the object where they look. And not for ever:
+// it may be of anything, and of something that no other station can see.
+bool SlewSchedule::may_search(const TrackletName& tracklet) {
+  constexpr double kWait_s = 0.7, kLongest_s = 10.0;
+  const std::int64_t now_us = round_.now_us;
+  const Tracklet& known = tracklets_.try_emplace(tracklet, Tracklet{now_us, {}}).first->second;
+  return seconds(now_us - known.noted_us) >= kWait_s &&
+         (!known.searched_us || seconds(now_us - *known.searched_us) < kLongest_s);
 }
 
 // The ray of the round before, while it lasts: another one would begin all searches anew.
 void SlewSchedule::cue(std::int64_t now_us, const BearingLines& lines) {
+  constexpr std::size_t kMostTracklets = 1000;
+  if (tracklets_.size() > kMostTracklets) tracklets_.clear();
   std::map<std::pair<bool, std::string>, CueRay> rays;  // tracklets' behind the others
   for (const std::string& station : lines.stations(now_us)) {
     const BearingMeasurement* own = line_of(station, lines.of(station, now_us));
@@ -90,21 +102,9 @@ void SlewSchedule::cue(std::int64_t now_us, const BearingLines& lines) {
   round_.ray = before != rays.end() ? before->second : rays.begin()->second;
   cued_by_ = round_.ray->station;
   round_.bearing_only_stations.insert(cued_by_);
-  if (by_tracklet) note_tracklet(now_us);
-}
-
-// A tracklet may be of anything, and of something that no other station can see.
-void SlewSchedule::note_tracklet(std::int64_t now_us) {
-  constexpr double kLongest_s = 10.0;
-  constexpr std::size_t kMost = 1000;
-  const std::pair tracklet{round_.ray->station, round_.ray->track_id};
-  if (tracklet_ != tracklet) {
-    tracklet_ = tracklet;
-    tracklet_since_us_ = now_us;
-  }
-  if (seconds(now_us - tracklet_since_us_) < kLongest_s) return;
-  if (in_vain_.size() >= kMost) in_vain_.clear();
-  in_vain_.insert(tracklet);
+  if (!by_tracklet) return;
+  auto& searched_us = tracklets_[{cued_by_, round_.ray->track_id}].searched_us;
+  if (!searched_us) searched_us = now_us;
 }
 
 // Where the stations that search stand to see a target: over the circle that they make.

@@ -3,8 +3,8 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -39,10 +39,15 @@ class SlewSchedule {
              const HandoverPolicy& handover);
   SlewStation station_of(const std::string& name, const KnownStation& station,
                          std::int64_t now_us) const;
+  using TrackletName = std::pair<std::string, std::int64_t>;  // a station and its own id
+  struct Tracklet {
+    std::int64_t noted_us = 0;
+    std::optional<std::int64_t> searched_us{};  // since when stations are led along its line
+  };
   const BearingMeasurement* line_of(const std::string& station,
-                                    const std::vector<const BearingMeasurement*>& own) const;
+                                    const std::vector<const BearingMeasurement*>& own);
+  bool may_search(const TrackletName& tracklet);
   void cue(std::int64_t now_us, const BearingLines& lines);
-  void note_tracklet(std::int64_t now_us);
   void share_out(const std::vector<SlewStation>& stations);
   void narrow_by_cue();
 
@@ -51,11 +56,9 @@ class SlewSchedule {
   std::vector<std::string> staring_;
   SlewPlanner planner_;
   SlewRound round_;
-  std::string cued_by_;                            // the station whose ray the others search along
-  std::pair<std::string, std::int64_t> tracklet_;  // of that ray, if it is a tracklet's
-  std::int64_t tracklet_since_us_ = 0;
-  std::set<std::pair<std::string, std::int64_t>> in_vain_;  // tracklets that were searched
-  std::optional<std::int64_t> begun_us_;                    // the last round
+  std::string cued_by_;                         // the station whose ray the others search along
+  std::map<TrackletName, Tracklet> tracklets_;  // that no target has taken
+  std::optional<std::int64_t> begun_us_;        // the last round
   std::optional<std::string> next_;  // the next station of the round; nullopt: it is over
 };
 
