@@ -1,5 +1,6 @@
 #include "central/fusion/station_allocation.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <functional>

@@ -42,8 +42,8 @@ void HandoverPolicy::settle(std::int64_t now_us, const std::vector<Track>& track
   if (settled_us_ && std::abs(seconds(now_us - *settled_us_)) < kSettle_s) return;
   settled_us_ = now_us;
   for (auto& [id, known] : targets_) {
-    known.is_live = std::ranges::any_of(
-        tracks, [&](const Track& track) { return track.id == id && is_established(track); });
+    const auto track = std::ranges::find(tracks, id, &Track::id);
+    known.is_live = track != tracks.end() && is_established(*track);
   }
   for (const Track& track : tracks) {
     if (is_established(track)) note(track, now_us);
