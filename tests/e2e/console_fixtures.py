@@ -43,3 +43,12 @@ def page(chromium, consoles, idle):
     idle()
     with watched_page(chromium, consoles[0]) as opened:
         yield opened
+
+
+@pytest.fixture
+def overview(paper):
+    """charlie has a motorised lens."""
+    paper.lenses["charlie"] = [0.3, 0.5, 0.7]
+    paper.lens_commands.clear()
+    yield paper
+    paper.lenses.clear()

@@ -16,6 +16,13 @@ CUT_TEXT = Path(__file__).with_name("cut_text.js").read_text()
 DRAWN_TEXT = Path(__file__).with_name("drawn_text.js").read_text()
 SIZES = [(1500, 900), (1280, 720), (1024, 768), (768, 1024), (390, 844)]
 THEMES = ["night", "day", "sunlight"]  # the last with the largest letters
+# A gamepad, and how often the page has looked at it.
+PAD = """
+  window.pad = { connected: true, mapping: "standard", axes: [0, 0, 0, 0],
+                 buttons: Array.from({ length: 17 }, () => ({ value: 0 })) };
+  window.looks = 0;
+  navigator.getGamepads = () => (window.looks++, [null, window.pad]);
+"""
 expect.set_options(timeout=DEADLINE_S * 1000)
 
 

@@ -4,25 +4,9 @@ import subprocess
 
 import pytest
 from conftest import BIN, SCENARIO, finished, lines_said
+from helpers import station_without_devices
 
-GOOD = """\
-id = "s1"
-[pose]
-latitude_deg = 49.2
-longitude_deg = 16.6
-height_m = 250.0
-heading_deg = 0.0
-[camera]
-device = "127.0.0.99"
-[ptu]
-device = "/dev/null"
-[lens]
-fx_px = 13333.3
-fy_px = 13333.3
-[calibration.sd]
-heading_deg = 0.1
-mount_deg = 0.1
-"""
+GOOD = station_without_devices("s1")
 
 
 def run(program: str, *arguments: str) -> subprocess.CompletedProcess:
@@ -46,28 +30,9 @@ def test_a_good_configuration_passes(tmp_path):
 @pytest.mark.parametrize(
     ("old", "new", "line", "key"),
     [
-        (
-            "height_m = 250.0",
-            "heigth_m = 250.0",
-            5,
-            "heigth_m: unknown key; did you mean height_m?",
-        ),
-        (
-            "heading_deg = 0.0",
-            "headign_deg = 0.0",
-            6,
-            "pose.headign_deg: unknown key; did you mean heading_deg?",
-        ),
-        ("[lens]", "[lense]", 11, "lense: unknown key; did you mean lens?"),
-        ('id = "s1"', 'id = "s1"\nlcm_url = "udpm://239.255.76.67:7667?ttl=x"', 2, "lcm_url"),
-        ("heading_deg = 0.0", "heading_deg = 0.0\nhaeding_deg = 1.0", 7, "haeding_deg"),
+        ("height_m", "heigth_m", 5, "heigth_m: unknown key; did you mean height_m?"),
         ("latitude_deg = 49.2", "latitude_deg = 149.2", 3, "latitude_deg"),
-        ("latitude_deg = 49.2", "latitude_deg = nan", 3, "latitude_deg"),
-        ("longitude_deg = 16.6", "longitude_deg = 'east'", 4, "longitude_deg"),
-        ('device = "/dev/null"', 'device = "/dev/null"\nbaud = 12', 11, "baud"),
         ('id = "s1"', 'id = "s 1"', 1, "id"),
-        ('id = "s1"', 'id = "s1"\nlcm_url = "bogus://x"', 2, "lcm_url"),
-        ('id = "s1"', 'id = "s1"\nlcm_url = "udpm://300.1.1.1:99"', 2, "lcm_url"),
         ("[pose]", "[pose", 2, ""),
     ],
 )

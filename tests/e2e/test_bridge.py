@@ -20,7 +20,6 @@ from bridge_site import (
     target,
     wait,
 )
-from conftest import BIN, finished
 from helpers import Babbler
 from ols_demo.keys import members_of_environment
 
@@ -239,11 +238,3 @@ def test_a_server_that_sends_rubbish_is_said(network, tmp_path):
             wait(lambda b=bridge: b.says("no server: "), f"{name} is said")
         finally:
             bridge.stop()
-
-
-def test_a_bad_configuration_is_named(tmp_path):
-    config = tmp_path / "bridge.toml"
-    config.write_text('region = "a.b"\n')
-    done = finished(BIN / "ols-bridge", "--config", config, "--check-config")
-    assert done.returncode == 2
-    assert "bridge.toml:1: region" in done.stderr

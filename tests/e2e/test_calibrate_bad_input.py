@@ -148,61 +148,6 @@ def test_a_landmark_of_another_zone_is_refused(run):
     assert "km from the station" in error
 
 
-def without_line(lines, start):
-    return [line for line in lines if not line.startswith(start)]
-
-
-def with_cells(*changes):
-    """Of a covariance, cells by the names of their row and column."""
-
-    def change(lines):
-        for row, column, value in changes:
-            at = lines[0].split(",").index(column)
-            number = next(n for n, line in enumerate(lines) if line.startswith(row + ","))
-            cells = lines[number].split(",")
-            lines[number] = ",".join([*cells[:at], value, *cells[at + 1 :]])
-        return lines
-
-    return change
-
-
-def without_column(lines, column):
-    at = lines[0].split(",").index(column)
-    return [",".join(line.split(",")[:at] + line.split(",")[at + 1 :]) for line in lines]
-
-
-FOCAL, MOUNT = "focal_px", "mount_z_deg"
-
-
-@pytest.mark.parametrize(
-    ("change", "said"),
-    [
-        (lambda lines: ["", ""], ":1: header: is missing"),
-        (lambda lines: without_column(lines, FOCAL), ":1: focal_px: the column is missing"),
-        (lambda lines: without_line(lines, FOCAL), ":32: focal_px: the row is missing"),
-        (lambda lines: [*lines, lines[1]], ":33: focal_px: the row appears twice"),
-        (lambda lines: [*lines, "aspect,1"], "row: too few or too many columns"),
-        (with_cells((FOCAL, FOCAL, "1.5abc")), "focal_px: '1.5abc' is not a number"),
-        (with_cells((FOCAL, FOCAL, "-1")), "focal_px: the variance is negative"),
-        (with_cells((FOCAL, FOCAL, "0")), "the variance is 0, and its covariances are not"),
-        (with_cells((FOCAL, MOUNT, "1e-3")), ":8: focal_px: is not symmetric"),
-        (
-            with_cells((FOCAL, MOUNT, "1"), (MOUNT, FOCAL, "1")),
-            ":1: header: the matrix is not positive definite",
-        ),
-    ],
-)
-def test_a_bad_covariance_is_named_with_its_line(run, change, said):
-    run.adjusted()
-    lines = change(run.lines("out/covariance.csv"))
-    (run.output / "covariance.csv").write_text("\n".join(lines) + "\n")
-    run.arguments[run.arguments.index("--instrument") + 1] = run.output / "instrument.toml"
-    run.output = run.folder / "again"
-    error = run.refused()
-    assert "covariance.csv:" in error
-    assert said in error
-
-
 def test_a_covariance_of_another_system_is_the_same(run):
     run.adjusted()
     ids = []

@@ -25,9 +25,7 @@ def config(network, tmp_path):
     bring_up_loopback(wiring.prepare())
     listener = Listener()
     with Site(tmp_path / "logs") as started:
-        sim = [wiring.program("ols-sim"), "--scenario", str(scenario), "--seed", "3"]
-        sim += ["--lcm-url", LIVE_URL, "--directory", str(tmp_path / "lines")]
-        started.start_and_wait("ols-sim", sim, "ready")
+        wiring.start_simulator(started)
         wiring.start_station(started, STATION)
         listener.wait(
             lambda: abs(listener.wait_for_status(STATION).pan_limits_rad[0]) > 0.0, "homing", 60.0

@@ -121,16 +121,6 @@ def test_a_click_selects(page, view):
     assert stations.locator("article.open .who").inner_text() in PLACES
 
 
-def test_a_drag_turns_and_selects_nothing(page, view):
-    before = dots(page)
-    page.mouse.move(*before[0])
-    page.mouse.down()
-    page.mouse.move(before[0][0] + 80, before[0][1], steps=4)
-    page.mouse.up()
-    wait(lambda: dots(page) != before, "another view")
-    expect(region(page, "Stations").locator("article.open")).to_have_count(0)
-
-
 def place_m(station):
     return np.array(ols.ecef_from_geodetic(geodetic(*PLACES[station], HEIGHT_M)))
 

@@ -3,7 +3,6 @@
 import contextlib
 import http.client
 import json
-import math
 import socket
 import ssl
 from urllib.parse import urlsplit
@@ -64,29 +63,6 @@ def test_the_state_is_that_of_the_bus(api):
     assert target["ellipse95"]["semi_major_m"] > target["ellipse95"]["semi_minor_m"] > 0
     status, health, _ = api.ask("/api/health")
     assert status == 200 and health["stations"] == 3 and health["fusion"]
-
-
-def test_which_stations_are_calibrated_since_when_and_how_well(api):
-    state = wait(lambda: (s := api.state())["fusion"] and s, "the fusion")
-    alfa, bravo, _ = (one["calibration"] for one in state["stations"])
-    assert alfa.pop("sd_deg") == pytest.approx(math.degrees(5e-5), abs=1e-6)
-    assert alfa == {"state": "in use", "id": str(1 << 60), "utime_us": 1_780_000_000_000_000}
-    assert bravo == {"state": "none", "id": "0", "utime_us": None, "sd_deg": None}
-    alfa, bravo = (one["calibration"] for one in state["fusion"]["stations"])
-    assert alfa.pop("sd_deg") == pytest.approx(math.degrees(2e-4), abs=1e-6)
-    assert alfa == {"state": "doubted", "utime_us": 1_780_000_000_000_000}
-    assert bravo == {"state": "none", "utime_us": None, "sd_deg": None}
-
-
-def test_a_silent_station_is_marked(api, paper):
-    def of_charlie():
-        return next(s for s in api.state()["stations"] if s["id"] == "charlie")
-
-    paper.silent.add("charlie")
-    wait(lambda: of_charlie()["stale"], "charlie to be silent")
-    paper.silent.clear()
-    wait(lambda: not of_charlie()["stale"], "charlie to be back")
-    assert any(e["text"] == "no status any more" for e in api.state()["events"])
 
 
 def test_stop_needs_one_request(api, paper):
@@ -173,20 +149,6 @@ def test_a_log_in_over_tls(closed):
     assert ask("GET", "/api/state", cookie=cookie.split(";")[0]).status == 200
     tries = [ask("POST", "/api/session", wrong).status for _ in range(6)]
     assert tries[-1] == 429
-
-
-@pytest.mark.parametrize(
-    ("options", "complaint"),
-    [
-        (("--address", "0.0.0.0"), "it needs certificate and key"),
-        (("--address", "nowhere"), "must be an IP address"),
-        (("--add-user", "a b"), "a user's name is"),
-    ],
-)
-def test_what_is_not_safe_is_refused_in_one_line(network, tmp_path, options, complaint):
-    done = finished(*console_command(tmp_path / "users", *options))
-    assert done.returncode == 2
-    assert complaint in done.stderr and done.stderr.count("\n") == 1
 
 
 def test_a_bad_configuration_is_refused_with_its_line(tmp_path):

@@ -16,15 +16,6 @@ pytest_plugins = ["console_fixtures"]
 HOLD_MS = 600  # longer than the half second after which a press is a joystick
 
 
-@pytest.fixture
-def overview(paper):
-    """charlie has a motorised lens."""
-    paper.lenses["charlie"] = [0.3, 0.5, 0.7]
-    paper.lens_commands.clear()
-    yield paper
-    paper.lenses.clear()
-
-
 def caption(canvas):
     return canvas.locator("xpath=..").locator("figcaption")
 

@@ -4,7 +4,7 @@ anything afterwards, however it is held, and what the network delivers late does
 import pytest
 from conftest import wait
 from console_cable import Cable
-from console_page import picture, place, region, watched_page
+from console_page import PAD, picture, place, region, watched_page
 from console_site import Api
 from playwright.sync_api import expect
 
@@ -13,12 +13,6 @@ pytest_plugins = ["console_fixtures"]
 HOLD_MS = 600  # longer than the half second after which a press is a joystick
 STALL_MS = 2000  # too short for the page to give the connection up, longer than a hand waits
 NO_CONNECTION = "No connection to the console"
-PAD = """
-  window.pad = { connected: true, mapping: "standard", axes: [0, 0, 0, 0],
-                 buttons: Array.from({ length: 17 }, () => ({ value: 0 })) };
-  window.looks = 0;
-  navigator.getGamepads = () => (window.looks++, [null, window.pad]);
-"""
 
 
 @pytest.fixture
@@ -33,14 +27,6 @@ def page(chromium, cable, idle):
     with watched_page(chromium, cable.address) as opened:
         opened.evaluate(PAD)
         yield opened
-
-
-@pytest.fixture
-def overview(paper):
-    """charlie has a motorised lens."""
-    paper.lenses["charlie"] = [0.3, 0.5, 0.7]
-    yield paper
-    paper.lenses.clear()
 
 
 class Key:

@@ -137,28 +137,6 @@ def test_axe_finds_nothing_in_any_theme(page, paper):
     paper.fusion_alarms = []
 
 
-def test_two_languages(page, paper):
-    paper.alarms["bravo"] = ["camera: no frames for 3 s, it is waiting for a trigger"]
-    page.get_by_label("Language").select_option("de")
-    history = region(page, "Verlauf")
-    said = "Kamera: seit 3 s keine Bilder, sie wartet auf einen Trigger"
-    alarm = history.get_by_role("row", name=said)
-    expect(alarm).to_contain_text("dringend")
-    expect(alarm).to_contain_text("Was tun: Strom, Kabel")
-    paper.alarms.clear()
-    expect(region(page, "Karte")).to_be_visible()
-    expect(page.get_by_role("button", name="Alles halt")).to_be_visible()
-
-
-def test_a_lost_connection_is_said_and_comes_back(page):
-    picture(page, "alfa")
-    page.context.set_offline(True)
-    expect(page.get_by_text("No connection to the console")).to_be_visible()
-    page.context.set_offline(False)
-    expect(page.get_by_text("No connection to the console")).to_be_hidden()
-    page.troubles.clear()  # what the browser says of its missing network
-
-
 def test_a_browser_that_does_not_read_costs_nobody(page, chromium, consoles, paper):
     """It opens the live state and stops reading; the others go on, and the console stays small."""
     context = chromium.new_context()

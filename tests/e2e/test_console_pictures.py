@@ -8,7 +8,7 @@ import numpy as np
 import ols
 import pytest
 from conftest import wait
-from console_page import enlarge, picture
+from console_page import PAD, enlarge, picture
 from console_site import FULL_PX, PLACES, TARGET, paper_site
 from ols_bench.paper_video import PaperCamera, PaperVideo
 from ols_demo.places import geodetic
@@ -138,14 +138,6 @@ def test_the_exposure_is_in_milliseconds(page, paper):
 def test_the_delay_is_in_milliseconds_while_the_picture_is_live(page):
     caption = picture(page, "alfa").locator("xpath=..")
     expect(caption).to_contain_text(re.compile(r"\d{1,3} ms"))
-
-
-PAD = """
-  window.pad = { connected: true, mapping: "standard", axes: [0, 0, 0, 0],
-                 buttons: Array.from({ length: 17 }, () => ({ value: 0 })) };
-  window.looks = 0;
-  navigator.getGamepads = () => (window.looks++, [null, window.pad]);
-"""
 
 
 def test_a_gamepads_stick_turns_the_unit_and_letting_go_halts(page, paper):

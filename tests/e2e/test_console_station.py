@@ -22,9 +22,7 @@ def site(network, tmp_path):
     wiring = Wiring(BIN, SCENARIO, 1, tmp_path)
     bring_up_loopback(wiring.prepare())
     with Site(tmp_path / "logs") as started:
-        sim = [wiring.program("ols-sim"), "--scenario", str(SCENARIO)]
-        sim += ["--seed", "1", "--lcm-url", LIVE_URL, "--directory", str(tmp_path / "lines")]
-        started.start_and_wait("ols-sim", sim, "ready")
+        wiring.start_simulator(started)
         wiring.start_station(started, STATION)
         yield wiring.start_console(started)
         started.check()

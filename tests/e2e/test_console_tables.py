@@ -6,7 +6,7 @@ import re
 import ols_msg
 import pytest
 from conftest import wait
-from console_page import axe_finds, drag, picture, region, watched_page
+from console_page import axe_finds, picture, region, watched_page
 from console_site import PaperTarget
 from ols_demo.places import geodetic
 from playwright.sync_api import expect
@@ -182,10 +182,3 @@ def test_a_fusion_that_falls_silent_and_restarts(page, paper):
     paper.fusion_boot, paper.is_fusion_silent = 10, False
     expect(fusion).to_have_text("Fusion ok")
     expect(rows(page, "Targets")).to_have_count(1)
-
-
-def test_a_designation_of_a_frame_that_is_too_old_is_refused_in_words(page, paper):
-    paper.refusing["alfa"] = "no_frame"
-    drag(page, picture(page, "alfa"), 0.4, 0.6)
-    expect(page.get_by_text("alfa designate: refused: that picture is too old")).to_be_visible()
-    paper.refusing.clear()

@@ -5,7 +5,6 @@ from conftest import BIN, SCENARIO
 from console_page import region, watched_page
 from console_site import browser
 from helpers import at_frame_rate
-from ols_demo.bus import LIVE_URL
 from ols_demo.site import Site, bring_up_loopback
 from ols_demo.wiring import Wiring
 from playwright.sync_api import expect
@@ -34,9 +33,7 @@ def console(network, tmp_path_factory):
     wiring = Wiring(BIN, scenario, 1, folder)
     bring_up_loopback(wiring.prepare())
     with Site(folder / "logs") as started:
-        sim = [wiring.program("ols-sim"), "--scenario", str(scenario), "--seed", "1"]
-        sim += ["--lcm-url", LIVE_URL, "--directory", str(folder / "lines")]
-        started.start_and_wait("ols-sim", sim, "ready")
+        wiring.start_simulator(started)
         wiring.start_station(started, "alfa")
         yield wiring.start_console(started)
         started.check()

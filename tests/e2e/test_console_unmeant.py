@@ -6,7 +6,7 @@ import re
 
 import pytest
 from conftest import wait
-from console_page import SwiftMouse, picture, place, region
+from console_page import PAD, SwiftMouse, picture, place, region
 from console_site import DEADLINE_S, STATUS
 from playwright.sync_api import expect
 
@@ -14,18 +14,17 @@ pytest_plugins = ["console_fixtures"]
 
 HOLD_MS = 600  # longer than the half second after which a press is a joystick
 # What the page says to the console, but for what it looks at.
-SPY = """
+SPY = (
+    PAD
+    + """
   window.said = [];
   const send = WebSocket.prototype.send;
   WebSocket.prototype.send = function (text) {
     if (!["watch", "taken"].includes(JSON.parse(text).do)) window.said.push(text);
     return send.call(this, text);
   };
-  window.pad = { connected: true, mapping: "standard", axes: [0, 0, 0, 0],
-                 buttons: Array.from({ length: 17 }, () => ({ value: 0 })) };
-  window.looks = 0;
-  navigator.getGamepads = () => (window.looks++, [window.pad]);
 """
+)
 
 
 class Person:

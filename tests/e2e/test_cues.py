@@ -17,7 +17,7 @@ import ols
 import ols_msg
 import pytest
 import takproto
-from conftest import BIN, finished, made
+from conftest import BIN, made
 from ols_demo.bus import LIVE_URL, counters, decode
 from ols_demo.keys import members_of_environment
 from ols_demo.places import geodetic
@@ -346,27 +346,6 @@ def test_bad_cues_are_refused_by_name_and_stop_nothing(rig):
     rig.until(lambda: rig.cue("json.J1") is not None, "a good one", ("json", line), *says)
 
 
-def test_the_bus_believes_cues_of_their_own_member_only(rig):
-    rig.until(lambda: rig.cue("server.TCP") is not None, "a cue")
-    forged = rig.heard[-1]
-    forged.id, forged.utime = "forged", time.time_ns() // 1000
-    reasons = ("unsigned", "channel", "signature", "member", "malformed")
-
-    def distrusted():
-        return sum(rig.count(f"bus_distrusted_{reason}") for reason in reasons)
-
-    before = distrusted()
-
-    def forge():
-        # A station's signature, on a channel that is not its own; and none at all.
-        rig.lcm.publish("OLS_CUE", rig.signing.sign("OLS_STATUS_alfa", forged.encode()))
-        rig.lcm.publish("OLS_CUE", forged.encode())
-        return distrusted() > before + 4
-
-    rig.until(forge, "it is not believed")
-    assert rig.cue("forged") is None
-
-
 def test_a_server_that_dies_is_found_again(rig):
     rig.until(lambda: rig.cue("server.TCP") is not None, "a cue")
     rig.tak.close()
@@ -376,11 +355,3 @@ def test_a_server_that_dies_is_found_again(rig):
     rig.tak.open_again()
     rig.until(lambda: rig.cue("server.TCP") is not None, "it is back")
     rig.until(lambda: rig.status()["inputs"]["server"]["openings"] >= 2, "it is counted")
-
-
-def test_a_bad_configuration_is_named(tmp_path):
-    config = tmp_path / "cue.toml"
-    config.write_text('[[input]]\nname = "a"\nformat = "sbs"\nfrom = "udp://0.0.0.0:1"\n')
-    done = finished(BIN / "ols-cue", "--config", config, "--check-config")
-    assert done.returncode == 2
-    assert "cue.toml:4: input[0].from" in done.stderr

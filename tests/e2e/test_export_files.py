@@ -182,16 +182,6 @@ def test_live_files_are_whole_and_right(tmp_path):
             CHECKS[kind](path)
 
 
-def test_a_folder_that_is_missing_is_said_and_tried_again(tmp_path):
-    folder = tmp_path / "later"
-    publisher = Publisher()
-    outputs = output("map", "geojson", f"file://{folder}/site.geojson", rate_hz=10.0)
-    with Exporter(tmp_path, outputs) as exporter:
-        publisher.until(lambda: exporter.output("map").get("trouble"), "the folder is missing")
-        folder.mkdir()
-        publisher.until(lambda: (folder / "site.geojson").exists(), "the file")
-
-
 @pytest.mark.parametrize("kind", CHECKS)
 def test_positions_of_ols_fuse(tmp_path, kind):
     fixes, made = tmp_path / "fixes.csv", tmp_path / f"made.{kind}"
@@ -242,25 +232,6 @@ def test_a_log_at_a_lower_rate(tmp_path, log):
     assert done.returncode == 0, done.stderr
     gpx = gpxpy.parse(made.read_text())
     assert 6 <= gpx.get_points_no() <= 9 and gpx.waypoints == []
-
-
-def test_without_a_geoid_no_height_above_the_sea_is_written(tmp_path):
-    fixes, config = tmp_path / "fixes.csv", tmp_path / "export.toml"
-    fixes.write_text(FIXES)
-    for kind in ("kml", "gpx", "courageous"):
-        made = tmp_path / f"made.{kind}"
-        config.write_text('geoid = "no_such_grid.gtx"\n')
-        arguments = ("--config", config, "--fixes", fixes, "--format", kind, "--output", made)
-        done = export(*arguments)
-        assert done.returncode == 2 and not made.exists()
-        assert f"heights of {kind} are above sea level" in done.stderr
-        config.write_text(
-            'geoid = "no_such_grid.gtx"\n' + output("map", kind, f"file://{tmp_path}/a.{kind}")
-        )
-        done = export("--config", config)
-        assert done.returncode == 2 and "are above sea level" in done.stderr
-    done = export("--config", config, "--fixes", fixes, "--format", "geojson", "--output", made)
-    assert done.returncode == 0, done.stderr
 
 
 @pytest.mark.parametrize(

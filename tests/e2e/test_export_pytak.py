@@ -103,20 +103,6 @@ def test_a_stream_from_a_server(tmp_path):
     check_xml(said)
 
 
-def test_datagrams(tmp_path):
-    port, publisher = free_port(), Publisher()
-    with Exporter(tmp_path, output("tak", "cot", f"udp://127.0.0.1:{port}")):
-        said = asyncio.run(
-            receive(
-                publisher,
-                lambda said: xml_uid(said) == UID,
-                COT_URL=f"udp+ro://127.0.0.1:{port}",
-                TAK_PROTO="0",
-            )
-        )
-    check_xml(said)
-
-
 def test_the_mesh(tmp_path):
     port, publisher = free_port(), Publisher()
     to = f"udp://239.2.3.1:{port}?ttl=0&interface=127.0.0.1"

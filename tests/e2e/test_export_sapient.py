@@ -121,17 +121,6 @@ def test_names_stay_over_a_restart(tmp_path):
     assert len(names) == 1
 
 
-def test_a_refusal_is_said_and_asked_again(tmp_path):
-    receiver, publisher = Receiver(answer=False), Publisher()
-    with Exporter(tmp_path, sapient(receiver)) as exporter:
-        publisher.until(lambda: exporter.output("hub").get("failures", 0) >= 2, "it is asked again")
-        assert "refuses the registration: the area is taken" in exporter.output("hub")["trouble"]
-        assert {heard.message.WhichOneof("content") for heard in receiver.heard} == {"registration"}
-        receiver.answer = True
-        publisher.until(lambda: receiver.of("detection_report"), "it is accepted")
-    assert "output hub: 127.0.0.1" in exporter.said()
-
-
 def test_nothing_is_sent_before_the_acknowledgement(tmp_path):
     silent, publisher = Receiver(answer=None), Publisher()
     other, port = udp_receiver()
@@ -164,19 +153,6 @@ def test_a_task_is_refused(tmp_path):
     assert answer.task_ack.reason
 
 
-def test_complaints_are_said(tmp_path):
-    receiver, publisher = Receiver(), Publisher()
-    with Exporter(tmp_path, sapient(receiver)) as exporter:
-        publisher.until(lambda: receiver.of("detection_report"), "a detection")
-        error = receiver.to_node()
-        error.error.packet = b"x"
-        error.error.error_message.append("Timestamp delta 5 s > 0.1 s")
-        receiver.say(error)
-        publisher.until(lambda: exporter.output("hub").get("complaints") == 1, "it is counted")
-        assert "complains: Timestamp delta 5 s" in exporter.output("hub")["trouble"]
-        assert exporter.output("hub")["open"]
-
-
 def test_a_receiver_that_dies_is_found_again(tmp_path):
     receiver, publisher = Receiver(), Publisher()
     with Exporter(tmp_path, sapient(receiver)) as exporter:
@@ -187,16 +163,6 @@ def test_a_receiver_that_dies_is_found_again(tmp_path):
         publisher.until(lambda: exporter.output("hub")["failures"] == 1, "it is counted")
     kinds = [heard.message.WhichOneof("content") for heard in receiver.heard]
     assert kinds[0] == "registration" and kinds.count("registration") == 1
-
-
-def test_rubbish_is_named_and_harms_nothing(tmp_path):
-    receiver, publisher = Receiver(), Publisher()
-    with Exporter(tmp_path, sapient(receiver)) as exporter:
-        publisher.until(lambda: receiver.of("detection_report"), "a detection")
-        receiver.connections[-1].sendall(b"HTTP/1.1 400 Bad Request\r\n\r\n")
-        publisher.until(lambda: exporter.output("hub").get("failures") == 1, "it is counted")
-        receiver.heard.clear()
-        publisher.until(lambda: receiver.of("detection_report"), "detections again")
 
 
 def test_a_flood_of_tasks_ends_the_connection_for_a_moment(tmp_path):

@@ -189,36 +189,3 @@ def test_a_receiver_that_stops_reading_costs_nobody_else(tmp_path):
         most = 2 * 65536 + 65536 + 16384
         assert exporter.output("deaf")["bytes"] < most * len(deaf.connections)
         assert exporter.output("other")["trouble"] == ""
-
-
-def test_nothing_that_is_heard_stops_it(tmp_path, monkeypatch):
-    monkeypatch.setenv("OLS_TRUST", "off")  # no member would sign most of it
-    receiver, port = udp_receiver()
-    publisher = Publisher()
-    with Exporter(tmp_path, output("tak", "cot", f"udp://127.0.0.1:{port}")) as exporter:
-        for message in (
-            target(1, latitude_deg=float("nan")),
-            target(2, longitude_deg=1e300),
-            target(3, height_m=float("inf")),
-            target(4, utime=1),
-            target(5, velocity_ecef_m_s=[float("nan")] * 3),
-        ):
-            publisher.send("OLS_TARGET", message)
-        publisher.send("OLS_TARGET", b"rubbish")
-        publisher.send("OLS_STATUS_alfa", b"")
-        publisher.send("OLS_BEARING_alfa", bytes(100))
-        publisher.until(
-            lambda: (
-                (exporter.status() or {"counters": {}})["counters"].get("messages_refused") == 3
-            ),
-            "the rubbish is counted",
-        )
-        counters = exporter.status()["counters"]
-        assert counters["records_old"] == 1 and counters["messages_unused"] == 3
-        events = [ET.fromstring(data) for data in received(receiver)]
-        assert {event.get("uid")[-2:] for event in events if "target" in event.get("uid")} == {
-            ".5",
-            ".7",
-        }
-        fifth = next(event for event in events if event.get("uid").endswith(".5"))
-        assert fifth.find("detail/track") is None

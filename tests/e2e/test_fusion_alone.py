@@ -131,38 +131,6 @@ def test_damaged_and_foreign_messages_are_counted(fusion):
     fusion.feed_until(fusion.located, "a target all the same")
 
 
-def test_a_bearing_from_the_future_hurts_only_its_station(fusion):
-    fusion.wrong_us["b"] = FAR_US
-    fusion.feed_until(lambda: fusion.count("refused_future") > 10, "bearings from the future")
-    assert "station b" in fusion.observer.fusion.last_error
-    fusion.feed_until(fusion.located, "a target from the others")
-    assert list(fusion.observer.target["OLS_TARGET"].station) == ["a", "c"]
-
-
-@pytest.mark.parametrize("step_s", [2, -2])
-def test_a_station_that_marks_its_stepped_clock_is_quarantined_alone(fusion, step_s):
-    fusion.feed_until(fusion.located, "a target from all")
-    fusion.wrong_us["b"], fusion.clock_error_s["b"] = step_s * 1_000_000, 2.0
-
-    def quarantined():
-        status = fusion.observer.fusion
-        return {s for s, why in zip(status.station, status.quarantine, strict=True) if why}
-
-    fusion.feed_until(lambda: quarantined() == {"b"}, "the quarantine")
-    fusion.feed_until(
-        lambda: list(fusion.observer.target["OLS_TARGET"].station) == ["a", "c"],
-        "targets from the others",
-    )
-    assert fusion.located()
-    fusion.wrong_us.clear()
-    fusion.clock_error_s.clear()
-    fusion.feed_until(lambda: quarantined() == set(), "its end")
-    fusion.feed_until(
-        lambda: list(fusion.observer.target["OLS_TARGET"].station) == ["a", "b", "c"],
-        "targets from all",
-    )
-
-
 def test_old_messages_move_and_tell_nothing(fusion):
     """Without --replay, what is old is neither told as a target nor slewed by; and said."""
     fusion.offset_us = -FAR_US

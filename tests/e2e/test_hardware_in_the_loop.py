@@ -11,6 +11,7 @@ import pytest
 from conftest import BIN, SCENARIO, finished
 from helpers import Listener, at_frame_rate
 from ols_demo.site import Site
+from ols_demo.wiring import Wiring
 
 STATION = "alfa"
 DEADLINE_S = 60.0
@@ -56,16 +57,12 @@ def loop(network, tmp_path_factory):
     unit = Unit(folder / "unit")
     scenario = folder / "loop.toml"
     scenario.write_text(scenario_with_a_real_unit(folder / "unit"))
-    simulator = [str(BIN / "ols-sim"), "--scenario", str(scenario)]
-    simulator += ["--directory", str(folder / "lines")]
+    wiring = Wiring(BIN, scenario, 1, folder)
+    wiring.prepare()
     listener = Listener()
     with Site(folder / "logs") as site:
-        write = ["--write-configs", folder / "configs", "--state-folder", folder / "state"]
-        subprocess.run([*simulator, *write], check=True)
-        site.start_and_wait("simulator", simulator, "ready")
-        config = folder / f"configs/{STATION}.toml"
-        station = [str(BIN / "ols-station"), "--config", str(config)]
-        site.start_and_wait("station", station, "ready")
+        wiring.start_simulator(site)
+        wiring.start_station(site, STATION)
         listener.site, listener.unit = site, unit
         yield listener
     unit.end()

@@ -169,19 +169,6 @@ def test_waits_while_the_disk_is_full_of_other_things_and_records_again(start):
     assert "nothing is recorded: disk full" in error
 
 
-def test_its_own_logs_never_fill_the_disk(start):
-    logger = start(disk_bytes=400_000, reserve_bytes=100_000, quota_gb=1e-3)
-    logger.wait_recording()
-    least = 1e9
-    while logger.status().get("files_removed", 0) < 5:
-        for _ in range(5):
-            logger.bus.publish(2000)
-        least = min(least, logger.free_bytes())
-        time.sleep(0.01)
-    assert least >= 100_000
-    assert logger.status().get("failures") == 0
-
-
 def test_a_disk_without_any_room_is_waited_for(start):
     """ENOSPC in the middle of a file."""
     logger = start(disk_bytes=300_000)
@@ -325,19 +312,6 @@ def test_ends_though_messages_do_not(start):
             assert flooding.poll() is None
         finally:
             flooding.terminate()
-
-
-def test_tells_the_service_manager(start, tmp_path, monkeypatch):
-    path = tmp_path / "notify"
-    with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as manager:
-        manager.bind(str(path))
-        manager.settimeout(DEADLINE_S)
-        monkeypatch.setenv("NOTIFY_SOCKET", str(path))
-        start()
-        heard = manager.recv(4096).decode()
-        assert "READY=1" in heard
-        while "STATUS=recording" not in heard:
-            heard = manager.recv(4096).decode()
 
 
 @pytest.mark.parametrize(

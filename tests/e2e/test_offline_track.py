@@ -1,7 +1,6 @@
 """ols-track as its users meet it: pictures of a target that moves, and files that are no good."""
 
 import csv
-import signal
 import struct
 import subprocess
 
@@ -90,13 +89,6 @@ def test_follows_the_target(folder, tmp_path, name):
     result = track(folder / name, output)
     assert result.returncode == 0, result.stderr
     assert_follows(output)
-
-
-def test_folder_and_pattern_are_the_same_frames(folder, tmp_path):
-    by_folder, by_pattern = tmp_path / "folder.csv", tmp_path / "pattern.csv"
-    track(folder, by_folder)
-    track(folder / "%d.pgm", by_pattern)
-    assert by_folder.read_text() == by_pattern.read_text()
 
 
 def test_later_start(folder, tmp_path):
@@ -199,22 +191,6 @@ def test_follows_through_a_clip_and_says_where_the_time_goes(clip, tmp_path):
         assert 0.0 < sum(stages) <= float(row["total_ms"]) + 1e-3
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-def test_a_signal_leaves_nothing_half_written(pictures, tmp_path, number):
-    """The clip takes longer than the signal does to arrive."""
-    clip, output = tmp_path / "clip.avi", tmp_path / "boxes.csv"
-    write_clip(clip, pictures * 50)
-    command = [BIN / "ols-track", "--input", clip, "--output", output, "--init", init(0)]
-    # A background job is born deaf to SIGINT.
-    heard = {"preexec_fn": lambda: signal.signal(number, signal.SIG_DFL)}
-    with subprocess.Popen(command, **heard) as process:
-        while not list(tmp_path.glob("*.partial")):
-            assert process.poll() is None
-        process.send_signal(number)
-        assert process.wait(timeout=60) == -number
-    assert list(tmp_path.iterdir()) == [clip]
-
-
 @pytest.mark.parametrize("mode", ["paper", "full"])
 def test_both_modes(clip, tmp_path, mode):
     output = tmp_path / "boxes.csv"
@@ -229,13 +205,6 @@ def test_truncated_clip_is_refused_and_says_after_how_many_frames(clip, tmp_path
     clip.write_bytes(whole[: len(whole) // 2])
     output = tmp_path / "boxes.csv"
     refused(track(clip, output), output, str(clip), f"of {FRAMES} frames")
-
-
-@pytest.mark.parametrize("bytes_left", [0, 100, 2000])
-def test_clip_without_a_picture_is_refused(clip, tmp_path, bytes_left):
-    clip.write_bytes(clip.read_bytes()[:bytes_left])
-    output = tmp_path / "boxes.csv"
-    refused(track(clip, output), output, str(clip))
 
 
 def test_empty_folder_and_folder_without_pictures(tmp_path):

@@ -5,6 +5,7 @@ import subprocess
 
 import pytest
 from conftest import BIN
+from helpers import station_without_devices
 
 PROGRAMS = sorted(path.name for path in BIN.glob("ols-*"))
 AREA = [[16.6, 49.2], [16.61, 49.2], [16.61, 49.21], [16.6, 49.2]]
@@ -36,12 +37,7 @@ def test_help_that_was_not_written_is_an_error(program):
 
 def test_a_configuration_is_not_said_to_be_good_in_vain(tmp_path):
     config = tmp_path / "station.toml"
-    config.write_text(
-        'id = "s1"\n[pose]\nlatitude_deg = 49.2\nlongitude_deg = 16.6\nheight_m = 300.0\n'
-        "heading_deg = 40.0\n[calibration.sd]\nheading_deg = 2.0\nmount_deg = 0.1\n"
-        '[camera]\ndevice = "127.0.0.99"\n[ptu]\ndevice = "/dev/null"\n'
-        "[lens]\nfx_px = 13333.3\nfy_px = 13333.3\n"
-    )
+    config.write_text(station_without_devices("s1"))
     result = run_into_full_disk("ols-station", "--config", config, "--check-config")
     assert result.returncode != 0 and "standard output: " in result.stderr
 

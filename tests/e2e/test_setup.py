@@ -114,24 +114,6 @@ def test_a_station_joins_by_one_command_on_each_side(network, tmp_path, centre, 
         site.check()
 
 
-def test_what_a_person_has_changed_is_kept(tmp_path, centre):
-    tripod, answers = tmp_path / "alfa", answers_of(tmp_path, centre, "/nonexistent")
-    answers += '[station.ptu]\ndevice = "/dev/ols/ptu"\n'
-    set_up(tripod, answers)
-    config = tripod / "etc/ols/alfa.toml"
-    config.write_text(config.read_text().replace("= 45.0", "= 47.5") + "# my note\n")
-    edited = config.read_text()
-    key = tripod / "etc/credstore/ols-alfa.key"
-    before = key.read_bytes()
-    set_up(tripod, answers)
-    assert config.read_text() == edited
-    set_up(tripod, answers.replace("height_m = 310.0", "height_m = 311.5"))
-    assert "height_m = 311.5" in config.read_text()
-    assert "= 47.5" in config.read_text() and "# my note" in config.read_text()
-    assert key.read_bytes() == before
-    assert key.stat().st_mode & 0o777 == 0o600
-
-
 def statements(text):
     return [line for line in text.splitlines() if line and not line.startswith("#")]
 

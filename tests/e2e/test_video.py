@@ -3,7 +3,6 @@
 import contextlib
 import io
 import socket
-import subprocess
 
 import numpy as np
 import ols_msg
@@ -11,6 +10,7 @@ import pytest
 from conftest import BIN, SCENARIO
 from helpers import DEADLINE_S, Listener, VideoViewer, at_frame_rate
 from ols_demo.site import Site
+from ols_demo.wiring import Wiring
 from PIL import Image
 
 STATION = "alfa"
@@ -22,17 +22,12 @@ OK = ols_msg.station_status_t.DEVICE_OK
 def site(network, tmp_path_factory):
     folder = tmp_path_factory.mktemp("video")
     scenario = at_frame_rate(SCENARIO.parent / "servo.toml", 6.0, folder)
-    simulator = [str(BIN / "ols-sim"), "--scenario", str(scenario)]
-    simulator += ["--directory", str(folder / "lines")]
+    wiring = Wiring(BIN, scenario, 1, folder)
+    wiring.prepare()
     listener = Listener()
     with Site(folder / "logs") as running:
-        write = ["--write-configs", folder / "configs", "--state-folder", folder / "state"]
-        subprocess.run([*simulator, *write], check=True)
-        running.start_and_wait("simulator", simulator, "ready")
-        config = folder / f"configs/{STATION}.toml"
-        running.start_and_wait(
-            "station", [str(BIN / "ols-station"), "--config", str(config)], "ready"
-        )
+        wiring.start_simulator(running)
+        wiring.start_station(running, STATION)
         for name in ("camera", "ptu", "video"):
             listener.wait(lambda name=name: listener.device(STATION, name)[0] == OK, name, READY_S)
         yield listener

@@ -50,7 +50,7 @@ class Tripod:
         self.folder, self.station = folder, station
         self.wiring = Wiring(BIN, at_frame_rate(scenario, FRAMES_HZ, folder), seed, folder)
         self.wiring.prepare()
-        site.start_and_wait("ols-sim", self.wiring._sim(), "ready")
+        self.wiring.start_simulator(site)
         self.wiring.start_station(site, station)
         self.config = self.wiring.configs[station]
         self.store = folder / "calibrations"

@@ -177,22 +177,6 @@ TEST(Passage, AHostileStampDoesNotOverflow) {
   EXPECT_EQ(refused(passage.in_counts(), Refusal::kStale), 2U);
 }
 
-TEST(Passage, AStationObeysTheGreatestEpoch) {
-  Passage passage(site());
-  const auto come = [&passage](const char* epoch) {
-    return passage
-        .in("ols.v1.r.s.alfa.cmd.slew", {{kTargetHeader, "t"}, {kEpochHeader, epoch}}, slew("alfa"),
-            kNow)
-        .has_value();
-  };
-  EXPECT_TRUE(come("5"));
-  EXPECT_TRUE(come("7"));
-  EXPECT_FALSE(come("5"));
-  EXPECT_FALSE(come("nonsense"));
-  EXPECT_TRUE(come("7"));
-  EXPECT_EQ(refused(passage.in_counts(), Refusal::kEpoch), 1U);
-}
-
 TEST(Passage, ARegionsCommandGoesWhereTheStationIs) {
   Passage passage(region());
   EXPECT_FALSE(passage.out("OLS_SLEW_alfa", slew("alfa"), kNow));
@@ -246,21 +230,6 @@ TEST(Passage, WhatAnOperatorOrdersNeedsNoOwner) {
   EXPECT_EQ(out->subject, "ols.v1.r.hill.alfa.cmd.ptu");
   EXPECT_EQ(out->headers.size(), 0U) << "it competes with no owner";
   EXPECT_FALSE(passage.out("OLS_SLEW_alfa", slew("alfa"), kNow, owned)) << "nobody's target yet";
-}
-
-TEST(Passage, InventedNamesAreForgottenAndDoNotTakeTheRoomOfOthers) {
-  Passage passage(region());
-  const auto come = [&passage](const std::string& site, const std::string& name, double now_s) {
-    return passage
-        .in(to_text({Kind::kBearing, "r", site, name, ""}), {}, bearing(name), {kNow_us, now_s})
-        .has_value();
-  };
-  for (int i = 0; i < 30'000; ++i) come("evil", std::string("n").append(std::to_string(i)), 100.0);
-  EXPECT_LT(passage.stations(), 10'000U) << "a site has its share";
-  EXPECT_TRUE(come("hill", "alfa", 100.5)) << "and another site its own";
-  EXPECT_FALSE(come("evil", "bravo", 101.0));
-  EXPECT_TRUE(come("evil", "bravo", 170.0)) << "who is silent for a minute is forgotten";
-  EXPECT_LT(passage.stations(), 10U);
 }
 
 TEST(Passage, WhatIsNoMessageTakesNoName) {

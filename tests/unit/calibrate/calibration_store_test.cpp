@@ -5,7 +5,7 @@
 #include <fstream>
 #include <set>
 
-#include "tests/unit/logger/temporary_folder.h"
+#include "tests/unit/temporary_folder.h"
 
 namespace {
 
@@ -26,7 +26,6 @@ namespace ols::calibration {
 namespace {
 
 namespace fs = std::filesystem;
-using logger::TemporaryFolder;
 
 constexpr std::int64_t kNow_us = 1'780'000'000'000'000;
 

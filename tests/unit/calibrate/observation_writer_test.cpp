@@ -4,13 +4,11 @@
 
 #include <fstream>
 
-#include "tests/unit/logger/temporary_folder.h"
+#include "tests/unit/temporary_folder.h"
 #include "tools/calibrate/observation_file.h"
 
 namespace ols::calibration {
 namespace {
-
-using logger::TemporaryFolder;
 
 // The reader is the measure.
 TEST(ObservationWriter, WhatIsWrittenIsReadAgain) {

@@ -7,12 +7,10 @@
 #include <fstream>
 
 #include "geometry/angles.h"
-#include "tests/unit/logger/temporary_folder.h"
+#include "tests/unit/temporary_folder.h"
 
 namespace ols::calibration {
 namespace {
-
-using logger::TemporaryFolder;
 
 TEST(Person, AnswersAreLines) {
   EXPECT_EQ(answer_of("confirm").choice, "confirm");

@@ -15,7 +15,7 @@
 #include "geometry/angles.h"
 #include "tests/unit/calibrate/bus_station.h"
 #include "tests/unit/calibration/scene.h"
-#include "tests/unit/logger/temporary_folder.h"
+#include "tests/unit/temporary_folder.h"
 #include "tools/calibrate/procedure_end.h"
 #include "tools/calibrate/procedure_runner.h"
 
@@ -119,7 +119,7 @@ class ProcedureAtWork : public testing::Test {
     return {std::istreambuf_iterator<char>(file), {}};
   }
 
-  logger::TemporaryFolder folder_;
+  TemporaryFolder folder_;
   CalibrationStore store_{folder_ / "store"};
   test::MovingStation station_;
   StationLink link_{station_.bus, "alfa"};

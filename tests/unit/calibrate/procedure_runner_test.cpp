@@ -10,7 +10,7 @@
 #include "geometry/angles.h"
 #include "ols_msg/frame_request_t.hpp"
 #include "tests/unit/calibrate/bus_station.h"
-#include "tests/unit/logger/temporary_folder.h"
+#include "tests/unit/temporary_folder.h"
 
 namespace ols::calibration {
 namespace {
@@ -114,7 +114,7 @@ class ProcedureRunnerTest : public testing::Test {
     }
   }
 
-  logger::TemporaryFolder folder_;
+  TemporaryFolder folder_;
   test::BusStation station_;
   StationLink link_{station_.bus, "alfa"};
   Person person_;

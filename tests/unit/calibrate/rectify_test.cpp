@@ -6,7 +6,7 @@
 
 #include "base/config/toml_config.h"
 #include "tests/unit/calibrate/bus_station.h"
-#include "tests/unit/logger/temporary_folder.h"
+#include "tests/unit/temporary_folder.h"
 #include "tools/calibrate/target_file.h"
 
 namespace ols::calibration {
@@ -47,7 +47,7 @@ class RectifyTest : public testing::Test {
     return make_rectification(options_, files_, link_, session_);
   }
 
-  logger::TemporaryFolder folder_;
+  TemporaryFolder folder_;
   test::BusStation station_;
   StationLink link_{station_.bus, "alfa"};
   ProcedureSession session_{folder_.path(), "alfa"};

@@ -4,7 +4,7 @@
 
 #include <fstream>
 
-#include "tests/unit/logger/temporary_folder.h"
+#include "tests/unit/temporary_folder.h"
 
 namespace ols::calibration {
 namespace {
@@ -22,7 +22,7 @@ class ReferenceFeedTest : public testing::Test {
   std::size_t points(const ReferenceFeed& feed) const {
     return feed.trajectory("drone").points.size();
   }
-  logger::TemporaryFolder folder_;
+  TemporaryFolder folder_;
   const std::string source_ = folder_ / "flight.csv", copy_ = folder_ / "references.csv";
 };
 

@@ -21,7 +21,7 @@
 #include "ols_msg/ptu_command_t.hpp"
 #include "sim/processes/simulated_station.h"
 #include "sim/scenario/station_files.h"
-#include "tests/unit/logger/temporary_folder.h"
+#include "tests/unit/temporary_folder.h"
 #include "tools/calibrate/procedure_commands.h"
 #include "tools/calibrate/station_link.h"
 #include "wire/station_status.h"
@@ -178,7 +178,7 @@ class SimulatedTripod {
     return degrees(believed.cross(true_enu).norm()) * 3600.0;
   }
 
-  logger::TemporaryFolder folder;
+  TemporaryFolder folder;
   sim::SimulatedTime time;
   const sim::World world;
   std::optional<sim::SimulatedStation> station;

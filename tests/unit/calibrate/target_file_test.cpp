@@ -6,13 +6,13 @@
 
 #include "base/config/toml_config.h"
 #include "geometry/angles.h"
-#include "tests/unit/logger/temporary_folder.h"
+#include "tests/unit/temporary_folder.h"
 
 namespace ols::calibration {
 namespace {
 
 RectificationTargets read(const std::string& text) {
-  const logger::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const std::string path = folder.path() + "/targets.toml";
   std::ofstream(path) << text;
   return read_targets(path);

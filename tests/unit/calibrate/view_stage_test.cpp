@@ -9,8 +9,8 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "geometry/angles.h"
-#include "tests/unit/logger/temporary_folder.h"
 #include "tests/unit/moved_scene.h"
+#include "tests/unit/temporary_folder.h"
 
 namespace ols::calibration {
 namespace {
@@ -49,7 +49,7 @@ class ViewStageTest : public testing::Test {
   }
   ViewStage stage() { return {views_of(folder_.path()), StationModel{}, kSd_rad}; }
 
-  logger::TemporaryFolder folder_;
+  TemporaryFolder folder_;
   std::vector<double> pans_deg_;
 };
 
@@ -124,7 +124,7 @@ TEST_F(CrowdedPanorama, OnlySceneryIsAView) {
 }
 
 TEST(ViewsOf, ACalibrationByStarsAloneHasNone) {
-  const logger::TemporaryFolder folder;
+  const TemporaryFolder folder;
   std::ofstream(folder.path() + "/frames.jsonl")
       << R"({"file": "a.png", "pan_rad": 0, "tilt_rad": 0, "is_view": false})" << '\n';
   EXPECT_THAT([&] { views_of(folder.path()); }, testing::ThrowsMessage<std::runtime_error>(
@@ -132,7 +132,7 @@ TEST(ViewsOf, ACalibrationByStarsAloneHasNone) {
 }
 
 TEST(ViewsOf, ADamagedListIsNamedWithItsLine) {
-  const logger::TemporaryFolder folder;
+  const TemporaryFolder folder;
   std::ofstream(folder.path() + "/frames.jsonl") << "{\"file\": \"a.png\"}\n";
   EXPECT_THAT([&] { views_of(folder.path()); },
               testing::ThrowsMessage<std::runtime_error>(testing::HasSubstr("frames.jsonl:1:")));

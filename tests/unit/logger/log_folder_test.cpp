@@ -5,7 +5,7 @@
 
 #include <system_error>
 
-#include "tests/unit/logger/temporary_folder.h"
+#include "tests/unit/temporary_folder.h"
 
 namespace ols::logger {
 namespace {

@@ -6,7 +6,7 @@
 #include <lcm/lcm-cpp.hpp>
 #include <system_error>
 
-#include "tests/unit/logger/temporary_folder.h"
+#include "tests/unit/temporary_folder.h"
 
 namespace ols::logger {
 namespace {

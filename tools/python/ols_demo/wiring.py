@@ -88,11 +88,14 @@ class Wiring:
         print(f"starting simulator, {len(self.configs)} stations, fusion and logger", flush=True)
         if log:
             self.start_log(site)
-        site.start_and_wait("ols-sim", self._sim(), "ready", self.keys)
+        self.start_simulator(site)
         self._start_gpsds(site)
         self.start_fusion(site)
         for name in self.configs:
             self.start_station(site, name)
+
+    def start_simulator(self, site: Site) -> None:
+        site.start_and_wait("ols-sim", self._sim(), "ready", self.keys)
 
     def start_log(self, site: Site) -> None:
         """Into a file of its own each time."""

@@ -9,6 +9,8 @@
 namespace ols::fusion {
 namespace {
 
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
 BearingMeasurement good() {
   return test::measurement_of(test::ray_to("a", {0, 0, 0}, {100, 100, 50}), 1'600'000'000'000'000);
 }
@@ -16,21 +18,36 @@ BearingMeasurement good() {
 TEST(BearingCheck, TakesAGoodBearing) { EXPECT_EQ(check(good()), BearingRefusal::kNone); }
 
 TEST(BearingCheck, NamesWhatIsWrong) {
-  BearingMeasurement measurement = good();
-  measurement.belief = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(check(measurement), BearingRefusal::kNotFinite);
-  measurement = good();
-  measurement.station.clear();
-  EXPECT_EQ(check(measurement), BearingRefusal::kOutOfRange);
-  measurement = good();
-  measurement.sight.origin_ecef.setZero();
-  EXPECT_EQ(check(measurement), BearingRefusal::kOutOfRange);
-  measurement = good();
-  measurement.sight.covariance_white(0, 1) = measurement.sight.covariance_white(0, 0);
-  EXPECT_EQ(check(measurement), BearingRefusal::kCovariance);
-  measurement = good();
-  measurement.sight.covariance_systematic(1, 1) = -1e-6;
-  EXPECT_EQ(check(measurement), BearingRefusal::kCovariance);
+  const auto refusal = [](const auto& spoil) {
+    BearingMeasurement measurement = good();
+    spoil(measurement);
+    return check(measurement);
+  };
+  using M = BearingMeasurement;
+  using enum BearingRefusal;
+  EXPECT_EQ(refusal([](M& m) { m.sight.direction.azimuth_rad = kNan; }), kNotFinite);
+  EXPECT_EQ(refusal([](M& m) { m.sight.origin_ecef.x() = kNan; }), kNotFinite);
+  EXPECT_EQ(refusal([](M& m) { m.belief = kNan; }), kNotFinite);
+  EXPECT_EQ(refusal([](M& m) { m.station.clear(); }), kOutOfRange);
+  EXPECT_EQ(refusal([](M& m) { m.sight.direction.azimuth_rad = 7.0; }), kOutOfRange);
+  EXPECT_EQ(refusal([](M& m) { m.sight.direction.elevation_rad = -1.6; }), kOutOfRange);
+  EXPECT_EQ(refusal([](M& m) { m.belief = 1.5; }), kOutOfRange);
+  EXPECT_EQ(refusal([](M& m) { m.sight.origin_ecef.setZero(); }), kOutOfRange);
+  EXPECT_EQ(refusal([](M& m) { m.utime_us = 0; }), kOutOfRange);
+  EXPECT_EQ(refusal([](M& m) { m.sight.origin_sd_enu_m.x() = 1.1e6; }), kOutOfRange);
+  EXPECT_EQ(refusal([](M& m) { m.clock_sd_s = 1.1e4; }), kOutOfRange);
+  for (const double rad2 : {0.0, 1e308, 1e-160, 11.0, 0.9e-18}) {
+    EXPECT_EQ(refusal([&](M& m) { m.sight.covariance_white = Eigen::Matrix2d::Identity() * rad2; }),
+              kCovariance);
+  }
+  EXPECT_EQ(refusal([](M& m) { m.sight.covariance_white(0, 1) = 1.0; }), kCovariance);
+  EXPECT_EQ(refusal([](M& m) { m.sight.covariance_white.diagonal() << 1e-17, 1.0; }), kCovariance);
+  EXPECT_EQ(refusal([](M& m) { m.sight.covariance_white << 1.0, 1.0, 1.0, 1.0 + 1e-9; }),
+            kCovariance);
+  EXPECT_EQ(refusal([](M& m) { m.sight.covariance_systematic(1, 1) = -1e-9; }), kCovariance);
+  for (const double rad2 : {1e308, 11.0}) {
+    EXPECT_EQ(refusal([&](M& m) { m.sight.covariance_systematic(0, 0) = rad2; }), kCovariance);
+  }
 }
 
 TEST(BearingCheck, NamesWhatIsWrongWithWhatADetectorSaw) {
@@ -48,7 +65,6 @@ TEST(BearingCheck, NamesWhatIsWrongWithWhatADetectorSaw) {
     return check(measurement);
   };
   using M = BearingMeasurement;
-  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(refusal([](M&) {}), BearingRefusal::kNone);
   EXPECT_EQ(refusal([](M& m) { m.sighted.rate_rad_s.x() = kNan; }), BearingRefusal::kNotFinite);
   EXPECT_EQ(refusal([](M& m) { m.sighted.signal = kNan; }), BearingRefusal::kNotFinite);

@@ -72,30 +72,6 @@ TEST_F(CommandJudgementTest, NothingButRearmingIsPermittedInAnEmergency) {
   EXPECT_EQ(judge_rearm(now()), Refusal::kEmergency);
 }
 
-TEST_F(CommandJudgementTest, EachNumberOfACommandMustBeFinite) {
-  EXPECT_EQ(judged(DesignateCommand{kNan, {}}), Refusal::kNotFinite);
-  EXPECT_EQ(judged(DesignateCommand{std::nullopt, {0, 0, kNan, 1}}), Refusal::kNotFinite);
-  EXPECT_EQ(judged(PointCommand{{0.0, kNan}}), Refusal::kNotFinite);
-  for (double SlewCommand::*number :
-       {&SlewCommand::effect_s, &SlewCommand::received_s, &SlewCommand::lease_s,
-        &SlewCommand::azimuth_rate_rad_s, &SlewCommand::elevation_rate_rad_s,
-        &SlewCommand::direction_sd_rad}) {
-    SlewCommand command = slew(20.0);
-    command.*number = kNan;
-    EXPECT_EQ(judged(command), Refusal::kNotFinite);
-  }
-}
-
-TEST_F(CommandJudgementTest, ALeaseIsPositiveAndNotTooLong) {
-  SlewCommand command = slew(20.0);
-  command.lease_s = config_.slew_lease_max_s;
-  EXPECT_EQ(judged(command), Refusal::kNone);
-  for (const double lease_s : {0.0, -1.0, config_.slew_lease_max_s + 0.01}) {
-    command.lease_s = lease_s;
-    EXPECT_EQ(judged(command), Refusal::kOutOfRange) << lease_s;
-  }
-}
-
 TEST_F(CommandJudgementTest, ASlewIsForAnInstantNearNow) {
   for (const double side : {-1.0, 1.0}) {
     SlewCommand command = slew(20.0);

@@ -124,16 +124,6 @@ TEST_F(GpioTest, AHeldButtonRearmsOnceAfterTheRelease) {
   EXPECT_EQ(gpio.report().counters.at("gpio_rearms"), 1U);
 }
 
-TEST_F(GpioTest, AButtonThatIsStuckFromTheStartRearmsNothing) {
-  GpioServer server(server_config);
-  server.hold_rearm(true);
-  const Gpio gpio(config, listener(), rearms());
-  ASSERT_TRUE(hears({false}));
-  const double end_s = clock_monotonic_s() + 4.0 * config.rearm_hold_s;
-  ASSERT_TRUE(eventually([&] { return clock_monotonic_s() > end_s; }));
-  EXPECT_EQ(rearm_count(), 0);
-}
-
 TEST_F(GpioTest, PressedFromTheStart) {
   GpioServer server(server_config);
   server.set_pressed(true);

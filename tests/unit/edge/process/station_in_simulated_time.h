@@ -16,7 +16,7 @@
 #include "ols_msg/ptu_command_t.hpp"
 #include "sim/processes/simulated_station.h"
 #include "sim/scenario/station_files.h"
-#include "tests/unit/logger/temporary_folder.h"
+#include "tests/unit/temporary_folder.h"
 #include "wire/station_status.h"
 
 namespace ols::station::test {
@@ -97,7 +97,7 @@ class StationInSimulatedTime : public testing::Test {
   }
 
   const std::string ok_ = wire::device_name(ols_msg::station_status_t::DEVICE_OK);
-  logger::TemporaryFolder folder_;
+  TemporaryFolder folder_;
   sim::SimulatedTime time_;
   const sim::World world_;
   LcmBus bus_;

@@ -8,7 +8,7 @@
 #include <system_error>
 #include <utility>
 
-#include "tests/unit/edge/recorder/temporary_folder.h"
+#include "tests/unit/edge/recorder/recorder_files.h"
 
 namespace ols::recorder {
 namespace {
@@ -27,8 +27,7 @@ TEST(EventFolder, HasFramesAndTableAndAppearsWhole) {
   EXPECT_EQ(content_of(store / "e/frames.csv"),
             "utime_us,number,file,mid_exposure_sd_s,pixel_format\n"
             "1700000001500000,7,1700000001500000.png,0.000010000,Mono8\n");
-  const cv::Mat read =
-      cv::imread((store / "e/1700000001500000.png").string(), cv::IMREAD_UNCHANGED);
+  const cv::Mat read = cv::imread(store / "e/1700000001500000.png", cv::IMREAD_UNCHANGED);
   ASSERT_EQ(read.size(), frame.picture.size());
   EXPECT_EQ(cv::norm(read, frame.picture, cv::NORM_L1), 0.0);
 }

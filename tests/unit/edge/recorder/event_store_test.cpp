@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "base/process/clocks.h"
-#include "tests/unit/edge/recorder/temporary_folder.h"
+#include "tests/unit/edge/recorder/recorder_files.h"
 
 namespace ols::recorder {
 namespace {
@@ -25,7 +25,7 @@ constexpr std::int64_t kNow_us = 1'772'366'400'000'000;  // 1 March 2026, 12:00
 
 // As if an event had last made room then.
 void last_removal(const TemporaryFolder& store, std::int64_t utime_us) {
-  const std::string path = (store / ".removal").string();
+  const std::string path = store / ".removal";
   std::ofstream{path} << "x";
   const timespec at{static_cast<time_t>(utime_us / 1'000'000), 0};
   const timespec both[2] = {at, at};
@@ -55,7 +55,7 @@ TEST(EventStore, CountsEventsAndNothingElse) {
 
 TEST(EventStore, MakesItsFolder) {
   const TemporaryFolder folder;
-  EventStore store({(folder / "a/b").string(), kAll, 0.0, kDay_s});
+  EventStore store({folder / "a/b", kAll, 0.0, kDay_s});
   store.survey();
   EXPECT_TRUE(std::filesystem::is_directory(folder / "a/b"));
 }
@@ -197,7 +197,7 @@ TEST(EventStore, NamesAreFreeAndLabelled) {
 TEST(EventStore, AFileInTheFoldersPlaceIsReported) {
   const TemporaryFolder folder;
   std::ofstream(folder / "file") << "x";
-  EventStore store({(folder / "file").string(), kAll, 0.0, kDay_s});
+  EventStore store({folder / "file", kAll, 0.0, kDay_s});
   EXPECT_THROW(store.survey(), std::system_error);
 }
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/unit/edge/recorder/temporary_folder.h"
+#include "tests/unit/edge/recorder/recorder_files.h"
 
 namespace ols::recorder {
 namespace {

@@ -80,6 +80,17 @@ accept_move_s = 900.0
   EXPECT_EQ(estimator.accept_move_s, 900.0);
 }
 
+TEST(SensorsConfig, TheSettingsOfThePoseStay) {
+  PoseEstimator::Config estimator;
+  estimator.alarm_sigma = 3.0;
+  estimator.level_sd_rad = 0.01;
+  estimator.surveyed_tilt_rad = Eigen::Vector2d(1e-3, 0.0);
+  set_sensors(estimator, {}, {});
+  EXPECT_EQ(estimator.alarm_sigma, 3.0);
+  EXPECT_EQ(estimator.level_sd_rad, 0.01);
+  EXPECT_TRUE(estimator.surveyed_tilt_rad);
+}
+
 TEST(SensorsConfig, ErrorsNameFileLineAndKey) {
   EXPECT_EQ(error_of([] {
               inclinometer("[inclinometer]\nx_sign = 0\ndevice = \"a\"\n");

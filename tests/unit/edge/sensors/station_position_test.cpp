@@ -32,13 +32,6 @@ std::vector<std::string> alarms_of(const StationPosition& position, double now_s
   return alarms;
 }
 
-TEST(StationPosition, IsThatOfGroundNotOfTheAntenna) {
-  StationPosition position(sensors_only());
-  for (int i = 0; i < 10; ++i) position.add(fix(i));
-  EXPECT_TRUE(position.is_from_sensor());
-  EXPECT_LT(distance_m(pose_of(position, 10.0).position, kGround), 1e-6);
-}
-
 TEST(StationPosition, FewerReadingsThanAgreeAreNoPosition) {
   StationPosition position(sensors_only());
   position.add(fix(0.0));
@@ -103,28 +96,6 @@ TEST(StationPosition, ImpossibleReadingsAreNoFixes) {
   }
   EXPECT_EQ(pose_of(position, 10.0).position_source, PoseSource::kNone);
   EXPECT_FALSE(position.is_from_sensor());
-}
-
-TEST(StationPosition, WithASurveyNoSensorMovesIt) {
-  StationPosition position(surveyed());
-  for (int i = 0; i < 700; ++i) position.add(fix(i, {8.0, 0.0, 0.0}));
-  EXPECT_EQ(distance_m(pose_of(position, 700.0).position, kGround), 0.0);
-  EXPECT_EQ(pose_of(position, 700.0).position_source, PoseSource::kSurveyed);
-  EXPECT_FALSE(position.is_from_sensor()) << "there is nothing to persist";
-  EXPECT_THAT(alarms_of(position, 700.0),
-              ElementsAre("gnss: 8.00 m from the survey for 12 min: set up the station again"));
-}
-
-TEST(StationPosition, AResumedPositionGrowsWithItsAge) {
-  const PersistedPose::Position known{kGround, Vector3d::Constant(0.02), 0};
-  StationPosition position(sensors_only());
-  position.resume(known, 1000.0, 400.0);
-  EXPECT_NEAR(pose_of(position, 1000.0).position_sd_enu_m.z(), std::hypot(0.02, 0.01 * 20.0), 1e-9);
-  EXPECT_FALSE(position.is_from_sensor()) << "not confirmed yet";
-  StationPosition too_old(sensors_only());
-  too_old.resume(known, 1000.0, sensors_only().resume_s + 1.0);
-  EXPECT_EQ(pose_of(too_old, 1000.0).position_source, PoseSource::kNone);
-  EXPECT_THAT(alarms_of(too_old, 1000.0), IsEmpty());
 }
 
 }  // namespace

@@ -28,12 +28,6 @@ std::vector<std::string> alarms_of(const StationTilt& tilt, double now_s) {
   return alarms;
 }
 
-TEST(StationTilt, UnmeasuredItIsLevelWithAStatedDeviation) {
-  const StationTilt none(sensors_only());
-  EXPECT_EQ(pose_of(none, 1.0).tilt_source, PoseSource::kNone);
-  EXPECT_EQ(pose_of(none, 1.0).tilt_sd_rad, sensors_only().level_sd_rad);
-}
-
 TEST(StationTilt, ASlowSettlingOfTheTripodIsFollowed) {
   StationTilt settling(sensors_only());
   for (int i = 0; i < 36000; ++i) settling.add(tilt(0.1 * i, 0.12 + 0.3 * i / 36000.0));
@@ -61,15 +55,6 @@ TEST(StationTilt, ReadingsThatCannotBeAreIgnored) {
   spoilt.add({22.0, 2.0, 0.0});  // [rad] a tripod does not stand like that
   spoilt.add({5.0, radians(0.13), 0.0});
   EXPECT_EQ(pose_of(spoilt, 20.0).tilt_x_rad, before_rad);
-}
-
-TEST(StationTilt, WithASurveyTheSensorOnlyChecks) {
-  StationTilt checked(surveyed());
-  for (int i = 0; i < 100; ++i) checked.add(tilt(0.1 * i, 0.42));
-  EXPECT_EQ(pose_of(checked, 10.0).tilt_x_rad, radians(0.12));
-  EXPECT_EQ(pose_of(checked, 10.0).tilt_source, PoseSource::kSurveyed);
-  EXPECT_THAT(alarms_of(checked, 10.0), ElementsAre("inclinometer: 0.30 deg from the survey"));
-  EXPECT_FALSE(checked.is_from_sensor());
 }
 
 TEST(StationTilt, AResumedTiltIsKeptUntilASensorConfirmsIt) {

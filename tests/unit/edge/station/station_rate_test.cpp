@@ -201,14 +201,5 @@ TEST_F(JoystickTest, ARateThatWasOvertakenOnItsWayIsRefused) {
   EXPECT_EQ(station_->snapshot().counters.at("refused_overtaken"), 1.0);
 }
 
-TEST_F(JoystickTest, TheOperatorsHandHasPrecedenceOverTheFusion) {
-  hold(0.5, 0.2);
-  SlewCommand slew;
-  slew.effect_s = slew.received_s = now_s_;
-  slew.lease_s = 0.5;
-  slew.direction = {radians(-20.0), 0.0};
-  EXPECT_EQ(station_->slew(slew, now_s_), Refusal::kPrecedence);
-}
-
 }  // namespace
 }  // namespace ols::station

@@ -102,40 +102,5 @@ TEST_F(StationSlewTest, ASlewedStationAllowsForWhatItDoesNotKnowOfItsOwnHeading)
   EXPECT_EQ(station.state(), StationState::kTracking);
 }
 
-TEST_F(StationSlewTest, RefusesSlewsThatAreNotCommands) {
-  run_until(100.5);
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  auto bad = slew(20.0);
-  bad.direction.azimuth_rad = nan;
-  EXPECT_EQ(station_.slew(bad, now_), Refusal::kNotFinite);
-  bad = slew(20.0);
-  bad.lease_s = 1e9;
-  EXPECT_EQ(station_.slew(bad, now_), Refusal::kOutOfRange);
-  bad = slew(20.0);
-  bad.lease_s = 0.0;
-  EXPECT_EQ(station_.slew(bad, now_), Refusal::kOutOfRange);
-  bad = slew(20.0);
-  bad.effect_s = now_ + 100.0;
-  EXPECT_EQ(station_.slew(bad, now_), Refusal::kOutOfRange);
-  EXPECT_EQ(station_.slew(slew(20.0, 60.0), now_), Refusal::kUnreachable);
-  EXPECT_EQ(station_.slew(slew(210.0), now_), Refusal::kUnreachable);  // behind, beyond 159 deg
-  EXPECT_EQ(station_.state(), StationState::kIdle);
-  EXPECT_FALSE(station_.goal(now_));
-  EXPECT_EQ(station_.snapshot().counters.at("slew_refused"), 6.0);
-}
-
-TEST_F(StationSlewTest, RefusesASlewThatWouldLeadOutOfTheTravelWithinItsLease) {
-  run_until(100.5);
-  auto command = slew(30.0, 28.0);  // inside, but on its way out: the unit tilts to 31 degrees
-  command.elevation_rate_rad_s = 0.05;
-  EXPECT_EQ(station_.slew(command, now_), Refusal::kNone);
-  command.elevation_rate_rad_s = 0.4;
-  EXPECT_EQ(station_.slew(command, now_), Refusal::kUnreachable);
-  command = slew(30.0);
-  command.effect_s = now_ + 4.5;  // far ahead, at a rate that would swing the unit now
-  command.azimuth_rate_rad_s = 1.4;
-  EXPECT_EQ(station_.slew(command, now_), Refusal::kOutOfRange);
-}
-
 }  // namespace
 }  // namespace ols::station

@@ -10,14 +10,14 @@
 #include <set>
 #include <string>
 
-namespace ols::logger {
+namespace ols {
 
 class TemporaryFolder {
  public:
   TemporaryFolder() {
     const auto* test = testing::UnitTest::GetInstance()->current_test_info();
     path_ = std::filesystem::temp_directory_path() /
-            ("ols_logger_" + std::string(test->name()) + "_" + std::to_string(::getpid()));
+            ("ols_" + std::string(test->name()) + "_" + std::to_string(::getpid()));
     std::filesystem::remove_all(path_);
     std::filesystem::create_directories(path_);
   }
@@ -46,4 +46,4 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-}  // namespace ols::logger
+}  // namespace ols
