@@ -31,10 +31,9 @@ def stamped(node_id):
     return message
 
 
-def detection(latitude_deg, longitude_deg, height_m, age_s=0, **fields):
+def detection(latitude_deg, longitude_deg, height_m):
     """Of a radar's target; 1e-4 degrees of error each, 12 m in height."""
     message = stamped(RADAR)
-    message.timestamp.seconds -= age_s
     report = message.detection_report
     report.report_id = report.object_id = OBJECT
     place = report.location
@@ -42,13 +41,6 @@ def detection(latitude_deg, longitude_deg, height_m, age_s=0, **fields):
     place.x_error = place.y_error = 1e-4
     place.z_error = 12.0
     place.coordinate_system, place.datum = DEGREES_AND_METRES, ELLIPSOID
-    for name, value in fields.items():
-        setattr(place, name, value)
-    return message
-
-
-def as_our_own(message):
-    message.detection_report.track_info.add(type="ols.state", value="confirmed")
     return message
 
 

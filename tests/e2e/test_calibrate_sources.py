@@ -88,11 +88,11 @@ def test_a_clock_that_is_not_synchronised_is_refused(time_service, receiver, tmp
 
 
 @pytest.mark.parametrize(
-    "off_s, words",
-    [(3600.0, "s ahead by"), (0.5, "s ahead by"), (-59.0, "s old by"), (-3, "s old by")],
-)
-@pytest.mark.parametrize(
-    "text, options", [(aircraft_json, ("json",)), (sbs_lines, ("sbs", "--geometric"))]
+    "off_s, words, text, options",
+    [
+        (0.5, "s ahead by", aircraft_json, ("json",)),
+        (-3.0, "s old by", sbs_lines, ("sbs", "--geometric")),
+    ],
 )
 def test_a_receiver_whose_clock_is_off_is_refused(
     time_service, receiver, tmp_path, off_s, words, text, options
@@ -143,6 +143,7 @@ def test_barometric_heights_are_refused_in_words(tmp_path):
     assert "its heights are barometric" in done.stderr
 
 
+CAMERA = ("focal_px", "aspect", "cx_px", "cy_px")
 CHESSBOARD = "data/calibration/opencv_chessboard"
 
 
@@ -152,7 +153,8 @@ def camera_of(pictures, output):
 
 
 def test_pictures_that_tell_less_than_they_should(shared, tmp_path):
-    """Without the board: usual, unless most are; one that was bent is a fault."""
+    """Without the board: usual, unless most are; one that was bent is a fault. What is found,
+    board_fit_test judges."""
     boards = sorted((shared / CHESSBOARD).glob("left*.jpg"))[:8]
     width, height = Image.open(boards[0]).size
     empty = [tmp_path / f"empty{k}.png" for k in range(9)]
@@ -164,6 +166,7 @@ def test_pictures_that_tell_less_than_they_should(shared, tmp_path):
     assert done.stdout.startswith("8 of 9 pictures, residuals ")
     assert f"{empty[0]}: the board is not found" in done.stderr
     assert "residuals" not in done.stderr
+    assert set(CAMERA) <= tomllib.loads((tmp_path / "one/instrument.toml").read_text())["sd"].keys()
 
     done = camera_of([*boards, *empty], tmp_path / "most")
     assert done.returncode == 1
@@ -176,21 +179,3 @@ def test_pictures_that_tell_less_than_they_should(shared, tmp_path):
     done = camera_of([*boards[1:], tmp_path / "bent.png"], tmp_path / "bent")
     assert done.returncode == 1, done.stderr
     assert "bent.png: its corners are off by" in done.stderr
-
-
-@pytest.mark.parametrize("camera", ["left", "right"])
-def test_a_camera_from_chessboards(shared, tmp_path, camera):
-    """Against OpenCV's own fit with the same corner window, within a fifth of its standard errors:
-    what is told is what OpenCV tells (board_fit_test)."""
-    data = shared / CHESSBOARD
-    measured = json.loads((data / "reference.json").read_text())["measured"]
-    expected = next(value for key, value in measured.items() if key.endswith("_5"))[
-        f"{camera}_free"
-    ]
-    done = camera_of(sorted(data.glob(f"{camera}*.jpg")), tmp_path / "camera")
-    assert done.returncode == 0, done.stderr
-    found = tomllib.loads((tmp_path / "camera/instrument.toml").read_text())
-    values, sds = found["values"], found["sd"]
-    for key, name in (("focal_px", "fx"), ("cx_px", "cx"), ("cy_px", "cy")):
-        assert abs(values[key] - expected[name]) < 0.2 * sds[key] < 0.2, key
-    assert abs(values["aspect"] - expected["fy"] / expected["fx"]) < 0.2 * sds["aspect"]

@@ -12,7 +12,7 @@ from ols_demo.places import geodetic
 from ols_demo.recording import Recording
 from ols_faults import __main__ as fault_run
 from ols_faults import fragments, mutate, mutations, pursuit, wire
-from ols_faults.case import CASES, Case, Mutation, Outcome, judged
+from ols_faults.case import CASES, Case, judged
 from ols_faults.evidence import Evidence, heard, part
 
 STATION = "alfa"
@@ -264,10 +264,3 @@ def test_near_relatives_have_other_sequences_and_fit_a_datagram():
     loose = list(fragments.malformed("OLS_STATUS_x", 1))
     assert set(range(8)) <= {len(datagram) for datagram in loose}
     assert max(len(d) for group in [*groups, loose] for d in group) < 65507
-
-
-def test_a_mutation_names_what_is_broken():
-    assert isinstance(slower(2.0), Mutation)
-    outcome = Outcome()
-    outcome.at_most("in time", 1.0, 2.0, broken_by=slower(2.0))
-    assert outcome.checks[0].broken_by.what == "it takes 2 s"

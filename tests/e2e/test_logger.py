@@ -16,6 +16,7 @@ import pytest
 from conftest import BIN, finished, wait
 from ols_demo.bus import LIVE_URL
 from ols_demo.keys import members_of_environment
+from ols_faults import fragments
 
 FLOOD = "OLS_SIM_FLOOD"  # of the simulator, which may send much and anything
 DEADLINE_S = 60.0
@@ -214,17 +215,11 @@ def send_raw(datagrams):
             sender.sendto(datagram, (group, int(port)))
 
 
-def fragment(sequence, size, offset, number, count, payload):
-    return struct.pack(">IIIIHH", 0x4C433033, sequence, size, offset, number, count) + payload
-
-
 def test_forged_fragments_do_nothing_but_count(start):
     """The two datagrams that end every program with liblcm 1.3.1 on the bus."""
     logger = start()
     logger.wait_recording()
-    first = fragment(7, 100, 0, 0, 3, b"OLS_STATUS_x\0AAAA")
-    second = fragment(7, 100, 0xFFFFFF00, 1, 3, b"B" * 272)
-    send_raw([first, second, b"", b"LC02", b"LC02abcd\x1b[2J\0"])
+    send_raw([*fragments.pair("OLS_STATUS_x", 7), b"", b"LC02", b"LC02abcd\x1b[2J\0"])
     counted = lambda s: s["bus_fragments_refused"] == 2 and s["bus_datagrams_malformed"] == 3  # noqa: E731
     logger.wait_for("what was refused", counted)
     assert "2 fragments and 3 malformed datagrams refused" in logger.status()["bus_alarm"]

@@ -213,8 +213,6 @@ def test_says_what_one_landmark_leaves_open(survey):
     ("name", "old", "new", "where"),
     [
         ("landmarks.csv", ",33N,", ",33U,", "landmarks.csv:2: zone: '33U'"),
-        ("landmarks.csv", ",33N,", ",61N,", "landmarks.csv:2: zone: '61N'"),
-        ("landmarks.csv", ",33N,", ",33N,9", "landmarks.csv:2: easting_m:"),
         (
             "landmarks.csv",
             "tower,,",
@@ -222,13 +220,10 @@ def test_says_what_one_landmark_leaves_open(survey):
             "landmarks.csv:2: zone: must be empty: latitude",
         ),
         ("landmarks.csv", "spire,", "tower,", "landmarks.csv:3: landmark: 'tower' appears twice"),
-        ("landmarks.csv", "sd_m", "sigma", "landmarks.csv:1: sd_m: the column is missing"),
         ("sightings.csv", "mast,", "must,", "sightings.csv:4: landmark: 'must' is not one of"),
         ("sightings.csv", "mast,", "mark,", "sightings.csv:4: landmark: the station stands at it"),
         ("sightings.csv", ",700,400", ",700,", "sightings.csv:3: y_px: is empty"),
-        ("sightings.csv", "pan_deg", "pan", "sightings.csv:1: pan_deg: the column is missing"),
         ("landmarks.csv", ",33N,", ",32N,", "sightings.csv:2: landmark: 'tower' is 4"),
-        ("landmarks.csv", ",33N,", ",33S,", "sightings.csv:2: landmark: 'tower' is "),
         (
             "station.toml",
             "id = 4",

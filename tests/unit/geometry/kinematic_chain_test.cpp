@@ -28,10 +28,95 @@ Vector3d looks_along(const ChainParameters& chain, const PanTilt& angles) {
 
 PanTilt at_deg(double pan_deg, double tilt_deg) { return {radians(pan_deg), radians(tilt_deg)}; }
 
+TEST(KinematicChain, NextJointIsEquationOne) {
+  const Link link{{1.0, 2.0, 3.0}, radians(90.0), radians(90.0), radians(90.0)};
+  // RY: X -> -Z. RX: -Z -> Y. RZ: Y -> -X.
+  const Eigen::Isometry3d M = next_joint(Eigen::Isometry3d::Identity(), link);
+  EXPECT_TRUE(near(M.linear().col(0), Vector3d(-1, 0, 0), 1e-15));
+  // RY leaves Y, RX: Y -> Z, RZ leaves Z.
+  EXPECT_TRUE(near(M.linear().col(1), Vector3d(0, 0, 1), 1e-15));
+  EXPECT_TRUE(near(M.translation(), Vector3d(1, 2, 3), 1e-15));
+  // The second translation is in the first joint's frame.
+  const Eigen::Isometry3d second = next_joint(M, Link{{10.0, 0.0, 0.0}});
+  EXPECT_TRUE(near(second.translation(), Vector3d(-9, 2, 3), 1e-14));
+}
+
+TEST(KinematicChain, HeadingEastLooksEast) {
+  EXPECT_TRUE(near(looks_along(facing_east(), {}), Vector3d(1, 0, 0), 1e-15));
+}
+
 TEST(KinematicChain, CameraIsUprightAtRest) {
   const Eigen::Matrix3d R = enu_from_camera(facing_east(), {}).linear();
   EXPECT_TRUE(near(R.col(0), Vector3d(0, -1, 0), 1e-15));  // right is south
   EXPECT_TRUE(near(R.col(1), Vector3d(0, 0, -1), 1e-15));  // down
+}
+
+TEST(KinematicChain, PositivePanTurnsLeftAndPositiveTiltLooksUp) {
+  EXPECT_TRUE(near(looks_along(facing_east(), at_deg(90, 0)), Vector3d(0, 1, 0), 1e-15));
+  const double c = std::cos(radians(30.0));
+  EXPECT_TRUE(near(looks_along(facing_east(), at_deg(0, 30)), Vector3d(c, 0, 0.5), 1e-15));
+  EXPECT_TRUE(near(looks_along(facing_east(), at_deg(90, 30)), Vector3d(0, c, 0.5), 1e-15));
+}
+
+TEST(KinematicChain, EncoderSignsAndZeros) {
+  ChainParameters chain = facing_east();
+  chain.pan_sign = -1;
+  chain.tilt_sign = -1;
+  chain.pan_zero_rad = radians(10.0);
+  chain.tilt_zero_rad = radians(5.0);
+  // Shaft pan 10 - 40 = -30 (right, to the south), shaft tilt 5 + 15 = 20 (up).
+  const auto d = azimuth_elevation_from_enu(looks_along(chain, at_deg(40, -15)));
+  EXPECT_NEAR(degrees(d.azimuth_rad), 120.0, 1e-12);
+  EXPECT_NEAR(degrees(d.elevation_rad), 20.0, 1e-12);
+}
+
+TEST(KinematicChain, TiltXPutsTheRightSideDown) {
+  ChainParameters chain = facing_east();
+  chain.tilt_x_rad = radians(10.0);
+  EXPECT_TRUE(near(looks_along(chain, {}), Vector3d(1, 0, 0), 1e-15));
+  // To the right (south) it now looks down by as much, to the left up.
+  EXPECT_NEAR(looks_along(chain, at_deg(-90, 0)).z(), -std::sin(radians(10.0)), 1e-15);
+  EXPECT_NEAR(looks_along(chain, at_deg(90, 0)).z(), std::sin(radians(10.0)), 1e-15);
+}
+
+TEST(KinematicChain, TiltYPutsTheNoseDown) {
+  ChainParameters chain = facing_east();
+  chain.tilt_y_rad = radians(10.0);
+  EXPECT_NEAR(looks_along(chain, {}).z(), -std::sin(radians(10.0)), 1e-15);
+  EXPECT_NEAR(looks_along(chain, at_deg(180, 0)).z(), std::sin(radians(10.0)), 1e-15);
+}
+
+TEST(KinematicChain, MountingRotations) {
+  ChainParameters chain = facing_east();
+  chain.mount_z_rad = radians(2.0);  // left
+  EXPECT_NEAR(azimuth_elevation_from_enu(looks_along(chain, {})).azimuth_rad, radians(88.0), 1e-14);
+  chain = facing_east();
+  chain.mount_y_rad = radians(2.0);  // nose down
+  EXPECT_NEAR(looks_along(chain, {}).z(), -std::sin(radians(2.0)), 1e-15);
+  chain = facing_east();
+  chain.mount_x_rad = radians(2.0);  // clockwise from behind: the right edge of the image goes down
+  EXPECT_NEAR(enu_from_camera(chain, {}).linear()(2, 0), -std::sin(radians(2.0)), 1e-15);
+}
+
+TEST(KinematicChain, JointsStandWhereTheLinksPutThem) {
+  ChainParameters chain = facing_east();
+  chain.ground_to_origin_m = {1.0, 2.0, 1.5};
+  chain.origin_to_azi_m = {0.01, 0.0, 0.1};
+  chain.ele_to_focus_m = {0.0, 0.0, 0.06};
+  chain.focus_to_camera_m = {0.05, 0.0, 0.0};
+  // Panned left to the north, then tilted straight up: what was up is now south.
+  const auto poses = joints(chain, at_deg(90, 90));
+  const auto position = [&](Joint joint) {
+    return poses[static_cast<std::size_t>(joint)].translation().eval();
+  };
+  EXPECT_TRUE(near(position(Joint::kGround), Vector3d(0, 0, 0), 0.0));
+  EXPECT_TRUE(near(position(Joint::kOrigin), Vector3d(1, 2, 1.5), 1e-15));
+  EXPECT_TRUE(near(position(Joint::kAzi), Vector3d(1.01, 2, 1.6), 1e-15));
+  EXPECT_TRUE(near(position(Joint::kEle), position(Joint::kAzi), 1e-15));
+  EXPECT_TRUE(near(position(Joint::kFocus), Vector3d(1.01, 1.94, 1.6), 1e-15));
+  EXPECT_TRUE(near(position(Joint::kCamera), Vector3d(1.01, 1.94, 1.65), 1e-15));
+  EXPECT_TRUE(
+      near(enu_from_camera(chain, at_deg(90, 90)).translation(), position(Joint::kCamera), 1e-15));
 }
 
 TEST(Aim, InvertsByHand) {

@@ -163,6 +163,18 @@ TEST(Pinhole, BackProjectionPointsToTheFront) {
   EXPECT_TRUE(near(back_project(-2.0 * P, pixel), expected, 1e-12));  // P is known up to scale
 }
 
+TEST(Pinhole, BackProjectionIsThePapersLine) {
+  // X(lambda) = P+ x + lambda C, with P+ = P^T (P P^T)^-1: near the origin its arithmetic is good.
+  WorldCamera w;
+  w.C = {3.0, -2.0, 5.0};
+  const Eigen::Vector2d pixel(1000.0, 200.0);
+  const auto P = projection_matrix(camera_matrix(w.intrinsics), w.R, w.C);
+  const Eigen::Vector4d on_line =
+      P.transpose() * (P * P.transpose()).inverse() * pixel.homogeneous();
+  const Eigen::Vector3d along = on_line.hnormalized() - w.C;
+  EXPECT_NEAR(along.normalized().cross(back_project(P, pixel)).norm(), 0.0, 1e-9);
+}
+
 TEST(Pinhole, FieldOfView) {
   CameraIntrinsics camera;
   camera.width_px = 2000;

@@ -36,6 +36,26 @@ Matrix3d enu_at(const Vector3d& p_ecef, const Matrix3d& covariance_ecef) {
   return R.transpose() * covariance_ecef * R;
 }
 
+TEST(BearingJacobian, MatchesDifferencesNearAndAt100km) {
+  const LocalFrame station(kSite);
+  for (const Vector3d& p_enu : {Vector3d(50, -20, 10), Vector3d(-70e3, 40e3, 60e3)}) {
+    const Vector3d p = station.to_ecef(p_enu);
+    const auto H = bearing_jacobian(station, p);
+    const double step = 1e-5 * p_enu.norm();
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto direction = [&](double d) {
+        return azimuth_elevation_from_enu(station.to_enu(p + d * Vector3d::Unit(axis)));
+      };
+      const auto after = direction(step), before = direction(-step);
+      const double cosine = std::cos(direction(0.0).elevation_rad);
+      const double cross = cosine * wrap_pi(after.azimuth_rad - before.azimuth_rad) / (2.0 * step);
+      const double up = (after.elevation_rad - before.elevation_rad) / (2.0 * step);
+      EXPECT_NEAR(H(0, axis) * p_enu.norm(), cross * p_enu.norm(), 1e-6);
+      EXPECT_NEAR(H(1, axis) * p_enu.norm(), up * p_enu.norm(), 1e-6);
+    }
+  }
+}
+
 // Two stations look at right angles: each fixes what lies across its own ray.
 TEST(CramerRao, RightAngleHandComputed) {
   const LocalFrame site(kSite);

@@ -48,6 +48,24 @@ PixelSight at_pixel(const Vector2d& pixel, const PanTilt& angles = {}) {
 
 const Vector2d kCentre(639.5, 479.5);
 
+TEST(Sight, LooksAlongTheHeading) {
+  const auto line = sight(plain_station(), at_pixel(kCentre));
+  ASSERT_TRUE(line);
+  EXPECT_NEAR(degrees(line->direction.azimuth_rad), 90.0, 1e-6);
+  EXPECT_NEAR(degrees(line->direction.elevation_rad), 0.0, 1e-6);
+  // Tripod 1.5 + 0.09, camera 0.06 above the axes and 0.05 ahead.
+  const Vector3d centre_enu = LocalFrame(plain_station().position).to_enu(line->origin_ecef);
+  EXPECT_TRUE(near(centre_enu, Vector3d(0.05, 0.0, 1.65), 1e-8));
+}
+
+TEST(Sight, AHundredPixelsRightAndDown) {
+  const auto right = sight(plain_station(), at_pixel(kCentre + Vector2d(100.0, 0.0)));
+  const auto down = sight(plain_station(), at_pixel(kCentre + Vector2d(0.0, 100.0)));
+  const double angle_rad = std::atan(100.0 * 3.75e-6 / 50e-3);
+  EXPECT_NEAR(right->direction.azimuth_rad, radians(90.0) + angle_rad, 1e-7);
+  EXPECT_NEAR(down->direction.elevation_rad, -angle_rad, 1e-7);
+}
+
 TEST(Sight, HorizonIsTheOneAtTheCamera) {
   // A mast of 1 km to the north: the vertical at its end differs from GROUND's by 1 km over the
   // radius of curvature.
