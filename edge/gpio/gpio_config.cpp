@@ -1,9 +1,10 @@
 // The keys of [gpio].
+#include "edge/gpio/gpio_config.h"
+
 #include <algorithm>
 #include <vector>
 
 #include "base/config/config_section.h"
-#include "edge/gpio/gpio.h"
 
 namespace ols::gpio {
 namespace {

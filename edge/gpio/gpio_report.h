@@ -6,7 +6,7 @@
 #include <string>
 
 #include "edge/device/device_report.h"
-#include "edge/gpio/gpio.h"
+#include "edge/gpio/gpio_config.h"
 
 namespace ols::gpio {
 

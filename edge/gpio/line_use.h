@@ -1,7 +1,7 @@
 // The lines of a station's GPIO, and the biases of its inputs.
 #pragma once
 
-#include "edge/gpio/gpio.h"
+#include "edge/gpio/gpio_config.h"
 #include "edge/gpio/gpio_lines.h"
 
 namespace ols::gpio {

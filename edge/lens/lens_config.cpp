@@ -1,8 +1,9 @@
 // The keys of a motorised lens and of its zoom positions.
+#include "edge/lens/lens_config.h"
+
 #include <exception>
 
 #include "base/config/config_section.h"
-#include "edge/lens/lens_motor.h"
 
 namespace ols::lens {
 namespace {

@@ -2,6 +2,9 @@
 
 #include <utility>
 
+#include "edge/gpio/gpio.h"
+#include "edge/lens/lens_motor.h"
+
 namespace ols::station {
 
 Head configured_head(const StationSettings& settings) {
@@ -10,6 +13,12 @@ Head configured_head(const StationSettings& settings) {
   if (settings.gnss->is_configured()) head.gnss = settings.gnss->open();
   head.camera = settings.camera->open(settings.keep_raw);
   head.mount = settings.mount->open();
+  if (!settings.lens.device.empty()) head.lens = std::make_unique<lens::LensMotor>(settings.lens);
+  if (!settings.gpio.chip.empty()) {
+    head.open_gpio = [config = settings.gpio](auto on_stop, auto on_rearm) {
+      return std::make_unique<gpio::Gpio>(config, std::move(on_stop), std::move(on_rearm));
+    };
+  }
   return head;
 }
 
@@ -20,10 +29,8 @@ DeviceSet::DeviceSet(const StationSettings& settings, std::int64_t boot_id, Head
   if (!settings.video.address.empty()) {
     video_.emplace(settings.video, video::VideoSender{settings.id, boot_id});
   }
-  if (!settings.lens.device.empty()) lens_.emplace(settings.lens);
-  if (!settings.gpio.chip.empty()) {
-    gpio_.emplace(
-        settings.gpio, [this](bool pressed) { on_stop(pressed); }, [this] { stop_.rearm(); });
+  if (head_.open_gpio) {
+    gpio_ = head_.open_gpio([this](bool pressed) { on_stop(pressed); }, [this] { stop_.rearm(); });
   }
 }
 
@@ -51,7 +58,7 @@ void DeviceSet::feed(sensors::PoseEstimator& estimator) {
 
 std::vector<device::DeviceReport> DeviceSet::reports() const {
   std::vector<device::DeviceReport> reports{head_.camera->report(), head_.mount->report()};
-  if (lens_) reports.push_back(lens_->report());
+  if (head_.lens) reports.push_back(head_.lens->report());
   if (head_.inclinometer) reports.push_back(head_.inclinometer->report());
   if (head_.gnss) reports.push_back(head_.gnss->report());
   if (gpio_) reports.push_back(gpio_->report());

@@ -10,8 +10,8 @@
 #include "edge/command/stop_latch.h"
 #include "edge/config/config.h"
 #include "edge/device/device_report.h"
-#include "edge/gpio/gpio.h"
-#include "edge/lens/lens_motor.h"
+#include "edge/gpio/gpio_handover.h"
+#include "edge/lens/lens_handover.h"
 #include "edge/mount/mount.h"
 #include "edge/recorder/recorder.h"
 #include "edge/sensors/gnss.h"
@@ -21,13 +21,18 @@
 
 namespace ols::station {
 
+using OpenGpio = std::function<std::unique_ptr<gpio::GpioHandover>(gpio::GpioHandover::OnStop,
+                                                                   gpio::GpioHandover::OnRearm)>;
+
 // What turns and sees, and measures where it stands and how level.
 struct Head {
-  std::unique_ptr<sensors::Inclinometer> inclinometer;  // null: none is configured
+  std::unique_ptr<lens::LensHandover> lens;             // null: none is configured
+  std::unique_ptr<sensors::Inclinometer> inclinometer;  // likewise
   std::unique_ptr<sensors::Gnss> gnss;                  // likewise
   std::unique_ptr<camera::Camera> camera;
   // The first to be destroyed: its destructor halts it, and others may block.
   std::unique_ptr<mount::Mount> mount;
+  OpenGpio open_gpio;  // likewise null; calls back from its own thread
 };
 using OpenHead = std::function<Head(const StationSettings&)>;
 // Of the kinds that are configured.
@@ -42,8 +47,8 @@ class DeviceSet {
   camera::Camera& camera() { return *head_.camera; }
   mount::Mount& mount() { return *head_.mount; }
   // Null if not configured.
-  std::optional<gpio::Gpio>& gpio() { return gpio_; }
-  std::optional<lens::LensMotor>& lens() { return lens_; }
+  gpio::GpioHandover* gpio() { return gpio_.get(); }
+  lens::LensHandover* lens() { return head_.lens.get(); }
   std::optional<recorder::Recorder>& recorder() { return recorder_; }
   std::optional<video::VideoServer>& video() { return video_; }
   StopLatch& stop() { return stop_; }
@@ -64,10 +69,9 @@ class DeviceSet {
   StopLatch stop_;
   std::optional<recorder::Recorder> recorder_;
   std::optional<video::VideoServer> video_;
-  std::optional<lens::LensMotor> lens_;
   // The GPIO thread uses the mount and is destroyed first.
   Head head_;
-  std::optional<gpio::Gpio> gpio_;
+  std::unique_ptr<gpio::GpioHandover> gpio_;
 };
 
 }  // namespace ols::station

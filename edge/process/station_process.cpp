@@ -159,7 +159,7 @@ void StationProcess::receive_commands() {
   if (actions.stop) devices_.mount().stop_homing();
   if (actions.home) devices_.mount().home();
   if (actions.reference_ok) devices_.mount().reference_ok();
-  if (auto& lens = devices_.lens()) lens->order(actions.lens);
+  if (auto* lens = devices_.lens()) lens->order(actions.lens);
   const bool may_move = devices_.stop().known() && station_.state() != StationState::kEmergency;
   if (halted_ && may_move) {
     halted_ = false;
@@ -201,8 +201,8 @@ void StationProcess::detect(double now_s) {
 }
 
 void StationProcess::take_zoom() {
-  auto& lens = devices_.lens();
-  if (!lens) return;
+  auto* lens = devices_.lens();
+  if (lens == nullptr) return;
   for (const lens::ZoomSample& sample : lens->take_samples()) station_.on_zoom(sample);
   station_.set_lens(lens->positions());
 }
@@ -360,7 +360,7 @@ void StationProcess::add_host(double now_s, StationReport& report) {
 }
 
 void StationProcess::show(const StationReport& report) {
-  if (auto& gpio = devices_.gpio()) gpio->show(led_pattern(report));
+  if (auto* gpio = devices_.gpio()) gpio->show(led_pattern(report));
   service_.status((bus_.trouble().empty() ? "" : "no bus; ") + in_one_line(report));
 }
 

@@ -1,11 +1,14 @@
 #include "sim/processes/simulated_station.h"
 
 #include <cmath>
+#include <map>
 #include <stdexcept>
 #include <utility>
 
 #include "base/process/clocks.h"
 #include "edge/camera/camera_handover.h"
+#include "edge/gpio/gpio_handover.h"
+#include "edge/lens/lens_handover.h"
 #include "edge/ptu/ptu_handover.h"
 #include "edge/ptu/ptu_kind.h"
 
@@ -68,6 +71,58 @@ class SimulatedStation::UnitInHand : public ptu::PtuHandover {
       .is_open = true, .openings = 1, .failure = "unplugged", .fault = ""};
 };
 
+// Likewise.
+class SimulatedStation::LensInHand : public lens::LensHandover {
+ public:
+  using LensHandover::LensHandover;
+
+ private:
+  device::DeviceReport line() const override {
+    device::DeviceReport report;
+    report.name = "lens";
+    report.state = device::DeviceState::kOk;
+    return report;
+  }
+};
+
+// Its levels are those of the station's faults.
+class SimulatedStation::GpioInHand : public gpio::GpioHandover {
+ public:
+  GpioInHand(const gpio::GpioConfig& config, OnStop on_stop, OnRearm on_rearm)
+      : GpioHandover(config, std::move(on_stop), std::move(on_rearm)), config_(config) {
+    opened();
+  }
+
+  void step(const StationFaults& faults) {
+    lines_.set(config_.stop_line, faults.stop_pressed != config_.stop_active_low);
+    lines_.set(config_.rearm_line, faults.rearm_held != config_.rearm_active_low);
+    turn(lines_);
+  }
+
+ private:
+  class Lines : public gpio::GpioLines {
+   public:
+    void set(int line, bool high) {
+      const auto [level, is_new] = levels_.try_emplace(line, high);
+      if (is_new || level->second != high) edges_.push_back({line, high, clock_monotonic_s()});
+      level->second = high;
+    }
+    std::vector<int> fds() const override { return {}; }
+    std::vector<gpio::LineLevel> receive() override { return std::exchange(edges_, {}); }
+    void refresh() override {
+      for (const auto& [line, high] : levels_) edges_.push_back({line, high, clock_monotonic_s()});
+    }
+    void write(int /*line*/, bool /*high*/) override {}
+
+   private:
+    std::map<int, bool> levels_;
+    std::vector<gpio::LineLevel> edges_;
+  };
+
+  const gpio::GpioConfig config_;
+  Lines lines_;
+};
+
 SimulatedStation::SimulatedStation(const World& world, std::size_t index,
                                    station::StationSettings settings, SimulatedTime& time)
     : world_(world),
@@ -77,6 +132,10 @@ SimulatedStation::SimulatedStation(const World& world, std::size_t index,
             clock_monotonic_s()),
       exposed_(world.stations()[index].unit, world.ptu_unit_config()),
       renderer_(std::move(make_renderers(world)[index])) {
+  const ZoomScenario& zoom = world.scenario().stations[index].zoom;
+  if (!zoom.is_fixed()) {
+    lens_unit_.emplace(LensUnitConfig{.zoom_travel_s = zoom.travel_s}, clock_monotonic_s());
+  }
   restart();
   time.at_each_step([this](double time_s) { step(time_s); });
 }
@@ -99,9 +158,18 @@ station::Head SimulatedStation::head(const station::StationSettings& settings) {
   auto ptu = std::make_unique<UnitInHand>(flir->unit);
   camera_ = camera.get();
   ptu_ = ptu.get();
-  station::Head head{nullptr, nullptr, std::move(camera), std::move(ptu)};
+  station::Head head;
+  head.camera = std::move(camera);
+  head.mount = std::move(ptu);
+  lens_ = nullptr;
   inclinometer_ = nullptr;
   gnss_ = nullptr;
+  gpio_ = nullptr;
+  if (!settings.lens.device.empty()) {
+    auto own = std::make_unique<LensInHand>(settings.lens);
+    lens_ = own.get();
+    head.lens = std::move(own);
+  }
   if (settings.inclinometer->is_configured()) {
     auto own =
         std::make_unique<InclinometerInHand>(world_, index_, settings.inclinometer->config());
@@ -112,6 +180,13 @@ station::Head SimulatedStation::head(const station::StationSettings& settings) {
     auto own = std::make_unique<GnssInHand>(world_, index_);
     gnss_ = own.get();
     head.gnss = std::move(own);
+  }
+  if (!settings.gpio.chip.empty()) {
+    head.open_gpio = [this, config = settings.gpio](auto on_stop, auto on_rearm) {
+      auto own = std::make_unique<GpioInHand>(config, std::move(on_stop), std::move(on_rearm));
+      gpio_ = own.get();
+      return own;
+    };
   }
   return head;
 }
@@ -127,6 +202,7 @@ void SimulatedStation::step(double time_s) {
   exchange_bytes();
   if (inclinometer_) inclinometer_->step(faults_.inclinometer, clock_monotonic_s());
   if (gnss_) gnss_->step(faults_.gnss, clock_monotonic_s());
+  if (gpio_) gpio_->step(faults_);
   expose(time_s);
   if (++steps_ % kStepsOfTurn == 0) process_->turn();
 }
@@ -138,6 +214,7 @@ void SimulatedStation::exchange_bytes() {
   const auto turn = ptu_->turn(unit_.transmit(now_s));
   unit_.set_master_baud(turn.baud);
   if (!turn.request.empty()) unit_.receive(turn.request, now_s);
+  if (lens_) lens_unit_->receive(lens_->turn(lens_unit_->transmit(now_s)).request, now_s);
 }
 
 void SimulatedStation::expose(double time_s) {
@@ -152,6 +229,7 @@ void SimulatedStation::expose(double time_s) {
   const double age_s = time_s - mid_s;
   camera::Frame frame;
   frame.mid_exposure_s = clock_monotonic_s() - age_s;
+  if (lens_unit_) exposure.zoom = lens_unit_->zoom_at(frame.mid_exposure_s);
   frame.stamp_sd_s = kStampSd_s;
   frame.number = exposure.frame;
   const std::int64_t utime_us = clock_utime_us() - std::llround(age_s * 1e6);

@@ -1,5 +1,6 @@
 // A station's whole process in simulated time: the control loop and the bus of ols-station. The
-// simulated unit exchanges bytes with it; the simulated camera hands it frames.
+// simulated unit and the simulated lens exchange bytes with it; the simulated camera hands it
+// frames, and its GPIO has the levels of emergency stop and re-arm button.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +11,7 @@
 
 #include "edge/camera/frame_statistics.h"
 #include "edge/process/station_process.h"
+#include "sim/lens/lens_unit.h"
 #include "sim/processes/sensors_in_hand.h"
 #include "sim/processes/simulated_time.h"
 #include "sim/ptu/faults.h"
@@ -28,9 +30,9 @@ class SimulatedStation {
     ViewTruth view;
   };
 
-  // Camera, mount, inclinometer and GNSS receiver are the only devices that may be configured, the
-  // mount as a FLIR unit. A time service says that the station's clock is right. World and time
-  // must outlive the station.
+  // Camera, mount, lens, inclinometer, GNSS receiver and GPIO are the only devices that may be
+  // configured, the mount as a FLIR unit. A time service says that the station's clock is right.
+  // World and time must outlive the station.
   SimulatedStation(const World& world, std::size_t index, station::StationSettings settings,
                    SimulatedTime& time);
   ~SimulatedStation();
@@ -45,6 +47,8 @@ class SimulatedStation {
  private:
   class CameraInHand;
   class UnitInHand;
+  class LensInHand;
+  class GpioInHand;
   station::Head head(const station::StationSettings& settings);
   void step(double time_s);
   void exchange_bytes();
@@ -55,6 +59,7 @@ class SimulatedStation {
   station::StationSettings settings_;
   FaultyPtuUnit unit_;
   ExposedUnit exposed_;
+  std::optional<LensUnit> lens_unit_;  // of a zoom lens
   std::unique_ptr<Renderer> renderer_;
   StationFaults faults_;
   std::int64_t exposures_ = 0, boots_ = 0, steps_ = 0;
@@ -62,8 +67,10 @@ class SimulatedStation {
   // Of the process.
   CameraInHand* camera_ = nullptr;
   UnitInHand* ptu_ = nullptr;
-  InclinometerInHand* inclinometer_ = nullptr;  // null: none is configured
+  LensInHand* lens_ = nullptr;                  // null: none is configured
+  InclinometerInHand* inclinometer_ = nullptr;  // likewise
   GnssInHand* gnss_ = nullptr;                  // likewise
+  GpioInHand* gpio_ = nullptr;                  // likewise
   camera::FrameStatistics statistics_;
   std::unique_ptr<station::StationProcess> process_;
 };

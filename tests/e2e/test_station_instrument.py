@@ -157,29 +157,6 @@ def test_the_emergency_stop_holds_until_released_and_rearmed(station):
     station.wait_for_state(status.STATE_IDLE)
 
 
-def test_nobody_rearms_it_from_afar(station):
-    """Forged commands right behind the release. The unit test of the input has the short touch."""
-    status, ptu = ols_msg.station_status_t, ols_msg.ptu_command_t
-    station.switch.press(True)
-    station.wait_for_state(status.STATE_EMERGENCY)
-    station.switch.press(False)
-    station.wait(lambda: NOT_REARMED in station.alarms(), "released")
-    before = station.counter("tool", "refused_rearm_needs_a_hand")
-    points = station.counter("tool", "refused_emergency")
-    for _ in range(5):
-        station.command(ptu.COMMAND_REARM)
-        station.publish("OLS_PTU_tool", point("tool", time.time_ns(), 0.3).encode())
-        station.command(ptu.COMMAND_RELEASE)
-    station.wait_for_counter("tool", "refused_rearm_needs_a_hand", before + 5)
-    station.wait_for_counter("tool", "refused_emergency", points + 10)
-    assert station.state() == status.STATE_EMERGENCY
-    assert "it can be re-armed at the station only" in ctl("tool", "rearm").stdout
-    os.kill(station.pid(), signal.SIGUSR1)  # who is logged in on its computer
-    station.wait_for_state(status.STATE_STOPPED)
-    assert ctl("tool", "release").returncode == 0
-    station.wait_for_state(status.STATE_IDLE)
-
-
 def test_recording_is_asked_for(station):
     assert ctl("tool", "record", "1", "1", "flash").stdout == "tool: done\n"
     refused = ctl("tool", "record", "1", "1", "no/label")
@@ -292,30 +269,26 @@ def test_it_starts_without_a_network(network, tmp_path, program):
         manager.wait("STOPPING=1")
 
 
-def test_a_stop_outlives_the_station(station):
+def test_a_stop_outlives_a_station_that_is_killed(station):
+    """What follows, and who re-arms it, EmergencyStop judges in simulated time."""
     status = ols_msg.station_status_t
     station.switch.press(True)
     station.wait_for_state(status.STATE_EMERGENCY)
     station.switch.press(False)
-    station.wait(lambda: NOT_REARMED in station.alarms(), "released")
-    states = [
-        (status.STATE_EMERGENCY, None),
-        (status.STATE_STOPPED, "release"),
-        (status.STATE_IDLE, "stop"),
-    ]
-    for state, command in states:
-        boot = station.observer.status["tool"].boot_id
-        station.site.stop("station", signal.SIGKILL)
-        station.start()
-        station.wait(lambda old=boot: station.observer.status["tool"].boot_id != old, "restarted")
-        station.wait_for_state(state)
-        if command is None:
-            # A release counts when it has been stable for a moment, also at the start.
-            station.wait(lambda: "gpio: emergency stop pressed" not in station.alarms(), "released")
-            os.kill(station.pid(), signal.SIGUSR1)
-            station.wait_for_state(status.STATE_STOPPED)
-        else:
-            assert ctl("tool", command).returncode == 0
+    boot = station.observer.status["tool"].boot_id
+    station.site.stop("station", signal.SIGKILL)
+    station.start()
+    station.wait(lambda: station.observer.status["tool"].boot_id != boot, "restarted")
+    # A release counts when it has been stable for a moment, also at the start.
+    station.wait(
+        lambda: any(
+            "stop released" in text for text in station.observer.status["tool"].device_text
+        ),
+        "released",
+    )
+    assert NOT_REARMED in station.alarms()
+    os.kill(station.pid(), signal.SIGUSR1)
+    station.wait_for_state(status.STATE_STOPPED)
 
 
 def test_it_ends_in_order(station):

@@ -84,6 +84,7 @@ OTHER_DEVICES = [
     "edge/drift/reference_views.cpp",
     "edge/frames/frame_desk.*",
     "edge/frames/frame_post.*",
+    "edge/process/device_set.*",
     "edge/process/host_monitor.cpp",
     "edge/ptu/ptu_kind.cpp",
     "export/conversion.cpp",

@@ -8,6 +8,7 @@
 #include "edge/clock/clock_source.h"
 #include "edge/gpio/gpio_lines.h"
 #include "edge/gpio/line_use.h"
+#include "edge/lens/lens_motor.h"
 #include "tools/doctor/probe.h"
 
 namespace ols::doctor {

@@ -1,7 +1,8 @@
+#include "edge/gpio/gpio_config.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "edge/gpio/gpio.h"
 #include "tests/unit/base/config/section_text.h"
 
 namespace ols::gpio {

@@ -1,7 +1,8 @@
+#include "edge/lens/lens_config.h"
+
 #include <gtest/gtest.h>
 
 #include "base/config/config_section.h"
-#include "edge/lens/lens_motor.h"
 #include "tests/unit/error_text.h"
 
 namespace ols::lens {

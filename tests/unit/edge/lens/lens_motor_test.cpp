@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/process/clocks.h"
 #include "sim/lens/lens_line.h"
 #include "tests/unit/eventually.h"
 
@@ -22,6 +23,7 @@ TEST(LensMotor, MovesTheLensOnItsLineAndReports) {
     const auto zoom = motor.positions().zoom;
     return zoom && std::abs(*zoom - 0.5) < 1e-3;
   }));
+  EXPECT_NEAR(line.zoom_at(clock_monotonic_s()), 0.5, 1e-3);
   EXPECT_FALSE(motor.take_samples().empty());
   EXPECT_TRUE(motor.take_samples().size() < 10U) << "each once";
   EXPECT_GT(motor.report().counters.at("lens_replies"), 4U);

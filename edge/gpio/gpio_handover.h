@@ -1,0 +1,83 @@
+// The station's GPIO, between the control loop and whoever has its lines: Gpio, whose thread waits
+// for their edges. Holds what is decided: about a status LED, the inputs of emergency stop and
+// re-arming, an optional camera trigger.
+//
+// The emergency stop in software only assists a hardware stop that cuts the power of the motors
+// (docs/field-guide.md).
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "edge/device/device_report.h"
+#include "edge/gpio/gpio_config.h"
+#include "edge/gpio/gpio_lines.h"
+#include "edge/gpio/gpio_report.h"
+#include "edge/gpio/led_pattern.h"
+#include "edge/gpio/rearm_input.h"
+#include "edge/gpio/stop_input.h"
+
+namespace ols::gpio {
+
+class GpioHandover {
+ public:
+  using OnStop = std::function<void(bool pressed)>;
+  using OnRearm = std::function<void()>;
+
+  // `on_stop` is called by turn() and failed() at every edge of the emergency stop, and once for
+  // its first level. With a stop_line, missing or unreadable lines count as pressed. `on_rearm` is
+  // called each time the button was held while the stop is not pressed.
+  GpioHandover(const GpioConfig& config, OnStop on_stop, OnRearm on_rearm);
+  virtual ~GpioHandover() = default;
+  GpioHandover(const GpioHandover&) = delete;
+  GpioHandover& operator=(const GpioHandover&) = delete;
+
+  // Call from any thread; none of these waits for the device.
+  void show(LedPattern pattern);
+  void trigger();  // a pulse on trigger_line
+  // True also while the first level is unknown. False without a stop_line.
+  bool stop_pressed() const;
+  device::DeviceReport report() const;
+
+  // For whoever has the lines, in one thread. They have been opened, or have failed.
+  void opened();
+  void failed(const std::string& what);
+  // At each edge and wake(), and at the instant that it returns [s, CLOCK_MONOTONIC]. Throws as
+  // GpioLines does.
+  double turn(GpioLines& lines);
+  void leave(GpioLines& lines) const;
+
+ private:
+  virtual void wake() {}
+
+  void take_levels(GpioLines& lines);
+  void tell_stop();
+  void tell(bool pressed);
+  void tell_rearm();
+  double next_led_slot_s(double now_s) const;
+  void drive_led(GpioLines& lines);
+  void drive_trigger(GpioLines& lines);
+
+  static constexpr double kNever_s = std::numeric_limits<double>::infinity();
+
+  const GpioConfig config_;
+  const OnStop on_stop_;
+  const OnRearm on_rearm_;
+  // Of turn()'s thread.
+  StopInput stop_;
+  RearmInput rearm_;
+  double refresh_s_ = 0.0;
+  std::optional<bool> lit_;          // as written to the line
+  double trigger_end_s_ = kNever_s;  // a pulse is on the line until then
+
+  mutable std::mutex mutex_;  // of everything below
+  GpioFacts facts_;
+  LedPattern pattern_ = LedPattern::kOff;
+  double pattern_began_s_ = 0.0;
+  bool trigger_wanted_ = false;
+};
+
+}  // namespace ols::gpio
