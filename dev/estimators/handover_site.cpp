@@ -48,8 +48,7 @@ Vector3d HandoverSite::place(std::size_t target, double time_s) const {
 }
 
 bool HandoverSite::is_there(std::size_t target, double time_s) const {
-  const FlyingTarget& t = config_.targets[target];
-  return time_s >= t.appears_s && time_s < t.goes_s;
+  return time_s >= config_.targets[target].appears_s;
 }
 
 // As the servo reaches with a pan-tilt unit (LineSearchConfig).

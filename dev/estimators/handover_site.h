@@ -19,7 +19,6 @@ struct FlyingTarget {
   Eigen::Vector3d p_enu = Eigen::Vector3d::Zero();  // [m] when it appears
   Eigen::Vector3d v_enu = Eigen::Vector3d::Zero();
   double appears_s = 0.0;
-  double goes_s = 1e9;
 };
 
 struct HandoverSiteConfig {
@@ -30,7 +29,7 @@ struct HandoverSiteConfig {
   double view_rad = 0.08;  // field of view of those that turn
   double rate_hz = 15.0;
   double noise_rad = 3e-4;
-  double confirm_s = 0.3;  // in view until the detector reports it: docs/detection.md
+  double confirm_s = 0.2;  // in view until a led station has it (acquisition)
   double delay_s = 0.1;    // from the exposure to the fusion
   double slew_s = 0.05;    // from the fusion to the servo
   fusion::HandoverConfig handover{};
