@@ -1,7 +1,5 @@
 #include "sim/lockstep/lockstep_mount.h"
 
-#include <algorithm>
-
 #include "edge/mount/fixed/fixed_mount.h"
 #include "edge/ptu/driver.h"
 #include "sim/ptu/unit.h"
@@ -22,9 +20,11 @@ class DrivenUnit : public LockstepMount {
       : unit_(world.ptu_unit_config(), seed, now_s), driver_(driver_config(world)) {}
 
   void advance(double now_s) override {
-    const double first_s = std::min(unit_.next_output_s().value_or(now_s), now_s);
-    const std::string answer = unit_.transmit(now_s);
-    if (!answer.empty()) driver_.receive(answer, first_s);
+    // The driver wants the moment of the read: here each byte is read as it arrives.
+    for (auto next_s = unit_.next_output_s(); next_s && *next_s <= now_s;
+         next_s = unit_.next_output_s()) {
+      driver_.receive(unit_.transmit(*next_s), *next_s);
+    }
     const std::string request = driver_.step(now_s);
     if (!request.empty()) unit_.receive(request, now_s);
   }
