@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
-#include <numeric>
 #include <opencv2/imgproc.hpp>
 #include <optional>
 #include <utility>
@@ -45,42 +44,52 @@ bool stands_out(const cv::Mat& level, const cv::Point& at, int centre) {
   return std::max(brighter, darker) >= seen - 1;
 }
 
-// Grey levels of the ring's pixels, in order.
+// Order statistics of the ring's grey levels, by their histogram.
 class Ring {
  public:
   Ring(const cv::Mat& level, const cv::Point& at) {
+    std::array<int, kLevels> levels{};
     for (int y = -kReach; y <= kReach; ++y) {
       if (at.y + y < 0 || at.y + y >= level.rows) continue;
       const auto* row = level.ptr<std::uint8_t>(at.y + y);
       for (int x = -kReach; x <= kReach; ++x) {
         if (std::max(std::abs(x), std::abs(y)) < kInside) continue;
         if (at.x + x < 0 || at.x + x >= level.cols) continue;
-        values_[count_++] = row[at.x + x];
+        ++levels[row[at.x + x]];
+        ++count_;
       }
     }
-    median_ = order(0.5);
-    for (std::size_t i = 0; i < count_; ++i) values_[i] = std::abs(values_[i] - median_);
+    median_ = order(levels, 0.5);
+    for (int i = 0; i < kLevels; ++i) deviations_[std::abs(i - median_)] += levels[i];
   }
   int median() const { return median_; }
-  double clutter() { return order(0.95); }
+  double clutter() const { return order(deviations_, 0.95); }
   // Of the lower three quarters of the deviations. Their median would be a whole grey level: a
   // noise of 1 and one of 2 could not be told apart.
-  double noise() {
+  double noise() const {
     constexpr double kShare = 0.75, kNormal = 1.943;  // by the mean of |z| below its 75 %
-    order(kShare);
-    const auto end = values_.begin() + static_cast<std::ptrdiff_t>(kShare * (count_ - 1.0)) + 1;
-    const double sum = std::accumulate(values_.begin(), end, 0.0);
-    return std::max(kFloor, kNormal * sum / static_cast<double>(end - values_.begin()));
+    const int wanted = rank(kShare) + 1;
+    int seen = 0, sum = 0;
+    for (int i = 0; seen < wanted; ++i) {
+      const int more = std::min(deviations_[i], wanted - seen);
+      seen += more;
+      sum += more * i;
+    }
+    return std::max(kFloor, kNormal * sum / wanted);
   }
 
  private:
-  int order(double share) {
-    auto* const at = values_.data() + static_cast<std::size_t>(share * (count_ - 1.0));
-    std::nth_element(values_.data(), at, values_.data() + count_);
-    return *at;
+  static constexpr int kLevels = 256;
+  int rank(double share) const { return static_cast<int>(share * (count_ - 1.0)); }
+  int order(const std::array<int, kLevels>& histogram, double share) const {
+    const int wanted = rank(share);
+    int value = 0;
+    for (int seen = histogram[0]; seen <= wanted; seen += histogram[++value]) {
+    }
+    return value;
   }
-  std::array<int, (2 * kReach + 1) * (2 * kReach + 1)> values_{};
-  std::size_t count_ = 0;
+  std::array<int, kLevels> deviations_{};
+  int count_ = 0;
   int median_ = 0;
 };
 
@@ -229,7 +238,7 @@ std::optional<Detection> SpotFinder::spot_at(const cv::Mat& gray, const cv::Mat&
                                              const cv::Point& at, int reduction) const {
   const int sum = small_sum_.at<std::uint16_t>(at);
   if (!stands_out(level, at, sum / 9)) return std::nullopt;
-  Ring ring(level, at);
+  const Ring ring(level, at);
   const double peak = sum / 9.0 - ring.median();
   const double height = std::abs(peak), noise = ring.noise();
   if (height < config_.least_levels || height < config_.threshold_sd * noise) return std::nullopt;
