@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "conditions/alarm_json.h"
 #include "conditions/alarms.h"
 
 namespace ols::bridge {
@@ -38,8 +39,8 @@ std::string direction(const char* name, const Counts& counts) {
 
 }  // namespace
 
-std::vector<std::string> alarms(const BridgeStatus& status) {
-  std::vector<std::string> all = status.bus_alarms;
+std::vector<Alarm> alarms(const BridgeStatus& status) {
+  std::vector<Alarm> all = status.bus_alarms;
   if (!status.link.is_open) all.push_back(alarm::bridge_no_server(status.link.trouble));
   if (!status.link.refusal.empty()) {
     all.push_back(alarm::bridge_refused(status.link.refusal));
@@ -65,7 +66,7 @@ std::string in_one_line(const BridgeStatus& status) {
   std::string line = status.link.is_open ? "connected" : "not connected";
   line.append("; ").append(direction("out", status.out));
   line.append("; ").append(direction("in", status.in));
-  for (const std::string& alarm : alarms(status)) line.append("; ").append(alarm);
+  for (const Alarm& alarm : alarms(status)) line.append("; ").append(alarm.text);
   return line;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bridge/passage.h"
+#include "conditions/alarm.h"
 
 namespace ols::bridge {
 
@@ -36,7 +37,7 @@ struct OwnershipStatus {
 struct BridgeStatus {
   std::int64_t utime_us = 0;
   std::size_t stations = 0;
-  std::vector<std::string> bus_alarms;
+  std::vector<Alarm> bus_alarms;
   std::map<std::string, double> bus_counters;
   LinkStatus link;
   ArchiveStatus archive;
@@ -49,7 +50,7 @@ struct BridgeStatus {
 };
 
 // One condition each; empty if all is well.
-std::vector<std::string> alarms(const BridgeStatus& status);
+std::vector<Alarm> alarms(const BridgeStatus& status);
 // "connected; out 120, in 3; 2 refused (last x: stale)".
 std::string in_one_line(const BridgeStatus& status);
 std::string to_json(const BridgeStatus& status);

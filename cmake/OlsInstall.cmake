@@ -46,8 +46,6 @@ install(PROGRAMS systemd/ols-bus-route systemd/ols-console-certificate systemd/o
 install(DIRECTORY systemd/units/ DESTINATION ${OLS_SYSTEM_LIBDIR}/systemd/system)
 install(DIRECTORY systemd/modules-load.d systemd/sysusers.d systemd/tmpfiles.d systemd/sysctl.d
         DESTINATION ${OLS_SYSTEM_LIBDIR})
-# Where dpkg's trigger and journalctl look for it.
-install(FILES systemd/ols.catalog DESTINATION lib/systemd/catalog)
 install(DIRECTORY systemd/udev/ DESTINATION ${OLS_SYSTEM_LIBDIR}/udev/rules.d)
 install(DIRECTORY tools/exporter/prometheus tools/exporter/grafana
         DESTINATION ${CMAKE_INSTALL_DATADIR}/ols/monitoring)

@@ -1,10 +1,9 @@
-// Which alarm of conditions.toml a sentence is. Pure.
+// An alarm: a row of conditions.toml with its parameters. conditions/alarms.h raises them. Pure.
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -12,54 +11,61 @@
 
 namespace ols {
 
-// The table as the build has it: sentences with more words first.
-struct AlarmSentence {
+// A sentence of the table and its row.
+struct AlarmRow {
   std::string_view id;
   std::string_view english;   // "ptu: supply voltage low ({volts} V)"
   std::string_view subject;   // " station axis ": the parameters that belong to the key
   std::string_view severity;  // "urgent", "warning", "notice"
   std::string_view action;    // what to do
 };
-std::span<const AlarmSentence> alarm_sentences();
 
 struct Alarm {
-  std::string text;
-  std::string id;  // of the table; empty: it has no such sentence
-  std::vector<std::pair<std::string, std::string>> parameters;  // name, value; as in the sentence
+  using Parameters = std::vector<std::pair<std::string, std::string>>;  // name, value
 
-  // The same while an alarm holds: its id and subject ("station_silent s1"), whatever its other
-  // parameters. An alarm that the table does not have is its own key.
+  std::string text{};  // the sentence in English
+  std::string id{};    // of its row; empty in logs from before messages had ids
+  Parameters parameters{};
+
+  bool empty() const { return text.empty(); }  // no alarm
+  operator const std::string&() const { return text; }
+  bool operator==(const Alarm&) const = default;
+  friend bool operator==(const Alarm& alarm, std::string_view text) { return alarm.text == text; }
+
+  // The same alarm with the words of a device or library behind it, as one more parameter.
+  Alarm with_detail(const std::string& detail) const;
+  // The same while the alarm holds: its id and subject ("station_silent s1"), whatever its other
+  // parameters. Without an id, the sentence.
   std::string key() const;
-  // Its sentence with its subject, and "…" for whatever else changes while it holds.
+  // The sentence with its subject, and "…" for whatever else changes while it holds.
   std::string gist() const;
-  // A warning without words where the table does not have it.
-  const AlarmSentence& row() const;
-
- private:
-  bool is_subject(const std::string& parameter) const {
-    return row().subject.find(" " + parameter + " ") != std::string_view::npos;
-  }
+  // What the sentence is about, "ptu", and what it says of it: the words on either side of the
+  // first colon in the table. Without an id, there is no part.
+  std::string part() const;
+  std::string reason() const;
+  // The value of a parameter; empty: it has none of this name.
+  std::string parameter(std::string_view name) const;
+  // Without an id, a warning that refers to docs/troubleshooting.md.
+  const AlarmRow& row() const;
 };
-// What a sentence says behind the first of these words: "no reply", of "ptu: no reply" and ": ".
-std::string said_behind(std::string_view words, std::string_view sentence);
 
-// Found by its words: where it is raised, and in logs of before messages said what it is.
-Alarm alarm_of(std::string_view sentence);
+// The alarm of the row `id`, which the table has.
+Alarm raise(std::string_view id, Alarm::Parameters parameters);
+// Alarms without ids.
 std::vector<Alarm> alarms_of(const std::vector<std::string>& sentences);
 
-// The alarms of a status: station_status_t or fusion_status_t.
+// Writes the alarms of a status: station_status_t or fusion_status_t.
 template <class Status>
-void set_alarms(std::vector<std::string> sentences, Status& status) {
-  for (const std::string& sentence : sentences) {
-    const Alarm alarm = alarm_of(sentence);
+void set_alarms(const std::vector<Alarm>& alarms, Status& status) {
+  for (const Alarm& alarm : alarms) {
     for (const auto& [name, value] : alarm.parameters) {
       status.alarm_parameter_of.push_back(static_cast<std::int16_t>(status.alarm_id.size()));
       status.alarm_parameter_name.push_back(name);
       status.alarm_parameter_value.push_back(value);
     }
+    status.alarm.push_back(alarm.text);
     status.alarm_id.push_back(alarm.id);
   }
-  status.alarm = std::move(sentences);
   status.alarms = status.alarm_ids = static_cast<std::int16_t>(status.alarm.size());
   status.alarm_parameters = static_cast<std::int16_t>(status.alarm_parameter_of.size());
 }
@@ -67,12 +73,10 @@ void set_alarms(std::vector<std::string> sentences, Status& status) {
 template <class Status>
 std::vector<Alarm> alarms_of(const Status& status, std::size_t most = -1) {
   std::vector<Alarm> alarms;
-  const bool says_ids = status.alarm_id.size() == status.alarm.size();
+  const bool has_ids = status.alarm_id.size() == status.alarm.size();
   for (std::size_t i = 0; i < std::min(status.alarm.size(), most); ++i) {
-    alarms.push_back(says_ids ? Alarm{status.alarm[i], status.alarm_id[i], {}}
-                              : alarm_of(status.alarm[i]));
+    alarms.push_back({status.alarm[i], has_ids ? status.alarm_id[i] : "", {}});
   }
-  if (!says_ids) return alarms;
   for (std::size_t i = 0; i < status.alarm_parameter_of.size(); ++i) {
     const auto whose = static_cast<std::size_t>(status.alarm_parameter_of[i]);
     if (whose >= alarms.size()) continue;

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The table of conditions, and what is made of it.
 
-table.py docs          writes the tables in docs/troubleshooting.md anew
+table.py docs          writes the tables in docs/troubleshooting.md and docs/fleet.md anew
 """
 
 import json
@@ -12,6 +12,7 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 TROUBLESHOOTING = HERE.parent / "docs/troubleshooting.md"
+FLEET = HERE.parent / "docs/fleet.md"
 CELLS = ("meaning", "action")
 PARAMETER = re.compile(r"\{(\w+)(?::([^}]*))?\}")
 
@@ -34,6 +35,11 @@ def refusals(of: dict) -> dict[str, list[str]]:
     }
 
 
+def named(sentence: str) -> str:
+    """With the names of its parameters, without their formats."""
+    return PARAMETER.sub(r"{\1}", sentence)
+
+
 def shown(sentence: str) -> str:
     """With … for what differs from one time to the next."""
     return PARAMETER.sub("…", sentence)
@@ -48,7 +54,7 @@ def of_the_page() -> dict:
     whole = table()
     rows = []
     for alarm in alarms(whole):
-        says = {key: [shown(one) for one in both] for key, both in alarm["says"].items()}
+        says = {key: [named(one) for one in both] for key, both in alarm["says"].items()}
         both = {key: [plain(alarm[key][0]), alarm[key][1]] for key in ("meaning", "action")}
         rows.append({"severity": alarm["severity"], "says": says, **both})
     phrases = {**dict(refusals(whole).values()), **whole["phrases"]}
@@ -84,11 +90,52 @@ def in_markdown(rows: list[tuple]) -> str:
     return "".join("| " + " | ".join(row).replace("|  |", "| |") + " |\n" for row in named)
 
 
-HEADER = """// Made by conditions/table.py: what each alarm says. Pure.
+def events() -> dict[str, dict[str, str]]:
+    return tomllib.loads((HERE / "events.toml").read_text())
+
+
+def of_the_fleet(document: str) -> str:
+    """The document with the kinds of events in the table of their ids."""
+    rows = [(f"`{one['id']}`", one["when"], one["fields"]) for one in events().values()]
+    lines = "".join(f"| {' | '.join(row)} |\n" for row in rows)
+    head = r"(^\| `MESSAGE_ID` .*\n\|---.*\n)(?:\|.*\n)*"
+    return re.sub(head, lambda found: found[1] + lines, document, flags=re.M)
+
+
+def catalogue() -> str:
+    return "\n".join(
+        f"-- {one['id']}\nSubject: {one['subject']}\nDefined-By: OLS\n"
+        f"Documentation: file:/usr/share/doc/ols/{one['document']}\n\n{one['text']}"
+        for one in events().values()
+    )
+
+
+EVENT_IDS = """// Made by conditions/table.py: the message id of each kind of event in the journal.
+#pragma once
+
+#include <string_view>
+
+namespace ols::event {
+
+using Id = std::string_view;
+
+%s
+}  // namespace ols::event
+"""
+
+
+def event_ids() -> str:
+    ids = ((name, one["id"]) for name, one in events().items())
+    return EVENT_IDS % "".join(f'inline constexpr Id k{name} = "{id}";\n' for name, id in ids)
+
+
+HEADER = """// Made by conditions/table.py: a function for each alarm that raises it. Pure.
 #pragma once
 
 #include <cstdint>
 #include <string>
+
+#include "conditions/alarm.h"
 
 namespace ols::alarm {
 
@@ -102,7 +149,7 @@ SOURCE = """// Made by conditions/table.py.
 #include <cstdio>
 #include <map>
 
-#include "conditions/alarm.h"
+#include "conditions/alarm_rows.h"
 #include "conditions/refusal.h"
 
 namespace ols {
@@ -114,12 +161,12 @@ std::string number(const char* format, double value) {
   return text.data();
 }
 
-constexpr std::array<AlarmSentence, %d> kSentences{{
+constexpr std::array<AlarmRow, %d> kRows{{
 %s}};
 
 }  // namespace
 
-std::span<const AlarmSentence> alarm_sentences() { return kSentences; }
+std::span<const AlarmRow> alarm_rows() { return kRows; }
 
 std::string_view refusal_sentence(std::string_view reason) {
   static const std::map<std::string_view, std::string_view> kRefusals{
@@ -140,51 +187,48 @@ def declared(name: str, sentence: str) -> str:
     types = {None: "const std::string&", "d": "std::int64_t"}
     parameters = PARAMETER.findall(sentence)
     listed = [f"{types.get(how or None, 'double')} {what}" for what, how in parameters]
-    return f"std::string {name}({', '.join(listed)})"
+    return f"Alarm {name}({', '.join(listed)})"
 
 
 def defined(name: str, sentence: str) -> str:
-    parts, at = [], 0
-    for found in PARAMETER.finditer(sentence):
-        parts.append(json.dumps(sentence[at : found.start()]))
-        what, how = found.groups()
-        told = {None: what, "d": f"std::to_string({what})"}
-        parts.append(told.get(how, f'number("%{how}", {what})'))
-        at = found.end()
-    parts.append(json.dumps(sentence[at:]))
-    return f"{declared(name, sentence)} {{ return std::string({parts[0]}){more(parts[1:])}; }}\n"
+    given = []
+    for what, how in PARAMETER.findall(sentence):
+        value = {"": what, "d": f"std::to_string({what})"}.get(how, f'number("%{how}", {what})')
+        given.append(f'{{"{what}", {value}}}')
+    return f'{declared(name, sentence)} {{ return raise("{name}", {{{", ".join(given)}}}); }}\n'
 
 
-def more(parts: list[str]) -> str:
-    return "".join(f" + {part}" for part in parts if part != '""')
-
-
-def of_the_programs() -> tuple[str, str]:
-    """alarms.h and alarms.cpp. A sentence with more words is looked for first."""
+def of_the_programs() -> dict[str, str]:
+    """The files of the build, by their names."""
     rows = [(row, *said) for row in alarms(table()) for said in row["says"].items()]
-    rows.sort(key=lambda one: -len(PARAMETER.sub("", one[2][0])))
-    sentences = ""
+    cells = ""
     for row, name, (english, _) in rows:
         subject = f" {' '.join(row['subject'])} " if "subject" in row else ""
-        named = PARAMETER.sub(r"{\1}", english)
-        cells = (name, named, subject, row["severity"], plain(row["action"][0]).replace("`", ""))
-        sentences += f"    {{{', '.join(json.dumps(one) for one in cells)}}},\n"
+        action = plain(row["action"][0]).replace("`", "")
+        one = (name, named(english), subject, row["severity"], action)
+        cells += f"    {{{', '.join(json.dumps(cell) for cell in one)}}},\n"
     header = "".join(f"{declared(name, english)};\n" for _, name, (english, _) in rows)
     source = "".join(defined(name, english) for _, name, (english, _) in rows)
     refused = "".join(
         f"      {{{json.dumps(reason)}, {json.dumps(says[0])}}},\n"
         for reason, says in refusals(table()).items()
     )
-    return HEADER % header, SOURCE % (len(rows), sentences, refused, source)
+    return {
+        "alarms.h": HEADER % header,
+        "alarms.cpp": SOURCE % (len(rows), cells, refused, source),
+        "event_ids.h": event_ids(),
+        "ols.catalog": catalogue(),
+    }
 
 
 def main() -> int:
     match sys.argv[1:]:
         case ["docs"]:
             TROUBLESHOOTING.write_text(of_the_documents(TROUBLESHOOTING.read_text()))
+            FLEET.write_text(of_the_fleet(FLEET.read_text()))
         case ["cpp", folder]:
             Path(folder).mkdir(parents=True, exist_ok=True)
-            for name, text in zip(("alarms.h", "alarms.cpp"), of_the_programs(), strict=True):
+            for name, text in of_the_programs().items():
                 path = Path(folder) / name
                 if not path.exists() or path.read_text() != text:
                     path.write_text(text)

@@ -71,9 +71,7 @@ class Console {
   WatchedVideos watched_video() const;
 
   // The alarms of the console itself.
-  void hear_own(const std::vector<std::string>& alarms, const Now& now) {
-    site_.hear_own(alarms, now);
-  }
+  void hear_own(const std::vector<Alarm>& alarms, const Now& now) { site_.hear_own(alarms, now); }
 
   // A browser has opened its WebSocket; returns its number. A second one of the same name is "ana
   // 2".

@@ -69,7 +69,8 @@ void ConsoleBus::subscribe(LcmBus& bus) {
 }
 
 void ConsoleBus::note_trouble(const std::string& trouble) {
-  console_.note("console", "", trouble.empty() ? "the bus is back" : alarm::no_bus(trouble), now_);
+  console_.note("console", "", trouble.empty() ? "the bus is back" : alarm::no_bus(trouble).text,
+                now_);
 }
 
 void ConsoleBus::turn(const Now& now) {
@@ -110,7 +111,7 @@ void ConsoleBus::send(const std::vector<wire::CueOrder>& orders, const Now& now)
 
 std::string ConsoleBus::in_one_line() const {
   if (client_.bus() == nullptr) return trouble();
-  return alarms_.empty() ? "bus " + client_.url() : alarms_.front();
+  return alarms_.empty() ? "bus " + client_.url() : alarms_.front().text;
 }
 
 }  // namespace ols::console

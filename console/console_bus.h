@@ -6,6 +6,7 @@
 
 #include "base/bus/bus_client.h"
 #include "base/trust/trust_config.h"
+#include "conditions/alarm.h"
 #include "console/console.h"
 #include "console/messages_procedure.h"
 #include "wire/orders.h"
@@ -37,7 +38,7 @@ class ConsoleBus {
   wire::OrderSender sender_;
   AnswerSender answer_sender_;
   Now now_;  // of this turn, for the handlers
-  std::vector<std::string> alarms_;
+  std::vector<Alarm> alarms_;
   bool send_failed_ = false;
 };
 

@@ -4,26 +4,29 @@
 #include <cctype>
 #include <utility>
 
-#include "conditions/alarm.h"
+#include "conditions/alarm_json.h"
 
 namespace ols::console {
 namespace {
 
 constexpr std::int64_t kAnswer_us = 5'000'000;  // a refused command is answered within
 
-// Alarms have their keys, and so has what repeats an alarm's words; other events are the same
-// whatever their numbers.
-std::string key_of(const Event& event) {
-  if (!event.key.empty()) return event.key;
-  std::string key = alarm_of(event.text).key();
-  if (key == event.text) {
-    std::erase_if(key, [](unsigned char c) { return std::isdigit(c) != 0; });
-  }
-  return key;
+std::string without_numbers(std::string text) {
+  std::erase_if(text, [](unsigned char c) { return std::isdigit(c) != 0; });
+  return text;
 }
 
-// "camera", of "camera: no frames for 3 s" and of "camera 10.0.0.3 does not answer".
-std::string subject(const std::string& text) { return text.substr(0, text.find_first_of(": ")); }
+// Alarms have their keys; other events are the same whatever their numbers.
+std::string key_of(const Event& event) {
+  return event.alarm.empty() ? without_numbers(event.text) : event.alarm.key();
+}
+
+// Whether an error is an alarm's sentence, or of the part that the alarm is about.
+bool is_about(const Event& error, const Event& alarm) {
+  const std::string part = alarm.alarm.part();
+  return without_numbers(error.text) == without_numbers(alarm.text) ||
+         (!part.empty() && error.text.starts_with(part));
+}
 
 bool is_refusal(const std::string& error) { return error.find(" refused: ") != std::string::npos; }
 
@@ -42,25 +45,26 @@ std::deque<EventList::Kept>::iterator EventList::repeated(const Event& event,
 
 // Stations report a new alarm as their last error too, and what their device said of it; and why
 // they have refused a command.
-bool EventList::explains_another(const Event& error, const std::string& key) const {
+bool EventList::explains_another(const Event& error) const {
   if (error.kind != "error") return false;
   return std::ranges::any_of(events_, [&](const Kept& kept) {
     if (kept.event.station != error.station) return false;
-    if (kept.holds()) return kept.key == key || subject(kept.event.text) == subject(error.text);
-    if (kept.over_us) return kept.key == key && error.utime_us - *kept.over_us < kRepeat_us;
+    if (kept.holds()) return is_about(error, kept.event);
+    if (kept.over_us) {
+      return without_numbers(error.text) == without_numbers(kept.event.text) &&
+             error.utime_us - *kept.over_us < kRepeat_us;
+    }
     return kept.event.kind == "command" && is_refusal(error.text) &&
            error.utime_us - kept.event.utime_us < kAnswer_us;
   });
 }
 
 // A device reports an error, and an alarm follows when it lasts.
-std::deque<EventList::Kept>::iterator EventList::first_sign(const Event& event,
-                                                            const std::string& key) {
+std::deque<EventList::Kept>::iterator EventList::first_sign(const Event& event) {
   if (event.kind != "alarm") return events_.end();
   return std::ranges::find_if(events_, [&](const Kept& kept) {
     return kept.event.kind == "error" && kept.event.station == event.station &&
-           event.utime_us - kept.event.utime_us < kAnswer_us &&
-           (kept.key == key || subject(kept.event.text) == subject(event.text));
+           event.utime_us - kept.event.utime_us < kAnswer_us && is_about(kept.event, event);
   });
 }
 
@@ -72,17 +76,18 @@ void EventList::forget_oldest() {
 
 std::uint64_t EventList::add(Event event, Revision& revision) {
   const std::string key = key_of(event);
-  if (explains_another(event, key)) return 0;
+  if (explains_another(event)) return 0;
   if (const auto known = repeated(event, key); known != events_.end()) {
     ++known->times;
     known->changed = ++revision;
     known->event.utime_us = event.utime_us;
     known->event.text = std::move(event.text);
+    known->event.alarm = std::move(event.alarm);
     known->over_us.reset();
     std::rotate(known, known + 1, events_.end());
     return events_.back().number;
   }
-  if (const auto sign = first_sign(event, key); sign != events_.end()) {
+  if (const auto sign = first_sign(event); sign != events_.end()) {
     *sign = {sign->number, ++revision, std::move(event), key, 1, {}, {}};
     std::rotate(sign, sign + 1, events_.end());
     return events_.back().number;
@@ -139,6 +144,7 @@ Json EventList::since(Revision revision) const {
                       {"who", e.who},
                       {"text", e.text},
                       {"key", kept.key},
+                      {"alarm", e.alarm.empty() ? Json(nullptr) : Json(e.alarm)},
                       {"outcome", e.outcome},
                       {"over_us", kept.over_us ? Json(*kept.over_us) : Json(nullptr)},
                       {"acknowledged", kept.acknowledged},

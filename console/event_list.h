@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "conditions/alarm.h"
 #include "console/entity_table.h"
 
 namespace ols::console {
@@ -18,7 +19,7 @@ struct Event {
   std::string who;            // of a command
   std::string text;
   std::string outcome;  // of a command: empty while unknown, "done", or the reason
-  std::string key{};    // Alarm::key() of an alarm
+  Alarm alarm{};        // what an alarm says
 };
 
 class EventList {
@@ -54,8 +55,8 @@ class EventList {
     bool holds() const { return event.kind == "alarm" && !over_us; }
   };
   std::deque<Kept>::iterator repeated(const Event& event, const std::string& key);
-  std::deque<Kept>::iterator first_sign(const Event& event, const std::string& key);
-  bool explains_another(const Event& error, const std::string& key) const;
+  std::deque<Kept>::iterator first_sign(const Event& event);
+  bool explains_another(const Event& error) const;
   void forget_oldest();
 
   std::deque<Kept> events_;

@@ -7,7 +7,7 @@
 #include "base/bus/channel_names.h"
 #include "base/bus/message_code.h"
 #include "base/text/plain_text.h"
-#include "conditions/alarm.h"
+#include "conditions/alarm_json.h"
 #include "console/map_geometry.h"
 #include "console/messages_calibration.h"
 #include "console/messages_cues.h"
@@ -20,7 +20,6 @@
 #include "ols_msg/target_t.hpp"
 #include "wire/fusion_status.h"
 #include "wire/read.h"
-#include "wire/refusal_words.h"
 #include "wire/station_status.h"
 #include "wire/target.h"
 
@@ -63,13 +62,10 @@ Json lens_of(const Status& s) {
           {"focal_length_sd_px", rounded(s.focal_length_sd_px, 2)}};
 }
 
-// The alarms, and the keys by which the page finds their rows of the table and their events.
+// Each with the key by which the page finds its event.
 void add_alarms(const std::vector<Alarm>& alarms, Json& fields) {
-  fields["alarms"] = fields["alarm_keys"] = Json::array();
-  for (const Alarm& alarm : alarms) {
-    fields["alarms"].push_back(alarm.text);
-    fields["alarm_keys"].push_back(alarm.key());
-  }
+  Json& all = fields["alarms"] = alarms;
+  for (std::size_t i = 0; i < alarms.size(); ++i) all[i]["key"] = alarms[i].key();
 }
 
 // Null for what is no place: a station's, while it does not know its own.
@@ -214,7 +210,6 @@ std::optional<StationHeard> station_from(const BusMessage& message) {
   const auto status = wire::heard_status(message);
   if (!status) return std::nullopt;
   const Status& s = *status;
-  const std::string error = wire::error_in_words(s.last_error);
   Json fields{
       {"boot", number_text(s.boot_id)},
       {"utime_us", s.utime},
@@ -228,14 +223,14 @@ std::optional<StationHeard> station_from(const BusMessage& message) {
       {"frame_latency_s", rounded(s.frame_latency_s, 3)},
       {"readings", named(s.reading_name, s.reading_value)},
       {"counters", named(s.counter_name, s.counter_value)},
-      {"last_error", error},
+      {"last_error", s.last_error},
       {"last_error_utime_us", s.last_error_utime}};
   std::vector<Alarm> alarms = alarms_of(s, kMostListed);
   add_alarms(alarms, fields);
   add_pose(s, fields);
   add_pointing(s, fields);
   return StationHeard{s.station,           std::move(fields), wire::is_stopped(s.state),
-                      video_address_of(s), std::move(alarms), error,
+                      video_address_of(s), std::move(alarms), s.last_error,
                       s.last_error_utime};
 }
 

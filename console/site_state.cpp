@@ -23,7 +23,7 @@ void SiteState::note_alarms(AlarmChanges& known, const std::string& station,
       alarms.begin(), alarms.begin() + std::min(alarms.size(), std::size_t{kMostAlarms}));
   for (const AlarmChanges::Change& change : known.look(first)) {
     if (change.begins) {
-      note({utime_us, "alarm", station, "", change.alarm.text, "", change.key});
+      note_alarm(station, change.alarm, utime_us);
     } else {
       events_.end(station, change.key, utime_us, revision_);
     }
@@ -44,7 +44,7 @@ void SiteState::hear(const StationHeard& station, const Now& now) {
     ++refused_;
     return;
   }
-  events_.end(station.id, alarm_of(alarm::station_silent()).key(), now.utime_us, revision_);
+  events_.end(station.id, alarm::station_silent().key(), now.utime_us, revision_);
   note_alarms(kept_[station.id].alarms, station.id, station.alarms, now.utime_us);
   note_error(station.id, station.last_error, station.last_error_utime_us, now.utime_us);
 }
@@ -53,8 +53,8 @@ void SiteState::hear_bearing(const std::string& station, const Json& bearing) {
   stations_.mark(station, "bearing", bearing, revision_);
 }
 
-void SiteState::hear_own(const std::vector<std::string>& alarms, const Now& now) {
-  note_alarms(own_, "", alarms_of(alarms), now.utime_us);
+void SiteState::hear_own(const std::vector<Alarm>& alarms, const Now& now) {
+  note_alarms(own_, "", alarms, now.utime_us);
 }
 
 bool SiteState::name_target(const std::string& id, const std::string& name) {
@@ -129,7 +129,7 @@ void SiteState::hear(const TargetHeard& target, const Now& now) {
 void SiteState::hear(const FusionHeard& fusion, const Now& now) {
   if (!is_of_fusion(fusion.boot_id, now)) return;
   fusion_.set(kFusion, fusion.fields, now.monotonic_s, revision_);
-  events_.end("", alarm_of(alarm::fusion_silent()).key(), now.utime_us, revision_);
+  events_.end("", alarm::fusion_silent().key(), now.utime_us, revision_);
   note_alarms(kept_[""].alarms, "", fusion.alarms, now.utime_us);
   note_error("", fusion.last_error, 0, now.utime_us);
 }
@@ -137,10 +137,10 @@ void SiteState::hear(const FusionHeard& fusion, const Now& now) {
 void SiteState::look(const Now& now) {
   const double now_s = now.monotonic_s;
   for (const auto& id : stations_.age(now_s, kStationStale_s, kForgetStation_s, revision_)) {
-    note({now.utime_us, "alarm", id, "", alarm::station_silent(), ""});
+    note_alarm(id, alarm::station_silent(), now.utime_us);
   }
   if (!fusion_.age(now_s, kFusionStale_s, kForgetStation_s, revision_).empty()) {
-    note({now.utime_us, "alarm", "", "", alarm::fusion_silent(), ""});
+    note_alarm("", alarm::fusion_silent(), now.utime_us);
   }
   targets_.age(now_s, kTargetStale_s, kForgetTarget_s, revision_);
   lines_.age(now_s, kLineStale_s, kForgetLine_s, revision_);

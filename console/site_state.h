@@ -29,7 +29,7 @@ class SiteState {
   // The newest bearing of a station that has sent a status; others are ignored.
   void hear_bearing(const std::string& station, const Json& bearing);
   // The alarms of the console itself.
-  void hear_own(const std::vector<std::string>& alarms, const Now& now);
+  void hear_own(const std::vector<Alarm>& alarms, const Now& now);
   // The state of a guided procedure of a station.
   void set_procedure(const std::string& station, const Json& procedure);
   // Call often.
@@ -81,6 +81,9 @@ class SiteState {
     double added_s = -1e9;
   };
 
+  void note_alarm(const std::string& station, const Alarm& alarm, std::int64_t utime_us) {
+    note({utime_us, "alarm", station, "", alarm.text, "", alarm});
+  }
   void note_alarms(AlarmChanges& known, const std::string& station,
                    const std::vector<Alarm>& alarms, std::int64_t utime_us);
   void note_error(const std::string& station, const std::string& error, std::int64_t error_utime_us,

@@ -2,13 +2,15 @@
 
 #include <nlohmann/json.hpp>
 
+#include "conditions/alarm_json.h"
+
 namespace ols::cues {
 
 using Json = nlohmann::ordered_json;
 
 std::string in_one_line(const CueStatus& status) {
   std::string line = std::to_string(status.cues) + " cues";
-  for (const std::string& alarm : status.alarms) line.append("; ").append(alarm);
+  for (const Alarm& alarm : status.alarms) line.append("; ").append(alarm.text);
   for (const InputStatus& input : status.inputs) {
     line.append("; ").append(input.name).append(": ");
     if (!input.trouble.empty()) {

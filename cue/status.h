@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "conditions/alarm.h"
 #include "cue/live_cues.h"
 
 namespace ols::cues {
@@ -21,7 +22,7 @@ struct InputStatus {
 struct CueStatus {
   std::int64_t utime_us = 0;
   std::size_t cues = 0;
-  std::vector<std::string> alarms;  // about the bus
+  std::vector<Alarm> alarms;  // about the bus
   std::map<std::string, double> counters;
   std::vector<InputStatus> inputs;
 };

@@ -2,13 +2,15 @@
 
 #include <nlohmann/json.hpp>
 
+#include "conditions/alarm_json.h"
+
 namespace ols::exports {
 
 using Json = nlohmann::ordered_json;
 
 std::string in_one_line(const ExportStatus& status) {
   std::string line = std::to_string(status.targets) + " targets";
-  for (const std::string& alarm : status.alarms) line.append("; ").append(alarm);
+  for (const Alarm& alarm : status.alarms) line.append("; ").append(alarm.text);
   for (const auto& [name, report] : status.outputs) {
     line.append("; ").append(name).append(": ");
     line.append(report.trouble.empty() ? std::to_string(report.sent) + " sent" : report.trouble);

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "conditions/alarm.h"
 #include "export/outlet/outlet.h"
 
 namespace ols::exports {
@@ -14,7 +15,7 @@ namespace ols::exports {
 struct ExportStatus {
   std::int64_t utime_us = 0;
   std::size_t targets = 0;
-  std::vector<std::string> alarms;  // about the bus
+  std::vector<Alarm> alarms;  // about the bus
   std::map<std::string, double> counters;
   std::vector<std::pair<std::string, OutletReport>> outputs;  // by name
 };

@@ -60,13 +60,13 @@ void BusClient::turn(double now_s, int wait_ms) {
   end_if_deaf();
 }
 
-std::string BusClient::trouble() const {
-  if (bus_) return "";
+Alarm BusClient::trouble() const {
+  if (bus_) return {};
   return alarm::no_bus(trouble_.empty() ? "connecting" : trouble_);
 }
 
-std::vector<std::string> BusClient::all_alarms(double now_s) const {
-  std::vector<std::string> all = alarms(now_s);
+std::vector<Alarm> BusClient::all_alarms(double now_s) const {
+  std::vector<Alarm> all = alarms(now_s);
   if (!bus_) all.insert(all.begin(), trouble());
   return all;
 }

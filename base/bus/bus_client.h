@@ -10,6 +10,7 @@
 
 #include "base/bus/bus_connector.h"
 #include "base/bus/bus_monitor.h"
+#include "conditions/alarm.h"
 
 namespace ols {
 
@@ -40,11 +41,11 @@ class BusClient {
   LcmBus* bus() const { return bus_.get(); }  // null: no network
   const std::string& url() const { return url_; }
   // Empty if there is a connection.
-  std::string trouble() const;
+  Alarm trouble() const;
   // Alarms about the traffic.
-  std::vector<std::string> alarms(double now_s) const { return monitor_.alarms(now_s); }
+  std::vector<Alarm> alarms(double now_s) const { return monitor_.alarms(now_s); }
   // All alarms: the missing connection, and those about the traffic.
-  std::vector<std::string> all_alarms(double now_s) const;
+  std::vector<Alarm> all_alarms(double now_s) const;
   void count(std::map<std::string, double>& counters) const { monitor_.count(counters); }
 
  private:

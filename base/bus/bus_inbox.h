@@ -18,6 +18,7 @@
 #include "base/bus/bus_datagram.h"
 #include "base/bus/channel_pattern.h"
 #include "base/trust/bus_trust.h"
+#include "conditions/alarm.h"
 
 namespace ols {
 
@@ -53,7 +54,7 @@ struct BusTraffic {
   // signatures are required.
   std::array<std::uint64_t, static_cast<std::size_t>(trust::Distrust::kCount)> distrusted{};
   std::string distrusted_last{};  // the last such message, for a person
-  std::string trust_trouble{};    // what a person should correct in keys and trust list
+  Alarm trust_trouble{};          // what a person should correct in keys and trust list
 };
 
 class BusInbox {

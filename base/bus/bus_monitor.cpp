@@ -64,23 +64,23 @@ void BusMonitor::count(std::map<std::string, double>& counters) const {
   }
 }
 
-std::string BusMonitor::alarm(double now_s) const {
+Alarm BusMonitor::alarm(double now_s) const {
   if (is_calm(now_s)) return {};
   const BusTraffic all = total();
   return alarm::bus_flooded(all.fragments - calm_.fragments, all.malformed - calm_.malformed,
                             all.overflowed - calm_.overflowed);
 }
 
-std::string BusMonitor::trust_alarm(double now_s) const {
+Alarm BusMonitor::trust_alarm(double now_s) const {
   if (!current_.trust_trouble.empty()) return current_.trust_trouble;
   if (!distrusted_s_ || now_s - *distrusted_s_ > kAlarm_s) return {};
   const BusTraffic all = total();
   return alarm::messages_not_believed(reasons(all, trusting_), all.distrusted_last);
 }
 
-std::vector<std::string> BusMonitor::alarms(double now_s) const {
-  std::vector<std::string> alarms;
-  for (const std::string& one : {alarm(now_s), trust_alarm(now_s)}) {
+std::vector<Alarm> BusMonitor::alarms(double now_s) const {
+  std::vector<Alarm> alarms;
+  for (const Alarm& one : {alarm(now_s), trust_alarm(now_s)}) {
     if (!one.empty()) alarms.push_back(one);
   }
   return alarms;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/bus/bus_inbox.h"
+#include "conditions/alarm.h"
 
 namespace ols {
 
@@ -23,12 +24,12 @@ class BusMonitor {
   // reasons that have occurred.
   void count(std::map<std::string, double>& counters) const;
   // The alarm if traffic was refused or displaced within the last kAlarm_s; otherwise empty.
-  std::string alarm(double now_s) const;
+  Alarm alarm(double now_s) const;
   static constexpr double kAlarm_s = 10.0;
   // The same for messages that failed verification, and for keys and trust list.
-  std::string trust_alarm(double now_s) const;
+  Alarm trust_alarm(double now_s) const;
   // The current ones of these two alarms.
-  std::vector<std::string> alarms(double now_s) const;
+  std::vector<Alarm> alarms(double now_s) const;
 
  private:
   BusTraffic total() const;

@@ -8,6 +8,7 @@
 #include "base/journal/alarm_changes.h"
 #include "base/journal/journal.h"
 #include "base/journal/journal_rate_limit.h"
+#include "conditions/alarm.h"
 
 namespace ols {
 
@@ -18,7 +19,7 @@ class AlarmJournal {
   explicit AlarmJournal(Write write = write_to_journal);
 
   // Call regularly with the current alarms. `now_s`: monotonic.
-  void look(const std::vector<std::string>& alarms, double now_s);
+  void look(const std::vector<Alarm>& alarms, double now_s);
 
  private:
   const Write write_;

@@ -11,13 +11,8 @@ JournalEvent about(const Alarm& alarm, bool begins) {
   JournalEvent event{.text = (begins ? "alarm: " : "over: ") + alarm.text, .bad = begins};
   event.alarm = alarm.id;
   event.action = alarm.row().action;
-  const std::size_t colon = alarm.text.find(": ");
-  if (colon == std::string::npos) {
-    event.reason = alarm.text;
-  } else {
-    event.device = alarm.text.substr(0, colon);
-    event.reason = alarm.text.substr(colon + 2);
-  }
+  event.device = alarm.part();
+  event.reason = alarm.reason();
   return event;
 }
 
@@ -51,13 +46,10 @@ JournalEvent bus_connected_event(const std::string& url) {
 }
 
 JournalEvent alarm_event(const Alarm& alarm, bool begins) {
-  constexpr std::string_view kStation = "station ";
   JournalEvent event = about(alarm, begins);
   event.id = begins ? event::kAlarmBegins : event::kAlarmEnds;
-  if (event.device.starts_with(kStation)) {
-    event.station = event.device.substr(kStation.size());
-    event.device.clear();
-  }
+  event.station = alarm.parameter("station");
+  if (!event.station.empty()) event.device.clear();
   return event;
 }
 

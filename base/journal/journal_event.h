@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "base/journal/event_ids.h"
 #include "conditions/alarm.h"
+#include "conditions/event_ids.h"
 
 namespace ols {
 
@@ -26,8 +26,8 @@ std::vector<std::string> journal_fields(const JournalEvent& event);
 // A lost connection to the bus.
 JournalEvent bus_lost_event(const std::string& why);
 JournalEvent bus_connected_event(const std::string& url);
-// An alarm of a program. The words before its first colon name its subject ("station NAME" or a
-// part); the others are its reason. begins: false if the alarm ends.
+// An alarm of a program: of a station, if it has one as a parameter, or of a part of the program.
+// begins: false if the alarm ends.
 JournalEvent alarm_event(const Alarm& alarm, bool begins);
 // The same for a station, about its own parts.
 JournalEvent station_alarm_event(const Alarm& alarm, bool begins);

@@ -299,11 +299,11 @@ std::optional<std::vector<std::uint8_t>> BusTrust::list_telling(std::int64_t uti
   return sign(std::string(kTrustChannel), bytes);
 }
 
-std::string BusTrust::trouble() const {
-  for (const std::string& one : {membership_trouble(), marks_file_.trouble(), site_.trouble()}) {
+Alarm BusTrust::trouble() const {
+  for (const Alarm& one : {membership_trouble(), marks_file_.trouble(), site_.trouble()}) {
     if (!one.empty()) return one;
   }
-  return "";
+  return {};
 }
 
 // Null: not in the list. Under the lock.
@@ -312,7 +312,7 @@ const Member* BusTrust::own_entry() const {
   return own == list_.members.end() ? nullptr : &*own;
 }
 
-std::string BusTrust::membership_trouble() const {
+Alarm BusTrust::membership_trouble() const {
   const std::lock_guard lock(mutex_);
   if (!trouble_.file.empty()) return alarm::trust_list_unusable(trouble_.file);
   if (list_.number == 0) return alarm::no_trust_list(key_.file.name);
@@ -321,7 +321,7 @@ std::string BusTrust::membership_trouble() const {
   if (own->revoked) return alarm::own_key_revoked(own->name);
   const std::string strange = list_.strange_members();
   if (!strange.empty()) return alarm::trust_roles_unknown(strange);
-  return trouble_.keeping.empty() ? "" : alarm::trust_list_unsaved(trouble_.keeping);
+  return trouble_.keeping.empty() ? Alarm() : alarm::trust_list_unsaved(trouble_.keeping);
 }
 
 void BusTrust::watch() {

@@ -20,6 +20,7 @@
 #include "base/trust/station_boots.h"
 #include "base/trust/trust_config.h"
 #include "base/trust/verifier.h"
+#include "conditions/alarm.h"
 
 namespace ols::trust {
 
@@ -88,7 +89,7 @@ class BusTrust {
 
   std::int64_t boot_id() const { return self_.boot_id; }
   // What a person should correct; empty: nothing.
-  std::string trouble() const;
+  Alarm trouble() const;
 
  private:
   BusTrust(Mode mode, const TrustConfig& config, const Environment& environment, const Self& self);
@@ -105,7 +106,7 @@ class BusTrust {
   void look_at_file();
   void keep();
   const Member* own_entry() const;
-  std::string membership_trouble() const;
+  Alarm membership_trouble() const;
   struct Learned {
     Verifier::Verdict verdict;
     std::int64_t list_number = 0;

@@ -54,12 +54,12 @@ void MarksFile::look() {
   lost_.clear();
 }
 
-std::string MarksFile::trouble() const {
+Alarm MarksFile::trouble() const {
   const std::lock_guard lock(mutex_);
   if (!unwritten_.empty()) {
     return alarm::heard_unsaved(unwritten_);
   }
-  return lost_.empty() ? "" : alarm::heard_lost(lost_);
+  return lost_.empty() ? Alarm() : alarm::heard_lost(lost_);
 }
 
 }  // namespace ols::trust

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "base/trust/replay_marks.h"
+#include "conditions/alarm.h"
 
 namespace ols::trust {
 
@@ -28,7 +29,7 @@ class MarksFile {
   void look();
 
   // What a person should correct; empty: nothing.
-  std::string trouble() const;
+  Alarm trouble() const;
 
  private:
   void say_lost(const std::string& why);

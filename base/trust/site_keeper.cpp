@@ -117,10 +117,10 @@ std::optional<std::string> SiteKeeper::to_tell(double now_s) {
   return text_;
 }
 
-std::string SiteKeeper::trouble() const {
+Alarm SiteKeeper::trouble() const {
   const std::lock_guard lock(mutex_);
   const std::string& why = file_trouble_.empty() ? heard_trouble_ : file_trouble_;
-  return why.empty() ? "" : alarm::site_settings_refused(why);
+  return why.empty() ? Alarm() : alarm::site_settings_refused(why);
 }
 
 }  // namespace ols::trust

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "base/trust/site_settings.h"
+#include "conditions/alarm.h"
 
 namespace ols::trust {
 
@@ -35,7 +36,7 @@ class SiteKeeper {
   static constexpr double kTell_s = 2.0;
 
   // Why settings offered recently were not adopted; empty: they were, or there were none.
-  std::string trouble() const;
+  Alarm trouble() const;
 
  private:
   void offer(const std::string& text, const std::string& name);

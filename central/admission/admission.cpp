@@ -91,7 +91,7 @@ bool Admission::is_future(std::int64_t utime_us) const {
 bool Admission::clock_is_believed(const BearingMeasurement& measurement, FusionLog& log) {
   const bool before = clocks_.quarantine(measurement.station).empty();
   clocks_.hear(measurement, time_);
-  const std::string& why = clocks_.quarantine(measurement.station);
+  const Alarm& why = clocks_.quarantine(measurement.station);
   time_.trust(measurement.station, why.empty());
   if (before && !why.empty()) log.quarantine(measurement.station, why);
   return why.empty();

@@ -13,8 +13,8 @@ constexpr double kArcsec = kPi / 648000.0;
 
 }  // namespace
 
-std::string calibration_alarm(const std::string& station, const StatedCalibration& stated,
-                              const FoundBias& found) {
+Alarm calibration_alarm(const std::string& station, const StatedCalibration& stated,
+                        const FoundBias& found) {
   // One that doubts itself has stated that already.
   if (stated.state != CalibrationState::kInUse) return {};
   bool beyond = false;

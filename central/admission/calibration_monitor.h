@@ -7,6 +7,8 @@
 #include <limits>
 #include <string>
 
+#include "conditions/alarm.h"
+
 namespace ols::fusion {
 
 // The values are those of station_status_t.
@@ -25,9 +27,9 @@ struct FoundBias {
   Eigen::Vector2d bias_rad, stated_sd_rad;
 };
 
-// The alarm for a station that works with a calibration, as text; empty: none. It is raised when
+// The alarm for a station that works with a calibration; empty: none. It is raised when
 // the stated sigma explains the bias with a probability below 1 in 16 000.
-std::string calibration_alarm(const std::string& station, const StatedCalibration& stated,
-                              const FoundBias& found);
+Alarm calibration_alarm(const std::string& station, const StatedCalibration& stated,
+                        const FoundBias& found);
 
 }  // namespace ols::fusion

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "central/measurement/time_span.h"
-#include "conditions/alarm.h"
 #include "conditions/alarms.h"
 
 namespace ols::fusion {
@@ -35,21 +34,21 @@ bool ClockMonitor::others_are_better(const std::string& station, const MessageTi
   return *middle <= config_.error_limit_s;
 }
 
-std::string ClockMonitor::judge(const std::string& name, const Station& station,
-                                const MessageTime& time) const {
+Alarm ClockMonitor::judge(const std::string& name, const Station& station,
+                          const MessageTime& time) const {
   const double limit = station.quarantine.empty() ? 1.0 : kTighter;
   if (station.error_s > limit * config_.error_limit_s && others_are_better(name, time)) {
-    return said_behind(", ", alarm::station_clock_error(name, station.error_s));
+    return alarm::station_clock_error(name, station.error_s);
   }
-  if (time.delivering_count() < kLeastStationsToCompare) return "";
+  if (time.delivering_count() < kLeastStationsToCompare) return {};
   const double offset_s = common_offset_s(station);
   if (offset_s > limit * config_.offset_limit_s) {
-    return said_behind(", ", alarm::station_ahead(name, offset_s));
+    return alarm::station_ahead(name, offset_s);
   }
   if (offset_s < -limit * config_.offset_limit_s && !station.synchronised) {
-    return said_behind(", ", alarm::station_behind(name, -offset_s));
+    return alarm::station_behind(name, -offset_s);
   }
-  return "";
+  return {};
 }
 
 void ClockMonitor::hear(const BearingMeasurement& measurement, const MessageTime& time) {
@@ -61,17 +60,17 @@ void ClockMonitor::hear(const BearingMeasurement& measurement, const MessageTime
   if (station.offsets_s.size() > static_cast<std::size_t>(config_.stamps)) {
     station.offsets_s.pop_front();
   }
-  const std::string bad = judge(measurement.station, station, time);
+  const Alarm bad = judge(measurement.station, station, time);
   if (!bad.empty()) {
     station.quarantine = bad;
     station.bad_s = time.elapsed_s();
   } else if (time.elapsed_s() - station.bad_s > config_.release_s) {
-    station.quarantine.clear();
+    station.quarantine = {};
   }
 }
 
-const std::string& ClockMonitor::quarantine(const std::string& station) const {
-  static const std::string kNone;
+const Alarm& ClockMonitor::quarantine(const std::string& station) const {
+  static const Alarm kNone;
   const auto found = stations_.find(station);
   return found == stations_.end() ? kNone : found->second.quarantine;
 }

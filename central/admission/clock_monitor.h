@@ -22,6 +22,7 @@
 
 #include "central/admission/message_time.h"
 #include "central/measurement/bearing_measurement.h"
+#include "conditions/alarm.h"
 
 namespace ols::fusion {
 
@@ -39,8 +40,8 @@ class ClockMonitor {
 
   // A bearing that `time` has already taken.
   void hear(const BearingMeasurement& measurement, const MessageTime& time);
-  // Why a station is quarantined, as text; empty when it is not.
-  const std::string& quarantine(const std::string& station) const;
+  // Why a station is quarantined; empty when it is not.
+  const Alarm& quarantine(const std::string& station) const;
   // The addition to the 1-sigma of its stamps, for their offset from the others'.
   double added_sd_s(const std::string& station) const;
   // The recent offset of its stamps from the median: 0 within usual_offset_s, NaN before the first.
@@ -53,14 +54,14 @@ class ClockMonitor {
     double error_s = 0.0;
     bool synchronised = false;
     std::deque<double> offsets_s;
-    std::string quarantine;
+    Alarm quarantine;
     double bad_s = 0.0;  // MessageTime's elapsed time at the last bad stamp
   };
 
   // The offset common to all recent stamps.
   double common_offset_s(const Station& station) const;
   bool others_are_better(const std::string& station, const MessageTime& time) const;
-  std::string judge(const std::string& name, const Station& station, const MessageTime& time) const;
+  Alarm judge(const std::string& name, const Station& station, const MessageTime& time) const;
 
   ClockMonitorConfig config_;
   std::map<std::string, Station> stations_;

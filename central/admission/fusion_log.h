@@ -4,6 +4,8 @@
 #include <map>
 #include <string>
 
+#include "conditions/alarm.h"
+
 namespace ols::fusion {
 
 struct FusionLog {
@@ -14,9 +16,9 @@ struct FusionLog {
   void error(const std::string& station, const std::string& what) {
     last_error = "station " + station + ": " + what;
   }
-  void quarantine(const std::string& station, const std::string& why) {
+  void quarantine(const std::string& station, const Alarm& why) {
     count("stations_quarantined");
-    error(station, "quarantined, " + why);
+    error(station, why.reason());
   }
 };
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "conditions/alarm.h"
 #include "conditions/alarms.h"
 #include "geometry/angles.h"
 
@@ -24,7 +23,7 @@ void PointingMonitor::hear(const std::string& name, std::int64_t utime_us, bool 
   const Eigen::Vector2d off = near ? *off_rad : Eigen::Vector2d(Eigen::Vector2d::Zero());
   station.sum = (station.sum * decay + off).eval();
   station.squared = station.squared * decay + off.squaredNorm();
-  judge(station);
+  judge(name, station);
 }
 
 // Without a target there is no reference to compare with.
@@ -35,9 +34,9 @@ void PointingMonitor::lapse(const std::string& name, std::int64_t utime_us) {
   if (since_s > config_.lapse_s) stations_.erase(found);
 }
 
-void PointingMonitor::judge(Station& station) const {
+void PointingMonitor::judge(const std::string& name, Station& station) const {
   const double share = station.explained / station.bearings;
-  if (share >= config_.released_share) station.quarantine.clear();
+  if (share >= config_.released_share) station.quarantine = {};
   const double watched_s = static_cast<double>(station.newest_us - station.first_us) * 1e-6;
   if (share > config_.explained_share || station.judged < config_.least_bearings ||
       station.judged < station.bearings / 2.0 || watched_s < config_.memory_s) {
@@ -48,11 +47,11 @@ void PointingMonitor::judge(Station& station) const {
   const double spread =
       std::sqrt(std::max(0.0, station.squared / station.judged - mean.squaredNorm()));
   if (off < config_.least_off_rad || spread > config_.spread * off) return;
-  station.quarantine = said_behind(", ", alarm::station_off_target("", degrees(off)));
+  station.quarantine = alarm::station_off_target(name, degrees(off));
 }
 
-const std::string& PointingMonitor::quarantine(const std::string& station) const {
-  static const std::string kNone;
+const Alarm& PointingMonitor::quarantine(const std::string& station) const {
+  static const Alarm kNone;
   const auto found = stations_.find(station);
   return found == stations_.end() ? kNone : found->second.quarantine;
 }

@@ -15,6 +15,8 @@
 #include <optional>
 #include <string>
 
+#include "conditions/alarm.h"
+
 namespace ols::fusion {
 
 struct PointingConfig {
@@ -36,8 +38,8 @@ class PointingMonitor {
   // without a target.
   void hear(const std::string& station, std::int64_t utime_us, bool explained,
             const std::optional<Eigen::Vector2d>& off_rad);
-  // Why a station is quarantined, as text; empty when it is not.
-  const std::string& quarantine(const std::string& station) const;
+  // Why a station is quarantined; empty when it is not.
+  const Alarm& quarantine(const std::string& station) const;
   void forget(const std::string& station) { stations_.erase(station); }
   void clear() { stations_.clear(); }
 
@@ -48,10 +50,10 @@ class PointingMonitor {
     double judged = 0.0;                     // unexplained ones that are near a target
     Eigen::Vector2d sum = Eigen::Vector2d::Zero();
     double squared = 0.0;
-    std::string quarantine;
+    Alarm quarantine;
   };
   void lapse(const std::string& station, std::int64_t utime_us);
-  void judge(Station& station) const;
+  void judge(const std::string& name, Station& station) const;
 
   PointingConfig config_;
   std::map<std::string, Station> stations_;

@@ -20,7 +20,7 @@ void UnassociatedMonitor::unexplained(const std::string& station, std::int64_t u
   span.to_us = std::max(span.to_us, utime_us);
 }
 
-std::string UnassociatedMonitor::alarm(const std::string& station, std::int64_t now_us) const {
+Alarm UnassociatedMonitor::alarm(const std::string& station, std::int64_t now_us) const {
   const auto found = stations_.find(station);
   if (found == stations_.end()) return {};
   const Span& span = found->second;

@@ -8,6 +8,8 @@
 #include <map>
 #include <string>
 
+#include "conditions/alarm.h"
+
 namespace ols::fusion {
 
 struct UnassociatedConfig {
@@ -22,8 +24,8 @@ class UnassociatedMonitor {
   void unexplained(const std::string& station, std::int64_t utime_us);
   // A bearing that a target explains, or that cannot be compared because there is no target.
   void explained(const std::string& station) { stations_.erase(station); }
-  // The alarm for a station, as text; empty: none. now_us: the fusion's time.
-  std::string alarm(const std::string& station, std::int64_t now_us) const;
+  // The alarm for a station; empty: none. now_us: the fusion's time.
+  Alarm alarm(const std::string& station, std::int64_t now_us) const;
   void forget(const std::string& station) { stations_.erase(station); }
   void clear() { stations_.clear(); }
 

@@ -86,7 +86,7 @@ void FusionBus::forget_sequences() {
   sequences_.clear();
 }
 
-std::vector<std::string> FusionBus::alarms() const { return monitor_.alarms(clock_monotonic_s()); }
+std::vector<Alarm> FusionBus::alarms() const { return monitor_.alarms(clock_monotonic_s()); }
 
 void FusionBus::count(std::map<std::string, double>& counters) const {
   counters["messages_not_sent"] = static_cast<double>(not_sent_);

@@ -13,6 +13,7 @@
 #include "base/bus/bus_connector.h"
 #include "base/bus/bus_monitor.h"
 #include "central/app/messages.h"
+#include "conditions/alarm.h"
 
 namespace ols::fusion {
 
@@ -46,7 +47,7 @@ class FusionBus {
   bool is_connected() const { return bus_ != nullptr; }
   const std::string& trouble() const { return trouble_; }
   // Alarms about the traffic.
-  std::vector<std::string> alarms() const;
+  std::vector<Alarm> alarms() const;
   void count(std::map<std::string, double>& counters) const;
 
  private:

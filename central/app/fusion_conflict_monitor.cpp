@@ -18,7 +18,7 @@ bool FusionConflictMonitor::hear(std::int64_t boot_id, double now_s) {
   return true;
 }
 
-std::string FusionConflictMonitor::alarm(double now_s) const {
+Alarm FusionConflictMonitor::alarm(double now_s) const {
   if (now_s - heard_s_ > kSilent_s) return {};
   return alarm::another_fusion();
 }

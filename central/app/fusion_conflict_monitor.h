@@ -5,6 +5,8 @@
 #include <limits>
 #include <string>
 
+#include "conditions/alarm.h"
+
 namespace ols::fusion {
 
 class FusionConflictMonitor {
@@ -15,7 +17,7 @@ class FusionConflictMonitor {
   // is another fusion's.
   bool hear(std::int64_t boot_id, double now_s);
   // The alarm, while another fusion was heard within the last seconds; empty otherwise.
-  std::string alarm(double now_s) const;
+  Alarm alarm(double now_s) const;
   // True once, when such a conflict begins.
   bool take_event();
 

@@ -76,7 +76,7 @@ std::string FusionProcess::in_one_line() const {
   for (const StationHealth& station : health.stations) {
     if (!station.quarantine.empty()) line += "; " + station.station + " quarantined";
   }
-  if (!health.alarms.empty()) line += "; " + health.alarms.front();
+  if (!health.alarms.empty()) line += "; " + health.alarms.front().text;
   const std::string& error = errors_.last.empty() ? health.last_error : errors_.last;
   if (!error.empty()) line += "; last error: " + error;
   return line;
@@ -234,9 +234,9 @@ FusionHealth FusionProcess::watched_health() const {
   FusionHealth health = fusion_.health(present_us());
   health.counters.insert(counters_.begin(), counters_.end());
   bus_.count(health.counters);
-  std::vector<std::string> alarms{present_.alarm(now_s), others_.alarm(now_s)};
+  std::vector<Alarm> alarms{present_.alarm(now_s), others_.alarm(now_s)};
   std::ranges::move(bus_.alarms(), std::back_inserter(alarms));
-  for (const std::string& alarm : alarms) {
+  for (const Alarm& alarm : alarms) {
     if (!alarm.empty()) health.alarms.insert(health.alarms.begin(), alarm);
   }
   return health;

@@ -10,7 +10,7 @@
 #include "base/bus/message_stamp.h"
 #include "base/text/plain_text.h"
 #include "central/admission/bearing_check.h"
-#include "conditions/alarm.h"
+#include "conditions/alarms.h"
 #include "geometry/angles.h"
 #include "geometry/wgs84.h"
 #include "ols_msg/bearing_t.hpp"
@@ -331,7 +331,7 @@ ols_msg::fusion_status_t to_message(const FusionHealth& health, double latency_s
     message.age_s.push_back(station.age_s);
     message.residual.push_back(station.residual);
     message.clock_offset_s.push_back(station.clock_offset_s);
-    message.quarantine.push_back(station.quarantine);
+    message.quarantine.push_back(station.quarantine.reason());
     const StationBiasReport& found = station.finding;
     message.bias_rad.push_back({found.bias_rad.x(), found.bias_rad.y()});
     message.bias_sd_rad.push_back({found.bias_sd_rad.x(), found.bias_sd_rad.y()});
@@ -347,12 +347,12 @@ ols_msg::fusion_status_t to_message(const FusionHealth& health, double latency_s
     message.counter_name.push_back(name);
     message.counter_value.push_back(value);
   }
-  std::vector<std::string> alarms = health.alarms;
+  std::vector<Alarm> alarms = health.alarms;
   if (alarms.size() > kAlarms) {
     alarms.resize(kAlarms);
-    alarms.push_back("and " + std::to_string(health.alarms.size() - kAlarms) + " more alarms");
+    alarms.push_back(alarm::more_alarms(health.alarms.size() - kAlarms));
   }
-  set_alarms(std::move(alarms), message);
+  set_alarms(alarms, message);
   message.last_error = health.last_error.substr(0, kLongestError);
   return message;
 }

@@ -25,7 +25,7 @@ bool TimelinessGate::passes(std::int64_t utime_us, std::int64_t host_us, double 
   return false;
 }
 
-std::string TimelinessGate::alarm(double now_s) const {
+Alarm TimelinessGate::alarm(double now_s) const {
   if (now_s - withheld_s_ > kTold_s) return {};
   if (waited_s_ > kLoad * std::abs(off_s_)) return alarm::withheld_overload(waited_s_);
   return alarm::withheld_time(off_s_);

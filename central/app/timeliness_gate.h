@@ -7,6 +7,8 @@
 #include <limits>
 #include <string>
 
+#include "conditions/alarm.h"
+
 namespace ols::fusion {
 
 class TimelinessGate {
@@ -18,7 +20,7 @@ class TimelinessGate {
   // waited_s: how long the message that caused the output waited from arrival to processing.
   bool passes(std::int64_t utime_us, std::int64_t host_us, double now_s, double waited_s);
   // The alarm, while output was withheld within the last seconds; empty otherwise.
-  std::string alarm(double now_s) const;
+  Alarm alarm(double now_s) const;
   // True once, when output begins to be withheld.
   bool take_event();
 

@@ -86,12 +86,11 @@ FusionHealth health_of(const Admission& admission, const PointingMonitor& pointi
     const auto found = findings.by_station.find(name);
     if (found != findings.by_station.end()) one.finding = found->second;
     one.calibration = station.traits.calibration;
-    const std::string doubt =
+    const Alarm doubt =
         calibration_alarm(name, one.calibration, {one.finding.bias_rad, one.finding.stated_sd_rad});
     if (!doubt.empty()) health.alarms.push_back(doubt);
-    const std::string alarm = one.quarantine.empty()
-                                  ? unassociated.alarm(name, health.now_us)
-                                  : "station " + name + ": not used, " + one.quarantine;
+    const Alarm alarm =
+        one.quarantine.empty() ? unassociated.alarm(name, health.now_us) : one.quarantine;
     if (!alarm.empty()) health.alarms.push_back(alarm);
     health.stations.push_back(std::move(one));
   }

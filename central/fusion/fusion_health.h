@@ -13,6 +13,7 @@
 #include "central/admission/unassociated_monitor.h"
 #include "central/cues/cue_registry.h"
 #include "central/tracking/track_manager.h"
+#include "conditions/alarm.h"
 
 namespace ols::fusion {
 
@@ -33,7 +34,7 @@ struct StationHealth {
   double age_s = 0.0;           // "now" minus its newest stamp
   double residual = 0.0;        // recent, RMS normalised; NaN if none
   double clock_offset_s = 0.0;  // of its stamps from the median; NaN if none
-  std::string quarantine{};     // why its bearings are not used; empty: they are
+  Alarm quarantine{};           // why its bearings are not used; empty: they are
   StationBiasReport finding{};
   StatedCalibration calibration{};
 };
@@ -42,7 +43,7 @@ struct FusionHealth {
   std::int64_t now_us = 0;
   std::vector<StationHealth> stations;     // in the order of their ids
   std::map<std::string, double> counters;  // they only increase
-  std::vector<std::string> alarms;         // current ones, as text
+  std::vector<Alarm> alarms;               // current ones
   std::string last_error;
   std::vector<CueHealth> cues{};  // in the order of their ids
 };

@@ -16,7 +16,8 @@ std::size_t size_of(const Moment& moment) {
 Json mark_of(const Json& event, const Json& kind, const Json& utime_us) {
   return {{"utime_us", utime_us},           {"kind", kind},
           {"station", event.at("station")}, {"who", event.at("who")},
-          {"text", event.at("text")},       {"outcome", event.at("outcome")}};
+          {"text", event.at("text")},       {"alarm", event.at("alarm")},
+          {"outcome", event.at("outcome")}};
 }
 
 // An alarm that has come back within a minute is the same event.

@@ -9,6 +9,7 @@ import math
 import re
 import subprocess
 import sys
+import tomllib
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -16,8 +17,8 @@ from pathlib import Path
 import lcm
 
 EXPOSURE_LIMIT = 1.9
-EVENT_IDS = (Path(__file__).parents[2] / "base/journal/event_ids.h").read_text()
-ALARM_BEGINS = "MESSAGE_ID=" + re.search(r'kStationAlarmBegins = "(\w+)"', EVENT_IDS)[1]
+EVENTS = tomllib.loads((Path(__file__).parents[2] / "conditions/events.toml").read_text())
+ALARM_BEGINS = "MESSAGE_ID=" + EVENTS["StationAlarmBegins"]["id"]
 UNCONFINED = {"ols-station-restart.service"}  # installs packages
 
 

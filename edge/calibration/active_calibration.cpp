@@ -48,9 +48,9 @@ std::string ActiveCalibration::conflict(const CalibrationFiles& files,
   return same ? "" : "the unit has another number of counts per turn";
 }
 
-std::vector<std::string> ActiveCalibration::other_devices(
+std::vector<Alarm> ActiveCalibration::other_devices(
     const InstrumentSerials& configured, const std::vector<device::DeviceReport>& devices) {
-  std::vector<std::string> alarms;
+  std::vector<Alarm> alarms;
   for (const device::DeviceReport& device : devices) {
     if (other_serial(configured, device).empty()) continue;
     const std::string& there = device.name == "camera" ? configured.camera : configured.ptu;
@@ -91,7 +91,7 @@ CalibrationStatus ActiveCalibration::status() const {
   return {CalibrationState::kInUse, files_->id, files_->observed_utime_us, files_->rms_rad};
 }
 
-std::vector<std::string> ActiveCalibration::alarms() const {
+std::vector<Alarm> ActiveCalibration::alarms() const {
   if (refused_.empty()) return {};
   return {alarm::calibration_not_used(refused_)};
 }

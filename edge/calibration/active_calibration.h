@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "conditions/alarm.h"
 #include "edge/calibration/calibration_folder.h"
 #include "edge/calibration/calibration_status.h"
 #include "edge/device/device_report.h"
@@ -36,14 +37,14 @@ class ActiveCalibration {
                               const PanTilt& count_rad);
   // One sentence for each device whose serial number is not the configured one. An instrument gets
   // the configured serial numbers.
-  static std::vector<std::string> other_devices(const InstrumentSerials& configured,
-                                                const std::vector<device::DeviceReport>& devices);
+  static std::vector<Alarm> other_devices(const InstrumentSerials& configured,
+                                          const std::vector<device::DeviceReport>& devices);
   // Works with these files from now on: settings() changes.
   void adopt(const CalibrationFiles& files);
 
   CalibrationStatus status() const;
   // Why the calibration is not used, and what to do; empty: nothing to report.
-  std::vector<std::string> alarms() const;
+  std::vector<Alarm> alarms() const;
 
  private:
   void read();

@@ -1,16 +1,22 @@
-// Why a camera cannot be used: an alarm as text (conditions/alarms.h).
+// Why a camera cannot be used.
 #pragma once
 
 #include <stdexcept>
 
+#include "conditions/alarm.h"
+
 namespace ols::camera {
 
-struct CameraAbsent : std::runtime_error {
-  using std::runtime_error::runtime_error;
+struct CameraError : std::runtime_error {
+  explicit CameraError(const Alarm& why) : std::runtime_error(why.text), alarm(why) {}
+  Alarm alarm;
+};
+struct CameraAbsent : CameraError {
+  using CameraError::CameraError;
 };
 // Found, but it does not accept the configuration.
-struct CameraUnfit : std::runtime_error {
-  using std::runtime_error::runtime_error;
+struct CameraUnfit : CameraError {
+  using CameraError::CameraError;
 };
 
 }  // namespace ols::camera

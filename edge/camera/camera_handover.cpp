@@ -68,7 +68,7 @@ void CameraHandover::publish(Frame frame, std::uint64_t lost, const FrameStatist
     note_statistics(lost, statistics);
     ++facts_.counters.frames_captured;
     facts_.state = CameraState::kStreaming;
-    facts_.fault.clear();
+    facts_.fault = {};
     facts_.last_frame_s = clock_monotonic_s();
     facts_.stamp_source = frame.stamp_source;
     facts_.stamp_sd_s = frame.stamp_sd_s;
@@ -96,13 +96,13 @@ void CameraHandover::note_refused(const std::string& why, std::uint64_t lost,
   note_trouble(why);
 }
 
-void CameraHandover::note_failure(CameraState state, const std::string& what) {
+void CameraHandover::note_failure(CameraState state, const Alarm& failure) {
   const std::lock_guard lock(mutex_);
   facts_.state = state;
-  facts_.fault = state == CameraState::kFault ? what : "";
+  facts_.fault = state == CameraState::kFault ? failure : Alarm();
   facts_.frame_rate_hz = 0.0;
   facts_.incomplete_share = 0.0;
-  note_trouble(what);
+  note_trouble(failure.reason());
 }
 
 void CameraHandover::note_trouble(const std::string& what) {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "conditions/alarm.h"
 #include "edge/camera/camera_report.h"
 #include "edge/camera/frame.h"
 #include "edge/camera/frame_statistics.h"
@@ -42,7 +43,7 @@ class CameraHandover {
   // A complete frame that is not as configured.
   void note_refused(const std::string& why, std::uint64_t lost, const FrameStatistics& statistics);
   // The camera is lost, or cannot be opened.
-  void note_failure(CameraState state, const std::string& what);
+  void note_failure(CameraState state, const Alarm& failure);
 
  private:
   void note_trouble(const std::string& what);                                   // the lock is held

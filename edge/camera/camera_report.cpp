@@ -5,7 +5,6 @@
 #include <cstdio>
 #include <string_view>
 
-#include "conditions/alarm.h"
 #include "conditions/alarms.h"
 
 namespace ols::camera {
@@ -38,7 +37,7 @@ device::DeviceState device_state(CameraState state) {
   return device::DeviceState::kFault;
 }
 
-std::string alarm_of(PtpState state) {
+Alarm alarm_of(PtpState state) {
   switch (state) {
     case PtpState::kSyncing:
       return alarm::ptp_not_yet();
@@ -62,14 +61,14 @@ std::optional<double> silence_s(const CameraConfig& config, const CameraFacts& f
 }
 
 void add_alarms(const CameraConfig& config, const CameraFacts& facts, double now_s,
-                std::vector<std::string>& alarms) {
+                std::vector<Alarm>& alarms) {
   const bool is_open = facts.state == CameraState::kStreaming;
   const auto silent_s = silence_s(config, facts, now_s, is_open ? kAlarmingSilence_s : kSilence_s);
   if (!facts.fault.empty()) alarms.push_back(facts.fault);
   if (silent_s) {
     const bool waits = !is_timed(config.trigger) && facts.state != CameraState::kAbsent;
-    alarms.push_back(alarm::camera_no_frames(*silent_s) +
-                     (waits ? ", it is waiting for a trigger" : ""));
+    alarms.push_back(waits ? alarm::camera_no_trigger(*silent_s)
+                           : alarm::camera_no_frames(*silent_s));
   } else if (facts.state == CameraState::kAbsent) {
     alarms.push_back(alarm::camera_silent());
   }
@@ -94,7 +93,7 @@ device::DeviceReport make_camera_report(const CameraConfig& config, const Camera
   report.text += config.pixel_format + " " + std::to_string(config.width_px) + "x" +
                  std::to_string(config.height_px) + words(", %.1f Hz", facts.frame_rate_hz);
   if (facts.state != CameraState::kStreaming && !facts.last_error.empty())
-    report.text = said_behind("camera: ", facts.last_error);
+    report.text = facts.last_error;
   report.serial = facts.serial;
   report.last_good_s = facts.last_frame_s;
   report.last_error = facts.last_error;
@@ -104,7 +103,7 @@ device::DeviceReport make_camera_report(const CameraConfig& config, const Camera
   const auto silent_s = silence_s(config, facts, now_s);
   if (report.state == device::DeviceState::kOk && is_timed(config.trigger) && silent_s) {
     report.state = device::DeviceState::kFault;
-    report.text = said_behind("camera: ", alarm::camera_no_frames(*silent_s));
+    report.text = alarm::camera_no_frames(*silent_s).reason();
   }
   report.readings = {{"camera_exposure_us", facts.exposure.exposure_us},
                      {"camera_gain_dB", facts.exposure.gain_dB},

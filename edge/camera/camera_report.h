@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "conditions/alarm.h"
 #include "edge/camera/camera_config.h"
 #include "edge/camera/exposure.h"
 #include "edge/camera/frame.h"
@@ -38,7 +39,7 @@ struct CameraFacts {
 
   std::string identity;                // "AVT GT1290C 1234"; empty before the first opening
   std::string serial;                  // as the camera says it
-  std::string fault;                   // its alarm; empty: no fault
+  Alarm fault;                         // empty: no fault
   std::optional<double> last_frame_s;  // CLOCK_MONOTONIC of the last complete frame's arrival
   std::optional<double> opened_s;      // of the last opening
   double frame_rate_hz = 0.0;          // recent

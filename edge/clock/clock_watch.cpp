@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdio>
 
-#include "conditions/alarm.h"
 #include "conditions/alarms.h"
 
 namespace ols::clock {
@@ -34,8 +33,8 @@ std::string format(double seconds) {
   return text;
 }
 
-ClockQuality alarmed(ClockQuality quality, const std::string& alarm) {
-  quality.text = said_behind(": ", alarm);
+ClockQuality alarmed(ClockQuality quality, const Alarm& alarm) {
+  quality.text = alarm.reason();
   quality.alarm = alarm;
   return quality;
 }

@@ -23,6 +23,8 @@
 #include <optional>
 #include <string>
 
+#include "conditions/alarm.h"
+
 namespace ols::clock {
 
 // The values are those of bearing_t.
@@ -49,7 +51,7 @@ struct ClockQuality {
   std::uint64_t steps = 0;  // of CLOCK_REALTIME against CLOCK_MONOTONIC
   double last_step_s = 0.0;
   std::string text;                    // for people
-  std::string alarm;                   // a current condition: "clock: stepped by ..."; empty: none
+  Alarm alarm;                         // a current condition; empty: none
   std::optional<double> offset_s;      // of the last reading
   std::optional<int> tai_minus_utc_s;  // of the last reading
 };

@@ -1,5 +1,7 @@
 #include "edge/command/refusal_log.h"
 
+#include "conditions/refusal.h"
+
 namespace ols::station {
 
 void RefusalLog::note(const std::string& what) {
@@ -14,7 +16,7 @@ void RefusalLog::count(const std::string& why) {
 
 void RefusalLog::refuse(const std::string& kind, const std::string& why) {
   count(why);
-  note(kind + " refused: " + why);
+  note(refused_in_words(kind, why));
 }
 
 // The next slew takes the place of one that came late: only many of them are worth a word.

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "conditions/alarm.h"
 #include "edge/command/refusal_monitor.h"
 
 namespace ols::station {
@@ -21,7 +22,7 @@ class RefusalLog {
 
   const std::string& last() const { return last_; }
   std::uint64_t number() const { return number_; }
-  std::vector<std::string> alarms(double now_s) const { return at_gate_.alarms(now_s); }
+  std::vector<Alarm> alarms(double now_s) const { return at_gate_.alarms(now_s); }
   const std::map<std::string, double>& counters() const { return counters_; }
 
  private:

@@ -18,9 +18,9 @@ void RefusalMonitor::note(const std::string& kind, const std::string& why, doubl
   ++second.count;
 }
 
-std::vector<std::string> RefusalMonitor::alarms(double now_s) const {
+std::vector<Alarm> RefusalMonitor::alarms(double now_s) const {
   const auto second_s = static_cast<std::int64_t>(std::floor(now_s));
-  std::vector<std::string> alarms;
+  std::vector<Alarm> alarms;
   for (const auto& [what, seconds] : refused_) {
     std::uint64_t count = 0;
     for (const Second& second : seconds) {

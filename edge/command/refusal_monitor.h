@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "conditions/alarm.h"
+
 namespace ols::station {
 
 class RefusalMonitor {
@@ -17,7 +19,7 @@ class RefusalMonitor {
   // One command of this kind ("slews") was refused. Kinds and reasons come from short fixed lists.
   void note(const std::string& kind, const std::string& why, double now_s);
   // "commands: 12 slews refused in 10 s: replayed", for each kind and reason with three or more.
-  std::vector<std::string> alarms(double now_s) const;
+  std::vector<Alarm> alarms(double now_s) const;
 
  private:
   static constexpr std::size_t kSpan_s = 10;

@@ -201,7 +201,7 @@ void SlewSearch::end_trial(double time_s) {
   in_view_.own_from_s = time_s;
 }
 
-std::string SlewSearch::unacquired_alarm(const Slew& slew) const {
+Alarm SlewSearch::unacquired_alarm(const Slew& slew) const {
   const double waited_s = in_view_.to_s - in_view_.from_s;
   if (!slew || slew->searches_line() || waited_s < config_.unacquired_alarm_s) return {};
   const double sd_px = slew->direction_sd_rad * config_.geometry.camera.fx_px;

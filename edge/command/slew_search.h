@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 
+#include "conditions/alarm.h"
 #include "edge/camera/frame.h"
 #include "edge/detector/detector_work.h"
 #include "edge/frames/pointing_model.h"
@@ -62,7 +63,7 @@ class SlewSearch {
   void end_trial(double time_s);
 
   // The alarm about a slew to a place that is known well enough to be in the image; empty: none.
-  std::string unacquired_alarm(const Slew& slew) const;
+  Alarm unacquired_alarm(const Slew& slew) const;
   const std::map<std::string, double>& counters() const { return counters_; }
 
  private:

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "conditions/alarm.h"
+
 namespace ols::device {
 
 // The values are those of station_status_t.
@@ -29,7 +31,7 @@ struct DeviceReport {
   std::string last_error;    // the last error as text; empty: none yet
   std::uint64_t errors = 0;  // so far; a new error may have the text of an old one
 
-  std::vector<std::string> alarms;         // conditions that hold now, as text
+  std::vector<Alarm> alarms;               // conditions that hold now
   std::map<std::string, double> readings;  // may fall; the name ends with the unit: ptu_supply_V
   std::map<std::string, std::uint64_t> counters;  // only rise; the name begins with the device
 };

@@ -10,6 +10,7 @@
 #include <string>
 #include <thread>
 
+#include "conditions/alarm.h"
 #include "edge/device/device_report.h"
 
 namespace ols::device {
@@ -22,7 +23,7 @@ class DeviceThread {
     double first_pause_s = 0.2;  // before the device is reopened; doubles with each failure
     double max_pause_s = 5.0;
     // Makes an alarm of a failure; null: its owner does.
-    std::string (*alarm)(const std::string& failure) = nullptr;
+    Alarm (*alarm)(const std::string& failure) = nullptr;
   };
   // Opens the device, calls opened() and serves the device until the stop is requested. Throws
   // std::exception when the device fails. A session that returns is started again at once.

@@ -6,6 +6,7 @@
 #include "base/journal/journal.h"
 #include "base/process/clocks.h"
 #include "conditions/alarms.h"
+#include "conditions/refusal.h"
 
 namespace ols::station {
 namespace {
@@ -250,7 +251,7 @@ StationBus::Verdict StationBus::want_frame(const ols_msg::frame_request_t& messa
 
 StationBus::Verdict StationBus::verdict(const std::string& kind, Refusal refusal) {
   if (refusal == Refusal::kNone) return {};
-  refused_.note(kind + " refused: " + to_string(refusal));
+  refused_.note(refused_in_words(kind, to_string(refusal)));
   return {.reason = to_string(refusal)};
 }
 
@@ -275,9 +276,9 @@ void StationBus::receive() {
   }
 }
 
-std::vector<std::string> StationBus::alarms() const {
+std::vector<Alarm> StationBus::alarms() const {
   auto alarms = refused_.alarms(now_s_);
-  for (std::string& alarm : monitor_.alarms(now_s_)) alarms.push_back(std::move(alarm));
+  for (Alarm& alarm : monitor_.alarms(now_s_)) alarms.push_back(std::move(alarm));
   const std::int64_t newest = connector_.site_settings_number();
   if (newest > settings_.site.number) {
     alarms.push_back(alarm::site_settings_wait(newest));

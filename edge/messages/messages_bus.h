@@ -18,6 +18,7 @@
 #include "base/bus/bus_connector.h"
 #include "base/bus/bus_monitor.h"
 #include "base/trust/rate_limit.h"
+#include "conditions/alarm.h"
 #include "edge/clock/clock_pair.h"
 #include "edge/command/command_turn.h"
 #include "edge/command/refusal_log.h"
@@ -63,7 +64,7 @@ class StationBus {
   std::uint64_t refusals() const { return refused_.number(); }
   // Conditions of the bus for a person: commands that are repeatedly refused as not fresh, invalid
   // datagrams, newer settings of the site.
-  std::vector<std::string> alarms() const;
+  std::vector<Alarm> alarms() const;
   // Messages refused before they reached the station, and messages not sent. Part of each status.
   std::map<std::string, double> counters() const;
 

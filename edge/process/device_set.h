@@ -24,8 +24,8 @@ namespace ols::station {
 using OpenGpio = std::function<std::unique_ptr<gpio::GpioHandover>(gpio::GpioHandover::OnStop,
                                                                    gpio::GpioHandover::OnRearm)>;
 
-// What turns and sees, and measures where it stands and how level.
-struct Head {
+// The devices that the configuration chooses, and in whose place a simulation has its own.
+struct ChosenDevices {
   std::unique_ptr<lens::LensHandover> lens;             // null: none is configured
   std::unique_ptr<sensors::Inclinometer> inclinometer;  // likewise
   std::unique_ptr<sensors::Gnss> gnss;                  // likewise
@@ -34,21 +34,20 @@ struct Head {
   std::unique_ptr<mount::Mount> mount;
   OpenGpio open_gpio;  // likewise null; calls back from its own thread
 };
-using OpenHead = std::function<Head(const StationSettings&)>;
-// Of the kinds that are configured.
-Head configured_head(const StationSettings& settings);
+using OpenDevices = std::function<ChosenDevices(const StationSettings&)>;
+ChosenDevices open_chosen_devices(const StationSettings& settings);
 
 class DeviceSet {
  public:
-  DeviceSet(const StationSettings& settings, std::int64_t boot_id, Head head);
+  DeviceSet(const StationSettings& settings, std::int64_t boot_id, ChosenDevices chosen);
   DeviceSet(const DeviceSet&) = delete;
   DeviceSet& operator=(const DeviceSet&) = delete;
 
-  camera::Camera& camera() { return *head_.camera; }
-  mount::Mount& mount() { return *head_.mount; }
+  camera::Camera& camera() { return *chosen_.camera; }
+  mount::Mount& mount() { return *chosen_.mount; }
   // Null if not configured.
   gpio::GpioHandover* gpio() { return gpio_.get(); }
-  lens::LensHandover* lens() { return head_.lens.get(); }
+  lens::LensHandover* lens() { return chosen_.lens.get(); }
   std::optional<recorder::Recorder>& recorder() { return recorder_; }
   std::optional<video::VideoServer>& video() { return video_; }
   StopLatch& stop() { return stop_; }
@@ -70,7 +69,7 @@ class DeviceSet {
   std::optional<recorder::Recorder> recorder_;
   std::optional<video::VideoServer> video_;
   // The GPIO thread uses the mount and is destroyed first.
-  Head head_;
+  ChosenDevices chosen_;
   std::unique_ptr<gpio::GpioHandover> gpio_;
 };
 

@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "conditions/alarm.h"
+
 namespace ols::station {
 
 struct HostConfig {
@@ -24,7 +26,7 @@ struct HostConfig {
 
 struct HostReport {
   std::map<std::string, double> readings;
-  std::vector<std::string> alarms;
+  std::vector<Alarm> alarms;
 };
 
 // A value that cannot be read is nullopt.

@@ -35,12 +35,12 @@ std::optional<sensors::StationPose> KeptPose::look(DeviceSet& devices, double no
   return estimator_.pose(now_s);
 }
 
-std::vector<std::string> KeptPose::alarms(double now_s) const {
+std::vector<Alarm> KeptPose::alarms(double now_s) const {
   auto alarms = estimator_.alarms(now_s);
   if (estimator_.pose(now_s).position_source == sensors::PoseSource::kNone) {
     alarms.push_back(alarm::no_position());
   }
-  if (const std::string trouble = store_.trouble(); !trouble.empty()) {
+  if (const Alarm trouble = store_.trouble(); !trouble.empty()) {
     alarms.push_back(trouble);
   }
   return alarms;

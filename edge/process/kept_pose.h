@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "conditions/alarm.h"
 #include "edge/config/config.h"
 #include "edge/process/device_set.h"
 #include "edge/process/pose_store.h"
@@ -21,7 +22,7 @@ class KeptPose {
   sensors::StationPose pose(double now_s) const { return estimator_.pose(now_s); }
   // Call in every turn. Returns the pose when it is due. Does not wait for the disk.
   std::optional<sensors::StationPose> look(DeviceSet& devices, double now_s);
-  std::vector<std::string> alarms(double now_s) const;
+  std::vector<Alarm> alarms(double now_s) const;
 
  private:
   sensors::PoseEstimator estimator_;

@@ -42,14 +42,14 @@ void PoseStore::keep(sensors::PersistedPose pose) {
   if (!pose.position && !pose.tilt) return;
   if (!pose.position) pose.position = found_.position;
   if (!pose.tilt) pose.tilt = found_.tilt;
-  refused_.clear();
+  refused_ = {};
   file_.write(to_text(pose));
 }
 
-std::string PoseStore::trouble() const {
+Alarm PoseStore::trouble() const {
   if (!refused_.empty()) return refused_;
   const std::string failed = file_.trouble();
-  return failed.empty() ? "" : alarm::pose_unsaved(failed);
+  return failed.empty() ? Alarm() : alarm::pose_unsaved(failed);
 }
 
 }  // namespace ols::station

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "base/files/background_file.h"
+#include "conditions/alarm.h"
 #include "edge/sensors/persisted_pose.h"
 
 namespace ols::station {
@@ -19,12 +20,12 @@ class PoseStore {
   const sensors::PersistedPose& found() const { return found_; }
   // Writes soon, without waiting for the disk. A missing part keeps its persisted value.
   void keep(sensors::PersistedPose pose);
-  // As text; empty: no trouble.
-  std::string trouble() const;
+  // Empty: no trouble.
+  Alarm trouble() const;
 
  private:
   sensors::PersistedPose found_;
-  std::string refused_;  // why; cleared when a pose is saved
+  Alarm refused_;  // cleared when a pose is saved
   BackgroundFile file_;
 };
 

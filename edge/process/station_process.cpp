@@ -54,7 +54,7 @@ StationProcess::StationProcess(const StationSettings& configured, std::int64_t b
       host_(settings().host),
       persisted_(settings().state_folder, settings().id, settings().gpio.has_stop()),
       journal_(settings().id, write_to_journal),
-      devices_(settings(), boot_id, outside.open_head(settings())),
+      devices_(settings(), boot_id, outside.open_devices(settings())),
       frames_(settings().station.angles) {
   const DetectionConfig& detection = settings().station.detection;
   if (detection.enabled) detector_.emplace(detection.detector);
@@ -293,13 +293,12 @@ StationReport StationProcess::report(const clock::ClockPair& now) {
   if (report.snapshot.motion_disagrees) {
     report.alarms.push_back(alarm::ptu_contradicts_image());
   }
-  for (const std::string& alarm : calibration_.alarms()) report.alarms.push_back(alarm);
-  for (const std::string& alarm :
-       ActiveCalibration::other_devices(settings().serials, report.devices)) {
+  for (const Alarm& alarm : calibration_.alarms()) report.alarms.push_back(alarm);
+  for (const Alarm& alarm : ActiveCalibration::other_devices(settings().serials, report.devices)) {
     report.alarms.push_back(alarm);
   }
-  for (const std::string& alarm : persisted_.alarms()) report.alarms.push_back(alarm);
-  for (const std::string& alarm : bus_.alarms()) report.alarms.push_back(alarm);
+  for (const Alarm& alarm : persisted_.alarms()) report.alarms.push_back(alarm);
+  for (const Alarm& alarm : bus_.alarms()) report.alarms.push_back(alarm);
   add_pose_and_clock(now.monotonic_s, report);
   add_host(now.monotonic_s, report);
   journal_.note(now, {settings().lcm_url, bus_.trouble(), bus_.last_refusal(), bus_.refusals()},
@@ -330,7 +329,7 @@ device::DeviceReport StationProcess::software() const {
   return report;
 }
 
-std::string StationProcess::emergency_alarm() const {
+Alarm StationProcess::emergency_alarm() const {
   if (devices_.stop().pressed()) return alarm::emergency_stop_pressed();
   const gpio::GpioConfig& gpio = settings().gpio;
   std::string how =
@@ -341,7 +340,7 @@ std::string StationProcess::emergency_alarm() const {
 }
 
 void StationProcess::add_pose_and_clock(double now_s, StationReport& report) const {
-  for (const std::string& alarm : pose_->alarms(now_s)) report.alarms.push_back(alarm);
+  for (const Alarm& alarm : pose_->alarms(now_s)) report.alarms.push_back(alarm);
   const clock::ClockQuality clock = clock_.quality(now_s);
   if (!clock.alarm.empty()) report.alarms.push_back(clock.alarm);
   report.counters["clock_steps"] = static_cast<double>(clock.steps);

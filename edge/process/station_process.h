@@ -7,7 +7,7 @@
 #include <string>
 
 #include "base/process/service_notifier.h"
-#include "edge/drift/calibration_supervisor.h"
+#include "edge/calibration/calibration_supervisor.h"
 #include "edge/frames/frame_desk.h"
 #include "edge/messages/messages_bus.h"
 #include "edge/process/detector_thread.h"
@@ -22,7 +22,7 @@ namespace ols::station {
 
 // What the process asks of its surroundings.
 struct Outside {
-  OpenHead open_head;
+  OpenDevices open_devices;
   TimeService time_service;
 };
 
@@ -30,7 +30,7 @@ class StationProcess {
  public:
   // Does not need a network or devices: retries those that are absent.
   StationProcess(const StationSettings& configured, std::int64_t boot_id,
-                 Outside outside = {configured_head, host_time_service()});
+                 Outside outside = {open_chosen_devices, host_time_service()});
 
   // Runs until `ends` returns true; notifies systemd. Ready after the first turn, whatever devices
   // are present.
@@ -59,7 +59,7 @@ class StationProcess {
   void send_reports(const clock::ClockPair& now);
   StationReport report(const clock::ClockPair& now);
   device::DeviceReport software() const;
-  std::string emergency_alarm() const;
+  Alarm emergency_alarm() const;
   void add_pose_and_clock(double now_s, StationReport& report) const;
   void add_host(double now_s, StationReport& report);
   void show(const StationReport& report);

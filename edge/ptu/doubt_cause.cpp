@@ -1,11 +1,10 @@
 #include "edge/ptu/doubt_cause.h"
 
-#include "conditions/alarm.h"
 #include "conditions/alarms.h"
 
 namespace ols::ptu {
 
-std::string alarm_of(PtuDoubtCause cause) {
+Alarm alarm_of(PtuDoubtCause cause) {
   switch (cause) {
     case PtuDoubtCause::kPowerCycle:
       return alarm::ptu_lost_power();
@@ -16,9 +15,9 @@ std::string alarm_of(PtuDoubtCause cause) {
     case PtuDoubtCause::kBeforeStart:
       return alarm::ptu_reference_in_doubt();
   }
-  return "";
+  return {};
 }
 
-std::string describe(PtuDoubtCause cause) { return said_behind(": ", alarm_of(cause)); }
+std::string describe(PtuDoubtCause cause) { return alarm_of(cause).reason(); }
 
 }  // namespace ols::ptu

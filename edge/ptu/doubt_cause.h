@@ -3,12 +3,14 @@
 
 #include <string>
 
+#include "conditions/alarm.h"
+
 namespace ols::ptu {
 
 enum class PtuDoubtCause { kPowerCycle, kLimitHit, kHomingInterrupted, kBeforeStart };
 // What is wrong and what to do about it.
-std::string alarm_of(PtuDoubtCause cause);
-// Its alarm without "ptu: ".
+Alarm alarm_of(PtuDoubtCause cause);
+// The reason of its alarm.
 std::string describe(PtuDoubtCause cause);
 
 }  // namespace ols::ptu

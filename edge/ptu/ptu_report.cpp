@@ -35,7 +35,7 @@ void add_alarms(const PtuConfig& config, const PtuStatus& status, double now_s,
   constexpr double kOld_s = 1.0;
   using device::DeviceState;
   const bool silent = !status.last_good_s || now_s - *status.last_good_s > kOld_s;
-  const auto raise = [&report](std::string alarm) { report.alarms.push_back(std::move(alarm)); };
+  const auto raise = [&report](Alarm alarm) { report.alarms.push_back(std::move(alarm)); };
   if (status.emergency) {
     raise(status.standing ? alarm::ptu_emergency_stop() : alarm::ptu_emergency_stop_moving());
   }

@@ -57,8 +57,8 @@ StationPose PoseEstimator::pose(double now_s) const {
   return pose;
 }
 
-std::vector<std::string> PoseEstimator::alarms(double now_s) const {
-  std::vector<std::string> alarms;
+std::vector<Alarm> PoseEstimator::alarms(double now_s) const {
+  std::vector<Alarm> alarms;
   impl_->position.add_alarms(alarms, now_s);
   impl_->tilt.add_alarms(alarms, now_s);
   return alarms;

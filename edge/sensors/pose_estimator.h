@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "conditions/alarm.h"
 #include "edge/sensors/gnss_reading.h"
 #include "edge/sensors/persisted_pose.h"
 #include "edge/sensors/tilt_reading.h"
@@ -75,7 +76,7 @@ class PoseEstimator {
 
   StationPose pose(double now_s) const;
   // The current conditions: "gnss: 103 m from the survey", "inclinometer: stuck".
-  std::vector<std::string> alarms(double now_s) const;
+  std::vector<Alarm> alarms(double now_s) const;
 
  private:
   struct Impl;

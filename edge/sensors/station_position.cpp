@@ -96,18 +96,19 @@ void StationPosition::fill(StationPose& pose, double now_s) const {
   pose.position_sd_enu_m = (kept->sd.cwiseAbs2().array() + grown_m2).sqrt();
 }
 
-std::string StationPosition::disagreement(double now_s) const {
+Alarm StationPosition::disagreement(double now_s) const {
   const std::string distance = format_length(place_->distance().norm());
-  std::string text =
-      config_.surveyed_position ? alarm::gnss_off_survey(distance) : alarm::gnss_off_kept(distance);
+  const bool surveyed = config_.surveyed_position.has_value();
   const double lasts_s = now_s - *place_->disagrees_since_s();
-  if (lasts_s >= config_.restation_s) {
-    text += " for " + format_time(lasts_s) + ": set up the station again";
+  if (lasts_s < config_.restation_s) {
+    return surveyed ? alarm::gnss_off_survey(distance) : alarm::gnss_off_kept(distance);
   }
-  return text;
+  const std::string time = format_time(lasts_s);
+  return surveyed ? alarm::gnss_off_survey_long(distance, time)
+                  : alarm::gnss_off_kept_long(distance, time);
 }
 
-void StationPosition::add_alarms(std::vector<std::string>& alarms, double now_s) const {
+void StationPosition::add_alarms(std::vector<Alarm>& alarms, double now_s) const {
   if (const auto moved_m = place_->moved()) {
     alarms.push_back(alarm::position_adopted(format_length(*moved_m)));
   }

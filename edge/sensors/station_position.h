@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "conditions/alarm.h"
 #include "edge/sensors/constant_estimator.h"
 #include "edge/sensors/persisted_pose.h"
 #include "edge/sensors/pose_estimator.h"
@@ -20,12 +21,12 @@ class StationPosition {
   bool is_from_sensor() const;
   void add(const GnssReading& reading);
   void fill(StationPose& pose, double now_s) const;
-  void add_alarms(std::vector<std::string>& alarms, double now_s) const;
+  void add_alarms(std::vector<Alarm>& alarms, double now_s) const;
 
  private:
   bool is_lost(double now_s) const;
   bool is_inconsistent(double now_s) const;
-  std::string disagreement(double now_s) const;
+  Alarm disagreement(double now_s) const;
 
   PoseEstimator::Config config_;
   std::optional<LocalFrame> frame_;            // of the survey, otherwise of the first antenna

@@ -91,7 +91,7 @@ void StationTilt::fill(StationPose& pose, double now_s) const {
   pose.tilt_sd_rad = std::sqrt(kept->sd.cwiseAbs2().maxCoeff() + grown_rad2);
 }
 
-void StationTilt::add_alarms(std::vector<std::string>& alarms, double now_s) const {
+void StationTilt::add_alarms(std::vector<Alarm>& alarms, double now_s) const {
   if (tilt_.resumed()) {
     alarms.push_back(alarm::tilt_restored(format_time(now_s - known_s_)));
   } else if (const auto moved_rad = tilt_.moved()) {
@@ -105,13 +105,15 @@ void StationTilt::add_alarms(std::vector<std::string>& alarms, double now_s) con
     alarms.push_back(alarm::inclinometer_stuck(format_time(now_s - changed_s_), consequence));
   } else if (is_inconsistent(now_s)) {
     const std::string angle = format_angle(tilt_.distance().norm());
-    std::string text =
-        config_.surveyed_tilt_rad ? alarm::tilt_off_survey(angle) : alarm::tilt_off_kept(angle);
+    const bool surveyed = config_.surveyed_tilt_rad.has_value();
     const double lasts_s = now_s - *tilt_.disagrees_since_s();
-    if (lasts_s >= config_.restation_s) {
-      text += " for " + format_time(lasts_s) + ": set up the station again";
+    if (lasts_s < config_.restation_s) {
+      alarms.push_back(surveyed ? alarm::tilt_off_survey(angle) : alarm::tilt_off_kept(angle));
+    } else {
+      const std::string time = format_time(lasts_s);
+      alarms.push_back(surveyed ? alarm::tilt_off_survey_long(angle, time)
+                                : alarm::tilt_off_kept_long(angle, time));
     }
-    alarms.push_back(text);
   }
 }
 

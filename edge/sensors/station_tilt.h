@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "conditions/alarm.h"
 #include "edge/sensors/constant_estimator.h"
 #include "edge/sensors/persisted_pose.h"
 #include "edge/sensors/pose_estimator.h"
@@ -20,7 +21,7 @@ class StationTilt {
   bool is_from_sensor() const;
   void add(const TiltReading& reading);
   void fill(StationPose& pose, double now_s) const;
-  void add_alarms(std::vector<std::string>& alarms, double now_s) const;
+  void add_alarms(std::vector<Alarm>& alarms, double now_s) const;
 
  private:
   bool is_stuck(double time_s) const;

@@ -32,8 +32,8 @@ void FaultLog::note_event(const std::string& source, const std::string& what, st
   last = {what, number, utime_us};
 }
 
-void FaultLog::note_alarms(const std::vector<std::string>& alarms, std::int64_t utime_us) {
-  for (const AlarmChanges::Change& change : alarms_.look(alarms_of(alarms))) {
+void FaultLog::note_alarms(const std::vector<Alarm>& alarms, std::int64_t utime_us) {
+  for (const AlarmChanges::Change& change : alarms_.look(alarms)) {
     news_.push_back({change.key, station_alarm_event(change.alarm, change.begins)});
     if (!change.begins) continue;
     text_ = change.alarm.text;

@@ -10,6 +10,7 @@
 
 #include "base/journal/alarm_changes.h"
 #include "base/journal/journal_rate_limit.h"
+#include "conditions/alarm.h"
 
 namespace ols::station {
 
@@ -30,7 +31,7 @@ class FaultLog {
   }
   // The present alarms. A new alarm is a fault. A changed number ("silent for 5 s") does not make
   // an alarm new.
-  void note_alarms(const std::vector<std::string>& alarms, std::int64_t utime_us);
+  void note_alarms(const std::vector<Alarm>& alarms, std::int64_t utime_us);
 
   // The state of a source that always has one. A changed state is an entry; changed `details` are
   // not.

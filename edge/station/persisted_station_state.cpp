@@ -67,8 +67,8 @@ void PersistedStationState::remember(StationState state,
   }
 }
 
-std::vector<std::string> PersistedStationState::alarms() const {
-  std::vector<std::string> alarms;
+std::vector<Alarm> PersistedStationState::alarms() const {
+  std::vector<Alarm> alarms;
   if (hold_unknown_) {
     const std::string why =
         hold_.why_unknown().empty() ? "since an earlier start" : hold_.why_unknown();

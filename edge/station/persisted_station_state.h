@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/files/persisted_word.h"
+#include "conditions/alarm.h"
 #include "edge/mount/reference.h"
 #include "edge/station/station_types.h"
 
@@ -30,7 +31,7 @@ class PersistedStationState {
                 mount::Reference reference);
 
   // What is unknown or cannot be saved, and what to do.
-  std::vector<std::string> alarms() const;
+  std::vector<Alarm> alarms() const;
 
  private:
   std::string id_;

@@ -403,10 +403,10 @@ StationSnapshot Station::snapshot() const {
   return snapshot;
 }
 
-std::vector<std::string> Station::alarms() const {
-  std::vector<std::string> alarms;
+std::vector<Alarm> Station::alarms() const {
+  std::vector<Alarm> alarms;
   const bool slewed = mode_.is(StationState::kSlewed);
-  const auto unacquired = slewed ? search_.unacquired_alarm(slew_.command()) : std::string();
+  const auto unacquired = slewed ? search_.unacquired_alarm(slew_.command()) : Alarm();
   if (!unacquired.empty()) alarms.push_back(unacquired);
   if (slew_.has_several_senders(now_s_)) {
     alarms.push_back(alarm::slews_from_two_fusions());

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "conditions/alarm.h"
 #include "edge/command/active_slew.h"
 #include "edge/command/command_judgement.h"
 #include "edge/command/manual_motion.h"
@@ -149,7 +150,7 @@ class Station {
   void drop_unproven(double time_s);
   void look_along_slew(const camera::Frame& frame);
   void follow(const MadeBearing& made);
-  std::vector<std::string> alarms() const;
+  std::vector<Alarm> alarms() const;
   std::map<std::string, double> counters() const;
 
   const StationConfig config_;

@@ -4,10 +4,10 @@
 
 namespace ols::station {
 
-std::vector<std::string> all_alarms(const StationReport& report) {
-  std::vector<std::string> all;
-  const auto add = [&all](const std::vector<std::string>& alarms) {
-    for (const std::string& alarm : alarms) {
+std::vector<Alarm> all_alarms(const StationReport& report) {
+  std::vector<Alarm> all;
+  const auto add = [&all](const std::vector<Alarm>& alarms) {
+    for (const Alarm& alarm : alarms) {
       if (std::ranges::find(all, alarm) == all.end()) all.push_back(alarm);
     }
   };
@@ -23,7 +23,7 @@ std::string in_one_line(const StationReport& report) {
     line += "; " + device.name + " " + to_string(device.state);
   }
   const auto alarms = all_alarms(report);
-  if (!alarms.empty()) line += "; " + alarms.front();
+  if (!alarms.empty()) line += "; " + alarms.front().text;
   if (alarms.size() > 1) line += " and " + std::to_string(alarms.size() - 1) + " more alarms";
   return line;
 }

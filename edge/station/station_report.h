@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "conditions/alarm.h"
 #include "edge/calibration/calibration_status.h"
 #include "edge/device/device_report.h"
 #include "edge/mount/limits.h"
@@ -20,7 +21,7 @@ struct StationReport {
   CalibrationStatus calibration;
   std::vector<device::DeviceReport> devices;
   // In addition to those of the devices.
-  std::vector<std::string> alarms;
+  std::vector<Alarm> alarms;
   std::map<std::string, double> readings;
   std::map<std::string, double> counters;
 
@@ -29,7 +30,7 @@ struct StationReport {
 };
 
 // The alarms of the report and of its devices, without duplicates.
-std::vector<std::string> all_alarms(const StationReport& report);
+std::vector<Alarm> all_alarms(const StationReport& report);
 
 // One line for a person: the state, devices that are not OK, the first alarm.
 std::string in_one_line(const StationReport& report);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "conditions/alarm.h"
 #include "edge/camera/frame.h"
 #include "edge/lens/lens_types.h"
 #include "edge/mount/angle_history.h"
@@ -150,7 +151,7 @@ struct StationSnapshot {
   double frame_latency_s = 0.0;                           // mid-exposure to bearing, smoothed
   bool motion_disagrees = false;  // the image motion contradicts the PTU's angles
   sensors::StationPose pose;
-  std::vector<std::string> alarms;         // conditions that a person should act on
+  std::vector<Alarm> alarms;               // conditions that a person should act on
   std::map<std::string, double> counters;  // only rise; state times are "seconds_<state>"
 };
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "central/fusion/fusion.h"
+#include "conditions/alarm.h"
 #include "sim/lockstep/lockstep_station.h"
 #include "sim/network/network.h"
 #include "sim/world/world.h"
@@ -38,7 +39,7 @@ struct LockstepResult {
   std::vector<ToldSighting> sightings;
   std::vector<StationRecord> stations;
   std::map<std::string, double> counters;  // of the fusion at the end
-  std::vector<std::string> alarms;         // of the fusion at the end
+  std::vector<Alarm> alarms;               // of the fusion at the end
   double designated_s = -1.0;  // when the last station was designated; < 0: not all were
 };
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "conditions/alarm.h"
 #include "edge/detector/detector_work.h"
 #include "edge/frames/sighting_desk.h"
 #include "edge/lens/lens_driver.h"
@@ -33,7 +34,7 @@ struct FrameNote {
   bool inside_third = false;  // the target is inside the central third, horizontally and vertically
   std::optional<Eigen::Vector2d> error_px;  // of the measured pixel, while tracking
   std::optional<cv::Rect2d> box;            // [px] of the tracker
-  std::vector<std::string> alarms;          // of the station's own logic
+  std::vector<Alarm> alarms;                // of the station's own logic
 };
 
 struct StationRecord {

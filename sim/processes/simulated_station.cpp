@@ -146,10 +146,10 @@ void SimulatedStation::restart() {
   process_.reset();
   process_ = std::make_unique<station::StationProcess>(
       settings_, ++boots_,
-      station::Outside{[this](const auto& settings) { return head(settings); }, right_clock});
+      station::Outside{[this](const auto& settings) { return chosen(settings); }, right_clock});
 }
 
-station::Head SimulatedStation::head(const station::StationSettings& settings) {
+station::ChosenDevices SimulatedStation::chosen(const station::StationSettings& settings) {
   const auto* flir = settings.mount.as<ptu::PtuKind>();
   if (flir == nullptr) {
     throw std::invalid_argument(settings.id + ": a station in simulated time has a unit of FLIR");
@@ -158,9 +158,9 @@ station::Head SimulatedStation::head(const station::StationSettings& settings) {
   auto ptu = std::make_unique<UnitInHand>(flir->unit);
   camera_ = camera.get();
   ptu_ = ptu.get();
-  station::Head head;
-  head.camera = std::move(camera);
-  head.mount = std::move(ptu);
+  station::ChosenDevices chosen;
+  chosen.camera = std::move(camera);
+  chosen.mount = std::move(ptu);
   lens_ = nullptr;
   inclinometer_ = nullptr;
   gnss_ = nullptr;
@@ -168,27 +168,27 @@ station::Head SimulatedStation::head(const station::StationSettings& settings) {
   if (!settings.lens.device.empty()) {
     auto own = std::make_unique<LensInHand>(settings.lens);
     lens_ = own.get();
-    head.lens = std::move(own);
+    chosen.lens = std::move(own);
   }
   if (settings.inclinometer->is_configured()) {
     auto own =
         std::make_unique<InclinometerInHand>(world_, index_, settings.inclinometer->config());
     inclinometer_ = own.get();
-    head.inclinometer = std::move(own);
+    chosen.inclinometer = std::move(own);
   }
   if (settings.gnss->is_configured()) {
     auto own = std::make_unique<GnssInHand>(world_, index_);
     gnss_ = own.get();
-    head.gnss = std::move(own);
+    chosen.gnss = std::move(own);
   }
   if (!settings.gpio.chip.empty()) {
-    head.open_gpio = [this, config = settings.gpio](auto on_stop, auto on_rearm) {
+    chosen.open_gpio = [this, config = settings.gpio](auto on_stop, auto on_rearm) {
       auto own = std::make_unique<GpioInHand>(config, std::move(on_stop), std::move(on_rearm));
       gpio_ = own.get();
       return own;
     };
   }
-  return head;
+  return chosen;
 }
 
 void SimulatedStation::set_faults(const StationFaults& faults) {

@@ -49,7 +49,7 @@ class SimulatedStation {
   class UnitInHand;
   class LensInHand;
   class GpioInHand;
-  station::Head head(const station::StationSettings& settings);
+  station::ChosenDevices chosen(const station::StationSettings& settings);
   void step(double time_s);
   void exchange_bytes();
   void expose(double time_s);

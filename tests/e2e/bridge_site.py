@@ -264,7 +264,7 @@ class Other:
         return json.loads(self.status_file.read_text()) if self.status_file.exists() else None
 
     def says(self, words):
-        return self.status() and any(words in alarm for alarm in self.status()["alarms"])
+        return self.status() and any(words in alarm["text"] for alarm in self.status()["alarms"])
 
     def stop(self):
         self._process.terminate()

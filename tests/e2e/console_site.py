@@ -27,11 +27,13 @@ from ols_demo.keys import members_of_environment
 from ols_demo.places import geodetic
 from PIL import Image
 from playwright.sync_api import sync_playwright
+from raised_alarms import Raised, put_alarms
 
 CHROMIUM = "/usr/bin/chromium-headless-shell"
 PLACES = {"alfa": (49.225, 16.594), "bravo": (49.225, 16.600), "charlie": (49.229, 16.597)}
 TARGET = geodetic(49.2265, 16.597, 380.0)
 FULL_PX = (1280, 960)
+LOW_SUPPLY = ("ptu_supply_low", {"volts": "11.2"})
 DEADLINE_S = 45.0
 PASSWORD = "correct horse"  # of ana
 STATUS, PTU = ols_msg.station_status_t, ols_msg.ptu_command_t
@@ -74,7 +76,7 @@ class PaperSite(threading.Thread):
         self.counters = {name: {} for name in PLACES}
         self.begin_anew()
         self.refusing: dict[str, str] = {}  # station -> reason of its refusals
-        self.alarms: dict[str, list[str]] = {}
+        self.alarms: dict[str, list[Raised]] = {}
         self.readings: dict[str, dict[str, float]] = {}
         self.devices: dict[str, dict[str, str]] = {}  # station -> more of them, with their texts
         self.silent: set[str] = set()
@@ -191,8 +193,7 @@ class PaperSite(threading.Thread):
         devices = {"camera": "made of paper", "ptu": "", **self.devices.get(station, {})}
         m.devices, m.device_name, m.device_text = len(devices), list(devices), [*devices.values()]
         m.device_state, m.device_age_s = [m.DEVICE_OK] * len(devices), [0.1] * len(devices)
-        m.alarm = self.alarms.get(station, [])
-        m.alarms = len(m.alarm)
+        put_alarms(m, self.alarms.get(station, []))
         readings = self.readings.get(station, {})
         m.readings, m.reading_name = len(readings), list(readings)
         m.reading_value = list(readings.values())
@@ -254,7 +255,7 @@ class PaperSite(threading.Thread):
         m = ols_msg.fusion_status_t()
         m.utime = self.utime_us()
         m.schema_version, m.boot_id, m.last_error = m.SCHEMA_VERSION, self.fusion_boot, ""
-        m.alarm, m.alarms = list(self.fusion_alarms), len(self.fusion_alarms)
+        put_alarms(m, self.fusion_alarms)
         m.station = ["alfa", "bravo"]
         m.stations = 2
         m.bearings, m.quarantine = [1, 1], ["", ""]
@@ -297,7 +298,7 @@ class PaperSite(threading.Thread):
         for tick in range(round(5 * seconds)):
             now_us = start_us + 200_000 * tick
             middle = tick == round(2.5 * seconds)
-            self.alarms["charlie"] = ["ptu: supply voltage low (11.2 V)"] if middle else []
+            self.alarms["charlie"] = [LOW_SUPPLY] if middle else []
             if middle:
                 m = PTU()
                 m.schema_version, m.station, m.command = m.SCHEMA_VERSION, "alfa", PTU.COMMAND_STOP

@@ -119,7 +119,7 @@ def test_what_a_server_refuses_is_said_and_counted(network, tmp_path):
         state = bridge.status()
         assert state["link"]["refusals"] == 2
         assert state["link"]["open"], "the rest goes on"
-        assert any("Subscription to" in alarm for alarm in state["alarms"])
+        assert any("Subscription to" in alarm["text"] for alarm in state["alarms"])
     finally:
         bridge.stop()
 

@@ -188,7 +188,7 @@ def test_a_store_that_does_not_answer_leaves_the_owner(sky):
     sky.until(lambda heard: not heard[-1][4], "it goes on, marked")
     sky.fly(3000.0)
     assert {who for _, who, *_ in sky.heard()} == {WEST[0]}, "no hand-over"
-    alarms = lambda: " ".join(sky.west.status()["alarms"])  # noqa: E731
+    alarms = lambda: " ".join(one["text"] for one in sky.west.status()["alarms"])  # noqa: E731
     sky.until(lambda _: "does not answer" in alarms(), "it is said")
     watcher.close()
 

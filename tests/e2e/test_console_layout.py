@@ -17,7 +17,7 @@ from console_page import (
     unreadable,
     watched_page,
 )
-from console_site import DEADLINE_S, PASSWORD
+from console_site import DEADLINE_S, LOW_SUPPLY, PASSWORD
 from playwright.sync_api import expect
 
 pytest_plugins = ["console_fixtures"]
@@ -32,7 +32,7 @@ def busy(page, paper):
     page.add_init_script(DRAWN_TEXT)
     page.reload()
     paper.states |= {"alfa": STATUS.STATE_TRACKING, "bravo": STATUS.STATE_STOPPED}
-    paper.alarms["charlie"] = ["ptu: supply voltage low (11.2 V)"]
+    paper.alarms["charlie"] = [LOW_SUPPLY]
     region(page, "Stations").get_by_role("button", name="charlie").click()
     region(page, "Targets").get_by_role("row").nth(1).click()
     picture(page, "bravo")
@@ -134,8 +134,11 @@ def test_no_english_stays_on_the_german_page(busy, paper):
     paper.counters["charlie"] |= {"frames_captured": 7, "refused_no_lens": 1, "seconds_tracking": 3}
     paper.readings["charlie"] = {"ptu_supply_V": 11.2, "turn_p99_s": 0.01}
     paper.alarms["charlie"] = [
-        "ptu: halted, no plausible position: positions that contradict each other",
-        "calibration: not checked for 26.0 h: the unit does not come to its reference views",
+        ("ptu_halted", {"why": "no plausible position: positions that contradict each other"}),
+        (
+            "calibration_not_checked",
+            {"hours": "26.0", "why": "the unit does not come to its reference views"},
+        ),
     ]
     expect(region(busy, "Stations")).to_contain_text("contradict each other")
     expect(region(busy, "Stations")).to_contain_text("refused no lens")

@@ -7,7 +7,7 @@ import time
 import ols_msg
 from conftest import BIN, wait
 from console_page import axe_finds, picture, region
-from console_site import DEADLINE_S, FULL_PX, PASSWORD, Api, PaperTarget
+from console_site import DEADLINE_S, FULL_PX, LOW_SUPPLY, PASSWORD, Api, PaperTarget
 from playwright.sync_api import expect
 
 pytest_plugins = ["console_fixtures"]
@@ -44,7 +44,7 @@ def test_shows_stations_targets_and_pictures(page):
 
 
 def test_an_alarm_comes_with_what_to_do(page, paper):
-    paper.alarms["charlie"] = ["ptu: supply voltage low (11.2 V)"]
+    paper.alarms["charlie"] = [LOW_SUPPLY]
     region(page, "Stations").get_by_role("button", name="charlie").click()
     expect(region(page, "Stations")).to_contain_text("charge or replace the battery")
     paper.alarms.clear()
@@ -123,7 +123,7 @@ def test_axe_finds_nothing_in_any_theme(page, paper):
     """Contrast among it, of every state of a station and of every kind of event."""
     state = ols_msg.station_status_t
     paper.states |= {"alfa": state.STATE_LOST, "bravo": state.STATE_EMERGENCY}
-    paper.fusion_alarms = ["another fusion is on the bus: stop one of them"]
+    paper.fusion_alarms = [("another_fusion", {})]
     with paper.another_target(PaperTarget(state=ols_msg.target_t.TRACK_TENTATIVE)):
         region(page, "Stations").get_by_role("button", name="alfa").click()
         region(page, "Targets").get_by_role("row").nth(1).click()

@@ -7,7 +7,7 @@ import ols_msg
 import pytest
 from conftest import wait
 from console_page import axe_finds, picture, region, watched_page
-from console_site import PaperTarget
+from console_site import LOW_SUPPLY, PaperTarget
 from ols_demo.places import geodetic
 from playwright.sync_api import expect
 
@@ -43,7 +43,7 @@ def test_targets_are_sorted_and_filtered(page, paper):
 
 
 def test_history_is_filtered(page, paper):
-    paper.alarms["bravo"] = ["ptu: supply voltage low (11.2 V)"]
+    paper.alarms["bravo"] = [LOW_SUPPLY]
     region(page, "Stations").get_by_role("button", name="alfa").click()
     region(page, "Stations").get_by_role("button", name="Release").click()
     history = region(page, "History")
@@ -62,7 +62,7 @@ def test_history_is_filtered(page, paper):
 
 def test_an_alarm_that_begins_is_told_to_who_cannot_see_it(page, paper):
     picture(page, "alfa")
-    paper.alarms["alfa"] = ["camera: no frames for 3 s"]
+    paper.alarms["alfa"] = [("camera_no_frames", {"seconds": "3"})]
     expect(page.get_by_role("alert")).to_have_text("Alarm: alfa camera: no frames for 3 s")
     paper.alarms.clear()
 
@@ -164,7 +164,7 @@ def test_one_browser_has_control_until_another_takes_it_over(page, paper, chromi
 
 
 def test_the_fusions_alarms_come_with_what_to_do(page, paper):
-    paper.fusion_alarms = ["another fusion is on the bus: stop one of them"]
+    paper.fusion_alarms = [("another_fusion", {})]
     expect(region(page, "Stations")).to_contain_text("What to do: stop one")
     paper.fusion_alarms = []
     expect(region(page, "Stations")).not_to_contain_text("another fusion")

@@ -10,11 +10,12 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from conftest import BIN, ROOT, finished
+from conftest import BIN, finished
 from helpers import station_without_devices
+from raised_alarms import table
 
 JOURNALD = Path("/lib/systemd/systemd-journald")
-IDS = dict(re.findall(r'Id (k\w+) = "(\w+)"', (ROOT / "base/journal/event_ids.h").read_text()))
+IDS = {name: one["id"] for name, one in table.events().items()}
 # The journal begins, the station runs until its alarm is there and ends, and what it said is kept.
 RUN = r"""
 set -eu
@@ -58,13 +59,15 @@ def fixture_journal(unsigned, tmp_path_factory):
     folder = tmp_path_factory.mktemp("journal")
     config = folder / "lone.toml"
     config.write_text(station_without_devices("lone"))
+    catalogue = folder / "ols.catalog"
+    catalogue.write_text(table.catalogue())
     environment = {
         "PATH": "/usr/bin:/bin",
-        "CATALOG": str(ROOT / "systemd/ols.catalog"),
+        "CATALOG": str(catalogue),
         "JOURNALD": str(JOURNALD),
         "STATION": str(BIN / "ols-station"),
         "CONFIG": str(config),
-        "ALARM": IDS["kStationAlarmBegins"],
+        "ALARM": IDS["StationAlarmBegins"],
         "OUT": str(folder),
     }
     done = finished("unshare", "--mount", "bash", "-c", RUN, env=environment)
@@ -77,7 +80,7 @@ def of_kind(journal, name):
     return [entry for entry in journal[0] if entry.get("MESSAGE_ID") == IDS[name]]
 
 
-@pytest.mark.parametrize("kind", ["kReady", "kStationAlarmBegins", "kDeviceLost", "kStops"])
+@pytest.mark.parametrize("kind", ["Ready", "StationAlarmBegins", "DeviceLost", "Stops"])
 def test_an_event_has_its_kind_and_its_station(journal, kind):
     entries = of_kind(journal, kind)
     assert entries
@@ -87,7 +90,7 @@ def test_an_event_has_its_kind_and_its_station(journal, kind):
 
 
 def test_a_lost_device_is_named_with_the_reason(journal):
-    lost = {entry["OLS_DEVICE"]: entry for entry in of_kind(journal, "kDeviceLost")}
+    lost = {entry["OLS_DEVICE"]: entry for entry in of_kind(journal, "DeviceLost")}
     assert {"camera", "ptu"} <= set(lost)
     assert lost["ptu"]["OLS_REASON"] in lost["ptu"]["MESSAGE"]
     assert lost["ptu"]["PRIORITY"] == "4"
@@ -96,7 +99,7 @@ def test_a_lost_device_is_named_with_the_reason(journal):
 def test_nothing_is_written_twice(journal):
     """A line of the log would be an entry without a kind."""
     assert [entry["MESSAGE"] for entry in journal[0] if "MESSAGE_ID" not in entry] == []
-    assert len(of_kind(journal, "kReady")) == len(of_kind(journal, "kStops")) == 1
+    assert len(of_kind(journal, "Ready")) == len(of_kind(journal, "Stops")) == 1
 
 
 def test_the_catalogue_explains_it_with_all_its_fields(journal):

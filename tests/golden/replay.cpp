@@ -86,7 +86,7 @@ class Output {
       tell(station.station, "bearings", static_cast<double>(station.bearings));
       tell(station.station, "quarantined", station.quarantine.empty() ? 0.0 : 1.0);
     }
-    for (const std::string& alarm : health.alarms) tell("alarm", alarm, 1.0);
+    for (const Alarm& alarm : health.alarms) tell("alarm", alarm.text, 1.0);
   }
 
  private:

@@ -9,7 +9,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 
-#include "edge/drift/view_offset.h"
+#include "edge/calibration/view_offset.h"
 #include "geometry/angles.h"
 
 namespace ols::calibration {
@@ -138,7 +138,7 @@ std::string ViewStage::verdict() const {
   if (watch_.level() == station::DriftLevel::kNone)
     return "The tripod stands as when it was calibrated";
   const bool red = watch_.level() == station::DriftLevel::kRed;
-  return (red ? "RED: " : "AMBER: ") + watch_.alarm();
+  return (red ? "RED: " : "AMBER: ") + watch_.alarm().text;
 }
 
 }  // namespace ols::calibration

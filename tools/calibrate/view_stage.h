@@ -1,5 +1,5 @@
 // Looks again at the views of a stored panorama and reports what has changed, by the rule of a
-// station's self-check (edge/drift).
+// station's self-check (edge/calibration).
 #pragma once
 
 #include <filesystem>
@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "calibration/procedure/stage.h"
-#include "edge/drift/drift_watch.h"
+#include "edge/calibration/drift_watch.h"
 #include "geometry/station_model.h"
 
 namespace ols::calibration {

@@ -39,12 +39,15 @@ StationHeard station_from(const ols_msg::station_status_t& status) {
   StationHeard station;
   station.id = status.station;
   station.state = wire::state_name(status.state);
+  station.alarms = alarms_of(status);
   for (std::size_t i = 0; i < status.device_name.size(); ++i) {
     device::DeviceReport device;
     device.name = status.device_name[i];
     device.state = from_code(status.device_state[i], device::DeviceState::kFault,
                              device::DeviceState::kAbsent);
     device.text = status.device_text[i];
+    std::ranges::copy_if(station.alarms, std::back_inserter(device.alarms),
+                         [&](const Alarm& alarm) { return alarm.part() == device.name; });
     station.devices.push_back(device);
   }
   station.clock = from_code(status.clock_state, clock::ClockState::kUnsynchronised,
@@ -59,7 +62,6 @@ StationHeard station_from(const ols_msg::station_status_t& status) {
   if (status.calibration_utime > 0) {
     calibration.age_s = 1e-6 * static_cast<double>(status.utime - status.calibration_utime);
   }
-  station.alarms = alarms_of(status);
   for (std::size_t i = 0; i < status.counter_name.size(); ++i) {
     station.counters[status.counter_name[i]] = status.counter_value[i];
   }

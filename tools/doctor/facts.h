@@ -44,8 +44,8 @@ struct BusHeard {
   std::map<std::string, StationHeard> stations;
   int fusions = 0;
   std::vector<Alarm> fusion_alarms;
-  bool is_verified = false;   // the doctor believes only signed messages, or counts the others
-  std::string trust_trouble;  // what is wrong with keys and trust list; empty: nothing
+  bool is_verified = false;  // the doctor believes only signed messages, or counts the others
+  Alarm trust_trouble{};     // what is wrong with keys and trust list; empty: nothing
   std::map<std::string, double> distrusted;  // while it listened, by "bus_distrusted_<reason>"
 };
 

@@ -30,7 +30,7 @@ Verdict gravest(const Findings& findings) {
 
 }  // namespace
 
-std::string advice_on(std::string_view alarm) { return std::string(alarm_of(alarm).row().action); }
+std::string advice_on(const Alarm& alarm) { return std::string(alarm.row().action); }
 
 std::string number(double value, const char* format) {
   char text[64];

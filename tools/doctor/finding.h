@@ -2,8 +2,9 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 #include <vector>
+
+#include "conditions/alarm.h"
 
 namespace ols::doctor {
 
@@ -24,7 +25,7 @@ inline Finding fail(std::string what, std::string advice) {
 }
 
 // What the table of conditions says to do about an alarm.
-std::string advice_on(std::string_view alarm);
+std::string advice_on(const Alarm& alarm);
 
 // A value in printf's notation, for the text of a finding.
 std::string number(double value, const char* format);

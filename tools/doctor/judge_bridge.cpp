@@ -3,7 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "conditions/alarm.h"
+#include "conditions/alarm_json.h"
 
 namespace ols::doctor {
 namespace {
@@ -18,7 +18,7 @@ Findings judge_status(const Json& status, std::int64_t utime_us) {
     return {fail("bridge: does not run", "systemctl status ols-bridge.service")};
   }
   Findings findings;
-  for (const Alarm& alarm : alarms_of(status.at("alarms").get<std::vector<std::string>>())) {
+  for (const Alarm& alarm : status.at("alarms").get<std::vector<Alarm>>()) {
     findings.push_back(fail(alarm.text, std::string(alarm.row().action)));
   }
   if (findings.empty()) {

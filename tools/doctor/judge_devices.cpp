@@ -3,7 +3,6 @@
 #include <cerrno>
 #include <cstring>
 
-#include "conditions/alarm.h"
 #include "conditions/alarms.h"
 
 namespace ols::doctor {
@@ -21,14 +20,6 @@ std::string joined(const std::vector<std::string>& words) {
   std::string text;
   for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
   return text;
-}
-
-// What to do about the alarm that a station raises of it.
-std::string advice_for(const std::string& device, const std::string& says) {
-  Alarm alarm = alarm_of(device + ": " + says);
-  if (alarm.id.empty() && device == "ptu") alarm = alarm_of(alarm::ptu_halted(says));
-  if (alarm.id.empty() && device == "camera") alarm = alarm_of(alarm::camera_silent());
-  return std::string(alarm.row().action);
 }
 
 std::string axis_text(const char* name, const PtuAxisAnswers& axis) {
@@ -93,7 +84,7 @@ Finding judge(const device::DeviceReport& device) {
   const std::string trouble = device.last_error.empty() || device.last_error == device.text
                                   ? std::string()
                                   : " (" + device.last_error + ")";
-  return fail(words + trouble, advice_for(device.name, device.text));
+  return fail(words + trouble, advice_on(device.alarms.empty() ? Alarm() : device.alarms.front()));
 }
 
 std::optional<Finding> judge_line(const std::string& name, const SerialFacts& serial) {
@@ -120,7 +111,8 @@ std::optional<Finding> judge_line(const std::string& name, const SerialFacts& se
     case ENOTTY:
       return fail(words + " is not a serial line", "correct the device in the configuration");
     default:
-      return fail(words + ": " + std::strerror(serial.error), advice_for(name, ""));
+      return fail(words + ": " + std::strerror(serial.error),
+                  advice_on(name == "ptu" ? alarm::ptu_halted("") : Alarm()));
   }
 }
 
@@ -185,7 +177,7 @@ Findings judge(const CameraAnswers& camera) {
   } else if (!camera.trouble.empty()) {
     findings.push_back(
         fail("camera: " + camera.trouble, camera.others.empty()
-                                              ? advice_for("camera", "")
+                                              ? advice_on(alarm::camera_silent())
                                               : "these answer: " + joined(camera.others) +
                                                     "; write one of them as device into [camera]"));
   } else {

@@ -13,7 +13,7 @@ constexpr double kGiga = 1e9;
 
 Finding judge(const clock::ClockQuality& clock) {
   const std::string words =
-      "clock: " + clock.text + (clock.alarm.empty() ? "" : " (" + clock.alarm + ")");
+      "clock: " + clock.text + (clock.alarm.empty() ? "" : " (" + clock.alarm.text + ")");
   if (clock.state == clock::ClockState::kSynchronised && clock.alarm.empty()) return ok(words);
   if (clock.state == clock::ClockState::kUnknown) {
     return warn(words, "install chrony; examples: chrony-gnss.conf");
@@ -38,7 +38,7 @@ Finding judge(const FolderFacts& folder) {
 
 Findings judge(const station::HostReport& host) {
   Findings findings;
-  for (const Alarm& alarm : alarms_of(host.alarms)) {
+  for (const Alarm& alarm : host.alarms) {
     findings.push_back(warn("host: " + alarm.text, std::string(alarm.row().action)));
   }
   const auto cpu = host.readings.find("cpu_degC");

@@ -71,7 +71,7 @@ std::string distrusted(const std::map<std::string, double>& counters) {
 
 Finding judge_signatures(const BusHeard& bus) {
   if (!bus.trust_trouble.empty()) {
-    return fail("signatures: " + bus.trust_trouble, advice_on(bus.trust_trouble));
+    return fail("signatures: " + bus.trust_trouble.text, advice_on(bus.trust_trouble));
   }
   if (bus.is_verified) {
     const std::string refused = distrusted(bus.distrusted);

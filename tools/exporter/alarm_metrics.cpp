@@ -8,7 +8,7 @@ void add_alarms(MetricCollection& all, const std::string& program, const std::st
                 const std::vector<Alarm>& alarms) {
   std::set<std::string> told;  // a sample is told once
   for (const Alarm& alarm : alarms) {
-    const AlarmSentence& row = alarm.row();
+    const AlarmRow& row = alarm.row();
     if (!told.insert(alarm.gist()).second) continue;
     all.gauge("ols_alarm", "1 for each alarm that holds, with its row of the table of conditions.",
               {{"program", program},

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "conditions/alarm_json.h"
 #include "tools/exporter/alarm_metrics.h"
 #include "tools/exporter/metric_collection.h"
 
@@ -54,7 +55,7 @@ std::vector<prometheus::MetricFamily> told(const std::string& text, std::int64_t
   const bool runs = std::abs(age_s(status, utime_us)) <= kStaleBridge_s;
   all.gauge("ols_bridge_up", "1 while the bridge writes its status.", {}, runs ? 1.0 : 0.0);
   if (!runs) return all.take();
-  add_alarms(all, "bridge", "", alarms_of(status.at("alarms").get<std::vector<std::string>>()));
+  add_alarms(all, "bridge", "", status.at("alarms").get<std::vector<Alarm>>());
   all.gauge("ols_bridge_stations", "Stations whose messages pass.", {},
             status.at("stations").get<double>());
   add_direction(all, "out", status.at("out"));

@@ -164,9 +164,9 @@ void BusRecorder::begin_file() {
 void BusRecorder::look_at_bus(double now_s) {
   const BusTraffic traffic = bus_.traffic();
   watch_.monitor.look(traffic, now_s);
-  std::string alarm = watch_.monitor.alarm(now_s);
+  Alarm alarm = watch_.monitor.alarm(now_s);
   if (alarm.empty()) alarm = watch_.monitor.trust_alarm(now_s);
-  watch_.journal.look(alarm.empty() ? std::vector<std::string>{} : std::vector{alarm}, now_s);
+  watch_.journal.look(alarm.empty() ? std::vector<Alarm>{} : std::vector{alarm}, now_s);
   {
     const std::lock_guard lock(mutex_);
     report_.bus_alarm = alarm;

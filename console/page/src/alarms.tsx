@@ -2,9 +2,9 @@
 
 import { h, Fragment } from "preact";
 import { useRef } from "preact/hooks";
-import { conditionOf, eventOf, inWords, type Severity } from "./conditions";
+import { alarmInWords, conditionOf, eventOf, inWords, textOfEvent, type Severity } from "./conditions";
 import type { Link } from "./link";
-import type { SiteEvent } from "./site";
+import type { Alarm, SiteEvent } from "./site";
 import { named, t } from "./words";
 
 // "`state_folder`" is set as code.
@@ -51,17 +51,17 @@ export function Acknowledgement({ event, onAcknowledge }: { event: SiteEvent | u
   );
 }
 
-type AlarmsProps = { alarms: string[]; keys: string[]; station: string; link: Link; onAcknowledge: OnAcknowledge };
+type AlarmsProps = { alarms: Alarm[]; station: string; link: Link; onAcknowledge: OnAcknowledge };
 
-export function Alarms({ alarms, keys, station, link, onAcknowledge }: AlarmsProps) {
+export function Alarms({ alarms, station, link, onAcknowledge }: AlarmsProps) {
   if (!alarms?.length) return <p class="fine">{t("no_alarm")}</p>;
   return (
     <ul class="alarms">
-      {alarms.map((alarm, i) => (
-        <li class={conditionOf(keys[i]).severity}>
-          <SeverityChip severity={conditionOf(keys[i]).severity} /> <b>{inWords(alarm)}</b>{" "}
-          <Acknowledgement event={eventOf(link.site.events, station, keys[i])} onAcknowledge={onAcknowledge} />
-          <WhatToDo of={keys[i]} />
+      {alarms.map((alarm) => (
+        <li class={conditionOf(alarm.id).severity}>
+          <SeverityChip severity={conditionOf(alarm.id).severity} /> <b>{alarmInWords(alarm)}</b>{" "}
+          <Acknowledgement event={eventOf(link.site.events, station, alarm.key)} onAcknowledge={onAcknowledge} />
+          <WhatToDo of={alarm.id} />
         </li>
       ))}
     </ul>
@@ -75,7 +75,7 @@ export function AlarmSpoken({ link }: { link: Link }) {
   const newest = link.site.events.find((event) => event.kind === "alarm");
   return (
     <p key={newest && `${newest.number} ${newest.times}`} class="unseen" role="alert">
-      {newest && opened_us.current && newest.utime_us > opened_us.current ? `${t("alarm")}: ${newest.station} ${inWords(newest.text)}` : ""}
+      {newest && opened_us.current && newest.utime_us > opened_us.current ? `${t("alarm")}: ${newest.station} ${textOfEvent(newest)}` : ""}
     </p>
   );
 }

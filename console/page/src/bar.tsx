@@ -2,7 +2,7 @@
 // logged in, and the stop of all.
 
 import { h, Fragment, type ComponentChildren } from "preact";
-import { conditionOf, holds, inWords } from "./conditions";
+import { alarmOf, conditionOf, holds, inWords } from "./conditions";
 import { utc } from "./format";
 import type { Link, Session } from "./link";
 import { Sure } from "./sure";
@@ -21,7 +21,7 @@ export type Look = {
 function Chips({ link }: { link: Link }) {
   const stations = [...link.site.stations.values()];
   const heard = stations.filter((s) => !s.stale).length;
-  const alarms = link.site.events.filter((event) => holds(event) && conditionOf(event.key).severity !== "notice");
+  const alarms = link.site.events.filter((event) => holds(event) && conditionOf(alarmOf(event)).severity !== "notice");
   const isNew = alarms.some((event) => !event.acknowledged);
   const fusion = link.site.fusion && !link.site.fusion.stale;
   return (

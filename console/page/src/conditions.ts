@@ -2,7 +2,7 @@
 // come with the build, from conditions/conditions.toml.
 
 import tables from "conditions.json";
-import type { SiteEvent } from "./site";
+import type { Alarm, SiteEvent } from "./site";
 import { inLanguage, isEnglish } from "./words";
 
 const MOST_REMEMBERED = 2000;
@@ -25,13 +25,13 @@ type Dictionary = Record<string, string>;
 const { alarms, phrases, words, names } = tables as { alarms: Row[] } & Record<"phrases" | "words" | "names", Dictionary>;
 const sentences = (of: Dictionary) => Object.entries(of).map(([english, german]) => sentence(english, german));
 const ROWS = new Map(alarms.flatMap((row) => Object.keys(row.says).map((id) => [id, row])));
-const SENTENCES = [...alarms.flatMap((row) => Object.values(row.says).map((both) => sentence(...both, true))), ...sentences(phrases)];
+const open = (says: string) => says.replace(/\{\w+\}/g, "…");
+const SENTENCES = [...alarms.flatMap((row) => Object.values(row.says).map(([english, german]) => sentence(open(english), open(german), true))), ...sentences(phrases)];
 const NAMES = sentences(names);
 for (const list of [SENTENCES, NAMES]) list.sort((a, b) => b.length - a.length || b.begin - a.begin);
 
-// By the key of an alarm, which begins with its id.
-export function conditionOf(key: string): Condition {
-  const row = ROWS.get(key.split(" ")[0]);
+export function conditionOf(id: string): Condition {
+  const row = ROWS.get(id);
   if (!row) return { severity: "warning", meaning: "", action: "" };
   return { severity: row.severity, meaning: inLanguage(row.meaning), action: inLanguage(row.action) };
 }
@@ -49,6 +49,12 @@ function germanBy(list: Sentence[], text: string, partOf: (part: string) => stri
 
 // A single word is a name or a number, but for a few.
 const germanPart = (part: string): string => (/\s/.test(part) ? germanOf(part) : (words[part] ?? part));
+// Of an alarm's parameter; reasons have names: "3 unsigned, 1 replayed".
+function germanValue(name: string, value: string): string {
+  if (name === "reason") return germanName(value);
+  if (name === "reasons") return value.replace(/[a-z_]+/g, (reason) => germanName(`distrusted_${reason}`));
+  return germanPart(value);
+}
 const germanOf = (text: string): string => germanBy(SENTENCES, text, germanPart);
 const germanName = (name: string): string => germanBy(NAMES, name, germanName);
 
@@ -72,6 +78,15 @@ export function inWords(text: string): string {
   return isEnglish() || !text ? text : textInGerman(text);
 }
 
+// An alarm by its row of the table. Logs from before alarms had ids have its sentence only.
+export function alarmInWords({ id, text, parameters }: Alarm): string {
+  const says = ROWS.get(id)?.says[id];
+  if (!says) return inWords(text);
+  const value = (name: string) => (isEnglish() ? parameters[name] : germanValue(name, parameters[name] ?? ""));
+  const words = inLanguage(says).replace(/\{(\w+)\}/g, (_, name) => value(name));
+  return parameters.detail ? `${words}: ${value("detail")}` : words;
+}
+
 // What a counter counts, or a reading is of.
 export function nameInWords(name: string): string {
   return isEnglish() ? name.replaceAll("_", " ") : nameInGerman(name);
@@ -82,4 +97,6 @@ export function eventOf(events: SiteEvent[], station: string, key: string): Site
   return events.find((event) => holds(event) && event.station === station && event.key === key);
 }
 
+export const alarmOf = (event: SiteEvent): string => event.alarm?.id ?? "";
+export const textOfEvent = (event: { alarm: Alarm | null; text: string }): string => (event.alarm ? alarmInWords(event.alarm) : inWords(event.text));
 export const holds = (event: SiteEvent) => event.kind === "alarm" && event.over_us == null;

@@ -4,7 +4,7 @@
 import { h, Fragment } from "preact";
 import { useState } from "preact/hooks";
 import { Acknowledgement, type OnAcknowledge, SeverityChip, WhatToDo } from "./alarms";
-import { conditionOf, holds, inWords } from "./conditions";
+import { alarmOf, conditionOf, holds, inWords, textOfEvent } from "./conditions";
 import { DASH, utc } from "./format";
 import type { Link } from "./link";
 import type { SiteEvent } from "./site";
@@ -16,7 +16,7 @@ const KINDS = ["command", "alarm", "error", "site", "console"];
 const inOrder = (outcome: string): outcome is "sent" | "done" => outcome === "sent" || outcome === "done";
 
 function textOf(event: SiteEvent): string {
-  if (event.kind !== "command") return inWords(event.text);
+  if (event.kind !== "command") return textOfEvent(event);
   const answer = /^answers (.+)$/.exec(event.text);
   if (answer) return `${t("answers")} ${named("c", answer[1])}`;
   const order = named("o", event.text);
@@ -29,7 +29,7 @@ function AlarmText({ event, onAcknowledge }: { event: SiteEvent; onAcknowledge: 
       {" "}
       <span class="span">{event.over_us == null ? t("holds") : `${t("until")} ${utc(event.over_us)}`}</span>{" "}
       <Acknowledgement event={event} onAcknowledge={onAcknowledge} />
-      {holds(event) && <WhatToDo of={event.key} />}
+      {holds(event) && <WhatToDo of={alarmOf(event)} />}
     </Fragment>
   );
 }
@@ -40,7 +40,7 @@ function EventRow({ event, onAcknowledge }: { event: SiteEvent; onAcknowledge: O
   return (
     <tr class={`${event.kind} ${isAlarm && !holds(event) ? "over" : ""} ${isRefused ? "refused" : ""}`}>
       <td>{utc(event.utime_us)}</td>
-      <td>{isAlarm ? <SeverityChip severity={conditionOf(event.key).severity} /> : <span class={`kind ${event.kind}`}>{named("k", event.kind)}</span>}</td>
+      <td>{isAlarm ? <SeverityChip severity={conditionOf(alarmOf(event)).severity} /> : <span class={`kind ${event.kind}`}>{named("k", event.kind)}</span>}</td>
       <td>{event.station || DASH}</td>
       <td>
         {event.who && <b>{inWords(event.who)} </b>}

@@ -1,6 +1,6 @@
 // The operator's orders, and what is said of each: that it was sent, and what came of it.
 
-import { inWords } from "./conditions";
+import { inWords, textOfEvent } from "./conditions";
 import type { Answer, Hand, Link } from "./link";
 import type { Notices } from "./notice";
 import type { ProcedureAnswer } from "./procedure";
@@ -49,7 +49,7 @@ export class Orders {
   }
 
   acknowledge(event: SiteEvent) {
-    const words = `${event.station} ${inWords(event.text)}: ${t("acknowledge")}`;
+    const words = `${event.station} ${textOfEvent(event)}: ${t("acknowledge")}`;
     const number = this.link.send({ do: "acknowledge", event: event.number });
     if (!number) return this.notices.say(`${words}: ${t("not_sent")}`, true);
     this.asked.set(number, words);

@@ -4,7 +4,8 @@
 import { h, Fragment } from "preact";
 import { useEffect, useState } from "preact/hooks";
 import type { Link } from "./link";
-import { inWords } from "./conditions";
+import type { Alarm } from "./site";
+import { inWords, textOfEvent } from "./conditions";
 import { utc } from "./format";
 import { named, t } from "./words";
 
@@ -21,7 +22,7 @@ export type ReplayState = {
   problem: string;
 };
 
-export type TimelineMark = { utime_us: number; kind: string; station: string; who: string; text: string; outcome: string };
+export type TimelineMark = { utime_us: number; kind: string; station: string; who: string; text: string; alarm: Alarm | null; outcome: string };
 type Recorded = { station: string; name: string; first_us: number; last_us: number; frames: number };
 type Timeline = { marks: TimelineMark[]; marks_left_out: number; recorded: Recorded[] };
 
@@ -31,7 +32,7 @@ const KINDS = ["alarm", "error", "command", "birth", "end"];
 
 function describe(mark: TimelineMark): string {
   const outcome = mark.outcome && mark.outcome !== "done" ? ` → ${inWords(mark.outcome)}` : "";
-  return [utc(mark.utime_us), named("k", mark.kind), mark.station, inWords(mark.text) + outcome].filter(Boolean).join(" · ");
+  return [utc(mark.utime_us), named("k", mark.kind), mark.station, textOfEvent(mark) + outcome].filter(Boolean).join(" · ");
 }
 
 function useTimeline(changes: number): Timeline {

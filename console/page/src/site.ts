@@ -55,8 +55,7 @@ export type Station = {
   clock: { state: string; error_s: number | null };
   calibration?: StationCalibration;
   frame_latency_s: number | null;
-  alarms: string[];
-  alarm_keys: string[]; // their events'
+  alarms: Alarm[];
   readings: Record<string, number | null>;
   counters: Record<string, number | null>;
   last_error: string;
@@ -116,12 +115,17 @@ export type Fusion = {
   stale: boolean;
   utime_us: number;
   latency_s: number | null;
-  alarms: string[];
-  alarm_keys: string[]; // their events'
+  alarms: Alarm[];
   last_error: string;
   counters: Record<string, number | null>;
   cues: Cue[];
   stations: { id: string; rate_hz: number | null; quarantine: string; residual: number | null; clock_offset_s: number | null }[];
+};
+export type Alarm = {
+  id: string; // of its row in the table of conditions; empty: none
+  text: string;
+  parameters: Record<string, string>;
+  key: string; // its event's
 };
 export type SiteEvent = {
   number: number;
@@ -131,6 +135,7 @@ export type SiteEvent = {
   who: string;
   text: string;
   key: string; // the same for the same alarm, whatever its numbers
+  alarm: Alarm | null;
   outcome: string;
   over_us: number | null; // of an alarm; null: it holds
   acknowledged: string; // by whom

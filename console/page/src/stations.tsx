@@ -4,7 +4,7 @@ import { h, Fragment } from "preact";
 import { Alarms } from "./alarms";
 import { lostForAll } from "./byhand";
 import { calibrationText } from "./calibration";
-import { inWords, nameInWords } from "./conditions";
+import { alarmInWords, inWords, nameInWords } from "./conditions";
 import { Fleet } from "./fleet";
 import { bearing, clockError, DASH, fixed, utc } from "./format";
 import { length, measures, position } from "./measures";
@@ -82,14 +82,11 @@ function Facts({ station: s }: { station: Station }) {
 function Details(props: StationProps) {
   const { station: s, link, onAcknowledge } = props;
   const quarantine = link.site.fusion?.stations?.find((one) => one.id === s.id)?.quarantine;
+  const ofFusion = link.site.fusion?.alarms?.find((alarm) => quarantine && alarm.parameters.station === s.id);
   return (
     <div class="details">
-      <Alarms alarms={s.alarms} keys={s.alarm_keys} station={s.id} link={link} onAcknowledge={onAcknowledge} />
-      {quarantine && (
-        <p class="quarantine">
-          {t("quarantine")}: {inWords(quarantine)}
-        </p>
-      )}
+      <Alarms alarms={s.alarms} station={s.id} link={link} onAcknowledge={onAcknowledge} />
+      {quarantine && <p class="quarantine">{ofFusion ? alarmInWords(ofFusion) : t("quarantine")}</p>}
       <Commands {...props} />
       <Facts station={s} />
       <Numbers word="readings" values={s.readings} />
@@ -119,7 +116,7 @@ export function Stations({ link, selected, onSelect, ...rest }: StationsProps) {
         {fusionAlarms.length > 0 && (
           <div class="fusion-alarms">
             <h3>{t("fusion")}</h3>
-            <Alarms alarms={fusionAlarms} keys={link.site.fusion?.alarm_keys ?? []} station="" link={link} onAcknowledge={rest.onAcknowledge} />
+            <Alarms alarms={fusionAlarms} station="" link={link} onAcknowledge={rest.onAcknowledge} />
           </div>
         )}
         {stations.map((s) => {

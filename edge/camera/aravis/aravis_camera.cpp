@@ -37,9 +37,11 @@ void AravisCamera::Impl::run() {
       device = std::make_unique<AravisDevice>(config_);
       AravisSession(config_, *device, numbers_, handover_).stream();
     } catch (const CameraUnfit& error) {
-      handover_.note_failure(CameraState::kFault, error.what());
+      handover_.note_failure(CameraState::kFault, error.alarm);
+    } catch (const CameraAbsent& error) {
+      handover_.note_failure(CameraState::kAbsent, error.alarm);
     } catch (const std::exception& error) {
-      handover_.note_failure(CameraState::kAbsent, error.what());
+      handover_.note_failure(CameraState::kAbsent, {error.what(), {}, {}});
     }
     if (device) close(std::move(device));
     // Aravis itself retries a camera that does not answer, for 2.5 s.

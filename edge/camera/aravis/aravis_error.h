@@ -24,8 +24,8 @@ class AravisError {
   explicit operator bool() const { return error_ != nullptr; }
   std::string text() const { return error_ != nullptr ? error_->message : "unknown error"; }
   template <typename Exception>
-  void check(const std::string& what) const {
-    if (error_ != nullptr) throw Exception(what + ": " + error_->message);
+  void check(const Alarm& alarm) const {
+    if (error_ != nullptr) throw Exception(alarm.with_detail(error_->message));
   }
 
  private:

@@ -49,7 +49,7 @@ AravisSession::AravisSession(const AravisConfig& config, AravisDevice& device,
   handover.change_facts([&](CameraFacts& facts) {
     if (facts.opened_s) ++facts.counters.reconnects;
     facts.state = CameraState::kStarting;
-    facts.fault.clear();
+    facts.fault = {};
     facts.identity = identity;
     facts.serial = serial;
     facts.exposure = device.exposure();

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "conditions/alarms.h"
+
 namespace ols::console {
 namespace {
 
@@ -53,8 +55,9 @@ TEST(EventList, AnAlarmThatComesBackIsTheNewest) {
 TEST(EventList, AnAlarmIsOneRowWhateverItsNumbersAndWhateverErrorExplainsIt) {
   EventList events;
   Revision revision = 0;
-  events.add({1, "alarm", "alfa", "", "camera: no frames for 3 s", ""}, revision);
-  EXPECT_EQ(events.add({1, "error", "alfa", "", "camera: no frames for 3 s", ""}, revision), 0U);
+  const Alarm alarm = alarm::camera_no_frames(3.0);
+  events.add({1, "alarm", "alfa", "", alarm.text, "", alarm}, revision);
+  EXPECT_EQ(events.add({1, "error", "alfa", "", "camera: no frames for 3.4 s", ""}, revision), 0U);
   EXPECT_EQ(events.add({2, "error", "alfa", "", "camera x does not answer: no", ""}, revision), 0U);
   events.end("alfa", "camera_no_frames", 5, revision);
   ASSERT_EQ(events.since(0).size(), 1U);
@@ -69,25 +72,23 @@ TEST(EventList, AnErrorBecomesTheAlarmThatFollowsIt) {
   events.add({1, "error", "bravo", "", "camera x does not answer: no", ""}, revision);
   const auto number =
       events.add({1, "error", "alfa", "", "camera x does not answer: no", ""}, revision);
-  events.add({2, "alarm", "alfa", "", "ptu: no reply", ""}, revision);
+  events.add({2, "alarm", "alfa", "", "", "", alarm::ptu_no_reference()}, revision);
   const Revision before = revision;
-  const Event alarm{3, "alarm", "alfa", "", "camera: no frames for 3 s", ""};
-  EXPECT_EQ(events.add(alarm, revision), number);
+  EXPECT_EQ(events.add({3, "alarm", "alfa", "", "", "", alarm::camera_no_frames(3.0)}, revision),
+            number);
   ASSERT_EQ(events.since(before).size(), 1U);
   EXPECT_EQ(events.since(before)[0].at("kind"), "alarm");
   EXPECT_EQ(events.since(0).size(), 3U);
   events.add({1, "error", "alfa", "", "gnss x does not answer", ""}, revision);
-  events.add({1 + 60'000'000, "alarm", "alfa", "", "gnss: no fix for 3 s", ""}, revision);
+  events.add({1 + 60'000'000, "alarm", "alfa", "", "", "", alarm::gnss_fails("no")}, revision);
   EXPECT_EQ(events.since(0).size(), 5U) << "a minute later it is another";
 }
 
 TEST(EventList, TheAlarmsOfTwoStationsAreTwo) {
   EventList events;
   Revision revision = 0;
-  events.add({1, "alarm", "", "", "station s1: not used, it reports a clock error of 3 s", ""},
-             revision);
-  events.add({1, "alarm", "", "", "station s2: not used, it reports a clock error of 3 s", ""},
-             revision);
+  events.add({1, "alarm", "", "", "", "", alarm::station_clock_error("s1", 3.0)}, revision);
+  events.add({1, "alarm", "", "", "", "", alarm::station_clock_error("s2", 3.0)}, revision);
   events.end("", "station_clock_error s1", 2, revision);
   EXPECT_EQ(events.since(0)[0].at("over_us"), 2);
   EXPECT_TRUE(events.since(0)[1].at("over_us").is_null());

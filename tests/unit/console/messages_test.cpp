@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "conditions/alarms.h"
 #include "ols_msg/bearing_t.hpp"
 #include "ols_msg/fusion_status_t.hpp"
 #include "ols_msg/station_status_t.hpp"
@@ -19,8 +20,7 @@ TEST(ConsoleMessages, AStatusInDegreesWithNullForTheUnknown) {
   status.state = ols_msg::station_status_t::STATE_TRACKING;
   status.azimuth_rad = 1.0;
   status.heading_rad = std::numeric_limits<double>::quiet_NaN();
-  status.alarms = 2;
-  status.alarm = {"camera: \x1b[2J", "ptu: supply voltage low (11.2 V)"};
+  set_alarms({{"camera: \x1b[2J"}, alarm::ptu_supply_low(11.2)}, status);
   const auto heard = station_from(on("OLS_STATUS_alfa", status));
   ASSERT_TRUE(heard);
   EXPECT_EQ(heard->id, "alfa");
@@ -28,7 +28,9 @@ TEST(ConsoleMessages, AStatusInDegreesWithNullForTheUnknown) {
   EXPECT_NEAR(heard->fields.at("azimuth_deg"), 57.2958, 1e-9);
   EXPECT_TRUE(heard->fields.at("heading_deg").is_null());
   EXPECT_EQ(heard->alarms.at(0).text, "camera: ?[2J");
-  EXPECT_EQ(heard->fields.at("alarm_keys"), Json::array({"camera: ?[2J", "ptu_supply_low"}));
+  EXPECT_EQ(heard->fields.at("alarms")[0].at("key"), "camera: ?[2J");
+  EXPECT_EQ(heard->fields.at("alarms")[1].at("key"), "ptu_supply_low");
+  EXPECT_EQ(heard->fields.at("alarms")[1].at("parameters").at("volts"), "11.2");
   EXPECT_FALSE(station_from(on("OLS_STATUS_bravo", status)));
 }
 

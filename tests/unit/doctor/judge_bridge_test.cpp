@@ -28,7 +28,9 @@ TEST(DoctorOnBridge, AWellOneSaysWhatPassed) {
 }
 
 TEST(DoctorOnBridge, EachAlarmIsAFailure) {
-  const std::string lines = text(status(R"(["bridge: no server: x", "bridge: y"])"));
+  const std::string lines = text(status(
+      R"([{"text": "bridge: no server: x", "id": "bridge_no_server", "parameters": {"why": "x"}},
+                                     {"text": "bridge: y", "id": "", "parameters": {}}])"));
   EXPECT_THAT(lines, HasSubstr("FAIL  bridge: no server: x"));
   EXPECT_THAT(lines, HasSubstr("FAIL  bridge: y"));
 }

@@ -5,6 +5,8 @@
 
 #include <cerrno>
 
+#include "conditions/alarms.h"
+
 namespace ols::doctor {
 namespace {
 
@@ -100,6 +102,7 @@ TEST(DoctorOnDevices, AReportedDeviceKeepsItsWordsAndGetsAdvice) {
   gnss.state = device::DeviceState::kFault;
   gnss.text = "no fix";
   gnss.last_error = "no report for 6 s";
+  gnss.alarms = {alarm::gnss_fails("no fix")};
   EXPECT_THAT(line(judge(gnss)),
               HasSubstr("FAIL  gnss: no fix (no report for 6 s)  — systemctl status gpsd"));
   gnss.state = device::DeviceState::kStarting;
@@ -107,8 +110,7 @@ TEST(DoctorOnDevices, AReportedDeviceKeepsItsWordsAndGetsAdvice) {
   device::DeviceReport ptu = gnss;
   ptu.name = "ptu";
   ptu.state = device::DeviceState::kFault;
-  ptu.text =
-      "ran into a limit and may have lost steps: home it, or reference-ok once it was checked";
+  ptu.alarms = {alarm::ptu_ran_into_limit()};
   EXPECT_THAT(line(judge(ptu)), HasSubstr("ols-ctl STATION home"));
   EXPECT_THAT(line(judge(ptu)), HasSubstr("ols-ctl STATION reference-ok"));
 }

@@ -5,6 +5,8 @@
 
 #include <cerrno>
 
+#include "conditions/alarms.h"
+
 namespace ols::doctor {
 namespace {
 
@@ -15,7 +17,7 @@ TEST(DoctorOnHost, AClockIsNeverAReasonToStop) {
   clock.text = "chrony: PPS";
   clock.state = clock::ClockState::kSynchronised;
   EXPECT_EQ(judge(clock).verdict, Verdict::kOk);
-  clock.alarm = "clock: stepped by +2.000 s 12 s ago";
+  clock.alarm = alarm::clock_stepped(2.0, 12.0);
   EXPECT_EQ(judge(clock).verdict, Verdict::kWarn);
   clock.state = clock::ClockState::kUnsynchronised;
   EXPECT_EQ(judge(clock).verdict, Verdict::kWarn);
@@ -35,7 +37,7 @@ TEST(DoctorOnHost, AHotProcessorIsTold) {
   EXPECT_TRUE(judge(host).empty());
   host.readings["cpu_degC"] = 61.0;
   EXPECT_EQ(exit_status(judge(host)), 0);
-  host.alarms = {"processor at 92 degC"};
+  host.alarms = {alarm::processor_hot(92.0)};
   EXPECT_EQ(exit_status(judge(host)), 1);
 }
 

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "conditions/alarms.h"
+
 namespace ols::doctor {
 namespace {
 
@@ -50,7 +52,7 @@ TEST(DoctorOnSite, WhatIsNotSignedIsTold) {
   BusHeard bus = good_bus();
   bus.distrusted = {{"bus_distrusted_replayed", 0.0}, {"bus_distrusted_unsigned", 3.0}};
   EXPECT_THAT(lines(judge(bus)), HasSubstr("warn  signatures: not believed just now: 3 unsigned"));
-  bus.trust_trouble = "trust: the key of alfa is revoked";
+  bus.trust_trouble = alarm::own_key_revoked("alfa");
   EXPECT_EQ(exit_status(judge(bus)), 2);
   bus = good_bus();
   bus.is_verified = false;
@@ -76,7 +78,7 @@ TEST(DoctorOnSite, SmallBuffersLonelinessAndRivalsAreTold) {
 
 TEST(DoctorOnSite, TheFusionsAlarmsAreTold) {
   BusHeard bus = good_bus();
-  bus.fusion_alarms = alarms_of({"another fusion is on the bus: stop one of them"});
+  bus.fusion_alarms = {alarm::another_fusion()};
   EXPECT_EQ(exit_status(judge_company(bus, "alfa")), 1);
   EXPECT_THAT(lines(judge_company(bus, "alfa")), HasSubstr("fusion: alarm: another fusion is"));
 }
@@ -101,7 +103,7 @@ TEST(DoctorOnSite, AWellStation) {
 
 TEST(DoctorOnSite, WhatAStationComplainsOfIsPassedOn) {
   StationHeard station = good_station();
-  station.alarms = alarms_of({"gnss: 103 m from the survey"});
+  station.alarms = {alarm::gnss_off_survey("103 m")};
   EXPECT_THAT(lines(judge(station)), HasSubstr("warn  alarm: gnss: 103 m from the survey"));
   station = good_station();
   station.counters["frames_incomplete"] = 20.0;

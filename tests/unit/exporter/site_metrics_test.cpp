@@ -7,6 +7,7 @@
 #include <set>
 
 #include "conditions/alarm.h"
+#include "conditions/alarms.h"
 #include "ols_msg/bearing_t.hpp"
 
 namespace ols::exporter {
@@ -33,7 +34,7 @@ Station status_of(const std::string& id) {
   s.reading_value = {5e9};
   s.counter_name = {"bearings"};
   s.counter_value = {1234.0};
-  set_alarms({"station s9: not used, it reports a clock error of 3 s"}, s);
+  set_alarms({alarm::station_clock_error("s9", 3.0)}, s);
   return s;
 }
 

@@ -5,12 +5,14 @@
 #include <string>
 #include <vector>
 
+#include "conditions/alarms.h"
+
 namespace ols {
 namespace {
 
 // The same condition, whatever its number.
-const std::string k3s = "station bravo: not used, its stamps are 3 s behind the others'";
-const std::string k4s = "station bravo: not used, its stamps are 4 s behind the others'";
+const Alarm k3s = alarm::station_behind("bravo", 3.0);
+const Alarm k4s = alarm::station_behind("bravo", 4.0);
 
 TEST(AlarmJournal, TellsWhatBeginsAndEndsAndIsNotFlooded) {
   std::vector<JournalEvent> told;
@@ -19,9 +21,9 @@ TEST(AlarmJournal, TellsWhatBeginsAndEndsAndIsNotFlooded) {
   journal.look({k4s}, 1.0);
   journal.look({}, 2.0);
   ASSERT_EQ(told.size(), 2U);
-  EXPECT_EQ(told[0].text, "alarm: " + k3s);
+  EXPECT_EQ(told[0].text, "alarm: " + k3s.text);
   EXPECT_EQ(told[0].station, "bravo");
-  EXPECT_EQ(told[1].text, "over: " + k4s);
+  EXPECT_EQ(told[1].text, "over: " + k4s.text);
   EXPECT_EQ(told[1].id, event::kAlarmEnds);
   for (int i = 0; i < 20; ++i) {
     journal.look({k4s}, 3.0);

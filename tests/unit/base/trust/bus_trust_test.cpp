@@ -273,7 +273,7 @@ TEST_F(BusTrustTest, MarksThatCannotBeReadOrWrittenAreSaidUntilTheyCan) {
   EXPECT_TRUE(hear(*centre, "OLS_BEARING_alfa", bearing).passes);
   // Not by what a look at the list finds.
   EXPECT_TRUE(eventually([&] {
-    return centre->trouble().find("cannot be kept for the next start") != std::string::npos;
+    return centre->trouble().text.find("cannot be kept for the next start") != std::string::npos;
   }));
 }
 

@@ -46,7 +46,7 @@ TEST(Preconditions, EachHindranceIsNamed) {
 
 TEST(Preconditions, ADeviceOfAnotherSerialNumberIsNamed) {
   StationFacts facts = good();
-  facts.alarms = alarms_of({"disk: full", alarm::other_device("camera", "C8", "C7")});
+  facts.alarms = {{"disk: full"}, alarm::other_device("camera", "C8", "C7")};
   EXPECT_EQ(first_hindrance(preconditions(facts, kWanted))
                 .find("another camera than configured: it says 'C8', [serials] has 'C7': correct"),
             0U);

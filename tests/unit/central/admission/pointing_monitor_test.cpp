@@ -22,7 +22,7 @@ TEST(PointingMonitor, NamesWhoIsAlwaysOffByTheSame) {
   PointingMonitor monitor;
   hear(monitor, 0.0, 6.0, false, kOff);
   EXPECT_EQ(monitor.quarantine("a"),
-            "its bearings are 4.6 deg off the target of the other stations");
+            "station a: not used, its bearings are 4.6 deg off the target of the other stations");
   EXPECT_EQ(monitor.quarantine("b"), "");
 }
 

@@ -16,7 +16,7 @@ TEST(UnassociatedMonitor, NamesWhoFollowsNoTargetForLong) {
   follow(monitor, 0, 9);
   EXPECT_EQ(monitor.alarm("a", kStart + 9'000'000), "");
   follow(monitor, 10, 10);
-  EXPECT_NE(monitor.alarm("a", kStart + 10'000'000).find("station a: has followed for 10 s"),
+  EXPECT_NE(monitor.alarm("a", kStart + 10'000'000).text.find("station a: has followed for 10 s"),
             std::string::npos);
   EXPECT_EQ(monitor.alarm("a", kStart + 14'000'000), "") << "after a silence";
 }

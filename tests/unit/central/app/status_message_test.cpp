@@ -16,8 +16,8 @@ namespace {
 
 TEST(StatusMessage, TheFusionsStatusNamesWhoIsQuarantined) {
   FusionHealth health;
-  health.stations = {{"a", 10, 15.0, 0.05, 1.0, 0.0, "", {}},
-                     {"b", 20, 15.0, -2.0, 1.0, 2.0, "its stamps are ahead", {}}};
+  health.stations = {{"a", 10, 15.0, 0.05, 1.0, 0.0, {}, {}},
+                     {"b", 20, 15.0, -2.0, 1.0, 2.0, {"its stamps are ahead"}, {}}};
   health.stations[1].finding.bias_rad = {1e-3, -2e-3};
   const auto message = to_message(health, 0.1, MessageStamp{1, 2});
   ASSERT_EQ(message.stations, 2);
@@ -57,7 +57,7 @@ TEST(StatusMessage, AThousandStationsAreToldInTurnsThatADatagramHolds) {
   for (int i = 0; i < 1001; ++i) {
     char name[8];
     std::snprintf(name, sizeof name, "s%04d", i);
-    health.stations.push_back({.station = name, .quarantine = std::string(60, 'q')});
+    health.stations.push_back({.station = name, .quarantine = {std::string(60, 'q')}});
   }
   for (int i = 0; i < 64; ++i) {  // the most that the configuration allows
     CueHealth& cue = health.cues.emplace_back();

@@ -17,7 +17,7 @@ TEST(TimelinessGate, WithholdsWhatIsFarFromTheHostsClockAndSaysSoForAWhile) {
   EXPECT_TRUE(watch.take_event());
   EXPECT_FALSE(watch.passes(kStart, kStart + 9'900'000, 10.1, 0.0));
   EXPECT_FALSE(watch.take_event()) << "once";
-  EXPECT_NE(watch.alarm(11.0).find("-9.9 s from this host's clock"), std::string::npos);
+  EXPECT_NE(watch.alarm(11.0).text.find("-9.9 s from this host's clock"), std::string::npos);
   EXPECT_TRUE(watch.passes(kStart, kStart, 11.0, 0.0));
   EXPECT_EQ(watch.alarm(20.0), "");
   EXPECT_FALSE(watch.passes(kStart, kStart - 3'000'000, 21.0, 0.0)) << "from the future as well";
@@ -28,10 +28,10 @@ TEST(TimelinessGate, WithholdsWhatIsFarFromTheHostsClockAndSaysSoForAWhile) {
 TEST(TimelinessGate, NamesOverloadWhereTheMessagesWaitedHere) {
   TimelinessGate watch(2.0);
   EXPECT_FALSE(watch.passes(kStart, kStart + 2'300'000, 10.0, 2.1));
-  EXPECT_NE(watch.alarm(10.0).find("overload: messages wait 2.1 s"), std::string::npos);
-  EXPECT_EQ(watch.alarm(10.0).find("--replay"), std::string::npos);
+  EXPECT_NE(watch.alarm(10.0).text.find("overload: messages wait 2.1 s"), std::string::npos);
+  EXPECT_EQ(watch.alarm(10.0).text.find("--replay"), std::string::npos);
   EXPECT_FALSE(watch.passes(kStart, kStart + 10'000'000, 11.0, 0.3));
-  EXPECT_NE(watch.alarm(11.0).find("--replay"), std::string::npos);
+  EXPECT_NE(watch.alarm(11.0).text.find("--replay"), std::string::npos);
 }
 
 }  // namespace

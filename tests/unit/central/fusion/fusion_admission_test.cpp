@@ -100,8 +100,8 @@ TEST(FusionAdmission, AWrongHeadingIsQuarantinedByNameAndTheOthersGoOn) {
     EXPECT_EQ(target.target_id, 1);
   }
   for (const StationHealth& station : fusion.health().stations) {
-    const bool named = station.quarantine.find("deg off") != std::string::npos;
-    EXPECT_EQ(named, station.station == "b") << station.station << ": " << station.quarantine;
+    const bool named = station.quarantine.text.find("deg off") != std::string::npos;
+    EXPECT_EQ(named, station.station == "b") << station.station << ": " << station.quarantine.text;
   }
   EXPECT_GT(fusion.health().counters.at("refused_quarantine"), 10.0);
 }

@@ -26,7 +26,7 @@ std::vector<BearingMeasurement> with_a_stray(double seconds) {
   return measurements;
 }
 
-std::vector<std::string> alarms_after(const std::vector<BearingMeasurement>& measurements) {
+std::vector<Alarm> alarms_after(const std::vector<BearingMeasurement>& measurements) {
   Fusion fusion{FusionConfig{}};
   for (const BearingMeasurement& measurement : measurements) fusion.add(measurement);
   return fusion.health().alarms;
@@ -35,7 +35,7 @@ std::vector<std::string> alarms_after(const std::vector<BearingMeasurement>& mea
 TEST(FusionAlarms, NamesWhoFollowsForLongWhatIsNoneOfTheTargets) {
   const auto alarms = alarms_after(with_a_stray(14.0));
   ASSERT_EQ(alarms.size(), 1U);
-  EXPECT_TRUE(alarms[0].starts_with("station d: has followed for 1")) << alarms[0];
+  EXPECT_TRUE(alarms[0].text.starts_with("station d: has followed for 1")) << alarms[0].text;
 }
 
 // A constant error: its pose may be wrong, which is another alarm, and one is enough.
@@ -48,7 +48,8 @@ TEST(FusionAlarms, NamesWhoIsQuarantined) {
   }
   const auto alarms = alarms_after(measurements);
   ASSERT_EQ(alarms.size(), 1U);
-  EXPECT_TRUE(alarms[0].starts_with("station d: not used, its bearings are 5")) << alarms[0];
+  EXPECT_TRUE(alarms[0].text.starts_with("station d: not used, its bearings are 5"))
+      << alarms[0].text;
 }
 
 TEST(FusionAlarms, SaysNothingOfWhoDoesSoForAMoment) {

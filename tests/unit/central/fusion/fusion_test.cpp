@@ -89,7 +89,7 @@ TEST(Fusion, OneWrongClockHurtsOnlyItsOwner) {
       EXPECT_GT(at_first, 10.0) << wrong << " " << offset;
       EXPECT_GT(at_first + health.counters.at("refused_quarantine"), 55.0) << wrong;
       for (const StationHealth& station : health.stations) {
-        EXPECT_EQ(station.quarantine.empty(), station.station != wrong) << station.quarantine;
+        EXPECT_EQ(station.quarantine.empty(), station.station != wrong) << station.quarantine.text;
       }
       EXPECT_NE(health.last_error.find("station " + wrong), std::string::npos);
       for (const FusedTarget& target : targets) {

@@ -48,7 +48,7 @@ TEST_F(ActiveCalibrationTest, AnUnreadableOneIsNamedAndTheStationGoesOn) {
   EXPECT_EQ(refused.settings().calibration_id, 5) << "its own values";
   EXPECT_FALSE(refused.settings().station.calibration);
   ASSERT_EQ(refused.alarms().size(), 1U);
-  EXPECT_NE(refused.alarms().front().find("instrument.toml:1: rubbish"), std::string::npos);
+  EXPECT_NE(refused.alarms().front().text.find("instrument.toml:1: rubbish"), std::string::npos);
 }
 
 // Without a calibration, too: the next one would be stored under the configured serial numbers.
@@ -58,12 +58,11 @@ TEST_F(ActiveCalibrationTest, ADeviceThatSaysAnotherSerialNumberIsNamed) {
   EXPECT_TRUE(ActiveCalibration::other_devices(configured, {camera(""), camera("C7")}).empty());
   EXPECT_TRUE(ActiveCalibration::other_devices(InstrumentSerials{}, {camera("C8")}).empty())
       << "none is configured";
-  EXPECT_EQ(ActiveCalibration::other_devices(configured, {camera("C8")}),
-            std::vector<std::string>{"calibration: another camera than configured: it says 'C8', "
-                                     "[serials] has 'C7'"});
-  // By this a guided procedure knows the alarm.
-  EXPECT_EQ(alarm_of(ActiveCalibration::other_devices(configured, {camera("C8")}).front()).id,
-            "other_device");
+  const auto others = ActiveCalibration::other_devices(configured, {camera("C8")});
+  ASSERT_EQ(others.size(), 1U);
+  EXPECT_EQ(others[0].text,
+            "calibration: another camera than configured: it says 'C8', [serials] has 'C7'");
+  EXPECT_EQ(others[0].id, "other_device") << "by this a guided procedure knows the alarm";
 }
 
 TEST_F(ActiveCalibrationTest, ACameraThatIsAnotherEndsIt) {
@@ -74,7 +73,7 @@ TEST_F(ActiveCalibrationTest, ACameraThatIsAnotherEndsIt) {
   EXPECT_FALSE(used.refuses({camera("C8")})) << "once";
   EXPECT_EQ(used.status().state, CalibrationState::kRefused);
   EXPECT_FALSE(used.settings().station.calibration);
-  EXPECT_NE(used.alarms().front().find("is of camera 'C7', the camera says 'C8'"),
+  EXPECT_NE(used.alarms().front().text.find("is of camera 'C7', the camera says 'C8'"),
             std::string::npos);
 }
 
@@ -92,7 +91,7 @@ TEST_F(ActiveCalibrationTest, AUnitInAnotherStepModeEndsIt) {
   EXPECT_FALSE(used.settings().station.calibration);
   EXPECT_EQ(used.settings().station.geometry.sd.heading_rad, radians(0.5)) << "as configured";
   ASSERT_EQ(used.alarms().size(), 1U);
-  EXPECT_NE(used.alarms().front().find("the unit has another number of counts per turn"),
+  EXPECT_NE(used.alarms().front().text.find("the unit has another number of counts per turn"),
             std::string::npos);
 }
 

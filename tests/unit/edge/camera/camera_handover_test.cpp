@@ -4,6 +4,8 @@
 
 #include <thread>
 
+#include "conditions/alarms.h"
+
 namespace ols::camera {
 namespace {
 
@@ -85,10 +87,10 @@ TEST_F(CameraHandoverTest, ALostCameraHasNoFrameRate) {
   statistics_.add(1.1, true);
   handover_.publish(numbered(1), 0, statistics_);
   EXPECT_GT(handover_.facts().frame_rate_hz, 5.0);
-  handover_.note_failure(CameraState::kAbsent, "no answer");
+  handover_.note_failure(CameraState::kAbsent, alarm::camera_lost_answer());
   EXPECT_EQ(handover_.facts().frame_rate_hz, 0.0);
   EXPECT_EQ(handover_.facts().fault, "") << "absent, not faulty";
-  EXPECT_EQ(handover_.facts().last_error, "no answer");
+  EXPECT_EQ(handover_.facts().last_error, alarm::camera_lost_answer().reason());
 }
 
 }  // namespace

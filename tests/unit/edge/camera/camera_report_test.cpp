@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "conditions/alarms.h"
+
 namespace ols::camera {
 namespace {
 
@@ -57,7 +59,7 @@ TEST(CameraReport, SilenceIsAFaultWithinASecondAndAnAlarmIfItLasts) {
   EXPECT_THAT(report.alarms, ElementsAre("camera: no frames for 1.6 s"));
   CameraFacts lost = streaming();
   lost.state = CameraState::kAbsent;
-  lost.last_error = "camera: lost: no frame arrives";
+  lost.last_error = "lost: no frame arrives";
   const device::DeviceReport later = make_camera_report(CameraConfig{}, lost, 99.95 + 2.1);
   EXPECT_THAT(later.alarms, ElementsAre("camera: no frames for 2.1 s"));
   EXPECT_THAT(make_camera_report(CameraConfig{}, lost, 99.95 + 1.2).alarms,
@@ -97,7 +99,7 @@ TEST(CameraReport, WhatHoldsIsAnAlarm) {
                           "camera: PTP differs from the camera's latched clock by -1.0000 s"));
   CameraFacts unfit = streaming();
   unfit.state = CameraState::kFault;
-  unfit.fault = "camera: insists on pixel format BayerRG8 instead of Mono8";
+  unfit.fault = alarm::camera_other_format("BayerRG8", "Mono8");
   EXPECT_THAT(make_camera_report(CameraConfig{}, unfit, 100.0).alarms,
               ElementsAre("camera: insists on pixel format BayerRG8 instead of Mono8"));
 }

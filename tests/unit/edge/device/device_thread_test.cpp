@@ -47,7 +47,7 @@ TEST(DeviceThread, OpensAgainAfterFailuresAndCountsThem) {
   ASSERT_TRUE(eventually([&] { return device.sessions >= 3; }));
   DeviceReport report = thread.report();
   EXPECT_EQ(report.state, DeviceState::kAbsent);
-  EXPECT_EQ(report.alarms, std::vector<std::string>{"gnss: not there"});
+  EXPECT_EQ(report.alarms, std::vector{alarm::gnss_fails("not there")});
   EXPECT_GE(report.errors, 2U);
   device.is_there = true;
   ASSERT_TRUE(eventually([&] { return thread.link().is_open; }));

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "conditions/alarms.h"
 #include "geometry/angles.h"
 
 namespace ols::station {
@@ -35,11 +36,11 @@ StationReport report() {
   gnss.state = device::DeviceState::kFault;
   gnss.text = "no fix";
   gnss.last_good_s = 40.0;
-  gnss.alarms = {"gnss: no fix"};
+  gnss.alarms = {alarm::gnss_fails("no fix")};
   gnss.readings["gnss_satellites"] = 3.0;
   gnss.counters["gnss_reports"] = 11;
   report.devices = {gnss};
-  report.alarms = {"clock: stepped", "gnss: no fix"};
+  report.alarms = {{"clock: stepped"}, alarm::gnss_fails("no fix")};
   report.readings["disk_free_bytes"] = 1e9;
   report.counters["clock_steps"] = 1.0;
   report.last_error = "gnss: no fix";

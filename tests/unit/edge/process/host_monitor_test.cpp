@@ -67,8 +67,8 @@ TEST(HostMonitor, ADiskThatHangsHoldsNobodyAndIsAnAlarm) {
     EXPECT_TRUE(watch.look(now_s).alarms.empty()) << "it may still come";
     const HostReport report = watch.look(now_s + 60.0);
     ASSERT_EQ(report.alarms.size(), 1U);
-    EXPECT_NE(report.alarms[0].find("disk / does not answer for 6"), std::string::npos)
-        << report.alarms[0];
+    EXPECT_NE(report.alarms[0].text.find("disk / does not answer for 6"), std::string::npos)
+        << report.alarms[0].text;
     EXPECT_FALSE(report.readings.contains("disk_free_bytes"));
   }  // nor its end
   released->set_value();

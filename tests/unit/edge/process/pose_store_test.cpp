@@ -77,8 +77,9 @@ TEST_F(PoseStoreTest, ADamagedFileIsRefusedUntilItIsWrittenAnew) {
 TEST_F(PoseStoreTest, AFolderThatIsNotThereIsATrouble) {
   PoseStore memory(folder + "/none/a.pose");
   memory.keep(pose);
-  EXPECT_TRUE(eventually([&] { return memory.trouble().starts_with("pose: cannot be saved: "); }));
-  EXPECT_NE(memory.trouble().find("/none/a.pose"), std::string::npos) << memory.trouble();
+  EXPECT_TRUE(
+      eventually([&] { return memory.trouble().text.starts_with("pose: cannot be saved: "); }));
+  EXPECT_NE(memory.trouble().text.find("/none/a.pose"), std::string::npos);
 }
 
 TEST_F(PoseStoreTest, WithoutAFileNothingIsKept) {

@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "conditions/alarms.h"
+
 namespace ols::station {
 namespace {
 
@@ -70,14 +72,15 @@ TEST_F(StationJournalTest, ADeviceThatIsComingUpIsNoAlarmYet) {
   report_.devices = {failed("camera", "camera x does not answer: no", 1), failed("gpio", "", 0)};
   for (auto& device : report_.devices) {
     device.state = device::DeviceState::kAbsent;
-    device.alarms = {device.name + ": does not answer"};
+    device.alarms = alarms_of({device.name + ": does not answer"});
   }
   const auto alarms = [this](std::int64_t utime_us) {
     StationReport report = report_;
     journal_.note(at(utime_us), bus_, report);
     return all_alarms(report);
   };
-  EXPECT_EQ(alarms(1'000'000), std::vector<std::string>{"gpio: does not answer"});
+  ASSERT_EQ(alarms(1'000'000).size(), 1U);
+  EXPECT_EQ(alarms(1'000'000).front(), "gpio: does not answer");
   EXPECT_EQ(noted(2'000'000), "gpio: does not answer") << "a stop that is not read is one at once";
   EXPECT_EQ(alarms(10'000'000).size(), 2U) << "by then it should have answered";
 }
@@ -95,7 +98,7 @@ TEST_F(StationJournalTest, WhatADeviceSaidWhileItCameUpIsNoErrorLaterEither) {
 TEST_F(StationJournalTest, AUnitThatStartsHasItsEmergencyStop) {
   report_.devices = {failed("ptu", "", 0)};
   report_.devices[0].state = device::DeviceState::kStarting;
-  report_.devices[0].alarms = {"ptu: emergency stop"};
+  report_.devices[0].alarms = {alarm::ptu_emergency_stop()};
   EXPECT_EQ(noted(1'000'000), "ptu: emergency stop");
 }
 
@@ -110,7 +113,7 @@ TEST_F(StationJournalTest, WhatHappensHasItsKindAndItsStation) {
   report_.devices = {failed("ptu", "", 0)};
   report_.devices[0].state = device::DeviceState::kAbsent;
   report_.devices[0].text = "no answer";
-  report_.alarms = {"gnss: silent for 5 s"};
+  report_.alarms = {alarm::gnss_silent("5 s", "position kept")};
   report_.snapshot.state = StationState::kEmergency;
   bus_.last_refusal = "SLEW refused: stale";
   bus_.refusals = 1;
@@ -133,7 +136,7 @@ TEST_F(StationJournalTest, WhatHappensHasItsKindAndItsStation) {
       {event::kBusLost, "bus"},           {event::kStationState, "station"}};
   EXPECT_EQ(kinds, expected);
   EXPECT_EQ(written_[0].reason, "no answer");
-  EXPECT_EQ(written_[1].reason, "silent for 5 s");
+  EXPECT_EQ(written_[1].reason, "silent for 5 s, position kept");
 }
 
 }  // namespace

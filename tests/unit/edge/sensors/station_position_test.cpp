@@ -26,8 +26,8 @@ StationPose pose_of(const StationPosition& position, double now_s) {
   return pose;
 }
 
-std::vector<std::string> alarms_of(const StationPosition& position, double now_s) {
-  std::vector<std::string> alarms;
+std::vector<Alarm> alarms_of(const StationPosition& position, double now_s) {
+  std::vector<Alarm> alarms;
   position.add_alarms(alarms, now_s);
   return alarms;
 }

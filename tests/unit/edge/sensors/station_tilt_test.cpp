@@ -22,8 +22,8 @@ StationPose pose_of(const StationTilt& tilt, double now_s) {
   return pose;
 }
 
-std::vector<std::string> alarms_of(const StationTilt& tilt, double now_s) {
-  std::vector<std::string> alarms;
+std::vector<Alarm> alarms_of(const StationTilt& tilt, double now_s) {
+  std::vector<Alarm> alarms;
   tilt.add_alarms(alarms, now_s);
   return alarms;
 }

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "conditions/alarms.h"
+
 namespace ols::station {
 namespace {
 
@@ -44,13 +46,13 @@ TEST(FaultLog, EachRefusedCommandCounts) {
 
 TEST(FaultLog, AnAlarmIsATroubleWhenItBegins) {
   FaultLog log;
-  log.note_alarms({"gnss: silent for 5 s, position kept"}, kSecond);
+  log.note_alarms({alarm::gnss_silent("5 s", "position kept")}, kSecond);
   log.note("ptu", "reset", 1, 2 * kSecond);
-  log.note_alarms({"gnss: silent for 6 s, position kept"}, 3 * kSecond);
+  log.note_alarms({alarm::gnss_silent("6 s", "position kept")}, 3 * kSecond);
   EXPECT_EQ(log.text(), "ptu: reset") << "the same alarm, a second older";
   log.note_alarms({}, 4 * kSecond);
   EXPECT_EQ(log.text(), "ptu: reset");
-  log.note_alarms({"gnss: silent for 5 s, position kept"}, 5 * kSecond);
+  log.note_alarms({alarm::gnss_silent("5 s", "position kept")}, 5 * kSecond);
   EXPECT_EQ(log.text(), "gnss: silent for 5 s, position kept");
 }
 
@@ -74,9 +76,9 @@ TEST(FaultLog, TroublesAreNewsOnce) {
 
 TEST(FaultLog, AlarmsAreNewsWhenTheyComeAndWhenTheyGo) {
   FaultLog log;
-  log.note_alarms({"gnss: silent for 5 s, position kept"}, kSecond);
+  log.note_alarms({alarm::gnss_silent("5 s", "position kept")}, kSecond);
   EXPECT_EQ(news(log), (Texts{"! alarm: gnss: silent for 5 s, position kept"}));
-  log.note_alarms({"gnss: silent for 61 s, position kept"}, 2 * kSecond);
+  log.note_alarms({alarm::gnss_silent("61 s", "position kept")}, 2 * kSecond);
   EXPECT_EQ(news(log), Texts{});
   log.note_alarms({}, 3 * kSecond);
   EXPECT_EQ(news(log), (Texts{"over: gnss: silent for 61 s, position kept"}));

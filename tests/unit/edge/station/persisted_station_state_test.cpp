@@ -234,10 +234,10 @@ TEST_F(PersistedStationStateTest, AFolderThatCannotBeWrittenIsNotBelievedToPermi
     told = eventually([&] {
       const auto alarms = m.alarms();
       return alarms.size() == 4 &&
-             alarms[0].starts_with("stop: state before the restart is unknown") &&
-             alarms[0].find("ermission denied") != std::string::npos &&
-             alarms[1].starts_with("stop: state cannot be saved: ") &&
-             alarms[3].starts_with("ptu: reference state cannot be saved: ");
+             alarms[0].text.starts_with("stop: state before the restart is unknown") &&
+             alarms[0].text.find("ermission denied") != std::string::npos &&
+             alarms[1].text.starts_with("stop: state cannot be saved: ") &&
+             alarms[3].text.starts_with("ptu: reference state cannot be saved: ");
     });
   }).join();
   fs::permissions(folder, fs::perms::owner_all);

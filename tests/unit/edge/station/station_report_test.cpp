@@ -15,14 +15,14 @@ device::DeviceReport device_in(const char* name, DeviceState state,
   device::DeviceReport report;
   report.name = name;
   report.state = state;
-  report.alarms = alarms;
+  report.alarms = alarms_of(alarms);
   return report;
 }
 
 TEST(StationReport, OneAlarmIsToldOnceWhoeverRaisedIt) {
   StationReport report;
   EXPECT_THAT(all_alarms(report), IsEmpty());
-  report.alarms = {"clock: not synchronised", "bus: silent"};
+  report.alarms = alarms_of({"clock: not synchronised", "bus: silent"});
   report.devices = {device_in("gnss", DeviceState::kOk, {"gnss: no fix", "bus: silent"}),
                     device_in("ptu", DeviceState::kOk, {"gnss: no fix"})};
   EXPECT_THAT(all_alarms(report),
@@ -41,9 +41,9 @@ TEST(StationReport, TheLineNamesOnlyWhatIsNotWell) {
 
 TEST(StationReport, TheLineHasTheFirstAlarmAndCountsTheOthers) {
   StationReport report;
-  report.alarms = {"a"};
+  report.alarms = alarms_of({"a"});
   EXPECT_EQ(in_one_line(report), "idle; a");
-  report.alarms = {"a", "b", "c", "b"};
+  report.alarms = alarms_of({"a", "b", "c", "b"});
   EXPECT_EQ(in_one_line(report), "idle; a and 2 more alarms");
 }
 

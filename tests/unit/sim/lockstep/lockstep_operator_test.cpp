@@ -87,11 +87,12 @@ TEST_P(RecoveredOrNamed, AWrongDesignationIsNeverQuietlyHeld) {
   const auto alarms = lockstep.result().alarms;
   EXPECT_EQ(frames.back().state, station::StationState::kTracking);
   if (is_on_target(frames.back())) {
-    EXPECT_TRUE(alarms.empty()) << alarms.front();
+    EXPECT_TRUE(alarms.empty()) << alarms.front().text;
     return;
   }
   ASSERT_EQ(alarms.size(), 1U);
-  EXPECT_TRUE(alarms[0].starts_with("station " + wrong.designation.station + ": ")) << alarms[0];
+  EXPECT_TRUE(alarms[0].text.starts_with("station " + wrong.designation.station + ": "))
+      << alarms[0].text;
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -110,7 +111,7 @@ TEST(WrongDesignations, TheFusionNamesWhoFollowsTheBackground) {
   EXPECT_EQ(result.stations[1].frames.back().state, station::StationState::kTracking);
   EXPECT_FALSE(is_on_target(result.stations[1].frames.back()));
   ASSERT_EQ(result.alarms.size(), 1U);
-  EXPECT_TRUE(result.alarms[0].starts_with("station bravo: ")) << result.alarms[0];
+  EXPECT_TRUE(result.alarms[0].text.starts_with("station bravo: ")) << result.alarms[0].text;
 }
 
 }  // namespace

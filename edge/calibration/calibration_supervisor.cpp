@@ -1,4 +1,4 @@
-#include "edge/drift/calibration_supervisor.h"
+#include "edge/calibration/calibration_supervisor.h"
 
 #include <algorithm>
 #include <cmath>
@@ -98,9 +98,9 @@ CalibrationStatus CalibrationSupervisor::status() const {
   return status;
 }
 
-std::vector<std::string> CalibrationSupervisor::alarms() const {
-  std::vector<std::string> alarms = in_use_.alarms();
-  if (std::string alarm = next_.alarm(); !alarm.empty()) alarms.push_back(std::move(alarm));
+std::vector<Alarm> CalibrationSupervisor::alarms() const {
+  std::vector<Alarm> alarms = in_use_.alarms();
+  if (Alarm alarm = next_.alarm(); !alarm.empty()) alarms.push_back(std::move(alarm));
   if (views_) {
     const auto more = views_->alarms();
     alarms.insert(alarms.end(), more.begin(), more.end());

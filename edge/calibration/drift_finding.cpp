@@ -1,4 +1,4 @@
-#include "edge/drift/drift_finding.h"
+#include "edge/calibration/drift_finding.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>

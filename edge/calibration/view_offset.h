@@ -4,7 +4,7 @@
 #include <opencv2/core.hpp>
 #include <optional>
 
-#include "edge/drift/drift_finding.h"
+#include "edge/calibration/drift_finding.h"
 #include "geometry/station_model.h"
 
 namespace ols::station {

@@ -5,6 +5,8 @@
 #include <optional>
 #include <string>
 
+#include "conditions/alarm.h"
+
 namespace ols::station {
 
 class CheckRecord {
@@ -22,7 +24,7 @@ class CheckRecord {
   void note_too_few() { too_few_ = true; }
 
   // The alarm; empty: none. A night without a check raises none, a day does.
-  std::string alarm() const;
+  Alarm alarm() const;
 
  private:
   double now_s_ = 0.0;

@@ -1,4 +1,4 @@
-#include "edge/drift/calibration_supervisor.h"
+#include "edge/calibration/calibration_supervisor.h"
 
 #include <gtest/gtest.h>
 
@@ -173,7 +173,7 @@ TEST_F(AcceptedMeanwhile, IsTakenUpOnceTheStationIsIdle) {
   link(second_.path);
   EXPECT_FALSE(waits(kept, "C7")) << "at work";
   EXPECT_EQ(kept.status().id, before);
-  EXPECT_NE(kept.alarms().front().find("accepted, not yet in use"), std::string::npos);
+  EXPECT_NE(kept.alarms().front().text.find("accepted, not yet in use"), std::string::npos);
   EXPECT_TRUE(kept.adopts(now_s_ += 1.5, true, {camera("C7")}, {}));
   EXPECT_EQ(kept.status().id, id_);
   EXPECT_EQ(kept.settings().calibration_id, id_);
@@ -188,7 +188,7 @@ TEST_F(AcceptedMeanwhile, OneOfAnotherCameraIsNotAndTheOldOneStands) {
   EXPECT_FALSE(waits(kept, "C8"));
   EXPECT_FALSE(kept.adopts(now_s_ += 1.5, true, {camera("C8")}, {}));
   EXPECT_EQ(kept.status().id, before);
-  EXPECT_NE(kept.alarms().front().find("the camera says 'C8'"), std::string::npos);
+  EXPECT_NE(kept.alarms().front().text.find("the camera says 'C8'"), std::string::npos);
 }
 
 TEST_F(AcceptedMeanwhile, EndsARefusal) {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "conditions/alarm.h"
 #include "edge/calibration/calibration_folder.h"
 
 namespace ols::station {
@@ -24,7 +25,7 @@ class CalibrationFolderWatch {
   void forget() { files_.reset(); }
   // Marks the calibration as unusable until another one is accepted.
   void refuse(const std::string& why);
-  std::string alarm() const;
+  Alarm alarm() const;
 
  private:
   using Read = std::unique_ptr<CalibrationFiles>;  // or an exception

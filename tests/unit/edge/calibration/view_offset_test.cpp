@@ -1,4 +1,4 @@
-#include "edge/drift/view_offset.h"
+#include "edge/calibration/view_offset.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "edge/drift/calibration_folder_watch.h"
+#include "edge/calibration/calibration_folder_watch.h"
 
 #include <gtest/gtest.h>
 
@@ -57,7 +57,7 @@ TEST_F(CalibrationFolderWatchTest, AnAcceptedOneWaitsAndSaysSo) {
   look(next);
   ASSERT_TRUE(next.waiting());
   EXPECT_EQ(next.waiting()->id, read_calibration(second_.path, configured()).id);
-  EXPECT_NE(next.alarm().find("accepted, not yet in use"), std::string::npos);
+  EXPECT_NE(next.alarm().text.find("accepted, not yet in use"), std::string::npos);
   next.forget();
   next.look(now_s_ += 1.5);
   EXPECT_FALSE(next.waiting());
@@ -79,13 +79,13 @@ TEST_F(CalibrationFolderWatchTest, OneThatCannotBeReadIsNamedUntilThereIsAnother
   link(second_.path);
   look(next);
   EXPECT_FALSE(next.waiting());
-  EXPECT_NE(next.alarm().find("instrument.toml:1: rubbish"), std::string::npos);
+  EXPECT_NE(next.alarm().text.find("instrument.toml:1: rubbish"), std::string::npos);
   link(first_.path);
   eventually([&] {
     next.look(now_s_ += 1.5);
     return next.waiting() != nullptr;
   });
-  EXPECT_EQ(next.alarm().find("rubbish"), std::string::npos);
+  EXPECT_EQ(next.alarm().text.find("rubbish"), std::string::npos);
 }
 
 }  // namespace

@@ -1,10 +1,10 @@
-#include "edge/drift/drift_watch.h"
+#include "edge/calibration/drift_watch.h"
 
 #include <gtest/gtest.h>
 
 #include <cstdio>
 
-#include "tests/unit/edge/drift/drift_test.h"
+#include "tests/unit/edge/calibration/drift_test.h"
 
 namespace ols::station {
 namespace {
@@ -50,8 +50,8 @@ TEST(DriftWatch, BelievesASecondLookOnly) {
   EXPECT_FALSE(watch.add(tripod(52.0)));
   EXPECT_EQ(watch.level(), DriftLevel::kRed);
   EXPECT_NEAR(watch.heading_doubt_rad() / kArcsec, 52.1, 0.1) << "at once, and all of it";
-  EXPECT_NE(watch.alarm().find("heading +52"), std::string::npos);
-  EXPECT_NE(watch.alarm().find("calibrate its setup again"), std::string::npos);
+  EXPECT_NE(watch.alarm().text.find("heading +52"), std::string::npos);
+  EXPECT_NE(watch.alarm().text.find("calibrate its setup again"), std::string::npos);
 }
 
 TEST(DriftWatch, AGustThatPassesIsNone) {
@@ -88,7 +88,7 @@ TEST(DriftWatch, ARedOneThatGrowsIsConfirmedAndTakenAnew) {
   EXPECT_FALSE(watch.add(tripod(-600.0)));
   EXPECT_NEAR(watch.heading_doubt_rad() / kArcsec, 600.0, 1.0);
   EXPECT_EQ(watch.revision(), revision + 1);
-  EXPECT_NE(watch.alarm().find("heading -600"), std::string::npos);
+  EXPECT_NE(watch.alarm().text.find("heading -600"), std::string::npos);
   EXPECT_TRUE(next.restore(watch.to_text()));
   EXPECT_NEAR(next.heading_doubt_rad() / kArcsec, 600.0, 1.0);
 }
@@ -119,7 +119,7 @@ TEST(DriftWatch, AChangedSceneIsSaidAndDoubtsNothing) {
   watch.add(scene);
   EXPECT_EQ(watch.level(), DriftLevel::kAmber);
   EXPECT_EQ(watch.heading_doubt_rad(), 0.0);
-  EXPECT_NE(watch.alarm().find("reference view 3"), std::string::npos);
+  EXPECT_NE(watch.alarm().text.find("reference view 3"), std::string::npos);
 }
 
 TEST(DriftWatch, LostStepsSendToHoming) {
@@ -130,7 +130,7 @@ TEST(DriftWatch, LostStepsSendToHoming) {
   lost.steps = -2;
   watch.add(lost);
   watch.add(lost);
-  EXPECT_NE(watch.alarm().find("pan is -2 motor steps"), std::string::npos);
+  EXPECT_NE(watch.alarm().text.find("pan is -2 motor steps"), std::string::npos);
   EXPECT_GT(watch.heading_doubt_rad(), 90.0 * kArcsec);
 }
 
@@ -176,7 +176,7 @@ TEST(DriftWatch, LostStepsYieldToWhatIsSeenAfterHoming) {
   for (int i = 0; i < 2; ++i) watch.add(lost_steps(true, 2, random));
   for (int i = 0; i < 2; ++i) watch.add(tripod(25.0));
   EXPECT_EQ(watch.level(), DriftLevel::kAmber);
-  EXPECT_NE(watch.alarm().find("the tripod has moved"), std::string::npos);
+  EXPECT_NE(watch.alarm().text.find("the tripod has moved"), std::string::npos);
 }
 
 TEST(DriftWatch, SurvivesARestartWithItsCalibrationOnly) {

@@ -1,4 +1,4 @@
-#include "edge/drift/check_record.h"
+#include "edge/calibration/check_record.h"
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ TEST(CheckRecord, ANightIsNothingToSayADayIs) {
   record.note_judged();
   EXPECT_EQ(record.alarm(), "");
   record.note(100.0 + 50 * kHour_s);
-  EXPECT_NE(record.alarm().find("never idle"), std::string::npos);
+  EXPECT_NE(record.alarm().text.find("never idle"), std::string::npos);
 }
 
 TEST(CheckRecord, ADayInWhichTheSunStoodInTheViewsIsSaid) {
@@ -27,7 +27,7 @@ TEST(CheckRecord, ADayInWhichTheSunStoodInTheViewsIsSaid) {
   record.note(0.0);
   record.note_sun();
   record.note(25 * kHour_s);
-  EXPECT_NE(record.alarm().find("the sun stands in its reference views"), std::string::npos);
+  EXPECT_NE(record.alarm().text.find("the sun stands in its reference views"), std::string::npos);
 }
 
 TEST(CheckRecord, AUnitThatDoesNotArriveIsSaidAfterThreeRounds) {
@@ -36,7 +36,7 @@ TEST(CheckRecord, AUnitThatDoesNotArriveIsSaidAfterThreeRounds) {
   record.note_late(2);
   EXPECT_EQ(record.alarm(), "");
   record.note_late(3);
-  EXPECT_NE(record.alarm().find("the unit does not come to its reference views"),
+  EXPECT_NE(record.alarm().text.find("the unit does not come to its reference views"),
             std::string::npos);
   record.note_late(0);
   EXPECT_EQ(record.alarm(), "");
@@ -45,7 +45,7 @@ TEST(CheckRecord, AUnitThatDoesNotArriveIsSaidAfterThreeRounds) {
 TEST(CheckRecord, TooFewViewsAreSaidAtOnce) {
   CheckRecord record;
   record.note_too_few();
-  EXPECT_NE(record.alarm().find("fewer than three"), std::string::npos);
+  EXPECT_NE(record.alarm().text.find("fewer than three"), std::string::npos);
 }
 
 }  // namespace

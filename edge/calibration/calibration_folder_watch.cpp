@@ -1,4 +1,4 @@
-#include "edge/drift/calibration_folder_watch.h"
+#include "edge/calibration/calibration_folder_watch.h"
 
 #include <exception>
 #include <filesystem>
@@ -65,9 +65,9 @@ void CalibrationFolderWatch::refuse(const std::string& why) {
   refused_ = why;
 }
 
-std::string CalibrationFolderWatch::alarm() const {
+Alarm CalibrationFolderWatch::alarm() const {
   if (files_) return alarm::calibration_waits(files_->id);
-  return refused_.empty() ? "" : alarm::accepted_calibration_not_used(refused_);
+  return refused_.empty() ? Alarm() : alarm::accepted_calibration_not_used(refused_);
 }
 
 }  // namespace ols::station

@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-#include "edge/drift/drift_finding.h"
+#include "edge/calibration/drift_finding.h"
 #include "geometry/angles.h"
 
 namespace ols::station::test {

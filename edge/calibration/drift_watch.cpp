@@ -1,4 +1,4 @@
-#include "edge/drift/drift_watch.h"
+#include "edge/calibration/drift_watch.h"
 
 #include <algorithm>
 #include <cmath>
@@ -105,7 +105,7 @@ double DriftWatch::tilt_doubt_rad() const {
   return std::max(least, std::hypot(finding_.tilt_rad, finding_.tilt_sd_rad));
 }
 
-std::string DriftWatch::alarm() const {
+Alarm DriftWatch::alarm() const {
   if (level_ == DriftLevel::kNone) return {};
   switch (finding_.cause) {
     case DriftCause::kTripod:

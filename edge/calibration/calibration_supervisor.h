@@ -10,9 +10,10 @@
 #include <vector>
 
 #include "base/process/clocks.h"
+#include "conditions/alarm.h"
 #include "edge/calibration/active_calibration.h"
-#include "edge/drift/calibration_folder_watch.h"
-#include "edge/drift/reference_views.h"
+#include "edge/calibration/calibration_folder_watch.h"
+#include "edge/calibration/reference_views.h"
 
 namespace ols::station {
 
@@ -47,7 +48,7 @@ class CalibrationSupervisor {
   std::optional<Doubt> take_doubt();
 
   CalibrationStatus status() const;
-  std::vector<std::string> alarms() const;
+  std::vector<Alarm> alarms() const;
   std::map<std::string, double> counters() const;
 
  private:

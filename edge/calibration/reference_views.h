@@ -11,10 +11,11 @@
 #include <vector>
 
 #include "base/files/background_file.h"
+#include "conditions/alarm.h"
+#include "edge/calibration/check_record.h"
+#include "edge/calibration/drift_watch.h"
+#include "edge/calibration/view_tour.h"
 #include "edge/camera/frame.h"
-#include "edge/drift/check_record.h"
-#include "edge/drift/drift_watch.h"
-#include "edge/drift/view_tour.h"
 #include "geometry/station_calibration.h"
 
 namespace ols::station {
@@ -50,7 +51,7 @@ class ReferenceViews {
   std::uint64_t unrecognised() const { return tally_.unrecognised; }
   // Number of views that rounds have left out because of the sun.
   std::uint64_t left_out() const { return tally_.left_out; }
-  std::vector<std::string> alarms() const;
+  std::vector<Alarm> alarms() const;
 
  private:
   // The result of a picture: an offset, or, if none was stored, whether it can be stored.

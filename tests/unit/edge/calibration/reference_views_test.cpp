@@ -1,4 +1,4 @@
-#include "edge/drift/reference_views.h"
+#include "edge/calibration/reference_views.h"
 
 #include <gtest/gtest.h>
 
@@ -109,7 +109,7 @@ TEST_F(ReferenceViewsTest, StoresThenFindsAKnockThatOutlivesTheProcess) {
     EXPECT_TRUE(views.alarms().empty()) << "one look";
     round(views, 4.3);
     ASSERT_EQ(views.alarms().size(), 1U);
-    EXPECT_NE(views.alarms().front().find("the tripod has moved"), std::string::npos);
+    EXPECT_NE(views.alarms().front().text.find("the tripod has moved"), std::string::npos);
     EXPECT_EQ(views.watch().level(), DriftLevel::kRed);
   }
   const ReferenceViews next(config_, calibration_);
@@ -127,7 +127,7 @@ TEST_F(ReferenceViewsTest, StoresNoPictureInWhichNothingCouldBeRecognised) {
   now_s_ += 90000.0;
   views.step({now_s_, true, PanTilt{}});
   ASSERT_EQ(views.alarms().size(), 1U);
-  EXPECT_NE(views.alarms().front().find("not checked for"), std::string::npos);
+  EXPECT_NE(views.alarms().front().text.find("not checked for"), std::string::npos);
   night_ = false;
   round(views, 0.0);
   EXPECT_TRUE(views.stored()) << "by day";
@@ -204,7 +204,7 @@ TEST_F(ReferenceViewsTest, FewerThanThreeViewsAreSaid) {
   limits_.keep_out.push_back({-radians(150), radians(60), -radians(40), radians(31)});
   views.set_limits(limits_);
   ASSERT_EQ(views.alarms().size(), 1U);
-  EXPECT_NE(views.alarms().front().find("fewer than three"), std::string::npos);
+  EXPECT_NE(views.alarms().front().text.find("fewer than three"), std::string::npos);
 }
 
 }  // namespace

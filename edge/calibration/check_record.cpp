@@ -1,4 +1,4 @@
-#include "edge/drift/check_record.h"
+#include "edge/calibration/check_record.h"
 
 #include "conditions/alarms.h"
 
@@ -19,7 +19,7 @@ void CheckRecord::note_late(int rounds) {
   if (rounds > 0) reason_ = "the unit does not come to its reference views";
 }
 
-std::string CheckRecord::alarm() const {
+Alarm CheckRecord::alarm() const {
   constexpr int kRounds = 3;
   constexpr double kDay_s = 86400.0, kHour_s = 3600.0;
   if (too_few_) return alarm::views_too_few();

@@ -1,8 +1,8 @@
-#include "edge/drift/drift_finding.h"
+#include "edge/calibration/drift_finding.h"
 
 #include <gtest/gtest.h>
 
-#include "tests/unit/edge/drift/drift_test.h"
+#include "tests/unit/edge/calibration/drift_test.h"
 
 namespace ols::station {
 namespace {

@@ -1,4 +1,4 @@
-#include "edge/drift/view_tour.h"
+#include "edge/calibration/view_tour.h"
 
 #include <algorithm>
 #include <cmath>

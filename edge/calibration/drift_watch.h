@@ -5,7 +5,8 @@
 #include <cstdint>
 #include <string>
 
-#include "edge/drift/drift_finding.h"
+#include "conditions/alarm.h"
+#include "edge/calibration/drift_finding.h"
 
 namespace ols::station {
 
@@ -33,7 +34,7 @@ class DriftWatch {
   // Incremented at each change of the doubt.
   int revision() const { return revision_; }
   // In words, with what to do; empty: none.
-  std::string alarm() const;
+  Alarm alarm() const;
 
   // One line for a file. restore() loads it if it is of the same calibration, and returns false for
   // a line that it cannot read.

@@ -1,4 +1,4 @@
-#include "edge/drift/reference_views.h"
+#include "edge/calibration/reference_views.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include "base/process/time_source.h"
 #include "calibration/pictures/view_registration.h"
 #include "conditions/alarms.h"
-#include "edge/drift/view_offset.h"
+#include "edge/calibration/view_offset.h"
 #include "geometry/angles.h"
 
 namespace ols::station {
@@ -190,10 +190,10 @@ void ReferenceViews::finish() {
   file_.write(watch_.to_text());
 }
 
-std::vector<std::string> ReferenceViews::alarms() const {
-  std::vector<std::string> alarms;
-  if (const std::string alarm = watch_.alarm(); !alarm.empty()) alarms.push_back(alarm);
-  if (std::string alarm = record_.alarm(); !alarm.empty()) alarms.push_back(std::move(alarm));
+std::vector<Alarm> ReferenceViews::alarms() const {
+  std::vector<Alarm> alarms;
+  if (Alarm alarm = watch_.alarm(); !alarm.empty()) alarms.push_back(std::move(alarm));
+  if (Alarm alarm = record_.alarm(); !alarm.empty()) alarms.push_back(std::move(alarm));
   if (!unreadable_.empty() && tally_.checks == 0) {
     alarms.push_back(alarm::checks_unknown(unreadable_));
   }

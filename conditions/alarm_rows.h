@@ -1,0 +1,12 @@
+// The table of alarms as the build has it. Pure.
+#pragma once
+
+#include <span>
+
+#include "conditions/alarm.h"
+
+namespace ols {
+
+std::span<const AlarmRow> alarm_rows();
+
+}  // namespace ols
