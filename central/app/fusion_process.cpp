@@ -159,11 +159,15 @@ std::string FusionProcess::obey(const CueOrder& order) {
   constexpr std::size_t kSenders = 1000;  // forged ones bring any number
   if (cue_orders_.size() >= kSenders) cue_orders_.clear();
   cue_orders_[order.boot_id] = order.sequence;
-  write_to_journal({.text = (target_named(order.cue) ? "target " : "cue ") + order.cue +
-                            ": an operator " + (order.allow ? "allows" : "forbids") + " it",
+  const bool is_target = target_named(order.cue).has_value();
+  write_to_journal({.text = (is_target ? "target " : "cue ") + order.cue + ": an operator " +
+                            (order.allow ? "allows"
+                             : is_target ? "dismisses"
+                                         : "forbids") +
+                            " it",
                     .id = event::kCueOrder});
   if (fusion_.allow_cue(order.cue, order.allow)) return {};
-  if (target_named(order.cue)) {
+  if (is_target) {
     return settings_.fusion.handover.mode == HandoverMode::kOff ? "handover_off" : "no_target";
   }
   return settings_.fusion.cues.allow == CueAllowance::kNever ? "cues_not_allowed" : "no_cue";

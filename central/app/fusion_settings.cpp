@@ -118,8 +118,8 @@ Section handover_section(HandoverConfig& c) {
                     {{"off", HandoverMode::kOff},
                      {"propose", HandoverMode::kPropose},
                      {"automatic", HandoverMode::kAutomatic}},
-                    "off: they lead none; propose: each waits for an operator; automatic: "
-                    "each leads at once."),
+                    "off: they lead none; propose: each waits for an operator; automatic: those "
+                    "of `classes` lead at once."),
        config::word_list("classes", c.classes,
                          {{"unknown", ObjectClass::kUnknown},
                           {"drone", ObjectClass::kDrone},

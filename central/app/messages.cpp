@@ -222,7 +222,8 @@ std::variant<std::int64_t, MessageRefusal> fusion_boot_from(const void* data, in
 std::variant<Cue, MessageRefusal> cue_from(const void* data, int bytes) {
   ols_msg::cue_t message;
   if (const auto refusal = decode(kCueChannel, kCueChannel, data, bytes, message)) return *refusal;
-  if (message.id.size() > kLongestId) return MessageRefusal::kMalformed;
+  // A number is the name of a target: an operator's word on it would never reach the cue.
+  if (message.id.size() > kLongestId || target_named(message.id)) return MessageRefusal::kMalformed;
   Cue cue;
   cue.id = plain_text(message.id);
   cue.label = plain_text(message.label.substr(0, kLongestId));

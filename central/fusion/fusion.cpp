@@ -82,7 +82,7 @@ FusionOutput Fusion::add(const BearingMeasurement& measurement) {
 std::vector<Slew> Fusion::slews_at(std::int64_t now_us) {
   if (!cues_.empty()) cues_.settle(now_us, tracks_.tracks());
   handover_.settle(now_us, tracks_.tracks());
-  const bool with_tracklets = config_.handover.mode == HandoverMode::kAutomatic;
+  const bool with_tracklets = handover_.leads_by_itself(ObjectClass::kUnknown);
   const BearingLines lines(tracks_, pointing_, config_.estimators.alignment, with_tracklets);
   auto slews =
       slews_.plan(now_us, admission_.stations(), lines, tracks_.tracks(), cues_, handover_);
@@ -190,6 +190,7 @@ void Fusion::forget_what_changed(const BearingMeasurement& measurement, const Ad
   if (admitted.restarted) {
     tracks_.forget_followed(measurement.station);
     unassociated_.forget(measurement.station);
+    slews_.forget_tracklets(measurement.station);
   }
 }
 

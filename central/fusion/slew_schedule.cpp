@@ -67,10 +67,11 @@ const BearingMeasurement* SlewSchedule::line_of(const std::string& station,
                                                 const std::vector<const BearingMeasurement*>& own) {
   const auto told = std::ranges::find_if(own, [](const auto* line) { return !line->is_tracklet; });
   if (told != own.end()) return *told;
-  const auto one = std::ranges::find_if(own, [&](const auto* line) {
-    return may_search({station, line->track_id});
-  });
-  return one == own.end() ? nullptr : *one;
+  const BearingMeasurement* oldest = nullptr;
+  for (const BearingMeasurement* line : own) {  // each is noted
+    if (may_search({station, line->track_id}) && oldest == nullptr) oldest = line;
+  }
+  return oldest;
 }
 
 // Not at once: the other stations may be about to see the object where they look. And not for ever:
@@ -78,15 +79,15 @@ const BearingMeasurement* SlewSchedule::line_of(const std::string& station,
 bool SlewSchedule::may_search(const TrackletName& tracklet) {
   constexpr double kWait_s = 0.7, kLongest_s = 10.0;
   const std::int64_t now_us = round_.now_us;
-  const Tracklet& known = tracklets_.try_emplace(tracklet, Tracklet{now_us, {}}).first->second;
+  Tracklet& known = tracklets_.try_emplace(tracklet, Tracklet{now_us}).first->second;
+  known.seen_us = now_us;
   return seconds(now_us - known.noted_us) >= kWait_s &&
          (!known.searched_us || seconds(now_us - *known.searched_us) < kLongest_s);
 }
 
 // The ray of the round before, while it lasts: another one would begin all searches anew.
 void SlewSchedule::cue(std::int64_t now_us, const BearingLines& lines) {
-  constexpr std::size_t kMostTracklets = 1000;
-  if (tracklets_.size() > kMostTracklets) tracklets_.clear();
+  constexpr double kForget_s = 2.0;  // of a tracklet that has ended, or that a target has taken
   std::map<std::pair<bool, std::string>, CueRay> rays;  // tracklets' behind the others
   for (const std::string& station : lines.stations(now_us)) {
     const BearingMeasurement* own = line_of(station, lines.of(station, now_us));
@@ -96,6 +97,9 @@ void SlewSchedule::cue(std::int64_t now_us, const BearingLines& lines) {
     if (!rays.empty() && rays.begin()->first < key && station != cued_by_) continue;
     if (const auto line = lines.at(*own, now_us)) rays[key] = cue_ray(*line, now_us);
   }
+  std::erase_if(tracklets_, [&](const auto& tracklet) {
+    return std::abs(seconds(now_us - tracklet.second.seen_us)) > kForget_s;
+  });
   if (rays.empty()) return;
   const bool by_tracklet = rays.begin()->first.first;
   const auto before = rays.find({by_tracklet, cued_by_});

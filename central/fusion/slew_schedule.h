@@ -30,7 +30,14 @@ class SlewSchedule {
                          const CueRegistry& cues, const HandoverPolicy& handover);
   // Whether a round is unfinished: its next part is due at once.
   bool is_in_round() const { return next_.has_value(); }
-  void forget(const std::string& station) { planner_.forget(station); }
+  void forget(const std::string& station) {
+    planner_.forget(station);
+    forget_tracklets(station);
+  }
+  // It numbers them anew.
+  void forget_tracklets(const std::string& station) {
+    std::erase_if(tracklets_, [&](const auto& known) { return known.first.first == station; });
+  }
   void clear() { *this = SlewSchedule(config_, give_up_s_, staring_); }
 
  private:
@@ -41,7 +48,7 @@ class SlewSchedule {
                          std::int64_t now_us) const;
   using TrackletName = std::pair<std::string, std::int64_t>;  // a station and its own id
   struct Tracklet {
-    std::int64_t noted_us = 0;
+    std::int64_t noted_us = 0, seen_us = 0;
     std::optional<std::int64_t> searched_us{};  // since when stations are led along its line
   };
   const BearingMeasurement* line_of(const std::string& station,

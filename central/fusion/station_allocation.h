@@ -5,8 +5,8 @@
 //  - Every target first gets two stations whose lines of sight cross well. The pairs of target and
 //    station are served in the order of worth over the time to turn there.
 //  - The stations that are left stay where they were led, or go to the target that the fewest have.
-//  - A station that was led to a target stays for a lease, and later leaves it only for a clearly
-//    better one.
+//  - A station that was led to a target stays for a lease. Later it leaves it only for one that
+//    needs it, and for a clearly better one if its own needs it, too.
 #pragma once
 
 #include <Eigen/Core>

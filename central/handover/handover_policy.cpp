@@ -59,11 +59,11 @@ void HandoverPolicy::note(const Track& track, std::int64_t now_us) {
   const bool is_new = !targets_.contains(track.id);
   Known& known = targets_[track.id];
   known.is_live = true;
-  const bool may_be_designated = is_new || !leads(known);
-  if (may_be_designated && is_followed_by_tracker(track)) known.is_designated = true;
+  if (!known.has_led && is_followed_by_tracker(track)) known.is_designated = true;
   known.last = aim_of(track, config_.acceleration_sd_m_s2);
   known.object_class = appearance_of(track, track.filter.position()).object_class;
   if (is_new) inherit(known, track, now_us);
+  if (leads(known)) known.has_led = true;
 }
 
 // A lost target that is where this one is has been found: it is sought no more, and the word on it
@@ -73,6 +73,7 @@ void HandoverPolicy::inherit(Known& known, const Track& track, std::int64_t now_
     const bool is_it = !other->second.is_live && is_there(other->second.last, track, now_us);
     if (is_it && other->second.allowed) known.allowed = other->second.allowed;
     if (is_it && other->second.is_designated) known.is_designated = true;
+    if (is_it && other->second.has_led) known.has_led = true;
     other = is_it ? targets_.erase(other) : std::next(other);
   }
 }
@@ -87,8 +88,12 @@ bool HandoverPolicy::order(std::int64_t target_id, bool allow) {
 bool HandoverPolicy::leads(const Known& known) const {
   if (known.allowed) return *known.allowed;
   if (known.is_designated) return true;
-  if (config_.mode != HandoverMode::kAutomatic) return false;
-  return std::ranges::find(config_.classes, known.object_class) != config_.classes.end();
+  return leads_by_itself(known.object_class);
+}
+
+bool HandoverPolicy::leads_by_itself(ObjectClass object_class) const {
+  return config_.mode == HandoverMode::kAutomatic &&
+         std::ranges::find(config_.classes, object_class) != config_.classes.end();
 }
 
 // A target that is not known yet is judged as it is.
@@ -108,7 +113,7 @@ bool HandoverPolicy::is_sought(const Known& known, std::int64_t now_us) const {
 }
 
 bool HandoverPolicy::is_remembered(const Known& known, std::int64_t now_us) const {
-  return (known.is_designated || known.allowed == false) &&
+  return (known.is_designated || known.allowed.has_value()) &&
          seconds(now_us - known.last.cue.state_us) <= config_.remember_s;
 }
 

@@ -53,6 +53,8 @@ class HandoverPolicy {
   // the states of a cue: waiting (proposed), found (it leads stations), searched (lost, looked
   // for), forbidden (dismissed). None if the mode is off.
   std::vector<CueHealth> health(std::int64_t now_us) const;
+  // Whether an object of this class that nobody has judged leads stations.
+  bool leads_by_itself(ObjectClass object_class) const;
   void clear() {
     targets_.clear();
     settled_us_.reset();
@@ -63,6 +65,7 @@ class HandoverPolicy {
     CueAim last;  // its last state
     ObjectClass object_class = ObjectClass::kUnknown;
     bool is_designated = false;     // a tracker followed it before the fusion led anybody there
+    bool has_led = false;           // trackers on it since then may be those of led stations
     bool is_live = false;           // there is a track of it
     std::optional<bool> allowed{};  // the operator's decision
   };

@@ -212,12 +212,12 @@ Section detector_section(DetectionConfig& detection) {
   return {"detector",
           "Finds what flies or moves without a designation, and sends bearings of it.",
           {config::flag("enabled", detection.enabled, "Whether the station looks by itself."),
-           config::number("rate_hz", detection.rate_hz, {4.0, 60.0}, "1/s",
+           config::number("rate_hz", detection.rate_hz, {4.0, 20.0}, "1/s",
                           "Maximum rate of the images that it looks at."),
            config::number("false_alarms_per_hour", detection.detector.tracklets.false_an_hour,
                           {1e-3, 1000.0}, "1/h",
                           "How many confirmed objects may be none; fewer are confirmed later."),
-           config::integer("max_bearings", detection.max_bearings, 1, 100, "",
+           config::integer("max_bearings", detection.max_bearings, 1, 16, "",
                            "Maximum number of bearings of an image, the likeliest objects.")}};
 }
 

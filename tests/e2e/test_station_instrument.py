@@ -134,6 +134,20 @@ def test_a_hung_loop_starves_the_watchdog(station):
     station.manager.wait("WATCHDOG=1")
 
 
+def test_what_came_during_a_standstill_is_not_done(station):
+    """Two seconds without processor: a command that has outlived its lease moves nothing."""
+    station.wait_for_state(ols_msg.station_status_t.STATE_IDLE)
+    before = station.counter("tool", "messages_refused_stale")
+    stop(station.pid())
+    try:
+        station.publish("OLS_PTU_tool", point("tool", time.time_ns(), 0.3).encode())
+        time.sleep(2.0)  # the fault itself: leases are a second and a margin
+    finally:
+        os.kill(station.pid(), signal.SIGCONT)
+    station.wait_for_counter("tool", "messages_refused_stale", before + 1)
+    assert station.state() == ols_msg.station_status_t.STATE_IDLE
+
+
 def test_the_emergency_stop_holds_until_released_and_rearmed(station):
     status = ols_msg.station_status_t
     station.command(ols_msg.ptu_command_t.COMMAND_RELEASE)

@@ -47,6 +47,11 @@ class TheHandoverPolicy : public testing::Test {
     }
     return track;
   }
+  // The trackers of led stations are on it now.
+  static Track followed(Track track) {
+    for (auto& [station, own] : track.bearings) own.back().is_tracklet = false;
+    return track;
+  }
   static CueState state(const HandoverPolicy& handover) {
     return handover.health(kStart).at(0).state;
   }
@@ -116,6 +121,8 @@ TEST_F(TheHandoverPolicy, AutomaticLeadsAtOnceButNotWhatIsOfAnotherClass) {
   handover.settle(after(1.0), {bird});
   EXPECT_EQ(handover.worth(bird), 0.0);
   EXPECT_EQ(state(handover), CueState::kWaiting);
+  handover.settle(after(2.0), {followed(bird)});
+  EXPECT_EQ(handover.worth(bird), 0.0) << "those trackers were led there, not designated";
   handover.order(1, true);
   EXPECT_GT(handover.worth(bird), 0.0) << "the operator's word wins";
 }
