@@ -51,11 +51,15 @@ class LiveSocket:
 
     def heard(self) -> dict | None:
         """The next message; None for one that is no text."""
-        kind, length = self._read(2)
-        if length >= 126:
-            length = int.from_bytes(self._read(2 if length == 126 else 8))
-        content = self._read(length)
-        return json.loads(content) if kind & 0x0F == 1 else None
+        first, content = None, b""
+        while True:
+            head, length = self._read(2)
+            if length >= 126:
+                length = int.from_bytes(self._read(2 if length == 126 else 8))
+            first = head if first is None else first
+            content += self._read(length)
+            if head & 0x80:  # the last fragment (RFC 6455, section 5.4)
+                return json.loads(content) if first & 0x0F == 1 else None
 
     def answer_to(self, message: dict) -> dict:
         self.say(message)

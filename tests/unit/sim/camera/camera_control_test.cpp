@@ -195,7 +195,7 @@ TEST(CameraLoss, ALostControlIsNoticedWithoutAnyFrame) {
   ASSERT_TRUE(becomes(camera, [&] { return camera.state() == camera::CameraState::kStarting; }));
   server->power_cycle();
   EXPECT_TRUE(becomes(camera, [&] { return camera.counters().reconnects >= 1; }));
-  EXPECT_EQ(camera.last_error(), "camera: lost: it no longer answers");
+  EXPECT_EQ(camera.last_error(), "lost: it no longer answers");
   EXPECT_TRUE(becomes(camera, [&] {
     server->pulse(1);
     return camera.next(0.2).has_value();
