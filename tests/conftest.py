@@ -48,7 +48,6 @@ LONGEST = [
     "test_attacks.py",
     "test_console_station.py",
     "test_hardware_in_the_loop.py",
-    "test_calibrate_zoom.py",
     "test_console_cut_link.py",
     "test_console_maps.py",
     "test_console_map.py",

@@ -132,8 +132,8 @@ Section handover_section(HandoverConfig& c) {
        config::number("seek_s", c.seek_s, {0.0, 60.0}, "s",
                       "A lost target is looked for this long where it must be by then."),
        config::number("remember_s", c.remember_s, {0.0, 60.0}, "s",
-                      "A dismissed target that comes back under another number within this "
-                      "time stays dismissed."),
+                      "A target that is found again within this time, under another number, keeps "
+                      "the operator's word."),
        config::number("acceleration_sd_m_s2", c.acceleration_sd_m_s2, {0.0, 100.0}, "m/s^2",
                       "1-sigma of a lost target's acceleration: how fast it becomes "
                       "uncertain where it is.")}};

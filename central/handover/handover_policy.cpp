@@ -9,8 +9,9 @@ namespace ols::fusion {
 namespace {
 
 constexpr double kSettle_s = 0.1;  // between two looks at the tracks
-constexpr double kWordWorth =
-    10.0;  // of a target that an operator wants, over one that he does not know
+// Of a target that an operator wants, over one that he does not know.
+constexpr double kWordWorth = 10.0;
+constexpr std::size_t kMostTold = 64;  // as many as cues
 
 bool is_followed_by_tracker(const Track& track) {
   return std::ranges::any_of(track.bearings, [](const auto& own) {
@@ -137,7 +138,7 @@ std::vector<CueHealth> HandoverPolicy::health(std::int64_t now_us) const {
   for (const auto& [id, known] : targets_) {
     const bool is_told = known.is_live ? !known.is_designated || known.allowed.has_value()
                                        : known.allowed == false || is_sought(known, now_us);
-    if (!is_told) continue;
+    if (!is_told || all.size() == kMostTold) continue;
     all.push_back(health_of(known.last, state_of(known), known.is_live ? id : 0, now_us));
   }
   return all;

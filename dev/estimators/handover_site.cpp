@@ -87,6 +87,7 @@ fusion::BearingMeasurement HandoverSite::measured(const Station& station, std::s
   m.sight.covariance_white = Eigen::Matrix2d::Identity() * std::pow(config_.noise_rad, 2);
   m.is_tracklet = true;
   m.track_id = station.track_ids.at(target);
+  m.boot_id = boots_;
   const AzimuthElevation next = direction(station.p_ecef, place(target, now_s + kStepS));
   const double rate_sd_rad_s = 2e-3, range_m = (place(target, now_s) - station.p_ecef).norm();
   m.sighted.rate_rad_s =
@@ -158,6 +159,12 @@ void HandoverSite::run_until(double time_s) {
     }
     deliver();
   }
+}
+
+void HandoverSite::restart_stations() {
+  ++boots_;
+  next_track_id_ = 1;
+  for (Station& station : stations_) station.track_ids.clear();
 }
 
 std::vector<std::string> HandoverSite::holders(std::size_t target) const {

@@ -41,6 +41,8 @@ class HandoverSite {
 
   void run_until(double time_s);
   fusion::Fusion& fusion() { return fusion_; }
+  // All stations start again: they see what they saw, and number it from 1.
+  void restart_stations();
   // The stations whose detectors report the target now, without the overview.
   std::vector<std::string> holders(std::size_t target) const;
   // The established target of the fusion that is at this one now; 0: none.
@@ -79,7 +81,7 @@ class HandoverSite {
   std::vector<Sent> sent_;
   std::vector<std::pair<double, fusion::Slew>> slews_;
   std::map<std::size_t, double> first_seen_s_;
-  std::int64_t next_track_id_ = 1;
+  std::int64_t next_track_id_ = 1, boots_ = 1;
   std::int64_t tick_ = 0;
 };
 

@@ -140,11 +140,11 @@ std::optional<SlewSearch::Acquired> SlewSearch::choose(const std::deque<camera::
   }
   if (only == nullptr) return std::nullopt;
   if (const auto outline = tracker::object_at(frame->gray, only->measured_pixel())) {
-    return Acquired{&*frame, *outline};
+    return Acquired{&*frame, *outline, true};
   }
   const Eigen::Vector2d side = (1.0 + kPadding) * only->size_px().array() + 2.0;
   const Eigen::Vector2d corner = only->measured_pixel().array() + 0.5 - 0.5 * side.array();
-  return Acquired{&*frame, {corner.x(), corner.y(), side.x(), side.y()}};
+  return Acquired{&*frame, {corner.x(), corner.y(), side.x(), side.y()}, true};
 }
 
 std::optional<SlewSearch::Acquired> SlewSearch::acquire(const std::deque<camera::Frame>& frames,
@@ -152,11 +152,7 @@ std::optional<SlewSearch::Acquired> SlewSearch::acquire(const std::deque<camera:
                                                         const PointingModel& pointing,
                                                         const Slew& slew) {
   if (found) {
-    if (const auto chosen = choose(frames, *found, pointing, slew)) {
-      counters_["acquisitions_by_tracklet"] += 1;
-      acquisition_.clear();
-      return chosen;
-    }
+    if (const auto chosen = choose(frames, *found, pointing, slew)) return chosen;
   }
   const auto box = look(frames, pointing, slew);
   return box ? std::optional(Acquired{&frames.back(), *box}) : std::nullopt;
@@ -194,6 +190,12 @@ std::optional<cv::Rect2d> SlewSearch::look(const std::deque<camera::Frame>& fram
   counters_["acquisition_candidates"] += static_cast<double>(acquisition_.candidates().size());
   if (box) acquisition_.clear();
   return box;
+}
+
+void SlewSearch::begin_trial(const Acquired& target) {
+  searched_s_ = target.frame->mid_exposure_s;
+  acquisition_.clear();
+  if (target.by_tracklet) counters_["acquisitions_by_tracklet"] += 1;
 }
 
 void SlewSearch::end_trial(double time_s) {

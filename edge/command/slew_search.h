@@ -51,6 +51,7 @@ class SlewSearch {
   struct Acquired {
     const camera::Frame* frame;  // one of those that were given
     cv::Rect2d box;              // of the object in it
+    bool by_tracklet = false;    // the detector had it
   };
   // The object that behaves as the slew predicts: the detector's only confirmed one that does, else
   // one that shows in these frames, oldest first.
@@ -59,7 +60,7 @@ class SlewSearch {
                                   const PointingModel& pointing, const Slew& slew);
   // The trial of an acquired target begins; the trial has failed, and the own target is searched
   // for again.
-  void begin_trial(double time_s) { searched_s_ = time_s; }
+  void begin_trial(const Acquired& target);
   void end_trial(double time_s);
 
   // The alarm about a slew to a place that is known well enough to be in the image; empty: none.

@@ -26,13 +26,14 @@ using OpenGpio = std::function<std::unique_ptr<gpio::GpioHandover>(gpio::GpioHan
 
 // The devices that the configuration chooses, and in whose place a simulation has its own.
 struct ChosenDevices {
-  std::unique_ptr<lens::LensHandover> lens;             // null: none is configured
-  std::unique_ptr<sensors::Inclinometer> inclinometer;  // likewise
-  std::unique_ptr<sensors::Gnss> gnss;                  // likewise
+  // Null if not configured. `open_gpio` calls back from a thread of its own.
+  OpenGpio open_gpio;
+  std::unique_ptr<lens::LensHandover> lens;
+  std::unique_ptr<sensors::Inclinometer> inclinometer;
+  std::unique_ptr<sensors::Gnss> gnss;
   std::unique_ptr<camera::Camera> camera;
   // The first to be destroyed: its destructor halts it, and others may block.
   std::unique_ptr<mount::Mount> mount;
-  OpenGpio open_gpio;  // likewise null; calls back from its own thread
 };
 using OpenDevices = std::function<ChosenDevices(const StationSettings&)>;
 ChosenDevices open_chosen_devices(const StationSettings& settings);

@@ -126,10 +126,9 @@ void Station::look_along_slew(const camera::Frame& frame) {
   const auto found =
       search_.acquire(frames_.frames(), detected_.newest(), pointing_, slew_.command());
   if (!found || !target_.try_found(*found->frame, found->box)) return;
-  const double began_s = found->frame->mid_exposure_s;
-  search_.begin_trial(began_s);
+  search_.begin_trial(*found);
   believed_in_a_row_ = 0;
-  follow_since(began_s);
+  follow_since(found->frame->mid_exposure_s);
 }
 
 // What began in an older frame is followed through those since then.

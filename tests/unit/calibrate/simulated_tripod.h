@@ -48,7 +48,8 @@ class SimulatedTripod {
       : time(start_utime_us), world(scenario, seed), bus_("memq://tripod") {
     sim::write_station_files(world, {"memq://tripod", folder.path(), folder / "state"},
                              folder / "configs");
-    set("[calibration]", "[calibration]\nfolder = \"" + (store() / "current").string() + "\"");
+    if (scenario.stations[0].zoom.is_fixed())
+      set("[calibration]", "[calibration]\nfolder = \"" + (store() / "current").string() + "\"");
     station::StationSettings settings = station::load_station_settings(config());
     settings.video.address.clear();
     settings.host.silence_s = 1e9;  // it reads this host, in this host's time

@@ -440,6 +440,9 @@ TEST(Console, AnOperatorsWordOnACueGoesOutAndAViewersDoesNot) {
   static_cast<void>(console.turn({1.1, 6}));
   EXPECT_EQ(noted().at("outcome"), "done");
   EXPECT_TRUE(answer_in(received(console, operating, {1.1, 6})).at("accepted"));
+  console.take(operating, R"({"do":"cue","number":9,"cue":"12","allow":false})", {1.2, 6});
+  EXPECT_EQ(console.take_cue_orders().at(0).cue, "12");
+  EXPECT_EQ(console.state({1.2, 6}).at("events")[1].at("text"), "dismisses target 12");
   console.replay_is({{"name", "x"}}, true);
   console.take(operating, allow, {2.0, 6});
   EXPECT_TRUE(console.take_cue_orders().empty()) << "what was is not commanded";

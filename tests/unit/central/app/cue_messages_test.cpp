@@ -39,6 +39,8 @@ TEST(CueMessages, ACueIsRead) {
   EXPECT_EQ(heard.velocity_sd_m_s, 0.5);
   cue.id.assign(101, 'x');
   EXPECT_EQ(std::get<MessageRefusal>(read(encoded(cue))), MessageRefusal::kMalformed);
+  cue.id = "12";
+  EXPECT_EQ(std::get<MessageRefusal>(read(encoded(cue))), MessageRefusal::kMalformed) << "a target";
   ++cue.schema_version;
   EXPECT_EQ(std::get<MessageRefusal>(read(encoded(cue))), MessageRefusal::kSchema);
   EXPECT_EQ(std::get<MessageRefusal>(read({})), MessageRefusal::kMalformed);

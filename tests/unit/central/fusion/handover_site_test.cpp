@@ -74,5 +74,31 @@ TEST(HandoverSite, AStationThatStaresIsNeverLed) {
   EXPECT_EQ(site.holders(0).size(), 3U);
 }
 
+TEST(HandoverSite, TheLineOfWhatIsOfNoClassIsNotSearchedWhereOthersLead) {
+  HandoverSiteConfig config = site_with(HandoverMode::kAutomatic, {in_the_south()});
+  config.handover.classes = {fusion::ObjectClass::kDrone};
+  HandoverSite site(config, kSeed);
+  site.run_until(8.0);
+  EXPECT_EQ(site.fusion().health().counters.at("slews"), 0.0);
+}
+
+// What only the overview can see is searched for 10 s; as a new one after a restart, again.
+TEST(HandoverSite, TheLineOfATrackletIsNotSearchedForEver) {
+  HandoverSiteConfig config = site_with(HandoverMode::kAutomatic, {in_the_south()});
+  config.view_rad = 0.0;
+  HandoverSite site(config, kSeed);
+  const auto slews_until = [&](double time_s) {
+    const auto slews = [&] { return site.fusion().health().counters.at("slews"); };
+    const double before = slews();
+    site.run_until(time_s);
+    return slews() - before;
+  };
+  EXPECT_GT(slews_until(12.0), 0.0);
+  slews_until(13.0);
+  EXPECT_EQ(slews_until(20.0), 0.0);
+  site.restart_stations();
+  EXPECT_GT(slews_until(24.0), 0.0);
+}
+
 }  // namespace
 }  // namespace ols::bench

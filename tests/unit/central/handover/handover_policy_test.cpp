@@ -186,14 +186,21 @@ TEST_F(TheHandoverPolicy, NotThisOneHoldsUnderAnotherNumberNearbyAndOnlyThere) {
   EXPECT_GT(handover.worth(third), 0.0) << "the word has passed on once";
 }
 
-TEST_F(TheHandoverPolicy, NotThisOneIsForgottenAfterSomeTime) {
-  HandoverPolicy handover = with(HandoverMode::kAutomatic);
-  handover.settle(kStart, {track_of(1, true)});
-  handover.order(1, false);
-  handover.settle(after(10.5), {});
-  const Track late = track_of(2, true, kPlace, 11.0);
-  handover.settle(after(11.0), {late});
-  EXPECT_GT(handover.worth(late), 0.0);
+TEST_F(TheHandoverPolicy, AWordIsRememberedForSomeTime) {
+  for (const bool word : {false, true}) {
+    HandoverPolicy handover({.mode = word ? HandoverMode::kPropose : HandoverMode::kAutomatic,
+                             .seek_s = 0.0,
+                             .remember_s = 8.0});
+    for (const double away_s : {7.0, 9.0}) {
+      handover.clear();
+      handover.settle(kStart, {track_of(1, true)});
+      handover.order(1, word);
+      handover.settle(after(away_s), {});
+      const Track again = track_of(2, true, kPlace, away_s + 0.5);
+      handover.settle(after(away_s + 0.5), {again});
+      EXPECT_EQ(handover.worth(again) > 0.0, (away_s < 8.0) == word) << word << " " << away_s;
+    }
+  }
 }
 
 }  // namespace

@@ -98,6 +98,7 @@ TEST_F(AcquisitionOfTracklets, TheOnlyOneThatBehavesAsTheSlewIsChosenInTheImageT
   EXPECT_NEAR(there->box.x + 0.5 * there->box.width, 644.5, 0.1);
   EXPECT_NEAR(there->box.y + 0.5 * there->box.height, 484.5, 0.1);
   EXPECT_GT(there->box.width, 8.0);
+  search_.begin_trial(*there);
   EXPECT_EQ(search_.counters().at("acquisitions_by_tracklet"), 1.0);
 }
 
