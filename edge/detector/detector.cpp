@@ -62,7 +62,8 @@ std::optional<Eigen::Matrix3d> Detector::measure_motion(
 Detector::Result Detector::advance(const cv::Mat& gray, double time_s,
                                    const std::optional<Eigen::Matrix3d>& predicted) {
   const tracker::ReducedFrame frame = tracker::reduce_frame(gray, kMotionWidth_px);
-  const tracker::ReducedFrame small = tracker::reduce_frame(gray, kMoverWidth_px);
+  tracker::ReducedFrame small = tracker::reduce_frame(frame.image, kMoverWidth_px);
+  small.reduction *= frame.reduction;
   const std::optional<Eigen::Matrix3d> motion = measure_motion(frame, predicted);
   const double interval_s = time_s_ ? time_s - *time_s_ : 0.0;
   time_s_ = time_s;

@@ -15,8 +15,36 @@ namespace {
 constexpr int kReach = 8;       // [px of a level] of the ring, from the centre
 constexpr int kInside = 5;      // where the ring begins
 constexpr int kMargin = 4;      // [px of a level] nearest place to the image's edge
-constexpr int kUnits = 16;      // of a grey level, in the residual
 constexpr double kFloor = 0.5;  // [grey levels] a smooth sky's noise hides in the rounding
+
+// `at` is not at the edge.
+int sum_of_nine(const cv::Mat& level, const cv::Point& at) {
+  int sum = 0;
+  for (int y = -1; y <= 1; ++y) {
+    const auto* here = level.ptr<std::uint8_t>(at.y + y) + at.x;
+    sum += here[-1] + here[0] + here[1];
+  }
+  return sum;
+}
+
+std::int16_t greatest(const cv::Mat& residual, int y, int from, int to) {
+  std::int16_t value = 0;
+  const auto* row = residual.ptr<std::int16_t>(y);
+  for (int x = from; x < to; ++x) value = std::max(value, row[x]);
+  return value;
+}
+
+// Of the 5x5 pixels around it.
+bool is_greatest_nearby(const cv::Mat& residual, const cv::Point& at) {
+  const auto value = residual.at<std::int16_t>(at);
+  for (int y = -2; y <= 2; ++y) {
+    const auto* row = residual.ptr<std::int16_t>(at.y + y) + at.x;
+    for (int x = -2; x <= 2; ++x) {
+      if (row[x] > value) return false;
+    }
+  }
+  return true;
+}
 
 // Whether the place stands out to nearly all sides: rejects most of a texture at little cost.
 bool stands_out(const cv::Mat& level, const cv::Point& at, int centre) {
@@ -173,70 +201,45 @@ std::vector<Detection> distinct(std::vector<Detection> spots, std::size_t most) 
 
 }  // namespace
 
-// The mean of 3x3 pixels minus that of the surrounding ones: the matched filter of a small spot.
-void SpotFinder::residual(const cv::Mat& level) {
-  const auto sum = [&](cv::Mat& sums, int side) {
-    cv::boxFilter(level, sums, CV_16U, {side, side}, {-1, -1}, false, cv::BORDER_REPLICATE);
-  };
-  sum(small_sum_, 3);
-  sum(inner_sum_, 7);
-  sum(outer_sum_, 13);
-  residual_.create(level.size(), CV_16U);
-  for (int y = 0; y < level.rows; ++y) {
-    const auto* small = small_sum_.ptr<std::uint16_t>(y);
-    const auto* inner = inner_sum_.ptr<std::uint16_t>(y);
-    const auto* outer = outer_sum_.ptr<std::uint16_t>(y);
-    auto* out = residual_.ptr<std::uint16_t>(y);
-    for (int x = 0; x < level.cols; ++x) {
-      const float difference = static_cast<float>(small[x]) * (kUnits / 9.0F) -
-                               static_cast<float>(outer[x] - inner[x]) * (kUnits / 120.0F);
-      out[x] = static_cast<std::uint16_t>(static_cast<std::int32_t>(std::abs(difference)));
-    }
-  }
-  cv::dilate(residual_, greatest_, cv::Mat::ones(5, 5, CV_8U));
-}
-
-void SpotFinder::measure_surroundings() {
-  constexpr int kTile = 24;
-  const int columns = std::max(1, residual_.cols / kTile);
-  const int rows = std::max(1, residual_.rows / kTile);
-  cv::Mat medians(rows, columns, CV_16U);
-  std::vector<std::uint16_t> values;
-  for (int j = 0; j < rows; ++j) {
-    for (int i = 0; i < columns; ++i) {
-      values.clear();
-      for (int y = j * residual_.rows / rows; y < (j + 1) * residual_.rows / rows; y += 3) {
-        const auto* row = residual_.ptr<std::uint16_t>(y);
-        for (int x = i * residual_.cols / columns; x < (i + 1) * residual_.cols / columns; x += 3) {
-          values.push_back(row[x]);
-        }
-      }
-      const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-      std::nth_element(values.begin(), middle, values.end());
-      medians.at<std::uint16_t>(j, i) = *middle;
-    }
-  }
-  cv::dilate(medians, usual_, cv::Mat::ones(3, 3, CV_8U));
-}
-
 void SpotFinder::find_in(const cv::Mat& gray, const cv::Mat& level, int reduction,
                          std::vector<Detection>& spots) {
-  residual(level);
-  measure_surroundings();
-  const auto least = static_cast<std::uint16_t>(kUnits * config_.least_levels);
-  for (int y = kMargin; y < level.rows - kMargin; ++y) {
-    const auto* here = residual_.ptr<std::uint16_t>(y);
-    const auto* nearby = greatest_.ptr<std::uint16_t>(y);
-    for (int x = kMargin; x < level.cols - kMargin; ++x) {
-      if (here[x] < least || here[x] < nearby[x]) continue;
-      if (auto spot = spot_at(gray, level, {x, y}, reduction)) spots.push_back(*spot);
+  residual_.measure(level);
+  usual_.begin(residual_.image());
+  for (int row = 0; row < usual_.rows(); ++row) {
+    for (int column = 0; column < usual_.columns(); ++column) {
+      find_peaks(column, row);
+      for (const cv::Point& at : peaks_) {
+        if (auto spot = spot_at(gray, level, at, reduction)) spots.push_back(*spot);
+      }
+    }
+  }
+}
+
+// White noise that just reaches `threshold_sd` is 20 times its residual's median: a fifth of that
+// rejects most of a texture's peaks at little cost, and none of a target's.
+void SpotFinder::find_peaks(int column, int row) {
+  constexpr std::int16_t kTimesUsual = 4;
+  const cv::Mat& residual = residual_.image();
+  const cv::Rect inside(kMargin, kMargin, residual.cols - 2 * kMargin, residual.rows - 2 * kMargin);
+  const cv::Rect tile = usual_.tile(column, row) & inside;
+  const auto least = static_cast<std::int16_t>(BoxResidual::kUnits * config_.least_levels);
+  std::optional<std::int16_t> wanted;
+  peaks_.clear();
+  for (int y = tile.y; y < tile.br().y; ++y) {
+    const std::int16_t most = greatest(residual, y, tile.x, tile.br().x);
+    if (most < least) continue;
+    if (!wanted) wanted = std::max<std::int16_t>(least, kTimesUsual * usual_.median(column, row));
+    if (most < *wanted) continue;
+    const auto* here = residual.ptr<std::int16_t>(y);
+    for (int x = tile.x; x < tile.br().x; ++x) {
+      if (here[x] >= *wanted && is_greatest_nearby(residual, {x, y})) peaks_.emplace_back(x, y);
     }
   }
 }
 
 std::optional<Detection> SpotFinder::spot_at(const cv::Mat& gray, const cv::Mat& level,
-                                             const cv::Point& at, int reduction) const {
-  const int sum = small_sum_.at<std::uint16_t>(at);
+                                             const cv::Point& at, int reduction) {
+  const int sum = sum_of_nine(level, at);
   if (!stands_out(level, at, sum / 9)) return std::nullopt;
   const Ring ring(level, at);
   const double peak = sum / 9.0 - ring.median();
@@ -253,22 +256,23 @@ std::optional<Detection> SpotFinder::spot_at(const cv::Mat& gray, const cv::Mat&
                    peak > 0.0, Evidence::kSpot,          clear};
 }
 
-bool SpotFinder::exceeds_surroundings(const cv::Point& at) const {
-  const double usual = usual_.at<std::uint16_t>(at.y * usual_.rows / residual_.rows,
-                                                at.x * usual_.cols / residual_.cols);
-  const double noise = std::max(kFloor * kUnits, 1.4826 * usual);
-  return residual_.at<std::uint16_t>(at) > config_.threshold_sd * noise;
+bool SpotFinder::exceeds_surroundings(const cv::Point& at) {
+  constexpr double kSdOfMedian = 1.4826;  // of a normal distribution
+  const double noise =
+      std::max(kFloor * BoxResidual::kUnits, kSdOfMedian * usual_.largest_nearby(at));
+  return residual_.image().at<std::int16_t>(at) > config_.threshold_sd * noise;
 }
 
 std::vector<Detection> SpotFinder::find(const cv::Mat& gray) {
   constexpr int kLeastSide = 3 * kReach;
   std::vector<Detection> spots;
   cv::Mat level = gray;
-  for (int i = 0; i < config_.levels && std::min(level.cols, level.rows) >= kLeastSide; ++i) {
+  for (std::size_t i = 0; i < reduced_.size() + 1; ++i) {
+    if (std::min(level.cols, level.rows) < kLeastSide) break;
     find_in(gray, level, 1 << i, spots);
-    cv::Mat reduced;
-    cv::pyrDown(level, reduced);
-    level = reduced;
+    if (i == reduced_.size()) break;
+    cv::pyrDown(level, reduced_[i]);
+    level = reduced_[i];
   }
   return distinct(std::move(spots), config_.most);
 }

@@ -2,12 +2,15 @@
 // before the sky, however slowly it moves.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <opencv2/core.hpp>
 #include <optional>
 #include <vector>
 
+#include "edge/detector/box_residual.h"
 #include "edge/detector/detection.h"
+#include "edge/detector/tile_medians.h"
 
 namespace ols::detector {
 
@@ -24,7 +27,8 @@ struct SpotConfig {
 // target does not raise the threshold of its neighbour, because the order statistics ignore it.
 class SpotFinder {
  public:
-  explicit SpotFinder(const SpotConfig& config) : config_(config) {}
+  explicit SpotFinder(const SpotConfig& config)
+      : config_(config), reduced_(static_cast<std::size_t>(std::max(1, config.levels) - 1)) {}
 
   // `gray`: 8-bit, one channel.
   std::vector<Detection> find(const cv::Mat& gray);
@@ -32,16 +36,16 @@ class SpotFinder {
  private:
   void find_in(const cv::Mat& gray, const cv::Mat& level, int reduction,
                std::vector<Detection>& spots);
+  void find_peaks(int column, int row);
   std::optional<Detection> spot_at(const cv::Mat& gray, const cv::Mat& level, const cv::Point& at,
-                                   int reduction) const;
-  bool exceeds_surroundings(const cv::Point& at) const;
-  void residual(const cv::Mat& level);
-  void measure_surroundings();
+                                   int reduction);
+  bool exceeds_surroundings(const cv::Point& at);
 
   SpotConfig config_;
-  cv::Mat small_sum_, inner_sum_, outer_sum_;  // of boxes of 3, 7 and 13 pixels
-  cv::Mat residual_, greatest_;                // [1/16 grey level] magnitude; its maximum nearby
-  cv::Mat usual_;  // the residual's median by tile, the largest of a tile and its neighbours
+  std::vector<cv::Mat> reduced_;  // levels of the pyramid but the image itself
+  BoxResidual residual_;          // of the level that is searched
+  TileMedians usual_;             // of the residual
+  std::vector<cv::Point> peaks_;  // of one tile
 };
 
 }  // namespace ols::detector
