@@ -22,6 +22,12 @@ double sd(double variance) {
   return std::isfinite(variance) && variance >= 0.0 ? std::sqrt(variance) : kUnknown;
 }
 
+double rounded_up(double value, int decimals) {
+  constexpr double kRounding = 1e-9;  // a product that should be whole may lie this much above
+  const double scale = std::pow(10.0, decimals);
+  return std::ceil(value * scale - kRounding) / scale;
+}
+
 Motion motion_of(const Target& target) {
   const auto& [east, north, up] = target.velocity_enu_m_s;
   if (!std::isfinite(east + north)) return {};

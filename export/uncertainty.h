@@ -14,6 +14,9 @@ Ellipse ellipse_of(const Covariance& enu);
 // 1-sigma of one axis; unknown if the variance is negative or not finite.
 double sd(double variance);
 
+// A deviation with so many decimals, rounded up: a text must not claim more accuracy than there is.
+double rounded_up(double value, int decimals);
+
 // Horizontal speed and course of a velocity; unknown if the velocity is.
 struct Motion {
   double speed_m_s = kUnknown, course_deg = kUnknown, climb_m_s = kUnknown;

@@ -51,7 +51,7 @@ Json target_properties(const Target& target) {
           {"class", to_string(target.object_class)},
           {"class_probability", number(target.class_probability, 2)},
           {"size_m", number(target.size_m, 2)},
-          {"size_sd_m", number(target.size_sd_m, 2)},
+          {"size_sd_m", number(rounded_up(target.size_sd_m, 2), 2)},
           {"stations", target.stations}};
 }
 

@@ -35,10 +35,10 @@ std::string target_data(const Target& target) {
   return "<ExtendedData>" + data("state", to_string(target.state)) +
          data("time", iso_time(target.utime_us)) +
          data("height_ellipsoid_m", fixed(target.place.height_m, 2)) +
-         data("ellipse_semi_major_m", fixed(ellipse.semi_major_m, 2)) +
-         data("ellipse_semi_minor_m", fixed(ellipse.semi_minor_m, 2)) +
+         data("ellipse_semi_major_m", fixed(rounded_up(ellipse.semi_major_m, 2), 2)) +
+         data("ellipse_semi_minor_m", fixed(rounded_up(ellipse.semi_minor_m, 2), 2)) +
          data("ellipse_azimuth_deg", fixed(ellipse.azimuth_deg, 1)) +
-         data("height_sd_m", fixed(sd(target.covariance_m2[5]), 2)) +
+         data("height_sd_m", fixed(rounded_up(sd(target.covariance_m2[5]), 2), 2)) +
          data("speed_m_s", fixed(motion.speed_m_s, 2)) +
          data("course_deg", fixed(motion.course_deg, 1)) + "</ExtendedData>";
 }

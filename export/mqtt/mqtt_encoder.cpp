@@ -23,6 +23,8 @@ Json number(double value, int decimals) {
   return std::round(value * scale) / scale;
 }
 
+Json deviation(double value, int decimals) { return number(rounded_up(value, decimals), decimals); }
+
 std::string text_of(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
@@ -37,11 +39,11 @@ void add_place(const Place& place, Json& fields) {
 void add_uncertainty(const Target& target, Json& fields) {
   const Ellipse ellipse = ellipse_of(target.covariance_m2);
   // Home Assistant's own name of the radius within which a thing is.
-  fields["gps_accuracy"] = number(ellipse.semi_major_m, 2);
-  fields["ellipse_semi_major_m"] = number(ellipse.semi_major_m, 3);
-  fields["ellipse_semi_minor_m"] = number(ellipse.semi_minor_m, 3);
+  fields["gps_accuracy"] = deviation(ellipse.semi_major_m, 2);
+  fields["ellipse_semi_major_m"] = deviation(ellipse.semi_major_m, 3);
+  fields["ellipse_semi_minor_m"] = deviation(ellipse.semi_minor_m, 3);
   fields["ellipse_azimuth_deg"] = number(ellipse.azimuth_deg, 1);
-  fields["height_sd_m"] = number(sd(target.covariance_m2[5]), 3);
+  fields["height_sd_m"] = deviation(sd(target.covariance_m2[5]), 3);
 }
 
 Json json_of(const Target& target) {
@@ -82,8 +84,8 @@ Json json_of(const Line& line) {
   add_place(line.camera, fields);
   fields["azimuth_deg"] = number(line.azimuth_deg, 5);
   fields["elevation_deg"] = number(line.elevation_deg, 5);
-  fields["cross_sd_deg"] = number(line.cross_sd_deg, 6);
-  fields["elevation_sd_deg"] = number(line.elevation_sd_deg, 6);
+  fields["cross_sd_deg"] = deviation(line.cross_sd_deg, 6);
+  fields["elevation_sd_deg"] = deviation(line.elevation_sd_deg, 6);
   fields["belief"] = number(line.belief, 2);
   return fields;
 }

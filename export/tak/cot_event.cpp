@@ -73,8 +73,8 @@ std::string line_detail(const Line& line, double line_m) {
   text.append("\"/><inclination value=\"").append(fixed(line.elevation_deg, 4));
   text.append("\"/><rangeUnits value=\"1\"/><bearingUnits value=\"0\"/><northRef value=\"0\"/>");
   text.append("<_ols_ station=\"").append(xml(line.station)).append("\"");
-  return text.append(attribute("cross_sd_deg", line.cross_sd_deg, 5))
-      .append(attribute("elevation_sd_deg", line.elevation_sd_deg, 5))
+  return text.append(attribute("cross_sd_deg", rounded_up(line.cross_sd_deg, 5), 5))
+      .append(attribute("elevation_sd_deg", rounded_up(line.elevation_sd_deg, 5), 5))
       .append(attribute("belief", line.belief, 2))
       .append("/>");
 }

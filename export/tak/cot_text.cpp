@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "export/text.h"
+#include "export/uncertainty.h"
 #include "tak/tak.pb.h"
 
 namespace ols::exports {
@@ -20,8 +21,8 @@ std::string point_of(const CotEvent& event) {
   text.append(fixed(event.point.latitude_deg, 8)).append("\" lon=\"");
   text.append(fixed(event.point.longitude_deg, 8)).append("\" hae=\"");
   text.append(fixed(event.point.height_m, 2)).append("\" ce=\"");
-  text.append(fixed(or_unknown(event.ce_m), 2)).append("\" le=\"");
-  return text.append(fixed(or_unknown(event.le_m), 2)).append("\"/>");
+  text.append(fixed(rounded_up(or_unknown(event.ce_m), 2), 2)).append("\" le=\"");
+  return text.append(fixed(rounded_up(or_unknown(event.le_m), 2), 2)).append("\"/>");
 }
 
 std::string detail_of(const CotEvent& event) {

@@ -1,5 +1,6 @@
 """What `ols-calibrate` makes of a receiver of aircraft, and of pictures of boards."""
 
+import gzip
 import json
 import os
 import socket
@@ -134,6 +135,22 @@ def test_what_a_receiver_has_heard_becomes_references(tmp_path):
     assert done.returncode == 1
     assert f"{silent}: no position with a height above the ellipsoid" in done.stderr
     assert (tmp_path / "without.csv").read_text() == output.read_text()
+
+
+def test_what_holds_no_reference_is_no_success(tmp_path):
+    once, foreign, output = tmp_path / "once.json", tmp_path / "foreign", tmp_path / "x.csv"
+    one = {"hex": "4ca2d6", "lat": 49.5, "lon": 16.25, "alt_geom": 33000, "seen_pos": 0.5}
+    once.write_text(json.dumps({"now": 1_780_000_010, "aircraft": [one]}))
+    foreign.write_bytes(gzip.compress(b"what a receiver sent"))
+    beast = ("beast", "--start-utime", "1780000000000000")
+    for path, how, said in (
+        (once, ["json"], "each aircraft was seen at one time only"),
+        (foreign, beast, f"{foreign}: no message of this format in it"),
+    ):
+        done = aircraft("--input", path, "--format", *how, "--output", output)
+        assert done.returncode == 2
+        assert said in done.stderr
+        assert not output.exists()
 
 
 def test_barometric_heights_are_refused_in_words(tmp_path):

@@ -29,6 +29,8 @@ namespace {
 // An aircraft flies 10 m in this time.
 constexpr double kClock_s = 0.05;
 constexpr const char* kNoPosition = "no position with a height above the ellipsoid";
+constexpr const char* kNoMessage =
+    "no message of this format in it: it is empty, compressed or of another --format";
 
 // By this host's clock a position gets its time, or is judged.
 void check_clock() {
@@ -99,6 +101,7 @@ class Feed {
     }
     if (options_.format != "json") return;
     AircraftSnapshot snapshot = aircraft_json(text_);
+    has_messages = true;
     delay_.note(snapshot.utime_us, text_utime_us_);
     positions.insert(positions.end(), snapshot.positions.begin(), snapshot.positions.end());
     barometric_only += snapshot.barometric_only;
@@ -106,10 +109,12 @@ class Feed {
 
   std::vector<AircraftPosition> positions;
   int barometric_only = 0;
+  bool has_messages = false;
 
  private:
   // Its time is that since the first frame, until the end tells when that was.
   void take_frame(const BeastFrames::Frame& frame, std::int64_t arrival_utime_us) {
+    has_messages = true;
     const std::int64_t since_us = ticks_.take(frame.ticks, arrival_utime_us);
     if (auto position = decoder_.take(frame.message, since_us)) {
       positions.push_back(std::move(*position));
@@ -120,7 +125,9 @@ class Feed {
     std::size_t begin = 0;
     for (std::size_t end = 0; (end = text_.find('\n', begin)) != std::string::npos;
          begin = end + 1) {
-      if (auto position = sbs_position(text_.substr(begin, end - begin))) {
+      const std::string line = text_.substr(begin, end - begin);
+      has_messages = has_messages || line.starts_with("MSG,");
+      if (auto position = sbs_position(line)) {
         delay_.note(position->utime_us, arrival_utime_us_);
         positions.push_back(std::move(*position));
       }
@@ -295,7 +302,9 @@ CommandReport write_aircraft(const AircraftOptions& options, const TellSteps& te
     Feed feed(options);
     const std::string trouble = read_input(input, options, feed, received);
     if (!trouble.empty()) report.faults.push_back(trouble);
-    if (feed.positions.empty()) report.faults.push_back(input + ": " + kNoPosition);
+    if (feed.positions.empty()) {
+      report.faults.push_back(input + ": " + (feed.has_messages ? kNoPosition : kNoMessage));
+    }
     positions.insert(positions.end(), feed.positions.begin(), feed.positions.end());
     barometric_only += feed.barometric_only;
   }
@@ -305,14 +314,19 @@ CommandReport write_aircraft(const AircraftOptions& options, const TellSteps& te
                            "wrong by tens to hundreds of metres");
   }
   if (positions.empty()) {
-    throw std::runtime_error("--input: " + std::string(kNoPosition) +
+    throw std::runtime_error(report.faults.front() +
                              (report.notes.empty() ? "" : ": " + report.notes.front()));
   }
   const std::string rows = reference_rows(std::move(positions), options.sd_m);
+  const auto count = std::ranges::count(rows, '\n') - 1;  // without the heading
+  if (count == 0) {
+    throw std::runtime_error(
+        "--input: each aircraft was seen at one time only: give two inputs or more, some seconds "
+        "apart");
+  }
   AtomicFile file(options.output);
   file.stream() << rows;
   file.commit();
-  const auto count = std::ranges::count(rows, '\n') - 1;  // without the heading
   report.summary.push_back(options.output + ": " + std::to_string(count) + " positions");
   return report;
 }

@@ -39,5 +39,13 @@ TEST(ExportUncertainty, SpeedAndCourse) {
   EXPECT_TRUE(std::isnan(motion_of(target).speed_m_s));
 }
 
+TEST(Uncertainty, IsRoundedUp) {
+  EXPECT_DOUBLE_EQ(rounded_up(0.004, 2), 0.01);
+  EXPECT_DOUBLE_EQ(rounded_up(0.15, 2), 0.15);
+  EXPECT_DOUBLE_EQ(rounded_up(0.1501, 2), 0.16);
+  EXPECT_DOUBLE_EQ(rounded_up(3.0, 0), 3.0);
+  EXPECT_TRUE(std::isnan(rounded_up(kUnknown, 2)));
+}
+
 }  // namespace
 }  // namespace ols::exports
