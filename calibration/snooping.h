@@ -57,7 +57,7 @@ Start start_at(const Adjustment& adjustment, const std::vector<double>& headings
 Start find_start(const Adjustment& adjustment, double level);
 
 struct Search {
-  double level = 1e-3;        // for the tests of all groups together
+  double level;               // for the tests of all groups together
   double variance = 1.0;      // of all observations, over what is stated
   std::vector<bool> among{};  // by group: which may be kept; empty: all
 };

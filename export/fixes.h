@@ -8,8 +8,8 @@
 
 namespace ols::exports {
 
-// The columns of export/fix_writer.h; standard deviations may be missing. Covariances between axes
-// are not in the file and are taken as 0. Throws CsvError (FILE:LINE: COLUMN: what).
+// Columns as in tools/offline/fix_writer.h; standard deviations may be missing. Covariances between
+// axes are not in the file and are taken as 0. Throws CsvError (FILE:LINE: COLUMN: what).
 std::vector<Target> read_fixes(const std::string& path, const SiteContext& site);
 
 }  // namespace ols::exports

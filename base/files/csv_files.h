@@ -1,6 +1,6 @@
 // The input files of the offline programs: stations.csv, bearings.csv; a surveyor's landmarks and
-// their sightings; a flight for the simulator. Angles are in degrees, as in the files. fix_writer.h
-// writes the output.
+// their sightings; a flight for the simulator. Angles are in degrees, as in the files. The output
+// is written by tools/offline/fix_writer.h.
 //
 // Columns are found by the header's names, in any order; unknown ones are ignored. Numbers must be
 // plain decimal, finite and in range. Ids must be free of commas, quotes and control characters.

@@ -81,9 +81,9 @@ void SlewPlanner::allocate(SlewRound& round, std::span<const SlewStation> statio
   std::vector<AllocatedTarget> targets;
   const std::vector<const Track*> with_position = targets_of(round, tracks);
   for (const Track* track : with_position) {
-    const auto worth = round.worth.find(track->id);
-    targets.push_back(
-        {track->id, track->filter.position(), worth == round.worth.end() ? 1.0 : worth->second});
+    const auto priority = round.priority.find(track->id);
+    targets.push_back({track->id, track->filter.position(),
+                       priority == round.priority.end() ? 1.0 : priority->second});
   }
   std::vector<AllocatedStation> all;
   for (const SlewStation& station : stations) {
@@ -105,8 +105,8 @@ std::vector<const Track*> SlewPlanner::targets_of(const SlewRound& round,
                                                   const std::vector<Track>& tracks) const {
   std::vector<const Track*> targets;
   for (const Track& track : tracks) {
-    const auto worth = round.worth.find(track.id);
-    const bool leads = worth == round.worth.end() || worth->second > 0.0;
+    const auto priority = round.priority.find(track.id);
+    const bool leads = priority == round.priority.end() || priority->second > 0.0;
     if (leads && is_established(track) &&
         seconds(round.now_us - track.filter.utime_us()) <= config_.coast_s &&
         seconds(round.now_us - track.last_two_station_us) <= config_.coast_s) {

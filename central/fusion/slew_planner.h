@@ -26,8 +26,8 @@
 
 #include "central/admission/station_registry.h"
 #include "central/cues/cue.h"
-#include "central/fusion/line_search.h"
-#include "central/fusion/station_allocation.h"
+#include "central/handover/line_search.h"
+#include "central/handover/station_allocation.h"
 #include "central/tracking/track.h"
 #include "geometry/direction.h"
 #include "geometry/slew_limits.h"
@@ -77,9 +77,9 @@ struct SlewStation {
 // What is common to all stations at one instant.
 struct SlewRound {
   std::int64_t now_us = 0;
-  std::map<std::int64_t, int> seen_by{};          // number of stations that see each target
-  std::map<std::int64_t, double> worth{};         // of each target; absent: 1; 0: it leads nobody
-  Allocation allocation{};                        // of the stations to the targets
+  std::map<std::int64_t, int> seen_by{};      // number of stations that see each target
+  std::map<std::int64_t, double> priority{};  // of each target; absent: 1; 0: it leads no station
+  Allocation allocation{};                    // of the stations to the targets
   std::set<std::string> bearing_only_stations{};  // stations with a bearing-only track
   std::optional<CueRay> ray{};                    // the ray that is searched
   LinePrior prior{};                              // where on it the target is expected

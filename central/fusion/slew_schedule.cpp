@@ -34,8 +34,8 @@ CueRay cue_ray(const BearingOnly& line, std::int64_t now_us) {
 SlewStation SlewSchedule::station_of(const std::string& name, const KnownStation& station,
                                      std::int64_t now_us) const {
   const std::int64_t seen = station.follows(now_us);
-  const auto worth = round_.worth.find(seen);
-  const bool leads = worth == round_.worth.end() || worth->second > 0.0;
+  const auto priority = round_.priority.find(seen);
+  const bool leads = priority == round_.priority.end() || priority->second > 0.0;
   return {name, station.traits, leads ? seen : 0,
           std::ranges::find(staring_, name) != staring_.end()};
 }
@@ -46,7 +46,7 @@ void SlewSchedule::begin(std::int64_t now_us, const StationRegistry& stations,
   begun_us_ = now_us;
   next_ = "";
   round_ = {.now_us = now_us};
-  for (const Track& track : tracks) round_.worth[track.id] = handover.worth(track);
+  for (const Track& track : tracks) round_.priority[track.id] = handover.priority(track);
   std::vector<SlewStation> all;
   for (const auto& [name, station] : stations.all()) {
     all.push_back(station_of(name, station, now_us));

@@ -9,8 +9,8 @@ namespace ols::fusion {
 namespace {
 
 constexpr double kSettle_s = 0.1;  // between two looks at the tracks
-// Of a target that an operator wants, over one that he does not know.
-constexpr double kWordWorth = 10.0;
+// Priority of a target that an operator wants, over one without a decision.
+constexpr double kWantedFactor = 10.0;
 constexpr std::size_t kMostTold = 64;  // as many as cues
 
 bool is_followed_by_tracker(const Track& track) {
@@ -98,14 +98,14 @@ bool HandoverPolicy::leads_by_itself(ObjectClass object_class) const {
 }
 
 // A target that is not known yet is judged as it is.
-double HandoverPolicy::worth(const Track& track) const {
+double HandoverPolicy::priority(const Track& track) const {
   const auto found = targets_.find(track.id);
   const bool is_designated =
       found == targets_.end() ? is_followed_by_tracker(track) : found->second.is_designated;
   const bool is_led = found == targets_.end() ? is_designated : leads(found->second);
   if (!is_led) return 0.0;
   const bool is_wanted = is_designated || found->second.allowed.value_or(false);
-  return track.existence.probability() * (is_wanted ? kWordWorth : 1.0);
+  return track.existence.probability() * (is_wanted ? kWantedFactor : 1.0);
 }
 
 bool HandoverPolicy::is_sought(const Known& known, std::int64_t now_us) const {

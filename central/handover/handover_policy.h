@@ -1,14 +1,14 @@
 // Which targets lead stations. A target that an operator has designated in a picture always does.
-// One that only detectors have found does so by the site's policy and the operator's word: it is
-// proposed, allowed or dismissed. Pure.
+// If only detectors have found it, the site's policy and the operator decide: it is proposed,
+// allowed or dismissed. Pure.
 //
 //  - off: targets of detections lead nobody. propose: each waits for an operator. automatic: each
 //    leads at once if its class is one of `classes`; the others wait for an operator.
-//  - An operator's word on a target, also a designated one, counts at once and as long as the
-//  target has its number.
-//  - A target that is lost and found again under another number keeps the word: the first new
-//    target where it must be by then inherits it.
-//  - A target that led stations and is lost is looked for where it must be by then, with growing
+//  - An operator's decision counts at once, for designated targets too, and until the target loses
+//    its number.
+//  - If a target is lost, its decision passes to the first new target that appears where the lost
+//    one must be by then.
+//  - A lost target that led stations is looked for where it must be by then, with growing
 //    uncertainty, until it is found or seek_s are over.
 #pragma once
 
@@ -27,12 +27,12 @@ enum class HandoverMode { kOff, kPropose, kAutomatic };
 
 struct HandoverConfig {
   HandoverMode mode = HandoverMode::kOff;
-  // That lead by themselves if automatic.
+  // Classes whose objects lead without an operator's decision, in mode kAutomatic.
   std::vector<ObjectClass> classes{ObjectClass::kUnknown, ObjectClass::kDrone, ObjectClass::kBird,
                                    ObjectClass::kAircraft, ObjectClass::kOther};
   std::vector<std::string> staring{};  // stations that are never led
   double seek_s = 10.0;                // how long a lost target is looked for
-  double remember_s = 10.0;            // how long the word on a lost one is remembered
+  double remember_s = 10.0;            // how long the decision on a lost target is kept
   double acceleration_sd_m_s2 = 3.0;   // growth of a lost target's uncertainty
 };
 
@@ -44,9 +44,9 @@ class HandoverPolicy {
   void settle(std::int64_t now_us, const std::vector<Track>& tracks);
   // An operator's decision. False if there is no such target, or if the mode is off.
   bool order(std::int64_t target_id, bool allow);
-  // How much a station at this target is worth; 0: it leads nobody. The operator's own targets are
-  // worth more than those that lead by themselves, and doubtful ones less.
-  double worth(const Track& track) const;
+  // The target's priority when stations are allocated; 0: it leads no station. Higher for targets
+  // that an operator has designated or allowed, lower for doubtful ones.
+  double priority(const Track& track) const;
   // Lost targets, as places to look at.
   std::vector<CueAim> lost(std::int64_t now_us) const;
   // Targets that were found by detection or that an operator has judged, each under its number, in
@@ -64,9 +64,9 @@ class HandoverPolicy {
   struct Known {
     CueAim last;  // its last state
     ObjectClass object_class = ObjectClass::kUnknown;
-    bool is_designated = false;     // a tracker followed it before the fusion led anybody there
-    bool has_led = false;           // trackers on it since then may be those of led stations
-    bool is_live = false;           // there is a track of it
+    bool is_designated = false;  // a tracker followed it before the fusion led a station there
+    bool has_led = false;        // a tracker that appears on it is no longer proof of an operator
+    bool is_live = false;        // there is a track of it
     std::optional<bool> allowed{};  // the operator's decision
   };
   void note(const Track& track, std::int64_t now_us);

@@ -3,8 +3,8 @@
 #include "edge/camera/aravis/aravis_kind.h"
 #include "edge/mount/fixed/fixed_kind.h"
 #include "edge/ptu/ptu_kind.h"
-#include "edge/sensors/dpg2/dpg2_inclinometer.h"
-#include "edge/sensors/gpsd/gpsd_receiver.h"
+#include "edge/sensors/dpg2/dpg2_kind.h"
+#include "edge/sensors/gpsd/gpsd_kind.h"
 
 namespace ols::station {
 

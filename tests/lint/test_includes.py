@@ -89,7 +89,7 @@ OTHER_DEVICES = [
     "export/conversion.cpp",
     "export/exporter.*",
     "export/factory.cpp",
-    "export/fix*",
+    "export/fixes.*",
     "export/geoid.cpp",
     "export/readiness.*",
     "sim/*flood.cpp",

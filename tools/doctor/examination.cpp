@@ -18,7 +18,7 @@
 #include "edge/config/config.h"
 #include "edge/messages/messages_bus.h"
 #include "edge/ptu/ptu_kind.h"
-#include "edge/sensors/dpg2/dpg2_inclinometer.h"
+#include "edge/sensors/dpg2/dpg2_kind.h"
 #include "export/export_config.h"
 #include "export/readiness.h"
 #include "tools/doctor/bus_listener.h"

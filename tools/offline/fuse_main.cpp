@@ -18,9 +18,9 @@
 #include "central/offline/object_separation.h"
 #include "central/offline/offline_fusion.h"
 #include "central/offline/smoother.h"
-#include "export/fix_writer.h"
 #include "geometry/angles.h"
 #include "geometry/wgs84.h"
+#include "tools/offline/fix_writer.h"
 #include "tools/offline/recorded_bearings.h"
 
 namespace {

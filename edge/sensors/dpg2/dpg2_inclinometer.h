@@ -31,17 +31,4 @@ class Dpg2Inclinometer : public Inclinometer {
   std::unique_ptr<Impl> impl_;
 };
 
-class Dpg2Kind : public InclinometerKind {
- public:
-  config::Section section() override;
-  const InclinometerConfig& config() const override { return dpg2; }
-  bool is_configured() const override { return !dpg2.device.empty(); }
-  std::string address() const override;
-  std::unique_ptr<Inclinometer> open() const override {
-    return std::make_unique<Dpg2Inclinometer>(dpg2);
-  }
-
-  Dpg2Config dpg2;
-};
-
 }  // namespace ols::sensors

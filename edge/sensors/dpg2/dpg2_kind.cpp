@@ -1,8 +1,8 @@
 // The keys of [inclinometer] with a DPG2.
+#include "edge/sensors/dpg2/dpg2_kind.h"
+
 #include <algorithm>
 #include <iterator>
-
-#include "edge/sensors/dpg2/dpg2_inclinometer.h"
 
 namespace ols::sensors {
 

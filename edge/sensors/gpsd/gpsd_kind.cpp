@@ -1,8 +1,8 @@
 // The keys of [gnss] with gpsd.
+#include "edge/sensors/gpsd/gpsd_kind.h"
+
 #include <algorithm>
 #include <iterator>
-
-#include "edge/sensors/gpsd/gpsd_receiver.h"
 
 namespace ols::sensors {
 

@@ -61,11 +61,11 @@ TEST_F(TheHandoverPolicy, OffTargetsOfDetectionsLeadNobodyAndDesignatedOnesDo) {
   HandoverPolicy off = with(HandoverMode::kOff);
   const std::vector<Track> tracks = {track_of(1, true), track_of(2, false)};
   off.settle(kStart, tracks);
-  EXPECT_EQ(off.worth(tracks[0]), 0.0);
-  EXPECT_GT(off.worth(tracks[1]), 0.0);
+  EXPECT_EQ(off.priority(tracks[0]), 0.0);
+  EXPECT_GT(off.priority(tracks[1]), 0.0);
   EXPECT_FALSE(off.order(1, true));
   EXPECT_TRUE(off.health(kStart).empty());
-  EXPECT_GT(off.worth(track_of(3, false)), 0.0) << "not known yet";
+  EXPECT_GT(off.priority(track_of(3, false)), 0.0) << "not known yet";
 }
 
 // The tracker loses it for a while; its designation does not end.
@@ -73,7 +73,7 @@ TEST_F(TheHandoverPolicy, WhatWasDesignatedStaysSo) {
   HandoverPolicy off = with(HandoverMode::kOff);
   off.settle(kStart, {track_of(1, false)});
   off.settle(after(1.0), {track_of(1, true)});
-  EXPECT_GT(off.worth(track_of(1, true)), 0.0);
+  EXPECT_GT(off.priority(track_of(1, true)), 0.0);
 }
 
 TEST_F(TheHandoverPolicy, AProposalWaitsForTheOperatorsWord) {
@@ -82,14 +82,14 @@ TEST_F(TheHandoverPolicy, AProposalWaitsForTheOperatorsWord) {
   handover.settle(kStart, {track});
   EXPECT_EQ(state(handover), CueState::kWaiting);
   EXPECT_EQ(handover.health(kStart).at(0).id, "1");
-  EXPECT_EQ(handover.worth(track), 0.0);
+  EXPECT_EQ(handover.priority(track), 0.0);
   EXPECT_FALSE(handover.order(2, true)) << "there is none";
   EXPECT_TRUE(handover.order(1, true));
   EXPECT_EQ(state(handover), CueState::kFound);
-  EXPECT_GT(handover.worth(track), 0.0);
+  EXPECT_GT(handover.priority(track), 0.0);
   EXPECT_TRUE(handover.order(1, false));
   EXPECT_EQ(state(handover), CueState::kForbidden);
-  EXPECT_EQ(handover.worth(track), 0.0);
+  EXPECT_EQ(handover.priority(track), 0.0);
 }
 
 // The led stations' trackers follow it then, and are no word of an operator.
@@ -99,14 +99,14 @@ TEST_F(TheHandoverPolicy, ADismissedTargetLeadsNobodyAlsoWhereATrackerFollowsIt)
   handover.settle(after(1.0), {track_of(1, false)});
   EXPECT_TRUE(handover.order(1, false));
   handover.settle(after(2.0), {track_of(1, false)});
-  EXPECT_EQ(handover.worth(track_of(1, false)), 0.0);
+  EXPECT_EQ(handover.priority(track_of(1, false)), 0.0);
 }
 
 TEST_F(TheHandoverPolicy, AProposalThatAnOperatorDesignatesLeads) {
   HandoverPolicy handover = with(HandoverMode::kPropose);
   handover.settle(kStart, {track_of(1, true)});
   handover.settle(after(1.0), {track_of(1, false)});
-  EXPECT_GT(handover.worth(track_of(1, true)), 0.0);
+  EXPECT_GT(handover.priority(track_of(1, true)), 0.0);
   EXPECT_TRUE(handover.health(after(1.0)).empty()) << "no proposal any more";
 }
 
@@ -117,14 +117,14 @@ TEST_F(TheHandoverPolicy, AutomaticLeadsAtOnceButNotWhatIsOfAnotherClass) {
   HandoverPolicy handover(config);
   const Track drone = of_class(1), bird = of_class(2);
   handover.settle(kStart, {drone});
-  EXPECT_GT(handover.worth(drone), 0.0);
+  EXPECT_GT(handover.priority(drone), 0.0);
   handover.settle(after(1.0), {bird});
-  EXPECT_EQ(handover.worth(bird), 0.0);
+  EXPECT_EQ(handover.priority(bird), 0.0);
   EXPECT_EQ(state(handover), CueState::kWaiting);
   handover.settle(after(2.0), {followed(bird)});
-  EXPECT_EQ(handover.worth(bird), 0.0) << "those trackers were led there, not designated";
+  EXPECT_EQ(handover.priority(bird), 0.0) << "those trackers were led there, not designated";
   handover.order(1, true);
-  EXPECT_GT(handover.worth(bird), 0.0) << "the operator's word wins";
+  EXPECT_GT(handover.priority(bird), 0.0) << "the operator's word wins";
 }
 
 TEST_F(TheHandoverPolicy, TheOperatorsTargetIsWorthMoreAndADoubtfulOneLess) {
@@ -133,8 +133,8 @@ TEST_F(TheHandoverPolicy, TheOperatorsTargetIsWorthMoreAndADoubtfulOneLess) {
   doubtful.existence.begin();
   const Track own = track_of(1, false), found = track_of(3, true);
   handover.settle(kStart, {own, doubtful, found});
-  EXPECT_GT(handover.worth(own), handover.worth(found));
-  EXPECT_GT(handover.worth(found), handover.worth(doubtful));
+  EXPECT_GT(handover.priority(own), handover.priority(found));
+  EXPECT_GT(handover.priority(found), handover.priority(doubtful));
 }
 
 TEST_F(TheHandoverPolicy, ALostTargetIsSoughtWhereItMustBeAndThenGivenUp) {
@@ -179,11 +179,11 @@ TEST_F(TheHandoverPolicy, NotThisOneHoldsUnderAnotherNumberNearbyAndOnlyThere) {
   const Track again = track_of(2, true, kPlace + Vector3d(5, 0, 0), 4.0);
   const Track other = track_of(3, true, kPlace + Vector3d(400, 0, 0), 4.0);
   handover.settle(after(4.0), {again, other});
-  EXPECT_EQ(handover.worth(again), 0.0);
-  EXPECT_GT(handover.worth(other), 0.0);
+  EXPECT_EQ(handover.priority(again), 0.0);
+  EXPECT_GT(handover.priority(other), 0.0);
   const Track third = track_of(4, true, kPlace, 5.0);
   handover.settle(after(5.0), {again, other, third});
-  EXPECT_GT(handover.worth(third), 0.0) << "the word has passed on once";
+  EXPECT_GT(handover.priority(third), 0.0) << "the decision has passed on once";
 }
 
 TEST_F(TheHandoverPolicy, AWordIsRememberedForSomeTime) {
@@ -198,7 +198,7 @@ TEST_F(TheHandoverPolicy, AWordIsRememberedForSomeTime) {
       handover.settle(after(away_s), {});
       const Track again = track_of(2, true, kPlace, away_s + 0.5);
       handover.settle(after(away_s + 0.5), {again});
-      EXPECT_EQ(handover.worth(again) > 0.0, (away_s < 8.0) == word) << word << " " << away_s;
+      EXPECT_EQ(handover.priority(again) > 0.0, (away_s < 8.0) == word) << word << " " << away_s;
     }
   }
 }

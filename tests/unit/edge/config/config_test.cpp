@@ -10,8 +10,8 @@
 
 #include "base/config/toml_config.h"
 #include "edge/ptu/ptu_kind.h"
-#include "edge/sensors/dpg2/dpg2_inclinometer.h"
-#include "edge/sensors/gpsd/gpsd_receiver.h"
+#include "edge/sensors/dpg2/dpg2_kind.h"
+#include "edge/sensors/gpsd/gpsd_kind.h"
 #include "geometry/angles.h"
 #include "tests/unit/error_text.h"
 #include "tests/unit/temp_dir.h"

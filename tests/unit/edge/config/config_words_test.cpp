@@ -3,8 +3,8 @@
 
 #include "edge/config/config.h"
 #include "edge/ptu/ptu_kind.h"
-#include "edge/sensors/dpg2/dpg2_inclinometer.h"
-#include "edge/sensors/gpsd/gpsd_receiver.h"
+#include "edge/sensors/dpg2/dpg2_kind.h"
+#include "edge/sensors/gpsd/gpsd_kind.h"
 #include "geometry/angles.h"
 
 namespace ols::station {

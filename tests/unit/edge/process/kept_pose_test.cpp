@@ -6,8 +6,8 @@
 #include <fstream>
 
 #include "base/process/clocks.h"
-#include "edge/sensors/dpg2/dpg2_inclinometer.h"
-#include "edge/sensors/gpsd/gpsd_receiver.h"
+#include "edge/sensors/dpg2/dpg2_kind.h"
+#include "edge/sensors/gpsd/gpsd_kind.h"
 #include "geometry/angles.h"
 #include "tests/unit/folder_test.h"
 

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "base/config/config_section.h"
-#include "edge/sensors/dpg2/dpg2_inclinometer.h"
-#include "edge/sensors/gpsd/gpsd_receiver.h"
+#include "edge/sensors/dpg2/dpg2_kind.h"
+#include "edge/sensors/gpsd/gpsd_kind.h"
 #include "edge/sensors/pose_estimator_config.h"
 #include "geometry/angles.h"
 #include "tests/unit/error_text.h"

@@ -7,8 +7,8 @@
 #include "edge/camera/aravis/aravis_kind.h"
 #include "edge/config/config.h"
 #include "edge/ptu/ptu_kind.h"
-#include "edge/sensors/dpg2/dpg2_inclinometer.h"
-#include "edge/sensors/gpsd/gpsd_receiver.h"
+#include "edge/sensors/dpg2/dpg2_kind.h"
+#include "edge/sensors/gpsd/gpsd_kind.h"
 #include "edge/station/persisted_station_state.h"
 #include "tests/unit/temp_dir.h"
 

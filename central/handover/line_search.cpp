@@ -1,4 +1,4 @@
-#include "central/fusion/line_search.h"
+#include "central/handover/line_search.h"
 
 #include <algorithm>
 #include <cmath>

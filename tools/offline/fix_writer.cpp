@@ -1,4 +1,4 @@
-#include "export/fix_writer.h"
+#include "tools/offline/fix_writer.h"
 
 #include <array>
 #include <charconv>

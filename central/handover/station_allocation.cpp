@@ -1,4 +1,4 @@
-#include "central/fusion/station_allocation.h"
+#include "central/handover/station_allocation.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace ols::fusion {
 namespace {
 
-constexpr double kLease_s = 3.0;
+constexpr double kStay_s = 3.0;
 constexpr double kKeep = 1.5;          // the score of the present target over its own
 constexpr double kReact_s = 0.5;       // of every hand-over, besides the turn
 constexpr double kGoodSine = 0.34;     // of two lines that cross at 20 degrees
@@ -57,7 +57,7 @@ class Allocator {
     const std::size_t seen = index_of(station.sees), led_to = index_of(station.led_to);
     if (seen != kNone && !(station.is_led && station.by_detector)) return give(k, seen);
     if (!station.is_led) return;
-    if (led_to != kNone && station.led_s < kLease_s) return give(k, led_to);
+    if (led_to != kNone && station.led_s < kStay_s) return give(k, led_to);
     if (seen == kNone) return free_.push_back(k);
     give(k, seen);
     spare_.push_back(k);
@@ -90,7 +90,7 @@ class Allocator {
         is_known ? angle_between(there, enu_from_azimuth_elevation(*station.axis)) : kPi / 4.0;
     const std::int64_t id = targets_[target].id;
     const bool is_present = id == station.led_to || id == station.sees;
-    return targets_[target].worth * (is_present ? kKeep : 1.0) /
+    return targets_[target].priority * (is_present ? kKeep : 1.0) /
            (kReact_s + turning_s(turn_rad, unit_));
   }
 
@@ -100,7 +100,7 @@ class Allocator {
       if (!is_served(i, kNone, kNone)) needy.push_back(i);
     }
     std::ranges::stable_sort(needy, std::greater{},
-                             [&](std::size_t i) { return targets_[i].worth; });
+                             [&](std::size_t i) { return targets_[i].priority; });
     needy.resize(std::min(needy.size(), kCompared));
     std::vector<std::size_t> movable = free_;
     movable.insert(movable.end(), spare_.begin(), spare_.end());

@@ -1,4 +1,4 @@
-#include "central/fusion/station_allocation.h"
+#include "central/handover/station_allocation.h"
 
 #include <gtest/gtest.h>
 
@@ -12,8 +12,8 @@ namespace {
 using Eigen::Vector3d;
 using test::site;
 
-AllocatedTarget target_at(std::int64_t id, const Vector3d& p_enu, double worth = 1.0) {
-  return {id, site().to_ecef(p_enu), worth};
+AllocatedTarget target_at(std::int64_t id, const Vector3d& p_enu, double priority = 1.0) {
+  return {id, site().to_ecef(p_enu), priority};
 }
 
 // Looks at `at_enu`.
@@ -53,7 +53,7 @@ TEST(StationAllocation, EachTargetGetsTwoStationsBeforeAnyGetsAThird) {
   EXPECT_EQ(led_to(four, 2), 2);
   const auto three = run(targets, {station_at("a", {-300, 0, 0}), station_at("b", {-100, 0, 0}),
                                    station_at("c", {100, 0, 0})});
-  EXPECT_EQ(led_to(three, 1), 2) << "the one that is worth more first";
+  EXPECT_EQ(led_to(three, 1), 2) << "the higher priority first";
   EXPECT_EQ(led_to(three, 2), 1);
 }
 
@@ -110,9 +110,9 @@ TEST(StationAllocation, AStaringStationCountsAndIsNotLed) {
 TEST(StationAllocation, ALeaseHoldsAndALittleGainTakesNoStation) {
   AllocatedStation a = station_at("a", {0, 0, 0}, kRight);
   a.led_to = 1;
-  const auto towards = [&](double worth, double led_s) {
+  const auto towards = [&](double priority, double led_s) {
     a.led_s = led_s;
-    return run({target_at(1, {-1, 400, 60}), target_at(2, {1, 400, 60}, worth)}, {a}).at("a");
+    return run({target_at(1, {-1, 400, 60}), target_at(2, {1, 400, 60}, priority)}, {a}).at("a");
   };
   EXPECT_EQ(towards(100.0, 2.0), 1) << "the lease";
   EXPECT_EQ(towards(1.3, 4.0), 1) << "a little gain";
