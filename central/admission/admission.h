@@ -46,10 +46,10 @@ class Admission {
   std::optional<std::string> know_station(const std::string& station, const StationTraits& traits,
                                           FusionLog& log);
   void allow_slews(const std::string& station, bool allowed);
-  // The station sees this target. A detector sees several: of its tracklets, the target counts that
-  // it saw first, until it sees that no more.
+  // The station sees this target. If its detector sees several targets, the one that it saw first
+  // counts, until that one is out of sight.
   void note_target(const BearingMeasurement& measurement, std::int64_t target_id);
-  // Message time was reset: forgets every judgement made by the old time.
+  // Message time was reset: forgets every judgement that was based on the old time.
   void begin_time_line();
 
   // More than future_s ahead of "now".

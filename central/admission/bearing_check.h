@@ -24,7 +24,7 @@ enum class BearingRefusal {
   kCount,  // not a reason: the number of reasons
 };
 const char* to_string(BearingRefusal refusal);
-// For people: what is wrong and where to look.
+// Tells a person what is wrong and where to look.
 std::string_view in_words(BearingRefusal refusal);
 
 // Whether a station can be at this position: near the Earth's surface, with a valid standard

@@ -1,5 +1,5 @@
-// Compares what a station states of its calibration with its residuals: a second check besides the
-// station's own reference views. Pure.
+// Compares the errors that a station states for its calibration with its residuals. This is a
+// second check, beside the station's own reference views. Pure.
 #pragma once
 
 #include <Eigen/Core>

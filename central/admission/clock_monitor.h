@@ -9,10 +9,10 @@
 //  - It states an error beyond error_limit_s while most others state less. (If no station has a
 //    better clock, none is quarantined: the covariances contain the errors.)
 //  - Its stamps differ by more than offset_limit_s from the median of all stations' newest stamps.
-//    This needs three stations: of two, it is unknown which one is wrong. Late messages look like a
-//    slow clock, so only the offset common to all stamps of the last second counts.
+//    This needs three stations: with two, nobody can tell which one is wrong. Late messages look
+//    like a slow clock, so only the offset common to all stamps of the last second counts.
 //
-// The quarantine ends when neither reason has held for release_s, by tighter limits.
+// The quarantine ends when neither reason has held for release_s; tighter limits apply then.
 #pragma once
 
 #include <cstdint>
@@ -38,11 +38,11 @@ class ClockMonitor {
  public:
   explicit ClockMonitor(const ClockMonitorConfig& config = {}) : config_(config) {}
 
-  // A bearing that `time` has already taken.
+  // Takes a bearing; `time` must have taken its stamp already.
   void hear(const BearingMeasurement& measurement, const MessageTime& time);
   // Why a station is quarantined; empty when it is not.
   const Alarm& quarantine(const std::string& station) const;
-  // The addition to the 1-sigma of its stamps, for their offset from the others'.
+  // What is added to the 1-sigma of its stamps because they are offset from the others'.
   double added_sd_s(const std::string& station) const;
   // The recent offset of its stamps from the median: 0 within usual_offset_s, NaN before the first.
   double offset_s(const std::string& station) const;

@@ -1,4 +1,4 @@
-// Puts the bearings of one image together, which arrive as messages of their own. Pure.
+// Collects the bearings of one image, which arrive as separate messages. Pure.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +16,9 @@ using ImageBearings = std::vector<BearingMeasurement>;
 class ImageAssembly {
  public:
   // Takes a bearing; returns the images that are complete with it, oldest first. An image is
-  // complete with the number of bearings that they state (a bearing that states none is an image);
-  // or, if some have not come, with its station's next image, or kWaitS before `now`.
+  // complete when as many bearings have come as they state. (A bearing that states no number is an
+  // image of its own.) If some are missing, the image counts as complete when its station's next
+  // image begins, or when it is older than `now` by kWaitS.
   std::vector<ImageBearings> add(const BearingMeasurement& measurement, std::int64_t now_us);
   void forget(const std::string& station) { open_.erase(station); }
   void clear() { open_.clear(); }

@@ -13,8 +13,8 @@ namespace ols::fusion {
 
 class MessageTime {
  public:
-  // A station delivers while the others' stamps have advanced by less than silence_s since its last
-  // message.
+  // A station counts as delivering until the others' stamps have advanced by silence_s since its
+  // last message.
   explicit MessageTime(double silence_s = Activity::kDeliversS) : silence_s_(silence_s) {}
 
   // Takes every message's stamp, in order of arrival. Returns true when the station's clock has

@@ -4,9 +4,9 @@
 // One unexplained bearing proves nothing. The pose is taken as wrong if, for seconds, hardly any
 // bearing is explained and all miss the nearest target by the same angle. The station is then
 // quarantined: it raises an alarm and initiates no tracks, because its rays would intersect the
-// others' in ghosts. Its explained bearings are still used. The quarantine ends when they are the
-// majority. It also lapses when there is no target: the station may have been corrected, and may be
-// needed to initiate one.
+// others' in ghosts. Its explained bearings are still used. The quarantine ends when most of its
+// bearings are explained. It also lapses while there is no target: the station may have been
+// corrected, and may be needed to initiate a target.
 #pragma once
 
 #include <Eigen/Core>

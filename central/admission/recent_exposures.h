@@ -12,12 +12,13 @@ class RecentExposures {
  public:
   // Whether it is a duplicate: the same exposure, and the same object or the same direction.
   bool has(const BearingMeasurement& measurement) const;
-  // Advances the time to this bearing, and forgets what is a second older than the newest. Refused
-  // bearings count too: otherwise a flood would lock its station out permanently.
+  // Advances the time to this bearing, and forgets exposures that are more than a second older than
+  // the newest. Call it for refused bearings, too: otherwise a flood would lock its station out
+  // permanently.
   void go_on_to(std::int64_t utime_us);
   void add(const BearingMeasurement& measurement);
   void clear() { exposures_.clear(); }
-  // Whether the kept second holds more bearings than this rate allows.
+  // Whether the last second has more bearings than this rate allows.
   bool is_flood(double flood_hz) const;
   double rate_hz() const { return rate_hz_; }
 

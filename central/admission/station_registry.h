@@ -16,7 +16,7 @@
 
 namespace ols::fusion {
 
-// What the fusion must know of a station before it can slew it.
+// What the fusion must know of a station in order to slew it.
 struct StationTraits {
   Eigen::Vector3d camera_ecef = Eigen::Vector3d::Zero();
   Eigen::Vector3d camera_sd_enu_m = Eigen::Vector3d::Zero();
@@ -51,8 +51,8 @@ struct KnownStation {
 
 class StationRegistry {
  public:
-  // names: the stations of the site; empty: all. most: at this number a new station replaces the
-  // one that is silent longest, but never one that has delivered and still does.
+  // names: the stations of the site; empty: all. most: the largest number of stations. Beyond it a
+  // new station replaces the one that has been silent longest, but never one that still delivers.
   StationRegistry(const std::vector<std::string>& names, int most) : names_(names), most_(most) {}
 
   bool belongs(const std::string& station) const;

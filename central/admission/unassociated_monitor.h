@@ -20,9 +20,9 @@ class UnassociatedMonitor {
  public:
   explicit UnassociatedMonitor(const UnassociatedConfig& config = {}) : config_(config) {}
 
-  // A bearing that no existing target explains; in the station's own time.
+  // Takes a bearing that no existing target explains; times are those of the station's stamps.
   void unexplained(const std::string& station, std::int64_t utime_us);
-  // A bearing that a target explains, or that cannot be compared because there is no target.
+  // Takes a bearing that a target explains, or that cannot be compared because there is no target.
   void explained(const std::string& station) { stations_.erase(station); }
   // The alarm for a station; empty: none. now_us: the fusion's time.
   Alarm alarm(const std::string& station, std::int64_t now_us) const;

@@ -39,7 +39,7 @@ class FusionProcess {
   void on_fusion_status(const BusMessage& message);
   void on_cue(const BusMessage& message);
   void on_cue_order(const BusMessage& message);
-  // Why it is refused, as it is told; empty: it is taken.
+  // Why the order is refused, in words for the sender; empty: it is accepted.
   std::string obey(const CueOrder& order);
   std::int64_t present_us() const;
   void refuse(MessageRefusal refusal, const std::string& channel);
@@ -53,7 +53,7 @@ class FusionProcess {
   struct Errors {
     std::string last{}, told{}, of_fusion{};
 
-    // The error that is new since the last status.
+    // An error since the last status.
     const std::string& newest(const std::string& of_fusion_now);
   };
   // From a target's epoch to its publication.

@@ -51,7 +51,8 @@ struct CueOrder {
 std::variant<Cue, MessageRefusal> cue_from(const void* data, int bytes);
 std::variant<CueOrder, MessageRefusal> cue_order_from(const void* data, int bytes);
 
-// What is said to it. `reason`: of its refusal, as wire/refusal_words.h explains it; empty: taken.
+// The answer to an order. `reason`: why it is refused, as wire/refusal_words.h explains; empty: it
+// is accepted.
 struct CueReply {
   std::int64_t boot_id = 0, sequence = 0;  // of the order
   std::string reason{};

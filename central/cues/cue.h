@@ -21,7 +21,8 @@ struct Cue {
   double velocity_sd_m_s = 0.0;  // of each axis
 };
 
-// Which cues stations are led to: none, those that an operator allows, or all that none forbids.
+// Which cues stations are led to: none, those that an operator has allowed, or all that no operator
+// has forbidden.
 enum class CueAllowance { kNever, kAsk, kAll };
 
 struct CueConfig {

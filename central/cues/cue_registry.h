@@ -25,7 +25,7 @@ struct CueHealth {
   double horizontal_sd_m = 0.0, vertical_sd_m = 0.0;
 };
 
-// Whether the target is where the cue is: 99.9 % of both errors.
+// Whether the target is where the cue is, within the 99.9 % region of both uncertainties.
 bool is_there(const CueAim& aim, const Track& track, std::int64_t now_us);
 
 // The report on one cue.
@@ -37,15 +37,15 @@ class CueRegistry {
 
   // present_us: the host's UTC; in a replay, the message's time.
   CueRefusal take(const Cue& cue, std::int64_t present_us, const StationRegistry& stations);
-  // An operator's decision. False if there is no such cue, or if the configuration leaves no choice
-  // to the operator.
+  // An operator's decision. False if there is no such cue, or if the configuration lets no operator
+  // decide.
   bool order(const std::string& id, bool allow);
   // Removes cues that their sources no longer send.
   void end_silent(std::int64_t present_us);
   // Finds the target of each cue; at a limited rate.
   void settle(std::int64_t now_us, const std::vector<Track>& tracks);
 
-  // The cues to which stations are to be led: allowed ones at which there is no target.
+  // The cues to which stations are to be led: allowed cues at which no target was found.
   std::vector<CueAim> aims(std::int64_t now_us) const;
   std::vector<CueHealth> health(std::int64_t now_us) const;  // in the order of ids
   bool empty() const { return cues_.empty(); }

@@ -3,9 +3,9 @@
 // A least-squares polynomial is fitted to each station's directions over a short window, on the
 // tangent plane (gnomonic), and evaluated at the epoch. This interpolates if there are later
 // bearings; otherwise it extrapolates, up to a limit. The quadratic term has a prior of zero mean.
-// Its variance is the curvature that the bearings show beyond their noise, plus that of a possible
-// acceleration. A single bearing leaves the rate at its prior. The covariance therefore contains
-// the error of the polynomial model.
+// The prior's variance is the curvature that the bearings show beyond their noise, plus that of a
+// possible acceleration. So the covariance contains the error of the polynomial model. A single
+// bearing leaves the rate at its prior.
 #pragma once
 
 #include <cstdint>
@@ -25,9 +25,9 @@ struct AlignmentConfig {
   double range_unknown_m = 50.0;      // assumed range while there is no position
 };
 
-// One station's bearings, in order of time -> its ray at the epoch; nullopt without a bearing near
-// it. range_m: the distance to the target if known, for the prior of its angular acceleration.
-// noise_scale: the noise variance over the stated one.
+// Takes one station's bearings, in order of time; returns its ray at the epoch, or nullopt without
+// a bearing near the epoch. range_m: the distance to the target if known, for the prior of its
+// angular acceleration. noise_scale: the actual noise variance over the stated one.
 std::optional<Ray> align(std::span<const BearingMeasurement> measurements, std::int64_t epoch_us,
                          std::optional<double> range_m, const AlignmentConfig& config = {},
                          double noise_scale = 1.0);

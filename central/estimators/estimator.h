@@ -1,10 +1,8 @@
 // One target's position at an instant, by one of several estimators. They share one interface and
-// are chosen by name:
-//   filter         the track's own filter (track_filter.h): over time, with velocity
-//   least-squares  the joint maximum likelihood of all rays at the instant (least_squares.h)
-//   paper          the OLS paper's (paper_triangulation.h), its parts switched by PaperConfig
-// For all of them, the tracks decide beforehand which bearings belong to the target
-// (track_manager.h).
+// are chosen by name: filter         the track's own filter (track_filter.h): over time, with
+// velocity least-squares  the joint maximum likelihood of all rays at the instant (least_squares.h)
+// paper          the OLS paper's (paper_triangulation.h), its parts switched by PaperConfig For all
+// of them, the tracks decide beforehand which bearings belong to the target (track_manager.h).
 #pragma once
 
 #include <cstddef>
@@ -61,8 +59,8 @@ class Estimator {
 
 inline constexpr const char* kEstimators[] = {"filter", "least-squares", "paper"};
 
-// Whether an estimator predicts. If so, an instant after a station's last bearing costs little
-// accuracy. The others extrapolate that station's bearings.
+// Whether the estimator predicts the target's motion. Then an instant after a station's last
+// bearing costs little accuracy. Other estimators have to extrapolate that station's bearings.
 inline bool predicts(std::string_view name) { return name == "filter"; }
 
 // Null for an unknown name.
@@ -72,8 +70,8 @@ std::unique_ptr<Estimator> make_estimator(std::string_view name, const Estimator
 std::vector<ContributingStation> contributing(const TrackFilter& filter, std::int64_t epoch_us);
 
 // Makes an estimate from a filter's state. judge_position() checks the geometry first. The
-// systematic part of the covariance is included. Crossing angle and residual are those of the
-// stations that had a bearing used shortly before state.utime_us.
+// covariance includes the systematic part. Crossing angle and residual are those of the stations
+// whose bearings were used shortly before state.utime_us.
 Estimate estimate_of(const TrackFilter& filter, const KinematicState& state,
                      const SystematicPart& systematic);
 

@@ -14,21 +14,22 @@
 namespace ols::fusion {
 
 struct LeastSquaresConfig {
-  double gate_sigma = 3.1;      // rays are consistent up to this chi^2, stated as a normal
-                                // deviate: 3.1 is a probability of 0.999
+  // Rays are consistent up to this chi^2, given as a normal deviate: 3.1 is a probability of 0.999.
+  double gate_sigma = 3.1;
   double huber_sigma = 2.0;     // without a consistent subset, rays beyond this are down-weighted
   double range_sd_limit = 0.3;  // max 1-sigma over range; beyond: "parallel rays"
   double max_range_m = 500e3;
   int max_iterations = 30;
 };
 
-// Rays are rejected only if the others are a majority and then agree: one of three or four, two of
-// five or six. Otherwise (always for two rays that miss each other) all rays are kept with robust
-// weights, and the covariance is multiplied by chi^2 over its degrees of freedom.
+// Rays are rejected only if the remaining rays are a majority and agree: one of three or four is
+// rejected, or two of five or six. Otherwise (always for two rays that miss each other) all rays
+// are kept with robust weights, and the covariance is multiplied by chi^2 over its degrees of
+// freedom.
 Estimate least_squares(const std::vector<Ray>& rays, const LeastSquaresConfig& config = {});
 
-// Joint velocity of the used rays, from their angular rates. Sets the velocity and its covariance,
-// or NaN where the rates do not determine them.
+// Computes the velocity from the angular rates of the used rays together. Sets the velocity and its
+// covariance, or NaN where the rates do not determine them.
 void estimate_velocity(const std::vector<Ray>& rays, Estimate& estimate);
 
 }  // namespace ols::fusion

@@ -23,11 +23,11 @@ struct PaperPairing {
   Solution solution = Solution::kTooFewRays;
   Eigen::Vector3d position_ecef = nan_vector();
   std::vector<PaperBase> bases{};
-  // d position / d centroid of the pairs' points: the weights depend on that centroid.
+  // d position / d centroid of the pairs' points. (The weights depend on that centroid.)
   Eigen::Matrix3d by_centroid = Eigen::Matrix3d::Zero();
 };
 
-// All pairs of views, combined according to config.pairs. If none intersects: the reason of the
+// All pairs of views, combined according to config.pairs. If no pair intersects: the reason of the
 // last pair.
 PaperPairing pair_views(const std::vector<PaperView>& views, const PaperConfig& config);
 

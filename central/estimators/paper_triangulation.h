@@ -41,8 +41,8 @@ struct PaperPoint {
 };
 
 // Turns both vectors about the baseline's axis m into one plane M1 M2 W, by beta1 = alpha b2 / (b1
-// + b2) and beta2 = alpha - beta1. The vector with the higher belief turns less. W is their
-// intersection.
+// + b2) and beta2 = alpha - beta1. The vector with the higher belief turns less. W is where the
+// turned vectors intersect.
 PaperPoint paper_two_view(const PaperView& first, const PaperView& second,
                           const PaperConfig& config = {});
 
@@ -50,24 +50,24 @@ PaperPoint paper_two_view(const PaperView& first, const PaperView& second,
 //  - Algorithm 1: the weighted centroid of all pairs' estimates, with weights w_i ~ exp(n_i .
 //    unit(T' - bc_i)). bc_i is the baseline's centre and n_i its normal towards T'. The paper
 //    prints the exponent with the vector T' - bc_i itself, which overflows at a few hundred metres.
-//    Its text says that the weights express the angle, hence the unit vector here.
+//    The paper's text says that the weights express the angle; hence the unit vector here.
 //  - Best baseline: the pair with the largest t_i . n_i, where t_i is the direction from its centre
 //    to the target.
 PaperPoint paper_n_view(const std::vector<PaperView>& views, const PaperConfig& config = {});
 
-// The same from rays, with a first-order covariance (paper_pairing.h), which the paper does not
-// give. Without the moving average. The cost grows with the square of the number of rays: about 2
-// ms for 100.
+// The same from rays, without the moving average, and with a first-order covariance
+// (paper_pairing.h), which the paper does not give. The cost grows with the square of the number of
+// rays: about 2 ms for 100.
 Estimate paper_estimate(const std::vector<Ray>& rays, const PaperConfig& config = {});
 
-// The paper's smoothing: the mean of the last h estimates (h = 10). It lags a moving target by half
-// of its span. The lag (the newest estimate minus the mean) is added to the covariance. An estimate
-// uses the bearings of a window (AlignmentConfig::window_s). Where two windows overlap their noise
-// is correlated, and the mean does not reduce that part.
+// The paper's smoothing: the mean of the last h estimates (h = 10). It lags behind a moving target
+// by half the time that the estimates span. The lag (the newest estimate minus the mean) is added
+// to the covariance. Each estimate uses the bearings of a window (AlignmentConfig::window_s). Where
+// two windows overlap, their noise is correlated, and the mean does not reduce that part.
 class MovingAverage {
  public:
   MovingAverage(int h, double window_s) : h_(h), window_s_(window_s) {}
-  // Takes an estimate with a solution and returns the average. In order of time.
+  // Takes an estimate that has a solution, and returns the average. Call it in order of time.
   Estimate add(const Estimate& estimate, std::int64_t utime_us);
   void reset() { estimates_.clear(); }
 

@@ -14,12 +14,12 @@ namespace ols::fusion {
 // 1e-13 of the largest).
 std::optional<Eigen::Matrix3d> covariance_from(const Eigen::Matrix3d& information);
 
-// Finite, and positive definite by more than rounding.
+// Whether the matrix is finite, and positive definite by more than rounding.
 bool is_covariance(const Eigen::Matrix3d& covariance);
 
-// The same estimate with impossible parts removed. If the position's covariance is not positive
+// Returns the estimate with impossible parts removed. If the position's covariance is not positive
 // definite: "parallel rays", no position. If the velocity's is not: no velocity. The white part is
-// a difference; negative variances that rounding has left in it become 0.
+// computed as a difference; negative variances that rounding has left in it become 0.
 Estimate checked(Estimate estimate);
 
 }  // namespace ols::fusion

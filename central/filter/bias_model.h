@@ -1,22 +1,22 @@
-// The bias and noise model of each station: what it declares of its calibration, and what its
-// residuals show beyond that. Pure.
+// The bias and noise model of each station: the errors that it declares, and what its residuals
+// show beyond them. Pure.
 //
 // The filter carries each station's bias (cross-elevation, elevation) as states with a prior of
 // zero mean. The prior variance v is learnt here. A bias estimated as b with variance P is
-// observable with the share k = 1 - P / v. Its square counts as b^2 - k P with the weight k^2:
-// nothing where the geometry does not determine the bias, all where it does. (One step of Fisher
-// scoring on the marginal likelihood: Harville, 1977.)
+// observable with the share k = 1 - P / v. Its square counts as b^2 - k P with the weight k^2. So
+// it counts fully where the geometry determines the bias, and not at all where it does not. (One
+// step of Fisher scoring on the marginal likelihood: Harville, 1977.)
 //
-// An undeclared systematic error is first assumed to be small. The biases of other undeclared
-// stations, in units of their stated noise, count for it too. The only scale in this is the bias's
-// correlation time, so it holds for a drone and for a meteor. A clock offset is learnt in the same
-// way where its error is only guessed.
+// An undeclared systematic error is first assumed to be small. The biases of other stations that
+// declare none, in units of their stated noise, count as evidence for it, too. The only absolute
+// scale in this is the bias's correlation time, so it holds for a drone and for a meteor. A clock
+// offset is learnt in the same way where its error is only guessed.
 //
-// The noise variance is learnt from the residuals: the expected square of the noise, given the
-// residual, counts as one bearing (expectation maximisation). It may be smaller or larger than
-// stated. A station that declares no bias states one sigma for noise and bias together. The part
-// that does not appear as noise is added to its assumed bias. It leaves again when the estimated
-// biases turn out smaller.
+// The noise variance is learnt from the residuals (expectation maximisation): each bearing
+// contributes the expected square of its noise, given the residual. The noise may be smaller or
+// larger than stated. A station that declares no bias states one sigma for noise and bias together.
+// The part that does not appear as noise is added to its assumed bias. It leaves again when the
+// estimated biases turn out smaller.
 //
 // Noise is rarely white: the error of a tracker, or of a person, is nearly the same in the next
 // frame. The white share is estimated from the second differences of a station's own bearings, in
@@ -40,7 +40,8 @@ struct BiasModelConfig {
   double memory_s = 600.0;         // older evidence counts less than 1/e
   double stated_weight = 20.0;     // weight of a declared bias, in estimated biases
   double undeclared_weight = 1.0;  // weight of the assumed bias where none is declared
-  // Min sd of any bias, over sd of the noise: assumed where nothing is declared or shown.
+  // Smallest sd of a bias, over the sd of the noise. Assumed where a station declares no bias and
+  // its residuals show none.
   double least_over_noise = 0.2;
   double noise_weight = 20.0;   // weight of the stated noise and its whiteness, in bearings
   double noise_memory = 500.0;  // over which the noise is averaged [bearings]
@@ -51,14 +52,14 @@ struct BiasModelConfig {
   double clock_weight = 0.0;
   double colour_time_s = 0.3;  // correlation time of coloured noise: between a frame and the slow
                                // bias
-  // The same where no bias is declared: anything slower is in the bias.
+  // The same for a station that declares no bias: slower errors are in its bias.
   double undeclared_colour_time_s = 0.05;
   double colour_memory = 500.0;  // over which the white share is averaged [second differences]
 };
 
-// The prior of one station's bias as seen towards a target, and its causes: a small rotation of the
-// station (about east, north, up: two equal tilts and a heading) and, with position_states, an
-// error of its position.
+// The prior of one station's bias in the direction of a target, and the causes of that bias: a
+// small rotation of the station (about east, north, up: two equal tilts and a heading) and, with
+// position_states, an error of its position.
 struct BiasPrior {
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  // [rad^2] stationary, tangent plane
   Eigen::Array3d rotation = Eigen::Array3d::Zero();      // [rad^2] stationary variances
@@ -66,11 +67,11 @@ struct BiasPrior {
   bool position_states = false;                          // false: the rotation contains it
   Eigen::Array3d place_m2 = Eigen::Array3d::Zero();      // stationary variances: east, north, up
   double place_time_s = 1.0;                             // correlation time of the position error
-  // Empirical share of the rotation's variances: the part that no station declares.
+  // The share of the rotation's variances that no station declares and only residuals show.
   Eigen::Array3d empirical = Eigen::Array3d::Zero();
 };
 
-// A station's bias [rad] (cross-elevation, elevation), each axis with its posterior and prior
+// A station's bias [rad] (cross-elevation, elevation), and each axis's posterior and prior
 // variance.
 struct BiasEstimate {
   Eigen::Array2d value = Eigen::Array2d::Zero();
@@ -81,8 +82,8 @@ struct BiasEstimate {
 class BiasModel {
  public:
   explicit BiasModel(const BiasModelConfig& config = {}) : config_(config) {}
-  // A model of evidence on top of `known`. It reads through to `known`, which must outlive it, and
-  // stores what bearings show separately. known.learn() adopts it.
+  // A model for new evidence on top of `known`. It reads what it lacks from `known`, which must
+  // outlive it, and stores the new evidence separately. known.learn() adopts that evidence.
   static BiasModel evidence_on(const BiasModel& known);
   void learn(const BiasModel& evidence);
 
@@ -95,17 +96,18 @@ class BiasModel {
   // A bias estimated by the filter, dt_s after its last report, with its prior.
   void observe(const std::string& station, const LineOfSight& sight, const BiasEstimate& bias,
                double dt_s, double range_m);
-  // ratio: the noise variance that a bearing's residual shows, over the one with which it was
-  // processed.
+  // ratio: the noise variance that a bearing's residual shows, over the variance with which the
+  // bearing was processed.
   void observe_residual(const std::string& station, double ratio);
   // The variance of a station's noise over the stated one.
   double noise_scale(const std::string& station) const;
   // squared_ratio: a squared second difference of a station's bearings, over its expectation for
   // white noise of noise_scale().
   void observe_noise(const std::string& station, double squared_ratio);
-  // The share of a station's noise variance that is new in each bearing, above 0 and at most 1.
+  // The white share: the part of a station's noise variance that is new in each bearing; above 0,
+  // at most 1.
   double white_share(const std::string& station) const;
-  // Its upper confidence limit.
+  // The upper confidence limit of the white share.
   double greatest_white_share(const std::string& station) const;
   // The factor by which to multiply a bearing's stated variance when bearings come at this
   // interval; 1 if the noise is white. declared: the station declares a bias.

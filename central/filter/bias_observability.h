@@ -1,7 +1,8 @@
 // Whether a station's biases may be estimated from a bearing. If the baseline is short for the
 // range, the difference of two headings is not observable. A linear filter would estimate it
-// nevertheless, with false certainty: two stations side by side "learn" it, and a wrong range with
-// it. Such biases are considered but not estimated (Schmidt-Kalman filter, 1966). Pure.
+// nevertheless, with false certainty: from two stations side by side it would "learn" the
+// difference, and with it a wrong range. Such biases are considered but not estimated
+// (Schmidt-Kalman filter, 1966). Pure.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,7 +19,7 @@ bool is_linear(const StationPart& part, const RayFrame& frame, double depth_m,
 
 // Whether the bearing's information on the station's states exceeds the linearisation error. along:
 // the bearing's direction. G: the gain times the root of the innovation's covariance. off_share
-// [1/m]: the share of the residual that is the prediction's error, divided by the depth.
+// [1/m]: the part of the residual that is due to the prediction's error, divided by the depth.
 bool shows_bias(const FilterMatrix2& G, const FilterMatrix& P, const StationPart& part,
                 const Eigen::Vector3d& along, double off_share);
 

@@ -13,11 +13,11 @@
 
 namespace ols::fusion::columns {
 
-// P - g0 g0^T - g1 g1^T, in the first columns.
+// Computes P - g0 g0^T - g1 g1^T in the first columns.
 void subtract_square(const double* g0, const double* g1, Eigen::Index columns, Eigen::Index n,
                      double* P);
 
-// Whole columns of the position, velocity and acceleration on one axis, times f^T.
+// Multiplies whole columns (position, velocity and acceleration on one axis) by f^T.
 struct AxisColumns {
   double *position, *velocity, *acceleration;
 };
@@ -26,9 +26,9 @@ void propagate(const Eigen::Matrix3d& f, Eigen::Index n, const AxisColumns& colu
 // Multiplies each row and each column by its own factor.
 void scale(const double* factors, Eigen::Index n, double* P);
 
-// One part of a mixture. `covariance`: a column of its covariance, from the diagonal on. `off`: the
-// offset of its mean from the mixture's mean. `weighted_off`: the weight times the first element of
-// that offset.
+// One part of a mixture. `covariance`: a column of the part's covariance, from the diagonal on.
+// `off`: the offset of the part's mean from the mixture's mean. `weighted_off`: the part's weight
+// times the first element of that offset.
 struct Part {
   const double *covariance, *off;
   double weight, weighted_off;

@@ -1,8 +1,8 @@
 // The Gaussian of a filter's state, and the operations on it for every bearing. Pure.
 //
 // The target's nine states (motion_model.h) come first, then those of the stations. Only the lower
-// triangle of the covariance is stored: half the work, and it cannot become asymmetric. Each
-// function passes through its columns once.
+// triangle of the covariance is stored. That halves the work, and the matrix cannot become
+// asymmetric. Each function passes once through the columns.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,8 +22,8 @@ inline constexpr int kStationStates = kPoseStates + kPlaceStates;
 inline constexpr int kFilterStates = 9 + kStationStates * kFilterStations;
 
 using FilterVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kFilterStates, 1>;
-// On the heap: filters are copied and kept by the thousand. With the maximum number of states a
-// matrix takes 70 kB; with a few stations, a tenth.
+// On the heap, because filters are copied and kept by the thousand. A matrix takes 70 kB with the
+// maximum number of states, and a tenth of that with a few stations.
 using FilterMatrix = Eigen::MatrixXd;
 using FilterMatrix2 = Eigen::Matrix<double, Eigen::Dynamic, 2, 0, kFilterStates, 2>;
 
@@ -55,7 +55,7 @@ void add_product(const FilterMatrix& P, Eigen::Index first, const Eigen::Matrix<
   result.bottomRows(below) += P.block(first + K, first, below, K).lazyProduct(Ht);
 }
 
-// P - G G^T in the first columns; the others stay as they are.
+// Computes Computes P - G G^T in the first columns; the others stay as they are.
 void subtract_square(const FilterMatrix2& G, Eigen::Index columns, FilterMatrix& P);
 
 void propagate(const Transition& motion, FilterGaussian& state);

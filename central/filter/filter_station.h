@@ -26,14 +26,13 @@ struct FilterStation {
   double mean_nis = 2.0;  // recent mean of the used bearings; 2 is ideal
   ColouredNoise noise{};
 
-  // One of its bearings was used, with this weight.
+  // Notes that one of its bearings was used, with this weight.
   void note_use(const BearingMeasurement& measurement, double nis, double used_weight);
 };
 
 // Whether the stations' residuals can distinguish this station's errors from the target's motion.
-// For declared errors this always holds. For undeclared ones it holds only beside two other
-// delivering stations: the residuals of two stations have one dimension, but their biases and
-// clocks have six.
+// For declared errors this always holds. For undeclared errors it holds only if two other stations
+// deliver: the residuals of two stations have one dimension, but their biases and clocks have six.
 bool is_redundant(const std::vector<FilterStation>& stations, const FilterStation& entry);
 
 }  // namespace ols::fusion

@@ -56,11 +56,11 @@ ModelInnovation innovation_of(const InteractingModels& models, std::size_t which
 
 struct JudgedInnovation {
   double nis = std::numeric_limits<double>::infinity();
-  // The noise variance that the bearing shows, over the assumed one.
+  // The noise variance that the bearing shows, over the assumed variance.
   double noise = 1.0;
 };
 
-// Judges with this white noise and number of models; nullopt behind the camera.
+// Compares with this white noise and number of models; nullopt behind the camera.
 std::optional<JudgedInnovation> judge(const Innovation& seen, std::size_t models,
                                       const Eigen::Matrix2d& white, double gate_nis);
 

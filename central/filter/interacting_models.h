@@ -18,7 +18,7 @@ struct KinematicState {
   Matrix9 covariance = Matrix9::Zero();
 };
 
-// At another instant, extrapolated with velocity and acceleration.
+// The state at another instant, extrapolated with velocity and acceleration.
 Eigen::Vector3d position_at(const KinematicState& state, std::int64_t utime_us);
 
 // Initial position and motion of a target, with large variances.
@@ -48,8 +48,8 @@ class InteractingModels {
   void interact(double dt_s);
   // Updates each model after a measurement.
   void weigh(std::span<const double> log_likelihood);
-  // Inflates the covariance: adds, for this time, any acceleration along these directions that is
-  // possible at this velocity.
+  // Inflates the covariance along these directions, by the acceleration that is possible at this
+  // velocity, acting for this time.
   void inflate(double time_s, const Eigen::Matrix3d& along, const Eigen::Vector3d& v_ecef);
 
   // Mixed over the models: the kinematics at the state's own instant, at another instant, and the

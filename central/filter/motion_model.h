@@ -7,7 +7,7 @@
 // models", 2003.)
 //  - constant velocity: white noise of the acceleration, which itself is not propagated;
 //  - coordinated turn: the acceleration turns with the velocity, w = |v x a| / |v|^2, in the plane
-//    of the two;
+//    of v and a;
 //  - acceleration: Singer's, exponentially correlated.
 //
 // The assumed manoeuvre grows with the speed: at 10 m/s the velocity changes by a few m/s in a

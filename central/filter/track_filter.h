@@ -8,13 +8,13 @@
 // Observable ones are estimated, the others only considered (Schmidt). The position's covariance
 // contains both kinds, so averaging does not remove them.
 //
-// A newer bearing propagates the state. A late one is compared with the target's position at its
-// own instant, extrapolated by velocity and acceleration. A far outlier is rejected, a near one
-// down-weighted. Consecutive rejections of two stations, or of one of the only two, show a
-// manoeuvre that no motion model allows. The covariance is then inflated.
+// A newer bearing propagates the state. A late bearing is compared with the target's position at
+// the bearing's own instant, extrapolated by velocity and acceleration. A far outlier is rejected,
+// a near one down-weighted. Consecutive rejections of two stations, or of one station where only
+// two deliver, show a manoeuvre that no motion model allows. The covariance is then inflated.
 //
-// Data flow one way: the filter reads the priors of the stations' errors and returns the evidence
-// of a bearing on them. The owner of the priors learns from it.
+// Data flow one way. The filter reads the priors of the stations' errors, and returns what a
+// bearing shows of these errors. The owner of the priors learns from that.
 #pragma once
 
 #include <Eigen/Core>
@@ -42,15 +42,15 @@ struct FilterConfig {
   MotionConfig motion{};
   double robust_nis = 9.0;      // squared normalised residual beyond which a bearing is
                                 // down-weighted
-  double gate_nis = 25.0;       // squared normalised residual beyond which it is rejected
+  double gate_nis = 25.0;       // squared normalised residual beyond which a bearing is rejected
   double mixing_s = 0.05;       // interval at which models are mixed and biases propagated
   double range_sd_limit = 0.3;  // max 1-sigma of a position, over range
   double max_range_m = 500e3;
   // Assumed pose and clock error of a station that declares none [rad]. Decides whether two rays
   // cross widely enough to determine a range.
   double undeclared_sd_rad = 1e-3;
-  // For two stations alone: max squared correction over the stated bias and noise. Beyond it they
-  // are an inconsistent pair.
+  // For two stations alone: the largest squared correction, normalised by the stated bias and
+  // noise. Beyond it they are an inconsistent pair.
   double two_stations_nis = 25.0;
   // A station's position error gets states of its own when it makes up at least this share of the
   // stated bias's variance.
@@ -63,8 +63,8 @@ struct FilterConfig {
 // What became of a bearing.
 enum class BearingUse { kUsed, kRejected, kBehindCamera, kTooLate };
 
-// The result of an update. `evidence`: the evidence on the stations' errors, on top of the given
-// priors.
+// The result of an update. `evidence`: what the bearing shows of the stations' errors, on top of
+// the given priors.
 struct FilterUpdate {
   BearingUse use = BearingUse::kTooLate;
   double nis = std::numeric_limits<double>::infinity();  // infinite if the bearing was not compared
@@ -78,21 +78,21 @@ class TrackFilter {
   TrackFilter(const FilterConfig& config, std::int64_t utime_us, const FilterStart& start);
 
   Innovation innovation(const BearingMeasurement& measurement, const BiasModel& priors) const;
-  // `known`: the bearing's innovation() with the same priors, if available. It serves a late
+  // `known`: the bearing's innovation() with the same priors, if available. It is used for a late
   // bearing only. A newer bearing moves the state to its instant, with mixing and fading biases,
-  // and is compared there: the extrapolation of innovation() is good enough for a gate, not for a
-  // gain.
+  // and is compared there, because the extrapolation of innovation() is good enough for a gate, not
+  // for a gain.
   [[nodiscard]] FilterUpdate update(const BearingMeasurement& measurement, const BiasModel& priors,
                                     const Innovation* known = nullptr);
-  // Propagates the state without a bearing; returns the evidence on the biases.
+  // Propagates the state without a bearing; returns what this shows of the biases.
   [[nodiscard]] BiasModel advance(std::int64_t utime_us, const BiasModel& priors) {
     BiasModel evidence = BiasModel::evidence_on(priors);
     predict(utime_us, evidence);
     refresh();
     return evidence;
   }
-  // Linearises the bearings' equations about this motion instead of the current estimate, for
-  // another iteration over the same bearings while the estimate is vague.
+  // Linearises the bearings' equations about this motion instead of the current estimate. This
+  // serves repeated runs over the same bearings while the estimate is vague.
   void linearise_about(const KinematicState& motion) { about_ = motion; }
   void linearise_about_itself() { about_.reset(); }
 

@@ -1,6 +1,6 @@
-// Bearing-only tracks: lines of sight of stations that follow an object that no track explains. A
-// tracklet is none: nobody has designated its object, and it may be anything. But where the site's
-// hand-over is automatic, stations are led along the lines of tracklets, too. Pure.
+// Bearing-only tracks: lines of sight to objects that a station follows and no track explains. A
+// tracklet is no bearing-only track: nobody has designated its object, and it may be anything. But
+// if the site's hand-over is automatic, stations are led along the lines of tracklets, too. Pure.
 #pragma once
 
 #include <cstdint>
@@ -24,8 +24,8 @@ class BearingLines {
 
   // Stations that have recently sent an unassociated bearing.
   std::vector<std::string> stations(std::int64_t epoch_us) const;
-  // The newest bearing of each local track that no target takes, smallest ids first: most trackers
-  // assign ids in ascending order. Without tracklets the first four.
+  // The newest bearing of each local track that no target takes, smallest ids first (most trackers
+  // assign ids in ascending order). If tracklets are left out: the first four.
   std::vector<const BearingMeasurement*> of(const std::string& station,
                                             std::int64_t epoch_us) const;
   // The newest bearing of one of stations().

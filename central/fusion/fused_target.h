@@ -25,8 +25,7 @@ struct BearingOnly {
 
 struct FusedTarget {
   std::int64_t utime_us = 0;   // the epoch
-  std::int64_t target_id = 0;  // 0: no object yet. A target takes over the id of its bearing-only
-                               // track
+  std::int64_t target_id = 0;  // 0: no object yet. A target keeps the id of its bearing-only track
   TrackState state = TrackState::kTentative;
   std::string estimator;  // name of the estimator
   Estimate estimate;
@@ -38,8 +37,8 @@ struct FusedTarget {
 struct FusionOutput {
   BearingRefusal refusal = BearingRefusal::kNone;  // the fate of the bearing
   // All confirmed objects of one epoch, then the bearing-only tracks (kBearingOnly), each in the
-  // order of ids. If there is none: one target that states why. With many objects this is a part of
-  // the epoch; the next bearings bring the rest.
+  // order of ids. If there is none: one target that states why. With many objects this is only a
+  // part of the epoch; the rest follows with the next bearings.
   std::vector<FusedTarget> targets;
   std::vector<FusedTarget> targets_paper;  // the paper's estimate of the same objects
   std::vector<Slew> slews;

@@ -4,8 +4,8 @@
 // delivered (epoch_rule.h). With many targets or stations, the work of a period is spread over
 // several bearings.
 //
-// Admission decides which bearings are used. The tracks decide which target each belongs to. The
-// schedules decide what is published when.
+// Admission decides which bearings are used. The tracks decide to which target each bearing
+// belongs. The schedules decide what is published when.
 #pragma once
 
 #include <cstdint>
@@ -46,7 +46,7 @@ class Fusion {
 
   // Takes a station's status, so that the station can be slewed before its first bearing.
   void know_station(const std::string& station, const StationTraits& traits);
-  // For a station without a position: only whether it may be slewed.
+  // The same for a station without a position: notes only whether it may be slewed.
   void allow_slews(const std::string& station, bool allowed);
   // Processes one bearing, in order of arrival.
   FusionOutput add(const BearingMeasurement& measurement);
@@ -55,7 +55,7 @@ class Fusion {
   // UTC; in a replay, the message's time.
   std::vector<Slew> add(const Cue& cue, std::int64_t present_us);
   // An operator's decision on a cue, or on a target by its number (target_named()). False if there
-  // is no such cue or target, or if the site uses none.
+  // is no such cue or target, or if the site uses neither cues nor hand-over.
   bool allow_cue(const std::string& id, bool allow);
   void end_silent_cues(std::int64_t present_us) { cues_.end_silent(present_us); }
 
@@ -65,7 +65,7 @@ class Fusion {
   const LiveTracks& tracks() const { return tracks_; }
 
  private:
-  // The fate of an admitted bearing; of one that waits for the others of its image, none yet.
+  // The fate of an admitted bearing. A bearing that waits for the others of its image has none yet.
   BearingRefusal take(const BearingMeasurement& measurement, std::vector<ImageBearings>& used);
   std::vector<BearingRefusal> associate(const ImageBearings& image);
   void note_unassociated(const BearingMeasurement& measurement, const Association& result);

@@ -1,13 +1,13 @@
 // Decides where each station is to point at the time when it can act. Pure.
 //
-//  - A station is led to the predicted position of the target that it has been allocated
-//    (station_allocation.h): the one that it sees, or one that needs it. While it does not see it,
-//    and the direction is less certain than its field of view, it searches along a spiral over the
-//    uncertainty, nearest first.
+//  - A station is led to the predicted position of the target to which it is allocated
+//    (station_allocation.h). While it does not see that target, and the direction is less certain
+//    than the field of view, the station searches along a spiral over the uncertainty, from the
+//    inside outwards.
 //  - If no position is known but one station sees a target, the others search along that station's
 //    ray (line_search.h).
 //  - An allowed cue from outside (central/cues/) is one more place for stations that see nothing. A
-//    station that would otherwise join a crowded target goes there instead.
+//    station that would otherwise join a crowded target goes to the cue instead.
 //  - A station that cannot be commanded (operator control, or stopped) gets no slew: the operator
 //    has precedence over the fusion. The station itself refuses slews then, too.
 //
@@ -63,7 +63,7 @@ struct Slew {
 Slew slew_to(const KinematicState& target, const StationTraits& station, const SlewConfig& config);
 
 // The k-th point (k >= 0) of a search, on an Archimedean spiral from the centre outwards. Each
-// point is about one unit from the one before and from the inner turn, and covers a unit area.
+// point is about one unit from the point before and from the inner turn, and covers a unit area.
 Eigen::Vector2d spiral_point(int k);
 
 struct SlewStation {
@@ -93,8 +93,8 @@ class SlewPlanner {
  public:
   explicit SlewPlanner(const SlewConfig& config = {}) : config_(config) {}
 
-  // Decides in the round which target each station has. Of `tracks`, the confirmed ones count, and
-  // coasting ones for coast_s.
+  // Decides for the round which target each station has. Among `tracks`, confirmed tracks count,
+  // and coasting ones for coast_s.
   void allocate(SlewRound& round, std::span<const SlewStation> stations,
                 const std::vector<Track>& tracks) const;
   // Plans for all or some stations, and counts in the round how many are sent to each target.

@@ -34,7 +34,7 @@ class SlewSchedule {
     planner_.forget(station);
     forget_tracklets(station);
   }
-  // It numbers them anew.
+  // The station has restarted the numbering of its tracklets.
   void forget_tracklets(const std::string& station) {
     std::erase_if(tracklets_, [&](const auto& known) { return known.first.first == station; });
   }

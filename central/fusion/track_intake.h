@@ -1,5 +1,5 @@
 // Associates the bearings of an image with their tracks, and reports their pointing errors to the
-// monitor. Live and offline share it. Pure.
+// monitor. Used live and offline. Pure.
 #pragma once
 
 #include <span>

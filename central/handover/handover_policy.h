@@ -2,8 +2,8 @@
 // If only detectors have found it, the site's policy and the operator decide: it is proposed,
 // allowed or dismissed. Pure.
 //
-//  - off: targets of detections lead nobody. propose: each waits for an operator. automatic: each
-//    leads at once if its class is one of `classes`; the others wait for an operator.
+//  - off: targets of detections lead no station. propose: each waits for an operator. automatic:
+//    each leads at once if its class is one of `classes`; the others wait for an operator.
 //  - An operator's decision counts at once, for designated targets too, and until the target loses
 //    its number.
 //  - If a target is lost, its decision passes to the first new target that appears where the lost
@@ -40,7 +40,7 @@ class HandoverPolicy {
  public:
   explicit HandoverPolicy(const HandoverConfig& config) : config_(config) {}
 
-  // Takes note of which targets there are, at a limited rate.
+  // Takes note of the present targets, at a limited rate.
   void settle(std::int64_t now_us, const std::vector<Track>& tracks);
   // An operator's decision. False if there is no such target, or if the mode is off.
   bool order(std::int64_t target_id, bool allow);
@@ -53,7 +53,7 @@ class HandoverPolicy {
   // the states of a cue: waiting (proposed), found (it leads stations), searched (lost, looked
   // for), forbidden (dismissed). None if the mode is off.
   std::vector<CueHealth> health(std::int64_t now_us) const;
-  // Whether an object of this class that nobody has judged leads stations.
+  // Whether an object of this class leads stations without an operator's decision.
   bool leads_by_itself(ObjectClass object_class) const;
   void clear() {
     targets_.clear();

@@ -1,11 +1,11 @@
 // How a station searches along another station's line of sight, for a target without a position.
 // Pure.
 //
-// The target is most likely where the stations stand to see it: around the foot of their centre on
-// the line. The stations that search share the line. Each begins at another place, so that their
-// parts have equal probability. From there it sweeps outwards, away from the foot, then to and fro
-// between the ends of the line. A sweep crosses the field of view in a time in which a target can
-// be recognised. It begins when the unit has had time to arrive.
+// The target is most likely near the stations: around the foot, the point of the line that is
+// nearest to their centre. The searching stations divide the line among them, into parts of equal
+// probability. Each station begins in its own part. From there it sweeps outwards, away from the
+// foot, then to and fro between the ends of the line. The sweep is slow enough that a target can be
+// recognised while it crosses the field of view. It begins when the unit has had time to arrive.
 #pragma once
 
 #include <Eigen/Core>
@@ -46,7 +46,7 @@ struct LineSearchConfig {
   double near_m = 30.0;  // the ends of the line
   double far_m = 20e3;
   double view_s = 0.5;  // time in which a sweep crosses the narrower field of view
-  // What the servo reaches with a pan-tilt unit, to predict when a unit has reached its start.
+  // What servo and pan-tilt unit achieve; predicts when a unit has reached its start.
   double acceleration_rad_s2 = 0.8, speed_rad_s = 1.0, settle_s = 0.3;
 };
 

@@ -7,8 +7,7 @@
 //  - The stations that are left stay where they were led, or go to the target with the fewest
 //    stations.
 //  - A station that was led to a target stays for 3 s. Later it leaves only for a target in need.
-//  If
-//    its own target is in need as well, the other must score clearly higher.
+//    If its own target is in need as well, the other must score clearly higher.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,4 +1,4 @@
-// For how long after its last bearing a station counts, and for what.
+// How long a station counts after its last bearing; each purpose has its own window.
 #pragma once
 
 #include <algorithm>
@@ -14,8 +14,8 @@ struct Activity {
   static constexpr double kContributesS = 0.5;  // contributes to the published position
   static constexpr double kFollowsS = 1.0;      // has its target, and its states in a full filter
   static constexpr double kSupportsS = 2.0;     // supports a track
-  static constexpr double kTeachesS = 30.0;     // what it has taught of the others' errors may
-                                                // still hold
+  static constexpr double kTeachesS =
+      30.0;  // what was learnt from it about the others' errors may still hold
 
   std::int64_t last_us = 0;  // the newest bearing; 0: none
 

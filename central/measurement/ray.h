@@ -58,13 +58,13 @@ const char* to_string(Solution solution);
 struct RayUse {
   bool used = false;    // false: rejected as an outlier
   double weight = 0.0;  // 0..1, robust weight
-  // To judge stations over many epochs: the squared normalised residual of both components, and its
-  // expectation if all covariances are true.
+  // For judging stations over many epochs: the squared normalised residual of both components, and
+  // its expectation if all covariances are true.
   double squared = 0.0;
   double expected = 0.0;
-  // The same by component (cross-elevation, elevation): the residual, the variance used to weight
-  // it, and the share of that variance that appears in a residual (0..1). A rejected ray can have a
-  // share above 1, because the position's own error adds to it.
+  // The same by component (cross-elevation, elevation): the residual; the variance by which it was
+  // weighted; the share of that variance that appears in a residual (0..1). A rejected ray can have
+  // a share above 1, because the position's own error adds to its residual.
   Eigen::Vector2d residual_rad = Eigen::Vector2d::Zero();
   Eigen::Vector2d variance_rad2 = Eigen::Vector2d::Zero();
   Eigen::Vector2d redundancy = Eigen::Vector2d::Zero();

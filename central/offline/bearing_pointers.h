@@ -1,4 +1,4 @@
-// Bearings of a recording, held in memory once and read in several orders.
+// Pointers to the bearings of a recording: each is in memory once, and is read in several orders.
 #pragma once
 
 #include <vector>

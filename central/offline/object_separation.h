@@ -19,7 +19,7 @@ struct SeparatedBearings {
   std::map<std::int64_t, MutableBearings> objects{};  // by the tracks' identities
   std::size_t low_belief = 0;
   std::size_t duplicate = 0;    // same station, stamp and direction
-  std::size_t unexplained = 0;  // explained by no track, or by two about equally well
+  std::size_t unexplained = 0;  // explained by no track, or by two tracks about equally well
 };
 
 // A track's bearings include those from which it was initiated, and those of merged duplicates.

@@ -1,9 +1,9 @@
 // Fusion of recorded bearings of one object.
 //
-// Every estimator uses bearings up to 0.15 s after the instant. The filter runs that far, and its
-// state is propagated back. The other estimators interpolate each station's bearings on both sides;
-// a run of the filter gives them the errors that the stations do not declare. Smoothing uses all
-// later bearings (smoother.h).
+// Every estimator uses bearings up to 0.15 s after the instant. The filter runs to that time, and
+// its state is propagated back. The other estimators interpolate each station's bearings on both
+// sides of the instant; a run of the filter gives them the errors that the stations do not declare.
+// Smoothing uses all later bearings (smoother.h).
 #pragma once
 
 #include <cstddef>
@@ -22,7 +22,7 @@ namespace ols::fusion {
 struct OfflineConfig {
   std::string estimator = "filter";  // a name of make_estimator()
   bool smooth = false;               // only for the filter
-  // For the filter: the fix at an instant uses the bearings up to this time after it, as the
+  // For the filter: the fix at an instant also uses the bearings of this time after it, as the
   // interpolating estimators do. 0: as live.
   double look_ahead_s = 0.15;
   double rate_hz = 0.0;   // epochs on an even grid; 0: one at each bearing
@@ -41,7 +41,7 @@ struct UnusedBearings {
 struct OfflineReport {
   UnusedBearings unused{};
   Unlocated unlocated{};  // instants without a position
-  // Stations whose bearings miss the other stations' target by the same angle for seconds, with
+  // Stations whose bearings missed the other stations' target by the same angle for seconds, and
   // that angle as text.
   std::map<std::string, std::string> beside{};
 };
@@ -56,8 +56,8 @@ void guess_clocks(std::vector<BearingMeasurement>& measurements);
 // Takes one object's bearings in any order. Passes on a target for each epoch that has a position,
 // in order of time. The caller leaves out bearings that check() refuses. Throws
 // std::invalid_argument for a rate that is not finite or makes more than ten million epochs, for an
-// unknown estimator, and for smoothing with an estimator other than the filter.
-// For the filter, the memory besides the bearings does not grow with their number; for smoothing it
+// unknown estimator, and for smoothing with an estimator other than the filter. Apart from the
+// bearings themselves, the filter's memory does not grow with their number, and that of smoothing
 // hardly does. The other estimators copy the bearings.
 OfflineReport fuse_offline(const BearingPointers& measurements, const OfflineConfig& config,
                            const std::function<void(FusedTarget)>& take);

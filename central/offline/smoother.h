@@ -1,10 +1,11 @@
-// The filter on a recording, using also the bearings after each instant (fixed-interval smoothing).
+// The filter on a recording, with the bearings before and after each instant (fixed-interval
+// smoothing).
 //
 // Two filters run forwards and backwards in time (Fraser and Potter, 1969). At each instant the
-// forward state, from the bearings up to it, is combined with the backward prediction, from those
-// after it. Both use the biases of the more certain filter. An earlier run learns the undeclared
-// errors of the stations. A station that pointed away from the target in that run takes part in no
-// track initiation.
+// forward state (from the bearings up to it) is combined with the backward prediction (from the
+// bearings after it). Both use the biases of the more certain filter. An earlier run learns the
+// undeclared errors of the stations. A station that pointed away from the target in that run takes
+// part in no track initiation.
 #pragma once
 
 #include <cstdint>
@@ -38,7 +39,7 @@ struct SmootherOutput {
   std::function<void()> tell{};
   Workers workers{};
 };
-// How many times each bearing is processed, for this number of instants.
+// How often each bearing is processed, for this number of instants.
 std::size_t smoother_runs(std::size_t epochs);
 
 // One object's bearings and the instants, both in order of time. The backward filter is stored at

@@ -1,5 +1,5 @@
-// Whether what stations have seen of objects allows that they are one. What is unknown allows
-// everything. Pure.
+// Whether two bearings can be of one object, judged by rate, size and brightness. What a bearing
+// does not state excludes nothing. Pure.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,14 +9,15 @@
 
 namespace ols::fusion {
 
-// Two bearings whose rays meet at these ranges, across `plane_normal` (ECEF, unit; of the plane of
-// both rays): the object leaves that plane at one speed, is of one size within a factor of 4 and
-// 0.05 to 80 m large, and of one brightness (signal times range squared) within a factor of 30.
+// Whether two bearings whose rays meet at these ranges can be of one object. The speeds at which
+// they leave the plane of both rays must agree (`plane_normal`: its normal, ECEF, unit), the sizes
+// within a factor of 4 and within 0.05 to 80 m, and the brightnesses (signal times range squared)
+// within a factor of 30.
 bool may_be_one(const BearingMeasurement& a, double range_a_m, const BearingMeasurement& b,
                 double range_b_m, const Eigen::Vector3d& plane_normal);
 
-// The squared normalised difference of the angular rate of a bearing and of a target (2 degrees of
-// freedom); 0 for a bearing without a rate.
+// The squared normalised difference between the angular rates of a bearing and of a target (2
+// degrees of freedom); 0 for a bearing without a rate.
 double rate_nis(const BearingMeasurement& measurement, const KinematicState& target);
 
 }  // namespace ols::fusion

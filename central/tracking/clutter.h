@@ -1,5 +1,5 @@
-// How often tracklets of different objects agree by chance, as if two stations saw one object: from
-// the tracklets that turned out to be no target's. Pure.
+// Estimates how often tracklets of different objects agree by chance, as if two stations saw one
+// object. The estimate rests on the clutter: tracklets that became no target. Pure.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,18 +15,19 @@ namespace ols::fusion {
 
 class Clutter {
  public:
-  // A tracklet's bearing that no target takes, one that may be a target's (it is clutter if it ends
-  // so), and one that a target takes: it is no clutter.
+  // Takes a tracklet's bearing. unclaimed: no target takes it. undecided: it may become a target's;
+  // if the tracklet ends like this, it was clutter. claimed: a target takes it; the tracklet is no
+  // clutter.
   void unclaimed(const BearingMeasurement& measurement) { note(measurement, false); }
   void undecided(const BearingMeasurement& measurement) { note(measurement, true); }
   void claimed(const BearingMeasurement& measurement);
-  // The expected number a day of pairs of objects, one of each station, whose lines of sight agree
-  // for so long.
+  // The expected number per day of pairs of objects, one seen by each station, whose lines of sight
+  // agree for agreed_s.
   double pairs_a_day(const std::string& a, const std::string& b, double agreed_s) const;
   int pairs_of_stations() const;
-  // The expected number a day of such pairs that are published as targets, for the whole site,
-  // where no third station looks: those that agree for agreed_s, of each pair of stations at most
-  // so many.
+  // The expected number per day of such pairs that are published as targets, for the whole site,
+  // where no third station looks. Those count that agree for agreed_s, at most most_of_a_pair for
+  // each pair of stations.
   double published_a_day(double agreed_s, double most_of_a_pair) const;
 
  private:
@@ -42,7 +43,7 @@ class Clutter {
     std::map<std::int64_t, Tracklet> open;  // by the station's id
     std::deque<Tracklet> ended;
   };
-  // Of a station's clutter.
+  // The density of a station's clutter.
   struct Density {
     double born_per_s = 0.0, life_s = 0.0, present = 0.0;
     double height_rad = 0.0;     // of the region in which it appears

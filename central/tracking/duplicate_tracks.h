@@ -1,14 +1,14 @@
 // Finds confirmed tracks that are duplicates: only noise distinguishes their bearings. Pure.
 //
-// A station that sees two objects has a bearing for each in most exposures. A station that sees one
-// object has one bearing, which both tracks explain, or sometimes one track and sometimes the
-// other. For each pair of tracks that have explained the same bearing, three numbers are therefore
-// counted per station: exposures with one bearing for the two, how many of those bearings both
-// tracks explain, and exposures with more bearings.
+// A station that sees two objects has two bearings in most exposures. A station that sees one
+// object has one bearing; both tracks explain it, or now one and now the other. Therefore, for each
+// pair of tracks that have explained the same bearing, three numbers are counted per station:
+// exposures with one bearing for the two tracks, how many of those bearings both tracks explain,
+// and exposures with more bearings.
 //
 // A station that follows a single object never has more than one bearing. Two real objects then
-// differ from a duplicate in two ways: they are apart in some station's view, and the same track
-// always explains a station's bearings best.
+// differ from a duplicate in two ways: they are apart in some station's view, and it is always the
+// same track that explains a station's bearings best.
 #pragma once
 
 #include <cstdint>
@@ -35,8 +35,8 @@ class DuplicateTracks {
  public:
   explicit DuplicateTracks(const DuplicatesConfig& config = {}) : config_(config) {}
 
-  // A bearing, and the confirmed tracks that explain it and have no other bearing of its exposure,
-  // best first. It counts for the pairs that contain the first.
+  // Takes a bearing, and the confirmed tracks that explain it and have no other bearing of its
+  // exposure, best first. The bearing counts for the pairs that contain the best track.
   void note(const BearingMeasurement& measurement, std::span<const std::int64_t> tracks);
   // Pairs that are duplicates, the older identity first.
   std::vector<std::pair<std::int64_t, std::int64_t>> same() const;

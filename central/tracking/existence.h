@@ -1,5 +1,5 @@
-// How probable it is that a target of tracklets exists: ghosts miss in images that should show
-// them. Pure.
+// How probable it is that a target made of tracklets exists. A ghost is missing in images that
+// should show it. Pure.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,11 +11,13 @@
 
 namespace ols::fusion {
 
-// An image that should show a target has it with probability 0.8; it has something at the place of
-// a ghost with 0.4, because a ghost's lines of sight are those of real objects.
+// An image that should show a target does show it with a probability of 0.8. At the place of a
+// ghost it shows something with a probability of 0.4, because a ghost's lines of sight belong to
+// real objects.
 class Existence {
  public:
-  // As likely as not. Before that, and so for a target without tracklets, it is certain.
+  // Sets the probability to 0.5. Until then the target counts as certain; a target without
+  // tracklets always does.
   void begin() { is_judged_ = true; }
   void seen();
   void missed();
@@ -27,13 +29,14 @@ class Existence {
   double log_odds_ = 0.0;
 };
 
-// Where the stations' cameras look, as their statuses state it.
+// Where the stations' cameras look, according to their statuses.
 class StationViews {
  public:
   // view_rad: the narrower field of view.
   void know(const std::string& station, const AzimuthElevation& axis, double view_rad,
             std::int64_t utime_us);
-  // Whether the image of this bearing has the place well inside: the camera stood still lately.
+  // Whether the place is well inside the image of this bearing. False unless the camera has just
+  // stood still.
   bool shows(const BearingMeasurement& in_image, const Eigen::Vector3d& p_ecef) const;
   void forget(const std::string& station) { views_.erase(station); }
 

@@ -6,10 +6,10 @@
 
 namespace ols::fusion {
 
-// Their positions at one instant differ by less than both covariances allow.
+// Whether their positions at one instant differ by less than both covariances allow.
 bool is_same_place(const KinematicState& a, const KinematicState& b);
 
-// The same for position and velocity, at the first one's instant.
+// The same for position and velocity, at the instant of the first state.
 bool are_duplicates(const TrackFilter& track, const TrackFilter& other);
 
 }  // namespace ols::fusion

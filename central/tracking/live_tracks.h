@@ -1,25 +1,24 @@
 // Live tracks of several targets, and the association of bearings with them. Pure.
 //
 // The rules (details in docs/fusion.md):
-//  - The bearings of one image are assigned to the confirmed tracks so that they are explained best
-//    together; what remains, to the tentative ones. A track takes one bearing per exposure of a
-//    station.
-//  - If the image is explained about equally well with a bearing at another confirmed track (they
-//    cross in that station's view), it is ambiguous and updates neither: the other stations
-//    distinguish them.
+//  - The bearings of one image are assigned to the confirmed tracks, with the least sum of
+//    residuals. The remaining bearings are assigned to the tentative tracks in the same way. A
+//    track takes one bearing per exposure of a station.
+//  - If two confirmed tracks fit a bearing about equally well (they cross in that station's view),
+//    it is ambiguous and updates neither track. The other stations distinguish the tracks.
 //  - Unassociated bearings are kept for track initiation (track_initiation.h).
 //  - tentative -> confirmed: three stations have given two bearings each, or two stations five each
-//    for confirm_s; the track explains most of their bearings; and it has a position.
-//  - A track of tracklets is not confirmed while it may be a ghost: its existence is judged by the
-//    images of detectors (existence.h), two stations alone may pair their objects in several ways,
-//    and may agree by chance (clutter.h). A tracklet that a target has belongs to no other.
+//    over confirm_s; the track explains most of their bearings; and it has a position.
+//  - A track of tracklets is not confirmed while it may be a ghost. The images of detectors show
+//    whether it exists (existence.h). Two stations alone may pair their objects in several ways, or
+//    agree by chance (clutter.h). A tracklet belongs to one target only.
 //  - tentative -> deleted: no two stations have seen it for tentative_delete_s, or it is a
 //    duplicate.
 //  - coasting -> deleted: no two stations have seen it for drop_s; or for coast_s, if one station
-//    has too many consecutive rejections while no two others agree.
-//  - two confirmed ones -> one: they have been duplicates for a second (duplicate_tracks.h).
+//    has too many consecutive rejections while no two other stations agree.
+//  - two confirmed tracks -> one: they have been duplicates for a second (duplicate_tracks.h).
 //  - A track confirmed at the predicted position of a deleted one takes over its identity.
-//    Otherwise it takes over that of the bearing-only track of one of its stations.
+//    Otherwise it takes over the identity of the bearing-only track of one of its stations.
 #pragma once
 
 #include <cstdint>
@@ -43,18 +42,18 @@ class LiveTracks : public TrackManager {
 
   using TrackManager::add;
   std::vector<Association> add(std::span<const BearingMeasurement> image, bool may_begin) override;
-  // Where a station's camera looks; view_rad: the narrower field of view. The images of a detector
-  // that should show a target, and do not, count against its existence.
+  // Where a station's camera looks; view_rad: the narrower field of view. A detector's image that
+  // should show a target, and does not, counts against the target's existence.
   void know_view(const std::string& station, const AzimuthElevation& axis, double view_rad,
                  std::int64_t utime_us) {
     views_.know(station, axis, view_rad, utime_us);
   }
   bool is_ambiguous() const override;
-  // The number of ghosts a day that two stations alone are expected to bring, by their clutter now.
+  // The expected number of ghosts per day from two stations alone, with the present clutter.
   double predicted_ghosts_a_day() const {
     return clutter_.published_a_day(config_.confirm_s, most_of_a_pair());
   }
-  // Message time was reset: identities are not assigned again.
+  // Message time was reset: forgets everything, but does not assign used identities again.
   void clear();
   // The duplicates merged since the last call (the newest 64), in the order of merging: pairs of
   // identities, the one that stays first.

@@ -1,6 +1,6 @@
-// The local tracks of each station (a bearing's track_id other than 0), and the objects that they
-// are. Keeps only the last few of each station, so that a station that keeps changing ids takes no
-// more memory. Pure.
+// The local tracks of each station (a bearing's track_id other than 0), and the object of each.
+// Keeps only the last few of each station, so that a station that keeps changing ids cannot fill
+// the memory. Pure.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,7 @@ class LocalTracks {
   const Object* find(const BearingMeasurement& measurement) const;
   // Adds an entry if unknown. It replaces the one whose last bearing is oldest.
   Object& at(const BearingMeasurement& measurement);
-  // The two identities are one object.
+  // Notes that the two identities are one object.
   void rename(std::int64_t from, std::int64_t to);
   void forget(const std::string& station) { stations_.erase(station); }
   std::size_t size(const std::string& station) const;

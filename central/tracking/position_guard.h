@@ -12,10 +12,10 @@ namespace ols::fusion {
 // state.
 bool is_inconsistent_pair(const TrackFilter& filter);
 
-// Max consecutive rejections of a delivering station that no two others have outvoted since its
-// last used bearing. Either it follows another object, or the target has made an unforeseen
-// manoeuvre; the bearings cannot distinguish the two. From kMaxConsecutiveRejections on there is
-// therefore no position.
+// The largest number of consecutive rejections of a delivering station, if no two other stations
+// have agreed since that station's last used bearing. Either the station follows another object, or
+// the target has made an unforeseen manoeuvre; the bearings cannot distinguish the two. From
+// kMaxConsecutiveRejections on there is therefore no position.
 int consecutive_rejections(const TrackFilter& filter, std::int64_t now_us);
 inline constexpr int kMaxConsecutiveRejections = 6;
 

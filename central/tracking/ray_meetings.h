@@ -31,12 +31,12 @@ class RayMeetings {
   RayMeetings(const MeetingConfig& config, double max_range_m)
       : config_(config), max_range_m_(max_range_m) {}
 
-  // Where a ray intersects those of other stations, best supported first. failure: the reason for
-  // the last ray that it does not intersect.
+  // Where a ray intersects rays of other stations, best supported first. failure: why it does not
+  // intersect the last of the rays that it misses.
   std::vector<RayMeeting> of(const BearingMeasurement& measurement,
                              const UnassociatedBearings& bearings, const BiasModel& errors,
                              Solution& failure) const;
-  // Whether the two may be of one object.
+  // Whether the two bearings may be of one object.
   bool may_meet(const BearingMeasurement& a, const BearingMeasurement& b,
                 const BiasModel& errors) const;
   // Generous bound of a target's angular motion in this time.

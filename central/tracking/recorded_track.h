@@ -2,10 +2,10 @@
 //
 //  - Two rays begin it, on trial. It is confirmed once it has a position. The trial ends when the
 //    same bearings give an initiation as live tracks require it. If a bearing does not fit before
-//    that, the track and all that it has taught are undone. For a second, only such an initiation
-//    then begins a track.
-//  - If at least two stations, and half of all, are rejected most of the time, an initiation on
-//    which more stations agree replaces the track under the same identity.
+//    that, the track is undone, with all that was learnt from it. For a second afterwards, only
+//    such an initiation begins a track.
+//  - If most bearings of at least two stations, and of at least half of all stations, are rejected,
+//    an initiation on which more stations agree replaces the track under the same identity.
 //  - coasting -> deleted: no two stations have seen it for drop_s. Two rays then begin it again.
 #pragma once
 

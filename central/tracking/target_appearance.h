@@ -17,8 +17,8 @@ struct Appearance {
   double signal = 0.0;  // signal-to-noise ratio in one picture, of the station that sees it best
 };
 
-// By the newest bearing of each station, for a target at this position: the weighted mean of the
-// sizes, the greatest signal, and the class by all posteriors together (each from one image).
+// Uses the newest bearing of each station, for a target at this position: the weighted mean of the
+// sizes, the greatest signal, and the class from all posteriors together (each is from one image).
 Appearance appearance_of(const Track& track, const Eigen::Vector3d& p_ecef);
 
 }  // namespace ols::fusion

@@ -13,12 +13,12 @@ struct TrackGlance {
   Eigen::Vector3d p_ecef, v_ecef;
   double position_sd_m = 0.0, velocity_sd_m_s = 0.0;
 
-  // Whether the track may be in the bearing's direction (ECEF), which may be off by off_rad.
-  // Generous.
+  // Whether the track may be in the bearing's direction (ECEF), if that may be off by off_rad. A
+  // generous bound.
   bool may_see(const BearingMeasurement& measurement, const Eigen::Vector3d& direction_ecef,
                double off_rad) const;
 };
-// The max error of a direction, from all its stated errors. The same for all tracks.
+// The largest likely error of a direction, from all its stated errors. The same for all tracks.
 double may_be_off_rad(const LineOfSight& sight);
 TrackGlance summarise_track(const Track& track);
 

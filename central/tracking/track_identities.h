@@ -1,4 +1,5 @@
-// The identity of an object, as a track and, before and after that, as a bearing-only track. Pure.
+// The identity of an object: while it is a track, and while it is a bearing-only track before and
+// after that. Pure.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +25,7 @@ class TrackIdentities {
   void follow(const BearingMeasurement& measurement, const Track& track);
   // The confirmed track of this local track; null: none.
   Track* follower(const BearingMeasurement& measurement, std::vector<Track>& tracks) const;
-  // Whether a track takes the bearings of this local track, the last one within_s ago at most.
+  // Whether a track has taken a bearing of this local track within the last within_s.
   bool takes(const BearingMeasurement& newest, std::int64_t now_us, double within_s,
              const std::vector<Track>& tracks) const;
   // The identity of a bearing-only track. 0 for the first new_after_s, and for a bearing without a

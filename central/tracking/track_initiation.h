@@ -1,11 +1,12 @@
 // Track initiation, from unassociated bearings and the intersections of rays of different stations.
 // Pure.
 //
-// Rays of different objects intersect too (ghosts). A hypothesis must therefore explain its
-// stations' bearings over the last moments, not only the two that made it: the filter is run over
-// them. If three stations agree, it is accepted at once. If two agree, they must do so for longer,
-// until the true objects have taken their own bearings. The two stations that made it come first. A
-// third one that is wrong, or follows another object, is then outside the gate and does no harm.
+// Rays of different objects intersect too (ghosts). A hypothesis must therefore explain the recent
+// bearings of its stations, not only the two rays from which it was made: the filter is run over
+// these bearings. If three stations agree, the hypothesis is accepted at once. If only two agree,
+// they must do so for longer, until the true objects have taken their own bearings. The filter
+// takes the two stations of the hypothesis first. A third station that is wrong, or follows another
+// object, is then outside the gate and does no harm.
 //
 // The cost of a search grows with the number of stations with such bearings. If there are many,
 // they take turns, so that the cost per bearing does not grow.
@@ -35,7 +36,7 @@ struct InitiationConfig {
   int pool_of_a_station = 64;  // max number of kept bearings per station
 };
 
-// A new track, and the evidence of its bearings on the stations' errors.
+// A new track, and what its bearings show of the stations' errors.
 struct TrackStart {
   Track track;
   BiasModel evidence;
@@ -49,9 +50,9 @@ class TrackInitiation {
         meetings_(config.meeting, filter.max_range_m),
         pool_(config.pool_s, config.pool_of_a_station) {}
 
-  // Takes an unassociated bearing. Returns a new track, whose bearings leave the pool. It may be a
-  // track of this bearing or, if many stations wait, of another. accept_two_rays: two rays suffice
-  // for now; the pool keeps them, for a better track.
+  // Takes an unassociated bearing. Returns a new track, whose bearings leave the pool. The track
+  // may contain this bearing or, if many stations wait for a search, belong to another one.
+  // accept_two_rays: two rays suffice for now; they stay in the pool, for a better track.
   std::optional<TrackStart> add(const BearingMeasurement& measurement, const BiasModel& errors,
                                 bool accept_two_rays);
   // Keeps a bearing without a search.
@@ -69,7 +70,7 @@ class TrackInitiation {
   const UnassociatedBearings& pool() const { return pool_; }
   // Why the last bearing began no track. Usually this is the reason why its ray and the last other
   // ray give no position. kRaysMiss: rays intersect, but the bearings of their stations do not
-  // agree. kTooFewRays: they agree but more are needed, or there was no other ray.
+  // agree. kTooFewRays: the bearings agree but more are needed, or there was no other ray.
   Solution why_no_track() const { return failure_; }
   // Why there is no track: from the stations with unassociated bearings at this instant. If there
   // are several, the last failure.
@@ -79,7 +80,7 @@ class TrackInitiation {
   // A candidate track, and what the run over its bearings has shown of the stations.
   struct Hypothesis {
     TrackStart start;
-    int bearings = 0;      // explained ones of the agreeing stations
+    int bearings = 0;      // explained bearings of the agreeing stations
     double span_s = 0.0;   // of those bearings
     bool settled = false;  // the iteration has converged
     double misfit = 0.0;   // mean squared normalised residual of their frames; NaN without any

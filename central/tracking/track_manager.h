@@ -1,12 +1,12 @@
-// Which objects there are: the life cycle of tracks (docs/fusion.md, "The life of a track"). It is
-// common to live tracks (live_tracks.h) and the one track of a recording (recorded_track.h), which
-// define the criteria for confirmation and loss. Pure.
+// The life cycle of tracks (docs/fusion.md, "The life of a track"). Live tracks (live_tracks.h) and
+// the one track of a recording (recorded_track.h) share it; they define the criteria for
+// confirmation and loss. Pure.
 //
-//  - tentative -> confirmed: it meets the criteria, and is no duplicate of a confirmed one.
+//  - tentative -> confirmed: it meets the criteria, and is no duplicate of a confirmed track.
 //  - confirmed -> coasting: no two stations have seen it for coast_s. coasting -> confirmed: two
-//    have.
-//  - any -> deleted: an inconsistent pair. Two stations alone see it, and their rays intersect only
-//    with larger biases than they state.
+//    stations see it again.
+//  - any -> deleted: an inconsistent pair. Only two stations see it, and their rays intersect only
+//    if their biases are larger than stated.
 #pragma once
 
 #include <cstdint>
@@ -55,8 +55,8 @@ class TrackManager {
  public:
   virtual ~TrackManager() = default;
 
-  // The bearings of one image, each of another object; their fates in the same order. may_begin:
-  // whether they may take part in track initiation.
+  // Takes the bearings of one image, each of a different object; returns their fates in the same
+  // order. may_begin: whether they may take part in track initiation.
   virtual std::vector<Association> add(std::span<const BearingMeasurement> image,
                                        bool may_begin) = 0;
   Association add(const BearingMeasurement& measurement, bool may_begin = true) {
@@ -75,18 +75,19 @@ class TrackManager {
   // Adopts what was learnt in another run.
   void set_errors(const BiasModel& errors) { errors_ = errors; }
   const UnassociatedBearings& unassociated() const { return initiation_.pool(); }
-  // Why the last bearing began no track, and why there is none at this instant.
+  // Why the last bearing began no track, and why there is no track at this instant.
   Solution why_no_track_began() const { return initiation_.why_no_track(); }
   Solution why_none(std::int64_t now_us) const { return initiation_.why_none(now_us); }
-  // Whether objects that two stations see may be paired in several ways, and no target is
-  // published for that reason.
+  // Whether the objects that two stations see can be paired in several ways, so that no target is
+  // published.
   virtual bool is_ambiguous() const { return false; }
-  // The identity of a local track (the bearing's track_id) that no track explains: that of the
-  // target to which it belonged, and later that of the target that it becomes. 0 for the first
-  // confirm_s, in which ordinary targets are initiated, and for a bearing without a local track id.
-  // `told`: the identities already published at the same instant; each belongs to one object.
+  // The identity of a local track (the bearing's track_id) that no track explains. It is the
+  // identity of the target to which it belonged; a target that it becomes takes it over. 0 for the
+  // first confirm_s, in which ordinary targets are initiated, and for a bearing without a local
+  // track id. `told`: the identities already published at the same instant; each belongs to one
+  // object.
   std::int64_t identify(const BearingMeasurement& newest, std::set<std::int64_t>& told);
-  // Whether a track takes the bearings of this local track, the last one within_s ago at most.
+  // Whether a track has taken a bearing of this local track within the last within_s.
   bool takes(const BearingMeasurement& newest, std::int64_t now_us, double within_s) const;
   const LocalTracks& followed() const { return identities_.local(); }
   struct Counts {
@@ -106,7 +107,7 @@ class TrackManager {
   // Whether a tentative track with a position meets the criteria.
   virtual bool is_worth_confirming(const Track& track) const = 0;
   virtual void on_confirmed(const Track&) {}
-  // Whether a track is lost that no two stations have seen for unseen_s. is_lost() judges
+  // Whether a track that no two stations have seen for unseen_s is lost. is_lost() judges
   // established tracks, once unseen_s exceeds coast_s.
   virtual bool is_tentative_lost(double unseen_s) const = 0;
   virtual bool is_lost(const Track& track, double unseen_s, std::int64_t now_us) const = 0;

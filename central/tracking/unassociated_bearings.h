@@ -45,7 +45,8 @@ class UnassociatedBearings {
     PlaceAxes axes_;
   };
 
-  // A bearing is kept until a bearing of its station is newer by span_s, or until there are `most`.
+  // A bearing is kept until its station has a bearing that is newer by span_s, or more than `most`
+  // bearings.
   UnassociatedBearings(double span_s, int most)
       : span_s_(span_s), most_(static_cast<std::size_t>(most)) {}
 
