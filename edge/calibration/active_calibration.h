@@ -20,7 +20,7 @@ class ActiveCalibration {
   // Reads the configured folder, if there is one. Never throws, whatever it contains.
   explicit ActiveCalibration(const StationSettings& configured);
 
-  // The settings that the station works with; always the same object.
+  // The settings that the station uses; always the same object.
   const StationSettings& settings() const { return settings_; }
   // True if the calibration belongs to other devices and was dropped just now: settings() has
   // changed. Serial numbers are known only once the devices are open.
@@ -30,13 +30,12 @@ class ActiveCalibration {
   // until a restart or another calibration.
   bool refuses(const PanTilt& count_rad);
 
-  // Why these files do not belong to the open devices or to counts of this size; empty: nothing
-  // speaks against it.
+  // Why these files do not belong to the open devices, or to counts of this size; empty: they may.
   static std::string conflict(const CalibrationFiles& files,
                               const std::vector<device::DeviceReport>& devices,
                               const PanTilt& count_rad);
-  // One sentence for each device whose serial number is not the configured one. An instrument gets
-  // the configured serial numbers.
+  // One alarm for each device whose serial number is not the configured one. Needed because a new
+  // instrument gets the configured serial numbers.
   static std::vector<Alarm> other_devices(const InstrumentSerials& configured,
                                           const std::vector<device::DeviceReport>& devices);
   // Works with these files from now on: settings() changes.

@@ -13,11 +13,11 @@ class CalibratedUnit {
   explicit CalibratedUnit(const StationCalibration& calibration);
 
   const StationCalibration& calibration() const { return calibration_; }
-  // Adds variances to those of the calibration's heading and tilts: the station was knocked.
+  // Adds variances to the calibration's heading and tilts, because the station was knocked.
   void doubt_setup(double heading_variance_rad2, double tilt_variance_rad2);
 
-  // The size of a count [rad] as the unit reports it, rounded. It only serves to convert reported
-  // angles to counts: a count is an exact fraction of a turn.
+  // The size of a count [rad] as the unit reports it, rounded. It is used only to convert reported
+  // angles to counts, because a count is an exact fraction of a turn.
   void set_count(const PanTilt& count_rad);
   // Whether a turn has as many counts as in the calibration: the step mode is the same.
   bool fits() const { return fits_; }
@@ -31,8 +31,8 @@ class CalibratedUnit {
     return corrected_angles(calibration_.model, reading);
   }
   // The reported angles at which the unit, coming straight from `here`, stands at ideal angles.
-  // `corrected` states the turn of pan, too: the unit comes to angles a whole turn apart from
-  // different sides.
+  // `corrected` also says in which turn pan is: the unit approaches angles that are a whole turn
+  // apart from different sides.
   PanTilt reported(const PanTilt& corrected, const PanTilt& here) const;
 
  private:

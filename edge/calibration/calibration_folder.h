@@ -20,7 +20,7 @@ struct CalibrationFiles {
   double rms_rad = 0.0, worst_rad = 0.0;
 };
 
-// FNV-1a of the three files as a non-negative number, without the setup's lines up to the id.
+// FNV-1a of the three files as a non-negative number. The setup's lines up to the id are left out.
 std::int64_t calibration_id_of(std::string_view instrument, std::string_view setup,
                                std::string_view covariance);
 

@@ -1,5 +1,5 @@
 // Notices a calibration that was accepted while the station runs: the configured folder is then a
-// link to another one. Reads it in its own thread.
+// link to another folder. Reads that folder in its own thread.
 #pragma once
 
 #include <future>
@@ -14,7 +14,8 @@ namespace ols::station {
 
 class CalibrationFolderWatch {
  public:
-  // `configured`: as in the configuration file. The folder's present content counts as read.
+  // `configured`: the settings as in the configuration file. The folder's present content counts as
+  // read.
   explicit CalibrationFolderWatch(const StationSettings& configured);
 
   // Call in every turn. Looks at the folder once a second.

@@ -7,17 +7,17 @@ namespace ols::station {
 
 // The values are those of station_status_t.
 enum class CalibrationState {
-  kNone,     // none is configured: heading, mounting and deviations as configured
+  kNone,     // no calibration: heading, mounting and deviations are those of the configuration
   kInUse,    // the bearings' systematic part is from an adjustment
   kRefused,  // configured, but not used: an alarm says why
-  kDoubted,  // in use, but its reference views have moved: the deviations are larger by that
+  kDoubted,  // in use, but its reference views have moved; the deviations include that
 };
 
 struct CalibrationStatus {
   CalibrationState state = CalibrationState::kNone;
   std::int64_t id = 0;
   std::int64_t observed_utime_us = 0;  // of its last observation; 0: not stated
-  double rms_rad = 0.0;                // of a direction, per axis, doubt included; 0: none
+  double rms_rad = 0.0;                // of a direction, per axis, including the doubt; 0: none
 };
 
 }  // namespace ols::station

@@ -30,18 +30,19 @@ class CalibrationSupervisor {
   bool refuses(const PanTilt& count_rad);
 
   // True if a newly accepted calibration was adopted just now: settings() has changed. `idle`: no
-  // target, operator or slew would notice the jump.
+  // target, operator or slew would notice the jump in the angles.
   bool adopts(double now_s, bool idle, const std::vector<device::DeviceReport>& devices,
               const PanTilt& count_rad);
 
   void set_limits(const mount::Limits& limits);
-  // Call in every turn. The goal of a check of the reference views, while the station is free.
+  // Call in every turn. Returns the goal of a check of the reference views, while the station is
+  // free.
   std::optional<mount::Goal> step(const ViewTour::Situation& situation);
   void see(const camera::Frame& frame);
   // Requests a check soon: the unit has homed.
   void note_homings(std::uint64_t homings);
 
-  // What bearings must add from now on; empty: no change.
+  // The error that bearings must add from now on; empty: no change.
   struct Doubt {
     double heading_rad = 0.0, tilt_rad = 0.0;
   };

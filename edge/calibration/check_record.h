@@ -1,5 +1,5 @@
-// Whether a station's reference views are checked at all, so that a missing check does not look
-// like a good one. Pure.
+// Notes whether a station's reference views are checked at all, so that a missing check does not
+// look like a good result. Pure.
 #pragma once
 
 #include <optional>
@@ -16,14 +16,14 @@ class CheckRecord {
   void note_judged();
   // A round whose pictures were not recognised: night, fog, another scene.
   void note_unrecognised() { reason_ = "its reference views are not recognised"; }
-  // So many views were left out because of the sun that the round decided nothing.
+  // The sun made the round leave out so many views that it decided nothing.
   void note_sun() { reason_ = "the sun stands in its reference views"; }
   // The unit did not reach a view in time, in this number of consecutive rounds.
   void note_late(int rounds);
   // The travel and the keep-out regions leave too few views to decide anything.
   void note_too_few() { too_few_ = true; }
 
-  // The alarm; empty: none. A night without a check raises none, a day does.
+  // The alarm; empty: none. A night without a check raises no alarm, a day does.
   Alarm alarm() const;
 
  private:

@@ -1,5 +1,5 @@
-// Compares views of the scenery with those stored at the calibration: whether the tripod has
-// turned, an axis has lost steps, or something else has moved. Pure.
+// Compares views of the scenery with the views stored at the calibration, to find whether the
+// tripod has turned, an axis has lost steps, or something else has moved. Pure.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace ols::station {
 
-// One reference view: the turn of the camera's direction against the stored picture.
+// The turn of the camera's direction against the stored picture, in one reference view.
 struct ViewOffset {
   PanTilt shafts;                       // of the view
   double left_rad = 0.0, up_rad = 0.0;  // on the tangent plane
@@ -27,8 +27,8 @@ enum class DriftCause {
 
 struct DriftFinding {
   DriftCause cause = DriftCause::kNone;
-  // The turn of the tripod that explains the views best, except for kUnclear. For kLostSteps, at
-  // least what the steps amount to: heading for the pan axis, tilt for the tilt axis.
+  // The turn of the tripod that explains the views best, except for kUnclear. For kLostSteps it is
+  // at least as large as the lost steps: heading for the pan axis, tilt for the tilt axis.
   double heading_rad = 0.0;  // clockwise, as a heading
   double tilt_rad = 0.0;     // of the vertical, whatever its direction
   double heading_sd_rad = 0.0, tilt_sd_rad = 0.0;

@@ -1,4 +1,4 @@
-// A station's drift, from check to check. A finding counts once a second check confirms it, and is
+// A station's drift, from check to check. A finding counts once a second check confirms it. It is
 // never used as a correction. Pure.
 #pragma once
 
@@ -22,7 +22,8 @@ class DriftWatch {
   DriftWatch(const Config& config, std::int64_t calibration_id)
       : config_(config), calibration_id_(calibration_id) {}
 
-  // Takes the result of a check. True: check again at once, before anything is reported.
+  // Takes the result of a check. Returns true if another check must follow at once, before anything
+  // is reported.
   bool add(const DriftFinding& finding);
 
   DriftLevel level() const { return level_; }
@@ -33,7 +34,7 @@ class DriftWatch {
   double tilt_doubt_rad() const;
   // Incremented at each change of the doubt.
   int revision() const { return revision_; }
-  // In words, with what to do; empty: none.
+  // The finding in words, and what to do; empty: none.
   Alarm alarm() const;
 
   // One line for a file. restore() loads it if it is of the same calibration, and returns false for

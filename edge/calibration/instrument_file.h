@@ -36,7 +36,7 @@ Instrument new_instrument(const station::StationSettings& settings);
 Instrument read_instrument(const std::string& path, const Instrument& fallback);
 
 // Throws std::invalid_argument, naming file and key, if a serial number contains a quote, a
-// backslash or a control character: a file could not hold it.
+// backslash or a control character, because a file cannot hold those.
 void check_plain(const station::InstrumentSerials& serials, const std::string& path);
 
 // Throws std::invalid_argument, naming the part, if serial numbers differ.

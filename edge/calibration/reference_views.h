@@ -29,8 +29,8 @@ class ReferenceViews {
     std::int64_t calibration_id = 0;
     ViewTour::Config tour;
     DriftWatch::Config drift;
-    // Whether the sun is there (reported angles), if the tripod may have turned by this angle [rad]
-    // since its calibration. Empty: there is no sun.
+    // Whether the sun is too near to these reported angles, if the tripod may have turned by this
+    // angle [rad] since its calibration. Empty: the sun is ignored.
     std::function<bool(const PanTilt&, double)> sun;
   };
   ReferenceViews(const Config& config, const StationCalibration& calibration);
@@ -54,7 +54,8 @@ class ReferenceViews {
   std::vector<Alarm> alarms() const;
 
  private:
-  // The result of a picture: an offset, or, if none was stored, whether it can be stored.
+  // The result of a picture: its offset from the stored picture; or, if none is stored, whether
+  // this one can be stored.
   struct Seen {
     std::optional<ViewOffset> offset;
     cv::Mat picture;
@@ -80,7 +81,7 @@ class ReferenceViews {
   DriftWatch watch_;
   BackgroundFile file_;
   std::vector<cv::Mat> pictures_;              // by view; empty: none stored yet
-  std::future<std::vector<cv::Mat>> loading_;  // the same, being read from files
+  std::future<std::vector<cv::Mat>> loading_;  // the same pictures, while they are read from files
   std::size_t stored_ = 0;
   CheckRecord record_;
   std::vector<Look> looks_;

@@ -7,8 +7,8 @@ namespace ols::station {
 
 // [rad], exact.
 double count_of(const AxisModel& axis);
-// Whether a printed size of a count [rad] matches an axis with so many counts per turn: the step
-// mode is then the calibrated one.
+// Whether the size of a count [rad] that a unit prints matches an axis with this many counts per
+// turn. If so, the step mode is the calibrated one.
 bool is_count_of(const AxisModel& axis, double printed_rad);
 
 }  // namespace ols::station

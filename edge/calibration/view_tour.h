@@ -20,23 +20,24 @@ class ViewTour {
     double interval_s = std::numeric_limits<double>::infinity();
     double settle_s = 1.0;  // rest before mid-exposure
     double leg_s = 40.0;    // a view that takes longer is unreachable: the round is given up
-    // Whether the unit must not look there now (reported angles) because of the sun. The round
-    // leaves such a view out. When it may be looked at again, another round follows. Empty: it may
-    // look everywhere.
+    // Whether the sun forbids the unit to look at these reported angles now. The round leaves such
+    // a view out, and another round follows when the view is possible again. Empty: all views are
+    // possible.
     std::function<bool(const PanTilt&)> forbidden;
   };
   struct Situation {
     double now_s = 0.0;
-    // No target, no operator, no slew, no stop, and a trusted reference. Otherwise the round ends
-    // at once. It begins anew when the station has been free for a while.
+    // The station is free: no target, no operator, no slew, no stop, and a trusted reference. If it
+    // is not free, the round ends at once, and begins anew when the station has been free for a
+    // while.
     bool free = false;
     std::optional<PanTilt> at;  // reported angles
   };
 
   explicit ViewTour(const Config& config) : config_(config) {}
 
-  // Plans the views that this travel allows: four a quarter turn apart, or closer; with fewer than
-  // three, no round is made. `count`: of the unit [rad].
+  // Plans the views that this travel allows: four views a quarter turn apart, or closer. With fewer
+  // than three views there are no rounds. `count`: of the unit [rad].
   void plan(const mount::Limits& limits, const PanTilt& count);
   const std::vector<PanTilt>& views() const { return views_; }  // reported angles
   // Requests a check soon: after homing, by command, or to confirm a finding.
@@ -45,11 +46,11 @@ class ViewTour {
   bool take_finished();
   // Of the last finished round.
   const std::vector<std::size_t>& left_out() const { return left_out_; }
-  // Consecutive rounds given up because the unit did not reach a view in time.
+  // Number of consecutive rounds that were given up because the unit did not reach a view in time.
   int late() const { return late_; }
   bool under_way() const { return view_.has_value(); }
 
-  // Call in every turn. The unit's goal; nullopt: no round.
+  // Call in every turn. Returns the unit's goal; nullopt: no round is under way.
   std::optional<mount::Goal> step(const Situation& situation);
   // The view of a frame with this mid-exposure; nullopt: none, or not needed.
   std::optional<std::size_t> see(double mid_exposure_s);

@@ -1,8 +1,8 @@
 // Automatic exposure that protects the target's contrast. Pure.
 //
 // Gray levels grow with the light until they saturate, and so does the contrast between target and
-// surround. So the brighter of the two is brought to a level just below saturation, and the rest of
-// the image is ignored. Without a target the mean of the whole image is brought to a middle
+// surround. The brighter of the two is therefore brought to a level just below saturation, and the
+// rest of the image is ignored. Without a target the mean of the whole image is brought to a middle
 // level. Exposure is raised before gain, because gain also amplifies noise; the maximum exposure is
 // the limit of motion blur.
 #pragma once
@@ -18,8 +18,8 @@ namespace ols::camera {
 struct PictureLevels {
   bool target = false;     // of a target, otherwise of the whole image
   double mean = 0.0;       // of the whole image; with a target, of its surround
-  double bright = 0.0;     // 95 % quantile of the brighter one
-  double saturated = 0.0;  // share of the brighter one's pixels that are saturated
+  double bright = 0.0;     // 95 % quantile of the brighter of target and surround
+  double saturated = 0.0;  // share of its pixels that are saturated
 };
 
 // `gray` is 8-bit. The surround is the ring around the box, three times its size. A box outside the

@@ -18,11 +18,11 @@ class Camera {
   Camera(const Camera&) = delete;
   Camera& operator=(const Camera&) = delete;
 
-  // The newest frame that was not taken yet; waits up to timeout_s for one.
+  // The newest frame that was not taken yet; waits up to timeout_s for a frame.
   virtual std::optional<Frame> next(double timeout_s) = 0;
   // The target's box, for automatic exposure; empty: no target.
   virtual void set_region(const std::optional<cv::Rect2d>& target_box) = 0;
-  // One exposure, with the software trigger; without it a call has no effect.
+  // Starts one exposure. Has an effect only with the software trigger.
   virtual void trigger() = 0;
   // Named "camera", whatever its kind.
   virtual device::DeviceReport report() const = 0;

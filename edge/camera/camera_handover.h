@@ -36,13 +36,13 @@ class CameraHandover {
     const std::lock_guard lock(mutex_);
     change(facts_);
   }
-  // Takes a good frame that follows `lost` missing ones. It has no pixels if a newer one is already
-  // waiting.
+  // Takes a good frame; `lost` frames before it are missing. The frame has no pixels if a newer one
+  // is already waiting.
   void publish(Frame frame, std::uint64_t lost, const FrameStatistics& statistics);
   void note_incomplete(std::uint64_t lost, const FrameStatistics& statistics);
-  // A complete frame that is not as configured.
+  // Notes a complete frame that is not as configured.
   void note_refused(const std::string& why, std::uint64_t lost, const FrameStatistics& statistics);
-  // The camera is lost, or cannot be opened.
+  // Notes that the camera is lost, or cannot be opened.
   void note_failure(CameraState state, const Alarm& failure);
 
  private:

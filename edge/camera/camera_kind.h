@@ -1,4 +1,4 @@
-// A kind of camera: its keys in [camera], and what opens it.
+// A kind of camera: its keys in [camera], and how it is opened.
 #pragma once
 
 #include <memory>

@@ -27,7 +27,7 @@ struct CameraCounters {                 // only rise
   std::uint64_t frames_incomplete = 0;  // packets missing
   std::uint64_t frames_late = 0;        // captured, but replaced by a newer one before next()
   std::uint64_t frames_refused = 0;     // wrong size or format
-  std::uint64_t reconnects = 0;         // opened again after it had streamed or failed
+  std::uint64_t reconnects = 0;  // how often it was opened again after it had streamed or failed
 };
 
 // The state known to the camera's thread.
@@ -53,7 +53,7 @@ struct CameraFacts {
   std::optional<double> ptp_disagreement_s;
 };
 
-// It is a fault if packets are missing in a larger share of the recent frames.
+// If packets are missing in a larger share of the recent frames, the camera is faulty.
 inline constexpr double kManyIncomplete = 0.02;
 
 device::DeviceReport make_camera_report(const CameraConfig& config, const CameraFacts& facts,

@@ -1,10 +1,10 @@
 // The camera's clock against the station's CLOCK_MONOTONIC: a fitted line with its uncertainty.
 // Pure.
 //
-// Two sources. A *latch* reads the camera's clock between two readings of the station's clock: the
-// true instant lies in between, whatever the network delay. The *arrival* of a frame gives only a
-// bound: no frame arrives before its stamp plus a delay that is roughly known. The earliest of many
-// arrivals is the tightest bound.
+// There are two sources. A *latch* reads the camera's clock between two readings of the station's
+// clock: the true instant lies in between, whatever the network delay. The *arrival* of a frame
+// gives only a bound: no frame arrives before its stamp plus a delay that is roughly known. The
+// earliest of many arrivals is the tightest bound.
 #pragma once
 
 #include <cstdint>
@@ -35,17 +35,18 @@ class ClockMap {
   };
   explicit ClockMap(const Config& config) : config_(config) {}
 
-  // False: refused, not a valid interval. A sample far off the line is held back; if the next one
-  // agrees with it, the camera's clock was stepped and the fit restarts.
+  // False: refused, not a valid interval. A sample far off the line is held back. If the next
+  // sample agrees with it, the camera's clock was stepped, and the fit restarts.
   bool add_latch(const LatchSample& sample);
   void add_arrival(std::int64_t device_ns, double arrival_s);
   void clear();
 
-  // From the latches; empty without any.
+  // The time from the latches; empty without latches.
   std::optional<MappedTime> from_latches(std::int64_t device_ns) const;
 
-  // From the arrivals: the earliest possible arrival of a frame with this stamp, minus `delay_s`.
-  // sd_s covers the fit to the earliest arrivals, but no error of the delay. Empty without any.
+  // The time from the arrivals: the earliest possible arrival of a frame with this stamp, minus
+  // `delay_s`. sd_s covers the fit to the earliest arrivals, but not an error of the delay. Empty
+  // without arrivals.
   std::optional<MappedTime> from_arrivals(std::int64_t device_ns, double delay_s) const;
 
   int latches() const { return static_cast<int>(latches_.size()); }

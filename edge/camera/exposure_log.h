@@ -1,9 +1,9 @@
 // The exposure time of a frame when the exposure changes during streaming. Pure.
 //
 // The camera does not report the setting of a frame (the chunk data of a GT1290C cannot be switched
-// while it streams). A frame that began before the change was requested has the old one. A frame
-// that began more than a frame period after it was granted has the new one, because the next
-// exposure may already have been set up. In between it may be either.
+// while it streams). A frame that began before the change was requested has the old exposure. A
+// frame that began more than a frame period after the change was granted has the new exposure. In
+// between it may be either, because the camera may already have set up its next exposure.
 #pragma once
 
 #include <deque>
@@ -26,7 +26,7 @@ class ExposureLog {
 
   double newest_s() const { return changes_.empty() ? first_s_ : changes_.back().exposure_s; }
 
-  // Of the frame whose exposure began at `start_s`.
+  // The exposure of the frame that began at `start_s`.
   ExposureUsed at(double start_s) const;
 
  private:

@@ -39,8 +39,8 @@ class FrameClock {
   ClockMap& map() { return map_; }
 
   // Call with a reference while the camera's clock is TAI and the station's UTC can be trusted,
-  // else with nothing. It is a second source beside the latches. While the two agree, the more
-  // accurate one is used; otherwise the latches are.
+  // otherwise with nothing. The reference is a second source, beside the latches. While the two
+  // sources agree, the more accurate one is used; otherwise the latches are used.
   void set_tai(const std::optional<TaiReference>& reference) { tai_ = reference; }
   // PTP minus latches [s], if their uncertainties do not explain the difference.
   std::optional<double> tai_disagreement_s() const { return tai_disagreement_s_; }

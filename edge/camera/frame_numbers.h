@@ -16,7 +16,7 @@ class FrameNumbers {
   // number that does not increase means that the camera restarted.
   Step next(std::uint64_t id);
 
-  // The camera was reopened: its next number follows without a loss.
+  // The camera was reopened: its next number does not count as a loss.
   void restart() { running_ = false; }
 
  private:

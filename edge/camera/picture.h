@@ -1,4 +1,4 @@
-// From the bytes of the camera's frame to the tracker's gray image. Pure.
+// Converts the bytes of the camera's frame to the tracker's gray image. Pure.
 #pragma once
 
 #include <cstddef>

@@ -15,8 +15,8 @@ struct ChronyTracking {
   double root_delay_s = 0.0, root_dispersion_s = 0.0;
   int leap_s = 0;  // announced: +1 inserted, -1 deleted
 
-  // 1-sigma. chrony's manual states the bound |offset| + root dispersion + root delay / 2. It is
-  // taken as the half-width of a uniform distribution.
+  // 1-sigma. chrony's manual states the bound |offset| + root dispersion + root delay / 2. This
+  // bound is taken as the half-width of a uniform distribution.
   double error_s() const;
 };
 

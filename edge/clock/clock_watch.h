@@ -1,22 +1,18 @@
 // The accuracy of the station's UTC. Pure: edge/clock/clock_source.h reads kernel and chrony.
 //
-//   synchronised    a time service states so; the error is the service's own estimate
-//   unsynchronised  a time service has run since boot, but is not (or no longer) synchronised, or
-//   has
-//                   been silent for a while: the error grows from the last good one by the drift of
-//                   a
-//                   free-running clock. Also: the clock was stepped, and no service has confirmed
-//                   the
-//                   new time
-//   unknown         no trace of a time service since boot: the clock was set by hand, accurately or
-//                   not. The error is the one assumed by the configuration; the fusion compares
-//                   stations
+//  - synchronised: a time service states so. The error is the service's own estimate.
+//  - unsynchronised: a time service has run since boot, but is not (or no longer) synchronised, or
+//    has been silent for a while. The error grows from the last good one by the drift of a
+//    free-running clock. Also: the clock was stepped, and no service has confirmed the new time.
+//  - unknown: no trace of a time service since boot. The clock was set by hand, accurately or not.
+//    The error is that assumed by the configuration; the fusion compares stations.
 //
 // A step is a jump of CLOCK_REALTIME against CLOCK_MONOTONIC. Slewing by the service (slow) and an
 // announced leap second are not steps. A suspend looks like a step and is treated as one: the time
 // after it comes from the battery clock. A step is confirmed when the service has measured since
-// then and is synchronised. Without any service the clock is distrusted for `distrust_s`, then
-// unknown again: the station cannot decide whether the old or the new time was right.
+// then and is synchronised. Without any service the clock is distrusted for `distrust_s`; then its
+// state is unknown again, because the station cannot decide whether the old or the new time was
+// right.
 #pragma once
 
 #include <cstdint>

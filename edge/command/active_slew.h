@@ -18,8 +18,8 @@ class ActiveSlew {
 
   // nullopt: no slew is active.
   const std::optional<SlewCommand>& command() const { return command_; }
-  // A search along a line continues whatever the station has found. The station stops only to look
-  // at a find.
+  // A search along a line continues even after the station has found something. The station only
+  // pauses to look at it.
   bool searches_line() const { return command_ && command_->searches_line(); }
   // nullopt: no slew is active, or the unit cannot point there.
   std::optional<mount::Goal> goal(const PointingModel& pointing, double now_s) const;

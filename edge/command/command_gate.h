@@ -4,9 +4,9 @@
 // remembers each command by its sender's boot id, its sequence and its stamp, for longer than it
 // can stay fresh. A command is fresh while its stamp, by the station's UTC, is not older than its
 // lease plus a margin for the difference of the two clocks. Sequences are never compared, and
-// stamps of one sender never block another: without signatures, anybody may use any name. If the
-// station's clock is set back by more than a lease, forgotten commands may pass again, as after a
-// restart.
+// stamps of one sender never block another sender, because without signatures anybody may use any
+// name. If the station's clock is set back by more than a lease, forgotten commands may pass again,
+// as after a restart.
 #pragma once
 
 #include <cstddef>
@@ -35,10 +35,11 @@ class CommandGate {
     double clock_margin_s = 0.5;  // max difference of the two clocks
     double lease_max_s = 10.0;
     // Number of commands that are remembered, however old they are, because setting the clock back
-    // makes them fresh again: four minutes of slews.
+    // would make them fresh again. It corresponds to four minutes of slews.
     std::size_t kept = 4096;
     // Max number of remembered commands. Forged commands with the latest stamp block others only if
-    // more than this arrive within the margin: 130 000 a second, more than a station can read.
+    // more than this number arrive within the margin: 130 000 a second, more than a station can
+    // read.
     std::size_t most = 65536;
   };
   // Commands stamped before `began_utime_us` are refused as replayed: the previous process may have

@@ -15,14 +15,14 @@ struct Situation {
   double now_s = 0.0;  // station's monotonic clock
 };
 
-// kNone: permitted. In addition, a designation needs its frame and the tracker's acceptance; a
-// point command, angles that the unit reaches.
+// kNone: permitted. This is not all: a designation also needs its frame and the tracker's
+// acceptance, and a point command needs angles that the unit reaches.
 Refusal judge(const DesignateCommand& command, const Situation& situation);
 Refusal judge(const SlewCommand& command, const Situation& situation);
 Refusal judge(const PointCommand& command, const Situation& situation);
 Refusal judge(const RateCommand& command, const Situation& situation);
 Refusal judge(const LensCommand& command, const Situation& situation);
-// For a command by which an operator moves the unit.
+// The same for a command by which an operator moves the unit.
 Refusal judge_motion(const Situation& situation);
 Refusal judge_home(const Situation& situation);
 Refusal judge_reference_ok(const Situation& situation);

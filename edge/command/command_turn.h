@@ -13,7 +13,7 @@
 
 namespace ols::station {
 
-// Names a command among all: its sender's start, and its number in it.
+// Identifies a command: its sender's start, and the command's number since then.
 struct CommandId {
   std::int64_t boot_id = 0, sequence = 0;
 };
@@ -29,18 +29,18 @@ class CommandTurn {
   // The station must outlive it.
   explicit CommandTurn(Station& station) : station_(station) {}
 
-  // From any thread; does not wait. end() carries it out.
+  // Takes a stop, from any thread; does not wait. end() carries it out.
   void stop() { stop_ = true; }
 
-  // Carried out at the end of the turn, or before another command.
+  // Takes a designation. It is carried out at the end of the turn, or before another command.
   void designate(const DesignateCommand& command, const CommandId& id);
   // Call before another operator command. Carries out the pending designation, unless one was
-  // carried out in this turn already: so there are at most two per turn.
+  // already carried out in this turn. So there are at most two per turn.
   void before_other_command(double now_s);
   // Call after the turn's last command.
   void end(double now_s);
 
-  // Of all designations since the last call.
+  // The results of all designations since the last call.
   std::vector<Decision> take_decisions() { return std::exchange(decisions_, {}); }
 
   // Designations dropped because of a newer one or a stop.

@@ -15,11 +15,12 @@ class ManualMotion {
   void turn(const RateCommand& command);
   void clear();
 
-  // Whether a later rate of the same sender is already in force: this one was overtaken on its way.
+  // Whether a later rate of the same sender is already in force, because this one was overtaken on
+  // its way.
   bool overtakes(const RateCommand& command, double now_s) const;
 
-  // nullopt: halt. A unit that is halted brakes for v/a. The halt therefore comes after the share
-  // kInForce of the lease.
+  // nullopt: halt. A halted unit still moves for v/a while it brakes. The halt therefore comes
+  // early, after the share kInForce of the lease.
   std::optional<mount::Goal> goal(double now_s) const;
 
   static constexpr double kInForce = 0.8;

@@ -14,9 +14,9 @@ namespace ols::station {
 
 class RefusalLog {
  public:
-  // An action that the station did not carry out, as text.
+  // Notes an action that the station did not carry out, as text.
   void note(const std::string& what);
-  // The message was refused before it reached the station. `kind`: "SLEW".
+  // Notes a message that was refused before it reached the station. `kind`: "SLEW".
   void refuse(const std::string& kind, const std::string& why);
   void refuse_at_gate(const std::string& kind, const std::string& why, double now_s);
 

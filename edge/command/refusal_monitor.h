@@ -1,5 +1,5 @@
-// Raises an alarm when commands are repeatedly refused before they reach the station: a legitimate
-// sender is locked out and should learn why. Pure.
+// Raises an alarm when commands are repeatedly refused before they reach the station, because a
+// legitimate sender may be locked out and should learn why. Pure.
 #pragma once
 
 #include <array>

@@ -1,7 +1,7 @@
 // Detects that more than one fusion slews this station. Pure.
 //
 // A restarted fusion is a new sender, and the previous one is not heard again. Two fusions are
-// running if a sender comes back after another one.
+// running if a sender comes back after another sender.
 #pragma once
 
 #include <cstdint>

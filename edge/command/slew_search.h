@@ -26,7 +26,7 @@ class SlewSearch {
   explicit SlewSearch(const StationConfig& config)
       : config_(config), acquisition_(config.acquisition) {}
 
-  // The station enters another state. `found`: it now tracks.
+  // Call when the station enters another state. `found`: it now tracks.
   void restart(bool found);
   // Call with each frame in which the station is slewed.
   void note_in_view(const camera::Frame& frame, const PointingModel& pointing, const Slew& slew);
@@ -35,31 +35,31 @@ class SlewSearch {
     Eigen::Vector2d pixel;
     double sd_px = 0.0;
   };
-  // Where the tracker is to search for its target. nullopt: it was sent a moment ago, or the PTU
-  // has not arrived yet.
+  // Where the tracker is to search for its target. nullopt: the tracker was sent a moment ago, or
+  // the PTU has not arrived yet.
   std::optional<Place> send_tracker(const camera::Frame& frame, const PointingModel& pointing,
                                     const Slew& slew);
-  // Whether an output is near the slew's place. A similar object elsewhere is not the one that the
-  // other stations see.
+  // Whether a tracker's output is near the slew's place. A similar object elsewhere is not the
+  // object that the other stations see.
   bool is_where_slewed(const camera::Frame& frame, const tracker::TrackerOutput& output,
                        const PointingModel& pointing, const Slew& slew) const;
 
-  // Whether any object at the slew is acquired. A station without a target does so; one with a
-  // target does so after own_target_s without seeing it there, because the designation may have
-  // been wrong.
+  // Whether the station may acquire any object at the slew's place. A station without a target may.
+  // A station with a target may if it has not seen its target there for own_target_s, because the
+  // designation may have been wrong.
   bool looks_for_anything(const FollowedTarget& target) const;
   struct Acquired {
     const camera::Frame* frame;  // one of those that were given
     cv::Rect2d box;              // of the object in it
-    bool by_tracklet = false;    // the detector had it
+    bool by_tracklet = false;    // the detector has found it
   };
-  // The object that behaves as the slew predicts: the detector's only confirmed one that does, else
-  // one that shows in these frames, oldest first.
+  // The object that behaves as the slew predicts. If exactly one confirmed object of the detector
+  // does, it is that object; otherwise an object found in these frames (oldest first).
   std::optional<Acquired> acquire(const std::deque<camera::Frame>& frames,
                                   const std::optional<detector::Found>& found,
                                   const PointingModel& pointing, const Slew& slew);
-  // The trial of an acquired target begins; the trial has failed, and the own target is searched
-  // for again.
+  // begin_trial: the trial of an acquired target begins. end_trial: the trial has failed, and the
+  // own target is searched for again.
   void begin_trial(const Acquired& target);
   void end_trial(double time_s);
 
@@ -69,7 +69,7 @@ class SlewSearch {
 
  private:
   static constexpr double kNever = -std::numeric_limits<double>::infinity();
-  // For how long, by frames, the slew's place has been in the image.
+  // For how long the slew's place has been in the image, according to the frames.
   struct InView {
     double from_s = 0.0, to_s = kNever;
     double own_from_s = kNever;  // since when the own target has been searched for

@@ -1,5 +1,5 @@
-// Passes the emergency stop from the thread that sees its edges to the control loop. Does not miss
-// a press shorter than a turn of the loop.
+// Passes the emergency stop from the thread that sees its edges to the control loop. A press that
+// is shorter than a turn of the loop is not missed.
 #pragma once
 
 #include <atomic>
@@ -28,7 +28,7 @@ class StopLatch {
     seen_ = presses;
     return news;
   }
-  // A person at the station re-arms it; from the same thread.
+  // A person at the station re-arms it. Call from the same thread.
   void rearm() { rearm_ = true; }
   bool take_rearm() { return rearm_.exchange(false); }
 

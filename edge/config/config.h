@@ -33,7 +33,7 @@ struct InstrumentSerials {
 struct SiteChoice {
   std::string file;              // the station's own configuration; empty: none was read
   std::int64_t number = 0;       // of the settings in use; 0: none
-  std::vector<std::string> own;  // the site's keys for which the station's file states other values
+  std::vector<std::string> own;  // the site's keys to which the station's file gives other values
 };
 
 struct StationSettings {
@@ -70,7 +70,7 @@ struct StationSettings {
 config::Section station_section(StationSettings& settings);  // the whole file
 // Throws ConfigError ("file:line: key: what").
 StationSettings load_station_settings(const std::string& path);
-// The same with the site's settings as defaults of keys that are missing in the file.
+// The same, with the site's settings as defaults for keys that are missing in the file.
 StationSettings load_station_settings(const std::string& path, const trust::SiteSettings& site);
 // The keys of [station] in a site's settings: those that are the same on all stations.
 config::Section site_section(StationSettings& settings);

@@ -1,5 +1,5 @@
-// The kinds of device that a station can have: what `kind` says in [camera], [mount], [gnss] and
-// [inclinometer]. A new kind is a folder of its own and a row here.
+// The kinds of devices that a station can have: the values of `kind` in [camera], [mount], [gnss]
+// and [inclinometer]. A new kind needs a folder of its own and a row here.
 #pragma once
 
 #include "edge/camera/camera_kind.h"

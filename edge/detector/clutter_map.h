@@ -1,4 +1,4 @@
-// How often each part of the image shows what is no target.
+// How often each part of the image shows something that is not a target.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,8 +8,8 @@
 
 namespace ols::detector {
 
-// Detections and tentative tracklets by tile of the image, forgotten over half a minute. Those of
-// confirmed objects do not count, so that an object does not raise its own threshold.
+// Counts detections and tentative tracklets in each tile of the image, and forgets them over half a
+// minute. Confirmed objects do not count, so that an object does not raise its own threshold.
 class ClutterMap {
  public:
   explicit ClutterMap(const cv::Size& image);

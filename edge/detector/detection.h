@@ -16,7 +16,7 @@ struct Detection {
   double signal_to_noise = 0.0;                       // of its peak
   bool brighter = false;                              // than its surroundings or the scene
   Evidence evidence = Evidence::kSpot;
-  bool clear = false;    // a spot: nothing like it in the wider surroundings either
+  bool clear = false;    // a spot: there is nothing like it in the wider surroundings either
   double sd_px() const;  // of its position, each axis
 };
 

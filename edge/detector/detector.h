@@ -1,4 +1,4 @@
-// Finds whatever flies or moves in a camera's images, without being told. Pure: no clock, no files.
+// Finds what flies or moves in a camera's images, without a designation. Pure: no clock, no files.
 #pragma once
 
 #include <Eigen/Core>
@@ -28,7 +28,7 @@ class Detector {
     bool suspended = false;             // everything changed at once: no movers are looked for
   };
   // `gray`: 8-bit, one channel, always of the same size. `predicted`: the mount's motion, which
-  // maps the previous image's pixels to this one's; the image corrects it.
+  // maps the previous image's pixels to this image's. The image corrects it.
   Result advance(const cv::Mat& gray, double time_s,
                  const std::optional<Eigen::Matrix3d>& predicted);
 

@@ -13,13 +13,13 @@ namespace ols::detector {
 struct Picture {
   cv::Mat gray;                 // 8-bit, one channel; not modified
   double mid_exposure_s = 0.0;  // any epoch
-  // The mount's motion, which maps the previous picture's pixels to this one's; empty: unknown.
+  // The mount's motion, which maps the previous picture's pixels to this picture's; empty: unknown.
   std::optional<Eigen::Matrix3d> motion;
 };
 
 struct Found {
   double mid_exposure_s = 0.0;
-  std::vector<Tracklet> confirmed;  // also those that this picture does not show
+  std::vector<Tracklet> confirmed;  // including objects that this picture does not show
   bool suspended = false;           // everything changed at once: no movers were looked for
 };
 

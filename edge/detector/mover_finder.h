@@ -1,4 +1,4 @@
-// Finds what differs from the aligned scene: movers before the ground.
+// Finds what differs from the aligned scene: objects that move in front of the ground.
 #pragma once
 
 #include <optional>
@@ -23,7 +23,7 @@ class MoverFinder {
   explicit MoverFinder(const MoverConfig& config) : config_(config) {}
 
   // `motion`: previous to present image, pixels of the reduced frame; empty: unknown, begins anew.
-  // Empty: the whole image changed at once (exposure, a cloud's edge, a cut).
+  // Empty if the whole image changed at once (exposure, a cloud's edge, a cut).
   std::optional<std::vector<Detection>> find(const tracker::ReducedFrame& frame, double time_s,
                                              const std::optional<Eigen::Matrix3d>& motion);
 

@@ -1,4 +1,4 @@
-// The scene without its movers, as the camera sees it now.
+// The scene without moving objects, as the camera sees it now.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,16 +7,17 @@
 
 namespace ols::detector {
 
-// The median of three images of the last second, each aligned with the present one: whoever moves
-// leaves its place in at least two of them. It starts after a moment, and needs no camera at rest.
+// The median of three images of the last second, each aligned with the present image. A moving
+// object covers a place in only one of them. It is available after a moment, also while the camera
+// moves.
 class SceneBackground {
  public:
   void clear() { kept_.clear(); }
-  // The camera turned: `motion` maps the previous image's pixels to the present one's.
+  // The camera turned: `motion` maps the previous image's pixels to the present image's.
   void advance(const Eigen::Matrix3d& motion);
-  // Whether three images are there, the oldest of at least `kLeastAge_s`.
+  // Whether there are three images, the oldest of which is at least `kLeastAge_s` old.
   bool ready(double time_s) const;
-  // Darkest and brightest level within a pixel of each place.
+  // The darkest and the brightest level within a pixel of each place.
   struct Range {
     cv::Mat low, high;
   };

@@ -17,14 +17,16 @@ namespace ols::detector {
 struct SpotConfig {
   double threshold_sd = 5.0;  // of the peak, in standard deviations of the ring around it
   double least_levels = 2.0;  // [grey levels] minimum peak
-  double most_clutter = 0.5;  // of the ring's deviations (their 95 %), as a part of the peak
-  int levels = 5;             // of the pyramid: each finds spots of twice the size
-  std::size_t most = 60;      // maximum number, strongest first
+  double most_clutter =
+      0.5;         // maximum of the ring's deviations (95 % quantile), as a share of the peak
+  int levels = 5;  // of the pyramid: each finds spots of twice the size
+  std::size_t most = 60;  // maximum number, strongest first
 };
 
 // The ring's own spread sets the threshold of each place (order-statistic constant false alarm
-// rate): a branch, a text, an edge of a cloud has its like around it, a target has not. A bright
-// target does not raise the threshold of its neighbour, because the order statistics ignore it.
+// rate): a branch, a text or the edge of a cloud has similar things around it, a target does not. A
+// bright target does not raise the threshold of its neighbour, because the order statistics ignore
+// it.
 class SpotFinder {
  public:
   explicit SpotFinder(const SpotConfig& config)

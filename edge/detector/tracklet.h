@@ -1,4 +1,4 @@
-// One object that may be: its motion in the image and what speaks for it.
+// A possible object: its motion in the image, and the evidence for it.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,14 +13,14 @@ class Tracklet {
  public:
   Tracklet(long id, const Detection& detection, double image_width_px);
 
-  // To the next image; `motion` maps the previous image's pixels to its.
+  // Predicts to the next image; `motion` maps the previous image's pixels to that image's.
   void predict(const Eigen::Matrix3d& motion, double interval_s);
   void update(const Detection& detection);
-  // Found again where the prediction does not lead: position and velocity begin anew.
+  // The object was found again away from its prediction: position and velocity begin anew.
   void leap(const Detection& detection, double image_width_px);
   void miss() { seen_ = false; }
 
-  // Of the same polarity and about the same size.
+  // Whether it has the same polarity and about the same size.
   bool resembles(const Detection& detection) const;
   // Squared distance in standard deviations, and the density of that deviation [1/px^2].
   double distance(const Detection& detection) const;
@@ -32,13 +32,13 @@ class Tracklet {
   void confirm();
   void doubt() { confirmed_ = false; }
   bool confirmed() const { return confirmed_; }
-  bool confirmed_clear() const { return confirmed_clear_; }  // when its detections were clear spots
+  bool confirmed_clear() const { return confirmed_clear_; }  // it was confirmed by clear spots
 
   long id() const { return id_; }
   const Eigen::Vector2d& pixel() const { return pixel_; }
   const Eigen::Vector2d& velocity_px_s() const { return velocity_px_s_; }
   double velocity_sd_px_s() const { return std::sqrt(covariance_(1, 1)); }  // each axis
-  // Its newest detection: where it was, and that one's own deviation, each axis.
+  // The newest detection: its pixel, and its standard deviation on each axis.
   const Eigen::Vector2d& measured_pixel() const { return measured_pixel_; }
   double measured_sd_px() const { return measured_sd_px_; }
   const Eigen::Vector2d& size_px() const { return size_px_; }
@@ -47,16 +47,17 @@ class Tracklet {
   double unseen_s() const { return unseen_s_; }
   double age_s() const { return age_s_; }
   bool mostly_clear() const { return clear_ > 0.7 * detections_; }
-  // How far it is from where it began, and by how long a way; the camera's motion taken away.
+  // Its distance from where it began, and the length of its path from there; both without the
+  // camera's motion.
   double way_px() const { return (pixel_ - origin_).norm(); }
   double path_px() const { return path_px_ + (pixel_ - mark_).norm(); }
-  // How far the scene moved in the image since it began, and how far at most it was in the image
-  // from where it began.
+  // scene_shift_px: how far the scene has moved in the image since the tracklet began. reach_px:
+  // the largest distance in the image from where it began.
   double scene_shift_px() const { return (origin_ - first_pixel_).norm(); }
   double reach_px() const { return reach_px_; }
-  // It has not moved relative to the scene in the last seconds.
+  // Whether it has not moved relative to the scene in the last seconds.
   bool rests() const { return rests_; }
-  // The camera's motion was unknown: what it moved until now means nothing.
+  // The camera's motion was unknown, so its own motion until now means nothing.
   void forget_way();
 
  private:
@@ -67,7 +68,7 @@ class Tracklet {
 
   long id_;
   Eigen::Vector2d pixel_, velocity_px_s_ = Eigen::Vector2d::Zero(), size_px_;
-  // Where it began, was a moment ago, and a second ago, carried along with the scene.
+  // Where it began, where it was a moment ago, and a second ago; all move with the scene.
   Eigen::Vector2d origin_, mark_, rest_;
   Eigen::Vector2d first_pixel_;  // where it began in the image
   Eigen::Vector2d measured_pixel_;

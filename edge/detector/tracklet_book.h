@@ -14,11 +14,12 @@ namespace ols::detector {
 struct TrackletConfig {
   double false_an_hour = 1.0;  // confirmed tracklets of clutter, for the whole camera
   double detected = 0.8;       // probability that an object is detected in an image
-  // Clutter repeats itself in successive images: one detection counts no more than this.
+  // Clutter repeats itself in successive images, so one detection counts at most this much.
   double most_log_ratio = 1.5;         // of a spot before clear sky
   double most_ground_log_ratio = 0.7;  // of anything else
-  double least_directness = 0.7;       // of what moves before the ground: way by path
-  double coast_s = 0.4;                // an object that is not seen remains this long
+  double least_directness =
+      0.7;               // of what moves in front of the ground: distance over length of the path
+  double coast_s = 0.4;  // an object that is not seen remains this long
 };
 
 class TrackletBook {
@@ -35,7 +36,7 @@ class TrackletBook {
   void leap(const std::vector<Detection>& detections, std::vector<bool>& taken);
   void weigh_hit(Tracklet& tracklet, const Detection& detection);
   void weigh_miss(Tracklet& tracklet);
-  // Of the sequential test in this tile [log].
+  // The threshold of the sequential test in this tile [log].
   double needed(const Tracklet& tracklet) const;
   void judge(Tracklet& tracklet) const;
   bool belongs_to_scene_or_camera(const Tracklet& tracklet) const;

@@ -11,8 +11,8 @@
 
 namespace ols::device {
 
-// A row of the table of a device's kinds. `Kind` has what every kind tells, and a function
-// `section()` that binds its keys to itself.
+// A row of the table of a device's kinds. `Kind` has what all kinds have in common, and a function
+// `section()` that binds a kind's keys to itself.
 template <class Kind>
 struct KindRow {
   const char* name;      // as `kind` says it
@@ -29,7 +29,7 @@ std::shared_ptr<Kind> make_kind() {
 template <class Kind>
 class ChosenKind {
  public:
-  // The first one is chosen at first, with its defaults.
+  // At first the first kind is chosen, with its defaults.
   explicit ChosenKind(const std::vector<KindRow<Kind>>& table) {
     for (const KindRow<Kind>& row : table) kinds_.push_back({row, row.make()});
   }
@@ -43,7 +43,7 @@ class ChosenKind {
     return dynamic_cast<Made*>(&**this);
   }
 
-  // Reading it chooses.
+  // The section; reading it chooses the kind.
   config::Section section(std::string name, std::string sentence) {
     config::Section section{std::move(name), std::move(sentence)};
     section.choose = [this](std::size_t chosen) { chosen_ = chosen; };

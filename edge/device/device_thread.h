@@ -22,7 +22,7 @@ class DeviceThread {
     std::string opening;         // the report's text until the first attempt to open has ended
     double first_pause_s = 0.2;  // before the device is reopened; doubles with each failure
     double max_pause_s = 5.0;
-    // Makes an alarm of a failure; null: its owner does.
+    // Makes an alarm of a failure; null: the owner does.
     Alarm (*alarm)(const std::string& failure) = nullptr;
   };
   // Opens the device, calls opened() and serves the device until the stop is requested. Throws
@@ -46,15 +46,15 @@ class DeviceThread {
   // Call once; not at all if the device is not configured.
   void start(Session session);
 
-  // For the session: the device is open; the device works, so the next pause is short again.
+  // For the session: the device is open; the device works, so that the next pause is short again.
   void opened();
   void works();
   // The fault of an open device, counted when it begins; empty: no fault.
   void set_fault(const std::string& fault);
 
   Link link() const;
-  // Name and errors, and state, text and alarms as far as they do not depend on the device's data.
-  // kOk: open and without a fault.
+  // Name and errors; and state, text and alarms as far as they do not depend on the device's data.
+  // kOk: the device is open and has no fault.
   DeviceReport report() const;
 
  private:

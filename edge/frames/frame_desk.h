@@ -1,5 +1,5 @@
-// The outputs that contain the unit's counts: requested frames, from the request to parts that fit
-// into datagrams; and sightings.
+// The outputs that contain the unit's counts: sightings, and requested frames, from the request to
+// the parts that fit into datagrams.
 #pragma once
 
 #include <cstdint>

@@ -18,7 +18,7 @@ struct FrameRequest {
   std::int64_t boot_id = 0, sequence = 0;  // of the request
   std::optional<PanTilt> at;               // reported angles; nullopt: wherever the unit stands
   double tolerance_rad = 0.0;
-  double still_s = 0.0;  // time for which the unit has stood at mid-exposure; 0: it may move
+  double still_s = 0.0;  // how long the unit must have stood at mid-exposure; 0: it may move
   bool lossless = true;
   double expires_s = 0.0;  // station's monotonic clock
 };
@@ -44,11 +44,11 @@ class FrameService {
 
   // The size of a count [rad] as the unit reports it; without it no request can be answered.
   void set_count(const PanTilt& count_rad);
-  // Returns why the request is refused; empty: accepted. A sender has one request at a time: a
-  // newer one replaces it.
+  // Returns why the request is refused; empty: accepted. A sender has one request at a time; a
+  // newer request replaces it.
   std::string request(const FrameRequest& wanted);
   // Whether angles are in the unit's reference. While they are not, samples and frames are dropped,
-  // and earlier ones are forgotten: they are not in the same frame of reference as later ones.
+  // and earlier ones are forgotten, because later ones will be in another frame of reference.
   void set_trusted(bool trusted);
   // In time order.
   void on_angles(const mount::AngleSample& sample);

@@ -37,11 +37,11 @@ class PointingModel {
   void set_limits(const mount::Limits& limits);
   // In time order.
   void add(const mount::AngleSample& sample);
-  // Of a motorised lens. geometry() has the camera at the newest.
+  // Takes a zoom position of a motorised lens. geometry() has the camera at the newest position.
   void add(const lens::ZoomSample& sample);
   void set_lens(const lens::ByAxis<std::optional<double>>& positions) { lens_ = positions; }
   const lens::ByAxis<std::optional<double>>& lens() const { return lens_; }
-  // Earlier and later angles are not in the same frame of reference.
+  // Call when the unit's zero may have changed: discards all earlier angles.
   void forget_angles();
 
   // Uses another geometry from now on, with or without a calibration. The pose is that of the
@@ -49,8 +49,8 @@ class PointingModel {
   void use(const StationGeometry& geometry, const std::optional<StationCalibration>& calibration);
   // Adds these errors to those of the calibration's setup. No effect without a calibration.
   void doubt_setup(double heading_sd_rad, double tilt_sd_rad);
-  // Whether a calibration is in use. It is not while the size of the unit's counts differs from the
-  // calibrated one.
+  // Whether a calibration is in use. It is not in use while the size of the unit's counts differs
+  // from the calibrated size.
   bool calibrated() const { return unit_ && unit_->fits(); }
 
   // With the present pose.
@@ -60,7 +60,7 @@ class PointingModel {
   std::int64_t pose_revision() const { return pose_revision_; }
 
   std::optional<UnitAngles> angles_at(double time_s) const;
-  // Of the newest sample; 0 before the first.
+  // The time of the newest sample; 0 before the first.
   PanTilt angles_now() const;
   std::optional<mount::AngleSample> newest_angles() const { return history_.newest(); }
   std::optional<PanTilt> reported_angles() const {
@@ -76,19 +76,20 @@ class PointingModel {
   std::optional<PanTilt> centring(const Eigen::Vector2d& pixel, double time_s) const;
   // Maps pixels at one instant to pixels at another, for a scene at infinity.
   std::optional<Eigen::Matrix3d> homography(double from_s, double to_s) const;
-  // The line of sight of a pixel, with angles and their covariance from the unit.
+  // The line of sight of a pixel, from the unit's angles and their covariance.
   std::optional<LineOfSight> sight(PixelSight pixel, const UnitAngles& unit) const;
   // The pixel of a direction at infinity.
   std::optional<Eigen::Vector2d> pixel_of(const PanTilt& angles,
                                           const AzimuthElevation& direction) const;
   bool in_picture(const Eigen::Vector2d& pixel) const;
 
-  // Converts reported angles to those of the same direction that the unit reaches on the shortest
-  // way, from its position or from `here`. nullopt: it cannot point there.
+  // Converts reported angles to the angles of the same direction that the unit reaches by the
+  // shortest way, from its position or from `here`. nullopt: it cannot point there.
   std::optional<PanTilt> reachable(const PanTilt& angles) const;
   std::optional<PanTilt> reachable_from(const PanTilt& here, PanTilt angles) const;
   // The reported angles that put a direction on the optical axis; nullopt: the unit cannot point
-  // there. The second form ignores the travel, and comes from the reported angles `here`.
+  // there. The second form ignores the travel, and assumes that the unit comes from the reported
+  // angles `here`.
   std::optional<PanTilt> aim(const AzimuthElevation& direction) const;
   std::optional<PanTilt> aim_from(const PanTilt& here, const AzimuthElevation& direction) const;
 

@@ -1,5 +1,5 @@
-// The lines of a station's GPIO in real time: a thread opens them, and opens them again after a
-// failure, and waits for their edges.
+// The lines of a station's GPIO in real time. A thread opens them, reopens them after a failure,
+// and waits for their edges.
 #pragma once
 
 #include <memory>

@@ -1,4 +1,4 @@
-// What a station's [gpio] says.
+// The configuration of a station's [gpio].
 #pragma once
 
 #include <string>
@@ -16,7 +16,8 @@ struct GpioConfig {
   // The level of the opened contact. False: high (it closes to ground, and the line is pulled up).
   // True: low (it closes to the supply, and the line is pulled down).
   bool stop_active_low = false;
-  double stop_release_s = 0.05;  // a release counts after this stable time; a press at once
+  double stop_release_s =
+      0.05;  // a release counts after it was stable for this time; a press counts at once
   // The button at the station that re-arms it after an emergency stop; normally open.
   int rearm_line = -1;            // -1: none
   bool rearm_active_low = true;   // closes to ground (pulled up); false: to the supply

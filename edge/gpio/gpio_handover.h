@@ -1,6 +1,6 @@
-// The station's GPIO, between the control loop and whoever has its lines: Gpio, whose thread waits
-// for their edges. Holds what is decided: about a status LED, the inputs of emergency stop and
-// re-arming, an optional camera trigger.
+// The station's GPIO, between the control loop and the owner of its lines (Gpio, whose thread waits
+// for their edges). Decides about the status LED, the inputs of emergency stop and re-arming, and
+// the optional camera trigger.
 //
 // The emergency stop in software only assists a hardware stop that cuts the power of the motors
 // (docs/field-guide.md).
@@ -42,11 +42,11 @@ class GpioHandover {
   bool stop_pressed() const;
   device::DeviceReport report() const;
 
-  // For whoever has the lines, in one thread. They have been opened, or have failed.
+  // For the owner of the lines, in one thread. The lines were opened, or have failed.
   void opened();
   void failed(const std::string& what);
-  // At each edge and wake(), and at the instant that it returns [s, CLOCK_MONOTONIC]. Throws as
-  // GpioLines does.
+  // Call at each edge, at each wake(), and at the instant that it returns [s, CLOCK_MONOTONIC].
+  // Throws as GpioLines does.
   double turn(GpioLines& lines);
   void leave(GpioLines& lines) const;
 

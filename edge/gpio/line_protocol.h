@@ -21,8 +21,8 @@ class LineProtocol {
   // The lines of interest; levels of other lines are ignored.
   explicit LineProtocol(std::vector<int> inputs) : inputs_(std::move(inputs)) {}
 
-  // The levels that these bytes complete, oldest first. nullopt if a message is no level; the
-  // connection, and the use of this object, then ends.
+  // The levels that these bytes complete, oldest first. nullopt if a message is not a level: end
+  // the connection, and do not use this object any more.
   std::optional<std::vector<Level>> receive(std::string_view bytes);
 
  private:

@@ -1,5 +1,5 @@
 // The button that re-arms a station after an emergency stop. It must be seen open, and then be held
-// for a while: neither a stuck button nor a broken wire nor a brief touch re-arms. Pure.
+// for a while, so that a stuck button, a broken wire or a brief touch does not re-arm. Pure.
 #pragma once
 
 #include <optional>
@@ -16,7 +16,7 @@ class RearmInput {
   void interrupted();
   // True once each time the button was held long enough.
   bool take(double now_s);
-  // When take() becomes true without another edge; nullopt: not.
+  // The instant at which take() becomes true without another edge; nullopt: it does not.
   std::optional<double> due_s() const;
 
  private:

@@ -19,7 +19,7 @@ class StopInput {
   // nullopt while unknown: before the first level, and while the first level is a release that is
   // not stable yet.
   std::optional<bool> pressed(double now_s) const;
-  // When pressed() becomes false without another edge; nullopt: not.
+  // The instant at which pressed() becomes false without another edge; nullopt: it does not.
   std::optional<double> due_s() const;
 
  private:

@@ -1,4 +1,4 @@
-// What a station's [lens_motor] says.
+// The configuration of a station's [lens_motor].
 #pragma once
 
 #include <string>

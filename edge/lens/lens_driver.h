@@ -1,5 +1,5 @@
 // Drives a lens over VISCA: one request at a time, orders before questions. Pure: bytes and time
-// in, bytes and zoom samples out. edge/lens/lens_motor.* puts it on a serial port.
+// in, bytes and zoom samples out. edge/lens/lens_motor.* connects it to a serial port.
 #pragma once
 
 #include <deque>
@@ -22,11 +22,11 @@ class LensDriver {
   // Advances time, and returns the bytes to write, often none. Call every few milliseconds.
   std::string step(double time_s);
 
-  // The newest order of an axis replaces the one before. A rate ends at its time, whatever happens
-  // to its sender; the axis then stays where it is.
+  // The newest order for an axis replaces the previous order. A rate ends at its time, even if its
+  // sender is lost; the axis then stays where it is.
   void order(const LensOrder& order);
 
-  // The port was opened again: asks everything again, and forgets the orders.
+  // The port was reopened: asks everything again, and forgets the orders.
   void restart();
   // True once after the lens left several consecutive requests unanswered: open the port again.
   bool take_link_loss();

@@ -1,5 +1,5 @@
-// The motorised lens, between the control loop and whoever moves its bytes: LensMotor on a serial
-// line. Holds the driver. Nothing throws.
+// The motorised lens, between the control loop and the owner of its line (LensMotor, on a serial
+// line). Holds the driver. Nothing throws.
 #pragma once
 
 #include <mutex>
@@ -29,15 +29,15 @@ class LensHandover {
   ByAxis<std::optional<double>> positions() const;
   device::DeviceReport report() const;
 
-  // For whoever moves the bytes. A turn: what has arrived; what is to be sent, whether the lens has
-  // told its zoom, and whether the line is to be opened again.
+  // For the owner of the line. One turn takes what has arrived; it returns what to send, whether
+  // the lens has reported its zoom, and whether to reopen the line.
   struct Turn {
     std::string request;
     bool works = false;
     bool link_lost = false;
   };
   Turn turn(const std::string& arrived);
-  // The line was opened again: the lens may be another one.
+  // The line was reopened: it may be another lens.
   void restart();
 
  private:

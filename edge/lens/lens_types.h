@@ -32,7 +32,7 @@ struct AxisOrder {
   double until_s = 0.0;
 };
 
-// Orders to the named axes; the others continue.
+// Orders to some axes; the other axes continue.
 struct LensOrder {
   ByAxis<std::optional<AxisOrder>> axes;
 };

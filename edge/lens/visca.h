@@ -1,6 +1,7 @@
 // Sony's VISCA, the part that moves a lens (sources: docs/overview.md). Packets have 3 to 16 bytes
-// and end with FF. Those to device 1 begin with 81, those from it with 90. A command is answered by
-// an acknowledgement at once and a completion at its end, an inquiry by its value alone. Pure.
+// and end with FF. Packets to device 1 begin with 81, packets from it with 90. A command is
+// answered twice: by an acknowledgement at once, and by a completion at its end. An inquiry is
+// answered once, by its value. Pure.
 #pragma once
 
 #include <cstdint>
@@ -46,7 +47,7 @@ std::optional<double> position_in(Axis axis, std::string_view data);
 // "vendor 0020, model 0466, ROM 0105".
 std::optional<std::string> version_in(std::string_view data);
 
-// Cuts the received bytes into packets. An overlong one counts as garbled.
+// Cuts the received bytes into packets. An overlong packet counts as garbled.
 class Packets {
  public:
   std::vector<std::string> receive(std::string_view bytes);

@@ -54,7 +54,8 @@ ols_msg::preview_t to_message(const video::PreviewPicture& picture, const camera
 ols_msg::frame_part_t to_message(const FramePart& part, const Sender& sender,
                                  std::int64_t sequence);
 
-// What is said to a command. `reason`: of its refusal, as it is counted; empty: it is carried out.
+// The answer to a command. `reason`: why it is refused (the name of the counter); empty: it is
+// carried out.
 struct Answer {
   CommandId command;
   std::string reason{}, detail{};

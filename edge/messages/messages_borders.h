@@ -1,4 +1,4 @@
-// Writes the borders of where a unit may point into a station's status.
+// Writes the borders of the region where a unit may point into a station's status.
 #pragma once
 
 #include <vector>

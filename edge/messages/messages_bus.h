@@ -50,11 +50,11 @@ class StationBus {
   // waiting for it.
   void receive();
   void take(const BusMessage& message);
-  // True: the message is a stop. From any thread; end_turn() carries it out.
+  // True if the message is a stop; end_turn() carries it out. Call from any thread.
   bool take_stop(const BusMessage& message);
   // Call after the datagrams of a turn.
   void end_turn();
-  // To the commands since the last call; receive() sends them.
+  // The answers to the commands since the last call; receive() sends them.
   std::vector<Answer> take_answers() { return std::exchange(answers_, {}); }
 
   // Why there is no connection; empty: connected.
@@ -75,7 +75,7 @@ class StationBus {
   void send_preview(const camera::Frame& frame, const std::optional<cv::Rect2d>& box);
 
  private:
-  // What becomes of a command. `reason`: of its refusal, as it is counted.
+  // The result of a command. `reason`: why it was refused (the name of the counter).
   struct Verdict {
     std::string reason{}, detail{};
     bool is_open = false;  // decided at the turn's end

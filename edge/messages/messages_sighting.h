@@ -6,7 +6,7 @@
 
 namespace ols::station {
 
-// Everything but the sender, the time and the state of its clock.
+// Everything except the sender, the time and the state of the sender's clock.
 void fill_sighting(const Sighting& sighting, ols_msg::sighting_t& message);
 
 }  // namespace ols::station

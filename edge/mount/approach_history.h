@@ -15,12 +15,13 @@ struct Approach {
 
 class ApproachHistory {
  public:
-  // `step`: of the unit's counters [rad]. A motion of less than a count and a half is noise: a
-  // standing axis whose readings are averages of two counts.
+  // `step`: of the unit's counters [rad]. A motion of less than a count and a half is noise: so
+  // much appears when a standing axis reports averages of two counts.
   explicit ApproachHistory(const PanTilt& step) : step_(step) {}
   void set_step(const PanTilt& step) { step_ = step; }
 
-  // In time order. Changes older than ten seconds are forgotten, except the one still in force.
+  // In time order. Changes older than ten seconds are forgotten, except the last one, which is
+  // still in force.
   void add(double time_s, const PanTilt& reported);
   void clear();
 

@@ -32,8 +32,8 @@ bool blocked(const std::vector<KeepOut>& regions, const PanTilt& at);
 
 // The corners of the shortest path from `from` to `to` within `travel` that crosses no region: the
 // last corner is `to`, and the box between neighbouring corners is free. Nothing if there is no
-// such path. A free direct move has one corner. From inside a region the first corner is straight
-// out.
+// such path. A free direct move has one corner. From inside a region, the first corner is the
+// straight way out.
 std::optional<std::vector<PanTilt>> way_round(const AngleBox& travel,
                                               const std::vector<KeepOut>& regions,
                                               const PanTilt& from, const PanTilt& to);

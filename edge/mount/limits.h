@@ -20,9 +20,9 @@ AngleBox travel(const Limits& limits);
 
 enum class Reach { kDirect, kLongWayRound, kUnreachable };
 
-// Whether the mount can point there. Pan angles that differ by 2 pi are the same direction: sets
-// `angles` to the reachable one with the shortest path from `now`. kLongWayRound: a turn in the
-// other direction, or around a keep-out region.
+// Whether the mount can point there. Pan angles that differ by 2 pi are the same direction. Sets
+// `angles` to the one that is reachable by the shortest path from `now`. kLongWayRound: a turn in
+// the other direction, or around a keep-out region.
 Reach reach(const Limits& limits, const PanTilt& now, PanTilt& angles);
 
 }  // namespace ols::mount

@@ -48,12 +48,12 @@ class Mount {
   virtual std::uint64_t homings() const = 0;
   // A person confirms the reference.
   virtual void reference_ok() = 0;
-  // Restores the doubt that an earlier process persisted; and the doubt to persist for the next
-  // one.
+  // Restores the doubt that an earlier process saved.
   virtual void restore_doubt(const std::optional<ReferenceDoubt>& doubt) = 0;
+  // The doubt to save for the next process.
   virtual std::optional<ReferenceDoubt> doubt_to_persist() const = 0;
 
-  // Named "ptu", whatever its kind: by that name the mount is found in a station's status.
+  // Named "ptu" for every kind of mount, because that is its name in a station's status.
   virtual device::DeviceReport report() const = 0;
 };
 

@@ -1,4 +1,5 @@
-// A kind of mount: its keys in [mount], what a station knows of it beforehand, and what opens it.
+// A kind of mount: its keys in [mount], what a station knows before the mount is found, and how it
+// is opened.
 #pragma once
 
 #include <memory>
@@ -22,7 +23,7 @@ class MountKind {
   virtual ~MountKind() = default;
   virtual config::Section section() = 0;  // refers to this object
   virtual Traits traits() const = 0;
-  virtual std::string words() const = 0;  // what is configured, for a person
+  virtual std::string words() const = 0;  // what is configured, in words
   // Starts to look for the mount and returns at once.
   virtual std::unique_ptr<Mount> open() const = 0;
 };

@@ -17,7 +17,7 @@ enum class Reference {
 };
 
 // A doubted reference is trusted again after a complete homing, or after an operator's reference-ok
-// where that is accepted. A trusted reference is the absence of this struct.
+// where that is accepted. A trusted reference has no such struct.
 struct ReferenceDoubt {
   bool homing_broken_off = false;  // or still under way; a homing is not repeated automatically
   // Some units do not know their step size until they are homed: reference-ok is not accepted.
@@ -26,7 +26,8 @@ struct ReferenceDoubt {
   bool operator==(const ReferenceDoubt&) const = default;
 };
 
-// All words of the persisted form, which is one word. The first stands for a trusted reference.
+// All possible words of the persisted form, which is a single word. The first stands for a trusted
+// reference.
 const std::vector<std::string>& doubt_words();
 std::string to_word(const std::optional<ReferenceDoubt>& doubt);
 // A word that is not one of doubt_words() counts as the most serious doubt.

@@ -1,4 +1,4 @@
-// Runs the detector in its own thread, behind the control loop: an image takes it tens of
+// Runs the detector in its own thread, behind the control loop, because an image takes tens of
 // milliseconds.
 #pragma once
 
@@ -19,10 +19,11 @@ class DetectorThread {
   DetectorThread(const DetectorThread&) = delete;
   DetectorThread& operator=(const DetectorThread&) = delete;
 
-  // Never waits. One picture at a time: the next one after take() has given the last one's result.
+  // Never waits. Give one picture at a time: the next one after take() has returned the result of
+  // the last.
   void give(detector::Picture picture);
   std::optional<detector::Found> take();
-  double picture_s() const { return picture_s_; }  // that a picture takes, smoothed
+  double picture_s() const { return picture_s_; }  // how long a picture takes, smoothed
 
  private:
   void work(const std::stop_token& stop);

@@ -24,7 +24,7 @@ namespace ols::station {
 using OpenGpio = std::function<std::unique_ptr<gpio::GpioHandover>(gpio::GpioHandover::OnStop,
                                                                    gpio::GpioHandover::OnRearm)>;
 
-// The devices that the configuration chooses, and in whose place a simulation has its own.
+// Makes the devices that the configuration chooses. A simulation makes its own instead.
 struct ChosenDevices {
   // Null if not configured. `open_gpio` calls back from a thread of its own.
   OpenGpio open_gpio;
@@ -32,7 +32,7 @@ struct ChosenDevices {
   std::unique_ptr<sensors::Inclinometer> inclinometer;
   std::unique_ptr<sensors::Gnss> gnss;
   std::unique_ptr<camera::Camera> camera;
-  // The first to be destroyed: its destructor halts it, and others may block.
+  // Destroyed first: its destructor halts the mount, and other destructors may block.
   std::unique_ptr<mount::Mount> mount;
 };
 using OpenDevices = std::function<ChosenDevices(const StationSettings&)>;

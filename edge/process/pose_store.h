@@ -1,5 +1,5 @@
-// Persists the sensors' pose in a file, so that a station that restarts while the receiver has no
-// fix has a position.
+// Persists the sensors' pose in a file, so that a station has a position even if it restarts while
+// the receiver has no fix.
 #pragma once
 
 #include <string>

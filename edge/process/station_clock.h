@@ -10,7 +10,7 @@
 
 namespace ols::station {
 
-// What has a service said of the clock since the last call?
+// What a service has said about the clock since the last call.
 using TimeService = std::function<std::optional<clock::ClockReading>()>;
 // Kernel and chrony of this host, asked every few seconds.
 TimeService host_time_service();
@@ -20,7 +20,7 @@ class StationClock {
   StationClock(const clock::ClockWatch::Config& config, TimeService service)
       : watch_(config), service_(std::move(service)) {}
 
-  // In every turn, before anything is published.
+  // Call in every turn, before anything is published.
   clock::ClockPair look();
   clock::ClockQuality quality(double now_s) const { return watch_.quality(now_s); }
   // By the clocks of the last look().

@@ -25,7 +25,7 @@ class StationJournal {
     std::string last_refusal;
     std::uint64_t refusals = 0;
   };
-  // Fills in the report's last error, and takes out the alarms of devices that are only coming up.
+  // Sets the report's last error, and removes the alarms of devices that are only starting.
   void note(const clock::ClockPair& now, const Bus& bus, StationReport& report);
 
  private:

@@ -20,7 +20,7 @@
 
 namespace ols::station {
 
-// What the process asks of its surroundings.
+// What the process needs from its surroundings.
 struct Outside {
   OpenDevices open_devices;
   TimeService time_service;
@@ -72,10 +72,10 @@ class StationProcess {
     double trigger_s = 0.0, status_s = 0.0, preview_s = 0.0;
   };
 
-  CalibrationSupervisor calibration_;  // and the settings with it
+  CalibrationSupervisor calibration_;  // holds the settings, too
   ServiceNotifier service_;
   StationClock clock_;
-  std::optional<KeptPose> pose_;  // always there; another one with another calibration
+  std::optional<KeptPose> pose_;  // always set; replaced when the calibration changes
   Station station_;
   CommandTurn command_turn_;
   StationBus bus_;

@@ -18,10 +18,10 @@ class AngleIntake {
  public:
   AngleIntake(const PtuConfig& config, const PtuFacts& facts);
 
-  // Commands were sent that change the unit's speed by this [rad/s].
+  // Notes that commands were sent that change the unit's speed by this [rad/s].
   void commanded(const PanTilt& change_rad_s);
-  // Takes the positions of a complete cycle. `change_rad_s`: by how much its commands change the
-  // speed, perhaps not yet.
+  // Takes the positions of a complete cycle. `change_rad_s`: the change of speed that its commands
+  // cause; the unit may not have executed it yet.
   PositionCheck::Verdict take(const PollCycle& done, const PanTilt& change_rad_s, double time_s);
 
   // The angles at this time, or the newest if no sample covers it; nothing before the first sample.

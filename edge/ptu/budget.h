@@ -14,8 +14,8 @@
 //
 // One request is under way at a time, so that replies can be matched and a position's instant is
 // known; the period is poll_interval_s or the time on the line, whichever is longer. Only commands
-// that changed are sent. 25 ms need 38400 baud. With one reading of each position 9600 baud would
-// carry 21 cycles a second instead of 13, but a wrong digit would go unnoticed.
+// that changed are sent. 25 ms need 38400 baud. With one reading of each position, 9600 baud would
+// carry 21 cycles a second instead of 13; but a wrong digit would go unnoticed.
 #pragma once
 
 namespace ols::ptu {

@@ -44,7 +44,8 @@ class PtuRequest {
   // Command `index` with its delimiter.
   std::string_view command(std::size_t index) const;
   bool empty() const { return ends_.empty(); }
-  // Bytes up to and including the delimiter of command `index`, which the unit needs to execute it.
+  // Number of bytes up to and including the delimiter of command `index`: what the unit needs to
+  // execute it.
   std::size_t end_of(std::size_t index) const { return ends_.at(index); }
 
  private:
@@ -71,8 +72,7 @@ struct PtuReply {
 
 // The meaning of `! text`.
 enum class PtuComplaint {
-  kPositionLimit,  // Maximum, Minimum allowable Pan position is N: its travel differs from the one
-                   // that was read
+  kPositionLimit,  // Maximum, Minimum allowable Pan position is N: its travel is not what was read
   kSpeedLimit,     // Pan speed cannot exceed N; Motor speed cannot be less than N
   kNotReferenced,  // Axis Error: the axis was not homed since power-up
   kIllegal,        // Illegal Command Entered: corrupted on the line, or unknown to this firmware
@@ -98,8 +98,8 @@ struct PtuLimitHits {
 // tokens (!P !T limit hits; !D #P #T $P $T) are discarded wherever they occur.
 class PtuReplyParser {
  public:
-  // `time_s`: an instant by which all of the bytes had arrived; `byte_s`: duration of one on the
-  // line (for PtuReply::began_s).
+  // `time_s`: an instant by which all bytes had arrived. `byte_s`: duration of a byte on the line
+  // (for PtuReply::began_s).
   std::vector<PtuReply> feed(std::string_view bytes, double time_s = 0.0, double byte_s = 0.0);
 
   // Discards an incomplete line.

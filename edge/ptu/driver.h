@@ -25,8 +25,8 @@ class PtuDriver {
   PtuDriver(const PtuDriver&) = delete;  // its phases refer to it
   PtuDriver& operator=(const PtuDriver&) = delete;
 
-  // Bytes that arrived, with an instant [s, monotonic] by which all of them had arrived: the moment
-  // after the read.
+  // Takes bytes, with an instant [s, monotonic] by which all of them had arrived: the moment after
+  // the read.
   void receive(std::string_view bytes, double time_s);
 
   // Advances time: returns bytes to write now (may be empty). Call at least every few milliseconds.
@@ -40,7 +40,7 @@ class PtuDriver {
   // emergency and whenever the unit or its reference is lost.
   void set_goal(const std::optional<mount::Goal>& goal);
 
-  // Halts the unit: sends halts until it is seen to stand, and no other motion command before
+  // Halts the unit: sends halts until it is seen to stand. Sends no other motion command before
   // clear_emergency(). Returns the bytes to write at once. Before writing them, drop all bytes that
   // are not on the line yet.
   std::string emergency_halt(double time_s);
@@ -50,7 +50,7 @@ class PtuDriver {
   // Halts the unit, waits until it stands and homes it: R sweeps the whole travel. Ignored in an
   // emergency, and abandoned when the unit does not answer.
   void home(double time_s);
-  // Abandons homing. A unit that already homes is sent a halt, which some units ignore.
+  // Abandons homing. If the unit is already homing, it is sent a halt, which some units ignore.
   void stop_homing(double time_s);
   // Whether PtuRehome::kWhenUnreferenced applies now. home() is always possible.
   void allow_rehoming(bool allowed) { rehoming_allowed_ = allowed; }
@@ -79,13 +79,13 @@ class PtuDriver {
   bool homing() const;                        // from home() until the unit is ready again
   mount::Reference reference() const;
   std::optional<PtuDoubtCause> doubt() const { return reference_.cause(); }
-  // For the next process, if this one ends now.
+  // The doubt for the next process, if this process ends now.
   std::optional<mount::ReferenceDoubt> doubt_to_persist() const;
   std::optional<PtuLoweredSpeed> lowered_speed() const;
   bool standing() const;  // seen not to move
 
  private:
-  // Each phase owns what exists only in it.
+  // Each phase owns the data that exist only in that phase.
   struct NotStarted {};
   struct Homing {
     std::optional<double> ordered_s = {};  // when R was sent
@@ -95,11 +95,11 @@ class PtuDriver {
     bool answered;  // the unit had answered at this baud rate
     std::optional<int> listening_baud = {};
   };
-  // The furthest that the unit has come since the start.
+  // The furthest phase that the unit has reached since the start.
   enum class Progress { kNone, kFaulted, kReady };
 
-  // How long bytes may have waited before they were read: the longer of the last two pauses between
-  // calls.
+  // The longest time that bytes may have waited before they were read: the longer of the last two
+  // pauses between calls.
   struct ReadDelay {
     void note_call(double time_s) {
       const double pause_s = std::max(0.0, time_s - called_s);
@@ -118,7 +118,7 @@ class PtuDriver {
   void take(Homing& phase, const PtuReply& reply, double time_s);
   void take(const PtuReply& reply, double time_s);
 
-  // Changes of the phase: the object of the phase before is gone afterwards.
+  // Changes of the phase. Afterwards the object of the previous phase is gone.
   void start(PtuStarting::Purpose purpose, double time_s);
   void fault(double time_s, std::string reason);
   bool home_if(bool wanted);

@@ -16,8 +16,8 @@ enum class PtuRehome {
   kWhenUnreferenced,  // R, once after each loss
 };
 
-// The unit accelerates less than configured, so the driver limits its speed, so that it stops in
-// time.
+// The unit accelerates less than configured. The driver therefore limits its speed, so that it
+// still stops in time.
 struct PtuLoweredSpeed {
   double acceleration_rad_s2, speed_rad_s;
 };
@@ -32,8 +32,8 @@ struct PtuConfig {
   double environment_interval_s = 5.0;  // supply voltage and temperatures; 0: never
   double supply_min_V = 11.5;           // a lower one is an alarm
   PtuRehome rehome = PtuRehome::kNever;
-  // As the unit is set when delivered: it homes when it is switched on, and does not answer until
-  // it has. Its reference is therefore trusted when it first answers the driver.
+  // True as delivered: the unit homes when it is switched on, and does not answer before it has
+  // finished. Its reference is therefore trusted when it first answers the driver.
   bool homes_at_power_up = true;
   bool home_despite_keep_out = false;                  // on command
   char step_mode = 0, hold_power = 0, move_power = 0;  // PtuStartOptions

@@ -1,6 +1,6 @@
 // If a ready unit begins to echo or to reply verbosely, switches that off without a restart. The
 // unit may have lost power, and may now be in velocity mode or have other ramps. So it gets no
-// motion command until its answers show that it is not and has not. Pure.
+// motion command until its answers show that mode and ramps are right. Pure.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ class ModeCheck {
   static PtuRequest commands();
   static PtuRequest questions();
 
-  // A cycle is sent, and its replies are complete.
+  // Call when a cycle is sent, and when its replies are complete.
   void begin_cycle() { checking_ = needed_; }
   enum class Result {
     kUnchanged,

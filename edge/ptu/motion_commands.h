@@ -19,7 +19,7 @@ class MotionCommands {
   // Uses the narrower bounds of configuration and unit. Call only without a limits_conflict().
   MotionCommands(const PtuConfig& config, const PtuFacts& facts);
 
-  // Angles and rates of the unit as far as they are known.
+  // The unit's angles and rates, as far as they are known.
   struct Now {
     PanTilt angles;
     PanTilt rate_rad_s;
@@ -35,7 +35,7 @@ class MotionCommands {
   // The unit may not have received the last commands.
   void send_all_again();
 
-  // By how much the last commands change the speeds of the axes.
+  // The change of the axes' speeds by the last commands.
   const PanTilt& speed_change_rad_s() const { return change_; }
 
   const mount::Limits& limits() const { return limits_; }

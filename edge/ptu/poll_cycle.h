@@ -5,9 +5,10 @@
 //
 //   PP <commands> TP <commands> TP <commands> PP <questions>
 //
-// A wrong digit then shows as a contradiction. The order is such that replies which are off by one
-// do not confirm each other. Commands stand between the queries: their short replies keep the line
-// free for the position that follows, so that its instant is known well.
+// A wrong digit then shows as a contradiction. The order is chosen so that replies do not confirm
+// each other if one is missing and the rest shift. The commands are between the queries. Their
+// short replies keep the line free for the position that follows, so that its instant is known
+// well.
 #pragma once
 
 #include <array>
@@ -46,7 +47,8 @@ class PollCycle {
   // Echo or verbose replies are on: the unit has forgotten its modes.
   bool modes_forgotten() const { return modes_forgotten_; }
 
-  // From the end of the first query to the start of its reply, which no other reply delays.
+  // The time from the end of the first query to the start of its reply. No other reply delays this
+  // one.
   double latency_s() const { return latency_s_; }
 
   const PtuReadings& pan() const { return pan_.readings; }

@@ -1,5 +1,5 @@
-// The exchange with a ready unit: one poll cycle is under way at a time, and the next one goes out
-// at its time and onto a quiet line. Pure.
+// The exchange with a ready unit. One poll cycle is under way at a time. The next one goes out when
+// it is due and the line is quiet. Pure.
 #pragma once
 
 #include <optional>
@@ -24,9 +24,9 @@ class Polling {
   // No bytes since then.
   bool silent_for(double duration_s, double time_s) const;
 
-  // A reply of the cycle that is under way: the cycle, once it is complete and can be used.
+  // Takes a reply of the cycle under way. Returns the cycle once it is complete and usable.
   std::optional<PollCycle> take(const PtuReply& reply, double late_s);
-  // A reply while no cycle is under way: the next one waits for a quiet line.
+  // Takes a reply while no cycle is under way: the next cycle then waits for a quiet line.
   void unexpected_reply();
 
   enum class Failure { kGarbled, kRepliesMissing };

@@ -2,8 +2,8 @@
 // Pure.
 //
 // Each position is read twice in a cycle. The two must differ by the motion between their instants;
-// an impossible pair is rejected. An accepted pair is averaged, with a standard deviation that
-// grows with the difference of the two, so that it covers an error that was not detected.
+// an impossible pair is rejected. An accepted pair is averaged. The standard deviation of the
+// average grows with the difference of the two, so that it covers an error that was not detected.
 #pragma once
 
 #include <optional>
@@ -30,9 +30,9 @@ class PositionCheck {
   Verdict take(const PtuReadings& pan, const PtuReadings& tilt, const PanTilt& commanded_rad_s2);
   const mount::AngleSample& sample() const { return sample_; }
 
-  // Over the last two accepted pairs; 0 when not known.
+  // The rate over the last two accepted pairs; 0 when not known.
   PanTilt rate_rad_s() const;
-  // Both axes were seen not to move.
+  // Whether both axes were seen not to move.
   bool standing() const;
 
  private:

@@ -1,5 +1,5 @@
-// The mount that is a FLIR unit, between the control loop and whoever moves its bytes: PtuThread on
-// a serial line. Holds the driver. All times are CLOCK_MONOTONIC in seconds.
+// A FLIR unit as a mount, between the control loop and the owner of its line (PtuThread, on a
+// serial line). Holds the driver. All times are CLOCK_MONOTONIC in seconds.
 #pragma once
 
 #include <atomic>
@@ -50,10 +50,10 @@ class PtuHandover : public mount::Mount {
     bool link_lost = false;
   };
   Turn turn(const std::string& arrived);
-  // The halt to send before everything else; nothing: no emergency has begun since the last call.
+  // The halt to send before anything else; nothing: no emergency has begun since the last call.
   std::optional<std::string> take_halt();
   int line_baud() const;
-  // The line was gone: the unit may be another one.
+  // The line was lost: it may be another unit now.
   void restart();
 
  private:

@@ -1,4 +1,4 @@
-// A PTU in the words of every device. Pure.
+// A PTU's state, as a device report. Pure.
 #pragma once
 
 #include "edge/device/device_report.h"

@@ -1,7 +1,7 @@
-// Watches whether a unit's step counter still matches its head. A unit that lost power
-// counts from wherever it stands; one that ran into a limit may have lost steps. Either
-// way its angles, limits and keep-out regions are in an unknown frame until it was homed or an
-// operator confirms the reference. Pure.
+// Watches whether a unit's step counter still matches its head. A unit that lost power counts from
+// its present position; a unit that ran into a limit may have lost steps. In both cases its angles,
+// limits and keep-out regions are in an unknown frame until it was homed, or until an operator
+// confirms the reference. Pure.
 #pragma once
 
 #include <map>
@@ -13,9 +13,9 @@
 
 namespace ols::ptu {
 
-// A homing runs into both ends of both axes and reports them: `!T!T!P!P`. Some of the four may be
-// lost on the line, or sent at another baud rate than the port's. One of each axis is enough,
-// because nothing else moves a unit that is not driven.
+// A homing runs into both ends of both axes and reports them: `!T!T!P!P`. Some of the four reports
+// may be lost on the line, or sent at another baud rate than the port's. One report of each axis is
+// enough, because nothing else moves a unit that is not driven.
 class ReferenceWatch {
  public:
   // Limit hits of a unit that is driven. `homing`: several came in one reply, as from a homing.
@@ -26,14 +26,15 @@ class ReferenceWatch {
   void rate_is(int baud);
   // A unit was heard to restart at this baud rate.
   void restarts_at(int baud, double time_s) { heard_[baud].time_s = time_s; }
-  // The baud rate at which a unit restarts or homes: it will answer at that one when it is done.
+  // The baud rate at which a unit restarts or homes. It will answer at this rate when it has
+  // finished.
   std::optional<int> homes_at(double time_s) const;
 
   void power_cycled();
 
-  // A homing by the driver: it is decided, R is sent, the unit says that it is complete, or the
-  // driver abandons it. After an abandoned homing only another complete one by the driver restores
-  // the reference, because some units finish the abandoned one.
+  // The steps of a homing by the driver: it is decided; R is sent; the unit reports that it is
+  // complete; or the driver abandons it. After an abandoned homing only a complete homing by the
+  // driver restores the reference, because some units carry the abandoned one to its end.
   void homing_decided() { homed_since_trusted_ = true; }
   void homing_ordered();
   bool saw_both_ends() const;  // since homing_ordered()
@@ -46,7 +47,8 @@ class ReferenceWatch {
   }
   // The unit states its pan step. A changed step means that it lost power.
   void step_is(double pan_step_rad);
-  // The unit is ready. The first time its reference is trusted: the installer checked it.
+  // The unit is ready. The first time its reference is trusted, because the installer has checked
+  // it.
   void ready();
   // The reference is trusted.
   void acknowledge();
@@ -56,7 +58,8 @@ class ReferenceWatch {
 
   std::optional<PtuDoubtCause> cause() const;
   std::optional<mount::ReferenceDoubt> doubt() const;
-  // Since the reference was last trusted, the unit was not homed and no homing was broken off.
+  // Whether, since the reference was last trusted, the unit was neither homed nor a homing broken
+  // off.
   bool may_home_automatically() const;
 
  private:

@@ -1,5 +1,5 @@
-// Estimates when the unit read the counter that it reports. Replies carry no time stamp; known are
-// only the instants when the query was on the line and when the reply began. Pure.
+// Estimates when the unit read the counter that it reports. Replies carry no time stamp. Only two
+// instants are known: when the query was on the line, and when the reply began. Pure.
 #pragma once
 
 #include <cstdint>
@@ -24,11 +24,11 @@ class ReplyTiming {
   ReplyTiming(double byte_s, double usual_latency_s)
       : byte_s_(byte_s), usual_latency_s_(usual_latency_s) {}
 
-  // A position. `first`: it is the first of the cycle, so the unit was idle before.
+  // A position. `first`: it is the first position of the cycle, so the unit was idle before.
   PtuReading read_at(const PtuReply& reply, double asked_s, double late_s, bool first) const;
   double latency_s(const PtuReply& reply, double asked_s) const;
 
-  // Each reply, after read_at().
+  // Call for each reply, after read_at().
   void follow(const PtuReply& reply, double asked_s, double late_s);
 
  private:

@@ -32,9 +32,9 @@ struct ServoCommand {
 };
 
 // The command of one cycle from the goal and the current angles and rates. Nothing: halt (no goal,
-// stale goal, contradictory limits). Rates alone end at the limits and at the regions' borders. A
-// goal behind a keep-out region is approached around it, corner by corner; a goal inside a region
-// is approached up to its border.
+// stale goal, contradictory limits). A goal of rates alone ends at the limits and at the regions'
+// borders. A goal behind a keep-out region is approached around it, corner by corner; a goal inside
+// a region is approached up to its border.
 std::optional<ServoCommand> servo_step(const ServoConfig& config, const mount::Limits& limits,
                                        const std::optional<mount::Goal>& goal, const PanTilt& now,
                                        double time_s, const PanTilt& now_rate = {});
@@ -46,8 +46,8 @@ double runs_on_s(const ServoConfig& config, double speed_rad_s);
 constexpr double kRunsOnAtMost_s = 1.0;
 constexpr double kRunsOnSpeed_rad_s = 0.349066;  // 20 deg/s
 bool runs_on_too_long(const ServoConfig& config);
-// The configured maximum speed, or a lower one so that the unit does not move on for too long; 0 if
-// no speed satisfies this.
+// The configured maximum speed, or a lower speed at which the unit does not run on for too long; 0
+// if there is no such speed.
 double max_safe_speed_rad_s(const ServoConfig& config);
 
 }  // namespace ols::ptu

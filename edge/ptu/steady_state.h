@@ -46,7 +46,7 @@ class PtuSteadyState {
   void bytes_came(double time_s) { polling_.bytes_came(time_s); }
   void line_was_garbled() { polling_.line_was_garbled(); }
   void unit_restarted();
-  // The cycle under way was dropped: its replies are not awaited.
+  // The cycle under way was dropped: does not wait for its replies.
   void abandon(double time_s);
 
   const std::optional<Trouble>& trouble() const { return trouble_; }
@@ -56,7 +56,7 @@ class PtuSteadyState {
   const std::optional<PtuEnvironment>& environment() const { return environment_.newest; }
   std::optional<double> last_good_s() const { return angles_.last_good_s(); }
   bool standing() const { return angles_.standing(); }
-  // Empty as long as the line is corrected only now and then, or in one short disturbance.
+  // Empty as long as errors on the line are rare, or were a single short disturbance.
   std::string last_error() const {
     return corrected_.times >= kManyCorrected ? error_ : std::string();
   }

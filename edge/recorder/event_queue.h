@@ -25,7 +25,7 @@ struct RecordedEvent {
   std::uint64_t written = 0;    // frames
   std::string unfinished;       // why finishing failed; all frames are on disk
   double retry_s = 0.0;         // when finishing is retried
-  std::string name;             // used by the writing thread only, as the following
+  std::string name;             // this and the following are used by the writing thread only
   std::optional<EventFolder> folder;
 };
 

@@ -1,8 +1,8 @@
 // The folder of all events: its size, the disk's free space, and which event may be removed.
 //
-// Any program on the bus can request recordings, so new ones must not displace old ones freely. In
-// each `protect_s` at most one event is removed, and only one that is older than `protect_s`: the
-// oldest of the label that occupies most space.
+// Any program on the bus can request recordings, so new recordings must not displace old ones
+// freely. In each `protect_s` at most one event is removed, and only one that is older than
+// `protect_s`: the oldest of the label that occupies most space.
 #pragma once
 
 #include <cstdint>
@@ -37,14 +37,14 @@ class EventStore {
   // Checks the disk: creates a missing folder, and counts events and free space. Throws
   // std::system_error if it is no folder, or not writable.
   void survey();
-  // The same, and writes a test file: for a disk that has failed before.
+  // The same, for a disk that has failed before: also writes a test file.
   void try_writing();
 
   // An unused name.
   std::string free_name(std::int64_t utime_us, const std::string& label) const;
   // If `bytes` more do not fit into the quota, removes an event that may be removed, but none in
-  // `open`, whose frames are still arriving. Throws DiskFull if they still do not fit, or would use
-  // the disk's reserve. Ages are by UTC.
+  // `open`, whose frames are still arriving. Throws DiskFull if the bytes still do not fit, or
+  // would use the disk's reserve. Ages are by UTC.
   void make_room(double bytes, const Names& open, std::int64_t now_utime_us);
   // The free space in the quota, including events that may be removed.
   double room_bytes(const Names& open, std::int64_t now_utime_us) const;

@@ -22,9 +22,9 @@ struct RecorderConfig {
   double memory_s = 5.0;  // frames in memory before an event
   double memory_max_bytes = 256e6;
   double quota_bytes = 4e9;  // for all events together
-  // In each such time, at most one event older than that is removed for new ones. Otherwise
-  // recordings that do not fit are refused. A day, because a site and its alarms are checked that
-  // often.
+  // In each such interval, at most one event is removed for new ones, and only one older than the
+  // interval. Otherwise recordings that do not fit are refused. The default is a day, because a
+  // site and its alarms are checked that often.
   double protect_s = 86400.0;
   double disk_reserve_bytes = 1e9;  // always left free on the disk
   double event_max_s = 60.0;

@@ -3,8 +3,8 @@
 // Readings are averaged with weights 1/sd^2. Their errors are assumed fully correlated (multipath
 // and a sensor's zero last for hours). The sd of the average is therefore the weighted mean of the
 // readings' sds, and does not shrink with their number. A reading that is inconsistent with the
-// average is rejected. Rejected readings that agree with each other are averaged separately. That
-// average replaces the first one only if the configuration allows it.
+// average is rejected. Rejected readings that agree with each other are averaged separately. The
+// second average replaces the first only if the configuration allows it.
 #pragma once
 
 #include <Eigen/Core>
@@ -35,8 +35,9 @@ class ConstantEstimator {
   ConstantEstimator(const Config& config, const std::optional<Estimate>& survey)
       : config_(config), survey_(survey) {}
 
-  // Resumes the value from before a restart, until readings confirm it, or agree on another value
-  // for replace_resumed_s. Call before the first reading. Has no effect with a survey.
+  // Resumes the value from before a restart. It holds until readings confirm it, or agree on
+  // another value for replace_resumed_s. Call before the first reading. Has no effect with a
+  // survey.
   void resume(double time_s, const Estimate& known) {
     if (survey_) return;
     average_ = {};
@@ -47,7 +48,7 @@ class ConstantEstimator {
   // Whether the value is a resumed one that no reading has confirmed yet.
   bool resumed() const { return resumed_; }
 
-  // In time order; finite, sd > 0.
+  // Adds a reading: in time order, finite, sd > 0.
   void add(double time_s, const Vector& value, const Vector& sd) {
     if (!first_s_) first_s_ = time_s;
     const std::optional<Estimate> kept = estimate();
@@ -75,13 +76,13 @@ class ConstantEstimator {
     return average_.estimate();
   }
 
-  // The time of the last consistent reading, otherwise of the first one; nullopt before any
-  // reading.
+  // The time of the last consistent reading or, if there was none, of the first reading; nullopt
+  // before any reading.
   std::optional<double> supported_until_s() const { return support_s_ ? support_s_ : first_s_; }
   // Since when every reading has been inconsistent.
   std::optional<double> disagrees_since_s() const { return disagrees_since_s_; }
   const Vector& distance() const { return distance_; }  // of the last inconsistent reading
-  // How far the value moved when a new one was adopted.
+  // How far the value moved when a new value was adopted.
   std::optional<double> moved() const { return moved_; }
 
  private:

@@ -1,4 +1,4 @@
-// What a station needs of a GNSS receiver, of whatever kind: its readings and how it is.
+// What a station needs of a GNSS receiver of any kind: its readings and its state.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,7 +20,7 @@ class Gnss {
   virtual device::DeviceReport report() const = 0;
 };
 
-// What is configured of every kind.
+// The configuration that all kinds have in common.
 struct GnssConfig {
   double stale_s = 5.0;              // a fault after this time without a report
   GnssFix least_fix = GnssFix::k3D;  // min fix for the position
@@ -37,7 +37,7 @@ class GnssKind {
   virtual config::Section section() = 0;  // refers to this object
   virtual const GnssConfig& config() const = 0;
   virtual bool is_configured() const = 0;   // false: the station has no receiver
-  virtual std::string address() const = 0;  // where it is looked for, for a person
+  virtual std::string address() const = 0;  // where the station looks for it, in words
   virtual std::unique_ptr<Gnss> open() const = 0;
 };
 

@@ -1,4 +1,4 @@
-// What a station needs of an inclinometer, of whatever kind: its readings and how it is.
+// What a station needs of an inclinometer of any kind: its readings and its state.
 #pragma once
 
 #include <memory>
@@ -19,12 +19,12 @@ class Inclinometer {
   virtual device::DeviceReport report() const = 0;
 };
 
-// What is configured of every kind.
+// The configuration that all kinds have in common.
 struct InclinometerConfig {
   double stale_s = 3.0;   // a fault after this time without a good reading
   double stuck_s = 60.0;  // stuck after this time without a change of any digit
-  // From the sensor's axes to ORIGIN: the axes are swapped, then the zero (the reading when ORIGIN
-  // is level) is subtracted, then the sign is applied.
+  // From the sensor's axes to ORIGIN, in this order: swap the axes, subtract the zero (the reading
+  // when ORIGIN is level), apply the sign.
   int x_sign = 1, y_sign = 1;
   bool swap_axes = false;
   double x_zero_rad = 0.0, y_zero_rad = 0.0;
@@ -52,7 +52,7 @@ class InclinometerKind {
   virtual config::Section section() = 0;  // refers to this object
   virtual const InclinometerConfig& config() const = 0;
   virtual bool is_configured() const = 0;   // false: the station has none
-  virtual std::string address() const = 0;  // where it is looked for, for a person
+  virtual std::string address() const = 0;  // where the station looks for it, in words
   virtual std::unique_ptr<Inclinometer> open() const = 0;
 };
 

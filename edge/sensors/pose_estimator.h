@@ -1,11 +1,12 @@
-// The position and tilt of a station: from the survey in the configuration, if any, otherwise from
-// GNSS and inclinometer. Also checks whether survey and sensors agree. Pure.
+// The position and tilt of a station. They come from the survey in the configuration or, without a
+// survey, from GNSS and inclinometer. Also checks whether survey and sensors agree. Pure.
 //
 // A tripod is stationary, so readings are averaged. A reading that is inconsistent with the pose is
 // rejected: the pose is kept, its uncertainty grows, and an alarm states why. The uncertainty grows
-// from the last consistent reading until the next one; without a sensor it does not grow. A tripod
-// that was moved has lost its heading, too. A new position is therefore not adopted automatically
-// (unless accept_move_s allows it): the alarm asks to set up the station again.
+// from the last consistent reading to the next consistent one; without a sensor it does not grow. A
+// tripod that was moved has lost its heading, too. A new position is therefore not adopted
+// automatically (unless accept_move_s allows it). The alarm asks a person to set up the station
+// again.
 #pragma once
 
 #include <Eigen/Core>

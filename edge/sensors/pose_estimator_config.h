@@ -7,7 +7,7 @@
 
 namespace ols::sensors {
 
-// Sets everything but the settings of [pose].
+// Sets everything except the settings of [pose].
 void set_sensors(PoseEstimator::Config& estimator, const InclinometerConfig& inclinometer,
                  const GnssConfig& gnss);
 

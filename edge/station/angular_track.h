@@ -25,15 +25,15 @@ class AngularTrack {
 
   explicit AngularTrack(const Config& config) : config_(config) {}
 
-  // `angles`: those that would put the target on the optical axis, with their 1-sigma. Ignored
-  // unless later than the last update.
+  // `angles`: the PTU angles that would put the target on the optical axis, with their 1-sigma. An
+  // update that is not later than the last one is ignored.
   void update(double time_s, const PanTilt& angles, double sd_rad);
   void clear() { state_.reset(); }
 
   // The state of the last update; nullopt before the first.
   std::optional<State> state() const { return state_; }
 
-  // Extrapolated to an instant.
+  // The state extrapolated to an instant.
   std::optional<PanTilt> at(double time_s) const;
 
  private:

@@ -15,7 +15,7 @@
 
 namespace ols::station {
 
-// What the detector says of an object besides.
+// What the detector says of an object besides its pixel.
 struct DetectedPixel {
   Eigen::Vector2d velocity_px_s = Eigen::Vector2d::Zero();  // relative to the scene
   double velocity_sd_px_s = 0.0;                            // each axis
@@ -54,7 +54,7 @@ class BearingQueue {
   // The pixels whose angles are known, and those that have waited long enough.
   std::vector<MadeBearing> take(const PointingModel& pointing, double now_s);
 
-  // Mid-exposure to bearing, smoothed; of the followed target.
+  // The time from mid-exposure to bearing for the followed target, smoothed.
   double frame_latency_s() const { return frame_latency_s_; }
   const std::map<std::string, double>& counters() const { return counters_; }
 

@@ -1,5 +1,5 @@
-// The borders of where a unit may point, as directions on the sky: of its travel, and of each
-// keep-out region. People see them on a map and in a picture. Pure.
+// The borders of the region where a unit may point, as directions on the sky: the border of its
+// travel, and of each keep-out region. They are shown on the map and in pictures. Pure.
 #pragma once
 
 #include <array>
@@ -15,8 +15,8 @@ inline constexpr int kBorderPoints = 16;
 
 struct Border {
   bool is_keep_out = false;  // the inside is forbidden; false: the outside is
-  // Directions of the optical axis once round the region, from its least pan and tilt: four on each
-  // side.
+  // Directions of the optical axis once round the region, beginning at its smallest pan and tilt:
+  // four on each side.
   std::array<AzimuthElevation, kBorderPoints> outline;
 };
 

@@ -16,27 +16,27 @@
 
 namespace ols::station {
 
-// One picture at a time: the next one is given when the last one's result has come. It is then the
-// newest; those that were due meanwhile are dropped and counted.
+// Gives one picture at a time. When the result of a picture has come, it gives the newest picture;
+// pictures that were due in between are dropped and counted.
 class DetectedObjects {
  public:
   explicit DetectedObjects(const StationConfig& config)
       : config_(config.detection), angle_wait_s_(config.angle_wait_s) {}
 
-  // A frame while the mount is sure of its angles. `followed`: the box of the station's own target
-  // in it, if this frame gives a bearing of the target.
+  // Takes a frame, while the mount is sure of its angles. `followed`: the box of the station's own
+  // target in the frame, if the frame gives a bearing of that target.
   void on_frame(const camera::Frame& frame, const std::optional<cv::Rect2d>& followed,
                 double now_s);
-  // The picture to be looked at now, with the mount's motion by its angles before and after the
-  // exposure; empty: none is due, or the angles are still to come.
+  // The picture to be looked at now, and the mount's motion, from its angles before and after the
+  // exposure. Empty: no picture is due, or the angles have not come yet.
   std::optional<detector::Picture> take(const PointingModel& pointing, double now_s);
-  // The result of the picture that was taken last. Returns the pixels that become bearings: of the
-  // confirmed objects that the picture shows, without the followed target, the likeliest ones.
-  // `new_track_id` gives an id that no other object of this station has.
+  // Takes the result of the last picture. Returns the pixels that become bearings: those of the
+  // likeliest confirmed objects in the picture, without the followed target. `new_track_id` gives
+  // an id that no other object of this station has.
   std::vector<PixelMeasurement> on_found(detector::Found found,
                                          const std::function<std::int64_t()>& new_track_id,
                                          double now_s);
-  // Earlier angles are not comparable with later ones.
+  // From now on, angles are not comparable with earlier ones.
   void forget_angles();
 
   // The newest result; empty before the first, and while angles are forgotten.
@@ -55,9 +55,9 @@ class DetectedObjects {
 
   DetectionConfig config_;
   double angle_wait_s_;
-  double due_s_ = 0.0;                   // mid-exposure from which a frame is due
+  double due_s_ = 0.0;                   // the first frame with a later mid-exposure is due
   std::optional<Look> waiting_, looks_;  // the next picture, the one being looked at
-  std::optional<double> looked_s_;       // mid-exposure of the last one given
+  std::optional<double> looked_s_;       // mid-exposure of the last picture given
   std::optional<detector::Found> newest_;
   std::map<long, std::int64_t> track_ids_;  // by the detector's id
   std::map<std::string, double> counters_;

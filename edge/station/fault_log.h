@@ -1,5 +1,5 @@
-// The newest fault of a station and its time, which stay after its alarm has ended. Also the
-// entries, good and bad, for the journal. Pure.
+// The newest fault of a station and its time. They stay after the fault's alarm has ended. Also
+// collects entries, good and bad, for the journal. Pure.
 #pragma once
 
 #include <cstdint>
@@ -16,15 +16,15 @@ namespace ols::station {
 
 class FaultLog {
  public:
-  // `what`: the present error of a source. `number`: how many it has had; a new number marks a new
-  // error with the same text. A text that is repeated within a minute (a device that is absent,
-  // retried each second) is one fault, so that it does not hide others.
+  // `what`: the present error of a source. `number`: how many errors it has had; a new number marks
+  // a new error with the same text. A text that is repeated within a minute (a device that is
+  // absent, retried each second) is one fault, so that it does not hide others.
   void note(const std::string& source, const std::string& what, std::uint64_t number,
             std::int64_t utime_us);
-  // The same for the result of an operator's action: each is a new fault.
+  // The same for the result of an operator's action. Each one is a new fault.
   void note_event(const std::string& source, const std::string& what, std::uint64_t number,
                   std::int64_t utime_us);
-  // An error that does not count: the device is only starting.
+  // Notes an error that does not count, because the device is only starting.
   void pass_over(const std::string& source, const std::string& what, std::uint64_t number,
                  std::int64_t utime_us) {
     noted_[source] = {what, number, utime_us};
@@ -33,8 +33,8 @@ class FaultLog {
   // an alarm new.
   void note_alarms(const std::vector<Alarm>& alarms, std::int64_t utime_us);
 
-  // The state of a source that always has one. A changed state is an entry; changed `details` are
-  // not.
+  // The state of a source that always has a state. A changed state makes an entry; changed
+  // `details` do not.
   struct State {
     std::string name, details;
     bool bad = false;
@@ -42,7 +42,7 @@ class FaultLog {
   };
   void note_state(const std::string& source, const State& state);
 
-  // The beginnings and ends since the last call, in order.
+  // The entries since the last call (what began and what ended), in order.
   std::vector<News> take_event() { return std::exchange(news_, {}); }
 
   const std::string& text() const { return text_; }  // empty: no fault yet

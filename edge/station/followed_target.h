@@ -23,7 +23,7 @@ class FollowedTarget {
 
   // Starts with the box. If the tracker refuses it, nothing changes.
   std::optional<tracker::TrackerError> designate(const camera::Frame& frame, const cv::Rect2d& box);
-  // The same on trial, with the own target set aside.
+  // The same for a trial; the own target is set aside.
   bool try_found(const camera::Frame& frame, const cv::Rect2d& box);
   // The trial succeeded: its target becomes the own target.
   void confirm();
@@ -37,21 +37,21 @@ class FollowedTarget {
   void search_near(const Eigen::Vector2d& pixel, double sd_px) {
     tracker_->search_near(pixel, sd_px);
   }
-  // Earlier angles of the PTU are not comparable with later ones.
+  // From now on, PTU angles are not comparable with earlier ones.
   void forget_angles();
 
   bool exists() const { return kind_ != Kind::kNone; }
   bool on_trial() const { return kind_ == Kind::kUnproven; }
   std::int64_t track_id() const { return track_id_; }
-  // For another object of this station: an id is one object.
+  // A new id, for another object of this station: no two objects share an id.
   std::int64_t new_track_id() { return ++last_track_id_; }
   double centring_sd_px() const;  // of the box on the target
   const std::optional<tracker::TrackerOutput>& last_output() const { return last_output_; }
-  // For exactly this frame; null: the tracker has not had it.
+  // The result for exactly this frame; null: the tracker has not had this frame.
   const tracker::TrackerOutput* output_of(double mid_exposure_s) const {
     return last_output_ && tracked_s_ == mid_exposure_s ? &*last_output_ : nullptr;
   }
-  // The image motion has contradicted the PTU's angles in consecutive frames.
+  // Whether the image motion has contradicted the PTU's angles in consecutive frames.
   bool motion_disagrees() const { return disagreeing_in_a_row_ >= config_.disagreeing_frames; }
   const std::map<std::string, double>& counters() const { return counters_; }
 

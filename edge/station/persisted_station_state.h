@@ -1,6 +1,6 @@
-// The last state of a station, kept over a restart or a power failure: whether it was permitted to
-// move, and whether its PTU's reference was in doubt. A station whose state is unknown starts
-// stopped, with its reference in doubt, and raises an alarm.
+// The last state of a station, which survives a restart or a power failure: whether the station was
+// permitted to move, and whether its PTU's reference was in doubt. A station whose state is unknown
+// starts stopped, with its reference in doubt, and raises an alarm.
 #pragma once
 
 #include <optional>
@@ -30,7 +30,7 @@ class PersistedStationState {
   void remember(StationState state, const std::optional<mount::ReferenceDoubt>& doubt,
                 mount::Reference reference);
 
-  // What is unknown or cannot be saved, and what to do.
+  // Alarms: what is unknown or cannot be saved, and what to do.
   std::vector<Alarm> alarms() const;
 
  private:

@@ -1,6 +1,6 @@
-// The decisions of a station, without devices, clocks or messages: designate, track, coast, lose,
-// be slewed, manual, stopped, emergency. Times are the station's monotonic clock [s]. One instance
-// for each station, called from one thread.
+// The decisions of a station, without devices, clocks or messages. They concern designation,
+// tracking, coasting, loss, slews, manual control, stop and emergency. Times are the station's
+// monotonic clock [s]. One instance for each station, called from one thread.
 #pragma once
 
 #include <map>
@@ -34,14 +34,14 @@ namespace ols::station {
 
 // Commands to the PTU in addition to its goal, and to the lens.
 struct UnitActions {
-  bool stop = false;  // what the PTU does on its own: homing
+  bool stop = false;  // stops what the PTU does on its own: homing
   bool home = false;
   bool reference_ok = false;  // a person confirms it
   lens::LensOrder lens;       // to the lens' motors
 };
 
 struct StationOutput {
-  std::vector<Bearing> bearings;    // those whose PTU angles are known
+  std::vector<Bearing> bearings;    // bearings whose PTU angles are known
   std::optional<mount::Goal> goal;  // of the PTU; empty: halt
 };
 
@@ -52,25 +52,27 @@ class Station {
   // Inputs. Samples and frames each come in time order.
   void on_angles(const mount::AngleSample& sample);
   void on_frame(const camera::Frame& frame) { on_frame(frame, now_s_); }
-  // Of a motorised lens: each zoom position that it says, and where all axes are now.
+  // For a motorised lens: each zoom position that it reports, and the present positions of all
+  // axes.
   void on_zoom(const lens::ZoomSample& sample) { pointing_.add(sample); }
   void set_lens(const lens::ByAxis<std::optional<double>>& positions) {
     pointing_.set_lens(positions);
   }
   // A frame older than max_age_s at now_s is dropped: the tracker gets no backlog.
   void on_frame(const camera::Frame& frame, double now_s);
-  // For the detector, if one runs: the picture to be looked at now, one at a time; then what was
-  // found in it. Pictures are given while the mount is sure of its angles, in every state.
+  // For the detector, if there is one. Gives the picture to be looked at now, one at a time; then
+  // takes what was found in it. Pictures are given in every state, while the mount is sure of its
+  // angles.
   std::optional<detector::Picture> picture_to_search(double now_s) {
     return detected_.take(pointing_, now_s);
   }
   void on_found(detector::Found found);
   // The PTU's travel, once it is known.
   void set_limits(const mount::Limits& limits) { pointing_.set_limits(limits); }
-  // Another geometry, with a calibration or without one, while the station runs. What was measured
-  // with the other one is forgotten.
+  // Changes the geometry while the station runs, with or without a calibration. What was measured
+  // with the previous geometry is forgotten.
   void use(const StationGeometry& geometry, const std::optional<StationCalibration>& calibration);
-  // The reference views have moved by so much: bearings state it from now on.
+  // The reference views have moved by this much: bearings include it in their errors from now on.
   void doubt_setup(double heading_sd_rad, double tilt_sd_rad) {
     pointing_.doubt_setup(heading_sd_rad, tilt_sd_rad);
   }
@@ -80,17 +82,17 @@ class Station {
   // Before the first call the pose is that of the configured geometry. Without a position the
   // station makes no bearings.
   void set_pose(const sensors::StationPose& pose) { pointing_.set_pose(pose); }
-  // The level of the emergency stop, also when unchanged. Once pressed, nothing moves until the
-  // stop is released, rearm() was accepted and a new command has arrived.
+  // The level of the emergency stop; call it also when the level is unchanged. Once pressed,
+  // nothing moves until the stop is released, rearm() was accepted and a new command has arrived.
   void emergency_stop(bool pressed, double now_s);
 
   // Commands. A refused command changes only its counter.
   Refusal designate(const DesignateCommand& command, double now_s);
   Refusal slew(const SlewCommand& command, double now_s);
   Refusal point(const PointCommand& command, double now_s);
-  // Like point(), by what is seen.
+  // Like point(), but to what is at a pixel.
   Refusal centre(const CentreCommand& command, double now_s);
-  // Moves the lens; at any time, a stop notwithstanding.
+  // Moves the lens, at any time, even during a stop.
   Refusal lens(const LensCommand& command, double now_s);
   // Turns the unit for the command's lease; rates of zero halt it.
   Refusal rate(const RateCommand& command, double now_s);
@@ -102,17 +104,18 @@ class Station {
   void begin_stopped();
   static constexpr double kStopHold_s = StationMode::kStopHold_s;
   Refusal release(double now_s);
-  // After an emergency stop, by a person at the station: leads to kStopped, from where the operator
-  // continues.
+  // Re-arms after an emergency stop, by a person at the station. Leads to kStopped, from where the
+  // operator continues.
   Refusal rearm(double now_s);
-  // The same over the bus, where any program can send it: refused unless configured otherwise.
+  // The same over the bus, where any program can send it. Refused unless the configuration permits
+  // it.
   Refusal rearm_over_bus(double now_s);
   // Homes the unit.
   Refusal home(double now_s);
   // A person confirms the unit's reference.
   Refusal reference_ok(double now_s);
-  // The commands to the PTU that are due, each once. Call right after the commands, before step():
-  // a stop does not wait for the tracker.
+  // The commands to the PTU that are due, each once. Call this right after the commands and before
+  // step(), so that a stop does not wait for the tracker.
   UnitActions take_actions() { return std::exchange(actions_, {}); }
 
   // Advances time: leases and coasting end, state times grow.
@@ -122,12 +125,12 @@ class Station {
   std::optional<mount::Goal> goal(double now_s) const;
 
   StationState state() const { return mode_.state(); }
-  // Reported by the unit last.
+  // The angles that the unit reported last.
   std::optional<PanTilt> reported_angles() const { return pointing_.reported_angles(); }
   std::optional<cv::Rect2d> target_box() const;  // in the newest frame
   StationSnapshot snapshot() const;
-  // The newest frame for a viewer, but for its utime; empty if it is not of this mid-exposure: it
-  // was refused.
+  // The newest frame for a viewer, without its utime. Empty if the newest frame has another
+  // mid-exposure, because the frame was refused.
   std::optional<video::VideoFrame> video_frame(double mid_exposure_s) const;
 
  private:
@@ -165,7 +168,7 @@ class Station {
   AngularTrack motion_;
   ManualMotion manual_;
   UnitActions actions_;
-  double believed_s_ = 0.0;  // mid-exposure of the last frame that was believed
+  double believed_s_ = 0.0;  // mid-exposure of the last believed frame
   int believed_in_a_row_ = 0;
   double now_s_ = 0.0;
   std::map<std::string, double> counters_;

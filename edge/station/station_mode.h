@@ -17,7 +17,7 @@ class StationMode {
 
   StationState state() const { return state_; }
   bool is(StationState state) const { return state_ == state; }
-  // False: already in this state.
+  // Returns false if it is already in this state.
   bool enter(StationState state);
   // The states in which a target, if there is one, is tracked.
   bool may_track() const;
@@ -27,10 +27,10 @@ class StationMode {
   // The emergency stop's level.
   void set_pressed(bool pressed) { pressed_ = pressed; }
   bool is_pressed() const { return pressed_; }
-  // For kStopHold_s after it only re-arming is accepted.
+  // For kStopHold_s after a stop only re-arming is accepted.
   static constexpr double kStopHold_s = 1.0;
   void note_stop(double now_s) { stopped_s_ = now_s; }
-  // Why operator commands are refused now: an emergency, or a stop a moment ago.
+  // Why operator commands are refused at present: an emergency, or a stop a moment ago.
   Refusal refuses_operator(double now_s) const;
 
   // Whether the PTU's reference is valid.

@@ -20,13 +20,13 @@ struct StationParts {
   double now_s = 0.0;
 };
 
-// All but the box, the latency, the alarms and the counters.
+// Everything except the box, the latency, the alarms and the counters.
 StationSnapshot snapshot_of(const StationParts& parts);
 
-// A frame for a viewer, but for its utime.
+// A frame for a viewer, without its utime.
 video::VideoFrame seen_in(const camera::Frame& frame, const StationParts& parts);
 
-// Adds an accepted command to the orders that the lens has not been given yet.
+// Adds an accepted command to the orders that have not been sent to the lens yet.
 void add(const LensCommand& command, lens::LensOrder& orders);
 
 }  // namespace ols::station

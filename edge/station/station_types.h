@@ -29,12 +29,12 @@ enum class StationState {
 };
 const char* to_string(StationState state);
 
-// Whether one pose lies outside the stated uncertainty of the other.
+// Whether one pose is outside the stated uncertainty of the other.
 bool differs(const sensors::StationPose& stated, const sensors::StationPose& now);
 
-// What a detector says of its object besides the direction. Zeros: unknown.
+// What a detector says of its object besides the direction. 0: unknown.
 struct DetectedObject {
-  int image_bearings = 0;  // of the detector, of this image, with this one
+  int image_bearings = 0;  // number of the detector's bearings of this image, including this one
   Eigen::Vector2d rate_rad_s = Eigen::Vector2d::Zero();       // cross-elevation, elevation
   Eigen::Matrix2d rate_covariance = Eigen::Matrix2d::Zero();  // [rad^2/s^2]
   double size_rad = 0.0, size_sd_rad = 0.0;                   // largest extent
@@ -51,7 +51,7 @@ struct Bearing {
   camera::StampSource stamp_source = camera::StampSource::kCamera;
   // Incremented when the pose has changed by more than its sigmas; 0: as configured.
   std::int64_t pose_revision = 0;
-  // What it was made of.
+  // The values from which it was made.
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
   Eigen::Matrix2d covariance_px2 = Eigen::Matrix2d::Zero();  // white
   double designation_sd_px = 0.0;                            // stays
@@ -73,8 +73,9 @@ struct SlewCommand {
   double azimuth_rate_rad_s = 0.0;
   double elevation_rate_rad_s = 0.0;
   double direction_sd_rad = 0.0;
-  // Of a search along another station's line of sight: which way it runs here (cross-elevation,
-  // elevation), a unit vector. The target is anywhere on it; the deviation is that beside it.
+  // In a search along another station's line of sight: the line's direction here (cross-elevation,
+  // elevation), a unit vector. The target may be anywhere on the line; the deviation is that across
+  // the line.
   Eigen::Vector2d line = Eigen::Vector2d::Zero();
   bool searches_line() const { return !line.isZero(); }
 };
@@ -84,7 +85,7 @@ struct PointCommand {
   PanTilt angles;
 };
 
-// What was at this pixel of a frame comes to the middle of the picture.
+// Brings what was at this pixel of a frame to the middle of the picture.
 struct CentreCommand {
   std::optional<double> frame_time_s;  // mid-exposure of the frame meant; empty: the newest
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
@@ -98,7 +99,7 @@ struct RateCommand {
   std::int64_t sequence = 0;
 };
 
-// Positions or rates of the lens' axes; the others go on.
+// Positions or rates of some axes of the lens; the other axes continue.
 struct LensCommand {
   bool is_rate = false;
   lens::ByAxis<std::optional<double>> values;
@@ -112,19 +113,19 @@ enum class Refusal {
   kNotFinite,
   kOutOfRange,       // invalid angle, lease not positive or too long, instant too far from now
   kUnreachable,      // outside the unit's travel
-  kNoFrame,          // designation without a frame at that time
-  kNothingThere,     // a designation by a point where nothing stands out
-  kBox,              // designation of a box outside the image, or too small
+  kNoFrame,          // a designation for an instant without a frame
+  kNothingThere,     // a designation of a point where nothing stands out
+  kBox,              // a designation of a box that is outside the image, or too small
   kTracker,          // the tracker refused the image
   kPrecedence,       // a slew while the operator has the PTU (manual or stopped)
   kEmergency,        // after an emergency stop, until it is released and re-armed
   kNoReference,      // the unit has no valid reference
   kNoUnit,           // no unit to home
   kKeepOut,          // homing would sweep across a keep-out region
-  kNoDoubt,          // no doubt about the reference that a person could end
+  kNoDoubt,          // the reference is not in doubt, so there is nothing to confirm
   kNoLens,           // no motorised lens
   kOverview,         // a slew: an overview station is driven by a person
-  kFixedMount,       // an order to move: the mount never does
+  kFixedMount,       // an order to move: the mount never moves
   kOvertaken,        // a later rate of the same sender is in force
   kStopped,          // a rate while stopped: it does not end a stop
   kJustStopped,      // a stop overrides, for a moment, commands sent before it or crossing it
@@ -151,7 +152,7 @@ struct StationSnapshot {
   double frame_latency_s = 0.0;                           // mid-exposure to bearing, smoothed
   bool motion_disagrees = false;  // the image motion contradicts the PTU's angles
   sensors::StationPose pose;
-  std::vector<Alarm> alarms;               // conditions that a person should act on
+  std::vector<Alarm> alarms;               // conditions on which a person should act
   std::map<std::string, double> counters;  // only rise; state times are "seconds_<state>"
 };
 

@@ -74,7 +74,7 @@ class AravisDevice {
 
   bool control_lost() const { return control_lost_; }
   // The camera is lost: sends it no more requests. The destructor may still take seconds, because
-  // Aravis announces the disconnection to the camera and repeats it (5 times, 0.5 s each).
+  // Aravis tells the camera about the disconnection five times, 0.5 s apart.
   void give_up() { gone_ = true; }
 
  private:

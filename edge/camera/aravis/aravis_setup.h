@@ -9,7 +9,8 @@ using ArvCamera = struct _ArvCamera;
 
 namespace ols::camera {
 
-// Pixel format and size. Read back: some cameras silently keep their own value.
+// Sets pixel format and size, and reads them back, because some cameras silently keep their own
+// values.
 void set_picture(ArvCamera* camera, const AravisConfig& config);
 
 void set_trigger(ArvCamera* camera, const AravisConfig& config);
@@ -25,7 +26,8 @@ ExposureLimits exposure_limits(ArvCamera* camera, const ExposureLimits& configur
 
 void set_ptp(ArvCamera* camera, const AravisConfig& config);
 
-// Packet size, packet socket and packet delay; after the image format, before the stream.
+// Sets packet size, packet socket and packet delay. Call it after the image format is set, and
+// before the stream.
 void set_transport(ArvCamera* camera, const AravisConfig& config);
 
 }  // namespace ols::camera

@@ -18,9 +18,9 @@ struct StreamNeed {
   double spread = 0.6;             // of the frame period, if the buffer does not hold a frame
 };
 
-// A buffer that holds frames receives each at full speed without delay. A smaller one overflows
-// when the receiving thread sleeps for longer than its share of a frame, so the packets are spread,
-// and the frame completes later.
+// A buffer that holds whole frames receives them at full speed, without a delay between packets. A
+// smaller buffer overflows when the receiving thread sleeps too long. The packets are then spread
+// over time, and the frame completes later.
 PacketPlan plan_packets(const StreamNeed& need);
 
 }  // namespace ols::camera

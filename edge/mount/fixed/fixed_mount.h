@@ -18,7 +18,7 @@ struct FixedMountConfig {
   PanTilt angles;
 };
 
-// A fixed mount has no encoder, but a station reports angles in counts: the size of such a count.
+// The size of a count. A fixed mount has no encoder, but a station reports angles in counts.
 inline constexpr double kVirtualCount_rad = radians(1e-4);
 
 Limits fixed_limits(const PanTilt& angles);

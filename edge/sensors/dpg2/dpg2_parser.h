@@ -1,7 +1,7 @@
 // The output of a TE (MEAS) DPG2 inclinometer: lines "X=+00.430" and "Y=-00.084", in degrees,
-// without checksum or time. The parser checks the form to the last digit, that Y follows its X at
-// once, and the range. Pure: bytes and their arrival in, angles out. The values do not depend on
-// how the bytes are split.
+// without checksum or time. The parser checks three things: the form to the last digit, that each Y
+// directly follows its X, and the range. Pure: bytes and their arrival in, angles out. The values
+// do not depend on how the bytes are split.
 #pragma once
 
 #include <cstdint>
@@ -33,7 +33,7 @@ class Dpg2Parser {
   static constexpr const char* kStart = "S";
   static constexpr const char* kAskVersion = "V";
 
-  // The next line that is no reading is the answer to kAskVersion.
+  // Takes the next line that is not a reading for the answer to kAskVersion.
   void expect_version() { version_awaited_ = true; }
   const std::string& version() const { return version_; }
 

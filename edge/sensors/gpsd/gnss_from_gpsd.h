@@ -1,10 +1,10 @@
 // Converts the messages of gpsd to readings of a GNSS receiver. Pure.
 //
-// Errors: gpsd computes its own (eph, epx, epy, epv) from the geometry of the satellites and
-// ignores RTK: 13 m for a fix that is accurate to 1 cm. Its manual gives their confidence as
+// Errors: gpsd computes its own (eph, epx, epy, epv) from the geometry of the satellites. They
+// ignore RTK: 13 m for a fix that is accurate to 1 cm. gpsd's manual gives their confidence as
 // "guessed to be 95 %, may also be 50 %, one sigma, or two sigma". The sentence GST has the
-// receiver's own 1-sigma of latitude, longitude and altitude. It is used if it is of the same
-// epoch.
+// receiver's own 1-sigma of latitude, longitude and altitude. GST is used if it is of the same
+// epoch as the fix.
 #pragma once
 
 #include <gps.h>
