@@ -15,8 +15,8 @@ struct AcceptanceLimits {
   double rms_arcsec = 15.0, worst_arcsec = 25.0;  // systematic, per axis, over the working volume
   double detectable_arcsec = 30.0;                // of each reference
   double without_itself_sigma = 3.0;
-  double without_itself_arcsec = 20.0;  // max offset of a checked reference from where the others
-                                        // put it
+  double without_itself_arcsec =
+      20.0;  // max offset of a checked reference from the place that the others give it
   double closing_arcsec = 12.0;
   double sweep_px = 0.35, stars_px = 0.3;  // RMS residual of a coordinate
   int sectors = 3;                         // number of 60 deg sectors of azimuth that contain a
@@ -44,7 +44,7 @@ struct Acceptance {
 };
 
 // Judges an instrument without a setup: whether its residuals, lens and gears agree with what was
-// known of it. It judges no direction.
+// known before. Does not judge directions.
 Acceptance judge_instrument(const Problem& problem, const Adjustment& adjustment,
                             const Calibration& found, std::size_t station,
                             const AcceptanceLimits& limits = {});

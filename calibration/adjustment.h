@@ -24,13 +24,13 @@ class Adjustment {
 
   const Network& network() const { return network_; }
   const std::vector<Group>& groups() const { return network_.groups; }
-  // The state of the priors, with these headings.
+  // The state at the priors, with these headings.
   State start(const std::vector<double>& headings_rad) const;
   Fit fit(State start, const std::vector<bool>& kept) const;
-  // The covariance of a station's parameters that all groups together would leave, if everything
-  // were as in the priors. No pixel is used. Infinite if a target could not be seen.
+  // Predicts the covariance of a station's parameters after sighting all groups, if everything were
+  // as in the priors. Uses no pixels. Infinite if a target could not be seen.
   StationMatrix planned_covariance(std::size_t station) const;
-  // A group's equations: the sum of its blocks', over the columns of all of them.
+  // A group's equations: the sum of its blocks' equations, over the columns of all these blocks.
   BlockEquations equations(const Fit& fit, std::size_t group) const;
 
  private:

@@ -1,6 +1,6 @@
 // A block of an adjustment: observations that share a nuisance, or a prior. It eliminates its
 // nuisance (Schur complement) and returns information, gradient and squares. A block can therefore
-// be added, left out and tested as one.
+// be added, left out and tested as a unit.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,11 +22,11 @@ struct BlockEquations {
   // The change of the nuisance for a change dx of the globals: -(nuisance_step + nuisance_by dx).
   Eigen::VectorXd nuisance_step;
   Eigen::MatrixXd nuisance_by;
-  // For a shift of the target by one radian as seen from the station, across and up.
+  // The same for a shift of the target, seen from the station: across and up [rad].
   Eigen::Matrix2d shift_information = Eigen::Matrix2d::Zero();
   Eigen::Matrix<double, Eigen::Dynamic, 2> shift_by;
   Eigen::Vector2d shift_gradient = Eigen::Vector2d::Zero();
-  // By sighting [px], in the order of the block.
+  // Residuals of the sightings [px], in the order of the block.
   std::vector<Eigen::Vector2d> residuals;
   std::vector<double> weights;  // below 1: a scene point that a robust weight reduces
   bool valid = true;            // false: a target is behind the camera or outside the lens model
@@ -44,10 +44,10 @@ class Block {
   virtual BlockEquations equations(const State& state, std::size_t block, double damping) const = 0;
   // The heading of the block's station at which its first sighting hits its target.
   virtual std::optional<double> heading(const State&, std::size_t) const { return std::nullopt; }
-  // The block with the sightings of one station only; null if there are none.
+  // The block with the sightings of one station only; null if it has none.
   virtual BlockPtr of_station(std::size_t) const { return nullptr; }
-  // For a target's block: the number of its sightings; the block with some of them, by index; and,
-  // over the same columns, its equations without each of them.
+  // For a target's block: the number of its sightings; the block with some of its sightings, by
+  // index; the block's equations without each one of its sightings, over the same columns.
   virtual std::size_t sighting_count() const { return 0; }
   virtual BlockPtr with_only(const std::vector<std::size_t>&) const { return nullptr; }
   virtual std::vector<BlockEquations> without_each(const State&, std::size_t) const { return {}; }

@@ -3,8 +3,8 @@
 //
 // Each group of observations is tested against all others at once, with both components of all its
 // sightings. The search starts from the headings on which most groups agree. Groups that fail are
-// rejected one by one, the worst first; rejected ones that pass are taken back. Scene points are
-// not tested: a robust weight reduces those that do not fit.
+// rejected one by one, the worst first; rejected groups that pass again are taken back. Scene
+// points are not tested; a robust weight reduces those that do not fit.
 #pragma once
 
 #include <string>
@@ -33,15 +33,16 @@ struct Calibration {
   // [px] by observation: measured minus adjusted; nullopt for an unused observation.
   std::vector<std::optional<Eigen::Vector2d>> residuals;
   std::vector<std::string> remarks;  // sentences for a person to check
-  // Of one station's parameters; includes the variance factor if the global test fails.
+  // The covariance of one station's parameters; includes the variance factor if the global test
+  // fails.
   StationMatrix covariance(const Network& network, std::size_t station) const;
   double scaled_by = 1.0;  // factor of the deviations
-  // False if only rectification targets or scenery were sighted, which do not tell where the
+  // False if only rectification targets or scenery were sighted, because they do not show where the
   // stations look. Then only the instruments are a result.
   bool headings_known = true;
 };
 
-// The observations contradict each other, and no minority can be named as the cause.
+// The observations contradict each other, and no minority of them can be named as the cause.
 class Contradiction : public std::invalid_argument {
   using std::invalid_argument::invalid_argument;
 };

@@ -1,4 +1,4 @@
-// Finds why observations contradict each other: the one mistake without which all of them agree.
+// Finds why observations contradict each other: a single mistake that explains the contradiction.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace ols::calibration {
 
-// One sentence for each mistake that would explain everything: two landmarks taken for each other,
+// One sentence for each mistake that would explain everything: two landmarks that were exchanged,
 // or a wrong sign in the station's position. Empty if there is none.
 std::vector<std::string> causes_of_contradiction(const Problem& problem, const Levels& levels = {});
 

@@ -1,4 +1,4 @@
-// Finds two references that were taken for each other.
+// Finds pairs of references that were exchanged.
 #pragma once
 
 #include <string>

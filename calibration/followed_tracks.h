@@ -23,17 +23,17 @@ struct FollowedSighting {
   double clock_sd_s = 0.0;
 };
 
-// The same at a whole second, interpolated between the exposures before and after it. Its sd_px
-// includes the clock error.
+// The same at a whole second, interpolated between the exposures before and after that second. Its
+// sd_px includes the clock error.
 using Instant = FollowedSighting;
 
 struct Instants {
   std::vector<Instant> instants;  // by station and time
-  std::size_t lonely = 0;         // sightings without a partner beyond the next whole second
-  std::size_t unsure = 0;         // pairs whose approach is unknown or not the same
+  std::size_t lonely = 0;  // sightings without a second one on the other side of a whole second
+  std::size_t unsure = 0;  // pairs whose approach is unknown or not the same
 };
 
-// `stations`: as far as they are known, only to bound the speed of a target.
+// `stations`: as far as they are known. They serve only to bound the speed of a target.
 Instants instants_of(std::vector<FollowedSighting> sightings,
                      const std::vector<StationPrior>& stations);
 
@@ -44,9 +44,9 @@ struct FollowedObservations {
 
 using TellTracks = std::function<void(std::size_t done, std::size_t all)>;
 
-// An object that flies as an aircraft of `references` becomes that aircraft. Of the others, those
-// that several stations see at the same instants become tracks: one for each set of the stations'
-// own tracks. `tell` is called for each object after its comparison with all aircraft.
+// An object that flies as an aircraft of `references` becomes that aircraft. Any other object that
+// several stations see at the same instants becomes a track: one for each set of the stations' own
+// tracks. `tell` is called for each object after its comparison with all aircraft.
 FollowedObservations followed(const std::vector<Instant>& instants,
                               const std::vector<StationPrior>& stations,
                               const std::vector<std::string>& names, const References& references,

@@ -19,21 +19,21 @@ struct Problem {
   double ut1_sd_s = 0.3;  // not stated: UT1 stays within a fraction of a second of UTC
 };
 
-// The observations that are kept or rejected together: all sightings of a landmark, one sighting of
-// a star, a pass of an aircraft, a track; all scene points.
+// The observations that are kept or rejected together: all sightings of a landmark; one sighting of
+// a star; a pass of an aircraft; a track; all scene points.
 struct Group {
   Kind kind = Kind::kLandmark;
   std::string name;
-  std::size_t station = 0;  // the one that sees it first
+  std::size_t station = 0;  // the station of its first sighting
   std::vector<std::size_t> blocks;
   std::vector<std::size_t> observations;  // in the order of the blocks' sightings
   int degrees_of_freedom = 0;
   bool is_tested() const { return kind != Kind::kScene; }
-  // Whether a single sighting of many can be mistaken while the others are good.
+  // Whether one of its many sightings can be mistaken while the others are good.
   bool is_followed() const {
     return kind == Kind::kDrone || kind == Kind::kAircraft || kind == Kind::kTrack;
   }
-  // Whether it tells where a station looks: a person has stated where its target is.
+  // Whether it shows where a station looks, because a person has stated where its target is.
   bool is_absolute() const {
     return is_tested() && kind != Kind::kTrack && kind != Kind::kInclinometer &&
            !is_rectification_target(kind);

@@ -11,8 +11,8 @@
 
 namespace ols::calibration {
 
-// One possible next step of a person or a program: sightings that would all be made. Their pixels
-// do not matter; their reading, reference and deviations do.
+// One possible next step: a set of sightings that would be made together. Their reading, reference
+// and deviations matter, their pixels do not.
 struct Candidate {
   std::string name;
   std::vector<Observation> sightings;
@@ -24,15 +24,15 @@ struct Advice {
 };
 
 // Candidates, sorted by the error of `station` that would remain after each; smallest first.
-// `so_far`: the observations, possibly none. `model`: the station as far as it is known, its
-// heading to some degrees at least. Unusable candidates (a star too low, a target behind the
+// `so_far`: the observations, possibly none. `model`: the station as far as it is known; its
+// heading must be known to some degrees. Unusable candidates (a star too low, a target behind the
 // camera) are left out.
 std::vector<Advice> rank_sightings(const Problem& so_far, std::size_t station,
                                    const StationModel& model,
                                    const std::vector<Candidate>& candidates,
                                    const WorkingVolume& volume = {});
 
-// The systematic error that a plan's observations would leave, whatever their pixels.
+// The systematic error that a plan's observations would leave. Their pixels do not matter.
 VolumePrecision planned_precision(const Problem& plan, std::size_t station,
                                   const StationModel& model, const WorkingVolume& volume = {});
 

@@ -1,7 +1,7 @@
 // Finds the mistaken landmarks of a stationing, by the tests of calibration/snooping.h.
 //
-// The cost of a hypothesis is the misfit of the kept landmarks plus one critical value for each
-// rejected one. A search starts at the heading of each landmark. The cheapest result wins.
+// The cost of a hypothesis is the misfit of the kept landmarks, plus one critical value for each
+// rejected landmark. A search starts at the heading of each landmark. The cheapest result wins.
 //
 // The search is repeated with all stated deviations enlarged by 2, 4 and 8. Otherwise uniformly bad
 // sightings would be rejected until a few remain that agree by chance. The enlarged deviations are
@@ -10,8 +10,9 @@
 // Landmarks are rejected only if three conditions hold:
 //  - More landmarks are kept than rejected.
 //  - No other choice fits nearly as well (odds of 1000).
-//  - The rejected landmarks do not agree with each other in a group half as large as the kept one.
-//    Such a group means that the tripod was moved, or that the survey has two origins.
+//  - The rejected landmarks do not agree with each other in a group at least half as large as that
+//    of the kept landmarks. Such a group means that the tripod was moved, or that the survey has
+//    two origins.
 #pragma once
 
 #include "calibration/adjustment.h"

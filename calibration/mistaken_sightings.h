@@ -1,10 +1,10 @@
 // Finds single sightings of followed objects (drones, aircraft, tracks) that contradict all others.
 //
-// The sightings of a drone share an offset, so they are one group. But a detection that sat on a
-// bird in one picture does not make the drone's positions wrong. Each sighting (of a track: each
-// instant) is therefore tested against everything else, beside the groups. The worst one that fails
-// is removed first. If more than a third of a group's sightings fail, the group itself is mistaken;
-// that is left to calibrate().
+// The sightings of a drone share an offset, so they are one group. But a detection that was a bird
+// in one picture does not make the drone's positions wrong. Each sighting (of a track: each
+// instant) is therefore tested against everything else, in addition to the groups. Of those that
+// fail, the worst is removed first. If more than a third of a group's sightings fail, the group
+// itself is mistaken; that is left to calibrate().
 #pragma once
 
 #include <set>
@@ -14,7 +14,7 @@
 
 namespace ols::calibration {
 
-// Indices of observations. Empty if there are none. `tell`: as for calibrate().
+// Returns indices of observations; empty if none is mistaken. `tell`: as for calibrate().
 std::set<std::size_t> mistaken_sightings(const Network& network, const Levels& levels = {},
                                          const TellAdjusted& tell = {});
 

@@ -19,9 +19,9 @@ struct NamedStars {
   std::vector<std::size_t> false_ones;  // indices of observations that show no star of the table
 };
 
-// Star observations without a reference get one. Every "HIP n" that is missing in the references
-// gets its place from the table. Observations of one station, reading and time are one frame. The
-// false ones get no name and must be left out. Throws StarsUnidentified.
+// Gives a reference to each star observation that has none. Every "HIP n" that is missing in the
+// references gets its place from the table. Observations of one station, reading and time are one
+// frame. False detections get no name and must be left out. Throws StarsUnidentified.
 NamedStars name_stars(Problem& problem);
 
 }  // namespace ols::calibration

@@ -40,8 +40,9 @@ std::optional<Kind> kind_of(const std::string& name);
 struct TargetFacts {
   Eigen::Vector2d second_px = Eigen::Vector2d::Zero();  // of a level line: another pixel of it
   double distance_m = 0.0;                              // from the pan axis; of a cross or a ruler
-  // Of a cross: to the right of the plane that contains the pan axis and is perpendicular to the
-  // tilt axis. Of a ruler: the reading at the pixel, growing upwards; all zeros are level.
+  // Of a cross: its distance to the right of the plane that contains the pan axis and is
+  // perpendicular to the tilt axis. Of a ruler: the reading at the pixel, growing upwards; all
+  // zeros are at one height.
   double offset_m = 0.0;
   double sd = 0.0;  // of a line's level [rad]; of a cross's place or a ruler's zero [m]
 };
@@ -99,7 +100,7 @@ class ObservationRefused : public std::invalid_argument {
                      std::optional<std::size_t> other = std::nullopt)
       : std::invalid_argument(key + ": " + why), index_(index), other_(other) {}
   std::size_t index() const { return index_; }
-  // The observation that it contradicts.
+  // The observation that this one contradicts.
   std::optional<std::size_t> other() const { return other_; }
 
  private:

@@ -7,13 +7,12 @@ namespace ols::calibration {
 
 struct ParameterChange {
   double by = 0.0;  // found minus known
-  // 1-sigma of `by` if prior and observations agree: the root of the variance that the adjustment
-  // has removed.
+  // 1-sigma of `by` if prior and observations agree: the root of the decrease of the variance.
   double sd = 0.0;
-  // False: the observations say almost nothing of the parameter.
+  // False: the observations say almost nothing about the parameter.
   bool is_told = false;
   double sigmas() const;
-  // Whether the change is too large for an agreement of prior and observations (level 0.001).
+  // Whether the change is so large that prior and observations disagree (level 0.001).
   bool is_large() const;
 };
 

@@ -1,9 +1,9 @@
 // The paper's three rectification targets (section 4.2) as blocks of an adjustment.
 //
-//   level line   roll of the image against the horizon: a level line, perpendicular to the line of
-//                sight to some degrees
-//   cross        direction of the camera against the plane perpendicular to the tilt axis
-//   ruler pair   elevation of the camera: two rulers, one behind the other, with level zeros
+// level line   roll of the image against the horizon: a level line, perpendicular to the line of
+// sight to some degrees cross        direction of the camera against the plane perpendicular to the
+// tilt axis ruler pair   elevation of the camera: two rulers at two distances, with their zeros at
+// the same height
 //
 // Each sighting is one equation, scaled by its deviation.
 #pragma once
@@ -21,8 +21,9 @@ struct TargetSighting {
   std::string name;  // of the target
 };
 
-// The lines of one board. The nuisance: its error of level, and its angle from perpendicular to the
-// line of sight. Lines above and below the camera's height determine the latter.
+// The lines of one board. The nuisance: the board's error of level, and its deviation from
+// perpendicular to the line of sight. Lines above and below the camera's height determine that
+// deviation.
 BlockPtr level_line_block(const PixelBlockConfig& config, std::vector<TargetSighting> sightings);
 // The nuisance: the cross's offset from its place.
 BlockPtr cross_block(const PixelBlockConfig& config, std::vector<TargetSighting> sightings);

@@ -1,6 +1,6 @@
 // How the air bends a line of sight: to a place on or above the ground (terrestrial refraction),
-// and to a celestial body (astronomical refraction). Only for a calibration's observations:
-// bearings are sent out as observed.
+// and to a celestial body (astronomical refraction). Used only for the observations of a
+// calibration; bearings are sent out as observed.
 #pragma once
 
 #include <Eigen/Core>

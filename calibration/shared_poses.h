@@ -9,14 +9,15 @@
 
 namespace ols::calibration {
 
-// The matrices of an adjustment have two rows for each. This many take 230 MB in all.
+// The matrices of an adjustment have two rows for each shared pose. At this number they take 230 MB
+// in all.
 inline constexpr std::size_t kMostSharedPoses = 1000;
 
 class SharedPoses {
  public:
-  // Sightings with the same pose number share a pose. So do those without one that have the same
-  // time and counts: they are from one picture. Throws ObservationRefused for a number at two
-  // places, and for more shared poses than can be adjusted.
+  // Sightings with the same pose number share a pose. Sightings without a number share one if they
+  // have the same time and counts, because they are from one picture. Throws ObservationRefused for
+  // a number at two places, and for more shared poses than can be adjusted.
   explicit SharedPoses(const std::vector<Observation>& observations);
 
   std::size_t size() const { return stations_.size(); }

@@ -18,7 +18,7 @@ struct EarthRotation {
   double ut1_minus_utc_s = 0.0;
 };
 
-// The max error of a planet's direction, each axis, with the planet at its nearest to the Earth. It
+// The max error of a planet's direction, each axis, when the planet is nearest to the Earth. It
 // follows from the errors of the theory (Simon et al. 1994) over 1800-2050: at most 5, 17, 71 and
 // 81 arc seconds in heliocentric longitude (Venus, Mars, Jupiter, Saturn). The sun's error is below
 // 0.1.

@@ -10,20 +10,20 @@
 
 namespace ols::calibration {
 
-// By how much the misfit falls when a kept group is left out, or grows when a rejected one is
-// added: chi-square with the group's degrees of freedom.
+// How much the misfit falls when a kept group is left out, or grows when a rejected group is added:
+// chi-square with the group's degrees of freedom.
 double test_statistic(const Adjustment& adjustment, const Fit& fit, std::size_t group);
 
-// The same for a part of a block: by how much the misfit falls when its equations `now` are
-// replaced by `then`, over the same columns. Negative if it grows.
+// The same for a part of a block: how much the misfit falls when the equations `now` are replaced
+// by `then`, over the same columns. Negative if the misfit grows.
 double replacement_statistic(const Fit& fit, const BlockEquations& now, const BlockEquations& then);
 
-// The bias of the direction (across, up) that the group's test detects at this noncentrality.
+// The bias of a direction (across, up) that the group's test detects at this noncentrality.
 Eigen::Vector2d detectable_rad(const Adjustment& adjustment, const Fit& fit, std::size_t group,
                                double noncentrality);
 
-// The offset of a kept group's target from where all others put it, as seen from the station: the
-// group is predicted without itself. nullopt if no other group checks it.
+// The offset of a kept group's target from the place that all other groups predict, as seen from
+// the station. nullopt if no other group checks it.
 struct Bias {
   Eigen::Vector2d rad = Eigen::Vector2d::Zero();  // across, up
   double sigmas = 0.0;                            // of the worse component
@@ -33,7 +33,7 @@ std::optional<Bias> bias_without(const Adjustment& adjustment, const Fit& fit, s
 // The critical value of a group's test.
 double critical_value(const Group& group, std::size_t groups, double level);
 
-// The tests of all groups; of untested ones, zeros.
+// The tests of all groups; zeros for untested groups.
 struct GroupTest {
   bool rejected = false;
   double w = 0.0;  // root of a chi-square with the group's degrees of freedom
@@ -50,23 +50,24 @@ struct Start {
   State state;
   std::vector<bool> kept;
 };
-// `variance`: of all observations, over what is stated.
+// `variance`: the variance of all observations, over the stated variance.
 Start start_at(const Adjustment& adjustment, const std::vector<double>& headings_rad, double level,
                double variance = 1.0);
-// At the headings on which most groups agree.
+// The start at the headings on which most groups agree.
 Start find_start(const Adjustment& adjustment, double level);
 
 struct Search {
   double level;               // for the tests of all groups together
-  double variance = 1.0;      // of all observations, over what is stated
-  std::vector<bool> among{};  // by group: which may be kept; empty: all
+  double variance = 1.0;      // variance of all observations, over the stated one
+  std::vector<bool> among{};  // for each group, whether it may be kept; empty: all may
 };
 using TellAdjusted = std::function<void()>;
 
 bool is_finite(const Fit& fit);
 
 // Data snooping. Each round takes back the rejected group that passes its test best, or rejects the
-// kept one that fails it worst; a set that was tried before ends it. `tell` is called each round.
+// kept group that fails worst. The search ends at a set that was tried before. `tell` is called
+// each round.
 Fit snoop(const Adjustment& adjustment, const Start& start, const Search& search,
           const TellAdjusted& tell = {});
 

@@ -16,13 +16,13 @@ class StarFit {
   struct Result {
     double heading_rad = 0.0;
     std::vector<StarPair> pairs;  // each detection and each star of a frame at most once
-    // The number of possible pairs: for each frame the number of its detections, but at most the
-    // number of table stars in its image.
+    // The number of possible pairs: for each frame, the number of its detections or of the table's
+    // stars in its image, whichever is smaller.
     std::size_t possible = 0;
     double rms_px = 0.0;                        // of a coordinate
     double focal_change = 0.0, focal_sd = 0.0;  // relative; from the stars alone
   };
-  // Goes from the pairs of a hypothesis to the pairs that fit within some deviations.
+  // Starts from the pairs of a hypothesis, and finds the pairs that fit within some deviations.
   Result refined(const StarHypothesis& hypothesis) const;
 
  private:

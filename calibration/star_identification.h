@@ -1,11 +1,11 @@
 // Identifies stars without a heading. The unit's angles give the frames' positions relative to each
 // other and to the horizon, so one turn about the vertical brings all detections onto their stars.
 //
-// Each pair of a detection and a star of about its elevation votes for the turn and the lift that
-// would bring one onto the other. Votes of one frame that belong together fall into one cell. The
+// Each pair of a detection and a star at about its elevation votes for the turn and the lift that
+// would bring the star onto the detection. Correct votes of one frame fall into one cell. The
 // station's model with its priors is fitted to the best cells of all frames, and the stars that
-// then fall onto detections are counted. They are accepted if at least 12, and 60 % of the possible
-// ones, are matched, and no other heading matches half as many.
+// then fall onto detections are counted. They are accepted if there are at least 12 matches, and 60
+// % of the possible ones, and if no other heading gives half as many.
 #pragma once
 
 #include <cstdint>
@@ -47,10 +47,11 @@ struct StarIdentification {
   Verdict verdict = Verdict::kTooFewDetections;
   std::vector<IdentifiedStar> stars;  // only if identified
   double heading_rad = 0.0;           // approximate; only if identified
-  // `possible`: the number that could be matched. More stars than the table holds may be visible,
-  // or fewer may be detected.
+  // `possible`: the number of stars that could be matched. It is limited by the stars in the table
+  // and by the detections.
   std::size_t detections = 0, possible = 0, matched = 0, next_best = 0;
-  // Relative to the model's, from these stars alone, with its 1-sigma. It shows a refocused lens.
+  // The change of the focal length relative to the model's, from these stars alone, and its
+  // 1-sigma. It shows a refocused lens.
   double focal_change = 0.0, focal_sd = 0.0;
   double rms_px = 0.0;  // residual of a coordinate
   std::string finding;  // a sentence: what was found, or why not

@@ -20,7 +20,7 @@ struct TableStar {
   std::int32_t magnitude_tenths = 0;
 };
 
-// The positions include proper motion up to this year, and none after it. The motion is 0.04 arc
+// The positions include proper motion up to this year, and no later motion. The motion is 0.04 arc
 // seconds a year in the median, and above 0.3 for one star in a hundred.
 inline constexpr double kStarTableEpoch = 2024.0;
 

@@ -47,7 +47,7 @@ class StarVotes {
             const StarConditions& conditions, std::span<const TableStar> table);
 
   const std::vector<SeenFrame>& frames() const { return frames_; }
-  // Those with most votes, best first.
+  // The turns with most votes, best first.
   std::vector<StarHypothesis> hypotheses() const;
 
  private:

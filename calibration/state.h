@@ -17,7 +17,7 @@ struct StationPrior {
   StationModel model;
   double refraction = 0.13;
   double air = 1.0;
-  // Of the parameters in their own units; 0 for a known one. That of the heading is ignored.
+  // Deviations of the parameters, in their own units; 0: known exactly. The heading's is ignored.
   StationMatrix covariance = StationMatrix::Zero();
   double pose_sd_rad = 0.0;  // of each angle of a pose; new at every pose
 };

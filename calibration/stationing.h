@@ -54,7 +54,7 @@ class LandmarkRefused : public std::invalid_argument {
   std::string field_, why_;
 };
 
-// One explanation of a contradiction: without the rejected sightings, all others agree.
+// One explanation of a contradiction: if these sightings are rejected, all others agree.
 struct StationingAlternative {
   std::vector<std::size_t> rejected;
   double heading_rad = 0.0;
@@ -105,9 +105,10 @@ struct HorizonSd {
 };
 
 struct Stationing {
-  // With the adjusted chain. The remaining errors are strongly correlated, and separate deviations
-  // cannot express that. Its sd therefore has a mounting of zero. Its heading and tilts are the
-  // smallest values that cover every line of sight within `highest_rad` of the horizon.
+  // The geometry with the adjusted chain. The remaining errors are strongly correlated, and
+  // separate deviations cannot express that. In its `sd` the mounting is therefore zero, and
+  // heading and tilts have the smallest values that cover every line of sight within `highest_rad`
+  // of the horizon.
   StationGeometry station;
   // [rad^2] Includes the variance factor if the global test rejects the stated deviations.
   PoseCovariance covariance = PoseCovariance::Zero();
@@ -120,7 +121,7 @@ struct Stationing {
   // normal; 0 for a prior without a deviation.
   std::array<double, 8> stated_w{};
   double scaled_by = 1.0;  // factor of the deviations, from the global test
-  HorizonSd best, worst;   // where the landmarks determine the tilt best and least
+  HorizonSd best, worst;  // in the directions where the landmarks determine the tilt best and least
 };
 
 // Throws std::invalid_argument without sightings, and where the landmarks leave the heading unknown

@@ -37,7 +37,7 @@ struct VolumePrecision {
   std::vector<VolumePoint> points;
 };
 
-// On a grid, at the image centre, approached alternately from both sides.
+// Computed on a grid, at the image centre, with alternating directions of approach.
 VolumePrecision volume_precision(const StationModel& model, const StationMatrix& covariance,
                                  const WorkingVolume& volume = {});
 

@@ -1,4 +1,4 @@
-// The object at a pixel: where a station sees it, and what that depends on besides the station.
+// The object at a pixel: where a station sees it, and on what that depends besides the station.
 #pragma once
 
 #include <Eigen/Core>
@@ -32,7 +32,7 @@ struct TargetView {
   Eigen::Vector3d by_refraction = Eigen::Vector3d::Zero();
   Eigen::Vector3d by_air = Eigen::Vector3d::Zero();
   Eigen::Vector3d by_ut1 = Eigen::Vector3d::Zero();
-  // For a target on another station: derivative of x by that station's east, north and up.
+  // For a target on another station: derivative of x by that other station's east, north and up.
   Eigen::Matrix3d by_position = Eigen::Matrix3d::Zero();
   double white_sd_m = 0.0;     // of the position; new at every sighting
   bool moves_with_us = false;  // its place is given in the station's own frame
@@ -58,7 +58,7 @@ using TargetPtr = std::shared_ptr<const Target>;
 
 // A surveyed place: its three coordinates have a constant error.
 TargetPtr fixed_target(const FixedPoint& point);
-// A direction in ECEF that includes astronomical refraction, sighted once.
+// A direction in ECEF, including astronomical refraction, that is sighted once.
 struct SkyDirection {
   Eigen::Vector3d ecef = Eigen::Vector3d::UnitX();   // unit vector, apparent
   Eigen::Vector3d by_air = Eigen::Vector3d::Zero();  // derivative by the factor of the refraction

@@ -1,5 +1,5 @@
 // Determines the focal length of a lens at one zoom position, from pictures of still scenery at pan
-// angles that the unit has counted: the unit is the ruler. Pure.
+// angles that the unit has counted. The unit's counts are the measure. Pure.
 #pragma once
 
 #include <cstddef>
@@ -30,7 +30,8 @@ struct ZoomFit {
   explicit operator bool() const { return used > 0; }
 };
 
-// `station`: as known, with the focal length right to a tenth. `angles`: of each picture.
+// `station`: as far as it is known; the focal length must be right to a tenth. `angles`: of each
+// picture.
 ZoomFit fit_zoom(const StationGeometry& station, const std::vector<PanTilt>& angles,
                  const std::vector<ZoomPair>& pairs, const ZoomFitOptions& options = {});
 

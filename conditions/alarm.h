@@ -32,29 +32,29 @@ struct Alarm {
   bool operator==(const Alarm&) const = default;
   friend bool operator==(const Alarm& alarm, std::string_view text) { return alarm.text == text; }
 
-  // The same alarm with the words of a device or library behind it, as one more parameter.
+  // The same alarm, followed by the words of a device or library, as one more parameter.
   Alarm with_detail(const std::string& detail) const;
-  // The same while the alarm holds: its id and subject ("station_silent s1"), whatever its other
-  // parameters. Without an id, the sentence.
+  // A key that does not change while the alarm holds: id and subject ("station_silent s1"). Other
+  // parameters may change. Without an id: the sentence.
   std::string key() const;
-  // The sentence with its subject, and "…" for whatever else changes while it holds.
+  // The sentence with the subject filled in; all other parameters appear as "…".
   std::string gist() const;
-  // What the sentence is about, "ptu", and what it says of it: the words on either side of the
-  // first colon in the table. Without an id, there is no part.
+  // The part that the sentence is about ("ptu"), and what the sentence says about it: the words
+  // before and after the first colon in the table. Without an id, there is no part.
   std::string part() const;
   std::string reason() const;
   // The value of a parameter; empty: it has none of this name.
   std::string parameter(std::string_view name) const;
-  // Without an id, a warning that refers to docs/troubleshooting.md.
+  // The severity and the action. Without an id: a warning that refers to docs/troubleshooting.md.
   const AlarmRow& row() const;
 };
 
-// The alarm of the row `id`, which the table has.
+// The alarm of the row `id`, which must be in the table.
 Alarm raise(std::string_view id, Alarm::Parameters parameters);
 // Alarms without ids.
 std::vector<Alarm> alarms_of(const std::vector<std::string>& sentences);
 
-// Writes the alarms of a status: station_status_t or fusion_status_t.
+// Writes alarms into a status: station_status_t or fusion_status_t.
 template <class Status>
 void set_alarms(const std::vector<Alarm>& alarms, Status& status) {
   for (const Alarm& alarm : alarms) {

@@ -6,7 +6,8 @@
 
 namespace ols {
 
-// Of a reason that programs count ("no_frame"), as conditions.toml has it; empty: it has none.
+// The sentence of conditions.toml for a reason that programs count ("no_frame"); empty: it has
+// none.
 std::string_view refusal_sentence(std::string_view reason);
 // "SLEW refused: it came too late; ...". A reason without a sentence stands for itself.
 std::string refused_in_words(const std::string& what, const std::string& reason);

@@ -6,13 +6,13 @@
 
 namespace ols {
 
-// Gives each row one column at most, and each column to one row at most, so that the sum of costs
-// is least. A row without a column costs `unassigned`. An infinite cost: never. Returns the column
-// of each row; -1: none. Throws nothing; costs are not negative.
-// The Hungarian method with potentials; the time grows with rows^2 (rows + columns).
+// Gives each row at most one column, and each column to at most one row, so that the sum of costs
+// is least. A row without a column costs `unassigned`. An infinite cost forbids a pair. Returns the
+// column of each row; -1: none. Throws nothing; costs are not negative. The Hungarian method with
+// potentials; the time grows with rows^2 (rows + columns).
 std::vector<int> assign(const Eigen::MatrixXd& cost, double unassigned);
 
-// The sum that assign() makes least.
+// The sum of costs that assign() minimises.
 double cost_of(const std::vector<int>& assignment, const Eigen::MatrixXd& cost, double unassigned);
 
 }  // namespace ols

@@ -3,7 +3,7 @@
 
 namespace ols {
 
-// The critical value, which a sum of squares of `degrees` standard normal variables exceeds with
+// The critical value: a sum of squares of `degrees` standard normal variables exceeds it with
 // probability `level` (0 < level < 1). Throws std::invalid_argument for other levels or degrees.
 double chi_square_critical(double level, int degrees);
 

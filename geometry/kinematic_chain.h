@@ -74,9 +74,9 @@ std::array<Eigen::Isometry3d, kJoints> joints(const ChainParameters& chain, cons
 Eigen::Isometry3d enu_from_camera(const ChainParameters& chain, const PanTilt& angles);
 
 // The PTU angles that turn a unit direction of the camera frame (OpenCV axes; the optical axis is
-// z) onto a unit direction in GROUND. Of the two solutions, it is the one with the camera upright:
-// tilt in -pi/2..pi/2 of the shaft, pan in -pi..pi. nullopt where none exists (around the pan
-// axis).
+// z) onto a unit direction in GROUND. Of the two solutions, returns the one with the camera
+// upright: shaft tilt in -pi/2..pi/2, pan in -pi..pi. nullopt where there is no solution (around
+// the pan axis).
 std::optional<PanTilt> aim(const ChainParameters& chain, const Eigen::Vector3d& direction_enu,
                            const Eigen::Vector3d& direction_cam = Eigen::Vector3d::UnitZ());
 

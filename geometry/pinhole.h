@@ -33,8 +33,8 @@ Eigen::Matrix<double, 3, 4> projection_matrix(const Eigen::Matrix3d& K, const Ei
 Eigen::Vector3d back_project(const Eigen::Matrix<double, 3, 4>& P, const Eigen::Vector2d& pixel);
 
 // The image of a point in camera coordinates [m]. nullopt when it is not in front (z <= 0), or so
-// far off the axis that the distortion polynomial folds back: it would put a point far outside the
-// field of view into the middle of the image.
+// far off the axis that the distortion polynomial folds back. (It would image a point far outside
+// the field of view in the middle of the image.)
 std::optional<Eigen::Vector2d> project(const CameraIntrinsics& intrinsics,
                                        const Eigen::Vector3d& p_cam);
 

@@ -18,8 +18,9 @@ struct HomogeneousPoint {
 
 struct PixelPrediction {
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
-  // Derivatives by the parameters, in the order of Parameter. Those by the position are for a
-  // target that stays in place. They omit the turn of the horizon (0.03 arc seconds per metre).
+  // Derivatives by the parameters, in the order of Parameter. The derivatives by the position are
+  // for a target that stays in place. They omit the turn of the horizon (0.03 arc seconds per
+  // metre).
   Eigen::Matrix<double, 2, kModelParameters> by_parameters;
   Eigen::Matrix2d by_shafts;  // [px/rad] pan, tilt
   Eigen::Matrix<double, 2, 3> by_x;

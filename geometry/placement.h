@@ -4,8 +4,8 @@
 // The value of a place is its information about each point of the area (geometry/precision.h). The
 // cost of a choice is the root of the mean, over the area, of the expected squared distance from
 // the truth; or the largest such distance over the area (as a power mean of high order, which a
-// search can descend). The search starts from random choices. It improves each by exchanging one
-// place at a time for the best other one, until no exchange helps (V. Fedorov's exchange
+// search can descend). The search starts from random choices. It improves each choice by exchanging
+// one place at a time for the best other place, until no exchange helps (V. Fedorov's exchange
 // algorithm).
 #pragma once
 
@@ -19,13 +19,13 @@
 
 namespace ols {
 
-// The error assumed where the stations do not determine the position. Such a point is left out if a
-// chosen station stands on it.
+// The error assumed where the stations do not determine the position. A point on which a chosen
+// station stands is then left out.
 inline constexpr double kUndetermined_m = 1e6;
 
 // The default is the worst point. Where stations may stand anywhere around the area, it gives the
-// paper's regular polygon on the edge. The mean gives the polygon from four stations on, but puts
-// three on one side, at the expense of the far side.
+// paper's regular polygon on the edge. kMean gives the polygon only for four or more stations. It
+// puts three stations on one side of the area, and the far side suffers.
 enum class PlacementGoal { kMean, kWorst };
 
 struct PlacementProblem {

@@ -3,11 +3,12 @@
 // unlimited.
 //
 // Each station measures the direction to the target on its tangent plane (geometry/direction.h),
-// with errors that are independent of the other stations'. Errors that stay from frame to frame are
-// nuisance parameters of that station, with known deviations. When they are marginalised, the
-// information about the position is the sum over stations of H' R^-1 H, where R holds all errors of
-// a station. Its inverse is the bound. (H. Van Trees, Detection, Estimation, and Modulation Theory
-// I, section 2.4.3: the bound with random nuisance parameters, for the linear Gaussian case.)
+// with errors that are independent of the other stations'. Errors that are constant from frame to
+// frame are nuisance parameters of that station, with known deviations. When they are marginalised,
+// the information about the position is the sum over stations of H' R^-1 H, where R holds all
+// errors of a station. Its inverse is the bound. (H. Van Trees, Detection, Estimation, and
+// Modulation Theory I, section 2.4.3: the bound with random nuisance parameters, for the linear
+// Gaussian case.)
 #pragma once
 
 #include <Eigen/Core>
@@ -68,8 +69,8 @@ struct PlannedTarget {
   Eigen::Matrix3d velocity_moment_ecef = Eigen::Matrix3d::Zero();
 };
 
-// Covariance of a station's direction [rad^2] on the tangent plane from one source. The white one
-// is divided by the number of independent exposures.
+// Covariance of a station's direction [rad^2] on the tangent plane, from one source. White errors
+// are divided by the number of independent exposures.
 Eigen::Matrix2d source_covariance(const PlannedStation& station, ErrorSource source,
                                   const PlannedTarget& target, double exposures = 1.0);
 

@@ -24,9 +24,9 @@ struct PixelError {
 // disparity is p pixels too small. With p = 1 it is the depth resolution R.
 double canonical_stereo_error_m(const PixelError& error, double base_m, double depth_m);
 
-// E = B tan(arctan(D / B) + arctan(p r / f)) - D: cameras that can rotate, the target straight
-// ahead of the first at distance D, and only the second one in error. The paper prints arctan(r /
-// f), which is p = 1.
+// E = B tan(arctan(D / B) + arctan(p r / f)) - D: cameras that can rotate. The target is straight
+// ahead of the first camera at distance D, and only the second camera is in error. The paper prints
+// arctan(r / f), which is p = 1.
 double rotating_pair_error_m(const PixelError& error, double base_m, double distance_m);
 
 // Both cameras in error by up to angle_rad, in the plane of the cameras and the target: the largest
@@ -46,14 +46,15 @@ struct Baseline {
 // between t and the baseline, 0..1. It is also 0 for a target at the baseline's centre.
 double normal_component(const Baseline& baseline, const Eigen::Vector3d& target);
 
-// i = argmax t_i . n_i, the first of equal ones. Throws std::invalid_argument if there are none.
+// i = argmax t_i . n_i; of equal values, the first. Throws std::invalid_argument without pairs.
 std::size_t best_baseline(std::span<const Baseline> baselines, const Eigen::Vector3d& target);
 
 // The target of a row of the paper's Table 1, in the plane (x along the base, y across it), with
-// the base's centre as origin. The paper does not say where it measures the distance from, nor on
+// the base's centre as origin. The paper does not say from where it measures the distance, nor on
 // which side of the base's normal the target is. side 0: the distance is from the centre of the
-// base. Otherwise it is from the first camera (at x = -base/2), and the target is on that camera's
-// side (-1) or on the other (+1). alpha_rad: the angle at the base's centre, from its normal.
+// base. Otherwise the distance is from the first camera (at x = -base/2), and the target is on that
+// camera's side (-1) or on the other (+1). alpha_rad: the angle at the base's centre, from its
+// normal.
 Eigen::Vector3d table_target(double base_m, double distance_m, double alpha_rad, int side);
 
 }  // namespace ols

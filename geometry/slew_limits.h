@@ -1,5 +1,5 @@
-// The limits up to which a station accepts slews and operators' angles. The fusion and ols-ctl ask
-// for no more.
+// The limits within which a station accepts slews and operators' angles. The fusion and ols-ctl
+// keep to them.
 #pragma once
 
 #include "geometry/angles.h"
@@ -9,8 +9,8 @@ namespace ols {
 inline constexpr double kSlewRateLimit_rad_s = 1.5;  // about each axis
 inline constexpr double kSlewLead_s = 1.0;           // from "now" to the effect, either way
 
-// Pan and tilt as the PTU counts them, either way. More than this is a typing error: the unit would
-// turn by whole turns.
+// The largest pan and tilt, either way, as the PTU counts them. More than this is a typing error:
+// the unit would turn by whole turns.
 inline constexpr double kPointPanLimit_rad = radians(360.0);
 inline constexpr double kPointTiltLimit_rad = radians(180.0);
 

@@ -96,8 +96,8 @@ ShaftAngle shaft_angle(const AxisModel& axis, int sign, double zero_rad, const A
 // view() and the chain.
 PanTilt corrected_angles(const StationModel& model, const UnitReading& reading);
 
-// The model with its parameters changed by this much. The tilts and the heading stay those of the
-// horizon at the new position.
+// The model with its parameters changed by this much. Tilts and heading then refer to the horizon
+// at the new position.
 StationModel changed(const StationModel& model, const ModelParameters& by);
 
 }  // namespace ols

@@ -24,9 +24,9 @@ class ZoomTable {
   explicit ZoomTable(std::vector<ZoomPoint> points);
 
   // Between the points, the logarithm of the focal length and all other values are linear in the
-  // position. The deviations are the larger ones of the two neighbours. That of the focal length
-  // also includes the curvature between them (from the difference of the slopes on both sides) and
-  // the position's own 1-sigma. Outside the table, the nearest point's values hold.
+  // position. Each deviation is the larger one of the two neighbours'. The focal length's deviation
+  // also includes the curvature between the points (from the difference of the slopes on both
+  // sides) and the position's own 1-sigma. Outside the table, the nearest point's values hold.
   ZoomPoint at(double position, double position_sd) const;
 
   const std::vector<ZoomPoint>& points() const { return points_; }

@@ -1,4 +1,4 @@
-// What the fusion says of itself, as everybody who reads it understands it.
+// Reads the fusion's status, in one way for all programs.
 #pragma once
 
 #include <cstdint>

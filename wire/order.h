@@ -25,7 +25,8 @@ enum class Kind {
   kLook
 };
 
-// Names an order among all: random number of its sender's start, and a number of its own in it.
+// Identifies an order: a random number drawn when the sender started, and the order's number since
+// then.
 struct OrderId {
   std::int64_t boot_id = 0, sequence = 0;
   auto operator<=>(const OrderId&) const = default;
@@ -54,19 +55,19 @@ struct Order {
   std::string label = {};
 };
 
-// An operator's word on a cue, to the fusion.
+// An operator's decision on a cue, for the fusion.
 struct CueOrder {
   std::string cue;
   bool allow = false;
   OrderId id = {};
 };
 
-// What a station said to an order, or the fusion to one on a cue.
+// A station's answer to an order, or the fusion's to an order on a cue.
 struct Reply {
   std::string station = {};  // empty: the fusion
   OrderId order = {};
   bool is_accepted = false;
-  std::string reason = {};  // of a refusal, as it is counted: "no_frame"
+  std::string reason = {};  // why it was refused, the name of the counter: "no_frame"
   std::string detail = {};  // more about it, for a person
   bool is_stopped = false;  // the station, after the order
 };
@@ -74,10 +75,10 @@ struct Reply {
 // How long a station obeys an order after its creation, and therefore how long the sender waits for
 // the answer.
 inline constexpr double kLease_s = 2.0;
-// Within this time every station is heard: two status intervals.
+// Within this time every station sends a status: two status intervals.
 inline constexpr double kTwoIntervals_s = 1.2;
-// Interval at which a rate is repeated while the joystick is held. Within its lease two of them may
-// get lost.
+// Interval at which a rate is repeated while the joystick is held. Two in a row may get lost before
+// the lease ends.
 inline constexpr double kRateAgain_s = 0.1;
 // The maximum that a station accepts: kRateLease_s of geometry/slew_limits.h.
 inline constexpr double kJoystickLease_s = 0.3;

@@ -10,11 +10,12 @@
 
 namespace ols::wire {
 
-// An order that was sent by whoever; nothing if it is none, or not for the station of its channel.
+// Reads an order of any sender; nothing if the message is not an order, or not for the station of
+// its channel.
 std::optional<Order> heard_order(const BusMessage& message);
 
-// nullopt if it is no reply, or not of the station of its channel. Its texts are made safe for a
-// terminal (base/text/plain_text.h).
+// nullopt if the message is not a reply, or not from the station of its channel. Its texts are made
+// safe for a terminal (base/text/plain_text.h).
 std::optional<Reply> heard_reply(const BusMessage& message);
 
 // Sends orders under one boot id.
@@ -22,9 +23,9 @@ class OrderSender {
  public:
   explicit OrderSender(std::int64_t boot_id) : boot_id_(boot_id) {}
 
-  // The id of the next order that gets none from elsewhere.
+  // The id for the next order that has no id yet.
   OrderId next_id() { return {boot_id_, ++sequence_}; }
-  // `order.id`: of its own, of this sender. `utime_us`: this host's UTC. False if the network is
+  // `order.id` must be an id of this sender. `utime_us`: this host's UTC. False if the network is
   // down.
   bool send(LcmBus& bus, const Order& order, std::int64_t utime_us) const;
   bool send(LcmBus& bus, const CueOrder& order, std::int64_t utime_us) const;

@@ -1,4 +1,4 @@
-// What a person is told of a refusal. Pure.
+// The words for a person about a refusal. Pure.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace ols::wire {
 
-// "refused: that picture is too old; ..". Of a reply that refuses.
+// "refused: that picture is too old; ..". For a reply that refuses.
 std::string refusal_in_words(const Reply& reply);
 
 }  // namespace ols::wire

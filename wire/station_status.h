@@ -1,4 +1,4 @@
-// What a station says of itself, as everybody who reads it understands it.
+// Reads a station's status, in one way for all programs.
 #pragma once
 
 #include <cstddef>
@@ -22,7 +22,7 @@ std::optional<ols_msg::station_status_t> heard_status(const BusMessage& message)
 double counter(const ols_msg::station_status_t& status, const std::string& name);
 
 const char* state_name(std::int8_t state);
-// Stopped by a person, or by the emergency stop: station_status_t::STATE_*.
+// Whether the state (station_status_t::STATE_*) is a stop, by a person or by the emergency stop.
 bool is_stopped(std::int8_t state);
 const char* device_name(std::int8_t device);
 // The state of a device by its name; "-" when the station has no such device.

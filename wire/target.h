@@ -1,4 +1,4 @@
-// A target, as everybody who reads it understands it.
+// Reads a target, in one way for all programs.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,8 +10,8 @@
 
 namespace ols::wire {
 
-// Of the estimator that the site goes by; nothing if it is none. Its texts are made safe for a
-// terminal.
+// A target of the site's estimator; nothing if the message is not one. Its texts are made safe for
+// a terminal.
 std::optional<ols_msg::target_t> heard_target(const BusMessage& message);
 
 // Whether there is an object, at a place on or near the earth.

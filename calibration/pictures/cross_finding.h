@@ -1,7 +1,6 @@
 // Finds the crosses of a rectification target: upright, dark arms on a light board, one alone or
-// two side by side. They are searched at the size that follows from their distance, by normalised
-// correlation with a drawn cross. The position is the intersection of the two arms' middle lines.
-// Pure.
+// two side by side. The search is by normalised correlation with a drawn cross of the size that
+// their distance gives. The position is the intersection of the two arms' middle lines. Pure.
 #pragma once
 
 #include <Eigen/Core>
@@ -25,9 +24,9 @@ struct Crosses {
     kBlurred,  // position worse than a third of a pixel
   };
   Refusal refusal = Refusal::kNone;
-  double scale = 1.0;                                 // size over the expected one
-  Eigen::Vector2d left_px = Eigen::Vector2d::Zero();  // if there is only one: the same as the right
-                                                      // one
+  double scale = 1.0;  // size over the expected one
+  Eigen::Vector2d left_px =
+      Eigen::Vector2d::Zero();  // if there is only one cross: the same as the right one
   Eigen::Vector2d right_px = Eigen::Vector2d::Zero();
   double sd_px = 0.0;  // 1-sigma of each coordinate of the right one
   explicit operator bool() const { return refusal == Refusal::kNone; }

@@ -1,9 +1,9 @@
 // Finds the exact position of a landmark at which a person has pointed roughly. Pure.
 //
 // It is Foerstner's point (W. Foerstner, E. Guelch, A Fast Operator for Detection and Precise
-// Location of Distinct Points, Corners and Centres of Circular Features, 1987). Either the
-// surrounding edges intersect there (the tip of a spire, the corner of a roof) or their normals do
-// (a ball, a lamp), whichever fits better.
+// Location of Distinct Points, Corners and Centres of Circular Features, 1987). At this point
+// either the surrounding edges intersect (the tip of a spire, the corner of a roof), or their
+// normals do (a ball, a lamp); the better fit is taken.
 #pragma once
 
 #include <Eigen/Core>
@@ -28,7 +28,8 @@ struct Snap {
 };
 const char* to_string(Snap::Refusal refusal);
 
-// `radius_px`: max distance of the structure from the point, and its max size.
+// `radius_px`: the max distance of the structure from the given point, and the max size of the
+// structure.
 Snap snap_to_structure(const cv::Mat& gray, const Eigen::Vector2d& pointed_px, double radius_px);
 
 }  // namespace ols::calibration

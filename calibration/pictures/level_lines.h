@@ -2,8 +2,7 @@
 // Pure.
 //
 // A Radon transform sums the gradient along all nearly level lines, and finds them through noise
-// and gaps. Each edge is then fitted to its centroids, column by column, without those that
-// something hides.
+// and gaps. Each edge is then fitted to its centroids, column by column. Hidden parts are left out.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,9 +11,9 @@
 
 namespace ols::calibration {
 
-// One edge. The two points are one radius of gyration to either side of its middle. Their errors
-// across the line are therefore independent, and a line that the lens bends evenly passes through
-// both.
+// One edge, by two points. They are one radius of gyration to either side of its middle, so that
+// their errors across the line are independent, and a line that the lens bends evenly passes
+// through both.
 struct LevelEdge {
   Eigen::Vector2d left_px = Eigen::Vector2d::Zero(), right_px = Eigen::Vector2d::Zero();
   double sd_px = 0.0;  // across the line, of each point

@@ -1,4 +1,4 @@
-// Fits a straight line through points, some of which belong to something else. Pure.
+// Fits a straight line through points, although some points belong to something else. Pure.
 #pragma once
 
 #include <cstddef>
@@ -19,8 +19,8 @@ struct FittedLine {
   std::size_t columns = 0;   // number of used points
 };
 
-// Least squares, beginning at `start`, without points that are further off than three deviations
-// (estimated from the median of the distances). nullopt if fewer than eight points are left.
+// Least squares, beginning at `start`. Points further off than three deviations (estimated from the
+// median of the distances) are left out. nullopt if fewer than eight points are left.
 std::optional<FittedLine> fit_line(const LinePoints& points, const FittedLine& start);
 
 }  // namespace ols::calibration

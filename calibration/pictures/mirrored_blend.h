@@ -1,5 +1,5 @@
 // The paper's picture for rotating a camera about its optical axis (section 4.2): the blend of a
-// picture and its mirror image. Level lines continue without a break; those of a rolled camera
+// picture and its mirror image. Level lines continue without a break. If the camera is rolled, they
 // cross their mirror images in the middle column. Pure.
 #pragma once
 
@@ -7,7 +7,7 @@
 
 namespace ols::calibration {
 
-// The mirror image exchanges left and right. Each has half of the blend.
+// The mirror image exchanges left and right. Picture and mirror image have equal weight.
 cv::Mat mirrored_blend(const cv::Mat& gray);
 
 }  // namespace ols::calibration

@@ -15,9 +15,9 @@ struct Patch {
   cv::Mat pixels;  // float, smoothed; square with an odd side: the middle is the point
 };
 
-// The patch around a point; nullopt if it does not fit into the picture. `turn` takes the patch's
-// coordinates to those of the searched picture. It is not the identity if that picture sees the
-// surroundings turned or sheared.
+// The patch around a point; nullopt if it does not fit into the picture. `turn` converts the
+// patch's coordinates to those of the searched picture; it is not the identity if that picture
+// shows the surroundings turned or sheared.
 std::optional<Patch> cut_patch(const cv::Mat& gray, const Eigen::Vector2d& centre_px, int half_px,
                                const Eigen::Matrix2d& turn = Eigen::Matrix2d::Identity());
 

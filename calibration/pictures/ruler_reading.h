@@ -28,7 +28,7 @@ struct RulerReading {
 };
 const char* to_string(RulerReading::Refusal refusal);
 
-// A point on the ruler whose bars have this height; nullopt if there is none.
+// A point on a ruler whose bars have this height; nullopt if there is none.
 std::optional<Eigen::Vector2d> find_ruler(const cv::Mat& gray, double bar_px);
 
 // Reads the ruler at `at_px`, at this row. `bar_px`: expected height of a bar.

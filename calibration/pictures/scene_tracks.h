@@ -1,9 +1,9 @@
 // Finds points of the scenery again in the overlapping pictures of a sweep. Pure.
 //
-// The chain predicts the position of a point in another picture to some tens of pixels. The offset
-// that all points of a pair share is found first, then each point to a fraction of a pixel by
-// least-squares matching. Points that move against the others (cars, branches, clouds) are left
-// out.
+// The chain predicts the position of a point in another picture to some tens of pixels. First the
+// offset that all points of a pair of pictures share is found; then each point to a fraction of a
+// pixel, by least-squares matching. Points that move against the others (cars, branches, clouds)
+// are left out.
 #pragma once
 
 #include <Eigen/Core>

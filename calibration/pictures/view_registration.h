@@ -3,8 +3,8 @@
 //
 // Edge orientations are compared, not brightness. Only the direction of each gradient counts
 // (doubled, so that an edge lit from the other side is the same edge), weighted by how far it is
-// above the noise. The whole pictures are correlated by their spectra, then tiles. The tiles that
-// agree count: what has moved in the scene is a minority.
+// above the noise. The whole pictures are correlated by their spectra, then tiles. Only the tiles
+// that agree count, because what has moved in the scene is a minority.
 #pragma once
 
 #include <Eigen/Core>

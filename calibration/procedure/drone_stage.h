@@ -1,7 +1,7 @@
-// Calibration with an RTK drone. It hovers at one point after the other; at each, a person says
-// that it hovers. The unit looks there and takes a picture. Once the drone's recorded positions
-// extend beyond the picture's time, the drone is found in it. The next point is the one that helps
-// most. Pure.
+// Calibration with an RTK drone. The drone hovers at one point after the other; a person says when
+// it hovers. The unit looks there and takes a picture. When the drone's recorded positions extend
+// beyond the picture's time, the drone is found in the picture. The next point is the most helpful
+// one. Pure.
 #pragma once
 
 #include <functional>
@@ -24,8 +24,8 @@ class DroneStage : public Stage {
  public:
   // The drone's positions known so far; empty: none yet.
   using Positions = std::function<Trajectory()>;
-  // `now`: [us] UTC. `adviser`: where the drone is to fly next; may be empty. `may_go`: whether the
-  // unit's travel and keep-out regions allow it.
+  // `now`: [us] UTC. `adviser`: says where the drone is to fly next; may be empty. `may_go`:
+  // whether the unit's travel and keep-out regions allow a direction.
   DroneStage(const StationModel& model, DroneOptions options, Positions positions,
              SunKeepOut::UtcNow now, MayGo may_go, Adviser adviser = nullptr);
 
@@ -62,8 +62,8 @@ class DroneStage : public Stage {
   std::vector<Observation> observations_;
 };
 
-// The position at an instant: on the straight line between two points, or up to `beyond_us` after
-// the last point, where it stays.
+// The position at an instant: on the straight line between two points; up to `beyond_us` after the
+// last point, at that point.
 std::optional<Eigen::Vector3d> position_at(const Trajectory& trajectory, std::int64_t utime_us,
                                            std::int64_t beyond_us);
 

@@ -1,5 +1,5 @@
 // A whole procedure: its stages in order, then a person's decision about the result. The caller
-// carries out orders, adjusts when the stages are complete, and stores. Pure.
+// carries out the orders, adjusts when the stages are complete, and stores the result. Pure.
 #pragma once
 
 #include <algorithm>
@@ -29,7 +29,8 @@ class FieldProcedure {
   // `redo`: sights one reference again, in the last stage.
   FieldProcedure(std::vector<std::unique_ptr<Stage>> stages, Redo redo);
 
-  // nullopt if the stages are complete and adjusted() is awaited, or if all is over.
+  // nullopt if the stages are complete and adjusted() must be called, or if the procedure has
+  // ended.
   std::optional<Order> next();
   void taken(const Taken& picture) { stage().taken(picture); }
   void seen(const Taken& picture) { stage().seen(picture); }

@@ -1,7 +1,7 @@
-// Sighting landmarks with a person. The person points at the first. The unit then drives to each,
-// the most helpful one first; a crosshair snaps to it, and the person confirms. A second round runs
-// automatically, from the other side of the gears. At the end the unit returns to the first
-// landmark, which closes the round. Pure.
+// Sighting landmarks with a person. The person points at the first. The unit then drives to each of
+// the others, the most helpful first. A crosshair snaps to the landmark, and the person confirms. A
+// second round runs automatically, with the other direction of approach. At the end the unit
+// returns to the first landmark, as a check. Pure.
 #pragma once
 
 #include <string>
@@ -19,9 +19,10 @@ using Landmark = Place;
 
 class LandmarkStage : public Stage {
  public:
-  // `model`: the station as far as it is known. Its heading may be anything: the first sighting
-  // gives it. `rounds`: number of sightings of each landmark. Landmarks that the unit cannot look
-  // at are remarked and left out. `adviser`: the order after the first; null: the given order.
+  // `model`: the station as far as it is known. Its heading may be anything, because the first
+  // sighting determines it. `rounds`: number of sightings of each landmark. Landmarks that the unit
+  // cannot look at are left out, with a remark. `adviser`: chooses the order after the first
+  // landmark; null: the given order.
   LandmarkStage(const StationModel& model, std::vector<Landmark> landmarks, int rounds,
                 Adviser adviser = nullptr);
 
@@ -32,7 +33,7 @@ class LandmarkStage : public Stage {
   std::vector<Observation> observations() const override;
   double progress() const override;
 
-  // By how much the first landmark had moved at the end [rad]; nullopt before.
+  // How far the first landmark appeared to have moved at the end [rad]; nullopt before the end.
   std::optional<double> closing_rad() const { return closing_rad_; }
   // Sights this landmark again, with the person. Its old sightings hold until the person confirms.
   void redo(const std::string& name);

@@ -1,4 +1,4 @@
-// The heading from a first sighting, so that the next targets are where they are expected. Pure.
+// The heading from a first sighting, so that the next targets appear where they are expected. Pure.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,5 @@
-// A person shows where something is in a picture: points at it, a crosshair snaps to it, and the
-// person confirms. The person may turn the unit first. Pure.
+// A person shows where something is in a picture: the person points at it, a crosshair snaps to it,
+// and the person confirms. The person may turn the unit first. Pure.
 #pragma once
 
 #include <optional>
@@ -24,7 +24,7 @@ class PointingDialog {
   // The current question; nullopt before begin() and after end().
   const std::optional<Order>& question() const { return question_; }
   bool has_crosshair() const { return question_ && question_->question.crosshair_px.has_value(); }
-  // Of the crosshair.
+  // The position of the crosshair.
   const Taken& picture() const { return picture_; }
   Eigen::Vector2d pixel() const { return *question_->question.crosshair_px; }
   double sd_px() const { return question_->question.crosshair_sd_px; }

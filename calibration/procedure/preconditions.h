@@ -9,7 +9,7 @@
 
 namespace ols::calibration {
 
-// From a station's status.
+// What the check needs, from a station's status.
 struct StationFacts {
   bool camera_works = false, unit_works = false;
   bool moves = true;          // false: a fixed mount
@@ -29,7 +29,7 @@ struct StationFacts {
 struct Wanted {
   double status_gap_s = 0.0;                    // max interval, so that a stop is noticed in time
   bool absolute_time = false;                   // stars, the sun, aircraft, drones
-  bool sun_kept_out = false;                    // it is up, and must not come into the picture
+  bool sun_kept_out = false;                    // the sun is up, and must not come into the picture
   int image_width_px = 0, image_height_px = 0;  // as configured
 };
 
@@ -39,7 +39,7 @@ struct Precondition {
   std::string sentence;  // for a person: the state, and what to do
 };
 
-// In the order in which a person corrects them.
+// The conditions, in the order in which a person corrects them.
 std::vector<Precondition> preconditions(const StationFacts& facts, const Wanted& wanted);
 // Why a calibration cannot begin; empty: it can.
 std::string first_hindrance(const std::vector<Precondition>& all);

@@ -1,7 +1,7 @@
 // One rectification target with a person. A live picture shows the measured value until the target
-// is in place and the person confirms. Pictures from both sides of the gears follow; each is read
-// separately. If the unit's own pointing has defined the target's place, the unit does not turn.
-// Pure.
+// is in place and the person confirms. Then pictures with both directions of approach follow; each
+// is read separately. If the target's place depends on where the unit points, the unit does not
+// turn. Pure.
 #pragma once
 
 #include <string>
@@ -13,7 +13,8 @@ namespace ols::calibration {
 
 class RectificationStage : public Stage {
  public:
-  // `start`: where the unit looks first. `rounds`: number of pictures from each side.
+  // `start`: where the unit looks first. `rounds`: number of pictures for each direction of
+  // approach.
   RectificationStage(TargetReaderPtr reader, const PanTilt& start, int rounds);
 
   std::optional<Order> next() override;

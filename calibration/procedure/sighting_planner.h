@@ -18,7 +18,7 @@ struct Place {
   double sd_m = 0.0;                               // of each axis
 };
 
-// RMS per axis of the systematic error that remains after sighting this place.
+// RMS per axis of the systematic error that would remain after sighting this place.
 struct Foretold {
   std::string name;
   double rms_rad = 0.0;
@@ -35,7 +35,8 @@ class SightingPlanner {
  public:
   using Observed = std::function<std::vector<Observation>()>;
   // `problem`: the station's prior, air and references; its observations do not count. `observed`:
-  // the observations so far. `times`: number of sightings of a place, from alternate sides.
+  // the observations so far. `times`: number of sightings of a place, with alternating directions
+  // of approach.
   SightingPlanner(Problem problem, Observed observed, int times)
       : problem_(std::move(problem)), observed_(std::move(observed)), times_(times) {}
 

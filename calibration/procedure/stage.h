@@ -17,7 +17,7 @@ namespace ols::calibration {
 
 struct Shot {
   PanTilt angles;  // as the unit reports them
-  // The sign of the last motion in counts, reached by a detour if needed.
+  // The required sign of the last motion in counts; the unit makes a detour if needed.
   int approach_pan = 1, approach_tilt = 1;
   bool may_detour = true;  // false: go straight there
   bool lossless = true;
@@ -65,18 +65,19 @@ class Stage {
   // The current order, the same until its result is reported; nullopt: the stage is complete.
   virtual std::optional<Order> next() = 0;
   virtual void taken(const Taken& picture) = 0;
-  // A new picture for a live question, which may change by it.
+  // Takes a new picture for a live question. The question may change because of it.
   virtual void seen(const Taken&) {}
-  // A piece of computation while the unit drives; true: there is more. All of it is done before the
-  // stage is complete.
+  // Does a piece of computation while the unit drives; true: there is more. A stage is complete
+  // only when all of it is done.
   virtual bool work() { return false; }
-  // The order to shoot could not be carried out.
+  // The order to take a picture could not be carried out.
   virtual void not_taken(const std::string& why) = 0;
   virtual void answered(const Answer& answer) = 0;
   // The procedure was interrupted and continues now. What a person did to the unit may have been
   // undone.
   virtual void resumed() {}
-  // The stage's observations so far. A later call may return others (after a redone sighting).
+  // The stage's observations so far. A later call may return different ones (after a sighting was
+  // redone).
   virtual std::vector<Observation> observations() const = 0;
   virtual double progress() const = 0;  // 0..1
   // Sentences for a person.
@@ -89,7 +90,7 @@ class Stage {
   std::vector<std::string> remarks_;
 };
 
-// The parts of an observation that the picture determines.
+// The parts of an observation that the picture alone determines.
 Observation observation_of(Kind kind, const Taken& picture, const Eigen::Vector2d& pixel,
                            double sd_px, std::string reference);
 

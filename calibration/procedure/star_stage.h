@@ -16,8 +16,9 @@ struct StarPlanOptions {
   double worm_turn_rad = 2.0 * std::numbers::pi / 70.0;  // one turn of the worm, of pan and tilt
 };
 
-// All around, alternately low and high, from all sides of the gears, and over all phases of the
-// worms. Throws std::invalid_argument if the unit does not reach the lowest elevation.
+// Plans pictures all around, alternately low and high, with all directions of approach, and over
+// all phases of the worms. Throws std::invalid_argument if the unit does not reach the lowest
+// elevation.
 std::vector<Shot> plan_stars(const StarPlanOptions& options);
 
 class StarStage : public Stage {

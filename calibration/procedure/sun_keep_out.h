@@ -21,11 +21,11 @@ class SunKeepOut {
   SunKeepOut(const StationModel& model, UtcNow now) : model_(model), now_(std::move(now)) {}
 
   // Why the unit must not look there now (reported angles), in words; empty: it may. `doubt_rad`:
-  // how far the tripod may have turned, beyond a compass error.
+  // how far the tripod may have turned, in addition to a compass error.
   std::string hindrance(const PanTilt& angles, double doubt_rad = 0.0) const;
-  // Whether part of it may be visible: it is not far below the horizon.
+  // Whether part of the sun may be visible, because it is not far below the horizon.
   bool is_up() const;
-  // A filter is on the lens: a person has said so, and a picture beside the sun has proved it.
+  // A filter is on the lens: a person has said so, and a picture beside the sun has confirmed it.
   void lift() { lifted_ = true; }
   void restore() { lifted_ = false; }
 

@@ -1,6 +1,6 @@
-// Sights the sun through a filter. A person puts the filter on, and a picture beside the sun proves
-// it. Only then does the unit look at the sun, from both sides of its gears and at several places
-// of the picture. Pure.
+// Sights the sun through a filter. A person puts the filter on, and a picture beside the sun
+// confirms it. Only then does the unit look at the sun, with both directions of approach and at
+// several places of the picture. Pure.
 #pragma once
 
 #include <memory>
@@ -15,14 +15,15 @@ using MayGo = std::function<bool(const PanTilt&)>;
 
 class SunStage : public Stage {
  public:
-  // `keep_out`: lifted while the filter is on. `may_go`: the unit's travel and keep-out regions.
+  // `keep_out`: suspended while the filter is on. `may_go`: whether travel and keep-out regions
+  // allow a direction.
   SunStage(const StationModel& model, std::shared_ptr<SunKeepOut> keep_out, MayGo may_go);
 
   std::optional<Order> next() override;
   void taken(const Taken& picture) override;
   void not_taken(const std::string& why) override;
   void answered(const Answer& answer) override;
-  // The filter may have been taken off.
+  // Notes that the filter may have been taken off.
   void resumed() override;
   std::vector<Observation> observations() const override { return observations_; }
   double progress() const override;

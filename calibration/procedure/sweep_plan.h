@@ -1,9 +1,9 @@
 // Where a sweep looks. A ring around the horizon determines focal length, worm and backlash. A
 // block of overlapping pictures above one another determines the parameters that depend on the
-// tilt. Pure.
-// The steps are uneven: with even steps the worm's error would look like an eccentricity. The ring
-// goes out over every other pose and back over those between. Neighbours are thus approached from
-// both sides, and their difference is the backlash.
+// tilt. Pure. The steps are uneven: with even steps the worm's error would look like an
+// eccentricity. On the way out, the ring takes every other pose; on the way back, the poses
+// between. So neighbours are approached from different sides, and their difference shows the
+// backlash.
 #pragma once
 
 #include <functional>

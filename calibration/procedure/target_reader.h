@@ -24,7 +24,7 @@ struct CrossBoard {
   double arm_m = 0.12, width_m = 0.03;  // from the centre to the end of an arm; its width
   double sd_m = 0.003;                  // of the left cross, against where the unit points
 };
-// Two rulers, the farther one seen beside the nearer one, with their zeros at one height.
+// Two rulers at two distances, side by side in the picture, with their zeros at the same height.
 struct RulerPair {
   double near_m = 0.0, far_m = 0.0;  // from the pan axis
   double bar_m = 0.05;               // height of a bar
@@ -50,8 +50,8 @@ class TargetReader {
   virtual ~TargetReader() = default;
   virtual std::string name() const = 0;         // "level line"
   virtual std::string instruction() const = 0;  // what a person has to set up, and where
-  // Whether the target's place depends on the unit's present pointing: the unit must not turn until
-  // all pictures are taken.
+  // Whether the target's place depends on where the unit points. If so, the unit must not turn
+  // until all pictures are taken.
   virtual bool holds_unit() const { return false; }
   // `pointed`: where a person says the target, or a part of it, is.
   virtual TargetReading read(const Taken& picture,

@@ -1,5 +1,5 @@
 // The events for which the exposing thread of a simulated camera waits: an instant, a trigger, a
-// client, the end. All methods from any thread.
+// client, the end. Call all methods from any thread.
 #pragma once
 
 #include <chrono>

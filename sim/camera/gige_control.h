@@ -17,7 +17,7 @@ std::uint32_t camera_address(const std::string& text);
 class GigeControl {
  public:
   using Reply = std::function<void(gige::Bytes acknowledgement)>;
-  // A packet from the client `peer` (its address << 16, plus its port). Called in the own
+  // A packet from the client `peer` (its address << 16, plus its port). Called in this object's
   // thread.
   using Handle = std::function<void(gige::Bytes packet, std::uint64_t peer, const Reply& reply)>;
 
@@ -33,7 +33,7 @@ class GigeControl {
 
   const std::uint32_t address_, mask_;
   const Handle handle_;
-  std::vector<int> sockets_;  // the own address first; the others receive broadcasts
+  std::vector<int> sockets_;  // its own address first; the others receive broadcasts
   int wake_ = -1;
   std::thread thread_;
 };

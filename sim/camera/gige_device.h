@@ -55,8 +55,8 @@ class GigeDevice {
  public:
   explicit GigeDevice(const GigeDeviceConfig& config);
 
-  // A control packet from the client `peer` (address << 16 | port), at these times of the camera's
-  // clock and the monotonic one.
+  // Takes a control packet from the client `peer` (address << 16 | port), with its times by the
+  // camera's clock and the monotonic clock.
   Answer handle(gige::Bytes packet, std::uint64_t peer, std::int64_t clock_ns, double time_s);
 
   // The stream that is due; nullopt while no client streams. A client silent for longer than the
@@ -68,7 +68,7 @@ class GigeDevice {
 
   // The camera forgets the configured size, as after a reset.
   void set_size(int width_px, int height_px);
-  // The camera forgets everything: off and on again.
+  // The camera forgets everything, as when switched off and on.
   void power_cycle();
 
   // can_resend: whether the camera claims to support packet resend. pixel_format: the format

@@ -24,15 +24,15 @@ class GigeStream {
   GigeStream(const GigeStream&) = delete;
   GigeStream& operator=(const GigeStream&) = delete;
 
-  // An image to draw into, whose frame is no longer available for resend.
+  // An image to draw into. Its previous frame is no longer available for resend.
   cv::Mat blank(int width_px, int height_px, int type);
   // Sends the image at the client's rate and keeps it for resend(). Returns at once, unless the
-  // client wants packets slower than images come.
+  // client takes packets more slowly than images come.
   void send(const StreamSettings& settings, const gige::Picture& description,
             const cv::Mat& picture);
   void resend(const ResendRequest& request);
 
-  // The share of packets lost from now on, and whether lost ones are resent.
+  // The share of packets lost from now on, and whether lost packets are resent.
   void set_loss(double share, bool can_resend);
 
  private:

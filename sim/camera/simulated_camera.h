@@ -53,7 +53,7 @@ class SimulatedCamera {
 
   // The camera forgets the size set by the client, as after a reset.
   void set_size(int width_px, int height_px);
-  // Switches it off and on; it answers without interruption.
+  // Switches it off and on. It answers without interruption.
   void power_cycle();
 
   // Faults of the camera from now on; from any thread.

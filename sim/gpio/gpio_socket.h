@@ -28,7 +28,7 @@ class GpioServer {
 
   void set_pressed(bool pressed);
   void hold_rearm(bool held);
-  // Connections stay open without an answer, as with a process that hangs.
+  // Connections stay open but get no answer, as with a process that hangs.
   void set_silent(bool silent);
 
   bool led() const;

@@ -1,6 +1,6 @@
 // A simulated zoom lens that speaks VISCA. It is written from docs/overview.md, without the
-// product's codec, so that a mistake in one is not in the other. Pure: bytes and time in, bytes and
-// true positions out. sim/lens/lens_line.* puts it on a pty.
+// product's codec, so that the two do not share a mistake. Pure: bytes and time in, bytes and true
+// positions out. sim/lens/lens_line.* puts it on a pty.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,7 @@ class LensUnit {
 
   // Takes bytes that have arrived. Time never decreases between calls of receive() and transmit().
   void receive(std::string_view bytes, double time_s);
-  // Bytes that are on the line by then, each returned once.
+  // The bytes that are on the line by this time, each returned once.
   std::string transmit(double time_s);
   // When transmit() will return something, as far as known now.
   std::optional<double> next_output_s() const;

@@ -21,14 +21,15 @@ namespace ols::sim {
 
 class LiveSite {
  public:
-  // The scenario's time 0 is now, and true UTC is the host's clock now. From here on the monotonic
-  // clock counts, so that a step of the host's clock does not move the targets. `line_folder`: for
-  // the links to the serial lines. Throws std::system_error if an address or a link is not
-  // available.
+  // The scenario's time 0 is now, and true UTC is what the host's clock shows now. From then on the
+  // monotonic clock counts, so that a step of the host's clock does not move the targets.
+  // `line_folder`: for the links to the serial lines. Throws std::system_error if an address or a
+  // link is not available.
   LiveSite(const World& world, const std::string& line_folder, LcmBus& bus);
   ~LiveSite();
 
-  // OLS_SIM_TRUTH and OLS_SIM_PTU_<station>: targets and PTUs now, and since the last call.
+  // Publishes OLS_SIM_TRUTH and OLS_SIM_PTU_<station>: targets and PTUs now, and since the last
+  // call.
   void publish_truth();
 
   // Applies the active faults to every device. Call every few milliseconds, in the thread that

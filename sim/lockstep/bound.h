@@ -1,7 +1,7 @@
 // The Cramer-Rao bound of a target's position at one instant, from one exposure of each station:
-// with the true geometry, the scenario's error sigmas and the actual pixel noise. The effect of
-// each error on the pixel comes from differences of the projection, not from the product's
-// covariances, so that this bound can test geometry/precision.h.
+// computed with the true geometry, the scenario's error sigmas and the actual pixel noise. The
+// effect of each error on the pixel is a difference quotient of the projection, not one of the
+// product's covariances, so that this bound can test geometry/precision.h.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,5 +1,5 @@
-// How long it takes until stations that have never seen the target follow it, in simulated time.
-// The callers lead them there: overview_click.h, outside_cue.h.
+// How long it takes in simulated time until stations that have never seen the target follow it.
+// overview_click.h and outside_cue.h lead the stations there.
 #pragma once
 
 #include <map>
@@ -11,7 +11,7 @@
 
 namespace ols::sim {
 
-// Seconds after the event, by station. A station that never got this far is missing.
+// Seconds after the event, by station. A station that did not get this far is missing.
 struct LeadTimes {
   std::map<std::string, double> in_picture;  // the target is in its picture,
   std::map<std::string, double> acquired;    // it tries a detected object,
@@ -26,7 +26,7 @@ struct LeadTimes {
 void note(LeadTimes& times, Lockstep& lockstep, const std::string& id, double after_s);
 void note_position(LeadTimes& times, const Lockstep& lockstep, double after_s);
 
-// The same flight, seen from by_s later on.
+// The same flight, beginning by_s later.
 Scenario later(Scenario scenario, double by_s);
 Fidelity nobody_designates(const Scenario& scenario);
 

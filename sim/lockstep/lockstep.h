@@ -52,7 +52,7 @@ class Lockstep {
   void run(double duration_s);
   // By name, which must exist.
   LockstepStation& station(const std::string& id) { return *stations_.at(index_of(id)); }
-  // A target reported from outside; an operator's decision on it.
+  // Takes a target reported from outside; takes an operator's decision on it.
   void hear(const fusion::Cue& cue, double time_s);
   bool allow_cue(const std::string& id) { return fusion_.allow_cue(id, true); }
   const fusion::Fusion& fusion() const { return fusion_; }

@@ -1,5 +1,5 @@
-// What carries a simulated station's camera, in simulated time: a simulated unit with the product's
-// driver, or nothing that moves. Times are the station's monotonic clock [s].
+// The mount of a simulated station's camera, in simulated time: a simulated unit with the product's
+// driver, or a fixed mount. Times are the station's monotonic clock [s].
 #pragma once
 
 #include <map>
@@ -24,7 +24,7 @@ class LockstepMount {
   virtual void set_goal(const std::optional<mount::Goal>& goal) = 0;
   virtual mount::Reference reference() const = 0;
   virtual std::optional<mount::Limits> limits() const = 0;  // empty until it is ready
-  // Of the shafts, as the unit counts; up to two seconds back.
+  // The angles of the shafts, as the unit counts them; up to two seconds back.
   virtual PanTilt angles_at(double time_s) const = 0;
   virtual std::map<std::string, double> counters() const = 0;
 };

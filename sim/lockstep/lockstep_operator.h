@@ -1,5 +1,5 @@
-// The operator of one station in simulated time: points the camera roughly, and designates the
-// target once it is in a stationary image.
+// The operator of one station in simulated time. The operator points the camera roughly, and
+// designates the target once it is in an image of a stationary camera.
 #pragma once
 
 #include <deque>

@@ -25,7 +25,8 @@
 
 namespace ols::sim {
 
-// One frame after the designation, or of a station without one: the station's result and the truth.
+// The station's result and the truth for one frame: of a station without a designation, or after
+// it.
 struct FrameNote {
   double mid_s = 0.0;  // true time since the scenario's start
   station::StationState state = station::StationState::kIdle;
@@ -74,12 +75,12 @@ class LockstepStation {
     sim::LensUnit unit;
     lens::LensDriver driver;
   };
-  // The counts of each exposure, and which of them are published.
+  // The counts of each exposure, and which counts are published.
   struct Told {
     station::FrameService unit;
     station::SightingDesk desk = {};
   };
-  // Its result takes some time, as that of the detector's thread.
+  // Its result takes some time, as with the detector's thread.
   struct Detection {
     detector::PictureDetector detector;
     std::optional<detector::Found> found{};

@@ -24,12 +24,12 @@ struct BoundSummary {
 };
 
 EstimatorSummary summarise(const std::vector<Fix>& fixes);
-// The bound at the epochs and with the stations of every `stride`-th of these fixes.
+// The bound for every `stride`-th of these fixes, at its epoch and with its stations.
 BoundSummary summarise_bound(const World& world, const std::vector<Fix>& fixes,
                              const MeasurementNoise& noise, std::size_t stride = 10);
 
-// Over all pixels above min belief of all stations: the mean, and the white part (about the mean of
-// each station).
+// Pixel errors over all stations, above min belief: the mean, and the white part (about each
+// station's mean).
 struct PixelSummary {
   double white_sd_px = 0.0;
   double mean_px = 0.0;

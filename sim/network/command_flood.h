@@ -4,7 +4,7 @@
 // Every station must refuse most of them: stale, replayed, from the future, for another station, of
 // another schema, damaged, out of limits (these look fresh: always new senders, stamps somewhat
 // ahead), slews with maximum sequence numbers. One in eighteen is fresh and well-formed. Without
-// signatures it is obeyed, and points the unit to alternate sides.
+// signatures the station obeys it, and its unit points to alternate sides.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
-// The inclinometer and the GNSS receiver of a station in simulated time: readings as their devices
-// give them, without a wire; sim/sensors has those on their wires. Each step, at an instant of the
-// monotonic clock, gives those that are due. Pure.
+// The inclinometer and the GNSS receiver of a station in simulated time: their readings, without a
+// wire (sim/sensors has the devices on their wires). Each step, at an instant of the monotonic
+// clock, gives the readings that are due. Pure.
 #pragma once
 
 #include <random>

@@ -30,9 +30,8 @@ class SimulatedStation {
     ViewTruth view;
   };
 
-  // Camera, mount, lens, inclinometer, GNSS receiver and GPIO are the only devices that may be
-  // configured, the mount as a FLIR unit. A time service says that the station's clock is right.
-  // World and time must outlive the station.
+  // Only camera, mount (a FLIR unit), lens, inclinometer, GNSS receiver and GPIO may be configured.
+  // A time service says that the station's clock is right. World and time must outlive the station.
   SimulatedStation(const World& world, std::size_t index, station::StationSettings settings,
                    SimulatedTime& time);
   ~SimulatedStation();

@@ -1,6 +1,5 @@
-// Time that somebody advances, for the clocks of a whole process: whoever waits lets it pass, step
-// by step, and what takes part in it does its share at each step. Work in the background takes
-// none.
+// Simulated time for the clocks of a whole process. A call that waits lets time pass, step by step;
+// at each step all participants do their share. Work in the background takes no time.
 #pragma once
 
 #include <atomic>
@@ -13,17 +12,18 @@ namespace ols::sim {
 
 class SimulatedTime final : public TimeSource {
  public:
-  // In use while it lives; there is one at a time. `start_utime_us`: UTC of the beginning.
+  // It is in use while this object lives; there may be one at a time. `start_utime_us`: UTC of the
+  // beginning.
   explicit SimulatedTime(std::int64_t start_utime_us);
   ~SimulatedTime();
   SimulatedTime(const SimulatedTime&) = delete;
   SimulatedTime& operator=(const SimulatedTime&) = delete;
 
-  // In each step, in the order in which they were added; given the time since the beginning [s].
-  // What waits in it waits in vain.
+  // Adds a participant. Participants are called in each step, in the order in which they were
+  // added, with the time since the beginning [s]. They must not wait: time would not pass.
   void at_each_step(std::function<void(double)> act) { acts_.push_back(std::move(act)); }
 
-  // Until `over`; false: it was not within this time.
+  // Lets time pass until `over`; false: that did not happen within this time.
   bool pass(
       double most_s, const std::function<bool()>& over = [] { return false; });
 

@@ -18,8 +18,8 @@ class PtuAxis {
 
   PtuAxis(double position_counts, double time_s);
 
-  // Moves to `target_counts`, whatever the axis is doing, and ends there at rest. `time_s` may be
-  // in the future; later plans are dropped.
+  // Moves to `target_counts` from any motion, and ends there at rest. `time_s` may be in the
+  // future; later plans are dropped.
   void move(double target_counts, const Profile& profile, double time_s);
 
   // Brakes to rest on the next whole count.

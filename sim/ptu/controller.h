@@ -26,8 +26,8 @@ class PtuController {
   PtuController(const PtuController&) = delete;
   PtuController& operator=(const PtuController&) = delete;
 
-  // Power-up: settings as saved, homing if selected. Returns the output at its end; banner() is the
-  // output before.
+  // Power-up: settings as saved, homing if selected. Returns the output at the end of power-up;
+  // banner() is the output at its beginning.
   PtuAnswer power_up(double time_s);
   // A short power failure: the unit loses its position.
   PtuAnswer power_cycle(double time_s);
@@ -36,14 +36,14 @@ class PtuController {
 
   PtuAnswer execute(std::string_view command, double time_s);
 
-  // Any byte has arrived: it ends a scan that began before.
+  // A byte has arrived: ends a scan that began before it.
   void interrupt(double time_s) { scan_.interrupt(time_s); }
   bool scanning() const { return scan_.running(); }
 
   // Advances the unit's own actions to an instant: the legs of a scan.
   void advance(double time_s) { scan_.advance(time_s); }
 
-  // Limit hits up to an instant, each returned once, and when the next one is due.
+  // Limit hits up to this time, each returned once; and when the next hit is due.
   std::vector<PtuToken> take_tokens(double time_s);
   std::optional<double> next_token_s() const { return motion_.next_token_s(); }
 
@@ -53,7 +53,8 @@ class PtuController {
   }
   int baud() const { return setup_.baud(); }
 
-  // Of the mechanism, whatever the unit assumes [counts of PtuUnitConfig's resolution].
+  // The true position of the mechanism [counts of PtuUnitConfig's resolution]; the unit's counter
+  // may differ.
   double position_counts(int axis, double time_s) const {
     return motion_.mechanism_steps(axis, time_s);
   }

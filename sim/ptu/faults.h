@@ -26,7 +26,7 @@ class FaultyPtuUnit {
   std::optional<double> next_output_s() const { return unit_.next_output_s(); }
   PanTilt angles_at(double time_s) const { return unit_.angles_at(time_s); }
 
-  // The unit's answers are still true; this is the line's effect on them.
+  // The line's effect on the unit's answers, which are true themselves.
   const PtuReplyFaults& replies() const { return replies_; }
 
  private:

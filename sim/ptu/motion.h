@@ -41,11 +41,11 @@ class PtuMotion {
   void start_slaved(double time_s);
 
   // Homes, tilt first. Without homing, the counters start at the mechanism's position. Returns the
-  // time of the end.
+  // time at which it ends.
   double home(bool pan, bool tilt, double time_s);
   double home_together(double time_s);
 
-  // In the unit's counts, from its assumed middle.
+  // Position in the unit's counts, from its assumed middle.
   double position(int axis, double time_s) const;
   double target(int axis) const;
   double velocity(int axis, double time_s) const;
@@ -59,7 +59,7 @@ class PtuMotion {
   int steps_a_count(int axis) const { return axes_[at(axis)].divisor; }
   bool homed(int axis) const { return axes_[at(axis)].homed; }
   double rest_s(int axis) const { return axes_[at(axis)].motion.rest_s(); }
-  // Of the mechanism, whatever the unit assumes [steps].
+  // The true position of the mechanism [steps]; the unit's counter may differ.
   double mechanism_steps(int axis, double time_s) const {
     return axes_[at(axis)].motion.position(time_s);
   }
@@ -67,8 +67,9 @@ class PtuMotion {
   // The mechanism slips; the unit's counter does not notice.
   void slip(int axis, int slipped_steps, double time_s);
 
-  // Limit hits up to an instant, each returned once, and when the next one is due.
+  // Limit hits up to this time; each is returned once.
   std::vector<PtuToken> take_tokens(double time_s);
+  // When the next hit is due.
   std::optional<double> next_token_s() const;
 
   void forget(double before_s);

@@ -14,7 +14,7 @@ class PtuReplyFaults {
   explicit PtuReplyFaults(std::uint64_t seed) : random_(seed) {}
 
   // garble_share: share of the replies (lines) with one byte flipped in one bit, lost, or preceded
-  // by an extra one. lost_every_s: interval of lost replies from `time_s` on (0: none). An
+  // by an extra one. lost_every_s: interval of lost replies from `time_s` on (0: none). Setting an
   // unchanged value restarts nothing.
   void set(double garble_share, double lost_every_s, double time_s);
 

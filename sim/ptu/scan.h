@@ -27,7 +27,7 @@ class PtuScan {
   // Ends the scan without returning home: another command needs the axis.
   void end(int axis) { sweeps_[at(axis)].reset(); }
 
-  // Any byte has arrived: it ends a scan that began before.
+  // A byte has arrived: ends a scan that began before it.
   void interrupt(double time_s);
   // Plans the legs up to an instant.
   void advance(double time_s);

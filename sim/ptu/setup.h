@@ -23,7 +23,7 @@ class PtuSetup {
 
   // Of one axis. `what` is the command without its letter: H or M, with or without a level.
   std::string power(int axis, std::string_view what);
-  // NU or XU, with or without a value [counts], which must lie within the factory's.
+  // NU or XU, with or without a value [counts], which must be within the factory's limits.
   std::string user_limit(int axis, std::string_view what, int factory_limit);
 
   void scan_at_power_up(bool scans);

@@ -19,16 +19,16 @@ struct PtuTapConfig {
 
 class PtuTap : public PtuDevice {
  public:
-  // `link`: the station's line, while the unit's device exists. A missing device is waited for.
-  // Throws std::system_error if the link cannot be made.
+  // `link`: the station's line, while the unit's device exists. Waits for a missing device. Throws
+  // std::system_error if the link cannot be made.
   PtuTap(const PtuTapConfig& config, std::uint64_t seed, const std::string& link);
   ~PtuTap() override;
 
-  // Faults of the line only: those of a real unit cannot be simulated.
+  // Faults of the line only: faults of a real unit cannot be simulated.
   void set_faults(const PtuFaults& faults) override;
 
-  // A unit reports its position some thirty times a second. About half of the instants at which a
-  // camera draws are later than its last report.
+  // A unit reports its position some thirty times a second. Half of the time, a camera draws for an
+  // instant later than the last report.
   void await(double monotonic_s) override;
 
   // Based on the unit's reports so far.

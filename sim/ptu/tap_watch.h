@@ -20,8 +20,9 @@ class PtuTapWatch {
   // `step_rad`: per count, until the unit has reported its resolution.
   explicit PtuTapWatch(double step_rad);
 
-  // The traffic, with an instant [s]. For bytes of the master: when sending to the unit starts. For
-  // bytes of the unit: when all had arrived. `byte_s`: duration of one byte on the unit's line.
+  // Takes the traffic, with an instant [s]. For the master's bytes: when sending to the unit
+  // starts. For the unit's bytes: when all had arrived. `byte_s`: duration of one byte on the
+  // unit's line.
   void master_said(std::string_view bytes, double time_s, double byte_s);
   void unit_said(std::string_view bytes, double time_s, double byte_s);
 
@@ -32,7 +33,7 @@ class PtuTapWatch {
   // while without any.
   PanTilt at(double time_s) const;
 
-  // The newest instant at which both axes were read; far in the past if they were not.
+  // The newest instant at which both axes were read; far in the past if they never were.
   double known_until_s() const;
 
   struct Counters {                // only increase

@@ -62,12 +62,12 @@ class PtuUnit {
   // The pan mechanism slips, unnoticed by the unit.
   void slip(double pan_rad, double time_s);
 
-  // The rate of the master's port. With a rate other than the unit's, every byte becomes noise. 0
-  // (default): always right.
+  // Sets the rate of the master's port. If it differs from the unit's rate, every byte becomes
+  // noise. 0 (default): always right.
   void set_master_baud(int baud);
 
-  // True shaft angles of the mechanism (pan left positive, tilt up positive), continuous, at any
-  // instant from two seconds back up to the latest time given to any method.
+  // True shaft angles of the mechanism (pan left positive, tilt up positive), continuous. The
+  // instant may be up to two seconds before the latest time given to any method.
   PanTilt angles_at(double time_s) const;
 
  private:

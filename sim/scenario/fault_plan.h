@@ -32,12 +32,12 @@ class FaultPlan {
   // Throws std::invalid_argument with the result of check().
   void add(const Fault& fault);
 
-  // A command applies from now on. With for_s = 0 it ends the current and planned faults of its
-  // kind ("all": of every kind) at its station (empty: at all stations).
+  // A command applies from now on. With for_s = 0 it ends current and planned faults of its kind
+  // ("all": of every kind) at its station (empty: at all stations).
   void command(Fault fault, double now_s);
 
-  // The faults of one station at one instant. If several faults of one kind overlap, the last to
-  // begin counts.
+  // The faults of one station at one instant. If several faults of one kind overlap, the one that
+  // began last counts.
   StationFaults at(std::string_view station, double time_s) const;
 
  private:

@@ -42,7 +42,7 @@ struct InclinometerFaults {
   bool operator==(const InclinometerFaults&) const = default;
 };
 
-// Not faults: what a person has put in front of the camera, or on its lens.
+// These are not faults, but what a person has put in front of the camera, or on its lens.
 struct ByHand {
   bool level_line = false, cross = false,
        rulers = false;  // rectification targets: sim/world/boards.h

@@ -22,8 +22,8 @@ struct Section;
 }
 namespace ols::sim {
 
-// The errors of a real site. A switched-off error has no effect and is stated as zero to the
-// stations.
+// The errors of a real site. An error that is switched off has no effect, and the stations are told
+// that it is zero.
 struct Errors {
   struct Switch {
     bool on = true;
@@ -93,7 +93,7 @@ struct TargetScenario {
 };
 
 // How the stations find their headings: not at all (errors.heading draws their errors), by sighting
-// the other stations, or by sighting landmarks.
+// other stations, or by sighting landmarks.
 enum class StationingBy { kDrawn, kEachOther, kLandmarks };
 
 // With errors.heading off, the landmarks and the operator's marks are exact.

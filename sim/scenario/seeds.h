@@ -5,8 +5,8 @@
 
 namespace ols::sim {
 
-// A seed for one purpose of one run. Different tags, and neighbouring seeds, give unrelated streams
-// (SplitMix64).
+// A seed for one purpose in one run. Different tags give unrelated streams, and so do neighbouring
+// seeds (SplitMix64).
 inline std::uint64_t derived_seed(std::uint64_t seed, std::uint64_t tag) {
   std::uint64_t z = seed + 0x9e3779b97f4a7c15ULL * (tag + 1);
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;

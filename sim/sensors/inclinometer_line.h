@@ -16,7 +16,7 @@
 namespace ols::sim {
 
 struct InclinometerLineConfig {
-  // Of the tripod's head, as in the kinematic chain.
+  // The tilt of the tripod's head, as in the kinematic chain.
   double tilt_x_rad = 0.0, tilt_y_rad = 0.0;
   double zero_sd_rad = 0.0;   // of each axis' zero, drawn once
   double noise_sd_rad = 0.0;  // of each reading

@@ -38,7 +38,7 @@ class Pty {
   int client_baud() const;
 
   // Sends to a client with the open device. Without a reader, bytes are lost once the terminal's
-  // buffer is full; while unplugged, at once.
+  // buffer is full. While unplugged, they are lost at once.
   void write(std::string_view bytes);
 
  private:

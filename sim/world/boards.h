@@ -1,7 +1,7 @@
 // The paper's rectification targets in the simulated camera's picture: level lines, a cross, two
-// rulers. A person puts each up where the unit looks at that moment, with the small errors of
-// level, pointer and tape. From then on it stays in place. Written from docs/calibration.md,
-// without the code that reads the targets.
+// rulers. A person puts up each target where the unit looks at that moment, with the small errors
+// of level, pointer and tape. From then on the target stays in place. Written from
+// docs/calibration.md, without the code that reads the targets.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -50,7 +50,7 @@ class Boards {
   Boards(const BoardsScenario& scenario, const ChainParameters& chain, double trunnion_rad)
       : scenario_(scenario), chain_(chain), trunnion_rad_(trunnion_rad) {}
 
-  // Puts new targets up where the unit looks with its shafts at these angles, and removes those
+  // Puts up new targets where the unit looks with its shafts at these angles, and removes targets
   // that `by_hand` no longer has.
   void put_up(const ByHand& by_hand, const CameraIntrinsics& camera, const PanTilt& shafts);
 

@@ -1,5 +1,5 @@
-// The observations with which a person and a station calibrate it in the simulated world: frames of
-// stars and surveyed landmarks, one of which has moved. In the form of the files of `ols-calibrate
+// The observations for a station's calibration in the simulated world: frames of stars, and
+// surveyed landmarks, one of which has moved. They have the form of the files of `ols-calibrate
 // adjust`.
 #pragma once
 
@@ -18,7 +18,7 @@ struct CalibrationRound {
 inline constexpr double kRoundPressure_hPa = 980.0, kRoundTemperature_degC = 10.0;
 inline constexpr double kRoundUt1MinusUtc_s = 0.03;
 
-// Both with the true unit and pose of the world; deterministic.
+// Both use the true unit and pose of the world; deterministic.
 CalibrationRound calibration_round(const World& world, std::size_t station);
 
 }  // namespace ols::sim

@@ -21,7 +21,7 @@ class ExposedUnit {
   // seconds back. `mid_s`: mid-exposure on that clock. Exposures come in time order.
   void expose(const std::function<PanTilt(double)>& counted, double mid_s, ExposureTruth& exposure);
 
-  // How long after the exposure's end the unit is asked for its angles.
+  // How long after the end of the exposure the unit is asked for its angles.
   double longest_wait_s() const { return offset_s_ > 0.0 ? offset_s_ : 0.0; }
 
  private:

@@ -22,7 +22,8 @@ class Panorama {
   Panorama(const Landscape& landscape, const CameraIntrinsics& camera, const cv::Mat& slopes,
            std::uint64_t seed);
 
-  // Changes the focal length from now on. A longer one than at construction looks coarser.
+  // Changes the focal length from now on. With a longer focal length than at construction, the
+  // panorama looks coarser.
   void set_camera(const CameraIntrinsics& camera);
   // Draws the background of an image taken with this rotation (camera to east-north-up).
   void draw(const Eigen::Matrix3d& R_enu_cam, cv::Mat& gray);

@@ -50,7 +50,7 @@ class Renderer {
   Renderer(const World& world, std::size_t station, const cv::Mat& slopes);
 
   // Draws the image. The same exposure gives the same image, except for boards that a person has
-  // put up: their place depends on the exposure in which they first appeared.
+  // put up: their place depends on the first exposure in which they appeared.
   ViewTruth draw(const ExposureTruth& exposure, cv::Mat& gray);
 
   const Panorama& panorama() const { return panorama_; }

@@ -20,10 +20,11 @@ struct SunTruth {
 // elevation up.
 SunTruth sun_over(const Geodetic& place, std::int64_t utime_us);
 
-// A black picture: sky and land through a solar filter.
+// Draws a black picture: sky and land through a solar filter.
 void draw_filter(cv::Mat& gray);
 
-// With a filter an even disc. Without one the disc is burnt out, and its glare covers the picture.
+// Draws the sun: with a filter an even disc; without a filter a burnt-out disc whose glare covers
+// the picture.
 void draw_sun(const Eigen::Vector2d& centre_px, double radius_px, bool filtered, cv::Mat& gray);
 
 }  // namespace ols::sim

@@ -9,7 +9,7 @@
 namespace ols::sim {
 
 // Fractal noise, float, with zero mean and unit deviation. Wavelengths from `longest_px` down to
-// `shortest_px`; each octave has `roughness` times the amplitude of the one before. Periodic in
+// `shortest_px`; each octave has `roughness` times the amplitude of the octave before. Periodic in
 // both directions.
 cv::Mat fractal_noise(cv::Size size, double longest_px, double shortest_px, double roughness,
                       std::mt19937_64& generator);

@@ -1,6 +1,6 @@
-// A real pan-tilt unit with camera: errors of gears, axes and lens, drawn from a seed. Some of them
-// are in no model of the product. Written from docs/calibration.md, without the product's own
-// model, so that a wrong sign in both does not cancel. Pure.
+// A real pan-tilt unit with camera: errors of gears, axes and lens, drawn from a seed. Some of
+// these errors are in no model of the product. Written from docs/calibration.md, without the
+// product's own model, so that a wrong sign in both does not cancel. Pure.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -11,8 +11,8 @@
 
 namespace ols::sim {
 
-// The size of the errors: none; those left after a workshop's calibration and the transport; those
-// of a unit that was never measured. The sizes are those of docs/calibration.md.
+// The size of the errors: none; the errors left after a workshop's calibration and the transport;
+// the errors of a unit that was never measured. The sizes are those of docs/calibration.md.
 enum class UnitErrors { kNone, kWorkshop, kNew };
 
 struct UnitErrorsScenario {
@@ -45,8 +45,8 @@ struct UnitTruth {
 UnitTruth draw_unit(const UnitErrorsScenario& scenario, std::uint64_t seed, ChainParameters& chain,
                     CameraIntrinsics& camera);
 
-// 1-sigma of the camera's direction with unit errors of this size, across and about the optical
-// axis, as a correct configuration without a calibration states it.
+// 1-sigma of the camera's direction, across and about the optical axis, with unit errors of this
+// size. It is what a correct configuration without a calibration states.
 struct MountSize {
   double across_rad = 0.0, roll_rad = 0.0;
 };
@@ -62,7 +62,8 @@ class UnitMechanics {
   // `count_rad`: as the unit prints it. A turn has a whole number of counts.
   UnitMechanics(const UnitTruth& truth, double count_rad);
 
-  // The unit is now at these counts. Call in time order and without gaps: the slack has a memory.
+  // The unit is now at these counts. Call in time order and without gaps, because the slack depends
+  // on earlier motion.
   void follow(const PanTilt& counted);
   // The shafts' angles at these counts, with the present slack.
   PanTilt shafts(const PanTilt& counted) const;

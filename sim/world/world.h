@@ -17,7 +17,8 @@ namespace ols::sim {
 
 struct StationTruth {
   std::string id;
-  // The geometry in the station's configuration, with its sigmas. After a stationing: its result.
+  // The geometry in the station's configuration, with its sigmas. After a stationing: the
+  // stationing's result.
   StationGeometry nominal;
   StationGeometry truth;  // without what `unit` adds
   UnitTruth unit;
