@@ -1,6 +1,6 @@
 // Where each station is. A name belongs to the place from which it is heard, until it falls silent.
-// Otherwise two stations of one name would be one to a fusion, and incoming messages would go out
-// again. Pure.
+// Otherwise a fusion would take two stations of the same name for one, and incoming messages would
+// go out again. Pure.
 #pragma once
 
 #include <cstddef>

@@ -119,9 +119,9 @@ void read_header(Reader<kColumns>& reader, const std::string& path,
   }
 }
 
-// A file whose last line always has a line end: without one, the library would read past the end of
-// the file. A zero byte, of which a loss of power leaves whole blocks, would end a row for the
-// library, and an empty row is left out without a word.
+// A file whose last line always has a line end. Without it the library would read past the end of
+// the file. A loss of power can leave blocks of zero bytes: for the library, a zero byte ends a
+// row, and empty rows are silently left out.
 class EndedLines : public io::ByteSourceBase {
  public:
   explicit EndedLines(const std::string& path) : path_(path), file_(path, std::ios::binary) {

@@ -16,7 +16,8 @@ class AlarmChanges {
     Alarm alarm;
     bool begins = false;
   };
-  // Takes the current alarms. Their keys tell which are the same: "silent for 5 s", "for 6 s".
+  // Takes the current alarms. "silent for 5 s" and "silent for 6 s" are the same alarm, because
+  // their keys are equal.
   std::vector<Change> look(const std::vector<Alarm>& alarms);
 
  private:

@@ -15,7 +15,7 @@ class TroubleLog {
   // Call regularly. `trouble` empty: none. `now_s`: monotonic.
   void look(const std::string& name, const std::string& trouble, double now_s);
 
-  // The end of a trouble, or another one in its place, is logged after this time.
+  // The end of a trouble, or a change to another one, is logged only after this time.
   static constexpr double kSettled_s = 10.0;
 
  private:

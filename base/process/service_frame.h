@@ -28,7 +28,7 @@ Config configuration_of(const ServiceOptions& options, Config (*load)(const std:
   return config;
 }
 
-// What caused an std::invalid_argument: bad input of the caller, or a failure of the program.
+// What an std::invalid_argument means: bad input of the caller, or a failure of the program.
 enum class InvalidArgument { kBadInput, kFailure };
 
 // Runs `act`, and logs under the program's name. Returns act's exit status; 1 after a failure; 2
@@ -36,8 +36,8 @@ enum class InvalidArgument { kBadInput, kFailure };
 int run_service(const std::string& program, InvalidArgument invalid,
                 const std::function<int()>& act);
 
-// A file that cannot be read or written is not helped by a restart, as other failures of the system
-// may be.
+// Turns a failure to read or write a file into bad input: a restart does not help there, as it may
+// with other failures of the system.
 template <class Action>
 auto as_bad_input(Action action) {
   try {

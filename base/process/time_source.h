@@ -1,5 +1,4 @@
-// Where the clocks of a process come from: its host, or whoever advances them
-// (sim/processes/simulated_time.h).
+// The source of a process's clocks: its host, or simulated time (sim/processes/simulated_time.h).
 #pragma once
 
 #include <atomic>
@@ -17,11 +16,11 @@ class TimeSource {
   virtual std::int64_t monotonic_ns() const = 0;
   // Since 1970.
   virtual std::int64_t utc_ns() const = 0;
-  // Waits at most so long until `over`. `lock` is of what that looks at, and free meanwhile; `news`
-  // tells of changes.
+  // Waits until `over` returns true, at most this long. `lock` guards the data that `over` reads,
+  // and is released while waiting; `news` signals that they have changed.
   virtual void wait(std::unique_lock<std::mutex>& lock, std::condition_variable& news,
                     double most_s, const std::function<bool()>& over) = 0;
-  // For how long a loop that must not wait may wait for work in the background, in true time.
+  // How long a loop that otherwise never waits may wait for work in the background, in true time.
   virtual std::chrono::seconds for_work() const = 0;
 
  protected:

@@ -2,8 +2,8 @@
 // twice. Pure.
 //
 // A sender's sequence grows within its boot; datagrams may overtake each other by less than
-// kWindow. Each boot has its own mark: a recording of an earlier boot is refused whatever the
-// clocks say. Only the last kBoots boots are remembered. Messages of any other boot must be stamped
+// kWindow. Each boot has its own mark: a recording of an earlier boot is refused, independent of
+// any clock. Only the last kBoots boots are remembered. Messages of any other boot must be stamped
 // later than everything that the forgotten boots have sent, unless the caller allows them.
 #pragma once
 
@@ -24,12 +24,12 @@ class ReplayMarks {
   static constexpr std::uint64_t kWindow = 64;
   static constexpr std::size_t kBoots = 32;
 
-  // Whether the message was heard, or may have been: its boot is forgotten.
+  // True if the message was heard before. Also true if its boot is forgotten and it may have been.
   bool is_replayed(const KeyId& key, const std::string& channel, const MessageHead& head) const;
   // Whether it was heard from a remembered boot.
   bool is_heard(const KeyId& key, const std::string& channel, const MessageHead& head) const;
-  // Call only for a verified message that is no replay: the enrolled keys then bound the number of
-  // streams.
+  // Call only for a verified message that is no replay, so that the enrolled keys limit the number
+  // of streams.
   void note(const KeyId& key, const std::string& channel, const MessageHead& head);
 
   // For a restart: one line per boot. read() ignores invalid lines, and returns their number.

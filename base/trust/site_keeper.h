@@ -35,7 +35,7 @@ class SiteKeeper {
   std::optional<std::string> to_tell(double now_s);
   static constexpr double kTell_s = 2.0;
 
-  // Why settings offered recently were not adopted; empty: they were, or there were none.
+  // Why settings offered recently were not adopted; empty: they were adopted, or none were offered.
   Alarm trouble() const;
 
  private:

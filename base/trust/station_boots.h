@@ -11,12 +11,13 @@ namespace ols::trust {
 
 class StationBoots {
  public:
-  // Takes a status. fresh: its stamp agrees with this host's clock. One that is not fresh counts
-  // only if may_be_own().
+  // Takes a status. fresh: its stamp agrees with this host's clock. A status that is not fresh
+  // counts only if may_be_own().
   void hear(std::string_view station, std::int64_t boot_id, bool fresh, double now_s);
   // Whether a status that is not fresh may be the station's own. It is a recording if fresh
-  // statuses of the same boot were heard within kPreferred_s, or fresh ones of another boot within
-  // kReboot_s. Only a boot makes a host lose its clock, and a boot takes longer than kReboot_s.
+  // statuses of the same boot were heard within kPreferred_s, or fresh statuses of another boot
+  // within kReboot_s. Only a boot makes a host lose its clock, and a boot takes longer than
+  // kReboot_s.
   bool may_be_own(std::string_view station, std::int64_t boot_id, double now_s) const;
   static constexpr double kPreferred_s = 5.0, kReboot_s = 20.0;
 

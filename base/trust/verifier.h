@@ -50,7 +50,7 @@ class Verifier {
     std::int64_t boot_id = 0;  // of this process
     std::int64_t clock_tolerance_us = 30'000'000;
     // For a process that shows and commands stations: a station with a wrong clock can still be
-    // seen and stopped. If there are fresh statuses too, the stale ones are recordings.
+    // seen and stopped. If there are fresh statuses, too, stale statuses are recordings.
     bool takes_stale_statuses = false;
     // Whether an order to a unit is a stop; empty: unknown.
     std::function<bool(Bytes)> is_stop{};

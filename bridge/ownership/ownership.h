@@ -2,10 +2,10 @@
 // and slews stations to it. All of them run the tracks; only the publisher changes. Pure: the
 // store's contents come in, requests to the store go out.
 //
-// An owner renews its record by compare-and-set. A fusion that takes the target does the same, and
-// one of the two fails. An owner counts its lease from before its renewal was sent, and slightly
-// short. Another fusion counts it from when it heard the renewal. Two therefore never own one
-// target at one instant, whatever their clocks say.
+// An owner renews its record by compare-and-set. A fusion that takes over the target does the same,
+// so one of the two fails. An owner counts its lease from before it sent the renewal, and slightly
+// short. Another fusion counts the lease from when it heard the renewal. Two fusions therefore
+// never own one target at the same instant, independent of their clocks.
 //
 // While the store does not answer, an owner continues, and marks each message as unconfirmed. If
 // the store answers nobody, no fusion can take the target. If only this owner is cut off, another
