@@ -22,7 +22,7 @@ namespace ols::fusion {
 enum class MessageRefusal { kMalformed, kSchema, kOtherStation, kOutOfRange, kNoPosition };
 const char* to_string(MessageRefusal refusal);
 
-// Never throws, whatever the bytes. check() in central/admission/bearing_check.h judges the values.
+// Never throws, with any bytes. check() in central/admission/bearing_check.h judges the values.
 std::variant<BearingMeasurement, MessageRefusal> measurement_from(const std::string& channel,
                                                                   const void* data, int bytes);
 

@@ -30,7 +30,7 @@ struct DriftFinding {
   // The turn of the tripod that explains the views best, except for kUnclear. For kLostSteps it is
   // at least as large as the lost steps: heading for the pan axis, tilt for the tilt axis.
   double heading_rad = 0.0;  // clockwise, as a heading
-  double tilt_rad = 0.0;     // of the vertical, whatever its direction
+  double tilt_rad = 0.0;     // of the vertical, in any direction
   double heading_sd_rad = 0.0, tilt_sd_rad = 0.0;
   std::size_t view = 0;  // kScene: the view
   bool pan = false;  // kLostSteps: the axis, and how many steps its shaft is ahead of the counts

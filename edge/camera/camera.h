@@ -24,7 +24,7 @@ class Camera {
   virtual void set_region(const std::optional<cv::Rect2d>& target_box) = 0;
   // Starts one exposure. Has an effect only with the software trigger.
   virtual void trigger() = 0;
-  // Named "camera", whatever its kind.
+  // Named "camera" for every kind.
   virtual device::DeviceReport report() const = 0;
 };
 

@@ -1,5 +1,4 @@
-// A device of which there are several kinds, one of them chosen by `kind` in its section of the
-// configuration. Pure.
+// A device that has several kinds. `kind` in its section of the configuration chooses one. Pure.
 #pragma once
 
 #include <cstddef>

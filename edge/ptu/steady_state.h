@@ -22,7 +22,7 @@ class PtuSteadyState {
   PtuSteadyState(const PtuConfig& config, const PtuFacts& facts, double byte_s, double time_s,
                  PtuCounters& counters);
 
-  // This many limit hits in one reply come from homing, `!T!T!P!P*`, of which some may be lost.
+  // This many limit hits in one reply come from homing (`!T!T!P!P*`; some may be lost).
   static constexpr int kHomingHits = 3;
 
   // Why the unit cannot be driven any longer without a restart.

@@ -36,8 +36,9 @@ struct AcquisitionView {
   Eigen::Vector2d expected_px;  // of the target
   double expected_sd_px = 0.0;
   // If only a line is known on which the target is: the line's direction, a unit vector. The
-  // expected pixel is any point on it, and the deviation is that across it. Of the motion, only its
-  // limit from frame to frame against the background is then known. The target must move evenly.
+  // expected pixel is any point on it, and the deviation is that across it. Of the target's motion
+  // only a limit is then known: how far it can move from frame to frame against the background. The
+  // target must move evenly.
   Eigen::Vector2d line = Eigen::Vector2d::Zero();
   double drift_px = 0.0;
   std::vector<AcquisitionReference> references;  // newest first
@@ -55,14 +56,14 @@ class Acquisition {
   // The box of the only object on which the last frames agree, or empty.
   std::optional<cv::Rect2d> look(const AcquisitionView& view);
   void clear() { tracks_.clear(); }
-  // The candidates of the last frame. Several of them may be parts of one object.
+  // The candidates of the last frame. Several may be parts of one object.
   const std::vector<AcquisitionCandidate>& candidates() const { return candidates_; }
 
  private:
   struct Track {  // a candidate over several frames
     AcquisitionCandidate candidate;
-    // Of its centre in the first frame: the offset from the expected pixel. On a line: the
-    // position, carried by the background into this frame.
+    // The offset of its centre from the expected pixel in the first frame. On a line: its position
+    // then, moved with the background into this frame.
     Eigen::Vector2d first_px;
     // Motion against the background since the frame before.
     Eigen::Vector2d step_px = Eigen::Vector2d::Zero();

@@ -17,7 +17,7 @@ struct FrameEvidence {
   // LearntAppearance::recognised(), if the target is followed by it.
   std::optional<double> recognised = {};
   double standing_out = 1.0;  // contrast with its surroundings, relative to the target's usual one
-  double foreground = 1.0;    // share of the target's foreground that is foreground here,
+  double foreground = 1.0;    // share of the target's foreground that is foreground here too,
   bool by_subtraction = false;  // compared with an earlier image, not with a grey level
 };
 
@@ -41,7 +41,7 @@ class Belief {
   void doubt() { value_ = value_ < kDoubt ? value_ : kDoubt; }
   void update(const FrameEvidence& evidence, double interval_s);
   double value() const { return value_; }
-  // Whether the target's recent values make this evidence plausible. Stricter than similarity, for
+  // Whether the target's recent values make this evidence plausible. Stricter than similarity. For
   // a target whose position is no evidence.
   bool usual(const FrameEvidence& evidence) const;
   // The belief from this evidence alone; does not change the belief.

@@ -1,6 +1,6 @@
 // The largest changes between adjacent frames: the paper's answer to a sky without features, where
-// no homography is found. If there is a homography, the previous frame is aligned first. It then
-// finds a target whose motion the model did not predict.
+// no homography is found. If there is a homography, the previous frame is aligned first. The
+// differences then show a target whose motion the model did not predict.
 #pragma once
 
 #include <Eigen/Core>

@@ -77,9 +77,9 @@ bool plausible_homography(const Eigen::Matrix3d& homography, const cv::Size& ima
 // An accumulated homography that can be inverted: finite, not nearly singular.
 bool aligns(const Eigen::Matrix3d& homography);
 
-// The homography that maps `previous` to `current`, by least squares. The prior pulls its
-// correction to `guess` towards a pure shift, because corners on a strip of ground determine little
-// of the motion of the sky above it.
+// The homography that maps `previous` to `current`, by least squares. The prior pulls the
+// correction of `guess` towards a pure shift, because corners on a strip of ground determine little
+// about the motion of the sky above it.
 Eigen::Matrix3d fit_homography(const std::vector<cv::Point2f>& previous,
                                const std::vector<cv::Point2f>& current,
                                const Eigen::Matrix3d& guess, const cv::Size& image);

@@ -15,8 +15,8 @@ struct FollowEvidence {
   std::optional<double> change = {};
 };
 
-// Natural logarithm of the odds that it is the target, whose own prominence was `own` when it was
-// designated.
+// Natural logarithm of the odds that the object is the target. `own`: the target's prominence when
+// it was designated.
 double follow_log_odds(const FollowEvidence& evidence, double own);
 
 // The probability over time.
@@ -33,10 +33,10 @@ class FollowJudge {
   bool sure() const;
   bool believes() const;
   bool doubts() const;
-  // Whether there was doubt and no belief since: it may be following an object that covered the
-  // target.
+  // Whether there was doubt, and no belief since then: the tracker may follow an object that
+  // covered the target.
   bool wary() const { return wary_; }
-  // In doubt for so long that the followed object is probably not the target.
+  // Whether the doubt has lasted so long that the followed object is probably not the target.
   bool lets_go() const;
 
  private:

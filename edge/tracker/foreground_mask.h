@@ -28,7 +28,7 @@ class ReferenceFrames {
     cv::Rect2d target_box;  // in the reference
     double time_s = 0.0;
   };
-  // The newest of at least this age; empty: none.
+  // The newest copy of at least this age; empty: none.
   const Reference* older_than(double time_s) const;
   const Reference* without_overlap(const cv::Rect2d& target_box) const;
 

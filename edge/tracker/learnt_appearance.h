@@ -10,12 +10,12 @@ namespace ols::tracker {
 
 class LearntAppearance {
  public:
-  // The target is in this box of `frame`.
+  // Begins with the target in this box of `frame`.
   LearntAppearance(const TrackerInput& frame, const Eigen::Vector2d& pixel,
                    const Eigen::Vector2d& size_px);
 
   // Searches for the target in windows around these places of a new frame. Returns the strongest
-  // response, if it is at least `least` of the usual one.
+  // response, if it is at least `least` of the usual response.
   std::optional<Eigen::Vector2d> find(const TrackerInput& frame,
                                       const std::vector<Eigen::Vector2d>& places,
                                       const Eigen::Vector2d& size_px, double least);
@@ -28,7 +28,7 @@ class LearntAppearance {
   double recognised(const Eigen::Vector2d& pixel) const;
   // The same response over the deviation of the response elsewhere; 0 where nothing was searched.
   double prominence(const Eigen::Vector2d& pixel) const;
-  // The target is there in the newest frame.
+  // Learns that the target is there in the newest frame.
   void learn(const TrackerInput& frame, const Eigen::Vector2d& pixel,
              const Eigen::Vector2d& size_px, double interval_s);
 

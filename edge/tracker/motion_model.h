@@ -17,13 +17,13 @@ struct CameraMotion {
   double interval_s = 0.0;
 };
 
-// Limits the interval: after a longer gap the target may be anywhere, and two exposures are never
-// closer.
+// Limits the interval. After a longer gap the target may be anywhere; two exposures are never
+// closer than the lower limit.
 double usable_interval_s(double from_s, double to_s);
 
 // Limits the particle's position to within a frame's size of the frame, its velocity to ten frame
-// widths a second, and its size to the frame's. So no clock, homography or hint makes pixels
-// overflow.
+// widths a second, and its size to the frame's. So pixels cannot overflow, whatever clock,
+// homography or hint says.
 Particle bounded(const Particle& particle, const cv::Size& frame);
 
 // Particles have velocities relative to the scene. Without a homography the camera is assumed to

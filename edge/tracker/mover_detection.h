@@ -26,11 +26,11 @@ struct MoverSearch {
 };
 
 // Finds differences from an earlier image of the same scene. The covariance covers the position of
-// an object that moved by three pixels or more; of a slower one, perhaps only slivers differ.
-// `to_present` maps the earlier image's pixels (full frame) to those of `current`. Edges that are
-// off by a pixel are ignored. The mover's earlier position is not distinguished from its present
-// one: use two earlier images, or its appearance. Empty images, different sizes and homographies
-// that are not finite give no movers.
+// an object that has moved by three pixels or more; if it has moved less, perhaps only slivers
+// differ. `to_present` maps the earlier image's pixels (full frame) to those of `current`. Edges
+// that are off by a pixel are ignored. The mover's earlier position is not distinguished from its
+// present one: use two earlier images, or its appearance. Empty images, different sizes and
+// homographies that are not finite give no movers.
 std::vector<MoverCandidate> detect_movers(const cv::Mat& earlier, const Eigen::Matrix3d& to_present,
                                           const ReducedFrame& current, const MoverSearch& search);
 

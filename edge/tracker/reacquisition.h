@@ -38,9 +38,9 @@ class Reacquisition {
   void restart(const Particle& target);
   // The target was seen and believed.
   void see(const Particle& target) { believed_ = target; }
-  // For a target found elsewhere, whose velocity is lost: particles are drawn there with the old
-  // velocity, or with none. Once it was measured in two successive frames, `target` gets the
-  // velocity between them. `unmoved_px`: its position if it had not moved.
+  // For a target that was found elsewhere and whose velocity is lost: particles start there with
+  // the old velocity, or with none. Once the target was measured in two successive frames, `target`
+  // gets the velocity between them. `unmoved_px`: its position if it had not moved.
   void learn_velocity(bool measured, const Eigen::Vector2d& unmoved_px, double interval_s,
                       Particle& target);
   // The target is believed: ends the search.
@@ -65,10 +65,10 @@ class Reacquisition {
   Particle drawn_near(const Eigen::Vector2d& pixel, double sd_px, Random& random) const;
 
   // Whether the particle may be the target. After a loss, a stationary object away from the
-  // prediction is not accepted, however similar: it is a twig, a window or a reticle.
+  // prediction is not accepted, even if it looks similar: it is a twig, a window or a reticle.
   bool may_be_it(const Particle& particle) const;
-  // Shares the identity among candidates: an object found elsewhere is one of all similar movers,
-  // visible or hidden, and nothing distinguishes them.
+  // Shares the probability of identity among candidates: an object found elsewhere may be any of
+  // the similar movers, visible or hidden, and nothing distinguishes them.
   void identify(const Particle& found, const Scene& scene, const TargetModel& target,
                 const Belief& belief);
 

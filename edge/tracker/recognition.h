@@ -19,7 +19,7 @@ class Recognition {
   LearntAppearance& appearance() { return appearance_; }
   // Probability that the followed object is the target.
   double belief() const { return judge_.value(); }
-  // True: nothing is learnt, because it may be another object.
+  // True: nothing is learnt, because the followed object may be another one.
   bool doubts() const { return judge_.wary(); }
 
   // A caller states where the target is: earlier doubts and memories belong to another place.
@@ -31,10 +31,10 @@ class Recognition {
              double interval_s);
   // Remembers the followed object if it is surely the target.
   void remember(const Particle& followed, double time_s);
-  // In doubt: returns to the appearance learnt while it surely was the target. It must find the
-  // target here, where the target was then, or where it would be had it continued. After long doubt
-  // a weaker response is enough. It also searches in ever wider rings; a candidate found there must
-  // itself be judged the target.
+  // In doubt: returns to the appearance that was learnt while the object surely was the target.
+  // With it the target must be found here, where it was then, or where it would be if it had
+  // continued. After long doubt a weaker response is enough. Also searches in ever wider rings; a
+  // candidate found there must itself be judged to be the target.
   std::optional<Particle> return_to_sure(const TrackerInput& frame,
                                          const ReferenceFrames& references,
                                          const Particle& followed);

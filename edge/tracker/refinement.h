@@ -36,7 +36,8 @@ class PositionRefiner {
   PositionRefiner(const FrameView& view, const Eigen::Vector2d& pixel,
                   const Eigen::Vector2d& size_px);
 
-  // M_t: pixels that are not foreground have another motion, and get little weight from now on.
+  // Sets M_t: pixels that are not foreground have another motion, and get little weight from now
+  // on.
   void set_mask(const MaskPatch& mask);
 
   // Starts from the centre of a box within about a third of the target. nullopt: it does not

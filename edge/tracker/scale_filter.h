@@ -1,4 +1,4 @@
-// Measures how much the target has grown or shrunk, whatever its present appearance: a
+// Measures how much the target has grown or shrunk, even if its appearance has changed: a
 // one-dimensional correlation filter over images of the box at neighbouring sizes. M. Danelljan, G.
 // Hager, F. S. Khan, M. Felsberg, "Discriminative scale space tracking", PAMI 39(8), 2017.
 #pragma once

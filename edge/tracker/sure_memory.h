@@ -1,5 +1,5 @@
-// The target's state when it was last followed with certainty. The tracker returns to it when it
-// finds that it follows something else, whose appearance it has learnt meanwhile.
+// The target's state when it was last followed with certainty. The tracker returns to this state
+// when it notices that it follows something else, whose appearance it has learnt meanwhile.
 #pragma once
 
 #include <optional>
@@ -13,7 +13,8 @@ class SureMemory {
  public:
   struct State {
     LearntAppearance appearance;
-    // In the newest frame: if the target had continued, and if it had stopped in the scene.
+    // Where the target would be in the newest frame, if it had continued, and if it had stopped in
+    // the scene.
     Particle moving, still;
     Eigen::Vector2d seen_px;  // its position in the image: a camera follows its target
     double time_s = 0.0;

@@ -59,11 +59,11 @@ class TargetModel {
   // Learns the target's present size, from a sharp image.
   void learn_size(const Eigen::Vector2d& size_px, double share);
 
-  // The size of the visible target: that of `target` if the first image has `measured` it;
-  // otherwise it grows as its present appearance does.
+  // The size of the visible target: the size of `target` if it was `measured` by the first image;
+  // otherwise the last size, grown as its present appearance has grown.
   Eigen::Vector2d follow_size(const cv::Mat& gray, const Particle& target,
                               const std::optional<Eigen::Vector2d>& measured, double interval_s);
-  // Everything followed since the target had this size was another object.
+  // What was followed since the target had this size was another object.
   void restart_size(const Eigen::Vector2d& size_px);
 
   // Learns M_t, once: the candidate's foreground while it is certainly the target.

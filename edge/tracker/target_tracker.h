@@ -32,8 +32,8 @@ struct TrackerOutput {
   double belief = 0.0;             // 0..1
   EgoMotion ego_motion = EgoMotion::kNone;
   // [px] Distance at the target between two predictions of the scene: by the predicted homography,
-  // and by the image's own. At most the image diagonal. nullopt: only one of them exists. A large
-  // value means wrong angles or times. An unused prediction is compared, too.
+  // and by the image's own. At most the image diagonal. nullopt: only one of the two exists. A
+  // large value means wrong angles or times. A prediction that was not used is compared, too.
   std::optional<double> prediction_error_px;
   bool prediction_dropped = false;  // there was one, but it is impossible
 };

@@ -16,9 +16,9 @@ struct PaperTrackerConfig {
   double position_sd_px = 2.0;
   double velocity_sd_px_s = 20.0;
   double size_sd_px = 0.2;
-  // Eq. (5) is a sum over 576 pixels. Those of sky match everywhere, so a wrong patch weighs hardly
-  // less than the target. The paper gives no scale; weights are raised to this power. 1 is the
-  // paper as printed.
+  // Eq. (5) is a sum over 576 pixels. Pixels of sky match everywhere, so a wrong patch weighs
+  // hardly less than the target. The paper gives no scale; weights are raised to this power. 1 is
+  // the paper as printed.
   double weight_power = 100.0;
 };
 

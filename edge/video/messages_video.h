@@ -11,7 +11,7 @@
 
 namespace ols::video {
 
-// A request has no variable part; a longer message is none.
+// A request has no variable part; a longer message is not a request.
 inline constexpr std::uint32_t kLargestRequest_bytes = 256;
 
 // nullopt if it is no request, or out of range.

@@ -1,6 +1,6 @@
-// Serves a station's pictures to permitted viewers, over TCP (docs/video.md). Each request is
-// answered by the newest frame that the viewer has not had. Nothing queues, however slow a viewer
-// or its network is, and nothing is compressed without a request. A thread of its own serves; the
+// Serves a station's pictures to permitted viewers, over TCP (docs/video.md). The answer to each
+// request is the newest frame that the viewer has not had. Nothing queues, however slow a viewer or
+// its network is, and nothing is compressed without a request. A thread of its own serves; the
 // control loop only leaves a reference to its frame.
 #pragma once
 
