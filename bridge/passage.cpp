@@ -7,6 +7,7 @@
 
 #include "base/trust/channel_rules.h"
 #include "base/trust/trailer.h"
+#include "conditions/refusal.h"
 
 namespace ols::bridge {
 namespace {
@@ -58,7 +59,8 @@ void count(Counts& counts, const std::optional<Refusal>& refusal, std::string_vi
   ++counts.refused.at(static_cast<std::size_t>(*refusal));
   // A bus gives back what was put onto it, and a fusion goes on with targets that another one owns.
   if (*refusal == Refusal::kOwn || *refusal == Refusal::kNotOwned) return;
-  counts.last_refusal = std::string(what.substr(0, 120)) + ": " + to_string(*refusal);
+  counts.last_refusal =
+      std::string(what.substr(0, 120)) + ": " + refusal_words(to_string(*refusal), "bridge_");
 }
 
 }  // namespace

@@ -3,11 +3,13 @@
 #include <span>
 
 #include "conditions/alarm_rows.h"
+#include "conditions/refusal.h"
 
 namespace ols {
 namespace {
 
 constexpr std::string_view kAbout = ": ";
+constexpr std::string_view kReason = "reason";  // a parameter: a reason of the table
 
 // `pattern` with a value in the place of each {parameter}.
 template <class Value>
@@ -31,7 +33,9 @@ bool is_subject(const AlarmRow& row, std::string_view parameter) {
 
 Alarm raise(std::string_view id, Alarm::Parameters parameters) {
   Alarm alarm{{}, std::string(id), std::move(parameters)};
-  alarm.text = filled(alarm.row().english, [&](auto name) { return alarm.parameter(name); });
+  alarm.text = filled(alarm.row().english, [&](auto name) {
+    return name == kReason ? refusal_words(alarm.parameter(name)) : alarm.parameter(name);
+  });
   return alarm;
 }
 

@@ -28,7 +28,7 @@ def alarms(of: dict) -> list[dict]:
 def refusals(of: dict) -> dict[str, list[str]]:
     """What a person is told of each reason, in both languages."""
     return {
-        reason: both
+        group.get("of", "") + reason: both
         for group in of["refusals"]
         for row in group["rows"]
         for reason, both in row.get("says", {}).items()
@@ -57,8 +57,11 @@ def of_the_page() -> dict:
         says = {key: [named(one) for one in both] for key, both in alarm["says"].items()}
         both = {key: [plain(alarm[key][0]), alarm[key][1]] for key in ("meaning", "action")}
         rows.append({"severity": alarm["severity"], "says": says, **both})
-    phrases = {**dict(refusals(whole).values()), **whole["phrases"]}
-    return {"alarms": rows, "phrases": phrases, "words": whole["words"], "names": whole["names"]}
+    reasons = refusals(whole)
+    said = {key: [named(one) for one in both] for key, both in whole["outcomes"].items()}
+    phrases = {**dict(reasons.values()), **whole["phrases"]}
+    others = {name: whole[name] for name in ("words", "names")}
+    return {"alarms": rows, "reasons": reasons, "outcomes": said, "phrases": phrases, **others}
 
 
 def of_the_documents(document: str) -> str:
@@ -150,7 +153,7 @@ SOURCE = """// Made by conditions/table.py.
 #include <map>
 
 #include "conditions/alarm_rows.h"
-#include "conditions/refusal.h"
+#include "conditions/outcomes.h"
 
 namespace ols {
 namespace {
@@ -179,7 +182,25 @@ namespace alarm {
 
 %s
 }  // namespace alarm
+
+namespace outcome {
+
+%s
+}  // namespace outcome
 }  // namespace ols
+"""
+OUTCOMES = """// Made by conditions/table.py: what comes of an order that is not carried out. Pure.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "conditions/refusal.h"
+
+namespace ols::outcome {
+
+%s
+}  // namespace ols::outcome
 """
 
 
@@ -207,15 +228,27 @@ def of_the_programs() -> dict[str, str]:
         action = plain(row["action"][0]).replace("`", "")
         one = (name, named(english), subject, row["severity"], action)
         cells += f"    {{{', '.join(json.dumps(cell) for cell in one)}}},\n"
+    said = {name: english for name, (english, _) in table()["outcomes"].items()}
+    for name, english in said.items():
+        cells += f'    {{"{name}", {json.dumps(named(english))}, "", "notice", ""}},\n'
     header = "".join(f"{declared(name, english)};\n" for _, name, (english, _) in rows)
     source = "".join(defined(name, english) for _, name, (english, _) in rows)
+    outcomes = "".join(f"{declared(*one)};\n" for one in said.items())
     refused = "".join(
         f"      {{{json.dumps(reason)}, {json.dumps(says[0])}}},\n"
         for reason, says in refusals(table()).items()
     )
     return {
         "alarms.h": HEADER % header,
-        "alarms.cpp": SOURCE % (len(rows), cells, refused, source),
+        "alarms.cpp": SOURCE
+        % (
+            len(rows) + len(said),
+            cells,
+            refused,
+            source,
+            "".join(defined(*one) for one in said.items()),
+        ),
+        "outcomes.h": OUTCOMES % outcomes,
         "event_ids.h": event_ids(),
         "ols.catalog": catalogue(),
     }

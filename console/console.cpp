@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "conditions/alarm_json.h"
+#include "conditions/outcomes.h"
 #include "console/aiming.h"
 #include "wire/cue_values.h"
 
@@ -15,10 +17,6 @@ constexpr std::size_t kMostAnswers = 64;
 constexpr std::int64_t kLateRate_us = 1'500'000;
 constexpr std::int64_t kLateCommand_us = 3'000'000;
 constexpr const char* kAll = "all";
-constexpr const char* kTooLate = "refused: it came too late";
-constexpr const char* kOutOfReach =
-    "refused: out of the reach of its unit, or it does not know where it looks";
-constexpr const char* kReplay = "this is a replay: commands are not sent";
 constexpr std::size_t kMostReplayRequests = 64;  // of one turn
 
 std::string dumped(const Json& json) {
@@ -81,10 +79,9 @@ void Console::hear(const wire::Order& order, const Now& now) {
   if (is_repeated) return orders_.watch_again(order);
   if (!site_.knows(order.station)) return;
   const auto event = site_.note({now.utime_us, "command", order.station, "", words(order), ""});
-  if (const auto refusal =
-          orders_.begin(order, {.event = event, .is_watched = true}, now.monotonic_s)) {
-    site_.conclude(event, *refusal);
-  }
+  const Outcome refusal =
+      orders_.begin(order, {.event = event, .is_watched = true}, now.monotonic_s);
+  if (!refusal.empty()) site_.conclude(event, refusal);
 }
 
 WatchedVideos Console::watched_video() const {
@@ -132,7 +129,7 @@ void Console::take(std::uint64_t viewer, std::string_view text, const Now& now) 
 }
 
 void Console::answer(std::uint64_t id, std::int64_t number, const std::string& station,
-                     const std::string& refusal) {
+                     const Outcome& refusal) {
   const auto viewer = viewers_.find(id);
   if (viewer == viewers_.end()) return;
   auto& answers = viewer->second.answers;
@@ -140,34 +137,35 @@ void Console::answer(std::uint64_t id, std::int64_t number, const std::string& s
                             {"number", number},
                             {"station", station},
                             {"accepted", refusal.empty()},
-                            {"why", refusal}}));
+                            {"why", refusal.text},
+                            {"refusal", refusal.empty() ? Json(nullptr) : Json(refusal)}}));
   if (answers.size() > kMostAnswers) answers.pop_front();
 }
 
 void Console::act(std::uint64_t id, const Refused& refused, const Now&) {
   ++messages_refused_;
-  answer(id, refused.number, "", "refused: " + refused.why);
+  answer(id, refused.number, "", outcome::not_understood(refused.why));
 }
 
 void Console::act(std::uint64_t id, const ReplayRequest& request, const Now&) {
-  if (!is_replay()) return answer(id, request.number, "", "refused: this is no replay");
+  if (!is_replay()) return answer(id, request.number, "", outcome::no_replay());
   if (replay_.requests.size() < kMostReplayRequests) replay_.requests.push_back(request);
 }
 
 void Console::act(std::uint64_t id, const AnswerRequest& request, const Now& now) {
   const Viewer& viewer = viewers_.at(id);
   const std::string& station = request.answer.station;
-  if (is_replay()) return answer(id, request.number, station, kReplay);
-  std::string refusal = bus_trouble_;
+  if (is_replay()) return answer(id, request.number, station, outcome::not_in_a_replay());
+  Outcome refusal = bus_trouble_;
   // Answers turn the unit: they need control as commands do, and may be as late, but for the one
   // that ends it all.
   const bool ends = request.answer.choice == "abort";
   if (viewer.role == Role::kViewer) {
-    refusal = "refused: a viewer may only look and stop";
+    refusal = outcome::viewer_only_looks();
   } else if (refusal.empty() && !ends && is_late(request.heard_utime_us, now, kLateCommand_us)) {
-    refusal = kTooLate;
+    refusal = outcome::came_too_late();
   } else if (refusal.empty() && !ends && procedures_.has(station)) {
-    refusal = control_.use(station, id, viewer.name, now.monotonic_s).value_or("");
+    refusal = control_.use(station, id, viewer.name, now.monotonic_s);
   }
   if (refusal.empty()) refusal = procedures_.answer(request.answer);
   if (refusal.empty()) {
@@ -181,9 +179,9 @@ void Console::act(std::uint64_t id, const CueRequest& request, const Now& now) {
   const Viewer& viewer = viewers_.at(id);
   const bool allow = request.order.allow;
   const bool is_too_late = allow && is_late(request.heard_utime_us, now, kLateCommand_us);
-  const std::string refusal = is_replay()   ? kReplay
-                              : is_too_late ? kTooLate
-                                            : cues_.refusal(viewer.role, bus_trouble_);
+  const Outcome refusal = is_replay()   ? outcome::not_in_a_replay()
+                          : is_too_late ? outcome::came_too_late()
+                                        : cues_.refusal(viewer.role, bus_trouble_);
   if (!refusal.empty()) return answer(id, request.number, "", refusal);
   const bool is_target = target_named(request.order.cue).has_value();
   const std::string what = (is_target ? (allow ? "allows target " : "dismisses target ")
@@ -195,24 +193,24 @@ void Console::act(std::uint64_t id, const CueRequest& request, const Now& now) {
 
 void Console::act(std::uint64_t id, const AcknowledgeRequest& request, const Now&) {
   const Viewer& viewer = viewers_.at(id);
-  if (is_replay()) return answer(id, request.number, "", kReplay);
+  if (is_replay()) return answer(id, request.number, "", outcome::not_in_a_replay());
   if (viewer.role == Role::kViewer) {
-    return answer(id, request.number, "", "refused: a viewer may only look and stop");
+    return answer(id, request.number, "", outcome::viewer_only_looks());
   }
   const bool is_there = site_.acknowledge(request.event, viewer.name);
-  answer(id, request.number, "", is_there ? "" : "refused: there is no such alarm any more");
+  answer(id, request.number, "", is_there ? Outcome() : outcome::no_such_alarm());
 }
 
 void Console::act(std::uint64_t id, const NameRequest& request, const Now& now) {
   const Viewer& viewer = viewers_.at(id);
   const auto& [number, target, name] = request;
-  std::string refusal;
+  Outcome refusal;
   if (is_replay()) {
-    refusal = kReplay;
+    refusal = outcome::not_in_a_replay();
   } else if (viewer.role == Role::kViewer) {
-    refusal = "refused: a viewer may only look and stop";
+    refusal = outcome::viewer_only_looks();
   } else if (!site_.name_target(target, name)) {
-    refusal = "refused: there is no such target any more";
+    refusal = outcome::no_such_target();
   } else {
     const std::string what = "calls target " + target + " " + (name.empty() ? target : name);
     site_.note({now.utime_us, "command", "", viewer.name, what, "done"});
@@ -238,15 +236,15 @@ void Console::act(std::uint64_t id, const TakenRequest& request, const Now&) {
 
 void Console::act(std::uint64_t id, const ControlRequest& request, const Now& now) {
   const Viewer& viewer = viewers_.at(id);
-  if (is_replay()) return answer(id, request.number, request.station, kReplay);
+  if (is_replay()) return answer(id, request.number, request.station, outcome::not_in_a_replay());
   if (viewer.role == Role::kViewer) {
-    return answer(id, request.number, request.station, "refused: a viewer may only look and stop");
+    return answer(id, request.number, request.station, outcome::viewer_only_looks());
   }
   if (!site_.knows(request.station)) {
-    return answer(id, request.number, request.station, "refused: no such station is heard");
+    return answer(id, request.number, request.station, outcome::no_such_station());
   }
   if (request.take && is_late(request.heard_utime_us, now, kLateCommand_us)) {
-    return answer(id, request.number, request.station, kTooLate);
+    return answer(id, request.number, request.station, outcome::came_too_late());
   }
   if (request.take) {
     tell_holders({request.station}, "take", {viewer.name, id}, now);
@@ -255,58 +253,60 @@ void Console::act(std::uint64_t id, const ControlRequest& request, const Now& no
   } else {
     control_.give_up(request.station, id);
   }
-  answer(id, request.number, request.station, "");
+  answer(id, request.number, request.station, {});
 }
 
 void Console::act(std::uint64_t id, const CommandRequest& request, const Now& now) {
   const Viewer& viewer = viewers_.at(id);
   wire::Order order = request.order;
-  if (is_replay()) return answer(id, request.number, order.station, kReplay);
+  if (is_replay()) return answer(id, request.number, order.station, outcome::not_in_a_replay());
   if (order.kind == wire::Kind::kStop) {
     if (!site_.knows(order.station)) {
-      return answer(id, request.number, order.station, "refused: no such station is heard");
+      return answer(id, request.number, order.station, outcome::no_such_station());
     }
     tell_holders({order.station}, "stop", {viewer.name, id}, now);
     return begin_stop(order.station, viewer.name, {.viewer = id, .number = request.number}, now);
   }
   // Neither is history: it would push out what has happened.
   if (viewer.role == Role::kViewer) {
-    return answer(id, request.number, order.station, "refused: a viewer may only look and stop");
+    return answer(id, request.number, order.station, outcome::viewer_only_looks());
   }
   if (!site_.knows(order.station)) {
-    return answer(id, request.number, order.station, "refused: no such station is heard");
+    return answer(id, request.number, order.station, outcome::no_such_station());
   }
   const std::int64_t late_us = wire::is_joystick(order) ? kLateRate_us : kLateCommand_us;
   if (is_late(request.heard_utime_us, now, late_us)) {
-    return answer(id, request.number, order.station, kTooLate);
+    return answer(id, request.number, order.station, outcome::came_too_late());
   }
   if (request.place) {
     const auto angles = aim_at_place(*site_.fields_of(order.station), *request.place);
-    if (!angles) return answer(id, request.number, order.station, kOutOfReach);
+    if (!angles) return answer(id, request.number, order.station, outcome::out_of_reach());
     order.pan_rad = angles->pan_rad;
     order.tilt_rad = angles->tilt_rad;
   }
-  auto refusal = control_.use(order.station, id, viewer.name, now.monotonic_s);
+  Outcome refusal = control_.use(order.station, id, viewer.name, now.monotonic_s);
   // A hold is one event, however often it is renewed.
   const bool continues = orders_.is_held(order, now.monotonic_s);
-  const auto event = continues ? 0
-                               : site_.note({now.utime_us, "command", order.station, viewer.name,
-                                             words(order), refusal.value_or("")});
-  if (!refusal) {
+  const auto event =
+      continues
+          ? 0
+          : site_.note({now.utime_us, "command", order.station, viewer.name, words(order), ""});
+  if (refusal.empty()) {
     refusal = orders_.begin(order, {id, request.number, event, viewer.name}, now.monotonic_s);
-    if (refusal) site_.conclude(event, *refusal);
   }
-  if (refusal) answer(id, request.number, order.station, *refusal);
+  if (refusal.empty()) return;
+  site_.conclude(event, refusal);
+  answer(id, request.number, order.station, refusal);
 }
 
 void Console::act(std::uint64_t id, const StopAllRequest& request, const Now& now) {
-  if (is_replay()) return answer(id, request.number, kAll, kReplay);
+  if (is_replay()) return answer(id, request.number, kAll, outcome::not_in_a_replay());
   const Person by{viewers_.at(id).name, id};
   const bool is_nobody = stop_all(by, {.viewer = id, .number = request.number}, now).empty();
   if (!bus_trouble_.empty()) {
     answer(id, request.number, kAll, bus_trouble_);
   } else if (is_nobody) {
-    answer(id, request.number, kAll, "no station is heard; those that are within 3 s will stop");
+    answer(id, request.number, kAll, outcome::stop_reaches_nobody());
   }
 }
 
@@ -318,9 +318,8 @@ void Console::begin_stop(const std::string& station, const std::string& name, Ti
   if (ticket.event == 0) {
     ticket.event = site_.note({now.utime_us, "command", station, name, "stop", ""});
   }
-  if (const auto refusal = orders_.begin(order, ticket, now.monotonic_s)) {
-    answer(ticket.viewer, ticket.number, station, *refusal);
-  }
+  const Outcome refusal = orders_.begin(order, ticket, now.monotonic_s);
+  if (!refusal.empty()) answer(ticket.viewer, ticket.number, station, refusal);
 }
 
 void Console::tell_holders(const std::vector<std::string>& stations, const char* what,
@@ -375,7 +374,7 @@ void Console::tell_outcomes(const Now& now) {
   std::vector<Verdict> verdicts = orders_.finished(now.monotonic_s);
   std::ranges::move(cues_.finished(now.monotonic_s), std::back_inserter(verdicts));
   for (const Verdict& verdict : verdicts) {
-    site_.conclude(verdict.ticket.event, verdict.why.empty() ? "done" : verdict.why);
+    site_.conclude(verdict.ticket.event, verdict.why);
     answer(verdict.ticket.viewer, verdict.ticket.number, verdict.station, verdict.why);
     if (verdict.ticket.is_for_all && !verdict.why.empty()) unconfirmed.insert(verdict.station);
   }
@@ -384,7 +383,7 @@ void Console::tell_outcomes(const Now& now) {
 
 void Console::replay_is(const Json& state, bool is_urgent) {
   replay_.state = state;
-  bus_trouble_ = kReplay;
+  bus_trouble_ = outcome::not_in_a_replay();
   if (!is_urgent) return;
   for (auto& [id, viewer] : viewers_) viewer.sent_s = -1e9;
 }

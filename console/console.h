@@ -83,8 +83,8 @@ class Console {
   std::optional<Outgoing> next(std::uint64_t viewer, const Now& now);
 
   // Why no order goes out; empty: orders go out.
-  void bus_is(const std::string& trouble) { bus_trouble_ = trouble; }
-  const std::string& bus_trouble() const { return bus_trouble_; }
+  void bus_is(const Alarm& trouble) { bus_trouble_ = trouble; }
+  const Outcome& bus_trouble() const { return bus_trouble_; }
 
   // Stops every station, also those that are first heard within the next seconds. Returns their
   // ids. All viewers are told which stations do not confirm it.
@@ -145,7 +145,7 @@ class Console {
   void act(std::uint64_t id, const NameRequest& request, const Now& now);
   void act(std::uint64_t id, const Refused& refused, const Now& now);
   void answer(std::uint64_t id, std::int64_t number, const std::string& station,
-              const std::string& refusal);
+              const Outcome& refusal);
   void tell_all(const Json& message);
   void tell_outcomes(const Now& now);
   void begin_stop(const std::string& station, const std::string& name, Ticket ticket,
@@ -169,7 +169,8 @@ class Console {
   std::uint64_t viewer_numbers_ = 0;
   std::uint64_t messages_refused_ = 0;
   double stop_until_s_ = -1e9;
-  std::string stopped_by_, bus_trouble_;
+  std::string stopped_by_;
+  Outcome bus_trouble_;
   ReplayState replay_;
 };
 

@@ -23,7 +23,7 @@ class ConsoleBus {
   void send(const std::vector<ProcedureAnswer>& answers, const Now& now);
   void send(const std::vector<wire::CueOrder>& orders, const Now& now);
   // Why no order goes out; empty: orders go out.
-  std::string trouble() const { return client_.trouble(); }
+  Alarm trouble() const { return client_.trouble(); }
   // For people: the state of the bus.
   std::string in_one_line() const;
 

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "conditions/outcomes.h"
+
 namespace ols::console {
 
 void ControlLeases::set(const std::string& station, std::uint64_t viewer, const std::string& name,
@@ -11,16 +13,15 @@ void ControlLeases::set(const std::string& station, std::uint64_t viewer, const 
   holder = {viewer, name, now_s + timeout_s_};
 }
 
-std::optional<std::string> ControlLeases::use(const std::string& station, std::uint64_t viewer,
-                                              const std::string& name, double now_s) {
+Outcome ControlLeases::use(const std::string& station, std::uint64_t viewer,
+                           const std::string& name, double now_s) {
   const auto held = holders_.find(station);
   if (held != holders_.end() && held->second.viewer != viewer && now_s < held->second.until_s) {
-    const int left_s = static_cast<int>(std::ceil(held->second.until_s - now_s));
-    return "refused: " + held->second.name + " has control for " + std::to_string(left_s) +
-           " s more; take over first";
+    const auto left_s = static_cast<std::int64_t>(std::ceil(held->second.until_s - now_s));
+    return outcome::others_control(held->second.name, left_s);
   }
   set(station, viewer, name, now_s);
-  return std::nullopt;
+  return {};
 }
 
 void ControlLeases::take(const std::string& station, std::uint64_t viewer, const std::string& name,

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "conditions/refusal.h"
+
 namespace ols::console {
 
 struct Holder {
@@ -21,9 +23,9 @@ class ControlLeases {
   explicit ControlLeases(double timeout_s) : timeout_s_(timeout_s) {}
 
   // A command of this viewer: takes or prolongs control. Returns why it may not: another viewer has
-  // control.
-  std::optional<std::string> use(const std::string& station, std::uint64_t viewer,
-                                 const std::string& name, double now_s);
+  // control; else empty.
+  Outcome use(const std::string& station, std::uint64_t viewer, const std::string& name,
+              double now_s);
   void take(const std::string& station, std::uint64_t viewer, const std::string& name,
             double now_s);
   void give_up(const std::string& station, std::uint64_t viewer);

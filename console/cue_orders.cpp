@@ -2,15 +2,16 @@
 
 #include <algorithm>
 
+#include "conditions/outcomes.h"
 #include "wire/refusal_words.h"
 
 namespace ols::console {
 
-std::string CueOrders::refusal(Role role, const std::string& bus_trouble) const {
+Outcome CueOrders::refusal(Role role, const Alarm& bus_trouble) const {
   constexpr std::size_t kMost = 100;  // unanswered
-  if (role == Role::kViewer) return "refused: a viewer may only look and stop";
+  if (role == Role::kViewer) return outcome::viewer_only_looks();
   if (!bus_trouble.empty()) return bus_trouble;
-  return waiting_.size() < kMost ? "" : "refused: too many at once";
+  return waiting_.size() < kMost ? Outcome() : outcome::too_many_orders();
 }
 
 void CueOrders::give(wire::CueOrder order, const Ticket& ticket, double now_s) {
@@ -24,7 +25,7 @@ void CueOrders::hear(const wire::Reply& reply) {
   if (!reply.station.empty() || answered == waiting_.end()) return;
   answered_.push_back({.ticket = answered->ticket,
                        .station = {},
-                       .why = reply.is_accepted ? "" : wire::refusal_in_words(reply)});
+                       .why = reply.is_accepted ? Outcome() : wire::refusal_in_words(reply)});
   waiting_.erase(answered);
 }
 
@@ -32,7 +33,7 @@ std::vector<Verdict> CueOrders::finished(double now_s) {
   std::vector<Verdict> verdicts = std::exchange(answered_, {});
   std::erase_if(waiting_, [&](const Waiting& waiting) {
     if (now_s <= waiting.begun_s + wire::kLease_s) return false;
-    verdicts.push_back({.ticket = waiting.ticket, .station = {}, .why = "no answer"});
+    verdicts.push_back({.ticket = waiting.ticket, .station = {}, .why = outcome::no_answer()});
     return true;
   });
   return verdicts;

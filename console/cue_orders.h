@@ -14,7 +14,7 @@ namespace ols::console {
 class CueOrders {
  public:
   // Why the order does not go out; empty: it does.
-  std::string refusal(Role role, const std::string& bus_trouble) const;
+  Outcome refusal(Role role, const Alarm& bus_trouble) const;
   // Of an order that is not refused.
   void give(wire::CueOrder order, const Ticket& ticket, double now_s);
   // The orders given since the last call, each under its own sequence number and the boot 0.

@@ -97,10 +97,11 @@ std::uint64_t EventList::add(Event event, Revision& revision) {
   return numbers_;
 }
 
-void EventList::conclude(std::uint64_t number, const std::string& outcome, Revision& revision) {
+void EventList::conclude(std::uint64_t number, const Outcome& refusal, Revision& revision) {
   for (Kept& kept : events_) {
     if (kept.number != number) continue;
-    kept.event.outcome = outcome;
+    kept.event.outcome = refusal.empty() ? "done" : refusal.text;
+    kept.event.refusal = refusal;
     kept.changed = ++revision;
   }
 }
@@ -146,6 +147,7 @@ Json EventList::since(Revision revision) const {
                       {"key", kept.key},
                       {"alarm", e.alarm.empty() ? Json(nullptr) : Json(e.alarm)},
                       {"outcome", e.outcome},
+                      {"refusal", e.refusal.empty() ? Json(nullptr) : Json(e.refusal)},
                       {"over_us", kept.over_us ? Json(*kept.over_us) : Json(nullptr)},
                       {"acknowledged", kept.acknowledged},
                       {"times", kept.times}});

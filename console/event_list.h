@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "conditions/alarm.h"
+#include "conditions/refusal.h"
 #include "console/entity_table.h"
 
 namespace ols::console {
@@ -18,8 +18,9 @@ struct Event {
   std::string station;        // empty: the site
   std::string who;            // of a command
   std::string text;
-  std::string outcome;  // of a command: empty while unknown, "done", or the reason
+  std::string outcome;  // of a command: empty while unknown, "sent", "done", or the refusal's text
   Alarm alarm{};        // what an alarm says
+  Outcome refusal{};    // of a command that is not carried out
 };
 
 class EventList {
@@ -29,7 +30,7 @@ class EventList {
   // An alarm stands until it is ended. An error that only explains an alarm or a refused command is
   // not listed (0); one that comes shortly before its alarm becomes that alarm's row.
   std::uint64_t add(Event event, Revision& revision);
-  void conclude(std::uint64_t number, const std::string& outcome, Revision& revision);
+  void conclude(std::uint64_t number, const Outcome& refusal, Revision& revision);
 
   // The alarm with this key has ended.
   void end(const std::string& station, const std::string& key, std::int64_t utime_us,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "conditions/outcomes.h"
 #include "wire/refusal_words.h"
 
 namespace ols::console {
@@ -30,17 +31,16 @@ void PendingOrders::keep_only(const std::function<bool(const std::string&)>& is_
   std::erase_if(holds_s_, [&](const auto& hold) { return !is_known(hold.first.first); });
 }
 
-std::optional<std::string> PendingOrders::join(Pending& stop, const Ticket& ticket, double now_s) {
+Outcome PendingOrders::join(Pending& stop, const Ticket& ticket, double now_s) {
   stop.sent_s = -1e9;
-  if (stop.waiting.size() >= kMostTickets) return "a stop is on its way already, and sent again";
+  if (stop.waiting.size() >= kMostTickets) return outcome::stop_on_its_way();
   stop.waiting.push_back({ticket, now_s});
-  return std::nullopt;
+  return {};
 }
 
-std::optional<std::string> PendingOrders::begin(const wire::Order& order, const Ticket& ticket,
-                                                double now_s) {
+Outcome PendingOrders::begin(const wire::Order& order, const Ticket& ticket, double now_s) {
   const bool is_stop = order.kind == Kind::kStop, is_hold = wire::is_joystick(order);
-  if (!stopped_.contains(order.station)) return "refused: no such station is heard";
+  if (!stopped_.contains(order.station)) return outcome::no_such_station();
   if (is_hold) holds_s_[{order.station, order.kind}] = now_s;
   const auto waits = std::ranges::find_if(pending_, [&](const Pending& p) {
     return p.order.station == order.station && p.order.kind == order.kind && !p.reply;
@@ -49,12 +49,12 @@ std::optional<std::string> PendingOrders::begin(const wire::Order& order, const 
   if (waits != pending_.end() && is_hold) {
     waits->order = order;
     waits->sent_s = -1e9;
-    return std::nullopt;
+    return {};
   }
   const auto others =
       std::ranges::count_if(pending_, [](const Pending& p) { return p.order.kind != Kind::kStop; });
   if (!is_stop && static_cast<std::size_t>(others) >= kMostPending) {
-    return "refused: too many commands are on their way";
+    return outcome::too_many_orders();
   }
   Pending pending{.order = order, .waiting = {{ticket, now_s}}};
   if (ticket.is_watched) {
@@ -63,7 +63,7 @@ std::optional<std::string> PendingOrders::begin(const wire::Order& order, const 
     pending.sent_s = now_s;
   }
   pending_.push_back(std::move(pending));
-  return std::nullopt;
+  return {};
 }
 
 void PendingOrders::watch_again(const wire::Order& order) {
@@ -124,7 +124,7 @@ std::vector<Verdict> PendingOrders::finished(double now_s) {
     const double patience_s = is_stop ? kStopPatience_s : wire::kLease_s;
     Verdict verdict{.ticket = {}, .station = pending.order.station, .why = {}};
     if (!pending.reply) {
-      verdict.why = is_stop ? "sent repeatedly, no answer" : "no answer";
+      verdict.why = is_stop ? outcome::stop_unanswered() : outcome::no_answer();
     } else if (!pending.reply->is_accepted) {
       verdict.why = wire::refusal_in_words(*pending.reply);
     }

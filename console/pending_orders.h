@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "conditions/refusal.h"
 #include "wire/order.h"
 
 namespace ols::console {
@@ -26,7 +27,7 @@ struct Ticket {
 struct Verdict {
   Ticket ticket;
   std::string station;
-  std::string why;  // it was refused, or not answered, in words; empty: it is carried out
+  Outcome why;  // it was refused, or not answered; empty: it is carried out
 };
 
 class PendingOrders {
@@ -38,11 +39,11 @@ class PendingOrders {
   // Forgets all stations but these.
   void keep_only(const std::function<bool(const std::string&)>& is_known);
 
-  // Accepts an order to be sent, or returns why not: the station is unknown, or too many orders are
-  // pending. A stop of a known station is always accepted. If one is pending, it is sent again at
-  // once, and has one more ticket to answer. A joystick's order that is not answered yet is
-  // replaced by the next.
-  std::optional<std::string> begin(const wire::Order& order, const Ticket& ticket, double now_s);
+  // Accepts an order to be sent, or returns why not (else empty): the station is unknown, or too
+  // many orders are pending. A stop of a known station is always accepted. If one is pending, it is
+  // sent again at once, and has one more ticket to answer. A joystick's order that is not answered
+  // yet is replaced by the next.
+  Outcome begin(const wire::Order& order, const Ticket& ticket, double now_s);
 
   // A stop that is watched was repeated under another id.
   void watch_again(const wire::Order& order);
@@ -85,7 +86,7 @@ class PendingOrders {
     bool is_watched = false;
     std::optional<wire::Reply> reply;
   };
-  std::optional<std::string> join(Pending& stop, const Ticket& ticket, double now_s);
+  static Outcome join(Pending& stop, const Ticket& ticket, double now_s);
 
   std::int64_t sequence_ = 0;            // of the last order that was sent
   std::map<std::string, bool> stopped_;  // the stations that are heard

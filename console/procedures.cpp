@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "conditions/outcomes.h"
+
 namespace ols::console {
 namespace {
 
@@ -29,24 +31,24 @@ const std::string* Procedures::picture(const std::string& station) const {
   return kept == kept_.end() || kept->second.picture == 0 ? nullptr : &kept->second.heard.jpeg;
 }
 
-std::string Procedures::answer(const ProcedureAnswer& answer) {
+Outcome Procedures::answer(const ProcedureAnswer& answer) {
   const auto kept = kept_.find(answer.station);
-  if (kept == kept_.end()) return "refused: no procedure is running at this station";
+  if (kept == kept_.end()) return outcome::no_procedure();
   const ProcedureHeard& heard = kept->second.heard;
-  if (!heard.is_at_work) return "refused: the procedure has ended";
+  if (!heard.is_at_work) return outcome::procedure_ended();
   if (answer.choice != kAbort) {
     if (heard.question == 0 || answer.question != heard.question) {
-      return "refused: this question is no longer open";
+      return outcome::question_closed();
     }
     if (std::ranges::find(heard.choices, answer.choice) == heard.choices.end()) {
-      return "refused: the question has no such answer";
+      return outcome::no_such_choice();
     }
     const bool points = answer.choice == "point" || answer.choice == "exactly";
-    if (points && !answer.pixel_px) return "refused: a pixel of the picture is needed";
+    if (points && !answer.pixel_px) return outcome::pixel_needed();
   }
-  if (answers_.size() >= kMostAnswers) return "refused: too many answers";
+  if (answers_.size() >= kMostAnswers) return outcome::too_many_answers();
   answers_.push_back(answer);
-  return "";
+  return {};
 }
 
 void Procedures::keep_only(const std::function<bool(const std::string&)>& is_known) {

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "conditions/refusal.h"
 #include "console/entity_table.h"
 
 namespace ols::console {
@@ -44,7 +45,7 @@ class Procedures {
   bool has(const std::string& station) const { return kept_.contains(station); }
   // Why this answer cannot be given; empty: it is on its way. One that ends the procedure ("abort")
   // is accepted whatever the question.
-  std::string answer(const ProcedureAnswer& answer);
+  Outcome answer(const ProcedureAnswer& answer);
   // The answers to be sent now.
   std::vector<ProcedureAnswer> take() { return std::exchange(answers_, {}); }
 

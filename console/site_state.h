@@ -36,8 +36,8 @@ class SiteState {
   void look(const Now& now);
 
   std::uint64_t note(Event event) { return events_.add(std::move(event), revision_); }
-  void conclude(std::uint64_t event, const std::string& outcome) {
-    events_.conclude(event, outcome, revision_);
+  void conclude(std::uint64_t event, const Outcome& refusal) {
+    events_.conclude(event, refusal, revision_);
   }
   // Somebody handles an alarm. False: there is no such alarm.
   bool acknowledge(std::uint64_t event, const std::string& who) {

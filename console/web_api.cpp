@@ -5,6 +5,7 @@
 #include <string_view>
 #include <utility>
 
+#include "conditions/alarm_json.h"
 #include "console/accuracy_map.h"
 #include "console/map_geometry.h"
 
@@ -209,14 +210,14 @@ WebAnswer WebApi::post(const WebRequest& request, const Now& now) {
   if (!session) return refused(401, "log in first");
   if (request.path == "/api/users") return enter_user(request, now);
   if (request.path != "/api/stop") return refused(404, "there is no " + request.path);
-  if (console_.is_replay()) return refused(409, console_.bus_trouble());
+  if (console_.is_replay()) return refused(409, console_.bus_trouble().text);
   // The page says which browser it is in; whatever it says, the stop is carried out.
   const Json body = Json::parse(request.body, nullptr, false);
   const Json viewer = body.is_object() ? body.value("viewer", Json(0)) : Json(0);
   const Person by =
       console_.person(session->name, viewer.is_number_unsigned() ? viewer.get<std::uint64_t>() : 0);
   Json said{{"stopping", console_.stop_all(by, {}, now)}};
-  if (!console_.bus_trouble().empty()) said["problem"] = console_.bus_trouble();
+  if (const Outcome& trouble = console_.bus_trouble(); !trouble.empty()) said["problem"] = trouble;
   return json(200, said);
 }
 

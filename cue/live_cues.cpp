@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/config/area.h"
+#include "conditions/refusal.h"
 #include "wire/cue_values.h"
 
 namespace ols::cues {
@@ -105,7 +106,7 @@ LiveCues::LiveCues(std::vector<InputRules> inputs, int most)
 void LiveCues::refuse(std::size_t input, const Refused& refused) {
   InputCounts& counts = counts_[input];
   ++counts.refused[to_string(refused.why)];
-  counts.last_refusal = plain(refused.what) + ": " + to_string(refused.why);
+  counts.last_refusal = plain(refused.what) + ": " + refusal_words(to_string(refused.why), "cue_");
 }
 
 void LiveCues::take(std::size_t input, const Readings& readings, std::int64_t now_us) {

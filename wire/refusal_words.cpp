@@ -1,16 +1,12 @@
 #include "wire/refusal_words.h"
 
-#include <string_view>
-
-#include "conditions/refusal.h"
+#include "conditions/outcomes.h"
 
 namespace ols::wire {
 
-std::string refusal_in_words(const Reply& reply) {
-  const std::string_view words = refusal_sentence(reply.reason);
-  std::string text = "refused: " + (words.empty() ? reply.reason : std::string(words));
-  if (!reply.detail.empty()) text += ": " + reply.detail;
-  return text;
+Outcome refusal_in_words(const Reply& reply) {
+  const Outcome refused = outcome::order_refused(reply.reason);
+  return reply.detail.empty() ? refused : refused.with_detail(reply.detail);
 }
 
 }  // namespace ols::wire

@@ -8,6 +8,7 @@
 #include "base/journal/journal.h"
 #include "base/process/clocks.h"
 #include "conditions/alarms.h"
+#include "conditions/refusal.h"
 #include "wire/cue_values.h"
 
 namespace ols::fusion {
@@ -177,7 +178,7 @@ void FusionProcess::refuse(MessageRefusal refusal, const std::string& channel) {
   ++counters_[to_string(refusal)];
   if (refusal == MessageRefusal::kNoPosition)
     return;  // not an error: it may get its position later
-  errors_.last = channel + ": " + to_string(refusal);
+  errors_.last = channel + ": " + refusal_words(to_string(refusal));
 }
 
 // Messages that queued up while the process was suspended are still processed, so that the tracks

@@ -7,6 +7,7 @@
 
 #include "central/fusion/track_intake.h"
 #include "central/measurement/time_span.h"
+#include "conditions/refusal.h"
 #include "wire/cue_values.h"
 
 namespace ols::fusion {
@@ -97,7 +98,7 @@ std::vector<Slew> Fusion::add(const Cue& cue, std::int64_t present_us) {
   const CueRefusal refusal = cues_.take(cue, present_us, admission_.stations());
   log_.count(refusal == CueRefusal::kNone ? "cues" : to_string(refusal));
   if (refusal != CueRefusal::kNone) {
-    log_.last_error = "cue " + cue.id + ": " + to_string(refusal);
+    log_.last_error = "cue " + cue.id + ": " + refusal_words(to_string(refusal));
     return {};
   }
   const bool has_bearings = std::abs(seconds(now_us() - present_us)) < kTogether_s;

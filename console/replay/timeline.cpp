@@ -17,7 +17,7 @@ Json mark_of(const Json& event, const Json& kind, const Json& utime_us) {
   return {{"utime_us", utime_us},           {"kind", kind},
           {"station", event.at("station")}, {"who", event.at("who")},
           {"text", event.at("text")},       {"alarm", event.at("alarm")},
-          {"outcome", event.at("outcome")}};
+          {"outcome", event.at("outcome")}, {"refusal", event.at("refusal")}};
 }
 
 // An alarm that has come back within a minute is the same event.
@@ -45,7 +45,7 @@ void Timeline::add_marks(const Console& console) {
       if (marks_.size() < kMostMarks) of_event_[number] = marks_.size();
       add_mark(mark_of(event, event.at("kind"), event.at("utime_us")));
     } else {
-      marks_[known->second]["outcome"] = event.at("outcome");
+      for (const char* one : {"outcome", "refusal"}) marks_[known->second][one] = event.at(one);
       ++changes_;
     }
     if (!event.at("over_us").is_null()) add_mark(mark_of(event, "alarm_over", event.at("over_us")));
@@ -65,7 +65,8 @@ void Timeline::hear(const TargetHeard& target, std::int64_t utime_us) {
             {"station", ""},
             {"who", ""},
             {"text", target.id},
-            {"outcome", ""}});
+            {"outcome", ""},
+            {"refusal", nullptr}});
 }
 
 void Timeline::thin_out() {

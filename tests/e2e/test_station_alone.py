@@ -15,7 +15,7 @@ from conftest import BIN, finished
 from helpers import Listener, addressed, point, slew, station_without_devices
 from ols_demo.site import Site
 
-REPLAYED = "refused in 10 s: replayed"
+REPLAYED = "refused in 10 s: this command was taken before"
 
 
 def starts_stopped(station):

@@ -99,7 +99,7 @@ void StationLink::hear(const wire::Reply& reply) {
   if (reply.order.sequence == released_sequence_) released_ = reply.is_accepted;
   if (reply.order.sequence != pointed_sequence_) return;
   if (reply.is_accepted) hold_.accept();
-  refusal_ = reply.is_accepted ? "" : wire::refusal_in_words(reply);
+  refusal_ = reply.is_accepted ? "" : wire::refusal_in_words(reply).text;
 }
 
 std::int64_t StationLink::command(std::int8_t what, const PanTilt& angles) {

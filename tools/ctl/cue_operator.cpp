@@ -39,7 +39,7 @@ std::optional<std::string> CueOperator::give(const wire::CueOrder& order, double
   const double end_s = clock_monotonic_s() + timeout_s;
   while (!reply_ && clock_monotonic_s() < end_s) bus_.handle(kPoll_ms);
   if (!reply_) return "no answer";
-  return reply_->is_accepted ? std::nullopt : std::optional(wire::refusal_in_words(*reply_));
+  return reply_->is_accepted ? std::nullopt : std::optional(wire::refusal_in_words(*reply_).text);
 }
 
 }  // namespace ols::ctl

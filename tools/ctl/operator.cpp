@@ -85,7 +85,7 @@ std::optional<std::string> Operator::give(wire::Order order) {
   // An order must name the station's start, which a first answer tells where no status has.
   if (reply && reply->reason == "other_boot") reply = wait_for_reply(send(order));
   if (!reply) return "no answer";
-  return reply->is_accepted ? std::nullopt : std::optional(wire::refusal_in_words(*reply));
+  return reply->is_accepted ? std::nullopt : std::optional(wire::refusal_in_words(*reply).text);
 }
 
 std::optional<std::string> Operator::hold_rate(wire::Order order, double seconds) {
@@ -98,7 +98,7 @@ std::optional<std::string> Operator::hold_rate(wire::Order order, double seconds
     if (now_s >= due_s) due_s = now_s + wire::kRateAgain_s;
     bus_.handle(kPoll_ms);
     for (const auto& [id, reply] : replies_) {
-      if (!reply.is_accepted) return wire::refusal_in_words(reply);
+      if (!reply.is_accepted) return wire::refusal_in_words(reply).text;
     }
   }
   order.pan_rate_rad_s = order.tilt_rate_rad_s = 0.0;

@@ -2,7 +2,7 @@
 
 import { h, Fragment } from "preact";
 import { useRef } from "preact/hooks";
-import { alarmInWords, conditionOf, eventOf, inWords, textOfEvent, type Severity } from "./conditions";
+import { conditionInWords, conditionOf, eventOf, inWords, textOfEvent, type Severity } from "./conditions";
 import type { Link } from "./link";
 import type { Alarm, SiteEvent } from "./site";
 import { named, t } from "./words";
@@ -59,7 +59,7 @@ export function Alarms({ alarms, station, link, onAcknowledge }: AlarmsProps) {
     <ul class="alarms">
       {alarms.map((alarm) => (
         <li class={conditionOf(alarm.id).severity}>
-          <SeverityChip severity={conditionOf(alarm.id).severity} /> <b>{alarmInWords(alarm)}</b>{" "}
+          <SeverityChip severity={conditionOf(alarm.id).severity} /> <b>{conditionInWords(alarm)}</b>{" "}
           <Acknowledgement event={eventOf(link.site.events, station, alarm.key)} onAcknowledge={onAcknowledge} />
           <WhatToDo of={alarm.id} />
         </li>

@@ -2,7 +2,7 @@
 // come with the build, from conditions/conditions.toml.
 
 import tables from "conditions.json";
-import type { Alarm, SiteEvent } from "./site";
+import type { Said, SiteEvent } from "./site";
 import { inLanguage, isEnglish } from "./words";
 
 const MOST_REMEMBERED = 2000;
@@ -22,7 +22,8 @@ function sentence(english: string, german: string, isAlarm = false): Sentence {
 }
 
 type Dictionary = Record<string, string>;
-const { alarms, phrases, words, names } = tables as { alarms: Row[] } & Record<"phrases" | "words" | "names", Dictionary>;
+type Tables = { alarms: Row[] } & Record<"reasons" | "outcomes", Record<string, Pair>> & Record<"phrases" | "words" | "names", Dictionary>;
+const { alarms, reasons, outcomes, phrases, words, names } = tables as Tables;
 const sentences = (of: Dictionary) => Object.entries(of).map(([english, german]) => sentence(english, german));
 const ROWS = new Map(alarms.flatMap((row) => Object.keys(row.says).map((id) => [id, row])));
 const open = (says: string) => says.replace(/\{\w+\}/g, "…");
@@ -49,11 +50,13 @@ function germanBy(list: Sentence[], text: string, partOf: (part: string) => stri
 
 // A single word is a name or a number, but for a few.
 const germanPart = (part: string): string => (/\s/.test(part) ? germanOf(part) : (words[part] ?? part));
-// Of an alarm's parameter; reasons have names: "3 unsigned, 1 replayed".
-function germanValue(name: string, value: string): string {
-  if (name === "reason") return germanName(value);
-  if (name === "reasons") return value.replace(/[a-z_]+/g, (reason) => germanName(`distrusted_${reason}`));
-  return germanPart(value);
+// The reason of a refusal as its sentence.
+const reasonInWords = (id: string): string => (id in reasons ? inLanguage(reasons[id]) : id);
+// Of a parameter. A reason is an id; of distrust there are several: "3 unsigned, 1 replayed".
+function valueInWords(name: string, value: string): string {
+  if (name === "reason") return reasonInWords(value);
+  if (name === "reasons") return value.replace(/[a-z_]+/g, (reason) => reasonInWords(`distrusted_${reason}`));
+  return isEnglish() ? value : germanPart(value);
 }
 const germanOf = (text: string): string => germanBy(SENTENCES, text, germanPart);
 const germanName = (name: string): string => germanBy(NAMES, name, germanName);
@@ -78,11 +81,12 @@ export function inWords(text: string): string {
   return isEnglish() || !text ? text : textInGerman(text);
 }
 
-// An alarm by its row of the table. Logs from before alarms had ids have its sentence only.
-export function alarmInWords({ id, text, parameters }: Alarm): string {
-  const says = ROWS.get(id)?.says[id];
+// An alarm, or why an order is not carried out, by its row of the table. Logs from before alarms had ids have its
+// sentence only.
+export function conditionInWords({ id, text, parameters }: Said): string {
+  const says = ROWS.get(id)?.says[id] ?? outcomes[id];
   if (!says) return inWords(text);
-  const value = (name: string) => (isEnglish() ? parameters[name] : germanValue(name, parameters[name] ?? ""));
+  const value = (name: string) => valueInWords(name, parameters[name] ?? "");
   const words = inLanguage(says).replace(/\{(\w+)\}/g, (_, name) => value(name));
   return parameters.detail ? `${words}: ${value("detail")}` : words;
 }
@@ -98,5 +102,5 @@ export function eventOf(events: SiteEvent[], station: string, key: string): Site
 }
 
 export const alarmOf = (event: SiteEvent): string => event.alarm?.id ?? "";
-export const textOfEvent = (event: { alarm: Alarm | null; text: string }): string => (event.alarm ? alarmInWords(event.alarm) : inWords(event.text));
+export const textOfEvent = (event: { alarm: Said | null; text: string }): string => (event.alarm ? conditionInWords(event.alarm) : inWords(event.text));
 export const holds = (event: SiteEvent) => event.kind === "alarm" && event.over_us == null;

@@ -1,7 +1,7 @@
 // All stations at a glance, one row each: what is kept up, rather than what is seen.
 
 import { h } from "preact";
-import { alarmInWords, inWords } from "./conditions";
+import { conditionInWords, inWords } from "./conditions";
 import { age, clockError, DASH, fixed } from "./format";
 import type { Station } from "./site";
 import { named, t } from "./words";
@@ -14,7 +14,7 @@ function calibration(s: Station): string {
 
 // The newest that holds; else the last that is over.
 function alarm(s: Station): string {
-  if (s.alarms?.length) return alarmInWords(s.alarms[s.alarms.length - 1]) + (s.alarms.length > 1 ? ` (+${s.alarms.length - 1})` : "");
+  if (s.alarms?.length) return conditionInWords(s.alarms[s.alarms.length - 1]) + (s.alarms.length > 1 ? ` (+${s.alarms.length - 1})` : "");
   return s.last_error ? `${inWords(s.last_error)} (${age((s.utime_us - s.last_error_utime_us) / 1e6)})` : DASH;
 }
 

@@ -4,7 +4,7 @@
 import { h, Fragment } from "preact";
 import { useState } from "preact/hooks";
 import { Acknowledgement, type OnAcknowledge, SeverityChip, WhatToDo } from "./alarms";
-import { alarmOf, conditionOf, holds, inWords, textOfEvent } from "./conditions";
+import { alarmOf, conditionInWords, conditionOf, holds, inWords, textOfEvent } from "./conditions";
 import { DASH, utc } from "./format";
 import type { Link } from "./link";
 import type { SiteEvent } from "./site";
@@ -12,8 +12,8 @@ import { named, t } from "./words";
 
 const KINDS = ["command", "alarm", "error", "site", "console"];
 
-// What was refused is a sentence of its own; of a word to the fusion only the sending is known.
-const inOrder = (outcome: string): outcome is "sent" | "done" => outcome === "sent" || outcome === "done";
+// Of a word to the fusion only the sending is known.
+const outcomeOf = ({ refusal, outcome }: SiteEvent) => (refusal ? conditionInWords(refusal) : outcome ? t(outcome as "sent" | "done") : "…");
 
 function textOf(event: SiteEvent): string {
   if (event.kind !== "command") return textOfEvent(event);
@@ -36,7 +36,7 @@ function AlarmText({ event, onAcknowledge }: { event: SiteEvent; onAcknowledge: 
 
 function EventRow({ event, onAcknowledge }: { event: SiteEvent; onAcknowledge: OnAcknowledge }) {
   const isAlarm = event.kind === "alarm";
-  const isRefused = event.kind === "command" && event.outcome && !inOrder(event.outcome);
+  const isRefused = event.kind === "command" && event.refusal;
   return (
     <tr class={`${event.kind} ${isAlarm && !holds(event) ? "over" : ""} ${isRefused ? "refused" : ""}`}>
       <td>{utc(event.utime_us)}</td>
@@ -46,7 +46,7 @@ function EventRow({ event, onAcknowledge }: { event: SiteEvent; onAcknowledge: O
         {event.who && <b>{inWords(event.who)} </b>}
         {textOf(event)}
         {event.times > 1 && <span class="times"> ×{event.times}</span>}
-        {event.kind === "command" && <span class="outcome"> → {inOrder(event.outcome) ? t(event.outcome) : inWords(event.outcome) || "…"}</span>}
+        {event.kind === "command" && <span class="outcome"> → {outcomeOf(event)}</span>}
         {isAlarm && <AlarmText event={event} onAcknowledge={onAcknowledge} />}
       </td>
     </tr>

@@ -3,7 +3,7 @@
 import { H264Stream, type Unit } from "./h264";
 import type { Camera } from "./projection";
 import type { ReplayState } from "./replay";
-import { apply, emptySite, silence, Site } from "./site";
+import { apply, emptySite, silence, type Said, Site } from "./site";
 
 export type Picture = {
   station: string;
@@ -26,8 +26,8 @@ export interface PictureSource {
 
 // What came of a stop of all: the stations that are being stopped, and what is in the way of it;
 // "log_in": the session is over; null: the console did not answer.
-export type StopAnswer = { stopping: string[]; problem?: string } | "log_in" | null;
-export type Answer = { number: number; station: string; accepted: boolean; why: string };
+export type StopAnswer = { stopping: string[]; problem?: Said } | "log_in" | null;
+export type Answer = { number: number; station: string; accepted: boolean; refusal: Said | null };
 // Somebody has stopped stations that are in this browser's hand, or taken them over; by "": nobody of the console.
 export type Hand = { what: "stop" | "take"; by: string; stations: string[] };
 export type Session = { name: string; role: string; open: boolean };

@@ -1,6 +1,6 @@
 // The operator's orders, and what is said of each: that it was sent, and what came of it.
 
-import { inWords, textOfEvent } from "./conditions";
+import { conditionInWords, inWords, textOfEvent } from "./conditions";
 import type { Answer, Hand, Link } from "./link";
 import type { Notices } from "./notice";
 import type { ProcedureAnswer } from "./procedure";
@@ -73,7 +73,7 @@ export class Orders {
     if (!answer) return notices.sayOfStop(t("stop_failed"), true);
     if (answer === "log_in") return notices.sayOfStop(t("stop_log_in"), true);
     const { stopping, problem } = answer;
-    if (problem) return notices.sayOfStop(`${inWords(problem)}: ${t("stop_by_hand")}`, true);
+    if (problem) return notices.sayOfStop(`${conditionInWords(problem)}: ${t("stop_by_hand")}`, true);
     notices.sayOfStop(stopping.length ? t("stopping") + stopping.join(", ") : t("stop_none"), stopping.length === 0);
   }
 
@@ -82,12 +82,12 @@ export class Orders {
     const words = this.asked.get(answer.number);
     this.asked.delete(answer.number);
     const tell = words ? this.notices.say : this.notices.sayLate;
-    tell(`${words ?? answer.station}: ${answer.accepted ? t("done") : inWords(answer.why)}`, !answer.accepted);
+    tell(`${words ?? answer.station}: ${answer.refusal ? conditionInWords(answer.refusal) : t("done")}`, !answer.accepted);
   }
 
-  private released({ waits, done, refused }: Release, { station, accepted, why }: Answer) {
-    if (accepted) done.push(station);
-    else refused.push(`${station}: ${inWords(why)}`);
+  private released({ waits, done, refused }: Release, { station, refusal }: Answer) {
+    if (refusal) refused.push(`${station}: ${conditionInWords(refusal)}`);
+    else done.push(station);
     if (waits.size > 0) return;
     this.release = null;
     const words = [...(done.length ? [`${t("released")}: ${done.sort().join(", ")}`] : []), ...refused.sort()];

@@ -4,8 +4,8 @@
 import { h, Fragment } from "preact";
 import { useEffect, useState } from "preact/hooks";
 import type { Link } from "./link";
-import type { Alarm } from "./site";
-import { inWords, textOfEvent } from "./conditions";
+import type { Alarm, Said } from "./site";
+import { conditionInWords, inWords, textOfEvent } from "./conditions";
 import { utc } from "./format";
 import { named, t } from "./words";
 
@@ -22,7 +22,7 @@ export type ReplayState = {
   problem: string;
 };
 
-export type TimelineMark = { utime_us: number; kind: string; station: string; who: string; text: string; alarm: Alarm | null; outcome: string };
+export type TimelineMark = { utime_us: number; kind: string; station: string; who: string; text: string; alarm: Alarm | null; refusal: Said | null };
 type Recorded = { station: string; name: string; first_us: number; last_us: number; frames: number };
 type Timeline = { marks: TimelineMark[]; marks_left_out: number; recorded: Recorded[] };
 
@@ -31,7 +31,7 @@ const STEP_MS = 1000;
 const KINDS = ["alarm", "error", "command", "birth", "end"];
 
 function describe(mark: TimelineMark): string {
-  const outcome = mark.outcome && mark.outcome !== "done" ? ` → ${inWords(mark.outcome)}` : "";
+  const outcome = mark.refusal ? ` → ${conditionInWords(mark.refusal)}` : "";
   return [utc(mark.utime_us), named("k", mark.kind), mark.station, textOfEvent(mark) + outcome].filter(Boolean).join(" · ");
 }
 

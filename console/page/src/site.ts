@@ -121,10 +121,13 @@ export type Fusion = {
   cues: Cue[];
   stations: { id: string; rate_hz: number | null; quarantine: string; residual: number | null; clock_offset_s: number | null }[];
 };
-export type Alarm = {
-  id: string; // of its row in the table of conditions; empty: none
-  text: string;
+// A row of the table of conditions with its parameters.
+export type Said = {
+  id: string; // empty: none
+  text: string; // in English
   parameters: Record<string, string>;
+};
+export type Alarm = Said & {
   key: string; // its event's
 };
 export type SiteEvent = {
@@ -136,7 +139,8 @@ export type SiteEvent = {
   text: string;
   key: string; // the same for the same alarm, whatever its numbers
   alarm: Alarm | null;
-  outcome: string;
+  outcome: string; // of a command: empty while it is not known
+  refusal: Said | null; // why it is not carried out
   over_us: number | null; // of an alarm; null: it holds
   acknowledged: string; // by whom
   times: number;

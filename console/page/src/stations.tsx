@@ -4,7 +4,7 @@ import { h, Fragment } from "preact";
 import { Alarms } from "./alarms";
 import { lostForAll } from "./byhand";
 import { calibrationText } from "./calibration";
-import { alarmInWords, inWords, nameInWords } from "./conditions";
+import { conditionInWords, inWords, nameInWords } from "./conditions";
 import { Fleet } from "./fleet";
 import { bearing, clockError, DASH, fixed, utc } from "./format";
 import { length, measures, position } from "./measures";
@@ -86,7 +86,7 @@ function Details(props: StationProps) {
   return (
     <div class="details">
       <Alarms alarms={s.alarms} station={s.id} link={link} onAcknowledge={onAcknowledge} />
-      {quarantine && <p class="quarantine">{ofFusion ? alarmInWords(ofFusion) : t("quarantine")}</p>}
+      {quarantine && <p class="quarantine">{ofFusion ? conditionInWords(ofFusion) : t("quarantine")}</p>}
       <Commands {...props} />
       <Facts station={s} />
       <Numbers word="readings" values={s.readings} />

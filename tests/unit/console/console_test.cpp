@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "conditions/alarms.h"
+
 namespace ols::console {
 namespace {
 
@@ -121,6 +123,8 @@ TEST(Console, ACommandIsAnsweredWithTheStationsOwnWord) {
   const Json event = console.state({1.2, 9}).at("events").back();
   EXPECT_EQ(event.at("who"), "ana");
   EXPECT_EQ(event.at("outcome"), "refused: homing would sweep across a keep-out region");
+  EXPECT_EQ(event.at("refusal").at("parameters").at("reason"), "keep_out");
+  EXPECT_EQ(answer.at("refusal"), event.at("refusal"));
 }
 
 TEST(Console, AViewerMayLookAndStopOnly) {
@@ -266,7 +270,7 @@ TEST(Console, AStopOfAllThatIsNotConfirmedIsToldToEverybody) {
 TEST(Console, AStopWithoutABusSaysSo) {
   Listening console;
   const auto viewer = console.open("ana", Role::kOperator);
-  console.bus_is("no bus: connecting");
+  console.bus_is(alarm::no_bus("connecting"));
   console.take(viewer, R"({"do":"stop_all","number":3})", {1.0, 0});
   EXPECT_EQ(answer_in(received(console, viewer, {1.0, 0})).at("why"), "no bus: connecting");
 }

@@ -13,7 +13,7 @@ TEST(EventList, AnOutcomeComesLater) {
   const auto number = events.add({5, "command", "alfa", "ana", "home", ""}, revision);
   const Revision before = revision;
   EXPECT_TRUE(events.since(before).empty());
-  events.conclude(number, "done", revision);
+  events.conclude(number, {}, revision);
   ASSERT_EQ(events.since(before).size(), 1U);
   EXPECT_EQ(events.since(before)[0].at("outcome"), "done");
   EXPECT_EQ(events.since(before)[0].at("who"), "ana");

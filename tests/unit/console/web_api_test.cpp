@@ -4,6 +4,8 @@
 
 #include <stdexcept>
 
+#include "conditions/alarms.h"
+
 namespace ols::console {
 namespace {
 
@@ -158,8 +160,8 @@ TEST_F(WebApiTest, StopSaysWhichStationsItStops) {
 TEST_F(WebApiTest, StopSaysWhenThereIsNoBus) {
   WebApi api = open_api();
   EXPECT_FALSE(Json::parse(response(api, post("/api/stop", "{}")).body).contains("problem"));
-  console_.bus_is("no bus: connecting");
-  EXPECT_EQ(Json::parse(response(api, post("/api/stop", "{}")).body).at("problem"),
+  console_.bus_is(alarm::no_bus("connecting"));
+  EXPECT_EQ(Json::parse(response(api, post("/api/stop", "{}")).body).at("problem").at("text"),
             "no bus: connecting");
 }
 

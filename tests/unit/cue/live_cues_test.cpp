@@ -4,6 +4,8 @@
 
 #include <limits>
 
+#include "conditions/refusal.h"
+
 namespace ols::cues {
 namespace {
 
@@ -34,7 +36,7 @@ void expect_refused(const Report& report, const char* why, std::int64_t now_us =
   EXPECT_TRUE(fresh.live(now_us).empty()) << why;
   EXPECT_EQ(fresh.counts()[0].refused.at(why), 1) << why;
   EXPECT_EQ(fresh.counts()[0].taken, 0);
-  EXPECT_EQ(fresh.counts()[0].last_refusal, "a: " + std::string(why));
+  EXPECT_EQ(fresh.counts()[0].last_refusal, "a: " + refusal_words(why, "cue_"));
 }
 
 TEST(LiveCues, FillsInWhatASourceDoesNotSay) {
@@ -122,7 +124,7 @@ TEST(LiveCues, AnOvertakenPlaceIsStaleAndAFullDeskSaysSo) {
   one.take(0, {good("b"), good("c")}, kNow_us);
   EXPECT_EQ(one.live(kNow_us).size(), 2U);
   EXPECT_EQ(one.counts()[0].refused.at("too_many"), 1);
-  EXPECT_EQ(one.counts()[0].last_refusal, "c: too_many");
+  EXPECT_EQ(one.counts()[0].last_refusal, "c: too many cues");
 }
 
 TEST(LiveCues, OneInputDoesNotTakeTheOthersPlaces) {

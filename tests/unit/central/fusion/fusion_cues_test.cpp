@@ -64,7 +64,7 @@ TEST(FusionCues, RefusedOnesAreCountedAndNamed) {
   know(fusion, "a", {0, 0, 0});
   EXPECT_TRUE(fusion.add(cue_at({0, 50e3, 100}, kStart), kStart).empty());
   EXPECT_EQ(fusion.health().counters.at("cues_out_of_area"), 1.0);
-  EXPECT_EQ(fusion.health().last_error, "cue tak.a: cues_out_of_area");
+  EXPECT_EQ(fusion.health().last_error, "cue tak.a: too far from every station");
   EXPECT_TRUE(fusion.add(cue_at({0, 100, 100}, kStart), kStart + 20'000'000).empty());
   EXPECT_EQ(fusion.health().counters.at("cues_stale"), 1.0);
   EXPECT_EQ(fusion.health().counters.at("cues"), 0.0);

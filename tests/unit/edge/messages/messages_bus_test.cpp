@@ -256,7 +256,8 @@ TEST_F(StationBusTest, CommandsThatKeepBeingRefusedAreAnAlarm) {
   message.lease_s = 1.0;
   for (int i = 0; i < 13; ++i) publish("OLS_PTU_a", message);  // the first is let through
   ASSERT_EQ(bus->alarms().size(), 1U);
-  EXPECT_EQ(bus->alarms().front(), "commands: 12 PTU commands refused in 10 s: replayed");
+  EXPECT_EQ(bus->alarms().front(),
+            "commands: 12 PTU commands refused in 10 s: this command was taken before");
   bus->set_time({kNow_s + 11.0, kNow_us + 11'000'000}, {});
   EXPECT_TRUE(bus->alarms().empty());
 }
