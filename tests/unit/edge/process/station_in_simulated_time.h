@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -25,28 +26,62 @@ using Command = ols_msg::ptu_command_t;
 inline constexpr const char* kBus = "memq://station";
 inline constexpr double kHoming_s = 120.0, kPatience_s = 20.0;
 
+// A counter of a station's or a fusion's status; 0: it has none of this name.
+double counter_of(const auto& status, const std::string& name) {
+  const auto found = std::ranges::find(status.counter_name, name);
+  const auto at = static_cast<std::size_t>(found - status.counter_name.begin());
+  return found == status.counter_name.end() ? 0.0 : status.counter_value.at(at);
+}
+bool alarms_of(const auto& status, const std::string& words) {
+  return std::ranges::any_of(status.alarm, [&](const std::string& alarm) {
+    return alarm.find(words) != std::string::npos;
+  });
+}
+
+// A site whose stations look by themselves: a drone passes its middle twice in a period, 75 m above
+// it.
+inline sim::Scenario passing_drone(double period_s, const Eigen::Vector3d& amplitude_enu_m) {
+  sim::Scenario s = sim::load_scenario(std::string(OLS_SCENARIOS) + "/faults.toml");
+  s.detector_on = true;
+  s.inclinometer.on = s.gnss.on = s.gpio.on = false;
+  auto path = std::make_shared<sim::Lissajous>();
+  path->centre_enu = {0.0, 0.0, 75.0};
+  path->amplitude_m = amplitude_enu_m;
+  path->period_s.setConstant(period_s);
+  s.targets.resize(1);
+  s.targets.front().trajectory = path;
+  return s;
+}
+
 class StationInSimulatedTime : public testing::Test {
  protected:
   explicit StationInSimulatedTime(
       const sim::Scenario& scenario,
       const std::function<void(StationSettings&)>& change = [](StationSettings&) {})
-      : time_(1'700'000'000'000'000), world_(scenario, 5), bus_(kBus) {
+      : time_(kStart_us), world_(scenario, 5), bus_(kBus) {
     sim::write_station_files(world_, {kBus, folder_.path(), folder_ / "state"}, folder_.path());
-    StationSettings settings = load_station_settings(folder_ / "alfa.toml");
-    settings.video.address.clear();
-    settings.host.silence_s = 1e9;  // it reads this host, in this host's time
+    StationSettings settings = settings_of("alfa");
     change(settings);
     spdlog::set_level(spdlog::level::off);
     bus_.subscribe(station_channel(kStatusChannel, "alfa"), [this](const BusMessage& message) {
       if (auto heard = wire::heard_status(message)) status_ = std::move(*heard);
     });
-    bus_.subscribe(station_channel(kReplyChannel, "alfa"), [this](const BusMessage& message) {
+    bus_.subscribe(station_channel(kReplyChannel, ".*"), [this](const BusMessage& message) {
       ols_msg::command_reply_t reply{};
       if (decode_of_schema(message, reply) && reply.order_sequence == sequence_) reply_ = reply;
     });
     station_.emplace(world_, 0, settings, time_);
     time_.at_each_step([this](double) { bus_.handle(0); });
     EXPECT_TRUE(is_trusted());
+  }
+
+  // Where the drone passes.
+  bool look_at_middle(std::size_t station) {
+    const auto& tripod = world_.stations()[station];
+    const auto angles = aim_at(tripod.nominal, world_.site().to_ecef({0.0, 0.0, 75.0}));
+    if (!angles) return false;
+    tilt_rad_ = angles->tilt_rad;
+    return give(Command::COMMAND_POINT, angles->pan_rad, world_.scenario().stations[station].id);
   }
 
   static sim::Scenario scenario() {
@@ -56,36 +91,40 @@ class StationInSimulatedTime : public testing::Test {
     return s;
   }
 
+  StationSettings settings_of(const std::string& station) const {
+    StationSettings settings = load_station_settings(folder_ / (station + ".toml"));
+    settings.video.address.clear();
+    settings.host.silence_s = 1e9;  // it reads this host, in this host's time
+    return settings;
+  }
+
   bool is_trusted() {
     return time_.pass(kHoming_s, [this] { return wire::device_state(status_, "ptu") == ok_; });
   }
-  bool says(const std::string& words) const {
-    return std::ranges::any_of(status_.alarm,
-                               [&](const auto& alarm) { return alarm.find(words) != alarm.npos; });
-  }
+  bool says(const std::string& words) const { return alarms_of(status_, words); }
   bool is_said(const std::string& words) {
     return time_.pass(kHoming_s, [&] { return says(words); });
   }
 
   // Whether it is done.
-  bool give(std::int8_t command, double pan_rad = 0.0) {
+  bool give(std::int8_t command, double pan_rad = 0.0, const std::string& station = "alfa") {
     ++sequence_;
-    return send(command, pan_rad);
+    return send(command, pan_rad, station);
   }
   // The same under the last order's number again.
-  bool send(std::int8_t command, double pan_rad = 0.0) {
+  bool send(std::int8_t command, double pan_rad = 0.0, const std::string& station = "alfa") {
     Command message{};
     message.utime = clock_utime_us();
     message.schema_version = Command::SCHEMA_VERSION;
     message.boot_id = 7;
     message.sequence = sequence_;
-    message.station = "alfa";
+    message.station = station;
     message.lease_s = 1.0;
     message.command = command;
     message.pan_rad = pan_rad;
     message.tilt_rad = tilt_rad_;
     reply_.reset();
-    bus_.publish(station_channel(kPtuChannel, "alfa"), message);
+    bus_.publish(station_channel(kPtuChannel, station), message);
     EXPECT_TRUE(time_.pass(kPatience_s, [this] { return reply_.has_value(); }));
     return reply_ && reply_->accepted;
   }
@@ -96,6 +135,7 @@ class StationInSimulatedTime : public testing::Test {
     EXPECT_TRUE(time_.pass(kPatience_s, [&] { return status_.boot_id != boot; }));
   }
 
+  static constexpr std::int64_t kStart_us = 1'700'000'000'000'000;
   const std::string ok_ = wire::device_name(ols_msg::station_status_t::DEVICE_OK);
   TemporaryFolder folder_;
   sim::SimulatedTime time_;
