@@ -1,7 +1,10 @@
 // What a station makes of its emergency stop: its whole process in simulated time.
 #include <csignal>
+#include <filesystem>
+#include <fstream>
 
 #include "edge/command/rearm_signal.h"
+#include "ols_msg/slew_t.hpp"
 #include "tests/unit/edge/process/station_in_simulated_time.h"
 
 namespace ols::station {
@@ -29,6 +32,23 @@ class EmergencyStop : public test::StationInSimulatedTime {
   bool comes_to(std::int8_t state) {
     return time_.pass(test::kPatience_s, [&] { return status_.state == state; });
   }
+  // Its slews are refused, as many as come.
+  bool refuses_slews(const std::string& reason) {
+    const double before = test::counter_of(status_, reason);
+    for (int i = 0; i < 3; ++i) {
+      ols_msg::slew_t slew{};
+      slew.schema_version = ols_msg::slew_t::SCHEMA_VERSION;
+      slew.utime = slew.effect_utime = clock_utime_us();
+      slew.boot_id = 8;
+      slew.sequence = ++slews_;
+      slew.station = "alfa";
+      slew.lease_s = 0.5;
+      bus_.publish(station_channel(kSlewChannel, "alfa"), slew);
+      time_.pass(0.1);
+    }
+    time_.pass(1.5);  // until the status that counts
+    return test::counter_of(status_, reason) == before + 3.0;
+  }
   // Nobody moves it from afar, whatever he sends and however often.
   bool stays_halted() {
     const double there_rad = station_->angles().pan_rad;
@@ -41,6 +61,13 @@ class EmergencyStop : public test::StationInSimulatedTime {
     time_.pass(2.0);
     return status_.state == Status::STATE_EMERGENCY && station_->angles().pan_rad == there_rad;
   }
+  bool is_forgiven(const std::string& words) {
+    return time_.pass(test::kPatience_s, [&] { return !says(words); });
+  }
+
+  static constexpr const char* kUnknown = "stop: state before the restart is unknown";
+  const std::filesystem::path state_ = folder_ / "state";
+  std::int64_t slews_ = 0;
 };
 
 TEST_F(EmergencyStop, HaltsTheUnitUntilItIsReleasedAndAHandRearms) {
@@ -92,6 +119,47 @@ TEST_F(EmergencyStop, OutlivesTheStationAsDoesWhatFollows) {
   EXPECT_TRUE(comes_to(Status::STATE_IDLE));
   restart();
   EXPECT_TRUE(comes_to(Status::STATE_IDLE));
+  EXPECT_FALSE(says("stop: "));
+}
+
+TEST_F(EmergencyStop, AFolderThatWasTakenAwayIsNoLeaveToMove) {
+  set(true);
+  EXPECT_TRUE(comes_to(Status::STATE_EMERGENCY));
+  set(false);
+  EXPECT_TRUE(is_said(kNotRearmed));
+  std::filesystem::remove_all(state_);
+  restart();
+  EXPECT_TRUE(comes_to(Status::STATE_STOPPED));
+  EXPECT_TRUE(says(kUnknown + (" (" + state_.string() + " is missing)")));
+  EXPECT_TRUE(refuses_slews("refused_precedence"));
+  EXPECT_TRUE(is_said("stop: state cannot be saved: "));
+  EXPECT_FALSE(std::filesystem::exists(state_));
+  std::filesystem::create_directory(state_);
+  restart();  // no operator has acted: it is still unknown
+  EXPECT_TRUE(comes_to(Status::STATE_STOPPED));
+  EXPECT_TRUE(says(kUnknown));
+  EXPECT_TRUE(give(Command::COMMAND_RELEASE));
+  EXPECT_TRUE(comes_to(Status::STATE_IDLE));
+  EXPECT_TRUE(is_forgiven(kUnknown));
+}
+
+// A stop may have been pressed. PersistedStationStateTest has every file in every condition.
+TEST_F(EmergencyStop, WhatIsDamagedNeedsAHandAtTheStation) {
+  std::ofstream(state_ / "alfa.hold") << "holiday\n";
+  std::filesystem::remove(state_ / "alfa.doubt");
+  std::filesystem::create_directory(state_ / "alfa.doubt");
+  restart();
+  EXPECT_TRUE(comes_to(Status::STATE_EMERGENCY));
+  EXPECT_TRUE(says(kUnknown));
+  EXPECT_TRUE(says("ptu: reference before the restart is unknown"));
+  EXPECT_TRUE(refuses_slews("refused_emergency"));
+  EXPECT_FALSE(give(Command::COMMAND_REARM));
+  std::raise(SIGUSR1);
+  EXPECT_TRUE(comes_to(Status::STATE_STOPPED));
+  EXPECT_EQ(test::counter_of(status_, "refused_rearm_needs_a_hand"), 1.0);
+  EXPECT_TRUE(give(Command::COMMAND_RELEASE));
+  EXPECT_TRUE(comes_to(Status::STATE_IDLE));
+  EXPECT_TRUE(is_forgiven(kUnknown));
 }
 
 }  // namespace
