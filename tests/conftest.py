@@ -34,7 +34,6 @@ STATIONS = [
     "b",
     "c",
     "lone",
-    "kept",
     "tool",
     "late",
 ]
@@ -52,7 +51,6 @@ LONGEST = [
     "test_console_maps.py",
     "test_console_map.py",
     "test_console_by_hand.py",
-    "test_console_halt.py",
     "test_batch.py",
     "test_doctor.py",
     "test_station_instrument.py",

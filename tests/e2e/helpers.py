@@ -120,9 +120,6 @@ class StopSwitch:
     def press(self, pressed: bool) -> None:
         self._set(STOP_LINE, int(pressed))
 
-    def hold_rearm(self, held: bool) -> None:
-        self._set(REARM_LINE, int(not held))
-
 
 class Listener:
     """Collects what is on the bus; every wait has a deadline."""

@@ -1,4 +1,5 @@
-"""The folder that `ols-calibrate adjust` writes: whole or not at all, never over another one."""
+"""The folder that `ols-calibrate adjust` writes: whole or not at all, never over another one.
+Which names it refuses, OutputFolder judges."""
 
 import json
 import resource
@@ -54,28 +55,6 @@ def test_a_calibration_is_never_overwritten(run):
     assert before == {path.name: path.read_bytes() for path in run.output.iterdir()}
     run.output = run.folder / "references.csv"
     assert "--output" in run.adjust().stderr
-
-
-def test_an_output_without_a_name_is_refused(run):
-    before = sorted(run.folder.iterdir())
-    run.output = ""
-    error = run.refused()
-    assert "--output: is empty" in error
-    assert before == sorted(run.folder.iterdir())
-
-
-def test_a_slash_at_the_end_of_the_output_says_nothing(run):
-    run.output.mkdir()
-    output, run.output = run.output, f"{run.output}/"
-    run.adjusted()
-    assert (output / "report.html").exists()
-    assert not output.with_name("out.partial").exists()
-
-
-def test_what_an_interrupted_run_has_left_is_not_overwritten(run):
-    (run.folder / "out.partial").mkdir()
-    error = run.refused()
-    assert "out.partial exists" in error
 
 
 def test_a_disk_that_is_full_leaves_nothing(run):

@@ -12,10 +12,8 @@ import time
 import ols_msg
 import pytest
 from conftest import BIN, finished
-from helpers import Listener, addressed, point, slew, station_without_devices
+from helpers import Listener, point, station_without_devices
 from ols_demo.site import Site
-
-REPLAYED = "refused in 10 s: this command was taken before"
 
 
 def starts_stopped(station):
@@ -78,20 +76,6 @@ def test_foreign_and_truncated_messages_are_refused(station, kind):
     damaged = (b"", b"x", whole[:-1], whole + b"\0", no_string)
     bad = (*damaged, ols_msg.truth_target_t().encode())
     refused(station, "messages_refused_malformed", f"OLS_{kind}_lone", *bad)
-
-
-def test_commands_that_keep_being_refused_are_an_alarm(station):
-    again = slew("lone", 9000, math.nan)
-    again.lease_s = 9.0
-    refused(station, "refused_not_finite", "OLS_SLEW_lone", again.encode())
-    refused(station, "messages_refused_replayed", "OLS_SLEW_lone", *[again.encode()] * 4)
-    station.wait(lambda: any(a.endswith(REPLAYED) for a in alarms(station)), "the alarm")
-
-
-def test_designation_without_a_frame_is_refused(station):
-    message = addressed(ols_msg.designate_t(), "lone", 1)
-    message.width_px = message.height_px = 20.0
-    refused(station, "refused_no_frame", "OLS_DESIGNATE_lone", message.encode())
 
 
 def release(station):

@@ -148,29 +148,6 @@ def test_what_came_during_a_standstill_is_not_done(station):
     assert station.state() == ols_msg.station_status_t.STATE_IDLE
 
 
-def test_the_emergency_stop_holds_until_released_and_rearmed(station):
-    status = ols_msg.station_status_t
-    station.command(ols_msg.ptu_command_t.COMMAND_RELEASE)
-    station.command(ols_msg.ptu_command_t.COMMAND_STOP)
-    station.wait_for_state(status.STATE_STOPPED)
-    station.switch.press(True)
-    station.wait_for_state(status.STATE_EMERGENCY)
-    assert "emergency stop: pressed" in station.alarms()
-    assert "emergency" in ctl("tool", "manual", "1", "2").stdout
-    assert "emergency" in ctl("tool", "rearm").stdout
-    os.kill(station.pid(), signal.SIGUSR1)
-    assert ctl("tool", "stop").returncode == 0
-    station.switch.press(False)
-    station.wait(lambda: NOT_REARMED in station.alarms(), "released")
-    assert "emergency" in ctl("tool", "release").stdout
-    assert station.state() == status.STATE_EMERGENCY
-    station.switch.hold_rearm(True)
-    station.wait_for_state(status.STATE_STOPPED)
-    station.switch.hold_rearm(False)
-    assert ctl("tool", "release").returncode == 0
-    station.wait_for_state(status.STATE_IDLE)
-
-
 def test_recording_is_asked_for(station):
     assert ctl("tool", "record", "1", "1", "flash").stdout == "tool: done\n"
     refused = ctl("tool", "record", "1", "1", "no/label")
@@ -288,6 +265,8 @@ def test_a_stop_outlives_a_station_that_is_killed(station):
     status = ols_msg.station_status_t
     station.switch.press(True)
     station.wait_for_state(status.STATE_EMERGENCY)
+    for order in (("manual", "1", "2"), ("rearm",), ("release",)):
+        assert "emergency" in ctl("tool", *order).stdout
     station.switch.press(False)
     boot = station.observer.status["tool"].boot_id
     station.site.stop("station", signal.SIGKILL)
