@@ -284,6 +284,21 @@ CueRequest read_cue(const Json& message, std::int64_t number) {
   return {number, {cue.get<std::string>(), allow.get<bool>()}, heard(message)};
 }
 
+// The area itself is read where it is kept.
+AreaRequest read_area(const Json& message, std::int64_t number) {
+  refuse_unknown(message, {"do", "number", "area"});
+  const Json& area = field(message, "area");
+  if (!area.is_object()) throw FormError("area must be an object");
+  return {number, {.area = area, .name = {}}};
+}
+
+JudgeRequest read_judgement(const Json& message, std::int64_t number) {
+  refuse_unknown(message, {"do", "number", "incident", "verdict"});
+  const auto verdict = judgement_named(text(message, "verdict"));
+  if (!verdict) throw FormError("verdict must be open, confirmed or dismissed");
+  return {number, {static_cast<std::uint64_t>(whole(message, "incident")), *verdict}};
+}
+
 ClientMessage read(const Json& message, std::int64_t number) {
   const std::string what = text(message, "do");
   if (what == "command") return read_command(message, number);
@@ -293,6 +308,13 @@ ClientMessage read(const Json& message, std::int64_t number) {
   if (what == "answer") return read_answer(message, number);
   if (what == "cue") return read_cue(message, number);
   if (what == "name") return read_name(message, number);
+  if (what == "area") return read_area(message, number);
+  if (what == "remove_area") {
+    refuse_unknown(message, {"do", "number", "name"});
+    constexpr std::size_t kMostBytes = 40;
+    return AreaRequest{number, {.area = {}, .name = words_of(message, "name", kMostBytes)}};
+  }
+  if (what == "judge") return read_judgement(message, number);
   if (what == "stop_all") {
     refuse_unknown(message, {"do", "number"});
     return StopAllRequest{number};
@@ -306,9 +328,8 @@ ClientMessage read(const Json& message, std::int64_t number) {
     return ControlRequest{number, text(message, "station"), what == "take", heard(message)};
   }
   throw FormError(
-      "do must be command, stop_all, take, give_up, watch, taken, answer, cue, name, acknowledge "
-      "or "
-      "replay");
+      "do must be command, stop_all, take, give_up, watch, taken, answer, cue, name, acknowledge, "
+      "area, remove_area, judge or replay");
 }
 
 }  // namespace

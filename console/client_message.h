@@ -11,6 +11,7 @@
 
 #include "console/cue_orders.h"
 #include "console/heard.h"
+#include "console/incidents/incident_book.h"
 #include "console/procedures.h"
 #include "geometry/wgs84.h"
 #include "wire/order.h"
@@ -75,14 +76,25 @@ struct NameRequest {
   std::string target;
   std::string name;
 };
+// An area is set or removed.
+struct AreaRequest {
+  std::int64_t number = 0;
+  AreaChange change;
+};
+// What somebody says of an incident.
+struct JudgeRequest {
+  std::int64_t number = 0;
+  IncidentJudgement judgement;
+};
 struct Refused {
   std::int64_t number = 0;
   std::string why;
 };
 
-using ClientMessage = std::variant<CommandRequest, StopAllRequest, ControlRequest, WatchRequest,
-                                   TakenRequest, ReplayRequest, AnswerRequest, CueRequest,
-                                   NameRequest, AcknowledgeRequest, Refused>;
+using ClientMessage =
+    std::variant<CommandRequest, StopAllRequest, ControlRequest, WatchRequest, TakenRequest,
+                 ReplayRequest, AnswerRequest, CueRequest, NameRequest, AcknowledgeRequest,
+                 AreaRequest, JudgeRequest, Refused>;
 
 inline constexpr std::size_t kMostMessageBytes = 8192;
 inline constexpr std::size_t kMostWatched = 64;

@@ -1,6 +1,7 @@
 #include "console/console.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "conditions/alarm_json.h"
@@ -50,6 +51,62 @@ void Console::hear(const StationHeard& station, const Now& now) {
   }
   if (is_new && now.monotonic_s < stop_until_s_) {
     begin_stop(station.id, stopped_by_, {.is_for_all = true}, now);
+  }
+}
+
+void Console::hear(const TargetHeard& target, const Now& now) {
+  site_.hear(target, now);
+  if (is_replay() || !site_.counts_fusion(target.boot_id)) return;
+  incidents_.hear(target, now.minute_of_day, now.monotonic_s);
+}
+
+void Console::hear_own(const std::vector<Alarm>& alarms, const Now& now) {
+  own_alarms_ = alarms;
+  look_at_own_alarms(now);
+}
+
+void Console::look_at_own_alarms(const Now& now) {
+  std::vector<Alarm> alarms = own_alarms_;
+  std::ranges::copy(incidents_.alarms(), std::back_inserter(alarms));
+  std::ranges::copy(incident_trouble_, std::back_inserter(alarms));
+  site_.hear_own(alarms, now);
+}
+
+void Console::resume(KeptIncidents kept, const Now& now) {
+  incidents_.resume(std::move(kept), now.monotonic_s);
+  show_areas();
+  for (const auto& [number, incident] : incidents_.watch().incidents()) show_incident(incident);
+}
+
+void Console::show_areas() {
+  Json areas = Json::array();
+  for (const Area& area : incidents_.watch().areas()) areas.push_back(json_of(area));
+  site_.set_areas(areas);
+}
+
+// The track is long, and asked for by itself.
+void Console::show_incident(const Incident& incident) {
+  Json fields = json_of(incident);
+  fields.erase("track");
+  site_.set_incident(incident.number, fields);
+}
+
+// Nobody controls a station by having it record.
+void Console::look_at_incidents(const Now& now) {
+  incidents_.turn(now.monotonic_s,
+                  [this](const std::string& station) { return pictures_.newest(station); });
+  incident_news_ = incidents_.take_news();
+  const IncidentWatch& watch = incidents_.watch();
+  if (incident_news_.areas) show_areas();
+  for (const std::uint64_t number : incident_news_.forgotten) site_.set_incident(number, nullptr);
+  for (const std::uint64_t number : incident_news_.incidents) {
+    const auto incident = watch.incidents().find(number);
+    if (incident != watch.incidents().end()) show_incident(incident->second);
+  }
+  for (const wire::Order& order : incidents_.take_recordings()) {
+    const auto event = site_.note({now.utime_us, "command", order.station, "", words(order), ""});
+    const auto refusal = orders_.begin(order, {.event = event}, now.monotonic_s);
+    if (refusal) site_.conclude(event, *refusal);
   }
 }
 
@@ -189,6 +246,42 @@ void Console::act(std::uint64_t id, const CueRequest& request, const Now& now) {
                            request.order.cue;
   const auto event = site_.note({now.utime_us, "command", "", viewer.name, what, "sent"});
   cues_.give(request.order, {id, request.number, event}, now.monotonic_s);
+}
+
+std::string Console::change_refusal(std::uint64_t id) const {
+  if (is_replay()) return kReplay;
+  const bool may = viewers_.at(id).role != Role::kViewer;
+  return may ? "" : "refused: a viewer may only look and stop";
+}
+
+void Console::conclude(std::uint64_t id, std::int64_t number, const std::string& refusal,
+                       const std::string& what, const Now& now) {
+  if (refusal.empty()) {
+    site_.note({now.utime_us, "command", "", viewers_.at(id).name, what, "done"});
+  }
+  answer(id, number, "", refusal);
+}
+
+void Console::act(std::uint64_t id, const AreaRequest& request, const Now& now) {
+  std::string refusal = change_refusal(id);
+  if (refusal.empty()) refusal = incidents_.change(request.change);
+  const bool is_removed = request.change.area.is_null();
+  const std::string name = is_removed        ? request.change.name
+                           : refusal.empty() ? request.change.area.at("name").get<std::string>()
+                                             : "";
+  conclude(id, request.number, refusal, (is_removed ? "removes area " : "sets area ") + name, now);
+}
+
+void Console::act(std::uint64_t id, const JudgeRequest& request, const Now& now) {
+  const auto& [incident, verdict] = request.judgement;
+  std::string refusal = change_refusal(id);
+  if (refusal.empty()) {
+    refusal = incidents_.judge(request.judgement, viewers_.at(id).name, now.utime_us);
+  }
+  const std::string what = verdict == Judgement::kConfirmed   ? "confirms incident "
+                           : verdict == Judgement::kDismissed ? "dismisses incident "
+                                                              : "reopens incident ";
+  conclude(id, request.number, refusal, what + std::to_string(incident), now);
 }
 
 void Console::act(std::uint64_t id, const AcknowledgeRequest& request, const Now&) {
@@ -402,6 +495,8 @@ void Console::show(const Moment& moment) {
 
 std::vector<wire::Order> Console::turn(const Now& now) {
   site_.look(now);
+  look_at_incidents(now);
+  look_at_own_alarms(now);
   forget_gone();
   tell_outcomes(now);
   for (const auto& [station, holder] : control_.changes(now.monotonic_s)) {
@@ -447,6 +542,7 @@ std::optional<Outgoing> Console::next(std::uint64_t id, const Now& now) {
 
 // The time that is shown: of a replay that of the recording.
 void Console::add_time(Json& message, const Now& now) const {
+  message["local_minute"] = now.minute_of_day;
   message["time_us"] = is_replay() ? replay_.state.at("at_us") : Json(now.utime_us);
   if (is_replay()) message["replay"] = replay_.state;
 }

@@ -14,6 +14,7 @@
 
 #include "console/client_message.h"
 #include "console/control_leases.h"
+#include "console/incidents/incident_book.h"
 #include "console/latest_pictures.h"
 #include "console/pending_orders.h"
 #include "console/procedures.h"
@@ -43,10 +44,11 @@ struct Person {
 
 class Console {
  public:
-  explicit Console(double control_timeout_s) : control_(control_timeout_s) {}
+  explicit Console(double control_timeout_s, const IncidentRecording& recording = {})
+      : control_(control_timeout_s), incidents_(recording) {}
 
   void hear(const StationHeard& station, const Now& now);
-  void hear(const TargetHeard& target, const Now& now) { site_.hear(target, now); }
+  void hear(const TargetHeard& target, const Now& now);
   void hear(const FusionHeard& fusion, const Now& now) { site_.hear(fusion, now); }
   void hear_bearing(const std::string& station, const Json& bearing);
   void hear(Picture picture);
@@ -71,7 +73,14 @@ class Console {
   WatchedVideos watched_video() const;
 
   // The alarms of the console itself.
-  void hear_own(const std::vector<Alarm>& alarms, const Now& now) { site_.hear_own(alarms, now); }
+  void hear_own(const std::vector<Alarm>& alarms, const Now& now);
+
+  // Before anything else: the areas and incidents that were kept.
+  void resume(KeptIncidents kept, const Now& now);
+  const IncidentBook& incidents() const { return incidents_; }
+  // What is to be written and sent of them since the last call of turn(), and what of it failed.
+  const IncidentBook::News& incident_news() const { return incident_news_; }
+  void incident_trouble(const std::vector<Alarm>& alarms) { incident_trouble_ = alarms; }
 
   // A browser has opened its WebSocket; returns its number. A second one of the same name is "ana
   // 2".
@@ -143,6 +152,8 @@ class Console {
   void act(std::uint64_t id, const CueRequest& request, const Now& now);
   void act(std::uint64_t id, const AcknowledgeRequest& request, const Now& now);
   void act(std::uint64_t id, const NameRequest& request, const Now& now);
+  void act(std::uint64_t id, const AreaRequest& request, const Now& now);
+  void act(std::uint64_t id, const JudgeRequest& request, const Now& now);
   void act(std::uint64_t id, const Refused& refused, const Now& now);
   void answer(std::uint64_t id, std::int64_t number, const std::string& station,
               const Outcome& refusal);
@@ -154,6 +165,15 @@ class Console {
   // Tells whoever controls one of these stations what another person has done there.
   void tell_holders(const std::vector<std::string>& stations, const char* what, const Person& by,
                     const Now& now);
+  void look_at_incidents(const Now& now);
+  void show_areas();
+  void show_incident(const Incident& incident);
+  void look_at_own_alarms(const Now& now);
+  // Of a change that needs no station: its answer, and its event if it was done.
+  void conclude(std::uint64_t id, std::int64_t number, const std::string& refusal,
+                const std::string& what, const Now& now);
+  // Why this viewer may change nothing; empty: may.
+  std::string change_refusal(std::uint64_t id) const;
   void forget_gone();
   void add_time(Json& message, const Now& now) const;
   Outgoing greeting(std::uint64_t id, Viewer& viewer, const Now& now) const;
@@ -163,6 +183,9 @@ class Console {
   ControlLeases control_;
   Procedures procedures_;
   CueOrders cues_;
+  IncidentBook incidents_;
+  IncidentBook::News incident_news_;
+  std::vector<Alarm> own_alarms_, incident_trouble_;
   std::map<std::uint64_t, Viewer> viewers_;
   LatestPictures pictures_;
   std::map<std::string, std::string> video_addresses_;

@@ -30,7 +30,8 @@ ConsoleBus::ConsoleBus(const std::string& url, const trust::TrustConfig& trust, 
           url, open_trust(trust, boot_id_), [this](LcmBus& bus) { subscribe(bus); },
           [this](const std::string& trouble) { note_trouble(trouble); }),
       sender_(boot_id_),
-      answer_sender_(boot_id_) {}
+      answer_sender_(boot_id_),
+      incident_sender_(boot_id_) {}
 
 void ConsoleBus::subscribe(LcmBus& bus) {
   bus.subscribe(station_channel(kStatusChannel, ".+"), [this](const BusMessage& message) {
@@ -107,6 +108,12 @@ void ConsoleBus::send(const std::vector<wire::CueOrder>& orders, const Now& now)
   for (const wire::CueOrder& order : orders) {
     if (!sender_.send(*client_.bus(), order, now.utime_us)) send_failed_ = true;
   }
+}
+
+void ConsoleBus::send(const IncidentBook::News& news, const Now& now) {
+  if (client_.bus() == nullptr) return;
+  const IncidentWatch& watch = console_.incidents().watch();
+  if (!incident_sender_.send(*client_.bus(), watch, news, now.utime_us)) send_failed_ = true;
 }
 
 std::string ConsoleBus::in_one_line() const {

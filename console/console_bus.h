@@ -8,6 +8,7 @@
 #include "base/trust/trust_config.h"
 #include "conditions/alarm.h"
 #include "console/console.h"
+#include "console/messages_incidents.h"
 #include "console/messages_procedure.h"
 #include "wire/orders.h"
 
@@ -22,6 +23,7 @@ class ConsoleBus {
   void send(const std::vector<wire::Order>& orders, const Now& now);
   void send(const std::vector<ProcedureAnswer>& answers, const Now& now);
   void send(const std::vector<wire::CueOrder>& orders, const Now& now);
+  void send(const IncidentBook::News& news, const Now& now);
   // Why no order goes out; empty: orders go out.
   Alarm trouble() const { return client_.trouble(); }
   // For people: the state of the bus.
@@ -37,6 +39,7 @@ class ConsoleBus {
   BusClient client_;
   wire::OrderSender sender_;
   AnswerSender answer_sender_;
+  IncidentSender incident_sender_;
   Now now_;  // of this turn, for the handlers
   std::vector<Alarm> alarms_;
   bool send_failed_ = false;

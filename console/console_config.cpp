@@ -58,6 +58,16 @@ config::Section console_section(ConsoleConfig& c) {
         {config::text("folder", c.maps_folder,
                       "Folder of maps: MBTiles and PMTiles files with pictures, and folders "
                       "ZOOM/COLUMN/ROW.png. ols-map-import makes them.")}},
+       {"incidents",
+        "What comes into the areas that operators draw.",
+        {config::text("folder", c.incidents_folder,
+                      "Folder of the areas and incidents. Of several consoles of a site, only one "
+                      "should have areas.",
+                      config::not_empty),
+         config::number("record_before_s", c.incident_recording.before_s, {0.0, 3600.0}, "s",
+                        "The stations that see an incident begin record this long before it."),
+         config::number("record_after_s", c.incident_recording.after_s, {0.0, 3600.0}, "s",
+                        "And this long after. Both 0: they record nothing.")}},
        trust::trust_section(c.trust)},
       [&c](ConfigTable& root) {
         try {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/trust/trust_config.h"
+#include "console/incidents/incident_book.h"
 
 namespace ols::config {
 struct Section;
@@ -18,6 +19,8 @@ struct ConsoleConfig {
   std::vector<std::string> host_names;  // names by which browsers may call it, besides the address
   std::string certificate, key;         // PEM files; both empty: no TLS
   std::string users = "/var/lib/ols/console-users";
+  std::string incidents_folder = "/var/lib/ols/incidents";  // made when it is first needed
+  IncidentRecording incident_recording;
   std::string maps_folder = "/var/lib/ols/maps";  // users' own maps; need not exist
   double session_s = 12.0 * 3600.0;
   double control_timeout_s = 60.0;

@@ -68,6 +68,11 @@ void LatestPictures::keep_only(const std::function<bool(const std::string&)>& is
   std::erase_if(streams_, is_gone);
 }
 
+const Picture* LatestPictures::newest(const std::string& station) const {
+  const auto kept = kept_.find(station);
+  return kept == kept_.end() ? nullptr : &kept->second.picture;
+}
+
 std::map<std::string, Picture> LatestPictures::newest() const {
   std::map<std::string, Picture> pictures;
   for (const auto& [station, kept] : kept_) pictures.emplace(station, kept.picture);

@@ -31,6 +31,8 @@ class LatestPictures {
   std::optional<std::string> next(View& view) const;
   void keep_only(const std::function<bool(const std::string&)>& is_known);
 
+  // The newest single picture of a station; null: there is none.
+  const Picture* newest(const std::string& station) const;
   // The newest single picture of each station; show() replaces all pictures by these.
   std::map<std::string, Picture> newest() const;
   void show(const std::map<std::string, Picture>& pictures);

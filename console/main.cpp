@@ -4,12 +4,14 @@
 
 #include <array>
 #include <cstdio>
+#include <ctime>
 #include <memory>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "base/journal/alarm_journal.h"
 #include "base/journal/journal.h"
 #include "base/process/clocks.h"
 #include "base/process/command_line.h"
@@ -20,6 +22,7 @@
 #include "console/console_bus.h"
 #include "console/console_config.h"
 #include "console/handed_over_socket.h"
+#include "console/incidents/incident_store.h"
 #include "console/replay/replay.h"
 #include "console/video_puller.h"
 #include "console/web_api.h"
@@ -42,6 +45,14 @@ std::string draw_token() {
   std::array<char, 2 * bytes.size() + 1> text{};
   sodium_bin2hex(text.data(), text.size(), bytes.data(), bytes.size());
   return text.data();
+}
+
+// In this host's time zone.
+int local_minute_of_day(std::int64_t utime_us) {
+  const std::time_t seconds = utime_us / 1'000'000;
+  std::tm local{};
+  localtime_r(&seconds, &local);
+  return 60 * local.tm_hour + local.tm_min;
 }
 
 // As a person types it into a browser.
@@ -95,7 +106,10 @@ class LiveSite : public Shown {
   LiveSite(const ols::console::ConsoleConfig& config, ols::console::Console& console)
       : console_(console),
         bus_(config.lcm_url, config.trust, console),
-        video_(config.video_networks, {}) {}
+        video_(config.video_networks, {}),
+        store_(config.incidents_folder) {
+    console_.resume(store_.read(), {ols::clock_monotonic_s(), ols::clock_utime_us()});
+  }
 
   void turn(const ols::console::Now& now) override {
     bus_.turn(now);
@@ -105,13 +119,31 @@ class LiveSite : public Shown {
     bus_.send(console_.turn(now), now);
     bus_.send(console_.take_answers(), now);
     bus_.send(console_.take_cue_orders(), now);
+    keep_incidents(now);
   }
   std::string in_one_line() const override { return bus_.in_one_line(); }
 
  private:
+  using IncidentStore = ols::console::IncidentStore;
+
+  // Written here and now: they are rare, and small.
+  void keep_incidents(const ols::console::Now& now) {
+    const ols::console::IncidentBook::News& news = console_.incident_news();
+    const ols::console::IncidentBook& book = console_.incidents();
+    bus_.send(news, now);
+    store_.keep(book, news);
+    const std::vector<ols::Alarm> trouble = store_.alarms();
+    console_.incident_trouble(trouble);
+    std::vector<ols::Alarm> alarms = book.alarms();
+    alarms.insert(alarms.end(), trouble.begin(), trouble.end());
+    journal_.look(alarms, now.monotonic_s);
+  }
+
   ols::console::Console& console_;
   ols::console::ConsoleBus bus_;
   ols::console::VideoPuller video_;
+  IncidentStore store_;
+  ols::AlarmJournal journal_;
 };
 
 // It has no bus: nothing that is said in a browser can reach a station.
@@ -147,7 +179,7 @@ int run(const Arguments& arguments, ols::console::ConsoleConfig config) {
   if (const auto problem = serving_problem(config, !users.empty()); !problem.empty()) {
     throw std::invalid_argument(problem);
   }
-  ols::console::Console console(config.control_timeout_s);
+  ols::console::Console console(config.control_timeout_s, config.incident_recording);
   ols::console::WebApi api(config, users, console, draw_token, user_keeper(config.users, users));
   ols::console::WebServer server(config, socket, api, console);
   const std::unique_ptr<Shown> site = shown(arguments, config, console);
@@ -161,7 +193,8 @@ int run(const Arguments& arguments, ols::console::ConsoleConfig config) {
   ols::write_to_journal({.text = "ready: " + address, .id = ols::event::kReady});
   const auto turn = [&](double) {
     server.serve_for(kTurn_s);
-    site->turn({ols::clock_monotonic_s(), ols::clock_utime_us()});
+    const std::int64_t utime_us = ols::clock_utime_us();
+    site->turn({ols::clock_monotonic_s(), utime_us, local_minute_of_day(utime_us)});
     server.pump();
   };
   serve(service_manager, kStatus_s, turn, [&] {

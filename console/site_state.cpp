@@ -71,6 +71,20 @@ void SiteState::set_procedure(const std::string& station, const Json& procedure)
   stations_.mark(station, "procedure", procedure, revision_);
 }
 
+void SiteState::set_areas(const Json& areas) {
+  for (const std::string& name : areas_.ids()) {
+    const auto is_it = [&](const Json& area) { return area.at("name") == name; };
+    if (std::ranges::none_of(areas, is_it)) areas_.remove(name, revision_);
+  }
+  for (const Json& area : areas) areas_.set(area.at("name"), area, 0.0, revision_);
+}
+
+void SiteState::set_incident(std::uint64_t number, const Json& incident) {
+  const std::string id = std::to_string(number);
+  if (incident.is_null()) return incidents_.remove(id, revision_);
+  incidents_.set(id, incident, 0.0, revision_);
+}
+
 // Ids of another process mean other objects. One that speaks while the fusion is still heard is no
 // restarted one: a second, or a forged one.
 bool SiteState::is_of_fusion(std::int64_t boot_id, const Now& now) {
@@ -169,12 +183,14 @@ Json SiteState::snapshot() const {
   return {{"kind", "snapshot"},          {"revision", revision_},
           {"stations", stations_.all()}, {"targets", std::move(targets)},
           {"lines", lines_.all()},       {"fusion", fusion ? *fusion : Json(nullptr)},
+          {"areas", areas_.all()},       {"incidents", incidents_.all()},
           {"events", events_.since(0)}};
 }
 
 Json SiteState::changes(Revision since) const {
   auto stations = stations_.gone(since), targets = targets_.gone(since), lines = lines_.gone(since);
-  if (!stations || !targets || !lines) return snapshot();
+  auto areas = areas_.gone(since), incidents = incidents_.gone(since);
+  if (!stations || !targets || !lines || !areas || !incidents) return snapshot();
   Json result{{"kind", "delta"}, {"revision", revision_}};
   const auto add = [&result](const char* name, Json part) {
     if (!part.empty()) result[name] = std::move(part);
@@ -182,6 +198,8 @@ Json SiteState::changes(Revision since) const {
   add("stations", stations_.changed(since));
   add("targets", targets_.changed(since));
   add("lines", lines_.changed(since));
+  add("areas", areas_.changed(since));
+  add("incidents", incidents_.changed(since));
   add("events", events_.since(since));
   const Json fusion = fusion_.changed(since);
   if (!fusion.empty()) result["fusion"] = fusion.front();
@@ -189,6 +207,8 @@ Json SiteState::changes(Revision since) const {
   if (!stations->empty()) gone["stations"] = *stations;
   if (!targets->empty()) gone["targets"] = *targets;
   if (!lines->empty()) gone["lines"] = *lines;
+  if (!areas->empty()) gone["areas"] = *areas;
+  if (!incidents->empty()) gone["incidents"] = *incidents;
   add("gone", std::move(gone));
   return result;
 }

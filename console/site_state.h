@@ -19,6 +19,7 @@ namespace ols::console {
 struct Now {
   double monotonic_s = 0.0;
   std::int64_t utime_us = 0;
+  int minute_of_day = 0;  // in this host's time zone
 };
 
 class SiteState {
@@ -32,6 +33,10 @@ class SiteState {
   void hear_own(const std::vector<Alarm>& alarms, const Now& now);
   // The state of a guided procedure of a station.
   void set_procedure(const std::string& station, const Json& procedure);
+  // The areas that are watched, each with its "name".
+  void set_areas(const Json& areas);
+  // Of a number; null: it is forgotten.
+  void set_incident(std::uint64_t number, const Json& incident);
   // Call often.
   void look(const Now& now);
 
@@ -49,12 +54,15 @@ class SiteState {
   void set_holder(const std::string& station, const Json& holder);
 
   Revision revision() const { return revision_; }
-  // stations, targets (with trails), lines, fusion, events; for GET /api/state and a new viewer.
+  // stations, targets (with trails), lines, fusion, areas, incidents, events; for GET /api/state
+  // and a new viewer.
   Json snapshot() const;
   // The changes since a revision: changed fields only, and "gone". A snapshot if that is too long
   // ago to be known.
   Json changes(Revision since) const;
   Json events_since(Revision since) const { return events_.since(since); }
+  // Whether targets of this boot are those of the fusion that counts.
+  bool counts_fusion(std::int64_t boot_id) const { return boot_id == fusion_boot_; }
   // Numbers of stations, silent ones, targets; whether there is a fusion.
   Json counts() const;
   std::vector<std::string> station_ids() const { return stations_.ids(); }
@@ -68,6 +76,7 @@ class SiteState {
   static constexpr double kFusionGone_s = 1.5;
   static constexpr std::size_t kMostAlarms = 32;  // of a station
   static constexpr std::size_t kMostStations = 200, kMostTargets = 500, kMostTrailPoints = 600;
+  static constexpr std::size_t kMostAreas = 50, kMostIncidents = 200;
 
  private:
   struct Kept {  // of a station or, with an empty name, the fusion
@@ -97,6 +106,8 @@ class SiteState {
   EntityTable targets_{kMostTargets};
   EntityTable lines_{kMostStations};
   EntityTable fusion_{1};
+  EntityTable areas_{kMostAreas};
+  EntityTable incidents_{kMostIncidents};
   EventList events_;
   std::map<std::string, Kept> kept_;
   AlarmChanges own_;

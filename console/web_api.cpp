@@ -32,6 +32,24 @@ WebResponse procedure_picture(const Console& console, const std::string& station
   return {200, "image/jpeg", *jpeg, {{"Cache-Control", "no-store"}}};
 }
 
+// "NUMBER" or "NUMBER/picture"
+WebResponse incident(const Console& console, std::string_view path) {
+  constexpr std::string_view kPicture = "/picture";
+  const bool is_picture = path.ends_with(kPicture);
+  if (is_picture) path.remove_suffix(kPicture.size());
+  std::uint64_t number = 0;
+  const auto [end, error] = std::from_chars(path.data(), path.data() + path.size(), number);
+  const auto& incidents = console.incidents().watch().incidents();
+  const auto known = incidents.find(number);
+  if (error != std::errc() || end != path.data() + path.size() || known == incidents.end()) {
+    return refused(404, "there is no such incident");
+  }
+  if (!is_picture) return json(200, json_of(known->second));
+  const std::string* jpeg = console.incidents().picture(number);
+  if (!jpeg) return refused(404, "this incident has no picture");
+  return {200, "image/jpeg", *jpeg, {{"Cache-Control", "no-store"}}};
+}
+
 // What of a path stands behind escapes, as %20.
 std::optional<std::string> unescaped(std::string_view text) {
   std::string plain;
@@ -154,6 +172,10 @@ WebAnswer WebApi::get(const WebRequest& request, const Now& now) const {
   constexpr std::string_view kProcedures = "/api/procedures/";
   if (path.starts_with(kProcedures)) {
     return procedure_picture(console_, unescaped(path.substr(kProcedures.size())).value_or(""));
+  }
+  constexpr std::string_view kIncidents = "/api/incidents/";
+  if (path.starts_with(kIncidents)) {
+    return incident(console_, std::string_view(path).substr(kIncidents.size()));
   }
   if (path == "/api/replay") {
     return console_.is_replay() ? json(200, console_.timeline())

@@ -26,6 +26,7 @@ inline constexpr std::string_view kProcedureAnswerChannel = "OLS_PROCEDURE_ANSWE
 inline constexpr std::string_view kTargetChannel = "OLS_TARGET";
 inline constexpr std::string_view kPaperTargetChannel = "OLS_TARGET_PAPER";
 inline constexpr std::string_view kFusionStatusChannel = "OLS_FUSION_STATUS";
+inline constexpr std::string_view kIncidentChannel = "OLS_INCIDENT";
 inline constexpr std::string_view kCueChannel = "OLS_CUE";
 inline constexpr std::string_view kCueOrderChannel = "OLS_CUE_ORDER";
 inline constexpr std::string_view kCueReplyChannel = "OLS_CUE_REPLY";

@@ -64,6 +64,8 @@ constexpr auto kRules = numbered(std::array{
                 kHand_Hz},
     ChannelRule{kCueReplyChannel, false, Role::kFusion, HeadForm::kStationFirst, false, true,
                 kReplies_Hz},
+    ChannelRule{kIncidentChannel, false, Role::kOperator, HeadForm::kBootFirst, false, true,
+                kHand_Hz},
     // Anybody may pass the trust list and the site's settings on: the root has signed them.
     ChannelRule{kTrustChannel, false, Role::kListener, HeadForm::kBootFirst, false, false,
                 kStatus_Hz},

@@ -9,6 +9,7 @@
 #include "ols_msg/cue_t.hpp"
 #include "ols_msg/designate_t.hpp"
 #include "ols_msg/fusion_status_t.hpp"
+#include "ols_msg/incident_t.hpp"
 #include "ols_msg/lens_command_t.hpp"
 #include "ols_msg/preview_t.hpp"
 #include "ols_msg/ptu_command_t.hpp"
@@ -46,7 +47,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       decode<ols_msg::station_status_t>, decode<ols_msg::target_t>,
       decode<ols_msg::lens_command_t>,   decode<ols_msg::cue_t>,
       decode<ols_msg::cue_order_t>,      decode<ols_msg::sighting_t>,
-      decode<ols_msg::command_reply_t>};
+      decode<ols_msg::command_reply_t>,  decode<ols_msg::incident_t>};
   ols::fuzz::Input input(data, size);
   const std::size_t kind = input.byte();
   kDecoders[kind % kDecoders.size()](input.rest());

@@ -5,6 +5,7 @@ import { h, Fragment, type ComponentChildren } from "preact";
 import { alarmOf, conditionOf, holds, inWords } from "./conditions";
 import { utc } from "./format";
 import type { Link, Session } from "./link";
+import { isInside, isOpen } from "./site";
 import { Sure } from "./sure";
 import { Language, LANGUAGES, t, type Word } from "./words";
 
@@ -89,15 +90,26 @@ function LoggedIn({ session, name, onLogOut, onUsers }: LoggedInProps) {
   );
 }
 
-type BarProps = Omit<LoggedInProps, "name"> & { link: Link; look: Look; stopped: string[]; onStop: () => void; onRelease: (stations: string[]) => void; children: ComponentChildren };
+type BarProps = Omit<LoggedInProps, "name"> & { link: Link; look: Look; stopped: string[]; onStop: () => void; onRelease: (stations: string[]) => void; onIncidents: () => void; children: ComponentChildren };
+
+// How many somebody should look at.
+function IncidentsButton({ link, onIncidents }: { link: Link; onIncidents: () => void }) {
+  const open = [...link.site.incidents.values()].filter(isOpen);
+  return (
+    <button type="button" class={open.some(isInside) ? "danger" : ""} onClick={onIncidents}>
+      {t("incidents")} {open.length > 0 && <b>{open.length}</b>}
+    </button>
+  );
+}
 
 // `stopped`: the stations that this person may release. `children`: what opens below it.
-export function Bar({ link, look, stopped, onStop, onRelease, children, ...person }: BarProps) {
+export function Bar({ link, look, stopped, onStop, onRelease, onIncidents, children, ...person }: BarProps) {
   return (
     <header class="bar">
       <h1>OLS</h1>
       <Chips link={link} />
       <span class="gap" />
+      {!link.replay && <IncidentsButton link={link} onIncidents={onIncidents} />}
       <time class="utc">{link.isUp ? utc(link.now_us()) : "--:--:--"} UTC</time>
       <div class="settings">
         <LookChoice {...look} />

@@ -3,12 +3,15 @@
 import { h } from "preact";
 import { useEffect, useMemo, useState } from "preact/hooks";
 import { AlarmSpoken } from "./alarms";
+import { AreaPanel } from "./areapanel";
 import { useArrangement, type Arrangement } from "./arrangement";
 import { Bar, type Look } from "./bar";
 import { stopped } from "./byhand";
 import { useEscapeKey } from "./escape";
 import { History } from "./history";
+import { Incidents } from "./incidents";
 import { Link, type Session } from "./link";
+import { localTime } from "./format";
 import { MapView } from "./map";
 import { Notice, useNotice } from "./notice";
 import { Orders } from "./orders";
@@ -16,6 +19,7 @@ import type { Place } from "./panel";
 import { PlacePanel, placeOf } from "./placepanel";
 import { Procedures } from "./procedure";
 import { ReplayBar } from "./replay";
+import type { Area } from "./site";
 import { Stations } from "./stations";
 import { TargetPanel } from "./targetpanel";
 import { Targets } from "./targets";
@@ -97,6 +101,8 @@ export function Console({ session, look, onLoggedOut }: Props) {
   const [station, setStation] = useState("");
   const [target, setTarget] = useState("");
   const [isUsersOpen, setUsersOpen] = useState(false);
+  const [isIncidentsOpen, setIncidentsOpen] = useState(false);
+  const [draft, setDraft] = useState<Area | null>(null); // of an area
   const arrangement = useArrangement();
   const [notice, notices] = useNotice();
   const link = useMemo(() => new Link(), []);
@@ -106,6 +112,10 @@ export function Console({ session, look, onLoggedOut }: Props) {
   useEscapeKey(stopAll, () => notices.say(t(link.replay ? "closed" : "escape_closed"), false));
   const mayCommand = session.role !== "viewer" && !link.replay;
   const pick = (what: string) => (what.startsWith("station:") ? setStation(what.slice(8)) : setTarget(what));
+  const edit = (area: Area) => {
+    setDraft(area);
+    setIncidentsOpen(false);
+  };
   return (
     <div class={`page ${link.replay ? "of-replay" : ""}`}>
       <Bar
@@ -117,15 +127,26 @@ export function Console({ session, look, onLoggedOut }: Props) {
         onRelease={(stations) => orders.releaseAll(stations)}
         onLogOut={onLoggedOut}
         onUsers={() => setUsersOpen(true)}
+        onIncidents={() => setIncidentsOpen(!isIncidentsOpen)}
       >
+        {isIncidentsOpen && (
+          <Incidents
+            link={link}
+            onJudge={mayCommand ? (incident, verdict) => orders.judge(incident, verdict) : null}
+            onEdit={mayCommand ? edit : null}
+            onRemove={(name) => orders.removeArea(name)}
+            onClose={() => setIncidentsOpen(false)}
+          />
+        )}
         {isUsersOpen && <Users self={session.name} onClose={() => setUsersOpen(false)} />}
       </Bar>
       <AlarmSpoken link={link} />
       {!link.isUp && <p class="link-lost" role="alert">{t("link_lost")}</p>}
       {link.replay && <ReplayBar link={link} />}
       <main class={`views ${arrangement.isAlone ? "alone" : arrangement.large}`}>
-        <MapView link={link} version={version} theme={look.theme} selected={target || `station:${station}`} onPick={pick} />
-        <Panel link={link} selected={target} mayCommand={mayCommand} orders={orders} onClose={() => setTarget("")} />
+        <MapView link={link} version={version} theme={look.theme} selected={target || `station:${station}`} draft={draft?.polygon ?? null} onPick={pick} onCorner={(corner) => setDraft((area) => area && { ...area, polygon: [...area.polygon, corner] })} />
+        {draft && <AreaPanel area={draft} local={localTime(link.localMinute)} onChange={setDraft} onSave={(area) => orders.setArea(area, () => setDraft(null))} onClose={() => setDraft(null)} />}
+        {!draft && <Panel link={link} selected={target} mayCommand={mayCommand} orders={orders} onClose={() => setTarget("")} />}
         <Side link={link} version={version} station={station} mayCommand={mayCommand} orders={orders} arrangement={arrangement} onSelect={setStation} />
         <Targets
           link={link}

@@ -27,6 +27,9 @@ export function utc(utime_us: number, withDate = false): string {
   return withDate ? iso.slice(0, 19).replace("T", " ") : iso.slice(11, 19);
 }
 
+// Of a minute of the day: "22:30".
+export const localTime = (minute: number) => `${String(Math.floor(minute / 60)).padStart(2, "0")}:${String(minute % 60).padStart(2, "0")}`;
+
 // "3 d", "5 h", "12 min".
 export function age(s: number): string {
   if (s >= 2 * 86400) return `${(s / 86400).toFixed(0)} d`;

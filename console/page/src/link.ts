@@ -65,6 +65,7 @@ export class Link implements PictureSource {
   private heard_ms = 0;
   time_us = 0; // the server's, when it was last said
   private timeHeard_ms = 0;
+  localMinute = 0; // of the day, at the server
   private watched: { pictures: string[]; codec: Codec } = { pictures: [], codec: "jpeg" };
   private streams = new Map<string, H264Stream<StreamHeader>>();
   private taken = { pictures: new Set<string>(), state: false, timer: 0 };
@@ -140,6 +141,7 @@ export class Link implements PictureSource {
     if (message.time_us) {
       this.time_us = message.time_us;
       this.timeHeard_ms = performance.now();
+      this.localMinute = message.local_minute ?? this.localMinute;
     }
     if (message.replay) this.replay = message.replay;
     if (message.kind === "answer") return this.answered(message);

@@ -7,16 +7,17 @@ import type { Link } from "./link";
 import { measures } from "./measures";
 import { Legend, OwnMaps } from "./ownmaps";
 import { SiteMap } from "./sitemap";
+import type { Corner } from "./site";
 import { View3d } from "./view3d";
 import { t } from "./words";
 
 type Options = SiteMap["options"];
-type Props = { link: Link; version: number; theme: string; selected: string; onPick: (pick: string) => void };
+type Props = { link: Link; version: number; theme: string; selected: string; draft: Corner[] | null; onPick: (pick: string) => void; onCorner: (corner: Corner) => void };
 
 const OPTIONS: Options = { rings: true, grid: true, trails: true, views: true, limits: true, follow: false, measuring: false, placing: false };
 
 // The map in its element, which follows what the page shows; null until it is made.
-function useSiteMap(element: RefObject<HTMLDivElement>, { link, version, theme, selected, onPick }: Props, onMeasured: (text: string) => void): SiteMap | null {
+function useSiteMap(element: RefObject<HTMLDivElement>, { link, version, theme, selected, draft, onPick, onCorner }: Props, onMeasured: (text: string) => void): SiteMap | null {
   const map = useRef<SiteMap | null>(null);
   const [made, setMade] = useState<SiteMap | null>(null);
   useEffect(() => {
@@ -31,9 +32,11 @@ function useSiteMap(element: RefObject<HTMLDivElement>, { link, version, theme, 
   useEffect(() => {
     if (!map.current) return;
     map.current.onPick = onPick;
+    map.current.onCorner = onCorner;
     map.current.selected = selected;
+    map.current.draft = draft;
     map.current.draw();
-  }, [selected, onPick]);
+  }, [selected, draft, onPick, onCorner]);
   // In the frame in which the news came: an effect and the map's own rendering would take two more.
   useLayoutEffect(() => map.current?.drawNow(), [version]);
   return made;

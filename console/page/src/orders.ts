@@ -4,7 +4,7 @@ import { conditionInWords, inWords, textOfEvent } from "./conditions";
 import type { Answer, Hand, Link } from "./link";
 import type { Notices } from "./notice";
 import type { ProcedureAnswer } from "./procedure";
-import type { SiteEvent } from "./site";
+import type { Area, Incident, SiteEvent } from "./site";
 import { named, t } from "./words";
 
 // Of all stopped stations, while it is under way.
@@ -12,6 +12,7 @@ type Release = { waits: Set<number>; done: string[]; refused: string[] };
 
 export class Orders {
   private asked = new Map<number, string>(); // in which words, until it is answered
+  private afterwards = new Map<number, () => void>(); // what follows if it is done
   private release: Release | null = null;
 
   constructor(
@@ -49,14 +50,33 @@ export class Orders {
   }
 
   acknowledge(event: SiteEvent) {
-    const words = `${event.station} ${textOfEvent(event)}: ${t("acknowledge")}`;
-    const number = this.link.send({ do: "acknowledge", event: event.number });
-    if (!number) return this.notices.say(`${words}: ${t("not_sent")}`, true);
-    this.asked.set(number, words);
+    this.change({ do: "acknowledge", event: event.number }, `${event.station} ${textOfEvent(event)}: ${t("acknowledge")}`);
+  }
+
+  // It may come late, and only its outcome is said.
+  private change(message: object, words: string): number {
+    const number = this.link.send(message);
+    if (number) this.asked.set(number, words);
+    else this.notices.say(`${words}: ${t("not_sent")}`, true);
+    return number;
   }
 
   nameTarget(target: string, name: string) {
     this.give({ do: "name", target, name }, `${t("target")} ${target}: ${name || target}`);
+  }
+
+  // Without an id, which the server gives it.
+  setArea({ name, polygon, lowest_m, highest_m, classes, from, to }: Area, afterwards: () => void) {
+    const number = this.change({ do: "area", area: { name, polygon, lowest_m, highest_m, classes, from, to } }, `${t("area")} ${name}`);
+    this.afterwards.set(number, afterwards);
+  }
+
+  removeArea(name: string) {
+    this.change({ do: "remove_area", name }, `${t("area")} ${name}: ${t("remove")}`);
+  }
+
+  judge({ number, verdict: before }: Incident, verdict: Incident["verdict"]) {
+    if (verdict !== before) this.change({ do: "judge", incident: number, verdict }, `${t("incident")} ${number}: ${named("i", verdict)}`);
   }
 
   // Of a procedure's question.
@@ -81,6 +101,8 @@ export class Orders {
     if (this.release?.waits.delete(answer.number)) return this.released(this.release, answer);
     const words = this.asked.get(answer.number);
     this.asked.delete(answer.number);
+    if (answer.accepted) this.afterwards.get(answer.number)?.();
+    this.afterwards.delete(answer.number);
     const tell = words ? this.notices.say : this.notices.sayLate;
     tell(`${words ?? answer.station}: ${answer.refusal ? conditionInWords(answer.refusal) : t("done")}`, !answer.accepted);
   }

@@ -146,7 +146,33 @@ export type SiteEvent = {
   times: number;
 };
 
+export type Corner = [longitude_deg: number, latitude_deg: number];
+// What is watched: a volume, for these classes (none: for all) from a time of day to another.
+export type Area = { name: string; polygon: Corner[]; lowest_m: number; highest_m: number; classes: string[]; from: string; to: string };
+// A target in an area.
+export type Incident = {
+  id: string;
+  number: number;
+  area: string;
+  target: string; // "BOOT/NUMBER" of the fusion and of its target
+  class: string;
+  class_probability: number; // 0: unknown
+  begun_us: number;
+  ended_us: number; // 0: it is inside
+  entries: number;
+  stations: string[];
+  verdict: "open" | "confirmed" | "dismissed";
+  judged_by: string;
+  judged_us: number;
+  picture: { station: string; full_px: [number, number] | null; box_px: [number, number, number, number] | null } | null;
+};
+export const isInside = (one: Incident) => one.ended_us === 0;
+// Somebody should look at it.
+export const isOpen = (one: Incident) => one.verdict === "open";
+
 export type Site = {
+  areas: Map<string, Area>;
+  incidents: Map<string, Incident>;
   stations: Map<string, Station>;
   targets: Map<string, Target>;
   lines: Map<string, Line>;
@@ -165,7 +191,7 @@ const TRAIL_PERIOD_US = 400_000;
 const TRAIL_GAP_US = 1_500_000; // kTargetStale_s of console/site_state.h
 
 export function emptySite(): Site {
-  return { stations: new Map(), targets: new Map(), lines: new Map(), fusion: null, events: [] };
+  return { areas: new Map(), incidents: new Map(), stations: new Map(), targets: new Map(), lines: new Map(), fusion: null, events: [] };
 }
 
 // The target that is to stay in the middle: the one that is selected; where none is, the only one.
@@ -251,6 +277,8 @@ export function apply(site: Site, message: any): void {
   merge(site.stations, message.stations, gone.stations);
   merge(site.targets, message.targets, gone.targets);
   merge(site.lines, message.lines, gone.lines);
+  merge(site.areas as Map<string, Area & Entity>, message.areas, gone.areas);
+  merge(site.incidents, message.incidents, gone.incidents);
   for (const id of gone.targets ?? []) trailTimes.delete(id);
   if (message.kind === "snapshot") for (const { id, utime_us } of site.targets.values()) trailTimes.set(id, utime_us);
   if (message.kind === "delta") extendTrails(site, message.targets, trailTimes);

@@ -16,6 +16,7 @@ import { createEmpty, extend, intersects, isEmpty } from "ol/extent";
 import { fromLonLat, toLonLat, transformExtent } from "ol/proj";
 import { Circle, Fill, RegularShape, Stroke, Style, Text } from "ol/style";
 import type { Coordinate } from "ol/coordinate";
+import { areaShapes, draftShapes } from "./areashapes";
 import { bearing } from "./format";
 import { Grid, gridShapes, type HasRoom, ringShapes } from "./gridshapes";
 import { type Box, meet, type Named, type Side, sidesOf } from "./labels";
@@ -27,7 +28,7 @@ import { beyond, boxesOver, shownExtent, takenByPanel } from "./overlays";
 import { placeOf } from "./placepanel";
 import { ScaleInMetres } from "./scale";
 import { Questions } from "./questions";
-import { cuesOnMap, followed } from "./site";
+import { type Corner, cuesOnMap, followed } from "./site";
 import { lineShapes, stationShapes } from "./stationshapes";
 import { cueShapes, cueWords, targetShapes, targetWords } from "./targetshapes";
 import { trailShapes } from "./trailshapes";
@@ -60,6 +61,8 @@ export class SiteMap {
   private pen = document.createElement("canvas").getContext("2d")!;
   options = { rings: true, grid: true, trails: true, views: true, limits: true, follow: false, measuring: false, placing: false };
   selected = "";
+  draft: Corner[] | null = null; // of an area that is being drawn
+  onCorner: (corner: Corner) => void = () => {};
   onPick: (pick: string) => void = () => {};
   onMeasured: (text: string) => void = () => {};
   onPlaced: () => void = () => {};
@@ -85,7 +88,8 @@ export class SiteMap {
     this.map.on("pointerdrag", () => (this.hasMoved = true));
     element.addEventListener("wheel", () => (this.hasMoved = true), { passive: true });
     this.map.on("click", (event) => {
-      if (this.options.measuring) void this.measure(event.coordinate);
+      if (this.draft) this.addCorner(event.coordinate);
+      else if (this.options.measuring) void this.measure(event.coordinate);
       else if (this.options.placing) this.place(event.coordinate);
       else this.pick(event.pixel);
     });
@@ -125,6 +129,11 @@ export class SiteMap {
     const [longitude, latitude] = toLonLat(at);
     this.onPick(`place:${latitude.toFixed(7)},${longitude.toFixed(7)}`);
     this.onPlaced();
+  }
+
+  private addCorner(at: Coordinate) {
+    const [longitude, latitude] = toLonLat(at);
+    this.onCorner([Number(longitude.toFixed(6)), Number(latitude.toFixed(6))]);
   }
 
   private placeShapes(): Feature[] {
@@ -282,6 +291,7 @@ export class SiteMap {
     features.push(...lineShapes(this.link, this.colours));
     features.push(...cueShapes(this.link, this.colours, this.sides));
     features.push(...this.placeShapes());
+    features.push(...areaShapes(site, this.colours), ...draftShapes(this.draft ?? [], this.colours));
     const targets = [...site.targets.values()];
     if (this.options.trails) features.push(...trailShapes(targets, this.heightColours, this.selected));
     for (const target of targets) features.push(...targetShapes(target, this.colours, this.selected === `target:${target.id}`, this.sides.get(`target:${target.id}`)));

@@ -93,6 +93,33 @@ const WORDS = {
   f_seconds: ["Seconds", "Sekunden"],
   f_mgrs: ["MGRS", "MGRS"],
   target: ["Target", "Ziel"],
+  area: ["Area", "Bereich"],
+  areas: ["Areas", "Bereiche"],
+  new_area: ["Draw an area", "Bereich zeichnen"],
+  no_area: ["No area is watched.", "Kein Bereich wird überwacht."],
+  area_remove_sure: ["not watched any more?", "nicht mehr überwachen?"],
+  corners: ["Corners: latitude, longitude", "Ecken: Breite, Länge"],
+  corners_hint: ["Click the corners on the map, or write them here.", "Die Ecken auf der Karte anklicken, oder hier schreiben."],
+  lowest: ["from", "von"],
+  highest: ["up to", "bis"],
+  classes_hint: ["For these classes (none: for all)", "Für diese Arten (keine: für alle)"],
+  from: ["from", "von"],
+  to: ["to", "bis"],
+  times_hint: ["Equal times: always. By the clock of the console's computer, where it is", "Gleiche Zeiten: immer. Nach der Uhr des Rechners der Konsole; dort ist es"],
+  save: ["Save", "Speichern"],
+  change: ["Change", "Ändern"],
+  incident: ["Incident", "Vorfall"],
+  incidents: ["Incidents", "Vorfälle"],
+  no_incident: ["Nothing has come into an area.", "Nichts ist in einen Bereich gekommen."],
+  inside: ["inside", "darin"],
+  entries: ["times inside", "Mal darin"],
+  verdict: ["Verdict", "Urteil"],
+  confirm: ["Confirm", "Bestätigen"],
+  dismiss: ["Dismiss", "Verwerfen"],
+  reopen: ["Reopen", "Neu öffnen"],
+  i_open: ["open", "offen"],
+  i_confirmed: ["confirmed", "bestätigt"],
+  i_dismissed: ["dismissed", "verworfen"],
   place: ["Place", "Ort"],
   place_hint: ["Click a place", "Einen Ort anklicken"],
   height_of: ["above the ellipsoid", "über dem Ellipsoid"],
@@ -323,7 +350,7 @@ export function inLanguage<T>(both: [T, T]): T {
 }
 
 // A word for a value that comes from the server; itself if there is none.
-export function named(prefix: "s" | "k" | "v" | "c" | "p" | "o" | "g" | "h" | "t" | "m", value: string): string {
+export function named(prefix: "s" | "k" | "v" | "c" | "p" | "o" | "g" | "h" | "i" | "t" | "m", value: string): string {
   const word = `${prefix}_${value}` as Word;
   return word in WORDS ? t(word) : value;
 }

@@ -133,6 +133,20 @@ TEST(ClientMessage, TheOthers) {
       "bird");
 }
 
+TEST(ClientMessage, AreasAndVerdicts) {
+  const auto set = parse_client_message(R"({"do":"area","number":2,"area":{"name":"Gate"}})");
+  EXPECT_EQ(std::get<AreaRequest>(set).change.area.at("name"), "Gate");
+  const auto removed = parse_client_message(R"({"do":"remove_area","name":"North gate"})");
+  EXPECT_TRUE(std::get<AreaRequest>(removed).change.area.is_null());
+  EXPECT_EQ(std::get<AreaRequest>(removed).change.name, "North gate");
+  const auto judged = parse_client_message(R"({"do":"judge","incident":3,"verdict":"dismissed"})");
+  EXPECT_EQ(std::get<JudgeRequest>(judged).judgement.incident, 3U);
+  EXPECT_EQ(std::get<JudgeRequest>(judged).judgement.verdict, Judgement::kDismissed);
+  EXPECT_EQ(refusal(R"({"do":"area","area":[]})"), "area must be an object");
+  EXPECT_EQ(refusal(R"({"do":"judge","incident":3,"verdict":"guilty"})"),
+            "verdict must be open, confirmed or dismissed");
+}
+
 TEST(ClientMessage, SaysWhatItHasTaken) {
   const auto taken = std::get<TakenRequest>(
       parse_client_message(R"({"do":"taken","pictures":["alfa"],"state":true})"));
@@ -148,8 +162,7 @@ TEST(ClientMessage, WhatIsWrongIsSaid) {
   EXPECT_EQ(refusal("{}"), "do is missing");
   EXPECT_EQ(refusal(R"({"do":"dance"})"),
             "do must be command, stop_all, take, give_up, watch, taken, answer, cue, name, "
-            "acknowledge or "
-            "replay");
+            "acknowledge, area, remove_area, judge or replay");
   EXPECT_EQ(refusal(R"({"do":"stop_all","station":"a"})"), "unknown key \"station\"");
   EXPECT_EQ(refusal(R"({"do":"command","station":"a","command":"fly"})"), "unknown command");
   EXPECT_EQ(refusal(R"({"do":"command","station":"a b","command":"stop"})"),

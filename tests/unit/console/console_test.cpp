@@ -452,6 +452,59 @@ TEST(Console, AnOperatorsWordOnACueGoesOutAndAViewersDoesNot) {
   EXPECT_TRUE(console.take_cue_orders().empty()) << "what was is not commanded";
 }
 
+TEST(Console, AnIncidentIsShownRecordedAndJudgedByOperators) {
+  Listening console;
+  const auto says = [&](Role role, const std::string& what) {
+    const auto viewer = console.open("ana", role);
+    console.take(viewer, R"({"number":8,"do":)" + what + "}", {1.0, 5});
+    const Json answer = answer_in(received(console, viewer, {1.0, 5}));
+    console.close(viewer);
+    return answer.at("accepted") == true;
+  };
+  const std::string area = R"("area","area":{"name":"Gate","polygon":[[11,48],[11.1,48],[11,48.1]],
+      "lowest_m":0,"highest_m":900,"classes":[],"from":"00:00","to":"00:00"})";
+  EXPECT_FALSE(says(Role::kViewer, area));
+  EXPECT_TRUE(says(Role::kOperator, area));
+  TargetHeard heard;
+  heard.what = TargetHeard::What::kPosition;
+  heard.boot_id = 9;
+  heard.id = "7";
+  heard.latitude_deg = 48.01, heard.longitude_deg = 11.01, heard.height_m = 100.0;
+  heard.fields = {{"state", "confirmed"},
+                  {"covariance_enu_m2", {1, 0, 0, 1, 0, 1}},
+                  {"stations", {{{"id", "alfa"}, {"used", true}}}}};
+  console.hear(heard, {1.0, 5});
+  heard.boot_id = 10;
+  heard.id = "8";
+  console.hear(heard, {1.0, 5});  // of a second fusion: not believed
+  const auto orders = console.turn({1.1, 6});
+  ASSERT_EQ(orders.size(), 1U);
+  EXPECT_EQ(orders[0].label, "incident-1");
+  const auto state = [&] { return console.state({1.1, 6}); };
+  EXPECT_EQ(state().at("areas")[0].at("name"), "Gate");
+  ASSERT_EQ(state().at("incidents").size(), 1U);
+  EXPECT_EQ(state().at("incidents")[0].at("target"), "9/7");
+  EXPECT_FALSE(state().at("incidents")[0].contains("track"));
+  const auto alarm = [&]() -> Json {
+    const Json now = state();
+    for (const Json& event : now.at("events")) {
+      if (event.at("kind") == "alarm") return event;
+    }
+    return nullptr;
+  };
+  EXPECT_TRUE(alarm().at("over_us").is_null());
+  EXPECT_FALSE(says(Role::kViewer, R"("judge","incident":1,"verdict":"dismissed")"));
+  EXPECT_TRUE(says(Role::kOperator, R"("judge","incident":1,"verdict":"dismissed")"));
+  static_cast<void>(console.turn({1.2, 7}));
+  EXPECT_EQ(state().at("incidents")[0].at("judged_by"), "ana");
+  EXPECT_EQ(alarm().at("over_us"), 7);
+  EXPECT_TRUE(says(Role::kOperator, R"("remove_area","name":"Gate")"));
+  static_cast<void>(console.turn({1.3, 8}));
+  EXPECT_TRUE(state().at("areas").empty());
+  console.replay_is({{"at_us", 1}}, true);
+  EXPECT_FALSE(says(Role::kOperator, area));
+}
+
 TEST(Console, AnAnswerNeedsControlUnlessItEndsTheProcedure) {
   Listening console;
   console.hear(asking("alfa"));

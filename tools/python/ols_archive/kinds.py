@@ -47,6 +47,7 @@ KINDS = (
     Kind("designate", "designate_t", "OLS_DESIGNATE_", True),
     Kind("record", "record_t", "OLS_RECORD_", True),
     Kind("command_reply", "command_reply_t", "OLS_REPLY_", True),
+    Kind("incident", "incident_t", "OLS_INCIDENT", False),
     Kind("cue", "cue_t", "OLS_CUE", False),
     Kind("cue_order", "cue_order_t", "OLS_CUE_ORDER", False),
     Kind("cue_reply", "command_reply_t", "OLS_CUE_REPLY", False),

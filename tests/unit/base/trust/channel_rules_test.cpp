@@ -54,6 +54,8 @@ TEST(ChannelRules, CuesComeFromTheirOwnRoleAndAreAllowedByOperators) {
                               "OLS_FUSION_STATUS", "OLS_BEARING_cue", "OLS_CUE_alfa"}) {
     EXPECT_FALSE(may(Role::kCue, "cue", channel)) << channel;
   }
+  EXPECT_TRUE(may(Role::kOperator, "anna", "OLS_INCIDENT"));
+  EXPECT_FALSE(may(Role::kCue, "cue", "OLS_INCIDENT"));
   EXPECT_TRUE(may(Role::kOperator, "anna", "OLS_CUE_ORDER"));
   for (const Role role : {Role::kOperator, Role::kFusion, Role::kListener, Role::kStation}) {
     EXPECT_FALSE(may(role, "x", "OLS_CUE"));

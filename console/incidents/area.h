@@ -1,0 +1,41 @@
+// An area that an operator has drawn: a volume, the classes and the time of day that matter there.
+// Pure.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "geometry/wgs84.h"
+
+namespace ols::console {
+
+struct Area {
+  std::string name;  // unique at the site
+  // Longitude, latitude [deg, WGS84] of each corner, in either direction, the first not repeated.
+  // Edges are straight in longitude and latitude, as in GeoJSON. They may cross the antimeridian.
+  std::vector<std::array<double, 2>> corners_deg;
+  double lowest_m = 0.0, highest_m = 0.0;  // above the WGS84 ellipsoid
+  std::vector<std::string> classes;        // as wire::class_name() names them; empty: all
+  // Minutes of the day, in the time zone of the console's host: begins and ends being watched.
+  // Equal: always. An end before the beginning is on the next day.
+  int from_min = 0, to_min = 0;
+};
+
+// From outside: {"name", "polygon", "lowest_m", "highest_m", "classes", "from", "to"}. Throws
+// std::invalid_argument with what is wrong, in words.
+Area area_from(const nlohmann::json& json);
+nlohmann::json json_of(const Area& area);
+
+bool is_watched(const Area& area, int minute_of_day);
+bool concerns(const Area& area, const std::string& object_class);
+
+// The probability that a target is in the area, from its position and covariance [m^2] at its own
+// east, north, up. Exact for a Gaussian in the horizontal; the correlation of the height with the
+// horizontal position is left out.
+double probability_inside(const Area& area, const Geodetic& position,
+                          const Eigen::Matrix3d& covariance_enu_m2);
+
+}  // namespace ols::console

@@ -1,0 +1,148 @@
+#include "console/incidents/incident_store.h"
+
+#include <algorithm>
+#include <charconv>
+#include <exception>
+#include <filesystem>
+#include <functional>
+#include <stdexcept>
+
+#include "base/files/atomic_file.h"
+#include "base/files/small_file.h"
+#include "conditions/alarms.h"
+
+namespace ols::console {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+constexpr int kVersion = 1;
+constexpr std::size_t kMostBytes = 4'000'000;
+constexpr const char* kAreas = "areas.json";
+
+// The part of a file under a key, if it is of this version.
+Json part_of(const std::string& path, const char* key) {
+  const Json json = Json::parse(read_small_file(path, kMostBytes));
+  const int version = json.at("version").get<int>();
+  if (version != kVersion) {
+    throw std::invalid_argument("version " + std::to_string(version) +
+                                ", and this program knows version 1");
+  }
+  return json.at(key);
+}
+
+std::string text_of(const char* key, Json part) {
+  return Json{{"version", kVersion}, {key, std::move(part)}}.dump(1, ' ', false,
+                                                                  Json::error_handler_t::replace) +
+         "\n";
+}
+
+// Of NUMBER.json; 0: it is no incident's.
+std::uint64_t number_of(const fs::path& file) {
+  const std::string stem = file.stem().string();
+  std::uint64_t number = 0;
+  const auto [end, error] = std::from_chars(stem.data(), stem.data() + stem.size(), number);
+  const bool is_number = error == std::errc() && end == stem.data() + stem.size();
+  return is_number && file.extension() == ".json" ? number : 0;
+}
+
+}  // namespace
+
+bool IncidentStore::tried(const std::string& file, const std::function<void()>& read_it) {
+  try {
+    read_it();
+    return true;
+  } catch (const std::exception& error) {
+    unread_.push_back(alarm::incidents_unread(file, error.what()));
+    return false;
+  }
+}
+
+void IncidentStore::read_incident(std::uint64_t number, KeptIncidents& kept) {
+  const std::string stem = folder_ + "/" + std::to_string(number);
+  tried(stem + ".json", [&] {
+    Incident incident = incident_from(part_of(stem + ".json", "incident"));
+    if (incident.number != number) throw std::invalid_argument("it is of another number");
+    const bool has_picture = !incident.picture.is_null();
+    kept.incidents.push_back(std::move(incident));
+    if (!has_picture) return;
+    tried(stem + ".jpg",
+          [&] { kept.pictures[number] = read_small_file(stem + ".jpg", kMostBytes); });
+  });
+}
+
+KeptIncidents IncidentStore::read() {
+  KeptIncidents kept;
+  std::error_code none;
+  if (!fs::exists(folder_, none)) return kept;
+  const std::string areas = folder_ + "/" + kAreas;
+  kept.may_change_areas = tried(areas, [&] {
+    if (!fs::exists(areas)) return;
+    std::vector<Area> read;
+    for (const Json& area : part_of(areas, "areas")) read.push_back(area_from(area));
+    kept.areas = std::move(read);
+  });
+  tried(folder_, [&] {
+    for (const auto& entry : fs::directory_iterator(folder_)) {
+      const std::uint64_t number = number_of(entry.path());
+      if (number == 0) continue;
+      kept.numbers = std::max(kept.numbers, number);
+      read_incident(number, kept);
+    }
+  });
+  return kept;
+}
+
+void IncidentStore::write_file(const std::string& name, const std::string& content) {
+  try {
+    fs::create_directories(folder_);
+    AtomicFile file(folder_ + "/" + name);
+    file.stream() << content;
+    file.commit();
+    unsaved_ = {};
+  } catch (const std::exception& error) {
+    unsaved_ = alarm::incidents_unsaved(error.what());
+  }
+}
+
+void IncidentStore::keep(const IncidentBook& book, const IncidentBook::News& news) {
+  if (news.areas) write(book.watch().areas());
+  for (const std::uint64_t number : news.forgotten) remove(number);
+  for (const std::uint64_t number : news.pictures) {
+    if (const std::string* jpeg = book.picture(number)) write_picture(number, *jpeg);
+  }
+  for (const std::uint64_t number : news.incidents) {
+    const auto incident = book.watch().incidents().find(number);
+    if (incident != book.watch().incidents().end()) write(incident->second);
+  }
+}
+
+void IncidentStore::write(const std::vector<Area>& areas) {
+  Json list = Json::array();
+  for (const Area& area : areas) list.push_back(json_of(area));
+  write_file(kAreas, text_of("areas", std::move(list)));
+}
+
+void IncidentStore::write(const Incident& incident) {
+  write_file(std::to_string(incident.number) + ".json", text_of("incident", json_of(incident)));
+}
+
+void IncidentStore::write_picture(std::uint64_t number, const std::string& jpeg) {
+  write_file(std::to_string(number) + ".jpg", jpeg);
+}
+
+void IncidentStore::remove(std::uint64_t number) {
+  std::error_code gone;
+  for (const char* suffix : {".json", ".jpg"}) {
+    fs::remove(folder_ + "/" + std::to_string(number) + suffix, gone);
+  }
+}
+
+std::vector<Alarm> IncidentStore::alarms() const {
+  std::vector<Alarm> alarms = unread_;
+  if (!unsaved_.empty()) alarms.push_back(unsaved_);
+  return alarms;
+}
+
+}  // namespace ols::console

@@ -1,0 +1,28 @@
+// Incidents on the bus: incident_t.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/bus/lcm_bus.h"
+#include "console/incidents/incident_book.h"
+
+namespace ols::console {
+
+// Sends each incident that has changed, and once a second those that last: a message may get lost,
+// and who comes later is told, too.
+class IncidentSender {
+ public:
+  explicit IncidentSender(std::int64_t boot_id) : boot_id_(boot_id) {}
+
+  // False if the network is down.
+  bool send(LcmBus& bus, const IncidentWatch& watch, const IncidentBook::News& news,
+            std::int64_t utime_us);
+
+ private:
+  std::int64_t boot_id_;
+  std::int64_t sequence_ = 0;
+  std::int64_t repeated_us_ = 0;
+};
+
+}  // namespace ols::console
