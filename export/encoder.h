@@ -27,6 +27,11 @@ class Encoder {
   virtual Packets encode(const Target& target) = 0;
   virtual Packets encode(const Station& station) = 0;
   virtual Packets encode(const Line& line) = 0;
+  // Formats without a place for it send nothing.
+  virtual Packets encode_incident(const Incident& incident) {
+    static_cast<void>(incident);
+    return {};
+  }
   // The packets that the format sends without a record, about once a second, or as often as a file
   // is written: a document, a service status. `utime_us`: now.
   virtual Packets turn(std::int64_t utime_us) {

@@ -22,6 +22,7 @@ ExportBus::ExportBus(std::string url, const trust::TrustConfig& trust,
                   bus.subscribe(std::string(kTargetChannel), handler, kTargetLimits);
                   bus.subscribe(station_channel(kStatusChannel, ".+"), handler);
                   bus.subscribe(station_channel(kBearingChannel, ".+"), handler);
+                  bus.subscribe(std::string(kIncidentChannel), handler);
                 }) {}
 
 }  // namespace ols::exports

@@ -38,6 +38,8 @@ void Exporter::hear(const BusMessage& message, std::int64_t now_utime_us) {
     if (is_present(station->utime_us, now_utime_us)) give(*station);
   } else if (const auto line = line_from(message, site_)) {
     if (is_present(line->utime_us, now_utime_us)) give(*line);
+  } else if (const auto incident = incident_from(message, site_)) {
+    if (is_present(incident->utime_us, now_utime_us)) give(*incident);
   } else {
     ++counters_[is_understood(message) ? "messages_unused" : "messages_refused"];
   }

@@ -62,4 +62,8 @@ bool Gate::passes(const Line& line) {
          is_due(line.uid, line.utime_us, TrackState::kConfirmed);
 }
 
+bool Gate::passes(const Incident& incident) const {
+  return config_.targets && is_inside(incident.place);
+}
+
 }  // namespace ols::exports

@@ -27,6 +27,8 @@ class Gate {
   std::optional<Target> pass(const Target& target);
   bool passes(const Station& station);
   bool passes(const Line& line);
+  // They are few, and pass at any rate.
+  bool passes(const Incident& incident) const;
 
   static constexpr double kLeastBelief = 0.5;  // min belief of a line; as the fusion's own limit
 

@@ -19,4 +19,8 @@ std::string line_uid(const std::string& site, const std::string& station) {
   return site + ".line." + station;
 }
 
+std::string incident_uid(const std::string& site, std::int64_t number, std::int64_t begun_us) {
+  return site + ".incident." + std::to_string(number) + "." + std::to_string(begun_us);
+}
+
 }  // namespace ols::exports

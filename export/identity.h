@@ -11,5 +11,7 @@ namespace ols::exports {
 std::string target_uid(const std::string& site, std::int64_t boot_id, std::int64_t target_id);
 std::string station_uid(const std::string& site, const std::string& station);
 std::string line_uid(const std::string& site, const std::string& station);
+// "SITE.incident.NUMBER.BEGUN": the numbers of another console are the same, its times are not.
+std::string incident_uid(const std::string& site, std::int64_t number, std::int64_t begun_us);
 
 }  // namespace ols::exports

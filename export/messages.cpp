@@ -1,6 +1,7 @@
 #include "export/messages.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/bus/channel_names.h"
@@ -10,6 +11,7 @@
 #include "geometry/angles.h"
 #include "geometry/wgs84.h"
 #include "ols_msg/bearing_t.hpp"
+#include "ols_msg/incident_t.hpp"
 #include "ols_msg/station_status_t.hpp"
 #include "ols_msg/target_t.hpp"
 #include "wire/read.h"
@@ -20,6 +22,7 @@ namespace ols::exports {
 namespace {
 
 using Bearing = ols_msg::bearing_t;
+using IncidentMessage = ols_msg::incident_t;
 using Status = ols_msg::station_status_t;
 using TargetMessage = ols_msg::target_t;
 
@@ -130,14 +133,42 @@ std::optional<Line> line_from(const BusMessage& message, const SiteContext& site
   return line;
 }
 
+std::optional<Incident> incident_from(const BusMessage& message, const SiteContext& site) {
+  const auto content = wire::read<IncidentMessage>(kIncidentChannel, message);
+  if (!content ||
+      !wire::is_place(content->latitude_deg, content->longitude_deg, content->height_m)) {
+    return std::nullopt;
+  }
+  const IncidentMessage& m = *content;
+  Incident incident;
+  incident.utime_us = m.utime;
+  incident.uid = incident_uid(site.site, m.number, m.begun_utime);
+  incident.number = m.number;
+  incident.area = plain_text(m.area);
+  incident.target_id = m.target_id;
+  incident.target_uid = target_uid(site.site, m.target_boot_id, m.target_id);
+  incident.object_class = plain_text(m.object_class);
+  if (m.class_probability > 0.0) incident.class_probability = std::min(m.class_probability, 1.0);
+  incident.begun_us = m.begun_utime;
+  incident.ended_us = m.ended_utime;
+  incident.place = place_of(m.latitude_deg, m.longitude_deg, m.height_m, site);
+  incident.verdict = word_of_code(m.verdict, std::array{"open", "confirmed", "dismissed"}, "open");
+  incident.judged_by = plain_text(m.judged_by);
+  for (std::size_t i = 0; i < std::min(m.station.size(), kMostStations); ++i) {
+    incident.stations.push_back(plain_text(m.station[i]));
+  }
+  return incident;
+}
+
 bool is_understood(const BusMessage& message) {
   return wire::heard_target(message) || wire::heard_status(message) ||
-         wire::read<Bearing>(kBearingChannel, message);
+         wire::read<Bearing>(kBearingChannel, message) ||
+         wire::read<IncidentMessage>(kIncidentChannel, message);
 }
 
 bool is_read(const std::string& channel) {
-  return channel == kTargetChannel || channel.starts_with(kStatusChannel) ||
-         channel.starts_with(kBearingChannel);
+  return channel == kTargetChannel || channel == kIncidentChannel ||
+         channel.starts_with(kStatusChannel) || channel.starts_with(kBearingChannel);
 }
 
 }  // namespace ols::exports

@@ -25,6 +25,7 @@ enum class MessageKind { kTarget, kStation, kLine };
 std::optional<Target> target_from(const BusMessage& message, const SiteContext& site);
 std::optional<Station> station_from(const BusMessage& message, const SiteContext& site);
 std::optional<Line> line_from(const BusMessage& message, const SiteContext& site);
+std::optional<Incident> incident_from(const BusMessage& message, const SiteContext& site);
 
 // Whether the message matches its channel and schema; others are refused and counted.
 bool is_understood(const BusMessage& message);

@@ -28,6 +28,10 @@ void Output::take(const Line& line) {
   if (gate_.passes(line)) put(encoder_->encode(line));
 }
 
+void Output::take(const Incident& incident) {
+  if (gate_.passes(incident)) put(encoder_->encode_incident(incident));
+}
+
 void Output::turn(double now_s, std::int64_t utime_us) {
   if (const std::uint64_t openings = outlet_->report().openings; openings != openings_) {
     openings_ = openings;

@@ -20,6 +20,7 @@ class Output {
   void take(const Target& target);
   void take(const Station& station);
   void take(const Line& line);
+  void take(const Incident& incident);
   // `now_s`: monotonic; `utime_us`: UTC.
   void turn(double now_s, std::int64_t utime_us);
 

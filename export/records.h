@@ -77,4 +77,24 @@ struct Line {
   std::int64_t track_id = 0;  // grows with each designation
 };
 
+// A target in an area that is watched.
+struct Incident {
+  std::int64_t utime_us = 0;
+  std::string uid;
+  std::int64_t number = 0;  // of the console that watches
+  std::string area;
+  std::int64_t target_id = 0;
+  std::string target_uid;
+  std::string object_class;             // "unknown", "drone"
+  double class_probability = kUnknown;  // 0..1 of this class
+  std::int64_t begun_us = 0;
+  std::int64_t ended_us = 0;          // 0: it is inside
+  Place place;                        // where it was last inside
+  std::string verdict, judged_by;     // "open", "confirmed", "dismissed"; a person
+  std::vector<std::string> stations;  // that saw it
+
+  bool is_inside() const { return ended_us == 0; }
+  bool is_alarm() const { return is_inside() && verdict != "dismissed"; }
+};
+
 }  // namespace ols::exports

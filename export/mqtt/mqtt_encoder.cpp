@@ -90,6 +90,25 @@ Json json_of(const Line& line) {
   return fields;
 }
 
+Json json_of(const Incident& incident) {
+  Json fields{{"id", incident.uid},
+              {"number", incident.number},
+              {"time", iso_time(incident.utime_us)},
+              {"area", incident.area},
+              {"alarm", incident.is_alarm() ? "ON" : "OFF"},
+              {"state", incident.is_inside() ? "inside" : "left"},
+              {"begun", iso_time(incident.begun_us)},
+              {"ended", incident.is_inside() ? Json(nullptr) : Json(iso_time(incident.ended_us))},
+              {"verdict", incident.verdict},
+              {"judged_by", incident.judged_by},
+              {"target", incident.target_uid},
+              {"class", incident.object_class},
+              {"class_probability", number(incident.class_probability, 2)}};
+  add_place(incident.place, fields);
+  fields["stations"] = incident.stations;
+  return fields;
+}
+
 Packet retained(const std::string& topic, const Json& json) {
   return {topic, text_of(json), topic, true};
 }
@@ -146,6 +165,10 @@ Packets MqttEncoder::encode(const Station& station) {
 Packets MqttEncoder::encode(const Line& line) {
   const std::string topic = prefix_ + "/line/" + topic_word(line.station);
   return {{topic, text_of(json_of(line)), topic}};
+}
+
+Packets MqttEncoder::encode_incident(const Incident& incident) {
+  return {{incident.uid, text_of(json_of(incident)), prefix_ + "/incidents"}};
 }
 
 bool MqttEncoder::is_free_slot_due(std::int64_t utime_us) const {

@@ -9,6 +9,8 @@
 //                           repeated before it becomes stale
 //   PREFIX/station/NAME     retained
 //   PREFIX/line/NAME        the station's line of sight
+//   PREFIX/incidents        every target in an area that is watched, each second and when it
+//   changes
 #pragma once
 
 #include <cstdint>
@@ -28,6 +30,7 @@ class MqttEncoder : public Encoder {
   Packets encode(const Target& target) override;
   Packets encode(const Station& station) override;
   Packets encode(const Line& line) override;
+  Packets encode_incident(const Incident& incident) override;
   Packets turn(std::int64_t utime_us) override;
   void begin_again() override;
 

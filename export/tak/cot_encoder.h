@@ -17,6 +17,9 @@ class CotEncoder : public Encoder {
   Packets encode(const Target& target) override { return packet(cot_event(target, settings_)); }
   Packets encode(const Station& station) override { return packet(cot_event(station, settings_)); }
   Packets encode(const Line& line) override { return packet(cot_event(line, settings_)); }
+  Packets encode_incident(const Incident& incident) override {
+    return packet(cot_event(incident, settings_));
+  }
 
  private:
   Packets packet(const CotEvent& event) const;

@@ -79,6 +79,19 @@ std::string line_detail(const Line& line, double line_m) {
       .append("/>");
 }
 
+std::string incident_detail(const Incident& incident, const std::string& callsign,
+                            const CotSettings& settings) {
+  const bool is_alarm = incident.is_alarm();
+  std::string text(is_alarm ? "<emergency type=\"Geo-fence Breached\">"
+                            : "<emergency cancel=\"true\">");
+  text.append(xml(callsign)).append("</emergency><link relation=\"p-p\" type=\"");
+  text.append(xml(settings.target_type)).append("\" uid=\"").append(xml(incident.target_uid));
+  text.append("\"/><_ols_ area=\"").append(xml(incident.area)).append("\" class=\"");
+  text.append(xml(incident.object_class)).append("\" verdict=\"").append(incident.verdict);
+  text.append("\" judged_by=\"").append(xml(incident.judged_by)).append("\"");
+  return text.append(attribute("class_probability", incident.class_probability, 2)).append("/>");
+}
+
 }  // namespace
 
 CotEvent cot_event(const Target& target, const CotSettings& settings) {
@@ -114,6 +127,21 @@ CotEvent cot_event(const Station& station, const CotSettings& settings) {
   event.le_m = station.position_sd_m[2];
   event.geopoint_source = "GPS";
   event.detail = station_detail(station, settings.line_m);
+  return event;
+}
+
+CotEvent cot_event(const Incident& incident, const CotSettings& settings) {
+  CotEvent event;
+  event.type = incident.is_alarm() ? "b-a-g" : "b-a-o-can";
+  event.uid = incident.uid;
+  event.how = "m-f";
+  event.callsign =
+      incident.area + ": " + incident.object_class + " OLS " + std::to_string(incident.target_id);
+  event.utime_us = incident.utime_us;
+  event.stale_us = stale_us(incident.utime_us, settings.stale_s);
+  event.point = incident.place;
+  event.geopoint_source = "CALC";
+  event.detail = incident_detail(incident, event.callsign, settings);
   return event;
 }
 

@@ -35,6 +35,9 @@ inline constexpr double kCotUnknown_m = 9999999.0;
 // A target that has ended is stale at once.
 CotEvent cot_event(const Target& target, const CotSettings& settings);
 CotEvent cot_event(const Station& station, const CotSettings& settings);
+// An alert: a breached geo-fence, or that alert's cancellation once the target has left or was
+// dismissed, as ATAK sends and shows them.
+CotEvent cot_event(const Incident& incident, const CotSettings& settings);
 // A range-and-bearing line from its camera.
 CotEvent cot_event(const Line& line, const CotSettings& settings);
 

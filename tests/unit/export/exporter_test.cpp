@@ -15,6 +15,7 @@ class MadeEncoder : public Encoder {
   }
   Packets encode(const Station&) override { return {{"", "station"}}; }
   Packets encode(const Line&) override { return {{"", "line"}}; }
+  Packets encode_incident(const Incident&) override { return {{"", "incident"}}; }
   Packets turn(std::int64_t) override { return {{"", "turn"}}; }
   void begin_again() override { ++beginnings; }
 
@@ -59,8 +60,9 @@ TEST(Exporter, WhatIsHeardGoesToTheOutputs) {
   made.exporter.hear(on("OLS_TARGET", target_message()), kNow_us);
   made.exporter.hear(on("OLS_STATUS_alfa", status_message()), kNow_us);
   made.exporter.hear(on("OLS_BEARING_alfa", bearing_message()), kNow_us);
-  EXPECT_EQ(made.got.bytes, (Texts{"target", "station", "line"}));
-  EXPECT_EQ(made.exporter.counters().at("records_sent_on"), 3.0);
+  made.exporter.hear(on("OLS_INCIDENT", incident_message()), kNow_us);
+  EXPECT_EQ(made.got.bytes, (Texts{"target", "station", "line", "incident"}));
+  EXPECT_EQ(made.exporter.counters().at("records_sent_on"), 4.0);
 }
 
 TEST(Exporter, OldNewsAndRubbishAreCounted) {

@@ -84,5 +84,11 @@ TEST(ExportGate, KindsAreSwitchedOneByOne) {
   EXPECT_FALSE(lines.passes(doubtful));
 }
 
+TEST(Gate, AnIncidentPassesWithTargetsInItsAreaOnly) {
+  EXPECT_TRUE(Gate({}).passes(made_incident()));
+  EXPECT_FALSE(Gate({.targets = false}).passes(made_incident()));
+  EXPECT_FALSE(Gate({.area_deg = {48, 13, 49, 14}}).passes(made_incident()));
+}
+
 }  // namespace
 }  // namespace ols::exports

@@ -8,6 +8,7 @@
 #include "geometry/angles.h"
 #include "geometry/wgs84.h"
 #include "ols_msg/bearing_t.hpp"
+#include "ols_msg/incident_t.hpp"
 #include "ols_msg/station_status_t.hpp"
 #include "ols_msg/target_t.hpp"
 #include "tests/unit/export/made_records.h"
@@ -42,6 +43,22 @@ inline ols_msg::station_status_t status_message() {
   message.azimuth_rad = 1.0;
   message.alarms = 1;
   message.alarm = {"camera: not there"};
+  return message;
+}
+
+inline ols_msg::incident_t incident_message() {
+  auto message = made<ols_msg::incident_t>();
+  message.utime = message.begun_utime = kNow_us;
+  message.number = 3;
+  message.area = "Gate";
+  message.target_boot_id = 3;
+  message.target_id = 7;
+  message.object_class = "drone";
+  message.latitude_deg = 47.5;
+  message.verdict = ols_msg::incident_t::VERDICT_DISMISSED;
+  message.judged_by = "ana\n";
+  message.stations = 1;
+  message.station = {"alfa"};
   return message;
 }
 

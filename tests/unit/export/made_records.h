@@ -50,4 +50,20 @@ inline Line made_line(std::int64_t after_us = 0) {
   return line;
 }
 
+inline Incident made_incident() {
+  Incident incident;
+  incident.utime_us = incident.begun_us = kNow_us;
+  incident.uid = "site.incident.3.1";
+  incident.number = 3;
+  incident.area = "Gate <1>";
+  incident.target_id = 7;
+  incident.target_uid = "site.target.a.7";
+  incident.object_class = "drone";
+  incident.class_probability = 0.9;
+  incident.place = {47.5, 13.25, 100.0, 46.0};
+  incident.verdict = "open";
+  incident.stations = {"alfa"};
+  return incident;
+}
+
 }  // namespace ols::exports

@@ -27,6 +27,21 @@ TEST(ExportMessages, ATargetOfNoOtherChannel) {
   EXPECT_FALSE(target_from(on("OLS_STATUS_alfa", message), kSite));
 }
 
+TEST(ExportMessages, AnIncidentNamesItsTargetAsTheTargetIsNamed) {
+  const auto incident = incident_from(on("OLS_INCIDENT", incident_message()), kSite);
+  ASSERT_TRUE(incident);
+  EXPECT_EQ(incident->target_uid, "brno.target.0000000000000003.7");
+  EXPECT_EQ(incident->uid, "brno.incident.3." + std::to_string(kNow_us));
+  EXPECT_EQ(incident->verdict, "dismissed");
+  EXPECT_EQ(incident->judged_by, "ana?");
+  EXPECT_TRUE(incident->is_inside());
+  EXPECT_FALSE(incident->is_alarm());
+  auto nowhere = incident_message();
+  nowhere.height_m = std::nan("");
+  EXPECT_FALSE(incident_from(on("OLS_INCIDENT", nowhere), kSite));
+  EXPECT_FALSE(incident_from(on("OLS_INCIDENTS", incident_message()), kSite));
+}
+
 TEST(ExportMessages, WithoutAPositionThereIsNoTarget) {
   auto message = target_message();
   message.solution = ols_msg::target_t::SOLUTION_TOO_FEW_RAYS;

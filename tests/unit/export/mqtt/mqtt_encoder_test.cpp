@@ -30,6 +30,21 @@ TEST(MqttEncoder, ATargetHasASlotAsLongAsItIsThere) {
   EXPECT_EQ(encoder.encode(made_target(2)).size(), 2U);
 }
 
+TEST(MqttEncoder, AnIncidentSaysWhetherItIsAnAlarm) {
+  MqttEncoder encoder({}, "brno");
+  Incident incident = made_incident();
+  const Packets packets = encoder.encode_incident(incident);
+  ASSERT_EQ(packets.size(), 1U);
+  EXPECT_EQ(packets[0].where, "ols/brno/incidents");
+  EXPECT_FALSE(packets[0].is_retained);
+  EXPECT_EQ(json_of(packets[0]).at("alarm"), "ON");
+  EXPECT_EQ(json_of(packets[0]).at("area"), "Gate <1>");
+  EXPECT_TRUE(json_of(packets[0]).at("ended").is_null());
+  incident.ended_us = kNow_us;
+  EXPECT_EQ(json_of(encoder.encode_incident(incident)[0]).at("alarm"), "OFF");
+  EXPECT_EQ(json_of(encoder.encode_incident(incident)[0]).at("state"), "left");
+}
+
 TEST(MqttEncoder, EntitiesAreToldOnceAndAgainToANewBroker) {
   MqttEncoder encoder({.slots = 2}, "brno");
   const Packets told = encoder.turn(0);

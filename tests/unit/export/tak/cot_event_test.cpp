@@ -29,6 +29,27 @@ TEST(CotEvent, AnEndIsStaleAtOnce) {
   EXPECT_EQ(event.stale_us, event.utime_us);
 }
 
+TEST(CotEvent, AnIncidentIsAnAlertUntilItIsOverOrDismissed) {
+  Incident incident = made_incident();
+  const CotEvent event = cot_event(incident, {});
+  EXPECT_EQ(event.type, "b-a-g");
+  EXPECT_EQ(event.callsign, "Gate <1>: drone OLS 7");
+  EXPECT_THAT(event.detail,
+              HasSubstr("<emergency type=\"Geo-fence Breached\">Gate &lt;1&gt;: drone OLS 7<"));
+  EXPECT_THAT(event.detail, HasSubstr("<link relation=\"p-p\" type=\"a-u-A\" "
+                                      "uid=\"site.target.a.7\"/>"));
+  incident.verdict = "confirmed";
+  EXPECT_EQ(cot_event(incident, {}).type, "b-a-g");
+  incident.verdict = "dismissed";
+  const CotEvent end = cot_event(incident, {});
+  EXPECT_EQ(end.type, "b-a-o-can");
+  EXPECT_EQ(end.uid, event.uid);
+  EXPECT_THAT(end.detail, HasSubstr("<emergency cancel=\"true\">"));
+  incident.verdict = "open";
+  incident.ended_us = kNow_us;
+  EXPECT_EQ(cot_event(incident, {}).type, "b-a-o-can");
+}
+
 TEST(CotEvent, AStationHasItsCone) {
   const CotEvent event = cot_event(made_station(), {});
   EXPECT_THAT(
