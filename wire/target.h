@@ -7,6 +7,7 @@
 
 #include "base/bus/bus_inbox.h"
 #include "ols_msg/target_t.hpp"
+#include "wire/object_class.h"
 
 namespace ols::wire {
 
@@ -26,7 +27,5 @@ bool is_place(double latitude_deg, double longitude_deg, double height_m);
 const char* track_name(std::int8_t state);
 // "ok", "too-few-rays", ..
 const char* solution_name(std::int8_t solution);
-// "unknown", "drone", "bird", "aircraft", "other".
-const char* class_name(std::int8_t object_class);
 
 }  // namespace ols::wire

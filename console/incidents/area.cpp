@@ -10,7 +10,7 @@
 
 #include "base/text/plain_text.h"
 #include "geometry/angles.h"
-#include "wire/target.h"
+#include "wire/object_class.h"
 
 namespace ols::console {
 namespace {

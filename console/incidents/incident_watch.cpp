@@ -14,6 +14,8 @@ void IncidentWatch::resume(std::vector<Area> areas, std::vector<Incident> incide
   for (Incident& incident : incidents) {
     const std::int64_t last_us =
         incident.track.empty() ? incident.begun_us : incident.track.back().utime_us;
+    const bool has_area = std::ranges::find(areas_, incident.area, &Area::name) != areas_.end();
+    if (incident.is_inside() && !has_area) end(incident, last_us);
     if (incident.is_inside()) heard_[incident.target] = {now_s, last_us};
     incidents_[incident.number] = std::move(incident);
   }

@@ -64,16 +64,17 @@ def where_the_target_stands(page):
 
 
 def draw_around_the_target(page):
-    """Four corners, by clicks, once the map has its place beside the form."""
+    """Four corners, by clicks, each from where the map shows the target then."""
     expect(page.get_by_role("banner")).to_contain_text("Stations 3/3")
+    page.get_by_role("button", name="Whole site").click()
     page.get_by_role("button", name="Incidents").click()
     page.get_by_role("button", name="Draw an area").click()
     form = page.get_by_role("complementary", name="Area")
     form.get_by_label("Name").fill("Gate")
     canvas = page.locator(".map-canvas")
-    down, right = wait(lambda: where_the_target_stands(page), "the target on the map")
     box = canvas.bounding_box()
     for across, below in ((-60, -50), (60, -50), (60, 50), (-60, 50)):
+        down, right = wait(lambda: where_the_target_stands(page), "the target on the map")
         page.mouse.click(box["x"] + right + across, box["y"] + down + below)
     corners = form.get_by_label("Corners")
     expect(corners).to_have_value(re.compile(r"^(49\.\d{6} 16\.\d{6}\n?){4}$"))

@@ -19,7 +19,7 @@ import type { Place } from "./panel";
 import { PlacePanel, placeOf } from "./placepanel";
 import { Procedures } from "./procedure";
 import { ReplayBar } from "./replay";
-import type { Area } from "./site";
+import type { Area, Corner } from "./site";
 import { Stations } from "./stations";
 import { TargetPanel } from "./targetpanel";
 import { Targets } from "./targets";
@@ -85,14 +85,37 @@ function Side({ link, version, station, mayCommand, orders, arrangement, onSelec
   );
 }
 
-type PanelProps = { link: Link; selected: string; mayCommand: boolean; orders: Orders; onClose: () => void };
+type OnDraft = (area: Area | null) => void;
+type PanelProps = { link: Link; selected: string; draft: Area | null; mayCommand: boolean; orders: Orders; onDraft: OnDraft; onClose: () => void };
 
-// On the map: what is known of the selected target or place.
-function Panel({ link, selected, mayCommand, orders, onClose }: PanelProps) {
+// On the map: the area that is being drawn, or what is known of the selected target or place.
+function Panel({ link, selected, draft, mayCommand, orders, onDraft, onClose }: PanelProps) {
+  if (draft) return <AreaPanel area={draft} local={localTime(link.localMinute)} onChange={onDraft} onSave={(area) => orders.setArea(area, () => onDraft(null))} onClose={() => onDraft(null)} />;
   const target = link.site.targets.get(selected.replace("target:", ""));
   const rest = { link, mayCommand, onPoint: (station: string, place: Place) => orders.command(station, "point", place), onClose };
   if (target) return <TargetPanel key={selected} target={target} onName={(name) => orders.nameTarget(target.id, name)} onCue={(cue, allow) => orders.cue(cue, allow)} {...rest} />;
   return placeOf(selected) && <PlacePanel key={selected} selected={selected} {...rest} />;
+}
+
+type OpenedProps = { what: string; link: Link; session: Session; mayCommand: boolean; orders: Orders; onDraft: OnDraft; onClose: () => void };
+
+// Below the bar.
+function Opened({ what, link, session, mayCommand, orders, onDraft, onClose }: OpenedProps) {
+  if (what === "users") return <Users self={session.name} onClose={onClose} />;
+  if (what !== "incidents") return null;
+  const edit = (area: Area) => {
+    onDraft(area);
+    onClose();
+  };
+  return (
+    <Incidents
+      link={link}
+      onJudge={mayCommand ? (incident, verdict) => orders.judge(incident, verdict) : null}
+      onEdit={mayCommand ? edit : null}
+      onRemove={(name) => orders.removeArea(name)}
+      onClose={onClose}
+    />
+  );
 }
 
 type Props = { session: Session; look: Look; onLoggedOut: () => void };
@@ -100,8 +123,7 @@ type Props = { session: Session; look: Look; onLoggedOut: () => void };
 export function Console({ session, look, onLoggedOut }: Props) {
   const [station, setStation] = useState("");
   const [target, setTarget] = useState("");
-  const [isUsersOpen, setUsersOpen] = useState(false);
-  const [isIncidentsOpen, setIncidentsOpen] = useState(false);
+  const [opened, setOpened] = useState(""); // users, incidents
   const [draft, setDraft] = useState<Area | null>(null); // of an area
   const arrangement = useArrangement();
   const [notice, notices] = useNotice();
@@ -112,10 +134,8 @@ export function Console({ session, look, onLoggedOut }: Props) {
   useEscapeKey(stopAll, () => notices.say(t(link.replay ? "closed" : "escape_closed"), false));
   const mayCommand = session.role !== "viewer" && !link.replay;
   const pick = (what: string) => (what.startsWith("station:") ? setStation(what.slice(8)) : setTarget(what));
-  const edit = (area: Area) => {
-    setDraft(area);
-    setIncidentsOpen(false);
-  };
+  const addCorner = (corner: Corner) => setDraft((area) => area && { ...area, polygon: [...area.polygon, corner] });
+  const shared = { link, mayCommand, orders };
   return (
     <div class={`page ${link.replay ? "of-replay" : ""}`}>
       <Bar
@@ -126,28 +146,18 @@ export function Console({ session, look, onLoggedOut }: Props) {
         onStop={stopAll}
         onRelease={(stations) => orders.releaseAll(stations)}
         onLogOut={onLoggedOut}
-        onUsers={() => setUsersOpen(true)}
-        onIncidents={() => setIncidentsOpen(!isIncidentsOpen)}
+        onUsers={() => setOpened("users")}
+        onIncidents={() => setOpened(opened === "incidents" ? "" : "incidents")}
       >
-        {isIncidentsOpen && (
-          <Incidents
-            link={link}
-            onJudge={mayCommand ? (incident, verdict) => orders.judge(incident, verdict) : null}
-            onEdit={mayCommand ? edit : null}
-            onRemove={(name) => orders.removeArea(name)}
-            onClose={() => setIncidentsOpen(false)}
-          />
-        )}
-        {isUsersOpen && <Users self={session.name} onClose={() => setUsersOpen(false)} />}
+        <Opened what={opened} session={session} onDraft={setDraft} onClose={() => setOpened("")} {...shared} />
       </Bar>
       <AlarmSpoken link={link} />
       {!link.isUp && <p class="link-lost" role="alert">{t("link_lost")}</p>}
       {link.replay && <ReplayBar link={link} />}
       <main class={`views ${arrangement.isAlone ? "alone" : arrangement.large}`}>
-        <MapView link={link} version={version} theme={look.theme} selected={target || `station:${station}`} draft={draft?.polygon ?? null} onPick={pick} onCorner={(corner) => setDraft((area) => area && { ...area, polygon: [...area.polygon, corner] })} />
-        {draft && <AreaPanel area={draft} local={localTime(link.localMinute)} onChange={setDraft} onSave={(area) => orders.setArea(area, () => setDraft(null))} onClose={() => setDraft(null)} />}
-        {!draft && <Panel link={link} selected={target} mayCommand={mayCommand} orders={orders} onClose={() => setTarget("")} />}
-        <Side link={link} version={version} station={station} mayCommand={mayCommand} orders={orders} arrangement={arrangement} onSelect={setStation} />
+        <MapView link={link} version={version} theme={look.theme} selected={target || `station:${station}`} draft={draft?.polygon ?? null} onPick={pick} onCorner={addCorner} />
+        <Panel selected={target} draft={draft} onDraft={setDraft} onClose={() => setTarget("")} {...shared} />
+        <Side version={version} station={station} {...shared} arrangement={arrangement} onSelect={setStation} />
         <Targets
           link={link}
           selected={target}

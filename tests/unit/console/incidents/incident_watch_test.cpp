@@ -168,6 +168,9 @@ TEST(IncidentWatch, GoesOnAfterARestart) {
   EXPECT_EQ(after.take_changes().entered, std::vector<std::uint64_t>{8});
   after.turn(100.5 + IncidentWatch::kLost_s);
   EXPECT_TRUE(after.incidents().at(1).is_inside());
+  IncidentWatch without;
+  without.resume({}, kept, 7, 100.0);
+  EXPECT_FALSE(without.incidents().at(1).is_inside()) << "nobody watches its area";
   nlohmann::json bad = json_of(kept[0]);
   bad.erase("area");
   EXPECT_THROW(incident_from(bad), std::invalid_argument);
