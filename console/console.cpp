@@ -106,7 +106,7 @@ void Console::look_at_incidents(const Now& now) {
   for (const wire::Order& order : incidents_.take_recordings()) {
     const auto event = site_.note({now.utime_us, "command", order.station, "", words(order), ""});
     const auto refusal = orders_.begin(order, {.event = event}, now.monotonic_s);
-    if (refusal) site_.conclude(event, *refusal);
+    if (!refusal.empty()) site_.conclude(event, refusal);
   }
 }
 
@@ -248,13 +248,13 @@ void Console::act(std::uint64_t id, const CueRequest& request, const Now& now) {
   cues_.give(request.order, {id, request.number, event}, now.monotonic_s);
 }
 
-std::string Console::change_refusal(std::uint64_t id) const {
-  if (is_replay()) return kReplay;
+Outcome Console::change_refusal(std::uint64_t id) const {
+  if (is_replay()) return outcome::not_in_a_replay();
   const bool may = viewers_.at(id).role != Role::kViewer;
-  return may ? "" : "refused: a viewer may only look and stop";
+  return may ? Outcome() : outcome::viewer_only_looks();
 }
 
-void Console::conclude(std::uint64_t id, std::int64_t number, const std::string& refusal,
+void Console::conclude(std::uint64_t id, std::int64_t number, const Outcome& refusal,
                        const std::string& what, const Now& now) {
   if (refusal.empty()) {
     site_.note({now.utime_us, "command", "", viewers_.at(id).name, what, "done"});
@@ -263,7 +263,7 @@ void Console::conclude(std::uint64_t id, std::int64_t number, const std::string&
 }
 
 void Console::act(std::uint64_t id, const AreaRequest& request, const Now& now) {
-  std::string refusal = change_refusal(id);
+  Outcome refusal = change_refusal(id);
   if (refusal.empty()) refusal = incidents_.change(request.change);
   const bool is_removed = request.change.area.is_null();
   const std::string name = is_removed        ? request.change.name
@@ -274,7 +274,7 @@ void Console::act(std::uint64_t id, const AreaRequest& request, const Now& now) 
 
 void Console::act(std::uint64_t id, const JudgeRequest& request, const Now& now) {
   const auto& [incident, verdict] = request.judgement;
-  std::string refusal = change_refusal(id);
+  Outcome refusal = change_refusal(id);
   if (refusal.empty()) {
     refusal = incidents_.judge(request.judgement, viewers_.at(id).name, now.utime_us);
   }

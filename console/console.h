@@ -170,10 +170,10 @@ class Console {
   void show_incident(const Incident& incident);
   void look_at_own_alarms(const Now& now);
   // Of a change that needs no station: its answer, and its event if it was done.
-  void conclude(std::uint64_t id, std::int64_t number, const std::string& refusal,
+  void conclude(std::uint64_t id, std::int64_t number, const Outcome& refusal,
                 const std::string& what, const Now& now);
   // Why this viewer may change nothing; empty: may.
-  std::string change_refusal(std::uint64_t id) const;
+  Outcome change_refusal(std::uint64_t id) const;
   void forget_gone();
   void add_time(Json& message, const Now& now) const;
   Outgoing greeting(std::uint64_t id, Viewer& viewer, const Now& now) const;

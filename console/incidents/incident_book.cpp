@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "conditions/alarms.h"
+#include "conditions/outcomes.h"
 #include "geometry/angles.h"
 
 namespace ols::console {
@@ -109,25 +110,25 @@ void IncidentBook::add_pictures(const std::function<const Picture*(const std::st
   }
 }
 
-std::string IncidentBook::change(const AreaChange& change) {
-  if (!may_change_areas_) return "refused: the file of areas cannot be read";
+Outcome IncidentBook::change(const AreaChange& change) {
+  if (!may_change_areas_) return outcome::areas_unreadable();
   if (change.area.is_null()) {
-    if (!watch_.remove(change.name)) return "refused: there is no such area";
+    if (!watch_.remove(change.name)) return outcome::no_such_area();
   } else {
     try {
-      if (!watch_.set(area_from(change.area))) return "refused: too many areas";
+      if (!watch_.set(area_from(change.area))) return outcome::too_many_areas();
     } catch (const std::invalid_argument& error) {
-      return std::string("refused: ") + error.what();
+      return outcome::area_is_wrong(error.what());
     }
   }
   news_.areas = true;
-  return "";
+  return {};
 }
 
-std::string IncidentBook::judge(const IncidentJudgement& verdict, const std::string& who,
-                                std::int64_t utime_us) {
-  if (watch_.judge(verdict.incident, verdict.verdict, who, utime_us)) return "";
-  return "refused: there is no such incident";
+Outcome IncidentBook::judge(const IncidentJudgement& verdict, const std::string& who,
+                            std::int64_t utime_us) {
+  if (watch_.judge(verdict.incident, verdict.verdict, who, utime_us)) return {};
+  return outcome::no_such_incident();
 }
 
 std::vector<Alarm> IncidentBook::alarms() const {

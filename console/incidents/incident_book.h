@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "conditions/alarm.h"
+#include "conditions/refusal.h"
 #include "console/heard.h"
 #include "console/incidents/incident_watch.h"
 #include "wire/order.h"
@@ -55,9 +56,8 @@ class IncidentBook {
   void turn(double now_s, const std::function<const Picture*(const std::string&)>& newest);
 
   // Why not; empty: it is done.
-  std::string change(const AreaChange& change);
-  std::string judge(const IncidentJudgement& verdict, const std::string& who,
-                    std::int64_t utime_us);
+  Outcome change(const AreaChange& change);
+  Outcome judge(const IncidentJudgement& verdict, const std::string& who, std::int64_t utime_us);
 
   std::vector<Alarm> alarms() const;
   const IncidentWatch& watch() const { return watch_; }

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "conditions/outcomes.h"
+
 namespace ols::console {
 namespace {
 
@@ -75,8 +77,7 @@ TEST(IncidentBook, ADismissedOneIsNoAlarmAndADroppedOneHasLeft) {
   Site site;
   site.hear(target_at(kInside_deg));
   EXPECT_EQ(site.book.judge({1, Judgement::kDismissed}, "ana", 9), "");
-  EXPECT_EQ(site.book.judge({2, Judgement::kDismissed}, "ana", 9),
-            "refused: there is no such incident");
+  EXPECT_EQ(site.book.judge({2, Judgement::kDismissed}, "ana", 9), outcome::no_such_incident());
   EXPECT_TRUE(site.book.alarms().empty());
   EXPECT_TRUE(site.book.watch().incidents().at(1).is_inside());
   TargetHeard dropped = target_at(kInside_deg);
@@ -89,8 +90,9 @@ TEST(IncidentBook, RefusesChangesInWords) {
   Site site;
   Json bad = kGate;
   bad["from"] = "soon";
-  EXPECT_EQ(site.book.change({.area = bad}), "refused: from must be a time of day, as 22:30");
-  EXPECT_EQ(site.book.change({.area = {}, .name = "Roof"}), "refused: there is no such area");
+  EXPECT_EQ(site.book.change({.area = bad}),
+            outcome::area_is_wrong("from must be a time of day, as 22:30"));
+  EXPECT_EQ(site.book.change({.area = {}, .name = "Roof"}), outcome::no_such_area());
   EXPECT_EQ(site.book.change({.area = {}, .name = "Gate"}), "");
   EXPECT_TRUE(site.book.watch().areas().empty());
   for (std::size_t i = 0; i < IncidentWatch::kMostAreas; ++i) {
@@ -98,9 +100,9 @@ TEST(IncidentBook, RefusesChangesInWords) {
     area["name"] = std::to_string(i);
     EXPECT_EQ(site.book.change({.area = area}), "");
   }
-  EXPECT_EQ(site.book.change({.area = kGate}), "refused: too many areas");
+  EXPECT_EQ(site.book.change({.area = kGate}), outcome::too_many_areas());
   site.book.resume({.areas = {}, .may_change_areas = false}, 0.0);
-  EXPECT_EQ(site.book.change({.area = kGate}), "refused: the file of areas cannot be read");
+  EXPECT_EQ(site.book.change({.area = kGate}), outcome::areas_unreadable());
 }
 
 }  // namespace
