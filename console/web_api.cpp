@@ -239,7 +239,10 @@ WebAnswer WebApi::post(const WebRequest& request, const Now& now) {
   const Person by =
       console_.person(session->name, viewer.is_number_unsigned() ? viewer.get<std::uint64_t>() : 0);
   Json said{{"stopping", console_.stop_all(by, {}, now)}};
-  if (const Outcome& trouble = console_.bus_trouble(); !trouble.empty()) said["problem"] = trouble;
+  if (const Outcome& trouble = console_.bus_trouble(); !trouble.empty()) {
+    said["problem"] = trouble.text;
+    said["refusal"] = trouble;
+  }
   return json(200, said);
 }
 

@@ -18,7 +18,8 @@ class RefusalMonitor {
  public:
   // One command of this kind ("slews") was refused. Kinds and reasons come from short fixed lists.
   void note(const std::string& kind, const std::string& why, double now_s);
-  // "commands: 12 slews refused in 10 s: replayed", for each kind and reason with three or more.
+  // "commands: 12 slews refused in 10 s: this command was taken before": of each kind and reason
+  // with three or more.
   std::vector<Alarm> alarms(double now_s) const;
 
  private:

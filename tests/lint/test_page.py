@@ -59,7 +59,7 @@ def fixture_conditions() -> dict:
 
 
 def test_every_outcome_of_the_table_is_an_answer_of_a_program(conditions):
-    sources = [path.read_text() for f in ("console", "wire") for path in (ROOT / f).glob("*.cpp")]
+    sources = [path.read_text() for f in ("console", "wire") for path in (ROOT / f).rglob("*.cpp")]
     said = {name for source in sources for name in re.findall(r"\boutcome::(\w+)\(", source)}
     assert said == set(conditions["outcomes"])
     assert not [source for source in sources if '"refused: ' in source]
@@ -280,6 +280,8 @@ def test_what_stands_in_alarms_and_errors_is_german_too(conditions, page_says):
         "gpio: stop unreadable, taken as pressed: cannot be read",
         "camera: frame refused: wrong size",
         "video: cannot listen on 127.0.0.1:7790: Address already in use",
+        "cue tak.a: too far from every station",
+        "OLS_BEARING_a: the message is damaged, or of another version",
     ]
     german = page_says("inWords", [[text] for text in texts])
     assert english_in(german, conditions) == set()
@@ -301,8 +303,11 @@ def test_a_condition_is_german_by_its_id_whatever_its_sentence(page_says):
         "Befehle: 3 slews abgelehnt in 10 s: er kam zu spät; Uhren vergleichen": alarm(
             "commands_refused", count="3", what="slews", seconds="10", reason="stale"
         ),
-        "Vertrauen: Nachrichten nicht geglaubt: 3 ohne Unterschrift, 1 schon einmal gehört; "
-        "die letzte: A": alarm("messages_not_believed", reasons="3 unsigned, 1 replayed", last="A"),
+        "Vertrauen: Nachrichten nicht geglaubt: 3 ohne Unterschrift, 1 über der erlaubten Rate; "
+        "die letzte: A": alarm("messages_not_believed", reasons="3 unsigned, 1 rate", last="A"),
+        "abgelehnt: der Umriss schneidet sich": alarm(
+            "area_is_wrong", why="polygon crosses itself"
+        ),
         "abgelehnt: Bediener 2 steuert noch 41 s; zuerst übernehmen": alarm(
             "others_control", who="operator 2", seconds="41"
         ),

@@ -26,7 +26,7 @@ export interface PictureSource {
 
 // What came of a stop of all: the stations that are being stopped, and what is in the way of it;
 // "log_in": the session is over; null: the console did not answer.
-export type StopAnswer = { stopping: string[]; problem?: Said } | "log_in" | null;
+export type StopAnswer = { stopping: string[]; refusal?: Said } | "log_in" | null;
 export type Answer = { number: number; station: string; accepted: boolean; refusal: Said | null };
 // Somebody has stopped stations that are in this browser's hand, or taken them over; by "": nobody of the console.
 export type Hand = { what: "stop" | "take"; by: string; stations: string[] };

@@ -92,8 +92,8 @@ export class Orders {
     const answer = await link.stopAll();
     if (!answer) return notices.sayOfStop(t("stop_failed"), true);
     if (answer === "log_in") return notices.sayOfStop(t("stop_log_in"), true);
-    const { stopping, problem } = answer;
-    if (problem) return notices.sayOfStop(`${conditionInWords(problem)}: ${t("stop_by_hand")}`, true);
+    const { stopping, refusal } = answer;
+    if (refusal) return notices.sayOfStop(`${conditionInWords(refusal)}: ${t("stop_by_hand")}`, true);
     notices.sayOfStop(stopping.length ? t("stopping") + stopping.join(", ") : t("stop_none"), stopping.length === 0);
   }
 

@@ -92,5 +92,11 @@ TEST_F(StationStarts, AStopIsAnsweredAndConfirmedBeforeAndAfterThem) {
   EXPECT_TRUE(wire::is_stopped(reply_->state));
 }
 
+TEST_F(StationStarts, CommandsThatAreRefusedAgainAndAgainAreAnAlarmOfItsStatus) {
+  EXPECT_TRUE(give(Command::COMMAND_POINT, 0.1));
+  for (int again = 0; again < 4; ++again) EXPECT_FALSE(send(Command::COMMAND_POINT, 0.1));
+  EXPECT_TRUE(is_said("PTU commands refused in 10 s"));
+}
+
 }  // namespace
 }  // namespace ols::station

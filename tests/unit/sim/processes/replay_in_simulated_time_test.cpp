@@ -1,6 +1,5 @@
 // The fusion's whole process in simulated time, with whole stations: what it publishes live, and
 // what it makes of the recording.
-#include <cstdlib>
 #include <map>
 #include <memory>
 #include <set>
@@ -184,6 +183,8 @@ TEST_F(FusedSite, AReplayGivesTheTargetsOfTheLiveRunAndThoseThatCameTooLateThen)
   EXPECT_GT(old.count("targets_withheld"), withheld);
   EXPECT_GT(old.count("slews_withheld"), 0.0);
   EXPECT_EQ(old.slews, 0U);
+  EXPECT_TRUE(old.targets.empty());
+  EXPECT_TRUE(old.says("from this host's clock"));
 }
 
 TEST(TwoFusions, SayThatThereIsAnother) {
