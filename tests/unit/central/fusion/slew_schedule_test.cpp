@@ -42,7 +42,7 @@ class SlewScheduleTest : public testing::Test {
     ASSERT_EQ(tracks.tracks().at(0).state, TrackState::kConfirmed);
   }
   std::vector<Slew> plan(const CueRegistry& book = CueRegistry({})) {
-    const BearingLines lines(tracks, pointing, alignment);
+    const BearingLines lines(tracks, pointing, alignment, true);
     return schedule.plan(now_us, stations, lines, tracks.tracks(), book, handover);
   }
   static std::vector<std::string> names(const std::vector<Slew>& slews) {
@@ -51,10 +51,12 @@ class SlewScheduleTest : public testing::Test {
     return found;
   }
   // A station follows something of its own, by this local track.
-  void follow(std::size_t station, std::int64_t track_id, const Vector3d& p_enu) {
+  void follow(std::size_t station, std::int64_t track_id, const Vector3d& p_enu,
+              bool is_tracklet = false) {
     for (int i = 0; i < 4; ++i) {
       BearingMeasurement measurement = sight_of(station, p_enu, now_us - 20'000 * (3 - i));
       measurement.track_id = track_id;
+      measurement.is_tracklet = is_tracklet;
       tracks.keep_unassociated(measurement);
     }
   }
@@ -163,6 +165,26 @@ TEST_F(SlewScheduleTest, StationsSearchAlongOneRayForAsLongAsItLasts) {
   now_us += 2'000'000;
   follow(0, 3, {-300.0, 200.0, 90.0});
   EXPECT_EQ(names(plan()), (std::vector<std::string>{"b", "c", "d"})) << "b's has ended";
+}
+
+TEST_F(SlewScheduleTest, ATrackletThatWasAwayIsSearchedAnewAfterAWait) {
+  for (std::size_t k = 0; k < 4; ++k) {
+    know(std::string(1, static_cast<char>('a' + k)), test::square()[k]);
+  }
+  const auto rounds_in = [this](double seconds, bool is_seen = true) {
+    int rounds = 0;
+    for (const std::int64_t end_us = now_us + std::llround(seconds * 1e6); now_us < end_us;
+         now_us += kPeriodUs) {
+      if (is_seen) follow(1, 7, kPlace, true);
+      rounds += plan().empty() ? 0 : 1;
+    }
+    return rounds;
+  };
+  EXPECT_NEAR(rounds_in(15.0), 100, 2);
+  rounds_in(1.5, false);
+  EXPECT_EQ(rounds_in(3.0), 0) << "hidden for a moment";
+  rounds_in(2.5, false);
+  EXPECT_NEAR(rounds_in(2.0), 13, 1);
 }
 
 TEST_F(SlewScheduleTest, ACueIsAPlaceToLookAt) {

@@ -69,6 +69,16 @@ TEST(TrackletBook, ConfirmsWhatStaysThenLosesIt) {
   EXPECT_TRUE(book.tracklets().empty());
 }
 
+TEST(TrackletBook, AfterAPauseWhatIsThereMayBeAnyOtherObject) {
+  TrackletBook book(TrackletConfig{}, kView);
+  for (int image = 0; image < 30; ++image) {
+    book.advance({clear_spot(100.0, 200.0)}, kStill, kTick_s);
+  }
+  ASSERT_EQ(confirmed(book), 1);
+  book.advance({clear_spot(100.0, 200.0)}, kStill, 1.2);
+  EXPECT_EQ(confirmed(book), 0);
+}
+
 TEST(TrackletBook, AConfirmedObjectKeepsTheOnlyDetectionThoughAnotherIsNearer) {
   TrackletBook book(TrackletConfig{}, kView);
   for (int image = 0; image < 30; ++image) {
