@@ -6,8 +6,12 @@
 
 #include <cstdio>
 #include <fstream>
+#include <stdexcept>
 #include <string>
 
+#include "base/config/area.h"
+#include "base/config/toml_merge.h"
+#include "base/config/toml_text.h"
 #include "tests/unit/error_text.h"
 #include "tests/unit/temp_dir.h"
 
@@ -15,6 +19,82 @@ namespace ols {
 namespace {
 
 using testing::HasSubstr;
+
+TEST(Area, ContainsItsBorders) {
+  constexpr Area kArea{49.0, 16.0, 50.0, 17.0};
+  EXPECT_TRUE(is_inside(kArea, 49.0, 17.0));
+  EXPECT_TRUE(is_inside(kArea, 49.5, 16.5));
+  EXPECT_FALSE(is_inside(kArea, 50.1, 16.5));
+  EXPECT_FALSE(is_inside(kArea, 48.9, 16.5));
+  EXPECT_FALSE(is_inside(kArea, 49.5, 15.9));
+  EXPECT_FALSE(is_inside(kArea, 49.5, 17.1));
+}
+
+TEST(Area, MayLieAcrossTheDateLine) {
+  constexpr Area kArea{-20.0, 179.0, -10.0, -179.0};
+  EXPECT_TRUE(is_inside(kArea, -15.0, 179.5));
+  EXPECT_TRUE(is_inside(kArea, -15.0, -179.5));
+  EXPECT_FALSE(is_inside(kArea, -15.0, 0.0));
+}
+
+TEST(TomlText, IsReadAsItWas) {
+  const std::string texts[] = {"",
+                               "/dev/ols/ptu",
+                               "a \"b\" \\ 'c'",
+                               "1\n2\r\n\t3\b\f",
+                               std::string("\x01\x1b\x7f\0", 4),
+                               "Gr\u00fcn \u20ac \U0001f600"};
+  for (const std::string& text : texts) {
+    ConfigFile file("k = " + toml_text(text) + "\n", "f");
+    EXPECT_EQ(file.root().text("k", "nothing"), text);
+  }
+}
+
+TEST(TomlText, IsOneLineOfAscii) {
+  EXPECT_EQ(toml_text("/dev/ols/ptu"), "\"/dev/ols/ptu\"");
+  EXPECT_EQ(toml_text("a \"b\" \\ 'c'"), R"("a \"b\" \\ 'c'")");
+  EXPECT_EQ(toml_text("1\n2\r\n\t3\x1b[0m\x7f"), R"("1\n2\r\n\t3\u001B[0m\u007F")");
+  EXPECT_EQ(toml_text("Gr\u00fcn"), R"("Gr\u00FCn")");
+}
+
+// A terminal that is not set to UTF-8 sends such bytes: still a file that can be read.
+TEST(TomlText, TakesWhatIsNoUtf8) {
+  ConfigFile file("k = " + toml_text("Gr\xfcn") + "\n", "f");
+  EXPECT_EQ(file.root().text("k", ""), "Gr\u00fcn");
+}
+
+TEST(TomlMerge, ChangesValuesAndNothingElse) {
+  EXPECT_EQ(toml_merged("# first\n"
+                        "id = \"s1\"\n"
+                        "[pose]   # of GROUND\n"
+                        "heading_deg = -12 # by compass\n"
+                        "\n"
+                        "[calibration]\n"
+                        "sd = { heading_deg = 2.0, mount_deg = 0.1 }\n"
+                        "[ptu]\n"
+                        "device = \"x\"",
+                        "[pose]\nheading_deg = 211.5\ntilt_x_deg = 0.1\ntilt_y_deg = 0.2\n"
+                        "[chain]\nmount_z_deg = 0.5\n[calibration.sd]\nheading_deg = 0.01\n"),
+            "# first\n"
+            "id = \"s1\"\n"
+            "[pose]   # of GROUND\n"
+            "heading_deg = 211.5 # by compass\n"
+            "tilt_x_deg = 0.1\n"
+            "tilt_y_deg = 0.2\n"
+            "\n"
+            "[calibration]\n"
+            "sd = { heading_deg = 0.01, mount_deg = 0.1 }\n"
+            "[ptu]\n"
+            "device = \"x\"\n"
+            "\n"
+            "[chain]\n"
+            "mount_z_deg = 0.5\n");
+}
+
+TEST(TomlMerge, RefusesAFormThatItWouldSpoil) {
+  EXPECT_THROW(toml_merged("sd = { heading_deg = 2.0 }\nx = 1\n", "[sd]\ntilt_deg = 1.0\n"),
+               std::runtime_error);
+}
 
 std::string error_of(std::string_view text, void (*read)(ConfigTable&)) {
   return error_text<ConfigError>([&] {

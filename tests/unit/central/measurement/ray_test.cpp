@@ -2,12 +2,23 @@
 
 #include <gtest/gtest.h>
 
+#include "central/measurement/place_axes.h"
+#include "geometry/wgs84.h"
 #include "tests/unit/central/scene.h"
 
 namespace ols::fusion {
 namespace {
 
 using Eigen::Vector3d;
+
+TEST(PlaceAxes, AreThoseOfEachPlaceInTurn) {
+  const Eigen::Vector3d here = ecef_from_geodetic({0.86, 0.29, 250.0});
+  const Eigen::Vector3d there = ecef_from_geodetic({0.87, 0.29, 250.0});
+  PlaceAxes axes;
+  for (const Eigen::Vector3d& place : {here, here, there, here}) {
+    EXPECT_EQ(axes.R_ecef_enu(place), R_ecef_enu(place));
+  }
+}
 
 TEST(Ray, ItsFrameIsRightHandedAndPointsWhereItLooks) {
   const Vector3d from(10.0, -20.0, 0.0), to(110.0, 80.0, 60.0);

@@ -2,7 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "central/tracking/appearance.h"
+#include "central/tracking/target_appearance.h"
 #include "tests/unit/central/flight.h"
+#include "tests/unit/central/scene.h"
 
 namespace ols::fusion {
 namespace {
@@ -28,6 +33,112 @@ TEST(Similarity, OnePlaceInAHundredIsTakenForAnother) {
 TEST(Similarity, OneMotionInAThousandIsTakenForAnother) {
   EXPECT_TRUE(are_duplicates(filter_at(0.0, 1.0), filter_at(6.70, 1.0)));
   EXPECT_FALSE(are_duplicates(filter_at(0.0, 1.0), filter_at(6.71, 1.0)));
+}
+
+const Eigen::Vector3d kObject(0.0, 300.0, 80.0), kVelocity(3.0, -2.0, 4.0);
+
+// What a station sees of an object with this velocity, 0.5 m large.
+BearingMeasurement seen_from(const Eigen::Vector3d& p_enu,
+                             const Eigen::Vector3d& v_enu = kVelocity) {
+  constexpr double kStepS = 0.01;
+  BearingMeasurement m = test::measurement_of(test::ray_to("a", p_enu, kObject), 1);
+  const auto at = [&](double t) {
+    return test::direction_to(m.sight.origin_ecef, test::site().to_ecef(kObject + t * v_enu));
+  };
+  const AzimuthElevation from = at(-kStepS), to = at(kStepS);
+  m.sighted.rate_rad_s =
+      Eigen::Vector2d((to.azimuth_rad - from.azimuth_rad) * std::cos(from.elevation_rad),
+                      to.elevation_rad - from.elevation_rad) /
+      (2.0 * kStepS);
+  m.sighted.rate_covariance = 1e-6 * Eigen::Matrix2d::Identity();
+  const double range_m = (kObject - p_enu).norm();
+  m.sighted.size_rad = 0.5 / range_m;
+  m.sighted.size_sd_rad = 1e-4;
+  m.sighted.signal = 1e6 / (range_m * range_m);
+  return m;
+}
+
+const Eigen::Vector3d kA(-300.0, 10.0, 0.0), kB(100.0, 0.0, 20.0);
+
+bool are_one(const BearingMeasurement& a, const BearingMeasurement& b) {
+  const Eigen::Vector3d normal =
+      (b.sight.origin_ecef - a.sight.origin_ecef).cross(direction_ecef(a.sight)).normalized();
+  return may_be_one(a, (kObject - kA).norm(), b, (kObject - kB).norm(), normal);
+}
+
+TEST(Appearance, OfOneObjectAgrees) { EXPECT_TRUE(are_one(seen_from(kA), seen_from(kB))); }
+
+TEST(Appearance, TwoThatLeaveThePlaneDifferentlyAreTwo) {
+  EXPECT_FALSE(are_one(seen_from(kA), seen_from(kB, {3.0, -2.0, -4.0})));
+}
+
+TEST(Appearance, ASizeOrBrightnessFarFromTheOtherIsOfAnother) {
+  const BearingMeasurement a = seen_from(kA);
+  BearingMeasurement b = seen_from(kB);
+  b.sighted.size_rad *= 8.0;
+  EXPECT_FALSE(are_one(a, b));
+  b = seen_from(kB);
+  b.sighted.signal *= 40.0;
+  EXPECT_FALSE(are_one(a, b));
+  b.sighted.signal = 0.0;
+  EXPECT_TRUE(are_one(a, b)) << "unknown";
+}
+
+TEST(Appearance, TheRateOfATargetIsItsVelocityAcross) {
+  KinematicState state;
+  state.mean.setZero();
+  state.mean.head<3>() = test::site().to_ecef(kObject);
+  state.mean.segment<3>(3) = test::site().to_ecef(kObject + kVelocity) - state.mean.head<3>();
+  state.covariance = 0.01 * Eigen::Matrix<double, 9, 9>::Identity();
+  EXPECT_LT(rate_nis(seen_from(kA), state), 0.01);
+  EXPECT_GT(rate_nis(seen_from(kA, {3.0, -2.0, -20.0}), state), 25.0);
+  BearingMeasurement without = seen_from(kA, {3.0, -2.0, -20.0});
+  without.sighted = {};
+  EXPECT_EQ(rate_nis(without, state), 0.0);
+}
+
+const Eigen::Vector3d kThere_enu{0.0, 0.0, 100.0};
+
+// Seen by a station 100 m and one 200 m below it.
+Track seen_by_two(const Sighted& near, const Sighted& far) {
+  Track track(TrackFilter({}, 1, {.p_ecef = test::site().to_ecef(kThere_enu)}));
+  const auto add = [&](const std::string& station, double up_m, const Sighted& seen) {
+    BearingMeasurement m =
+        test::measurement_of(test::ray_to(station, {0.0, 0.0, up_m}, kThere_enu), 1);
+    m.sighted = seen;
+    track.bearings[station].push_back(m);
+  };
+  add("near", 0.0, near);
+  add("far", -100.0, far);
+  return track;
+}
+
+Appearance appearance(const Sighted& near, const Sighted& far) {
+  return appearance_of(seen_by_two(near, far), test::site().to_ecef(kThere_enu));
+}
+
+TEST(TargetAppearance, SizesWeighByTheirVarianceInMetres) {
+  // 1 m +- 0.1 m, and 2 m +- 0.2 m.
+  const Appearance seen = appearance({.size_rad = 0.01, .size_sd_rad = 0.001, .signal = 5.0},
+                                     {.size_rad = 0.01, .size_sd_rad = 0.001, .signal = 9.0});
+  EXPECT_NEAR(seen.size_m, (1.0 * 100.0 + 2.0 * 25.0) / 125.0, 1e-6);
+  EXPECT_NEAR(seen.size_sd_m, 1.0 / std::sqrt(125.0), 1e-7);
+  EXPECT_EQ(seen.signal, 9.0);
+  EXPECT_EQ(seen.object_class, ObjectClass::kUnknown);
+}
+
+TEST(TargetAppearance, ClassesOfBothStationsMultiply) {
+  const Appearance seen = appearance({.class_probability = {0.0, 0.6, 0.4, 0.0, 0.0}},
+                                     {.class_probability = {0.0, 0.2, 0.8, 0.0, 0.0}});
+  EXPECT_EQ(seen.object_class, ObjectClass::kBird);
+  EXPECT_NEAR(seen.class_probability, 0.32 / (0.32 + 0.12), 1e-4);
+}
+
+TEST(TargetAppearance, NothingSeenIsUnknown) {
+  const Appearance seen = appearance({}, {});
+  EXPECT_EQ(seen.size_m, 0.0);
+  EXPECT_EQ(seen.size_sd_m, 0.0);
+  EXPECT_EQ(seen.class_probability, 0.0);
 }
 
 }  // namespace

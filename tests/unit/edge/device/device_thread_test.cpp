@@ -1,16 +1,87 @@
-// The retries, counts and reports of a device's thread, with a session in place of a device.
 #include "edge/device/device_thread.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <atomic>
+#include <set>
 #include <stdexcept>
+#include <string>
+#include <thread>
 
 #include "conditions/alarms.h"
+#include "edge/device/behind_control_loop.h"
+#include "edge/device/device_report.h"
+#include "edge/device/reading_queue.h"
 #include "tests/unit/eventually.h"
 
 namespace ols::device {
 namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+int priority_of_this_thread() { return ::getpriority(PRIO_PROCESS, static_cast<id_t>(::gettid())); }
+
+TEST(BehindControlLoop, LowersThisThreadAlone) {
+  const int before = priority_of_this_thread();
+  if (before >= 10) GTEST_SKIP() << "runs behind everything already";
+  int lowered = before;
+  std::string failed = "not called";
+  std::jthread([&] {
+    failed = go_behind_control_loop();
+    lowered = priority_of_this_thread();
+  }).join();
+  EXPECT_EQ(failed, "");
+  EXPECT_EQ(lowered, 10);
+  EXPECT_EQ(priority_of_this_thread(), before);
+}
+
+TEST(DeviceReport, IsOfAnAbsentDeviceUntilItIsFilled) {
+  const DeviceReport report;
+  EXPECT_EQ(report.state, DeviceState::kAbsent);
+  EXPECT_FALSE(report.last_good_s);
+  EXPECT_EQ(report.errors, 0U);
+}
+
+// ols-doctor and the journal tell states apart by their names.
+TEST(DeviceReport, EachStateHasANameOfItsOwn) {
+  std::set<std::string> names;
+  for (const DeviceState state :
+       {DeviceState::kAbsent, DeviceState::kStarting, DeviceState::kOk, DeviceState::kFault}) {
+    names.insert(to_string(state));
+  }
+  EXPECT_EQ(names, (std::set<std::string>{"absent", "starting", "ok", "fault"}));
+}
+
+TEST(ReadingQueue, GivesEachReadingOnceAndTheOldestFirst) {
+  ReadingQueue<int> queue;
+  EXPECT_THAT(queue.take(), IsEmpty());
+  queue.add(1);
+  queue.add(2);
+  EXPECT_THAT(queue.take(), ElementsAre(1, 2));
+  EXPECT_THAT(queue.take(), IsEmpty());
+  queue.add(3);
+  EXPECT_THAT(queue.take(), ElementsAre(3));
+}
+
+TEST(ReadingQueue, KeepsTheNewestWhenNobodyTakesThem) {
+  constexpr int kMost = ReadingQueue<int>::kMost;
+  ReadingQueue<int> queue;
+  for (int i = 0; i < kMost; ++i) queue.add(i);
+  queue.add(kMost);
+  queue.add(kMost + 1);
+  const auto readings = queue.take();
+  ASSERT_EQ(readings.size(), ReadingQueue<int>::kMost);
+  EXPECT_EQ(readings.front(), 2);
+  EXPECT_EQ(readings.back(), kMost + 1);
+  queue.add(7);
+  EXPECT_THAT(queue.take(), ElementsAre(7));
+}
+
+// The retries, counts and reports of a device's thread, with a session in place of a device.
 
 DeviceThread::Config quick() {
   return {"gnss", "is being connected", 0.001, 0.004, alarm::gnss_fails};

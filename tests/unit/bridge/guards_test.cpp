@@ -1,8 +1,10 @@
-#include "bridge/epoch_fence.h"
-
 #include <gtest/gtest.h>
 
 #include <limits>
+
+#include "bridge/channel_rate_limits.h"
+#include "bridge/epoch_fence.h"
+#include "bridge/sequence_watch.h"
 
 namespace ols::bridge {
 namespace {
@@ -92,6 +94,77 @@ TEST(EpochFence, ManyStationsAreForgottenWhenTheyAreSilent) {
   EXPECT_EQ(passed, 2000);
   EXPECT_FALSE(fence.passes("alfa", {"t", "a", 5}, 2.0));
   EXPECT_TRUE(fence.passes("alfa", {"t", "a", 5}, 61.0));
+}
+
+TEST(SequenceWatch, AGapIsCountedAndNamedForAWhile) {
+  SequenceWatch watch;
+  watch.hear("alfa", 1, 10, 0.0);
+  watch.hear("alfa", 1, 11, 0.1);
+  EXPECT_EQ(watch.missing(), 0U);
+  EXPECT_EQ(watch.alarm(0.1), "");
+  watch.hear("alfa", 1, 15, 0.2);
+  EXPECT_EQ(watch.missing(), 3U);
+  EXPECT_EQ(watch.alarm(0.2), "alfa");
+  EXPECT_EQ(watch.alarm(0.3 + SequenceWatch::kAlarm_s), "");
+}
+
+TEST(SequenceWatch, OneThatCameLateIsNotMissing) {
+  SequenceWatch watch;
+  for (const int sequence : {1, 2, 5, 4}) watch.hear("alfa", 1, sequence, 0.0);
+  EXPECT_EQ(watch.missing(), 1U);
+  EXPECT_EQ(watch.repeated(), 0U);
+  watch.hear("alfa", 1, 4, 0.0);
+  EXPECT_EQ(watch.repeated(), 1U);
+  EXPECT_EQ(watch.missing(), 1U);
+}
+
+TEST(SequenceWatch, WhatWasBeforeTheFirstIsNotMissed) {
+  SequenceWatch watch;
+  watch.hear("bravo", 1, 1, 0.0);
+  watch.hear("bravo", 1, 3, 0.0);
+  watch.hear("alfa", 1, 10, 0.0);
+  watch.hear("alfa", 1, 9, 0.0);
+  EXPECT_EQ(watch.missing(), 1U);
+}
+
+TEST(SequenceWatch, ARestartIsNoGap) {
+  SequenceWatch watch;
+  watch.hear("alfa", 1, 1000, 0.0);
+  watch.hear("alfa", 2, 1, 0.1);
+  watch.hear("alfa", 2, 2, 0.2);
+  watch.hear("alfa (status)", 2, 77, 0.2);
+  EXPECT_EQ(watch.missing(), 0U);
+}
+
+TEST(SequenceWatch, NonsenseIsNoGap) {
+  SequenceWatch watch;
+  for (const std::int64_t sequence : {std::int64_t{1}, std::numeric_limits<std::int64_t>::max(),
+                                      std::numeric_limits<std::int64_t>::min(), std::int64_t{0}}) {
+    watch.hear("alfa", 1, sequence, 0.0);
+  }
+  EXPECT_EQ(watch.missing(), 0U);
+}
+
+constexpr double kRate_hz = 2.0, kFrom_s = 100.0;
+
+TEST(ChannelRateLimits, EachChannelHasItsOwnRate) {
+  ChannelRateLimits limits(10);
+  int passed = 0;
+  for (int i = 0; i < 100; ++i) passed += limits.passes("alfa", kRate_hz, kFrom_s) ? 1 : 0;
+  EXPECT_GE(passed, 1);
+  EXPECT_LT(passed, 100);
+  EXPECT_TRUE(limits.passes("bravo", kRate_hz, kFrom_s));
+}
+
+TEST(ChannelRateLimits, WhoIsSilentMakesRoom) {
+  ChannelRateLimits limits(2);
+  EXPECT_TRUE(limits.passes("alfa", kRate_hz, kFrom_s));
+  EXPECT_TRUE(limits.passes("bravo", kRate_hz, kFrom_s));
+  EXPECT_FALSE(limits.passes("charlie", kRate_hz, kFrom_s + 1.0)) << "full";
+  EXPECT_TRUE(limits.passes("bravo", kRate_hz, kFrom_s + 50.0));
+  EXPECT_TRUE(limits.passes("charlie", kRate_hz, kFrom_s + ChannelRateLimits::kSilent_s + 1.0))
+      << "alfa is forgotten";
+  EXPECT_FALSE(limits.passes("alfa", kRate_hz, kFrom_s + ChannelRateLimits::kSilent_s + 1.0));
 }
 
 }  // namespace

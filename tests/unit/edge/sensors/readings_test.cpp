@@ -1,13 +1,52 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
+#include <string>
 
+#include "edge/sensors/alarm_format.h"
+#include "edge/sensors/gnss_reading.h"
 #include "edge/sensors/inclinometer.h"
 #include "geometry/angles.h"
 #include "geometry/kinematic_chain.h"
 
 namespace ols::sensors {
 namespace {
+
+TEST(AlarmFormat, ALengthHasTheUnitThatSuitsIt) {
+  EXPECT_EQ(format_length(0.0), "0.00 m");
+  EXPECT_EQ(format_length(0.314), "0.31 m");
+  EXPECT_EQ(format_length(103.4), "103 m");
+  EXPECT_EQ(format_length(10e3), "10 km");
+  EXPECT_EQ(format_length(12'345.0), "12 km");
+}
+
+TEST(AlarmFormat, ATimeHasTheUnitThatSuitsIt) {
+  EXPECT_EQ(format_time(12.4), "12 s");
+  EXPECT_EQ(format_time(119.0), "119 s");
+  EXPECT_EQ(format_time(120.0), "2 min");
+  EXPECT_EQ(format_time(7199.0), "120 min");
+  EXPECT_EQ(format_time(7200.0), "2 h");
+}
+
+TEST(AlarmFormat, AnAngleIsInDegrees) { EXPECT_EQ(format_angle(radians(0.314)), "0.31 deg"); }
+
+// "at least RTK float" is a comparison.
+TEST(GnssReading, ABetterFixIsGreater) {
+  EXPECT_LT(GnssFix::kNone, GnssFix::k2D);
+  EXPECT_LT(GnssFix::k2D, GnssFix::k3D);
+  EXPECT_LT(GnssFix::k3D, GnssFix::kDifferential);
+  EXPECT_LT(GnssFix::kDifferential, GnssFix::kRtkFloat);
+  EXPECT_LT(GnssFix::kRtkFloat, GnssFix::kRtkFixed);
+}
+
+TEST(GnssReading, EachFixHasANameOfItsOwn) {
+  std::set<std::string> names;
+  const int best = static_cast<int>(GnssFix::kRtkFixed);
+  for (int i = 0; i <= best; ++i) names.insert(to_string(static_cast<GnssFix>(i)));
+  EXPECT_EQ(names.size(), static_cast<std::size_t>(best + 1));
+  EXPECT_STREQ(to_string(GnssReading{}.fix), "no fix");
+}
 
 TEST(OriginTilt, IsTheTiltOfTheChainThatTheAxesShow) {
   for (const double x_deg : {-20.0, -0.3, 0.0, 0.1, 10.0}) {
