@@ -1,13 +1,18 @@
 #include "central/tracking/target_appearance.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
+
+#include "central/measurement/time_span.h"
+#include "geometry/wgs84.h"
 
 namespace ols::fusion {
 namespace {
 
-constexpr std::size_t kClasses = static_cast<std::size_t>(ObjectClass::kOther) + 1;
+constexpr std::size_t kClasses = kObjectClasses;
 
 class Sum {
  public:
@@ -21,13 +26,17 @@ class Sum {
     if (seen.class_probability.size() == kClasses) add_classes(seen.class_probability);
   }
 
-  Appearance appearance() const {
+  Appearance appearance(const ClassBelief& known) const {
     Appearance all = best_;
     if (weights_ > 0.0) {
       all.size_m = sizes_ / weights_;
       all.size_sd_m = 1.0 / std::sqrt(weights_);
     }
-    if (log_.empty()) return all;
+    if (log_.empty()) {
+      all.object_class = known.object_class;
+      all.class_probability = known.probability;
+      return all;
+    }
     const auto most = std::ranges::max_element(log_);
     double sum = 0.0;
     for (const double value : log_) sum += std::exp(value - *most);
@@ -49,7 +58,46 @@ class Sum {
   std::vector<double> log_;  // of each class
 };
 
+// What the station that measures the size best has seen within the last second.
+std::vector<Measured> best_sizes(const Track& track, const Eigen::Vector3d& p_ecef) {
+  std::vector<Measured> best;
+  for (const auto& [station, bearings] : track.bearings) {
+    std::vector<Measured> sizes;
+    for (const BearingMeasurement& m : bearings) {
+      if (m.sighted.size_rad <= 0.0 || m.sighted.size_sd_rad <= 0.0) continue;
+      const double range_m = (p_ecef - m.sight.origin_ecef).norm();
+      sizes.push_back({range_m * m.sighted.size_rad, range_m * m.sighted.size_sd_rad});
+    }
+    if (sizes.empty()) continue;
+    if (best.empty() || sizes.back().sd < best.back().sd) best = std::move(sizes);
+  }
+  return best;
+}
+
 }  // namespace
+
+void look_at_class(Track& track) {
+  constexpr std::int64_t kPause_us = 200'000, kBefore_us = 1'000'000;
+  const KinematicState& state = track.filter.summary();
+  auto& velocities = track.velocities;
+  if (!velocities.empty() && state.utime_us - velocities.rbegin()->first < kPause_us) return;
+  const Eigen::Vector3d position = state.mean.head<3>(), velocity = state.mean.segment<3>(3);
+  velocities[state.utime_us] = velocity;
+  while (velocities.size() > 1 && state.utime_us - velocities.begin()->first > kBefore_us)
+    velocities.erase(velocities.begin());
+  const auto& [before_us, before] = *velocities.begin();
+  const Eigen::Matrix3d R = R_ecef_enu(position).transpose();
+  const auto enu = [&R](const Eigen::Vector3d& v) {
+    const Eigen::Vector3d turned = R * v;
+    return std::array<double, 3>{turned.x(), turned.y(), turned.z()};
+  };
+  const double sd = std::sqrt(state.covariance.block<3, 3>(3, 3).trace() / 3.0);
+  const std::int64_t apart_us = state.utime_us - before_us;
+  // Velocities of a shorter time apart say nothing but noise.
+  track.classes.add(state.utime_us,
+                    look_at(best_sizes(track, position), enu(velocity), enu(before),
+                            apart_us > kBefore_us / 2 ? seconds(apart_us) : 0.0, sd));
+}
 
 Appearance appearance_of(const Track& track, const Eigen::Vector3d& p_ecef) {
   Sum sum;
@@ -58,7 +106,7 @@ Appearance appearance_of(const Track& track, const Eigen::Vector3d& p_ecef) {
     const BearingMeasurement& newest = bearings.back();
     sum.add(newest.sighted, (p_ecef - newest.sight.origin_ecef).norm());
   }
-  return sum.appearance();
+  return sum.appearance(track.classes.belief());
 }
 
 }  // namespace ols::fusion

@@ -3,11 +3,10 @@
 
 #include <Eigen/Core>
 
+#include "central/classify/class_posterior.h"
 #include "central/tracking/track.h"
 
 namespace ols::fusion {
-
-enum class ObjectClass { kUnknown, kDrone, kBird, kAircraft, kOther };
 
 // What the object is and how well it is seen; 0: unknown.
 struct Appearance {
@@ -18,7 +17,11 @@ struct Appearance {
 };
 
 // Uses the newest bearing of each station, for a target at this position: the weighted mean of the
-// sizes, the greatest signal, and the class from all posteriors together (each is from one image).
+// sizes, and the greatest signal. The class is that of the track's life; where stations state
+// classes of their images, that of all these together.
 Appearance appearance_of(const Track& track, const Eigen::Vector3d& p_ecef);
+
+// Takes a look at what the track is, at most five times a second.
+void look_at_class(Track& track);
 
 }  // namespace ols::fusion

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "central/classify/class_posterior.h"
 #include "central/filter/track_filter.h"
 #include "central/measurement/bearing_measurement.h"
 #include "central/measurement/ray.h"
@@ -31,6 +32,9 @@ struct Track {
   std::int64_t last_two_station_us = 0;  // when two stations last saw it
   StationBearings bearings;              // of the last second
   Existence existence;
+  ClassPosterior classes;
+  std::map<std::int64_t, Eigen::Vector3d>
+      velocities;  // [m/s] ECEF, at its looks of the last second
 
   // Whether it already has a bearing of this exposure of the station.
   bool has_taken(const BearingMeasurement& measurement) const;

@@ -5,6 +5,7 @@
 #include "central/measurement/time_span.h"
 #include "central/tracking/likeness.h"
 #include "central/tracking/position_guard.h"
+#include "central/tracking/target_appearance.h"
 
 namespace ols::fusion {
 
@@ -120,7 +121,9 @@ void TrackManager::age(Track& track, std::int64_t now_us) {
 
 void TrackManager::advance(std::int64_t now_us) {
   for (Track& track : tracks_) {
-    if (track.state != TrackState::kDeleted) age(track, now_us);
+    if (track.state == TrackState::kDeleted) continue;
+    age(track, now_us);
+    if (is_established(track)) look_at_class(track);
   }
   merge_duplicates();
   for (const Track& track : tracks_) {

@@ -30,6 +30,7 @@ bool measure(const std::string& what, bool quick, int runs) {
   if (what == "handover" || (all && !quick)) handover(std::max(2, runs / 2), limits);
   if (all || what == "meteors") meteors(2 * runs, limits);
   if (all || what == "noise-only") noise_only(runs, limits);
+  if (what == "classes" || (all && !quick)) classes(5 * runs, limits);
   if (what == "cost" || (all && !quick)) cost(limits);
   return limits.missed() == 0;
 }
@@ -49,14 +50,17 @@ int main(int argc, char** argv) {
   app.add_flag("--quick", quick, "the measures of accuracy alone, in half of the runs");
   app.add_option(
          "measure", what,
-         "all, least-squares, filter, paper, targets, traffic, handover, meteors, noise-only or "
-         "cost")
+         "all, least-squares, filter, paper, targets, traffic, handover, meteors, noise-only, "
+         "classes or cost")
       ->check(CLI::IsMember({"all", "least-squares", "filter", "paper", "targets", "traffic",
-                             "handover", "meteors", "noise-only", "cost"}));
+                             "handover", "meteors", "noise-only", "classes", "cost"}));
   std::string peer;
   app.add_option("--write-peer", peer,
                  "instead: a folder for bearings and our filter's fixes, as tools/bench estimators "
                  "gives them to Stone Soup");
+  std::string looks;
+  app.add_option("--write-class-looks", looks,
+                 "instead: a file of looks at simulated objects of known class");
   std::string folder;
   LongRecording recording;
   bool anonymous = false;
@@ -75,6 +79,8 @@ int main(int argc, char** argv) {
     recording.are_named = !anonymous;
     if (!peer.empty()) {
       write_peer_runs(peer, runs);
+    } else if (!looks.empty()) {
+      write_class_looks(looks, runs);
     } else if (!folder.empty()) {
       write_long_recording(folder, recording);
     } else {

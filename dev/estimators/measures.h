@@ -3,6 +3,8 @@
 // runs.
 #pragma once
 
+#include <string>
+
 #include "dev/estimators/limits.h"
 
 namespace ols::bench {
@@ -39,6 +41,12 @@ void meteors(int runs, Limits& limits);
 // 250 m at 15 Hz: the recorded filter and its smoother against least squares at the same instants.
 // Beside it, without a limit, one that hardly manoeuvres, at 30 Hz.
 void noise_only(int runs, Limits& limits);
+
+// What simulated objects of known class are taken for after ten seconds, by their size in pixels:
+// tracks of another seed than those of central/classify/class_table.h, and with errors.
+void classes(int runs, Limits& limits);
+// The true features of simulated tracks, as dev/python/ols_class_table.py reads them.
+void write_class_looks(const std::string& file, int runs);
 
 // What a bearing costs in the fusion, a line for each site: processor time. Up to 1000 stations,
 // eight on a target; and up to 100 that are all on the same target or targets.

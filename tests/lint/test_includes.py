@@ -44,7 +44,7 @@ PURE_FOLDERS = (
     *("geometry/", "calibration/", "edge/detector/", "edge/tracker/", "bridge/ownership/"),
     *("central/admission/", "central/cues/", "central/estimators/", "central/filter/"),
     *("central/fusion/", "central/handover/", "central/measurement/", "central/offline/"),
-    "central/tracking/",
+    *("central/classify/", "central/tracking/"),
     *("export/asterix/", "export/files/", "export/mqtt/", "export/sapient/", "export/tak/"),
 )
 FIRST_WORDS = {"messages", "bus", "aravis", "gige", "kept"}

@@ -1,0 +1,44 @@
+// Simulated tracks of objects whose class is known: what the classifier learns from, and what it is
+// measured with. Deterministic by the seed.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <random>
+#include <vector>
+
+#include "central/classify/class_posterior.h"
+
+namespace ols::bench {
+
+struct SimulatedKind {
+  const char* name;
+  fusion::ObjectClass object_class;
+};
+inline constexpr std::array<SimulatedKind, 7> kSimulatedKinds = {{
+    {"drone", fusion::ObjectClass::kDrone},
+    {"bird", fusion::ObjectClass::kBird},
+    {"aeroplane", fusion::ObjectClass::kAircraft},
+    {"helicopter", fusion::ObjectClass::kAircraft},
+    {"person", fusion::ObjectClass::kOther},
+    {"vehicle", fusion::ObjectClass::kOther},
+    {"meteor", fusion::ObjectClass::kOther},
+}};
+
+// 1-sigma of what is seen; 0: the truth.
+struct LookNoise {
+  double size = 0.0;       // relative, of one image
+  double size_bias = 0.0;  // relative, the same for the whole track, not stated
+  double speed_m_s = 0.0;  // of each axis of the velocity, correlated over a second
+};
+
+struct TimedLook {
+  std::int64_t utime_us = 0;
+  fusion::ClassLook look;
+};
+
+// `duration_s` of an object of kSimulatedKinds[kind], a look four times a second.
+std::vector<TimedLook> simulate_looks(int kind, double duration_s, const LookNoise& noise,
+                                      std::mt19937_64& random);
+
+}  // namespace ols::bench

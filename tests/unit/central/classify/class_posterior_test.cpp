@@ -1,0 +1,81 @@
+#include "central/classify/class_posterior.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace ols::fusion {
+namespace {
+
+// A quarter of a second apart, each alike.
+ClassPosterior after(double seconds, const ClassLook& look) {
+  ClassPosterior posterior;
+  for (int i = 0; i <= 4 * seconds; ++i) posterior.add(1 + i * 250'000LL, look);
+  return posterior;
+}
+
+ClassLook look(double size_m, double speed_m_s, double climb_m_s, double flicker) {
+  return {.size_m = {size_m, 0.1 * size_m},
+          .speed_m_s = {speed_m_s, 0.3},
+          .climb_m_s = {climb_m_s, 0.3},
+          .across_m_s2 = {0.5, 0.5},
+          .flicker = {flicker, 0.003}};
+}
+
+TEST(ClassPosterior, NamesWhatIsPlain) {
+  struct Case {
+    ClassLook look;
+    ObjectClass expected;
+  };
+  for (const auto& [seen, expected] : {Case{look(0.5, 0.2, 4.0, 0.0), ObjectClass::kDrone},
+                                       Case{look(0.8, 12.0, 0.0, 0.04), ObjectClass::kBird},
+                                       Case{look(35.0, 120.0, 5.0, 0.0), ObjectClass::kAircraft},
+                                       Case{look(400.0, 30e3, -10e3, 0.0), ObjectClass::kOther}}) {
+    const ClassBelief belief = after(10.0, seen).belief();
+    EXPECT_EQ(belief.object_class, expected) << seen.size_m.value;
+    EXPECT_GE(belief.probability, kSure);
+  }
+}
+
+TEST(ClassPosterior, IsUnknownAtFirstWithoutSizeAndBetweenTwoClasses) {
+  const ClassLook drone = look(0.5, 0.2, 4.0, 0.0);
+  EXPECT_EQ(after(0.75, drone).belief().object_class, ObjectClass::kUnknown);
+  ClassLook sizeless = drone;
+  sizeless.size_m = {};
+  EXPECT_EQ(after(10.0, sizeless).belief().object_class, ObjectClass::kUnknown);
+  ClassLook gliding = look(0.8, 8.5, 0.0, 0.0);  // a drone, or a bird whose beat is not seen
+  gliding.flicker = {};
+  const ClassBelief doubtful = after(10.0, gliding).belief();
+  EXPECT_EQ(doubtful.object_class, ObjectClass::kUnknown);
+  EXPECT_EQ(doubtful.probability, 0.0);
+}
+
+TEST(ClassPosterior, MoreLooksInTheSameTimeSayNoMore) {
+  ClassLook seen = look(0.8, 8.5, 0.0, 0.0);
+  seen.flicker = {};
+  ClassPosterior often;
+  for (int i = 0; i <= 400; ++i) often.add(1 + i * 10'000LL, seen);
+  const auto seldom = after(4.0, seen).posterior();
+  for (int i = 0; i < kObjectClasses; ++i) EXPECT_NEAR(often.posterior()[i], seldom[i], 1e-9);
+}
+
+TEST(ClassPosterior, FlickerIsWhatTheNoiseDoesNotExplain) {
+  std::vector<Measured> beating, steady;
+  for (int i = 0; i < 20; ++i) {
+    beating.push_back({1.0 + 0.3 * std::sin(2.0 * i), 0.05});
+    steady.push_back({i % 2 == 0 ? 1.05 : 0.95, 0.05});
+  }
+  EXPECT_NEAR(look_at(beating, {}, {}, 0.0, 1.0).flicker.value, 0.045 - 0.0025, 0.005);
+  EXPECT_NEAR(look_at(steady, {}, {}, 0.0, 1.0).flicker.value, 0.0, 0.0005);
+}
+
+TEST(ClassPosterior, MotionIsSplitByItsPath) {
+  const ClassLook turning = look_at({}, {3.0, 4.0, 2.0}, {4.0, 4.0, 2.0}, 0.5, 0.1);
+  EXPECT_NEAR(turning.speed_m_s.value, 5.0, 1e-9);
+  EXPECT_NEAR(turning.climb_m_s.value, 2.0, 1e-9);
+  EXPECT_NEAR(turning.across_m_s2.value, 2.0 * std::sqrt(1.0 - 9.0 / 29.0), 1e-6);
+  EXPECT_EQ(turning.size_m.sd, 0.0);
+}
+
+}  // namespace
+}  // namespace ols::fusion
