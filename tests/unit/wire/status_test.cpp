@@ -61,7 +61,7 @@ TEST(HeardStatus, MovesNoCursor) {
 
 // As a log of before has it (lcmtypes/README.md).
 TEST(HeardTarget, OfBeforeItGrewLacksWhatItDidNotSay) {
-  auto former = made<ols_msg::target_v1_t>();
+  ols_msg::target_v1_t former{};
   former.target_id = 7;
   former.estimator = "filter";
   former.latitude_deg = 49.0;

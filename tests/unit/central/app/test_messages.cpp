@@ -121,7 +121,7 @@ TEST(Messages, ABearingSaysWhatADetectorSaw) {
 
 // As a log of before has it (lcmtypes/README.md).
 TEST(Messages, ABearingOfBeforeDetectorsIsOfADesignatedObject) {
-  auto former = made<ols_msg::bearing_v1_t>();
+  ols_msg::bearing_v1_t former{};
   former.schema_version = ols_msg::bearing_t::SCHEMA_VERSION;
   former.station = "north";
   former.track_id = 3;
