@@ -9,7 +9,7 @@
 namespace ols {
 
 // What comes of an order that is not carried out: a row of the table's outcomes with its
-// parameters, like an alarm. conditions/outcomes.h makes them. Empty: the order is carried out.
+// parameters, like an alarm. conditions/sayings.h makes them. Empty: the order is carried out.
 using Outcome = Alarm;
 
 // The sentence of conditions.toml for a reason that programs count ("no_frame"); empty: it has

@@ -14,6 +14,7 @@ HERE = Path(__file__).resolve().parent
 TROUBLESHOOTING = HERE.parent / "docs/troubleshooting.md"
 FLEET = HERE.parent / "docs/fleet.md"
 CELLS = ("meaning", "action")
+SAID = ("outcomes", "notes")  # rows that are a sentence alone
 PARAMETER = re.compile(r"\{(\w+)(?::([^}]*))?\}")
 
 
@@ -58,10 +59,13 @@ def of_the_page() -> dict:
         both = {key: [plain(alarm[key][0]), alarm[key][1]] for key in ("meaning", "action")}
         rows.append({"severity": alarm["severity"], "says": says, **both})
     reasons = refusals(whole)
-    said = {key: [named(one) for one in both] for key, both in whole["outcomes"].items()}
+    said = {
+        kind: {key: [named(one) for one in both] for key, both in whole[kind].items()}
+        for kind in SAID
+    }
     phrases = {**dict(reasons.values()), **whole["phrases"]}
     others = {name: whole[name] for name in ("words", "names")}
-    return {"alarms": rows, "reasons": reasons, "outcomes": said, "phrases": phrases, **others}
+    return {"alarms": rows, "reasons": reasons, **said, "phrases": phrases, **others}
 
 
 def of_the_documents(document: str) -> str:
@@ -153,7 +157,7 @@ SOURCE = """// Made by conditions/table.py.
 #include <map>
 
 #include "conditions/alarm_rows.h"
-#include "conditions/outcomes.h"
+#include "conditions/sayings.h"
 
 namespace ols {
 namespace {
@@ -183,13 +187,11 @@ namespace alarm {
 %s
 }  // namespace alarm
 
-namespace outcome {
-
-%s
-}  // namespace outcome
-}  // namespace ols
+%s}  // namespace ols
 """
-OUTCOMES = """// Made by conditions/table.py: what comes of an order that is not carried out. Pure.
+SAYINGS = """\
+// Made by conditions/table.py: what comes of an order that is not carried out, and what the
+// console's history says. Pure.
 #pragma once
 
 #include <cstdint>
@@ -197,10 +199,9 @@ OUTCOMES = """// Made by conditions/table.py: what comes of an order that is not
 
 #include "conditions/refusal.h"
 
-namespace ols::outcome {
+namespace ols {
 
-%s
-}  // namespace ols::outcome
+%s}  // namespace ols
 """
 
 
@@ -228,27 +229,24 @@ def of_the_programs() -> dict[str, str]:
         action = plain(row["action"][0]).replace("`", "")
         one = (name, named(english), subject, row["severity"], action)
         cells += f"    {{{', '.join(json.dumps(cell) for cell in one)}}},\n"
-    said = {name: english for name, (english, _) in table()["outcomes"].items()}
-    for name, english in said.items():
-        cells += f'    {{"{name}", {json.dumps(named(english))}, "", "notice", ""}},\n'
+    sayings, says = "", ""
+    for kind in SAID:
+        said = {name: english for name, (english, _) in table()[kind].items()}
+        for name, english in said.items():
+            cells += f'    {{"{name}", {json.dumps(named(english))}, "", "notice", ""}},\n'
+        space = f"namespace {kind[:-1]} {{\n\n%s\n}}  // namespace {kind[:-1]}\n\n"
+        sayings += space % "".join(f"{declared(*one)};\n" for one in said.items())
+        says += space % "".join(defined(*one) for one in said.items())
     header = "".join(f"{declared(name, english)};\n" for _, name, (english, _) in rows)
     source = "".join(defined(name, english) for _, name, (english, _) in rows)
-    outcomes = "".join(f"{declared(*one)};\n" for one in said.items())
     refused = "".join(
         f"      {{{json.dumps(reason)}, {json.dumps(says[0])}}},\n"
         for reason, says in refusals(table()).items()
     )
     return {
         "alarms.h": HEADER % header,
-        "alarms.cpp": SOURCE
-        % (
-            len(rows) + len(said),
-            cells,
-            refused,
-            source,
-            "".join(defined(*one) for one in said.items()),
-        ),
-        "outcomes.h": OUTCOMES % outcomes,
+        "alarms.cpp": SOURCE % (cells.count("\n"), cells, refused, source, says),
+        "sayings.h": SAYINGS % sayings,
         "event_ids.h": event_ids(),
         "ols.catalog": catalogue(),
     }

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "conditions/alarm_json.h"
-#include "conditions/outcomes.h"
+#include "conditions/sayings.h"
 #include "console/aiming.h"
 #include "wire/cue_values.h"
 
@@ -29,10 +29,12 @@ bool is_late(const std::optional<std::int64_t>& heard_utime_us, const Now& now,
   return heard_utime_us && now.utime_us - *heard_utime_us > limit_us;
 }
 
-std::string words(const wire::Order& order) {
-  std::string text(wire::name(order.kind));
-  if (order.kind == wire::Kind::kRecord) text += " " + order.label;
-  return text;
+// The page has the names of orders.
+Event event_of(const wire::Order& order, const std::string& who, const Now& now) {
+  if (order.kind == wire::Kind::kRecord) {
+    return noted(now.utime_us, "command", order.station, who, note::records(order.label));
+  }
+  return {now.utime_us, "command", order.station, who, std::string(wire::name(order.kind)), ""};
 }
 
 }  // namespace
@@ -104,7 +106,7 @@ void Console::look_at_incidents(const Now& now) {
     if (incident != watch.incidents().end()) show_incident(incident->second);
   }
   for (const wire::Order& order : incidents_.take_recordings()) {
-    const auto event = site_.note({now.utime_us, "command", order.station, "", words(order), ""});
+    const auto event = site_.note(event_of(order, "", now));
     const auto refusal = orders_.begin(order, {.event = event}, now.monotonic_s);
     if (!refusal.empty()) site_.conclude(event, refusal);
   }
@@ -135,7 +137,7 @@ void Console::hear(const wire::Order& order, const Now& now) {
       order.kind == wire::Kind::kStop && orders_.stop_event(order.station, "") != 0;
   if (is_repeated) return orders_.watch_again(order);
   if (!site_.knows(order.station)) return;
-  const auto event = site_.note({now.utime_us, "command", order.station, "", words(order), ""});
+  const auto event = site_.note(event_of(order, "", now));
   const Outcome refusal =
       orders_.begin(order, {.event = event, .is_watched = true}, now.monotonic_s);
   if (!refusal.empty()) site_.conclude(event, refusal);
@@ -226,8 +228,8 @@ void Console::act(std::uint64_t id, const AnswerRequest& request, const Now& now
   }
   if (refusal.empty()) refusal = procedures_.answer(request.answer);
   if (refusal.empty()) {
-    site_.note({now.utime_us, "command", station, viewer.name, "answers " + request.answer.choice,
-                "sent"});
+    site_.note(noted(now.utime_us, "command", station, viewer.name,
+                     note::answers(request.answer.choice), "sent"));
   }
   answer(id, request.number, station, refusal);
 }
@@ -241,10 +243,10 @@ void Console::act(std::uint64_t id, const CueRequest& request, const Now& now) {
                                         : cues_.refusal(viewer.role, bus_trouble_);
   if (!refusal.empty()) return answer(id, request.number, "", refusal);
   const bool is_target = target_named(request.order.cue).has_value();
-  const std::string what = (is_target ? (allow ? "allows target " : "dismisses target ")
-                                      : (allow ? "allows cue " : "forbids cue ")) +
-                           request.order.cue;
-  const auto event = site_.note({now.utime_us, "command", "", viewer.name, what, "sent"});
+  const std::string& cue = request.order.cue;
+  const Alarm what = is_target ? (allow ? note::allows_target(cue) : note::dismisses_target(cue))
+                               : (allow ? note::allows_cue(cue) : note::forbids_cue(cue));
+  const auto event = site_.note(noted(now.utime_us, "command", "", viewer.name, what, "sent"));
   cues_.give(request.order, {id, request.number, event}, now.monotonic_s);
 }
 
@@ -305,8 +307,8 @@ void Console::act(std::uint64_t id, const NameRequest& request, const Now& now) 
   } else if (!site_.name_target(target, name)) {
     refusal = outcome::no_such_target();
   } else {
-    const std::string what = "calls target " + target + " " + (name.empty() ? target : name);
-    site_.note({now.utime_us, "command", "", viewer.name, what, "done"});
+    const Alarm what = note::calls_target(target, name.empty() ? target : name);
+    site_.note(noted(now.utime_us, "command", "", viewer.name, what, "done"));
   }
   answer(id, number, "", refusal);
 }
@@ -342,7 +344,8 @@ void Console::act(std::uint64_t id, const ControlRequest& request, const Now& no
   if (request.take) {
     tell_holders({request.station}, "take", {viewer.name, id}, now);
     control_.take(request.station, id, viewer.name, now.monotonic_s);
-    site_.note({now.utime_us, "command", request.station, viewer.name, "takes control", "done"});
+    site_.note(noted(now.utime_us, "command", request.station, viewer.name, note::takes_control(),
+                     "done"));
   } else {
     control_.give_up(request.station, id);
   }
@@ -380,10 +383,7 @@ void Console::act(std::uint64_t id, const CommandRequest& request, const Now& no
   Outcome refusal = control_.use(order.station, id, viewer.name, now.monotonic_s);
   // A hold is one event, however often it is renewed.
   const bool continues = orders_.is_held(order, now.monotonic_s);
-  const auto event =
-      continues
-          ? 0
-          : site_.note({now.utime_us, "command", order.station, viewer.name, words(order), ""});
+  const auto event = continues ? 0 : site_.note(event_of(order, viewer.name, now));
   if (refusal.empty()) {
     refusal = orders_.begin(order, {id, request.number, event, viewer.name}, now.monotonic_s);
   }
@@ -565,9 +565,8 @@ Json Console::health(const Now& now) const {
   return health;
 }
 
-void Console::note(const std::string& kind, const std::string& who, const std::string& text,
-                   const Now& now) {
-  if (!is_replay()) site_.note({now.utime_us, kind, "", who, text, ""});
+void Console::note(const std::string& who, const Alarm& what, const Now& now) {
+  if (!is_replay()) site_.note(noted(now.utime_us, "console", "", who, what));
 }
 
 }  // namespace ols::console

@@ -120,8 +120,8 @@ class Console {
 
   Json state(const Now& now) const;
   Json health(const Now& now) const;
-  void note(const std::string& kind, const std::string& who, const std::string& text,
-            const Now& now);
+  // For the history: what somebody did in this console, or "": what happened.
+  void note(const std::string& who, const Alarm& what, const Now& now);
   std::size_t viewers() const { return viewers_.size(); }
 
   // 20 Hz, less a turn's jitter. At 10 Hz a new position would wait for up to 0.1 s.

@@ -3,6 +3,7 @@
 #include "base/bus/boot_id.h"
 #include "base/bus/channel_names.h"
 #include "conditions/alarms.h"
+#include "conditions/sayings.h"
 #include "console/messages.h"
 #include "console/messages_pictures.h"
 
@@ -70,8 +71,7 @@ void ConsoleBus::subscribe(LcmBus& bus) {
 }
 
 void ConsoleBus::note_trouble(const std::string& trouble) {
-  console_.note("console", "", trouble.empty() ? "the bus is back" : alarm::no_bus(trouble).text,
-                now_);
+  console_.note("", trouble.empty() ? note::bus_is_back() : alarm::no_bus(trouble), now_);
 }
 
 void ConsoleBus::turn(const Now& now) {

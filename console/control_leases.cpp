@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "conditions/outcomes.h"
+#include "conditions/sayings.h"
 
 namespace ols::console {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "conditions/outcomes.h"
+#include "conditions/sayings.h"
 #include "wire/refusal_words.h"
 
 namespace ols::console {

@@ -18,12 +18,13 @@ std::string without_numbers(std::string text) {
 
 // Alarms have their keys; other events are the same whatever their numbers.
 std::string key_of(const Event& event) {
-  return event.alarm.empty() ? without_numbers(event.text) : event.alarm.key();
+  const bool is_alarm = event.kind == "alarm" && !event.said.empty();
+  return is_alarm ? event.said.key() : without_numbers(event.text);
 }
 
 // Whether an error is an alarm's sentence, or of the part that the alarm is about.
 bool is_about(const Event& error, const Event& alarm) {
-  const std::string part = alarm.alarm.part();
+  const std::string part = alarm.said.part();
   return without_numbers(error.text) == without_numbers(alarm.text) ||
          (!part.empty() && error.text.starts_with(part));
 }
@@ -82,7 +83,7 @@ std::uint64_t EventList::add(Event event, Revision& revision) {
     known->changed = ++revision;
     known->event.utime_us = event.utime_us;
     known->event.text = std::move(event.text);
-    known->event.alarm = std::move(event.alarm);
+    known->event.said = std::move(event.said);
     known->over_us.reset();
     std::rotate(known, known + 1, events_.end());
     return events_.back().number;
@@ -145,7 +146,7 @@ Json EventList::since(Revision revision) const {
                       {"who", e.who},
                       {"text", e.text},
                       {"key", kept.key},
-                      {"alarm", e.alarm.empty() ? Json(nullptr) : Json(e.alarm)},
+                      {"said", e.said.empty() ? Json(nullptr) : Json(e.said)},
                       {"outcome", e.outcome},
                       {"refusal", e.refusal.empty() ? Json(nullptr) : Json(e.refusal)},
                       {"over_us", kept.over_us ? Json(*kept.over_us) : Json(nullptr)},

@@ -19,9 +19,15 @@ struct Event {
   std::string who;            // of a command
   std::string text;
   std::string outcome;  // of a command: empty while unknown, "sent", "done", or the refusal's text
-  Alarm alarm{};        // what an alarm says
+  Alarm said{};         // an alarm, or a note, by its row of the table; of an error only the text
   Outcome refusal{};    // of a command that is not carried out
 };
+
+// Of a note of the table.
+inline Event noted(std::int64_t utime_us, const char* kind, const std::string& station,
+                   const std::string& who, const Alarm& note, const std::string& outcome = {}) {
+  return {utime_us, kind, station, who, note.text, outcome, note};
+}
 
 class EventList {
  public:

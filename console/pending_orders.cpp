@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "conditions/outcomes.h"
+#include "conditions/sayings.h"
 #include "wire/refusal_words.h"
 
 namespace ols::console {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "conditions/outcomes.h"
+#include "conditions/sayings.h"
 
 namespace ols::console {
 namespace {

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "conditions/alarms.h"
+#include "conditions/sayings.h"
 
 namespace ols::console {
 namespace {
@@ -92,7 +93,7 @@ bool SiteState::is_of_fusion(std::int64_t boot_id, const Now& now) {
   if (boot_id != fusion_boot_ && fusion_boot_ != 0 && is_heard) return false;
   fusion_heard_s_ = now.monotonic_s;
   if (boot_id == fusion_boot_) return true;
-  if (fusion_boot_ != 0) note({now.utime_us, "site", "", "", "the fusion was restarted", ""});
+  if (fusion_boot_ != 0) note(noted(now.utime_us, "site", "", "", note::fusion_restarted()));
   fusion_boot_ = boot_id;
   targets_.clear(revision_);
   lines_.clear(revision_);

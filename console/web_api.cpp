@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "conditions/alarm_json.h"
+#include "conditions/sayings.h"
 #include "console/accuracy_map.h"
 #include "console/map_geometry.h"
 
@@ -210,12 +211,12 @@ WebAnswer WebApi::log_in(const WebRequest& request, const Now& now) {
 WebResponse WebApi::finish(const LoginTask& task, bool is_verified, const Now& now) {
   const auto user = users_.find(task.name);
   if (!is_verified || user == users_.end()) {
-    console_.note("console", "", "a log-in was refused: wrong name or password", now);
+    console_.note("", note::log_in_refused(), now);
     return refused(401, "wrong name or password");
   }
   const std::string token = draw_token_();
   sessions_.begin(token, user->first, user->second.role, now.monotonic_s);
-  console_.note("console", user->first, "logged in", now);
+  console_.note(user->first, note::logged_in(), now);
   WebResponse response =
       json(200, {{"name", user->first}, {"role", std::string(name(user->second.role))}});
   response.headers.emplace_back("Set-Cookie",
@@ -292,7 +293,7 @@ WebAnswer WebApi::enter_user(const WebRequest& request, const Now& now) {
 
 // The sessions of whom it is about end.
 WebResponse WebApi::change_users(Users users, const std::string& by, const std::string& of,
-                                 const std::string& what, const Now& now) {
+                                 const Alarm& what, const Now& now) {
   if (const auto problem = users_problem(users); !problem.empty()) return refused(409, problem);
   try {
     save_users_(users);
@@ -301,14 +302,14 @@ WebResponse WebApi::change_users(Users users, const std::string& by, const std::
   }
   users_ = std::move(users);
   sessions_.end_of(of);
-  console_.note("console", by, what + " " + of, now);
+  console_.note(by, what, now);
   return json(200, {{"name", of}});
 }
 
 WebResponse WebApi::finish(const UserTask& task, const std::string& hash, const Now& now) {
   Users users = users_;
   users[task.name] = {task.role, hash};
-  return change_users(std::move(users), task.by, task.name, "enters the user", now);
+  return change_users(std::move(users), task.by, task.name, note::enters_user(task.name), now);
 }
 
 // A session, one's own; a user; or all sessions of a user.
@@ -332,12 +333,12 @@ WebAnswer WebApi::remove(const WebRequest& request, const Now& now) {
   const std::string by = who(request, now)->name;
   if (!is_user) {
     sessions_.end_of(of);
-    console_.note("console", by, "ends the sessions of " + of, now);
+    console_.note(by, note::ends_sessions(of), now);
     return json(200, {{"name", of}});
   }
   Users users = users_;
   users.erase(of);
-  return change_users(std::move(users), by, of, "removes the user", now);
+  return change_users(std::move(users), by, of, note::removes_user(of), now);
 }
 
 WebAnswer WebApi::answer(const WebRequest& request, const Now& now) {

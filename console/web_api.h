@@ -88,7 +88,7 @@ class WebApi {
   WebAnswer enter_user(const WebRequest& request, const Now& now);
   WebAnswer remove(const WebRequest& request, const Now& now);
   WebResponse change_users(Users users, const std::string& by, const std::string& of,
-                           const std::string& what, const Now& now);
+                           const Alarm& what, const Now& now);
 
   ConsoleConfig config_;
   Users users_;

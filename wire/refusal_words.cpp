@@ -1,6 +1,6 @@
 #include "wire/refusal_words.h"
 
-#include "conditions/outcomes.h"
+#include "conditions/sayings.h"
 
 namespace ols::wire {
 

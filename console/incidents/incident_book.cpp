@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include "conditions/alarms.h"
-#include "conditions/outcomes.h"
+#include "conditions/sayings.h"
 #include "geometry/angles.h"
 
 namespace ols::console {

@@ -16,7 +16,7 @@ std::size_t size_of(const Moment& moment) {
 Json mark_of(const Json& event, const Json& kind, const Json& utime_us) {
   return {{"utime_us", utime_us},           {"kind", kind},
           {"station", event.at("station")}, {"who", event.at("who")},
-          {"text", event.at("text")},       {"alarm", event.at("alarm")},
+          {"text", event.at("text")},       {"said", event.at("said")},
           {"outcome", event.at("outcome")}, {"refusal", event.at("refusal")}};
 }
 

@@ -3,7 +3,7 @@
 
 import tables from "conditions.json";
 import type { Said, SiteEvent } from "./site";
-import { inLanguage, isEnglish } from "./words";
+import { inLanguage, isEnglish, named } from "./words";
 
 const MOST_REMEMBERED = 2000;
 
@@ -22,8 +22,8 @@ function sentence(english: string, german: string, isAlarm = false): Sentence {
 }
 
 type Dictionary = Record<string, string>;
-type Tables = { alarms: Row[] } & Record<"reasons" | "outcomes", Record<string, Pair>> & Record<"phrases" | "words" | "names", Dictionary>;
-const { alarms, reasons, outcomes, phrases, words, names } = tables as Tables;
+type Tables = { alarms: Row[] } & Record<"reasons" | "outcomes" | "notes", Record<string, Pair>> & Record<"phrases" | "words" | "names", Dictionary>;
+const { alarms, reasons, outcomes, notes, phrases, words, names } = tables as Tables;
 const sentences = (of: Dictionary) => Object.entries(of).map(([english, german]) => sentence(english, german));
 const ROWS = new Map(alarms.flatMap((row) => Object.keys(row.says).map((id) => [id, row])));
 const open = (says: string) => says.replace(/\{\w+\}/g, "…");
@@ -55,6 +55,7 @@ const reasonInWords = (id: string): string => (id in reasons ? inLanguage(reason
 // Of a parameter. A reason is an id; of distrust there are several: "3 unsigned, 1 replayed".
 function valueInWords(name: string, value: string): string {
   if (name === "reason") return reasonInWords(value);
+  if (name === "choice") return named("c", value);
   if (name === "reasons") return value.replace(/[a-z_]+/g, (reason) => reasonInWords(`distrusted_${reason}`));
   return isEnglish() ? value : germanPart(value);
 }
@@ -81,10 +82,10 @@ export function inWords(text: string): string {
   return isEnglish() || !text ? text : textInGerman(text);
 }
 
-// An alarm, or why an order is not carried out, by its row of the table. Logs from before alarms had ids have its
+// An alarm, why an order is not carried out, or what happened, by its row of the table. Logs from before alarms had ids have its
 // sentence only.
 export function conditionInWords({ id, text, parameters }: Said): string {
-  const says = ROWS.get(id)?.says[id] ?? outcomes[id];
+  const says = ROWS.get(id)?.says[id] ?? outcomes[id] ?? notes[id];
   if (!says) return inWords(text);
   const value = (name: string) => valueInWords(name, parameters[name] ?? "");
   const words = inLanguage(says).replace(/\{(\w+)\}/g, (_, name) => value(name));
@@ -101,6 +102,6 @@ export function eventOf(events: SiteEvent[], station: string, key: string): Site
   return events.find((event) => holds(event) && event.station === station && event.key === key);
 }
 
-export const alarmOf = (event: SiteEvent): string => event.alarm?.id ?? "";
-export const textOfEvent = (event: { alarm: Said | null; text: string }): string => (event.alarm ? conditionInWords(event.alarm) : inWords(event.text));
+export const alarmOf = (event: SiteEvent): string => event.said?.id ?? "";
+export const textOfEvent = (event: { said: Said | null; text: string }): string => (event.said ? conditionInWords(event.said) : inWords(event.text));
 export const holds = (event: SiteEvent) => event.kind === "alarm" && event.over_us == null;

@@ -15,13 +15,8 @@ const KINDS = ["command", "alarm", "error", "site", "console"];
 // Of a word to the fusion only the sending is known.
 const outcomeOf = ({ refusal, outcome }: SiteEvent) => (refusal ? conditionInWords(refusal) : outcome ? t(outcome as "sent" | "done") : "…");
 
-function textOf(event: SiteEvent): string {
-  if (event.kind !== "command") return textOfEvent(event);
-  const answer = /^answers (.+)$/.exec(event.text);
-  if (answer) return `${t("answers")} ${named("c", answer[1])}`;
-  const order = named("o", event.text);
-  return order === event.text ? inWords(event.text) : order;
-}
+// An order by itself is told by its name.
+const textOf = (event: SiteEvent) => (event.kind === "command" && !event.said ? named("o", event.text) : textOfEvent(event));
 
 function AlarmText({ event, onAcknowledge }: { event: SiteEvent; onAcknowledge: OnAcknowledge }) {
   return (

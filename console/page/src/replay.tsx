@@ -4,7 +4,7 @@
 import { h, Fragment } from "preact";
 import { useEffect, useState } from "preact/hooks";
 import type { Link } from "./link";
-import type { Alarm, Said } from "./site";
+import type { Said } from "./site";
 import { conditionInWords, inWords, textOfEvent } from "./conditions";
 import { utc } from "./format";
 import { named, t } from "./words";
@@ -22,7 +22,7 @@ export type ReplayState = {
   problem: string;
 };
 
-export type TimelineMark = { utime_us: number; kind: string; station: string; who: string; text: string; alarm: Alarm | null; refusal: Said | null };
+export type TimelineMark = { utime_us: number; kind: string; station: string; who: string; text: string; said: Said | null; refusal: Said | null };
 type Recorded = { station: string; name: string; first_us: number; last_us: number; frames: number };
 type Timeline = { marks: TimelineMark[]; marks_left_out: number; recorded: Recorded[] };
 

@@ -138,7 +138,7 @@ export type SiteEvent = {
   who: string;
   text: string;
   key: string; // the same for the same alarm, whatever its numbers
-  alarm: Alarm | null;
+  said: Said | null; // of an alarm, and of what the console has noted
   outcome: string; // of a command: empty while it is not known
   refusal: Said | null; // why it is not carried out
   over_us: number | null; // of an alarm; null: it holds

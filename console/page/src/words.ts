@@ -257,7 +257,6 @@ const WORDS = {
   acknowledged_by: ["acknowledged by", "quittiert von"],
   holds: ["still holds", "besteht"],
   until: ["until", "bis"],
-  answers: ["answers", "antwortet"],
   hand_stop: ["has stopped", "hat angehalten:"],
   hand_take: ["has taken control of", "hat die Steuerung übernommen von"],
   hand_other: ["Another program, or the emergency stop,", "Ein anderes Programm, oder der Not-Halt,"],

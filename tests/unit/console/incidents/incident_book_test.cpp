@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "conditions/outcomes.h"
+#include "conditions/sayings.h"
 
 namespace ols::console {
 namespace {
