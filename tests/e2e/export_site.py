@@ -21,7 +21,7 @@ LATITUDE_DEG, LONGITUDE_DEG = 47.5, 13.25
 COVARIANCE = [4.0, 1.0, 0.5, 9.0, -0.5, 25.0]
 MOSQUITTO = shutil.which("mosquitto") or "/usr/sbin/mosquitto"
 MQTT_PORT = 18830
-CE_M, LE_M = 3.03, 5.0  # of that covariance: the ellipse's larger semi-axis, and the height
+CE_M, LE_M = 3.04, 5.0  # of that covariance, rounded up: major semi-axis, height
 
 
 def geoid_m(latitude_deg, longitude_deg):

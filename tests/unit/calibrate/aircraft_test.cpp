@@ -45,7 +45,9 @@ TEST(ReceiverClock, WhatIsSlowOrAheadIsNamed) {
 }
 
 TEST(WriteAircraft, TellsHowManyBytesOfAllInputsHaveCome) {
-  const LogFile first(kHeard), second(kHeard);
+  std::string later = kHeard;
+  later.replace(later.find("1780000000"), 10, "1780000001");
+  const LogFile first(kHeard), second(later);
   const auto output = std::filesystem::temp_directory_path() / "ols_calibrate_aircraft_test.csv";
   AircraftOptions options;
   options.inputs = {first.path(), second.path()};

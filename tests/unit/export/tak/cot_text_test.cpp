@@ -19,7 +19,7 @@ TEST(CotText, XmlHasTimesPointAndDetail) {
   EXPECT_THAT(text, HasSubstr("time=\"2023-11-14T22:13:20.123Z\""));
   EXPECT_THAT(text, HasSubstr("stale=\"2023-11-14T22:13:30.123Z\""));
   EXPECT_THAT(text, HasSubstr("<point lat=\"47.50000000\" lon=\"13.25000000\" hae=\"100.00\" "
-                              "ce=\"3.03\" le=\"5.00\"/>"));
+                              "ce=\"3.04\" le=\"5.00\"/>"));
   EXPECT_THAT(text, HasSubstr("<track speed=\"5.00\" course=\"36.9\"/>"));
 }
 
