@@ -48,6 +48,7 @@ std::string read_small_file(const std::string& path, std::size_t most_bytes) {
   }
   if (size > most_bytes) throw failure(EFBIG);
   content.resize(size);
+  content.shrink_to_fit();  // many may be kept
   return content;
 }
 
