@@ -131,7 +131,7 @@ class LiveSite : public Shown {
     const ols::console::IncidentBook::News& news = console_.incident_news();
     const ols::console::IncidentBook& book = console_.incidents();
     bus_.send(news, now);
-    store_.keep(book, news);
+    store_.keep(book, news, now.monotonic_s);
     const std::vector<ols::Alarm> trouble = store_.alarms();
     console_.incident_trouble(trouble);
     std::vector<ols::Alarm> alarms = book.alarms();

@@ -10,8 +10,6 @@
 namespace ols::console {
 namespace {
 
-constexpr std::size_t kMostPictureBytes = 1'000'000;
-
 std::string id_of(const TargetHeard& target) {
   return std::to_string(target.boot_id) + "/" + target.id;
 }

@@ -43,6 +43,8 @@ struct KeptIncidents {
   std::uint64_t numbers = 0;                      // the highest of an incident, readable or not
 };
 
+inline constexpr std::size_t kMostPictureBytes = 1'000'000;
+
 class IncidentBook {
  public:
   explicit IncidentBook(const IncidentRecording& recording) : recording_(recording) {}

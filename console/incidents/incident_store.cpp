@@ -68,14 +68,14 @@ void IncidentStore::read_incident(std::uint64_t number, KeptIncidents& kept) {
     kept.incidents.push_back(std::move(incident));
     if (!has_picture) return;
     tried(stem + ".jpg",
-          [&] { kept.pictures[number] = read_small_file(stem + ".jpg", kMostBytes); });
+          [&] { kept.pictures[number] = read_small_file(stem + ".jpg", kMostPictureBytes); });
   });
 }
 
 KeptIncidents IncidentStore::read() {
   KeptIncidents kept;
-  std::error_code none;
-  if (!fs::exists(folder_, none)) return kept;
+  std::error_code why;
+  if (fs::status(folder_, why).type() == fs::file_type::not_found) return kept;
   const std::string areas = folder_ + "/" + kAreas;
   kept.may_change_areas = tried(areas, [&] {
     if (!fs::exists(areas)) return;
@@ -83,7 +83,7 @@ KeptIncidents IncidentStore::read() {
     for (const Json& area : part_of(areas, "areas")) read.push_back(area_from(area));
     kept.areas = std::move(read);
   });
-  tried(folder_, [&] {
+  is_listed_ = tried(folder_, [&] {
     for (const auto& entry : fs::directory_iterator(folder_)) {
       const std::uint64_t number = number_of(entry.path());
       if (number == 0) continue;
@@ -91,57 +91,72 @@ KeptIncidents IncidentStore::read() {
       read_incident(number, kept);
     }
   });
+  kept.may_change_areas = kept.may_change_areas && is_listed_;
   return kept;
 }
 
-void IncidentStore::write_file(const std::string& name, const std::string& content) {
+bool IncidentStore::is_written(const std::function<void()>& write_it) {
   try {
-    fs::create_directories(folder_);
-    AtomicFile file(folder_ + "/" + name);
-    file.stream() << content;
-    file.commit();
-    unsaved_ = {};
+    if (!is_listed_) throw std::runtime_error(folder_ + " could not be read");
+    write_it();
+    return true;
   } catch (const std::exception& error) {
-    unsaved_ = alarm::incidents_unsaved(error.what());
+    why_unsaved_ = error.what();
+    return false;
   }
 }
 
-void IncidentStore::keep(const IncidentBook& book, const IncidentBook::News& news) {
-  if (news.areas) write(book.watch().areas());
-  for (const std::uint64_t number : news.forgotten) remove(number);
-  for (const std::uint64_t number : news.pictures) {
-    if (const std::string* jpeg = book.picture(number)) write_picture(number, *jpeg);
-  }
-  for (const std::uint64_t number : news.incidents) {
+void IncidentStore::keep(const IncidentBook& book, const IncidentBook::News& news, double now_s) {
+  const bool is_new = news.areas || !news.incidents.empty() || !news.forgotten.empty();
+  if (!is_new && (why_unsaved_.empty() || now_s < again_s_)) return;
+  again_s_ = now_s + kAgain_s;
+  why_unsaved_.clear();
+  unsaved_.areas = unsaved_.areas || news.areas;
+  unsaved_.pictures.insert(news.pictures.begin(), news.pictures.end());
+  unsaved_.incidents.insert(news.incidents.begin(), news.incidents.end());
+  unsaved_.forgotten.insert(unsaved_.forgotten.end(), news.forgotten.begin(), news.forgotten.end());
+  if (unsaved_.areas && is_written([&] { write(book.watch().areas()); })) unsaved_.areas = false;
+  std::erase_if(unsaved_.forgotten,
+                [&](std::uint64_t number) { return is_written([&] { remove(number); }); });
+  // What has been forgotten meanwhile is done, too.
+  std::erase_if(unsaved_.pictures, [&](std::uint64_t number) {
+    const std::string* jpeg = book.picture(number);
+    return jpeg == nullptr ||
+           is_written([&] { write_file(std::to_string(number) + ".jpg", *jpeg); });
+  });
+  std::erase_if(unsaved_.incidents, [&](std::uint64_t number) {
     const auto incident = book.watch().incidents().find(number);
-    if (incident != book.watch().incidents().end()) write(incident->second);
-  }
+    return incident == book.watch().incidents().end() ||
+           is_written([&] { write(incident->second); });
+  });
 }
 
-void IncidentStore::write(const std::vector<Area>& areas) {
+void IncidentStore::write_file(const std::string& name, const std::string& content) const {
+  fs::create_directories(folder_);
+  AtomicFile file(folder_ + "/" + name);
+  file.stream() << content;
+  file.commit();
+}
+
+void IncidentStore::write(const std::vector<Area>& areas) const {
   Json list = Json::array();
   for (const Area& area : areas) list.push_back(json_of(area));
   write_file(kAreas, text_of("areas", std::move(list)));
 }
 
-void IncidentStore::write(const Incident& incident) {
+void IncidentStore::write(const Incident& incident) const {
   write_file(std::to_string(incident.number) + ".json", text_of("incident", json_of(incident)));
 }
 
-void IncidentStore::write_picture(std::uint64_t number, const std::string& jpeg) {
-  write_file(std::to_string(number) + ".jpg", jpeg);
-}
-
-void IncidentStore::remove(std::uint64_t number) {
-  std::error_code gone;
+void IncidentStore::remove(std::uint64_t number) const {
   for (const char* suffix : {".json", ".jpg"}) {
-    fs::remove(folder_ + "/" + std::to_string(number) + suffix, gone);
+    fs::remove(folder_ + "/" + std::to_string(number) + suffix);
   }
 }
 
 std::vector<Alarm> IncidentStore::alarms() const {
   std::vector<Alarm> alarms = unread_;
-  if (!unsaved_.empty()) alarms.push_back(unsaved_);
+  if (!why_unsaved_.empty()) alarms.push_back(alarm::incidents_unsaved(why_unsaved_));
   return alarms;
 }
 

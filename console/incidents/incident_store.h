@@ -5,7 +5,8 @@
 //   NUMBER.jpg    its picture
 //
 // A file that cannot be read is named in an alarm and left as it is; what it would have said is
-// missing meanwhile, and nothing is written over it.
+// missing meanwhile, and nothing is written over it. A folder that cannot be listed is such a file:
+// its numbers would be given again.
 #pragma once
 
 #include <cstdint>
@@ -25,25 +26,30 @@ class IncidentStore {
 
   KeptIncidents read();
 
-  // Writes what is new.
-  void keep(const IncidentBook& book, const IncidentBook::News& news);
+  // Writes what is new, and each second what could not be written before. Call often. `now_s`:
+  // monotonic.
+  void keep(const IncidentBook& book, const IncidentBook::News& news, double now_s);
 
-  void write(const std::vector<Area>& areas);
-  void write(const Incident& incident);
-  void write_picture(std::uint64_t number, const std::string& jpeg);
-  void remove(std::uint64_t number);
-
-  // What could not be read at the start, or written last.
+  // What could not be read at the start, or is not written yet.
   std::vector<Alarm> alarms() const;
+
+  static constexpr double kAgain_s = 1.0;
 
  private:
   bool tried(const std::string& file, const std::function<void()>& read_it);
   void read_incident(std::uint64_t number, KeptIncidents& kept);
-  void write_file(const std::string& name, const std::string& content);
+  bool is_written(const std::function<void()>& write_it);
+  void write(const std::vector<Area>& areas) const;
+  void write(const Incident& incident) const;
+  void write_file(const std::string& name, const std::string& content) const;
+  void remove(std::uint64_t number) const;
 
   std::string folder_;
+  bool is_listed_ = true;
   std::vector<Alarm> unread_;
-  Alarm unsaved_;
+  IncidentBook::News unsaved_;
+  std::string why_unsaved_;  // empty: all is saved
+  double again_s_ = 0.0;
 };
 
 }  // namespace ols::console

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 
@@ -33,6 +34,14 @@ std::string content(const std::string& path) {
   return text.str();
 }
 
+constexpr double kNow_s = 100.0;
+
+IncidentBook book_of(KeptIncidents kept) {
+  IncidentBook book{IncidentRecording{}};
+  book.resume(std::move(kept), 0.0);
+  return book;
+}
+
 TEST(IncidentStore, KeepsAreasIncidentsAndPictures) {
   const TemporaryFolder folder;
   const std::string path = folder.path() + "/new/incidents";
@@ -40,12 +49,11 @@ TEST(IncidentStore, KeepsAreasIncidentsAndPictures) {
   EXPECT_TRUE(before.read().areas.empty());
   Incident with_picture = incident(3);
   with_picture.picture = {{"station", "alfa"}};
-  before.write(std::vector{gate()});
-  before.write(with_picture);
-  before.write_picture(3, "jpeg");
-  before.write(incident(4));
-  before.write(incident(9));
-  before.remove(4);
+  const KeptIncidents made{.areas = {gate()},
+                           .incidents = {with_picture, incident(4), incident(9)},
+                           .pictures = {{3, "jpeg"}}};
+  before.keep(book_of(made), {true, {3, 4, 9}, {3}, {}}, kNow_s);
+  before.keep(book_of(made), {.forgotten = {4}}, kNow_s);
   EXPECT_TRUE(before.alarms().empty());
 
   IncidentStore after(path);
@@ -63,8 +71,8 @@ TEST(IncidentStore, KeepsAreasIncidentsAndPictures) {
 
 TEST(IncidentStore, NamesABadFileAndLeavesIt) {
   const TemporaryFolder folder;
-  IncidentStore(folder.path()).write(std::vector{gate()});
-  IncidentStore(folder.path()).write(incident(1));
+  IncidentStore(folder.path())
+      .keep(book_of({.areas = {gate()}, .incidents = {incident(1)}}), {true, {1}, {}, {}}, kNow_s);
   struct Case {
     const char *file, *content, *why;
   };
@@ -91,13 +99,27 @@ TEST(IncidentStore, SaysThatItCannotWriteUntilItCan) {
   const TemporaryFolder folder;
   const std::string path = folder.path() + "/incidents";
   std::ofstream(path) << "no folder";
-  IncidentStore store(path);
-  store.write(incident(1));
+  IncidentStore store(path), unlisted(path);
+  EXPECT_FALSE(unlisted.read().may_change_areas);
+  const IncidentBook book =
+      book_of({.incidents = {incident(1), incident(2)}, .pictures = {{1, "jpeg"}}});
+  store.keep(book, {false, {1}, {1}, {}}, kNow_s);
   ASSERT_EQ(store.alarms().size(), 1U);
   EXPECT_EQ(store.alarms()[0].id, "incidents_unsaved");
   std::remove(path.c_str());
-  store.write(incident(1));
+  unlisted.keep(book, {.incidents = {1}}, kNow_s);
+  EXPECT_EQ(unlisted.alarms().back().id, "incidents_unsaved");
+  EXPECT_FALSE(std::filesystem::exists(path)) << "its numbers may be taken";
+  std::filesystem::create_directories(path + "/1.json");  // one that goes on failing
+  store.keep(book, {.incidents = {2}}, kNow_s);
+  EXPECT_EQ(store.alarms().size(), 1U) << "another's success does not end it";
+  EXPECT_EQ(content(path + "/1.jpg"), "jpeg");
+  std::filesystem::remove(path + "/1.json");
+  store.keep(book, {}, kNow_s + 0.9 * IncidentStore::kAgain_s);
+  EXPECT_FALSE(store.alarms().empty());
+  store.keep(book, {}, kNow_s + IncidentStore::kAgain_s);
   EXPECT_TRUE(store.alarms().empty());
+  EXPECT_NE(content(path + "/1.json"), "");
 }
 
 }  // namespace
