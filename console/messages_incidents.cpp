@@ -27,12 +27,9 @@ Message message_of(const Incident& incident) {
   m.begun_utime = incident.begun_us;
   m.ended_utime = incident.ended_us;
   m.entries = incident.entries;
-  if (!incident.track.empty()) {
-    const TrackPoint& at = incident.track.back();
-    m.latitude_deg = at.latitude_deg;
-    m.longitude_deg = at.longitude_deg;
-    m.height_m = at.height_m;
-  }
+  m.latitude_deg = incident.last.latitude_deg;
+  m.longitude_deg = incident.last.longitude_deg;
+  m.height_m = incident.last.height_m;
   m.verdict = static_cast<std::int8_t>(incident.verdict);
   m.judged_by = incident.judged_by;
   m.judged_utime = incident.judged_us;

@@ -200,11 +200,13 @@ bool concerns(const Area& area, const std::string& object_class) {
          std::ranges::find(area.classes, object_class) != area.classes.end();
 }
 
-double probability_inside(const Area& area, const Geodetic& position,
-                          const Eigen::Matrix3d& covariance_enu_m2) {
+std::optional<double> probability_inside(const Area& area, const Geodetic& position,
+                                         const Eigen::Matrix3d& covariance_enu_m2) {
   const Eigen::Matrix2d covariance =
       covariance_enu_m2.topLeftCorner<2, 2>() + kLeastVariance_m2 * Eigen::Matrix2d::Identity();
-  const Eigen::Matrix2d root = covariance.llt().matrixL();
+  const Eigen::LLT<Eigen::Matrix2d> factors(covariance);
+  if (factors.info() != Eigen::Success) return std::nullopt;
+  const Eigen::Matrix2d root = factors.matrixL();
   const Eigen::Vector2d scale_m = east_north_m(position);
   Corners corners =
       relative_deg(area, degrees(position.longitude_rad), degrees(position.latitude_rad));
@@ -219,7 +221,8 @@ double probability_inside(const Area& area, const Geodetic& position,
   const double vertical = below(area.highest_m, position.height_m, sd_m) -
                           below(area.lowest_m, position.height_m, sd_m);
   const double probability = std::abs(horizontal) * vertical;
-  return std::isfinite(probability) ? std::min(1.0, probability) : 0.0;
+  if (!std::isfinite(probability)) return std::nullopt;
+  return std::min(1.0, probability);
 }
 
 }  // namespace ols::console

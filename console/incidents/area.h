@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,8 +35,8 @@ bool concerns(const Area& area, const std::string& object_class);
 
 // The probability that a target is in the area, from its position and covariance [m^2] at its own
 // east, north, up. Exact for a Gaussian in the horizontal; the correlation of the height with the
-// horizontal position is left out.
-double probability_inside(const Area& area, const Geodetic& position,
-                          const Eigen::Matrix3d& covariance_enu_m2);
+// horizontal position is left out. Nullopt: a number is not finite, or the covariance is none.
+std::optional<double> probability_inside(const Area& area, const Geodetic& position,
+                                         const Eigen::Matrix3d& covariance_enu_m2);
 
 }  // namespace ols::console

@@ -10,11 +10,15 @@ using Json = nlohmann::json;
 
 constexpr std::array<std::string_view, 3> kVerdicts{"open", "confirmed", "dismissed"};
 
+Json json_of(const TrackPoint& p) {
+  return {p.utime_us, p.longitude_deg, p.latitude_deg, p.height_m};
+}
+
+TrackPoint point_from(const Json& json) { return {json.at(0), json.at(1), json.at(2), json.at(3)}; }
+
 Json track_json(const std::vector<TrackPoint>& track) {
   Json points = Json::array();
-  for (const TrackPoint& p : track) {
-    points.push_back({p.utime_us, p.longitude_deg, p.latitude_deg, p.height_m});
-  }
+  for (const TrackPoint& point : track) points.push_back(json_of(point));
   return points;
 }
 
@@ -36,9 +40,9 @@ Incident read(const Json& json) {
   const auto verdict = judgement_named(json.at("verdict").get<std::string>());
   if (!verdict) throw std::invalid_argument("unknown verdict");
   incident.verdict = *verdict;
-  for (const Json& point : json.at("track")) {
-    incident.track.push_back({point.at(0), point.at(1), point.at(2), point.at(3)});
-  }
+  incident.last = point_from(json.at("last"));
+  for (const Json& point : json.at("track")) incident.track.push_back(point_from(point));
+  json.at("track_period_us").get_to(incident.track_period_us);
   return incident;
 }
 
@@ -54,12 +58,10 @@ std::optional<Judgement> judgement_named(std::string_view name) {
 
 void add_to_track(const TrackPoint& point, Incident& incident) {
   std::vector<TrackPoint>& track = incident.track;
-  if (track.size() >= 2) {
-    const std::int64_t period_us = std::max(kTrackPeriod_us, track[1].utime_us - track[0].utime_us);
-    if (point.utime_us < track.back().utime_us + period_us) return;
-  }
+  if (!track.empty() && point.utime_us < track.back().utime_us + incident.track_period_us) return;
   track.push_back(point);
   if (track.size() <= kMostTrackPoints) return;
+  incident.track_period_us *= 2;
   std::size_t kept = 0;
   for (std::size_t i = 0; i < track.size(); i += 2) track[kept++] = track[i];
   track.resize(kept);
@@ -75,7 +77,9 @@ Json json_of(const Incident& incident) {
           {"ended_us", incident.ended_us},
           {"entries", incident.entries},
           {"stations", incident.stations},
+          {"last", json_of(incident.last)},
           {"track", track_json(incident.track)},
+          {"track_period_us", incident.track_period_us},
           {"verdict", name(incident.verdict)},
           {"judged_by", incident.judged_by},
           {"judged_us", incident.judged_us},

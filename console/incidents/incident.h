@@ -26,12 +26,14 @@ struct Incident {
   std::string area;
   std::string target;  // the fusion's boot and its number for the target: "BOOT/NUMBER"
   std::string object_class = "unknown";
-  double class_probability = 0.0;     // 0: unknown
-  std::int64_t begun_us = 0;          // the target's time when it first was inside
-  std::int64_t ended_us = 0;          // when it left or was lost; 0: it is inside
-  int entries = 1;                    // how often it came in
-  std::vector<std::string> stations;  // that saw it when it came in
-  std::vector<TrackPoint> track;      // while it was inside, thinned out as it grows
+  double class_probability = 0.0;          // 0: unknown
+  std::int64_t begun_us = 0;               // the target's time when it first was inside
+  std::int64_t ended_us = 0;               // when it left or was lost; 0: it is inside
+  int entries = 1;                         // how often it came in
+  std::vector<std::string> stations;       // that saw it when it came in
+  TrackPoint last;                         // where it was last inside, or might have been
+  std::vector<TrackPoint> track;           // while it was inside, thinned out as it grows
+  std::int64_t track_period_us = 500'000;  // the shortest time between its points
   Judgement verdict = Judgement::kOpen;
   std::string judged_by;
   std::int64_t judged_us = 0;
@@ -51,7 +53,6 @@ struct Incident {
 // ones are taken half as often.
 void add_to_track(const TrackPoint& point, Incident& incident);
 inline constexpr std::size_t kMostTrackPoints = 240;
-inline constexpr std::int64_t kTrackPeriod_us = 500'000;  // the shortest
 
 // The inverse throws std::invalid_argument with what is wrong.
 nlohmann::json json_of(const Incident& incident);

@@ -10,6 +10,8 @@
 namespace ols::console {
 namespace {
 
+constexpr std::int64_t kPictureBefore_us = 1'000'000;  // an older one shows something else
+
 std::string id_of(const TargetHeard& target) {
   return std::to_string(target.boot_id) + "/" + target.id;
 }
@@ -96,11 +98,13 @@ void IncidentBook::add_pictures(const std::function<const Picture*(const std::st
       const Picture* picture = newest(station);
       if (picture == nullptr || picture->bytes.size() > kMostPictureBytes) continue;
       const auto field = [&](const char* key) { return picture->header.value(key, Json(nullptr)); };
+      const Json utime_us = field("utime_us");
+      if (!utime_us.is_number() || utime_us < incident.begun_us - kPictureBefore_us) continue;
       pictures_[number] = picture->bytes;
       news_.pictures.insert(number);
       news_.incidents.insert(number);
       watch_.set_picture(number, {{"station", station},
-                                  {"utime_us", field("utime_us")},
+                                  {"utime_us", utime_us},
                                   {"full_px", field("full_px")},
                                   {"box_px", field("box_px")}});
       break;

@@ -12,11 +12,9 @@ void IncidentWatch::resume(std::vector<Area> areas, std::vector<Incident> incide
   areas_ = std::move(areas);
   numbers_ = numbers;
   for (Incident& incident : incidents) {
-    const std::int64_t last_us =
-        incident.track.empty() ? incident.begun_us : incident.track.back().utime_us;
     const bool has_area = std::ranges::find(areas_, incident.area, &Area::name) != areas_.end();
-    if (incident.is_inside() && !has_area) end(incident, last_us);
-    if (incident.is_inside()) heard_[incident.target] = {now_s, last_us};
+    if (incident.is_inside() && !has_area) end(incident);
+    if (incident.is_inside()) heard_s_[incident.target] = now_s;
     incidents_[incident.number] = std::move(incident);
   }
 }
@@ -35,9 +33,7 @@ bool IncidentWatch::set(const Area& area) {
 bool IncidentWatch::remove(const std::string& area) {
   if (std::erase_if(areas_, [&](const Area& a) { return a.name == area; }) == 0) return false;
   for (auto& [number, incident] : incidents_) {
-    if (incident.area == area && incident.is_inside()) {
-      end(incident, heard_[incident.target].utime_us);
-    }
+    if (incident.area == area && incident.is_inside()) end(incident);
   }
   return true;
 }
@@ -50,9 +46,11 @@ Incident* IncidentWatch::incident_of(const std::string& target, const std::strin
 }
 
 bool IncidentWatch::is_dismissed(const std::string& target) const {
-  return std::ranges::any_of(incidents_, [&](const auto& entry) {
+  const auto is_of_it = [&](const auto& entry) {
     return entry.second.target == target && entry.second.verdict == Judgement::kDismissed;
-  });
+  };
+  return std::ranges::find(dismissed_, target) != dismissed_.end() ||
+         std::ranges::any_of(incidents_, is_of_it);
 }
 
 void IncidentWatch::hear(const WatchedTarget& target, int minute_of_day, double now_s) {
@@ -63,31 +61,36 @@ void IncidentWatch::hear(const WatchedTarget& target, int minute_of_day, double 
     const bool was_inside = incident != nullptr && incident->is_inside();
     const bool may_enter = is_watched(area, minute_of_day) && concerns(area, target.object_class);
     if (!was_inside && !may_enter) continue;
-    const double probability = probability_inside(area, target.position, target.covariance_enu_m2);
-    if (was_inside && probability < kLeaves) {
-      end(*incident, target.utime_us);
-    } else if (was_inside) {
-      stay(target, *incident);
-      is_inside = true;
-    } else if (probability >= kEnters && !is_dismissed(target.id)) {
-      enter(target, area);
-      is_inside = true;
+    const auto probability = probability_inside(area, target.position, target.covariance_enu_m2);
+    if (was_inside && probability) {
+      if (*probability >= kLeaves) {
+        stay(target, *incident);
+      } else if (has_left(*incident, now_s)) {
+        end(*incident);
+      }
+    } else if (!was_inside && probability >= kEnters && !is_dismissed(target.id)) {
+      incident = &enter(target, area);
     }
+    is_inside = is_inside || (incident != nullptr && incident->is_inside());
   }
   if (is_inside) {
-    heard_[target.id] = {now_s, target.utime_us};
+    heard_s_[target.id] = now_s;
   } else {
-    heard_.erase(target.id);
+    heard_s_.erase(target.id);
   }
 }
 
-void IncidentWatch::enter(const WatchedTarget& target, const Area& area) {
+bool IncidentWatch::has_left(const Incident& incident, double now_s) {
+  return now_s >= outside_since_s_.try_emplace(incident.number, now_s).first->second + kLeaves_s;
+}
+
+Incident& IncidentWatch::enter(const WatchedTarget& target, const Area& area) {
   Incident* incident = incident_of(target.id, area.name);
   if (incident != nullptr) {
     ++incident->entries;
     incident->ended_us = 0;
   } else {
-    if (incidents_.size() >= kMostIncidents) forget_oldest();
+    if (incidents_.size() >= kMostIncidents) forget_one();
     incident = &incidents_[++numbers_];
     incident->number = numbers_;
     incident->area = area.name;
@@ -98,37 +101,43 @@ void IncidentWatch::enter(const WatchedTarget& target, const Area& area) {
   changes_.entered.push_back(incident->number);
   changes_.changed.insert(incident->number);
   stay(target, *incident);
+  return *incident;
 }
 
 void IncidentWatch::stay(const WatchedTarget& target, Incident& incident) {
-  add_to_track({target.utime_us, degrees(target.position.longitude_rad),
-                degrees(target.position.latitude_rad), target.position.height_m},
-               incident);
+  outside_since_s_.erase(incident.number);
+  incident.last = {target.utime_us, degrees(target.position.longitude_rad),
+                   degrees(target.position.latitude_rad), target.position.height_m};
+  add_to_track(incident.last, incident);
   if (incident.object_class != target.object_class) changes_.changed.insert(incident.number);
   incident.object_class = target.object_class;
   incident.class_probability = target.class_probability;
 }
 
-void IncidentWatch::end(Incident& incident, std::int64_t utime_us) {
-  incident.ended_us = utime_us;
+void IncidentWatch::end(Incident& incident) {
+  incident.ended_us = incident.last.utime_us;
+  outside_since_s_.erase(incident.number);
   changes_.changed.insert(incident.number);
 }
 
 void IncidentWatch::drop(const std::string& target) {
-  const auto heard = heard_.find(target);
-  if (heard == heard_.end()) return;
+  std::erase(dismissed_, target);
+  lose(target);
+}
+
+void IncidentWatch::lose(const std::string& target) {
+  if (heard_s_.erase(target) == 0) return;
   for (auto& [number, incident] : incidents_) {
-    if (incident.target == target && incident.is_inside()) end(incident, heard->second.utime_us);
+    if (incident.target == target && incident.is_inside()) end(incident);
   }
-  heard_.erase(heard);
 }
 
 void IncidentWatch::turn(double now_s) {
   std::vector<std::string> lost;
-  for (const auto& [target, heard] : heard_) {
-    if (now_s > heard.now_s + kLost_s) lost.push_back(target);
+  for (const auto& [target, heard_s] : heard_s_) {
+    if (now_s > heard_s + kLost_s) lost.push_back(target);
   }
-  for (const std::string& target : lost) drop(target);
+  for (const std::string& target : lost) lose(target);
 }
 
 bool IncidentWatch::judge(std::uint64_t number, Judgement verdict, const std::string& who,
@@ -136,6 +145,7 @@ bool IncidentWatch::judge(std::uint64_t number, Judgement verdict, const std::st
   const auto found = incidents_.find(number);
   if (found == incidents_.end()) return false;
   const std::string target = found->second.target;
+  std::erase(dismissed_, target);
   for (auto& [of_number, incident] : incidents_) {
     if (incident.target != target) continue;
     incident.verdict = verdict;
@@ -153,13 +163,24 @@ void IncidentWatch::set_picture(std::uint64_t number, const nlohmann::json& pict
   changes_.changed.insert(number);
 }
 
-// Not one that lasts, while there is another.
-void IncidentWatch::forget_oldest() {
-  auto oldest = std::ranges::find_if_not(
-      incidents_, [](const auto& entry) { return entry.second.is_inside(); });
-  if (oldest == incidents_.end()) oldest = incidents_.begin();
-  changes_.forgotten.push_back(oldest->first);
-  incidents_.erase(oldest);
+// The oldest of those that matter least: it is over, then dismissed, then confirmed.
+void IncidentWatch::forget_one() {
+  const auto worth = [](const auto& entry) {
+    const Incident& incident = entry.second;
+    const int verdict = incident.verdict == Judgement::kDismissed   ? 0
+                        : incident.verdict == Judgement::kConfirmed ? 1
+                                                                    : 2;
+    return std::pair(incident.is_inside(), verdict);
+  };
+  const auto least = std::ranges::min_element(incidents_, {}, worth);
+  if (is_dismissed(least->second.target)) {
+    std::erase(dismissed_, least->second.target);
+    dismissed_.push_back(least->second.target);
+    if (dismissed_.size() > kMostDismissed) dismissed_.pop_front();
+  }
+  outside_since_s_.erase(least->first);
+  changes_.forgotten.push_back(least->first);
+  incidents_.erase(least);
 }
 
 }  // namespace ols::console

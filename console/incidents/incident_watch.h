@@ -1,11 +1,13 @@
 // Judges which targets are in which areas, and keeps the incidents. Pure.
 //
 // An incident begins when the probability that a target is in an area reaches kEnters, and the
-// target is inside until it is below kLeaves: between them an uncertain target changes nothing, and
-// one that hovers at the border does not ring again and again (measured in docs/events.md).
+// target is inside until it has been below kLeaves for kLeaves_s: between them an uncertain target
+// changes nothing, and one that hovers at the border does not ring again and again (measured in
+// docs/events.md). A position without a proper covariance says only that the target is still there.
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <map>
 #include <set>
 #include <string>
@@ -49,7 +51,8 @@ class IncidentWatch {
   void turn(double now_s);
 
   // What a person says of an incident's target: it holds for all its incidents. A dismissed target
-  // begins no other, in no area. False: there is no such incident.
+  // begins no other, in no area, also when its incidents are forgotten: until it is dropped. False:
+  // there is no such incident.
   bool judge(std::uint64_t number, Judgement verdict, const std::string& who,
              std::int64_t utime_us);
   // A picture was kept with the incident; as Incident::picture.
@@ -66,25 +69,25 @@ class IncidentWatch {
   Changes take_changes() { return std::exchange(changes_, {}); }
 
   static constexpr double kEnters = 0.95, kLeaves = 0.05;
-  static constexpr double kLost_s = 20.0;
-  static constexpr std::size_t kMostAreas = 50, kMostIncidents = 200;
+  static constexpr double kLeaves_s = 5.0, kLost_s = 20.0;
+  static constexpr std::size_t kMostAreas = 50, kMostIncidents = 200, kMostDismissed = 1000;
 
  private:
   Incident* incident_of(const std::string& target, const std::string& area);
   bool is_dismissed(const std::string& target) const;
-  void enter(const WatchedTarget& target, const Area& area);
+  Incident& enter(const WatchedTarget& target, const Area& area);
   void stay(const WatchedTarget& target, Incident& incident);
-  void end(Incident& incident, std::int64_t utime_us);
-  void forget_oldest();
+  bool has_left(const Incident& incident, double now_s);
+  void end(Incident& incident);
+  void lose(const std::string& target);
+  void forget_one();
 
   std::vector<Area> areas_;
   std::map<std::uint64_t, Incident> incidents_;
   std::uint64_t numbers_ = 0;
-  struct Heard {
-    double now_s = 0.0;
-    std::int64_t utime_us = 0;
-  };
-  std::map<std::string, Heard> heard_;  // targets that are inside
+  std::map<std::string, double> heard_s_;  // targets that are inside: when they were heard
+  std::map<std::uint64_t, double> outside_since_s_;  // incidents whose targets may have left
+  std::deque<std::string> dismissed_;                // targets whose incidents are forgotten
   Changes changes_;
 };
 

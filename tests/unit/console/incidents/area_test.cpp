@@ -27,7 +27,8 @@ Area area_with(const Json& changes = Json::object()) { return area_from(json_wit
 double probability(const Area& area, double longitude_deg, double latitude_deg, double height_m,
                    double sd_m = 1.0) {
   return probability_inside(area, {radians(latitude_deg), radians(longitude_deg), height_m},
-                            sd_m * sd_m * Eigen::Matrix3d::Identity());
+                            sd_m * sd_m * Eigen::Matrix3d::Identity())
+      .value_or(-1.0);
 }
 
 TEST(Area, ContainsWhatIsInsideAtAnyOrderOfCornersAndOnBothSidesOfTheAntimeridian) {
@@ -96,13 +97,19 @@ TEST(Area, ProbabilityIsThatOfRandomPositionsOnTheEllipsoid) {
     }
     const double share = inside / static_cast<double>(kSamples);
     const double sd = std::sqrt(share * (1.0 - share) / kSamples);
-    EXPECT_NEAR(probability_inside(area, mean, covariance), share, 4.0 * sd) << "seed " << kSeed;
+    EXPECT_NEAR(probability_inside(area, mean, covariance).value(), share, 4.0 * sd)
+        << "seed " << kSeed;
   }
 }
 
-TEST(Area, NoPositionIsNowhere) {
-  EXPECT_EQ(probability(area_with(), NAN, 48.0, 700.0), 0.0);
-  EXPECT_EQ(probability(area_with(), 11.005, 48.005, 700.0, NAN), 0.0);
+TEST(Area, WhatIsNoPositionIsNeitherInsideNorOutside) {
+  EXPECT_EQ(probability(area_with(), NAN, 48.0, 700.0), -1.0);
+  EXPECT_EQ(probability(area_with(), 11.005, 48.005, 700.0, NAN), -1.0);
+  for (const Eigen::Vector3d& variances :
+       {Eigen::Vector3d(-1, 1, 1), Eigen::Vector3d(1, -1, 1), Eigen::Vector3d(1, 1, -1)}) {
+    EXPECT_FALSE(probability_inside(area_with(), {radians(48.005), radians(11.005), 700.0},
+                                    variances.asDiagonal()));
+  }
 }
 
 TEST(Area, IsWatchedAtItsTimeAlsoOverMidnight) {

@@ -37,9 +37,9 @@ struct Site {
   bool has_picture = true;
 
   Site() { EXPECT_EQ(book.change({.area = kGate}), ""); }
-  void hear(const TargetHeard& target) {
-    book.hear(target, 0, 0.0);
-    book.turn(0.0, [this](const std::string& station) {
+  void hear(const TargetHeard& target, double now_s = 0.0) {
+    book.hear(target, 0, now_s);
+    book.turn(now_s, [this](const std::string& station) {
       return has_picture && station == "alfa" ? &picture : nullptr;
     });
   }
@@ -60,6 +60,10 @@ TEST(IncidentBook, AnIncidentHasAlarmPictureAndRecordingsAtTheStationsThatSawIt)
   EXPECT_EQ(orders[0].after_s, IncidentRecording{}.after_s);
   EXPECT_EQ(site.book.picture(1), nullptr);
   site.has_picture = true;
+  site.picture.header["utime_us"] = 7 - 1'000'001;
+  site.hear(target_at(kInside_deg));
+  EXPECT_EQ(site.book.picture(1), nullptr) << "it was taken long before";
+  site.picture.header["utime_us"] = 7 - 1'000'000;
   site.hear(target_at(kInside_deg));
   EXPECT_EQ(*site.book.picture(1), "jpeg");
   EXPECT_EQ(site.book.watch().incidents().at(1).picture.at("box_px"), Json({1, 2, 3, 4}));
@@ -68,6 +72,7 @@ TEST(IncidentBook, AnIncidentHasAlarmPictureAndRecordingsAtTheStationsThatSawIt)
   EXPECT_TRUE(news.incidents.contains(1));
   EXPECT_TRUE(news.pictures.contains(1));
   site.hear(target_at(kOutside_deg));
+  site.hear(target_at(kOutside_deg), IncidentWatch::kLeaves_s);
   EXPECT_TRUE(site.book.alarms().empty());
   site.hear(target_at(kInside_deg));
   EXPECT_TRUE(site.book.take_recordings().empty()) << "it was recorded when it first came in";
