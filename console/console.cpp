@@ -256,22 +256,19 @@ Outcome Console::change_refusal(std::uint64_t id) const {
   return may ? Outcome() : outcome::viewer_only_looks();
 }
 
-void Console::conclude(std::uint64_t id, std::int64_t number, const Outcome& refusal,
-                       const std::string& what, const Now& now) {
-  if (refusal.empty()) {
-    site_.note({now.utime_us, "command", "", viewers_.at(id).name, what, "done"});
-  }
-  answer(id, number, "", refusal);
+void Console::conclude(std::uint64_t id, std::int64_t number, const Alarm& what, const Now& now) {
+  site_.note(noted(now.utime_us, "command", "", viewers_.at(id).name, what, "done"));
+  answer(id, number, "", {});
 }
 
 void Console::act(std::uint64_t id, const AreaRequest& request, const Now& now) {
   Outcome refusal = change_refusal(id);
   if (refusal.empty()) refusal = incidents_.change(request.change);
   const bool is_removed = request.change.area.is_null();
-  const std::string name = is_removed        ? request.change.name
-                           : refusal.empty() ? request.change.area.at("name").get<std::string>()
-                                             : "";
-  conclude(id, request.number, refusal, (is_removed ? "removes area " : "sets area ") + name, now);
+  if (!refusal.empty()) return answer(id, request.number, "", refusal);
+  const Alarm what = is_removed ? note::removes_area(request.change.name)
+                                : note::sets_area(request.change.area.at("name"));
+  conclude(id, request.number, what, now);
 }
 
 void Console::act(std::uint64_t id, const JudgeRequest& request, const Now& now) {
@@ -280,10 +277,11 @@ void Console::act(std::uint64_t id, const JudgeRequest& request, const Now& now)
   if (refusal.empty()) {
     refusal = incidents_.judge(request.judgement, viewers_.at(id).name, now.utime_us);
   }
-  const std::string what = verdict == Judgement::kConfirmed   ? "confirms incident "
-                           : verdict == Judgement::kDismissed ? "dismisses incident "
-                                                              : "reopens incident ";
-  conclude(id, request.number, refusal, what + std::to_string(incident), now);
+  if (!refusal.empty()) return answer(id, request.number, "", refusal);
+  const Alarm what = verdict == Judgement::kConfirmed   ? note::confirms_incident(incident)
+                     : verdict == Judgement::kDismissed ? note::dismisses_incident(incident)
+                                                        : note::reopens_incident(incident);
+  conclude(id, request.number, what, now);
 }
 
 void Console::act(std::uint64_t id, const AcknowledgeRequest& request, const Now&) {

@@ -169,9 +169,8 @@ class Console {
   void show_areas();
   void show_incident(const Incident& incident);
   void look_at_own_alarms(const Now& now);
-  // Of a change that needs no station: its answer, and its event if it was done.
-  void conclude(std::uint64_t id, std::int64_t number, const Outcome& refusal,
-                const std::string& what, const Now& now);
+  // A change that needs no station was made: its event and its answer.
+  void conclude(std::uint64_t id, std::int64_t number, const Alarm& what, const Now& now);
   // Why this viewer may change nothing; empty: may.
   Outcome change_refusal(std::uint64_t id) const;
   void forget_gone();
