@@ -90,10 +90,11 @@ def leave_unanswered(page, path):
     wait(lambda: page.evaluate(ask) == "caught", "requests to be caught")
 
 
-def axe_finds(page):
-    """What axe-core has against the page as it is now."""
+def axe_finds(page, within="html"):
+    """What axe-core has against the page as it is now, or against what stands before it."""
     page.evaluate(AXE.read_text())
-    found = page.evaluate("axe.run({resultTypes: ['violations']})")["violations"]
+    run = "(within) => axe.run(within, {resultTypes: ['violations']})"
+    found = page.evaluate(run, within)["violations"]
     return [(v["id"], [n["html"][:120] for n in v["nodes"]][:3]) for v in found]
 
 
@@ -111,7 +112,7 @@ def unreadable(page, within="body"):
     found = []
     for theme in THEMES:
         page.evaluate("(theme) => (document.documentElement.dataset.theme = theme)", theme)
-        found += [(theme, *finding) for finding in axe_finds(page)]
+        found += [(theme, *finding) for finding in axe_finds(page, within)]
     return found + list(found_at_each_size(page, within).items())
 
 
