@@ -134,25 +134,33 @@ TEST(TargetAppearance, ClassesOfBothStationsMultiply) {
   EXPECT_NEAR(seen.class_probability, 0.32 / (0.32 + 0.12), 1e-4);
 }
 
-// 35 m long and 150 m/s fast, for five seconds; the size is that of the station that sees it best.
-TEST(TargetAppearance, ClassIsThatOfTheTracksLife) {
+// Of what is 35 m long, by five seconds of this velocity; the size is that of the station that sees
+// it best.
+Appearance flown(const Eigen::Vector3d& velocity_enu_m_s) {
   Track track =
       seen_by_two({.size_rad = 0.35, .size_sd_rad = 0.02}, {.size_rad = 0.01, .size_sd_rad = 0.3});
   const Eigen::Vector3d there = test::site().to_ecef(kThere_enu);
   EXPECT_EQ(appearance_of(track, there).object_class, ObjectClass::kUnknown);
   for (int i = 0; i <= 25; ++i) {
-    const std::int64_t utime_us = 1 + i * 200'000LL;
-    track.filter = TrackFilter({}, utime_us,
-                               {.p_ecef = there,
-                                .v_ecef = test::site().to_ecef({150.0, 0.0, 0.0}) -
-                                          test::site().to_ecef({0.0, 0.0, 0.0})});
+    track.filter = TrackFilter(
+        {}, 1 + i * 200'000LL,
+        {.p_ecef = there,
+         .v_ecef = test::site().to_ecef(velocity_enu_m_s) - test::site().to_ecef({0.0, 0.0, 0.0}),
+         .position_sd_m = 1.0,
+         .velocity_sd_m_s = 1.0});
     look_at_class(track);
     look_at_class(track);  // again at once: no look
   }
   EXPECT_EQ(track.velocities.size(), 6u);
-  const Appearance seen = appearance_of(track, there);
-  EXPECT_EQ(seen.object_class, ObjectClass::kAircraft);
-  EXPECT_GE(seen.class_probability, kSure);
+  return appearance_of(track, there);
+}
+
+TEST(TargetAppearance, ClassIsThatOfTheTracksLifeWhereverItFlies) {
+  const Appearance east = flown({150.0, 0.0, 0.0}), north = flown({0.0, 150.0, 0.0});
+  EXPECT_EQ(east.object_class, ObjectClass::kAircraft);
+  EXPECT_GE(east.class_probability, kSure);
+  EXPECT_NEAR(north.class_probability, east.class_probability, 1e-6);
+  EXPECT_GT(std::abs(flown({0.0, 0.0, 150.0}).class_probability - east.class_probability), 1e-5);
 }
 
 TEST(TargetAppearance, NothingSeenIsUnknown) {
