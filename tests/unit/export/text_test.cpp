@@ -72,7 +72,7 @@ TEST(ExportUncertainty, SpeedAndCourse) {
 
 TEST(Uncertainty, IsRoundedUp) {
   EXPECT_DOUBLE_EQ(rounded_up(0.004, 2), 0.01);
-  EXPECT_DOUBLE_EQ(rounded_up(0.15, 2), 0.15);
+  EXPECT_DOUBLE_EQ(rounded_up(0.07, 2), 0.07);  // 100 times that is above 7
   EXPECT_DOUBLE_EQ(rounded_up(0.1501, 2), 0.16);
   EXPECT_DOUBLE_EQ(rounded_up(3.0, 0), 3.0);
   EXPECT_TRUE(std::isnan(rounded_up(kUnknown, 2)));
