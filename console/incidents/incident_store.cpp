@@ -5,6 +5,7 @@
 #include <exception>
 #include <filesystem>
 #include <functional>
+#include <set>
 #include <stdexcept>
 
 #include "base/files/atomic_file.h"
@@ -84,12 +85,12 @@ KeptIncidents IncidentStore::read() {
     kept.areas = std::move(read);
   });
   is_listed_ = tried(folder_, [&] {
-    for (const auto& entry : fs::directory_iterator(folder_)) {
-      const std::uint64_t number = number_of(entry.path());
-      if (number == 0) continue;
-      kept.numbers = std::max(kept.numbers, number);
-      read_incident(number, kept);
-    }
+    std::set<std::uint64_t> numbers;
+    for (const auto& entry : fs::directory_iterator(folder_))
+      numbers.insert(number_of(entry.path()));
+    numbers.erase(0);
+    for (const std::uint64_t number : numbers) read_incident(number, kept);
+    if (!numbers.empty()) kept.numbers = std::max(kept.numbers, *numbers.rbegin());
   });
   kept.may_change_areas = kept.may_change_areas && is_listed_;
   return kept;

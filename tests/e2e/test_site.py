@@ -85,7 +85,9 @@ def test_the_steps_of_getting_started_are_done_again_over_what_is_there(run, tmp
     (tmp_path / "out/demo").mkdir(parents=True)
     (tmp_path / "out/demo/run.lcmlog").symlink_to(run / "run.lcmlog")
     (tmp_path / "out/replay.lcmlog").write_bytes(b"of an earlier time")
-    (tmp_path / "build").symlink_to(ROOT / "build")
+    (tmp_path / "build").mkdir()
+    (tmp_path / "build/release").symlink_to(BIN.parent)
+    (tmp_path / "build/venv").symlink_to(ROOT / "build/venv")
     unsigned = {**os.environ, "OLS_TRUST": "off"}
     steps = replay.replace("lcm-logplayer", "lcm-logplayer -s 3") + look
     done = finished("unshare", "--net", "bash", "-c", steps, cwd=tmp_path, env=unsigned)

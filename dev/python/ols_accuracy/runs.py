@@ -2,6 +2,7 @@
 
 import csv
 import json
+import os
 import subprocess
 from collections.abc import Iterable
 from concurrent.futures import ThreadPoolExecutor
@@ -12,7 +13,7 @@ import numpy as np
 
 ROOT = Path(__file__).resolve().parents[3]
 SCENARIOS = ROOT / "sim/scenarios"
-PROGRAMS = ROOT / "build/release/bin"
+PROGRAMS = Path(os.environ.get("OLS_BIN", ROOT / "build/release/bin"))
 WALK_SECONDS, STATIC_SECONDS = 123.0, 5.0
 START_UTIME_US = 1_700_000_000_000_000  # of the lockstep simulation
 WALK = "walk"  # stands for the walk where targets of table1.toml are named
