@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { cornersOf, textOfCorners } from "../../console/page/src/areapanel";
+import { cornersOf, newArea, textOfCorners } from "../../console/page/src/areapanel";
 import { apply, emptySite } from "../../console/page/src/site";
 
 test("areas and incidents come, change and go", () => {
@@ -14,6 +14,12 @@ test("areas and incidents come, change and go", () => {
   assert.equal(site.incidents.get("1")!.number, 1);
   apply(site, { kind: "delta", gone: { incidents: ["1"] } });
   assert.deepEqual([...site.incidents.keys()], ["2"]);
+});
+
+test("a new area reaches from below the stations to drones above them", () => {
+  const span = (heights_m: number[]) => [newArea(heights_m).lowest_m, newArea(heights_m).highest_m];
+  assert.deepEqual(span([812, 1204.5]), [760, 2210]);
+  assert.deepEqual(span([]), [-50, 1000]);
 });
 
 test("corners are read as they are written", () => {

@@ -9,7 +9,15 @@ import { named, t, type Word } from "./words";
 
 const CLASSES = ["drone", "bird", "aircraft", "other", "unknown"];
 
-export const newArea = (): Area => ({ name: "", polygon: [], lowest_m: 0, highest_m: 1000, classes: [], from: "00:00", to: "00:00" });
+// From below the stations to where drones may be above them: heights are above the ellipsoid, so a site's own tell where its ground is.
+const BELOW_M = 50;
+const ABOVE_M = 1000;
+export function newArea(stationHeights_m: number[]): Area {
+  const known = stationHeights_m.length > 0 ? stationHeights_m : [0];
+  const lowest_m = Math.floor((Math.min(...known) - BELOW_M) / 10) * 10;
+  const highest_m = Math.ceil((Math.max(...known) + ABOVE_M) / 10) * 10;
+  return { name: "", polygon: [], lowest_m, highest_m, classes: [], from: "00:00", to: "00:00" };
+}
 
 // One corner a line, as positions are written: latitude, longitude. Null: it is not that.
 export function cornersOf(text: string): Corner[] | null {

@@ -9,7 +9,7 @@ import { useEscape } from "./escape";
 import { DASH, fixed, utc } from "./format";
 import type { Link } from "./link";
 import { length } from "./measures";
-import { isInside, isOpen, type Area, type Incident } from "./site";
+import { isInside, isOpen, stationHeights, type Area, type Incident } from "./site";
 import { Sure } from "./sure";
 import { named, t, type Word } from "./words";
 
@@ -140,9 +140,9 @@ function IncidentRow({ of, area, isShown, onShow, onJudge }: RowProps) {
   );
 }
 
-type AreasProps = { areas: Area[]; onEdit: ((area: Area) => void) | null; onRemove: (name: string) => void };
+type AreasProps = { areas: Area[]; heights_m: number[]; onEdit: ((area: Area) => void) | null; onRemove: (name: string) => void };
 
-function Areas({ areas, onEdit, onRemove }: AreasProps) {
+function Areas({ areas, heights_m, onEdit, onRemove }: AreasProps) {
   return (
     <section class="areas" aria-label={t("areas")}>
       <h3>{t("areas")}</h3>
@@ -164,7 +164,7 @@ function Areas({ areas, onEdit, onRemove }: AreasProps) {
       </ul>
       {areas.length === 0 && <p class="nothing">{t("no_area")}</p>}
       {onEdit && (
-        <button type="button" onClick={() => onEdit(newArea())}>
+        <button type="button" onClick={() => onEdit(newArea(heights_m))}>
           {t("new_area")}
         </button>
       )}
@@ -206,7 +206,7 @@ export function Incidents({ link, onJudge, onEdit, onRemove, onClose }: Props) {
         </table>
         {incidents.length === 0 && <p class="nothing">{t("no_incident")}</p>}
       </div>
-      <Areas areas={areas} onEdit={onEdit} onRemove={onRemove} />
+      <Areas areas={areas} heights_m={stationHeights(link.site)} onEdit={onEdit} onRemove={onRemove} />
     </dialog>
   );
 }

@@ -6,6 +6,7 @@ import { numberOf } from "./format";
 import type { Link } from "./link";
 import { length } from "./measures";
 import { PanelFrame, PanelRow, PointThere, PositionRows, type OnPoint } from "./panel";
+import { stationHeights } from "./site";
 import { t } from "./words";
 
 const ABOVE_M = 100; // the stations: where most things fly that are looked for
@@ -31,7 +32,7 @@ function useMgrs(at: string): string | undefined {
 }
 
 function meanHeight(link: Link): number {
-  const heights = [...link.site.stations.values()].flatMap((one) => (one.height_m == null ? [] : [one.height_m]));
+  const heights = stationHeights(link.site);
   return heights.reduce((sum, one) => sum + one, 0) / Math.max(1, heights.length);
 }
 

@@ -267,6 +267,9 @@ function addEvents(site: Site, events: SiteEvent[] | undefined) {
 
 const trailTimes = new Map<string, number>();
 
+// [m, ellipsoidal] of the stations that have said where they stand.
+export const stationHeights = (site: Site) => [...site.stations.values()].flatMap((one) => (one.height_m == null ? [] : [one.height_m]));
+
 // Applies a message of the kind "snapshot" or "delta" in place.
 export function apply(site: Site, message: any): void {
   if (message.kind === "snapshot") {
