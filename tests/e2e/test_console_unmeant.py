@@ -137,6 +137,33 @@ class Person:
         chart.click()
         chart.press("ArrowRight")
 
+    def drag_and_keep(self, *modifiers):
+        """Escape while the map, or the view of it in 3-D, is under a hand."""
+        box = region(self.page, "Map").bounding_box()
+        x, y = box["x"] + 0.3 * box["width"], box["y"] + 0.6 * box["height"]
+        for modifier in modifiers:
+            self.page.keyboard.down(modifier)
+        self.page.mouse.move(x, y)
+        self.page.mouse.down()
+        self.page.mouse.move(x + 40, y + 40, steps=4)
+        for modifier in modifiers:
+            self.page.keyboard.up(modifier)
+        self.escape()
+        self.page.mouse.up()
+
+    def turn_in_3d(self):
+        button = region(self.page, "Map").get_by_role("button", name="3-D")
+        button.click()
+        self.drag_and_keep()
+        button.click()
+
+    def zoom_to_a_part(self):
+        scale = region(self.page, "Map").locator(".ol-scale-line-inner")
+        before = scale.inner_text()
+        self.drag_and_keep("Shift")
+        self.page.wait_for_timeout(HOLD_MS)  # longer than the map would take to zoom
+        expect(scale).to_have_text(before)
+
     def ways(self):
         page = self.page
         return {
@@ -145,6 +172,9 @@ class Person:
             "Escape ends measuring": self.measure,
             "Escape answers a question": self.be_asked,
             "Escape cancels a drag": self.drag_and_leave,
+            "Escape while the map is dragged": self.drag_and_keep,
+            "Escape cancels a part of the map": self.zoom_to_a_part,
+            "Escape while the site is turned": self.turn_in_3d,
             "Escape cancels a box of the keyboard": self.draw_by_key_and_leave,
             "Escape leaves a field": self.write,
             "Escape leaves a choice": self.choose,
@@ -241,8 +271,12 @@ def test_what_was_stopped_is_released_by_one_button(page, paper):
     expect(page.get_by_text("stopping: alfa, bravo, charlie")).to_be_visible()
     expect(region(page, "Stations").get_by_text("stopped")).to_have_count(3)
     forget(paper)
-    page.get_by_role("button", name="Release all").click()
-    page.get_by_role("button", name="Release all").click()
+    stop, release = (page.get_by_role("button", name=f"{word} all") for word in ("Stop", "Release"))
+    before = stop.bounding_box()
+    release.click()
+    expect(page.get_by_text("Is the way clear?")).to_be_visible()
+    assert stop.bounding_box() == before
+    release.click()
     expect(page.get_by_text("released: alfa, bravo, charlie")).to_be_visible()
     assert set(paper.commands) == {(s, "release") for s in ("alfa", "bravo", "charlie")}
     expect(page.get_by_role("button", name="Release all")).to_be_hidden()

@@ -1,7 +1,7 @@
 // The key Escape: it closes what was opened last or cancels what a hand holds. Only with nothing open
 // does it stop the site.
 
-import { useEffect, useLayoutEffect, useRef } from "preact/hooks";
+import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
 
 type Close = () => void;
 
@@ -31,6 +31,23 @@ export function useEscape(isOpen: boolean, close: Close) {
   const now = useRef(close);
   now.current = close;
   useLayoutEffect(() => (isOpen ? opened.add(() => now.current()) : undefined), [isOpen]);
+}
+
+// From a press until it is let go, wherever that is, Escape calls `cancel`. Returns the handler of presses.
+export function useHeld(cancel: Close): () => void {
+  const [isHeld, setHeld] = useState(false);
+  useEscape(isHeld, () => {
+    setHeld(false);
+    cancel();
+  });
+  useLayoutEffect(() => {
+    if (!isHeld) return;
+    const end = (event: PointerEvent) => event.buttons === 0 && setHeld(false); // a menu of the browser hides the end
+    const ends = ["pointerup", "pointercancel", "pointermove"] as const;
+    ends.forEach((name) => window.addEventListener(name, end, { capture: true }));
+    return () => ends.forEach((name) => window.removeEventListener(name, end, { capture: true }));
+  }, [isHeld]);
+  return () => setHeld(true);
 }
 
 type Key = Pick<KeyboardEvent, "key" | "repeat" | "isComposing" | "ctrlKey" | "altKey" | "metaKey" | "shiftKey">;

@@ -2,7 +2,7 @@
 
 import { h, type RefObject } from "preact";
 import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
-import { useEscape } from "./escape";
+import { useEscape, useHeld } from "./escape";
 import type { Link } from "./link";
 import { measures } from "./measures";
 import { Legend, OwnMaps } from "./ownmaps";
@@ -105,6 +105,7 @@ export function MapView(props: Props) {
   if (map) map.onPlaced = () => set({ placing: false });
   useEscape(options.measuring, () => toggle("measuring"));
   useEscape(options.placing, () => toggle("placing"));
+  const hold = useHeld(() => map?.cancelBox());
   // What was measured belongs to the view in which it was.
   const showSolid = () => {
     setSolid(!isSolid);
@@ -112,7 +113,7 @@ export function MapView(props: Props) {
     map?.endMeasuring();
   };
   return (
-    <section class="map" aria-label={t("map")}>
+    <section class="map" aria-label={t("map")} onPointerDown={hold}>
       <div class="map-canvas" ref={element} tabIndex={0} role="application" aria-label={t("map")} />
       {isSolid && <View3d {...props} options={options} onMeasured={setMeasured} />}
       <Tools map={map} options={options} isSolid={isSolid} onToggle={toggle} onSolid={showSolid} onAccuracy={setAccuracy} />

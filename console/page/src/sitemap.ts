@@ -11,6 +11,7 @@ import LineString from "ol/geom/LineString";
 import Point from "ol/geom/Point";
 import Attribution from "ol/control/Attribution";
 import DoubleClickZoom from "ol/interaction/DoubleClickZoom";
+import DragZoom from "ol/interaction/DragZoom";
 import { defaults as defaultInteractions } from "ol/interaction/defaults";
 import { createEmpty, extend, intersects, isEmpty } from "ol/extent";
 import { fromLonLat, toLonLat, transformExtent } from "ol/proj";
@@ -103,6 +104,15 @@ export class SiteMap {
     if (!response?.ok) return;
     const features = new TopoJSON().readFeatures(await response.json(), { featureProjection: "EPSG:3857" });
     this.land.getSource()!.addFeatures(features as any);
+  }
+
+  // Drawn with Shift: it is not zoomed to when it is let go.
+  cancelBox() {
+    for (const one of this.map.getInteractions().getArray()) {
+      if (!(one instanceof DragZoom)) continue;
+      one.setActive(false);
+      one.setActive(true);
+    }
   }
 
   restyle() {
