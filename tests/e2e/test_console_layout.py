@@ -189,6 +189,7 @@ def test_units_and_positions_are_a_choice_and_are_remembered(page):
     ):
         page.get_by_label("Positions").select_option(name)
         expect(row).to_contain_text(wanted)
+        assert [*found_at_each_size(page, ".targets").values()] == []
     page.reload()
     expect(row).to_contain_text("33U XQ")
     expect(row).to_contain_text("9.7 kn")
