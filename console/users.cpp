@@ -9,6 +9,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "conditions/sayings.h"
+
 namespace ols::console {
 namespace {
 
@@ -40,19 +42,19 @@ std::optional<Role> role_named(std::string_view text) {
   return std::nullopt;
 }
 
-std::string name_problem(std::string_view text) {
+Outcome name_problem(std::string_view text) {
   const bool good = std::ranges::all_of(text, [](unsigned char c) {
     return std::isalnum(c) != 0 || c == '-' || c == '_' || c == '.';
   });
   if (text.empty() || text.size() > kMostNameBytes || !good) {
-    return "a user's name is 1 to 40 letters, digits, -, _ or .";
+    return outcome::user_name_wrong();
   }
-  return "";
+  return {};
 }
 
-std::string password_problem(std::string_view password) {
-  if (password.size() >= kFewestPasswordBytes && password.size() <= kMostPasswordBytes) return "";
-  return "a password has 8 to 200 bytes";
+Outcome password_problem(std::string_view password) {
+  if (password.size() >= kFewestPasswordBytes && password.size() <= kMostPasswordBytes) return {};
+  return outcome::password_length();
 }
 
 Users parse_users(const std::string& text, const std::string& file) {
@@ -67,7 +69,7 @@ Users parse_users(const std::string& text, const std::string& file) {
     const auto words = words_of(line);
     if (words.empty() || words[0].starts_with('#')) continue;
     if (words.size() != 3) throw wrong("a line is NAME ROLE HASH");
-    if (const auto problem = name_problem(words[0]); !problem.empty()) throw wrong(problem);
+    if (const auto problem = name_problem(words[0]); !problem.empty()) throw wrong(problem.text);
     const auto role = role_named(words[1]);
     if (!role) throw wrong("the role must be viewer, operator or admin");
     if (!words[2].starts_with("$argon2id$") || words[2].size() >= crypto_pwhash_STRBYTES) {
@@ -89,11 +91,11 @@ std::string users_text(const Users& users) {
   return text;
 }
 
-std::string users_problem(const Users& users) {
+Outcome users_problem(const Users& users) {
   const bool has_admin =
       std::ranges::any_of(users, [](const auto& user) { return user.second.role == Role::kAdmin; });
-  if (!has_admin) return "the last admin must stay one";
-  return users.size() > kMostUsers ? "there are 1000 users already" : "";
+  if (!has_admin) return outcome::last_admin();
+  return users.size() > kMostUsers ? outcome::too_many_users(kMostUsers) : Outcome{};
 }
 
 std::string hash_password(const std::string& password) {

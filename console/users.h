@@ -7,6 +7,8 @@
 #include <string>
 #include <string_view>
 
+#include "conditions/refusal.h"
+
 namespace ols::console {
 
 // Each role may do everything that the one before may: look; command; manage the users.
@@ -25,10 +27,10 @@ using Users = std::map<std::string, User>;
 Users parse_users(const std::string& text, const std::string& file);
 std::string users_text(const Users& users);
 // The error in a list of users, such as a missing admin; empty: none.
-std::string users_problem(const Users& users);
+Outcome users_problem(const Users& users);
 // The error in a name or a password for a new user; empty: none.
-std::string name_problem(std::string_view name);
-std::string password_problem(std::string_view password);
+Outcome name_problem(std::string_view name);
+Outcome password_problem(std::string_view password);
 
 std::string hash_password(const std::string& password);
 // Takes as long for an unknown user (empty hash) as for a known one, so that names cannot be

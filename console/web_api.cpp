@@ -20,6 +20,11 @@ WebResponse json(int status, const Json& body) {
 
 WebResponse refused(int status, const std::string& why) { return json(status, {{"error", why}}); }
 
+// What the page says by its row of the table.
+WebResponse refused(int status, const Outcome& why) {
+  return json(status, {{"error", why.text}, {"refusal", why}});
+}
+
 WebResponse page_file(const PageFile& file) {
   return {200,
           std::string(file.content_type),
@@ -144,7 +149,7 @@ std::optional<WebResponse> WebApi::foreign(const WebRequest& request) const {
 
 WebResponse WebApi::session(const WebRequest& request, const Now& now) const {
   const auto session = who(request, now);
-  if (!session) return refused(401, "log in first");
+  if (!session) return refused(401, outcome::log_in_first());
   return json(
       200,
       {{"name", session->name}, {"role", std::string(name(session->role))}, {"open", is_open()}});
@@ -156,7 +161,7 @@ WebAnswer WebApi::get(const WebRequest& request, const Now& now) const {
   if (path == "/api/session") return session(request, now);
   if (const PageFile* file = page_file_at(path)) return page_file(*file);
   if (!path.starts_with("/api/")) return refused(404, "there is no " + path);
-  if (!who(request, now)) return refused(401, "log in first");
+  if (!who(request, now)) return refused(401, outcome::log_in_first());
   if (path == "/api/state") return json(200, console_.state(now));
   if (path == "/api/users") return list_users(request, now);
   if (path == "/api/accuracy") {
@@ -200,7 +205,7 @@ WebAnswer WebApi::log_in(const WebRequest& request, const Now& now) {
     return refused(400, "name and password are missing");
   }
   if (!limit_.admit(request.remote, now.monotonic_s)) {
-    return refused(429, "too many tries: wait a while");
+    return refused(429, outcome::too_many_tries());
   }
   LoginTask task{body.at("name").get<std::string>(), body.at("password").get<std::string>(), ""};
   const auto user = users_.find(task.name);
@@ -212,7 +217,7 @@ WebResponse WebApi::finish(const LoginTask& task, bool is_verified, const Now& n
   const auto user = users_.find(task.name);
   if (!is_verified || user == users_.end()) {
     console_.note("", note::log_in_refused(), now);
-    return refused(401, "wrong name or password");
+    return refused(401, outcome::wrong_password());
   }
   const std::string token = draw_token_();
   sessions_.begin(token, user->first, user->second.role, now.monotonic_s);
@@ -230,10 +235,10 @@ WebAnswer WebApi::post(const WebRequest& request, const Now& now) {
     return log_in(request, now);
   }
   const auto session = who(request, now);
-  if (!session) return refused(401, "log in first");
+  if (!session) return refused(401, outcome::log_in_first());
   if (request.path == "/api/users") return enter_user(request, now);
   if (request.path != "/api/stop") return refused(404, "there is no " + request.path);
-  if (console_.is_replay()) return refused(409, console_.bus_trouble().text);
+  if (console_.is_replay()) return refused(409, console_.bus_trouble());
   // The page says which browser it is in; whatever it says, the stop is carried out.
   const Json body = Json::parse(request.body, nullptr, false);
   const Json viewer = body.is_object() ? body.value("viewer", Json(0)) : Json(0);
@@ -248,11 +253,11 @@ WebAnswer WebApi::post(const WebRequest& request, const Now& now) {
 }
 
 // Why this person may not say who logs in; empty: may.
-std::string WebApi::admin_problem(const WebRequest& request, const Now& now) const {
-  if (is_open()) return "there are no users yet: ols-console --add-user NAME --role admin";
+Outcome WebApi::admin_problem(const WebRequest& request, const Now& now) const {
+  if (is_open()) return outcome::no_users_yet();
   const auto session = who(request, now);
-  if (!session) return "log in first";
-  return session->role == Role::kAdmin ? "" : "only an admin may see and change users";
+  if (!session) return outcome::log_in_first();
+  return session->role == Role::kAdmin ? Outcome{} : outcome::admins_only();
 }
 
 WebResponse WebApi::list_users(const WebRequest& request, const Now& now) const {
@@ -329,7 +334,7 @@ WebAnswer WebApi::remove(const WebRequest& request, const Now& now) {
     return refused(403, problem);
   }
   const std::string of = request.path.substr(is_user ? kUsers.size() : kSessions.size());
-  if (!users_.contains(of)) return refused(404, "there is no user of this name");
+  if (!users_.contains(of)) return refused(404, outcome::no_such_user());
   const std::string by = who(request, now)->name;
   if (!is_user) {
     sessions_.end_of(of);
@@ -357,7 +362,7 @@ std::variant<Session, WebResponse> WebApi::admit(const WebRequest& request, cons
   if (auto refusal = foreign(request)) return *refusal;
   if (request.path != "/api/live") return refused(404, "there is no " + request.path);
   if (auto session = who(request, now)) return *session;
-  return refused(401, "log in first");
+  return refused(401, outcome::log_in_first());
 }
 
 }  // namespace ols::console

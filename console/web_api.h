@@ -83,7 +83,7 @@ class WebApi {
   WebAnswer log_in(const WebRequest& request, const Now& now);
   WebAnswer get(const WebRequest& request, const Now& now) const;
   WebResponse session(const WebRequest& request, const Now& now) const;
-  std::string admin_problem(const WebRequest& request, const Now& now) const;
+  Outcome admin_problem(const WebRequest& request, const Now& now) const;
   WebResponse list_users(const WebRequest& request, const Now& now) const;
   WebAnswer enter_user(const WebRequest& request, const Now& now);
   WebAnswer remove(const WebRequest& request, const Now& now);

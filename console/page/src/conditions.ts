@@ -92,6 +92,10 @@ export function conditionInWords({ id, text, parameters }: Said): string {
   return parameters.detail ? `${words}: ${value("detail")}` : words;
 }
 
+// Of an answer over HTTP: why it was not done; empty: it was.
+export type HttpAnswer = { error?: string; refusal?: Said };
+export const problemOf = ({ error, refusal }: HttpAnswer): string => (refusal ? conditionInWords(refusal) : (error ?? ""));
+
 // What a counter counts, or a reading is of.
 export function nameInWords(name: string): string {
   return isEnglish() ? name.replaceAll("_", " ") : nameInGerman(name);

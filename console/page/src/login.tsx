@@ -3,14 +3,12 @@
 import { h } from "preact";
 import { useState } from "preact/hooks";
 import { type Look, LookChoice } from "./bar";
-import { inWords } from "./conditions";
+import { type HttpAnswer, problemOf } from "./conditions";
 import type { Session } from "./link";
 import { t } from "./words";
 
-const UNANSWERED = "link_lost";
-
 export function LogIn({ look, onSession }: { look: Look; onSession: (session: Session) => void }) {
-  const [problem, setProblem] = useState("");
+  const [problem, setProblem] = useState<HttpAnswer | null>({}); // null: no answer
   const submit = async (event: Event) => {
     event.preventDefault();
     const form = new FormData(event.currentTarget as HTMLFormElement);
@@ -19,10 +17,10 @@ export function LogIn({ look, onSession }: { look: Look; onSession: (session: Se
       headers: { "Content-Type": "application/json" },
       body: JSON.stringify({ name: form.get("name"), password: form.get("password") }),
     }).catch(() => null);
-    if (!response) return setProblem(UNANSWERED);
+    if (!response) return setProblem(null);
     const said = await response.json();
     if (response.ok) onSession({ open: false, ...said });
-    else setProblem(said.error);
+    else setProblem(said);
   };
   return (
     <main class="log-in">
@@ -37,7 +35,7 @@ export function LogIn({ look, onSession }: { look: Look; onSession: (session: Se
           <input name="password" type="password" autocomplete="current-password" required />
         </label>
         <button class="primary">{t("log_in")}</button>
-        <p role="alert">{problem === UNANSWERED ? t(UNANSWERED) : inWords(problem)}</p>
+        <p role="alert">{problem ? problemOf(problem) : t("link_lost")}</p>
         <div class="settings">
           <LookChoice {...look} />
         </div>

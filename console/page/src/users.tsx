@@ -2,7 +2,7 @@
 
 import { h } from "preact";
 import { useEffect, useRef, useState } from "preact/hooks";
-import { inWords } from "./conditions";
+import { problemOf } from "./conditions";
 import { useEscape } from "./escape";
 import { Sure } from "./sure";
 import { t, Word } from "./words";
@@ -24,12 +24,12 @@ function useUsers() {
   const look = async () => {
     const answer = await ask("/api/users", "GET");
     setUsers(answer.users ?? []);
-    if (answer.error) setSaid(inWords(answer.error));
+    if (answer.error) setSaid(problemOf(answer));
   };
   // True when it was done.
   const change: Change = async (path, method, body) => {
     const answer = await ask(path, method, body);
-    setSaid(answer.error ? inWords(answer.error) : t("done"));
+    setSaid(problemOf(answer) || t("done"));
     await look();
     return !answer.error;
   };

@@ -59,6 +59,9 @@ TEST_F(WebApiTest, WithUsersNothingIsShownBeforeTheLogIn) {
   }
   EXPECT_EQ(response(api, post("/api/stop", "{}")).status, 401);
   EXPECT_EQ(std::get<WebResponse>(api.admit(get("/api/live"), kNow)).status, 401);
+  const Json said = Json::parse(response(api, get("/api/state")).body);
+  EXPECT_EQ(said.at("refusal").at("id"), "log_in_first");
+  EXPECT_EQ(said.at("error"), "log in first");
   EXPECT_EQ(response(api, get("/")).status, 200) << "the page itself, to log in";
   EXPECT_EQ(response(api, get("/api/health")).status, 200);
 }
