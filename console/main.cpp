@@ -51,7 +51,7 @@ std::string draw_token() {
 int local_minute_of_day(std::int64_t utime_us) {
   const std::time_t seconds = utime_us / 1'000'000;
   std::tm local{};
-  tzset(); // The zone may be set while the console runs; localtime_r need not look.
+  tzset();  // The zone may be set while the console runs; localtime_r need not look.
   localtime_r(&seconds, &local);
   return 60 * local.tm_hour + local.tm_min;
 }

@@ -119,6 +119,12 @@ class Person:
             looks = self.page.evaluate(f"(window.pad.axes = [{axis}, 0, 0, 0], window.looks)")
             self.page.wait_for_function("(before) => window.looks > before + 2", arg=looks)
 
+    def slip(self):
+        (x, y), mouse = self.at(0.3, 0.3), SwiftMouse(self.page)
+        mouse.press(x, y)
+        mouse.move(x + 12, y + 12, steps=3)
+        mouse.let_go()
+
     def slip_and_come_back(self):
         mouse = SwiftMouse(self.page)
         mouse.press(*self.at(0.3, 0.3))
@@ -185,7 +191,8 @@ class Person:
             "a double click": lambda: page.mouse.dblclick(*self.at()),
             "a double click that chooses": self.choose_by_double_click,
             "the right button": lambda: page.mouse.click(*self.at(), button="right"),
-            "a slip": self.slip_and_come_back,
+            "a slip": self.slip,
+            "a slip and back": self.slip_and_come_back,
             "a held press": self.push_by_mouse,
             "an arrow": lambda: self.press("ArrowRight"),
             "an arrow with Shift": lambda: self.press("Shift+ArrowUp"),

@@ -70,5 +70,5 @@ export function useOnPicture({ link, station, picture, large, mayCommand, onSele
     onPoint(station.id, isLook ? "look" : "centre", on.utime_us, [tenths(x), tenths(y)]);
     setLooks(false);
   };
-  return { canvas, station, picture, shown, large, mayCommand, hand, byHand, setByHand, isWithheld, drawn, part, looks, setLooks, lookAtMiddle, pointAt, onSelect, onRelease };
+  return { canvas, station, picture, shown, large, mayCommand, hand, byHand, setByHand, isWithheld, drawn, part, looks, setLooks, lookAtMiddle, pointAt, onSelect, onWithheld, onRelease };
 }

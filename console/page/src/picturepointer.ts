@@ -32,6 +32,17 @@ function usePress({ hand, drawn }: OnPicture) {
   return { pressed, take, letGo };
 }
 
+// A click points, a drag draws; on a station at work a short drag does neither.
+function endDrag({ drawn, isWithheld, onWithheld, pointAt }: OnPicture, press: Press | null, event: PointerEvent) {
+  const held = drawn.held.current;
+  if (!held) return;
+  const isClick = press?.isClick(event) ?? false;
+  const isSlip = isWithheld && !isClick && (press?.isSlip(event) ?? false);
+  drawn.send(drawn.isLaidOutAsBegun() && !isClick && !isSlip ? drawn.box : null);
+  if (isSlip) onWithheld();
+  if (isClick) pointAt(held.picture, held.from, event.shiftKey);
+}
+
 // The canvas's handlers of events.
 export function usePointer(on: OnPicture) {
   const { canvas, picture, hand, drawn, part } = on;
@@ -71,11 +82,7 @@ export function usePointer(on: OnPicture) {
     pinch.current.up(event);
     take(null);
     if (press?.isJoystick) return hand.release();
-    const held = drawn.held.current;
-    if (!held) return;
-    const isClick = press?.isClick(event) ?? false;
-    drawn.send(drawn.isLaidOutAsBegun() && !isClick ? drawn.box : null);
-    if (isClick) on.pointAt(held.picture, held.from, event.shiftKey);
+    endDrag(on, press, event);
   };
   const onPointerCancel = (event: PointerEvent) => {
     pinch.current.up(event);

@@ -3,6 +3,7 @@
 
 const HOLD_MS = 500; // pressed for so long before it moves: a joystick, not a box or a click
 export const STILL_PX = 6;
+const SLIP_PX = 20; // between press and release
 
 // One press, by the events' own times: a busy page delays them and does not change what the hand meant.
 export class Press {
@@ -32,6 +33,11 @@ export class Press {
 
   isClick(event: PointerEvent): boolean {
     return this.meant === "" && !this.isLong(event);
+  }
+
+  // A click during which the hand slipped looks like a small box.
+  isSlip(event: PointerEvent): boolean {
+    return Math.hypot(...this.way(event)) < SLIP_PX;
   }
 
   // To the right and down [px], since it began.
