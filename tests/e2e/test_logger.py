@@ -137,13 +137,17 @@ def test_a_flood_stays_within_the_quota_and_the_oldest_go_first(start):
     logger = start()
     logger.wait_recording()
     order, greatest = [], 0
-    while logger.status().get("files_removed", 0) < 8:
+
+    def flood():
+        nonlocal order, greatest
         for _ in range(5):
             logger.bus.publish(2000)
         sizes = logger.sizes()
         greatest = max(greatest, sum(sizes.values()))
         order += sorted(set(sizes) - set(order))
         time.sleep(0.01)
+
+    wait(lambda: logger.status().get("files_removed", 0) >= 8, "removed files", turn=flood)
     logger.end()
     left = sorted(logger.sizes())
     order += sorted(set(left) - set(order))  # begun since the last look
