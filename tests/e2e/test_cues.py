@@ -230,9 +230,9 @@ class Rig:
 
     def operator(self, *words):
         command = [str(BIN / "ols-ctl"), "--lcm-url", LIVE_URL, "fusion", *words]
-        done = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
-        self.until(lambda: done.poll() is not None, " ".join(words), ("json", line))
-        return done.returncode, done.stdout.read()
+        with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as done:
+            self.until(lambda: done.poll() is not None, " ".join(words), ("json", line))
+            return done.returncode, done.stdout.read()
 
 
 @pytest.fixture

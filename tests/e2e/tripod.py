@@ -166,5 +166,7 @@ class Tripod:
             self.listener.wait(over, "the end of the procedure", deadline_s)
         except AssertionError:
             print(f"{self.state.step}: {self.state.text!r}\n{self.log.read_text()}")
+            process.kill()
+            process.wait()
             raise
         return process.returncode
