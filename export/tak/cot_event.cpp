@@ -38,6 +38,13 @@ std::string stations_of(const Target& target) {
   return names;
 }
 
+// Something in the air that is a drone has a type of its own. There is none for birds, and those of
+// aircraft tell civil from military ones, which nobody has seen.
+std::string target_type(const CotSettings& settings, bool is_drone) {
+  const bool is_air = settings.target_type.size() == 5 && settings.target_type.ends_with("-A");
+  return settings.target_type + (is_drone && is_air ? "-M-F-Q" : "");
+}
+
 std::string target_detail(const Target& target) {
   std::string text("<_ols_ state=\"");
   text.append(to_string(target.state)).append("\" stations=\"").append(stations_of(target));
@@ -46,6 +53,10 @@ std::string target_detail(const Target& target) {
       .append(
           covariance_attribute("velocity_covariance_enu_m2_s2", target.velocity_covariance_m2_s2))
       .append(attribute("climb_m_s", target.velocity_enu_m_s[2], 2))
+      .append(" class=\"")
+      .append(to_string(target.object_class))
+      .append("\"")
+      .append(attribute("class_probability", target.class_probability, 2))
       .append("/>");
   return text;
 }
@@ -85,7 +96,9 @@ std::string incident_detail(const Incident& incident, const std::string& callsig
   std::string text(is_alarm ? "<emergency type=\"Geo-fence Breached\">"
                             : "<emergency cancel=\"true\">");
   text.append(xml(callsign)).append("</emergency><link relation=\"p-p\" type=\"");
-  text.append(xml(settings.target_type)).append("\" uid=\"").append(xml(incident.target_uid));
+  text.append(xml(target_type(settings, incident.object_class == "drone")))
+      .append("\" uid=\"")
+      .append(xml(incident.target_uid));
   text.append("\"/><_ols_ area=\"").append(xml(incident.area)).append("\" class=\"");
   text.append(xml(incident.object_class)).append("\" verdict=\"").append(incident.verdict);
   text.append("\" judged_by=\"").append(xml(incident.judged_by)).append("\"");
@@ -97,7 +110,7 @@ std::string incident_detail(const Incident& incident, const std::string& callsig
 CotEvent cot_event(const Target& target, const CotSettings& settings) {
   CotEvent event;
   const bool has_ended = target.state == TrackState::kEnded;
-  event.type = settings.target_type;
+  event.type = target_type(settings, target.object_class == ObjectClass::kDrone);
   event.uid = target.uid;
   event.how = "m-f";  // by a machine, fused
   event.callsign = callsign(target);

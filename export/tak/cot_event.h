@@ -1,5 +1,6 @@
 // Cursor on Target: one event, with the fields that its two encodings, XML and protobuf, share
-// (MITRE, "Cursor on Target Message Router User's Guide"; the event schema 2.0). Pure.
+// (MITRE, "Cursor on Target Message Router User's Guide"; the event schema 2.0, and its
+// CoTtypes.xml). Pure.
 //
 // `ce` and `le` are the schema's one-sigma errors: ce is the larger semi-axis of the horizontal
 // ellipse, le that of the height. The whole covariance is in <_ols_> of the detail.
@@ -13,7 +14,7 @@
 namespace ols::exports {
 
 struct CotSettings {
-  std::string target_type = "a-u-A";       // an unknown in the air
+  std::string target_type = "a-u-A";       // an unknown in the air; of a drone a-u-A-M-F-Q
   std::string station_type = "a-f-G-E-S";  // a friendly sensor on the ground
   double stale_s = 10.0;                   // a client fades it after this time
   double line_m = 5000.0;                  // drawn length of a line

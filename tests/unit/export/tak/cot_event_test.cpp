@@ -22,6 +22,25 @@ TEST(CotEvent, OfATarget) {
   EXPECT_THAT(event.detail, HasSubstr("stations=\"alfa bravo\""));
 }
 
+TEST(CotEvent, ADroneHasATypeOfItsOwn) {
+  Target target = made_target();
+  target.class_probability = 0.875;
+  using Class = ObjectClass;
+  for (const auto& [object_class, setting, type, word] :
+       std::vector<std::tuple<Class, const char*, const char*, const char*>>{
+           {Class::kDrone, "a-u-A", "a-u-A-M-F-Q", "UAV"},
+           {Class::kDrone, "a-s-A", "a-s-A-M-F-Q", "UAV"},
+           {Class::kDrone, "a-u-G", "a-u-G", "UAV"},
+           {Class::kDrone, "a-h-A-M-H-Q", "a-h-A-M-H-Q", "UAV"},
+           {Class::kBird, "a-u-A", "a-u-A", "Bird"},
+           {Class::kUnknown, "a-u-A", "a-u-A", "Unknown"}}) {
+    target.object_class = object_class;
+    const CotEvent event = cot_event(target, CotSettings{.target_type = setting});
+    EXPECT_EQ(event.type, type);
+    EXPECT_THAT(event.detail, HasSubstr(std::string(" class=\"") + word + "\" class_probability"));
+  }
+}
+
 TEST(CotEvent, AnEndIsStaleAtOnce) {
   Target target = made_target();
   target.state = TrackState::kEnded;
@@ -36,7 +55,7 @@ TEST(CotEvent, AnIncidentIsAnAlertUntilItIsOverOrDismissed) {
   EXPECT_EQ(event.callsign, "Gate <1>: drone OLS 7");
   EXPECT_THAT(event.detail,
               HasSubstr("<emergency type=\"Geo-fence Breached\">Gate &lt;1&gt;: drone OLS 7<"));
-  EXPECT_THAT(event.detail, HasSubstr("<link relation=\"p-p\" type=\"a-u-A\" "
+  EXPECT_THAT(event.detail, HasSubstr("<link relation=\"p-p\" type=\"a-u-A-M-F-Q\" "
                                       "uid=\"site.target.a.7\"/>"));
   incident.verdict = "confirmed";
   EXPECT_EQ(cot_event(incident, {}).type, "b-a-g");
