@@ -53,17 +53,27 @@ Packet sensor(const Device& device, const std::string& field, const std::string&
   return entity(device, "sensor", field, name, std::move(config));
 }
 
-Packet state(const Device& device, const std::vector<std::string>& states) {
-  Json config = reading(device, "state");
+Packet one_of(const Device& device, const std::string& field, const std::string& name,
+              const std::vector<std::string>& options) {
+  Json config = reading(device, field);
   config["device_class"] = "enum";
-  config["options"] = states;
-  return entity(device, "sensor", "state", "State", std::move(config));
+  config["options"] = options;
+  return entity(device, "sensor", field, name, std::move(config));
 }
 
 // Of a slot; "none" while it is free.
 std::vector<std::string> states_of_targets() {
   return {"none", to_string(TrackState::kTentative), to_string(TrackState::kConfirmed),
           to_string(TrackState::kCoasted)};
+}
+
+std::vector<std::string> classes_of_targets() {
+  std::vector<std::string> classes;
+  for (const ObjectClass one : {ObjectClass::kUnknown, ObjectClass::kDrone, ObjectClass::kBird,
+                                ObjectClass::kAircraft, ObjectClass::kOther}) {
+    classes.emplace_back(to_string(one));
+  }
+  return classes;
 }
 
 }  // namespace
@@ -82,7 +92,8 @@ Packets discover_slot(const MqttSettings& settings, const std::string& site, std
               {"state_topic", device.topic},
               {"value_template", "{{ 'not_home' if value_json.latitude is defined else 'None' }}"},
               {"source_type", "gps"}}),
-      state(device, states_of_targets()),
+      one_of(device, "state", "State", states_of_targets()),
+      one_of(device, "class", "Class", classes_of_targets()),
       sensor(device, "height_above_sea_m", "Height above the sea", "m", "distance"),
       sensor(device, "height_ellipsoid_m", "Height above the ellipsoid", "m", "distance"),
       sensor(device, "speed_m_s", "Speed", "m/s", "speed"),
@@ -93,7 +104,7 @@ Packets discover_station(const MqttSettings& settings, const std::string& site,
                          const std::string& word, const std::string& name) {
   const Device device{settings, site, topic_word(site) + "_station_" + word, site + " " + name,
                       site_prefix(settings, site) + "/station/" + word};
-  return {state(device, {kStationStates.begin(), kStationStates.end()}),
+  return {one_of(device, "state", "State", {kStationStates.begin(), kStationStates.end()}),
           sensor(device, "azimuth_deg", "Azimuth", "°", ""),
           sensor(device, "elevation_deg", "Elevation", "°", ""),
           entity(device, "binary_sensor", "problem", "Alarm",

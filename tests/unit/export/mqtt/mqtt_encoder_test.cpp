@@ -48,7 +48,7 @@ TEST(MqttEncoder, AnIncidentSaysWhetherItIsAnAlarm) {
 TEST(MqttEncoder, EntitiesAreToldOnceAndAgainToANewBroker) {
   MqttEncoder encoder({.slots = 2}, "brno");
   const Packets told = encoder.turn(0);
-  ASSERT_EQ(told.size(), 14U);  // six entities and the free slot, twice
+  ASSERT_EQ(told.size(), 16U);  // seven entities and the free slot, twice
   EXPECT_EQ(told[0].where, "homeassistant/device_tracker/brno_target_1/config");
   EXPECT_EQ(json_of(told[0]).at("availability_topic"), "ols/brno/status");
   EXPECT_TRUE(encoder.turn(0).empty());
@@ -56,7 +56,7 @@ TEST(MqttEncoder, EntitiesAreToldOnceAndAgainToANewBroker) {
   EXPECT_EQ(encoder.encode(made_station()).size(), 1U);
   encoder.encode(made_target());
   encoder.begin_again();
-  EXPECT_EQ(encoder.turn(0).size(), 13U) << "a slot that is taken is not told to be free";
+  EXPECT_EQ(encoder.turn(0).size(), 15U) << "a slot that is taken is not told to be free";
   EXPECT_EQ(encoder.encode(made_station()).size(), 5U);
 }
 
@@ -71,7 +71,7 @@ TEST(MqttEncoder, WhatIsOldNewsBecomesUnavailable) {
     EXPECT_EQ(json_of(packet).contains("expire_after"), !is_place) << packet.where;
     expiring += json_of(packet).value("expire_after", 0) == 12 ? 1 : 0;
   }
-  EXPECT_EQ(expiring, 9);
+  EXPECT_EQ(expiring, 10);
   MqttEncoder never({.stale_s = 0.0, .slots = 1}, "brno");
   EXPECT_FALSE(json_of(never.turn(0)[1]).contains("expire_after"));
   EXPECT_TRUE(never.turn(3'600'000'000).empty());
@@ -120,14 +120,16 @@ TEST(MqttEncoder, EntitiesSayWhatTheyMeasureAndKeepTheirNames) {
     EXPECT_FALSE(config.contains("object_id"));
     classes[id] = config.value("device_class", "");
     if (classes[id] != "enum") continue;
-    const std::string now =
-        component == "sensor" && id.ends_with("alfa_state") ? "tracking" : "none";
+    const std::string now = id.ends_with("alfa_state") ? "tracking"
+                            : id.ends_with("_class")   ? "UAV"
+                                                       : "none";
     EXPECT_NE(config.at("options").dump().find('"' + now + '"'), std::string::npos) << id;
     EXPECT_FALSE(config.contains("state_class"));
   }
   EXPECT_EQ(classes,
             (std::map<std::string, std::string>{{"Brno_1_target_1", ""},
                                                 {"Brno_1_target_1_state", "enum"},
+                                                {"Brno_1_target_1_class", "enum"},
                                                 {"Brno_1_target_1_height_above_sea_m", "distance"},
                                                 {"Brno_1_target_1_height_ellipsoid_m", "distance"},
                                                 {"Brno_1_target_1_speed_m_s", "speed"},
