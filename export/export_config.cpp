@@ -80,8 +80,10 @@ config::Section cot_section(CotSettings& c) {
   return {
       "cot",
       "Cursor on Target.",
-      {config::text("target_type", c.target_type,
-                    "Type of a target's events; a drone is -M-F-Q below a-…-A.", check_cot_type),
+      {config::text(
+           "target_type", c.target_type,
+           "Type of a target's events. If it is only a-…-A, that of a drone has -M-F-Q added.",
+           check_cot_type),
        config::text("station_type", c.station_type, "Type of a station's events.", check_cot_type),
        config::number("stale_s", c.stale_s, {1.0, 3600.0}, "s",
                       "Clients fade an object after this long without news."),

@@ -26,6 +26,9 @@ using Covariance = std::array<double, 6>;
 
 // The values of both are those of target_t.
 enum class ObjectClass { kUnknown, kDrone, kBird, kAircraft, kOther };
+inline constexpr std::array kObjectClasses{ObjectClass::kUnknown, ObjectClass::kDrone,
+                                           ObjectClass::kBird, ObjectClass::kAircraft,
+                                           ObjectClass::kOther};
 enum class TrackState { kTentative, kConfirmed, kCoasted, kEnded };
 
 struct Target {

@@ -86,8 +86,9 @@ KeptIncidents IncidentStore::read() {
   });
   is_listed_ = tried(folder_, [&] {
     std::set<std::uint64_t> numbers;
-    for (const auto& entry : fs::directory_iterator(folder_))
+    for (const auto& entry : fs::directory_iterator(folder_)) {
       numbers.insert(number_of(entry.path()));
+    }
     numbers.erase(0);
     for (const std::uint64_t number : numbers) read_incident(number, kept);
     if (!numbers.empty()) kept.numbers = std::max(kept.numbers, *numbers.rbegin());

@@ -69,10 +69,7 @@ std::vector<std::string> states_of_targets() {
 
 std::vector<std::string> classes_of_targets() {
   std::vector<std::string> classes;
-  for (const ObjectClass one : {ObjectClass::kUnknown, ObjectClass::kDrone, ObjectClass::kBird,
-                                ObjectClass::kAircraft, ObjectClass::kOther}) {
-    classes.emplace_back(to_string(one));
-  }
+  for (const ObjectClass one : kObjectClasses) classes.emplace_back(to_string(one));
   return classes;
 }
 

@@ -2,6 +2,10 @@
 
 #include <gmock/gmock.h>
 
+#include <string>
+#include <tuple>
+#include <vector>
+
 #include "tests/unit/export/made_records.h"
 
 namespace ols::exports {
