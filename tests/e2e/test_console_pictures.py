@@ -142,6 +142,7 @@ def test_the_delay_is_in_milliseconds_while_the_picture_is_live(page):
 
 def test_a_gamepads_stick_turns_the_unit_and_letting_go_halts(page, paper):
     page.evaluate(PAD)
+    paper.commands.clear()
     picture(page, "alfa").click()
     wait(lambda: paper.commands, "the click's own command")
     paper.ptu_commands.clear()
@@ -165,6 +166,8 @@ def is_halted(paper):
 
 def test_a_worn_stick_and_a_pad_that_vanishes_turn_nothing(page, paper):
     page.evaluate(PAD)
+    paper.commands.clear()
+    paper.ptu_commands.clear()
     picture(page, "alfa").click()
     wait(lambda: paper.commands, "the click's own command")
     page.evaluate("window.pad.axes = [0.6, 0, 0, 0]")
