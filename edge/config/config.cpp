@@ -221,6 +221,30 @@ Section detector_section(DetectionConfig& detection) {
                            "Maximum number of bearings of an image, the likeliest objects.")}};
 }
 
+Section watch_section(WatchConfig& watch) {
+  auto middle = std::make_shared<AzimuthElevation>();
+  return {
+      "watch",
+      "Where the station looks while nobody wants its unit.",
+      {config::number("azimuth_deg", middle->azimuth_rad, {-360.0, 360.0}, in_degrees(),
+                      "Middle of its field of regard, clockwise from true north; both or none.")
+           .default_is("the unit stays where it was left"),
+       config::number("elevation_deg", middle->elevation_rad, {-90.0, 90.0}, in_degrees(),
+                      "The same, above the horizon."),
+       config::numbers("size_deg", {watch.size_rad.data(), 2}, {0.0, 360.0}, in_degrees(),
+                       "Width and height of the field; what is larger than the picture is looked "
+                       "at picture by picture."),
+       config::number("stay_s", watch.stay_s, {0.5, 3600.0}, "s",
+                      "Time at each picture; up to 10 s while the detector sees an object.")},
+      {},
+      [&watch, middle](ConfigTable& table) {
+        const bool either = table.has("azimuth_deg"), other = table.has("elevation_deg");
+        if (either != other)
+          throw table.error(either ? "elevation_deg" : "azimuth_deg", "is missing");
+        if (either) watch.middle = *middle;
+      }};
+}
+
 Section mount_section(ChosenMount& mount) {
   Section section = mount.section("mount", "What carries the camera.");
   section.former_name = "ptu";
@@ -309,14 +333,26 @@ Section station_section(StationSettings& s) {
                       "Interval of the preview images; 0: none."),
        config::integer("tracker_seed", s.tracker_seed, 0, INT64_MAX, "",
                        "Seed of the tracker's random numbers.")},
-      {pose_section(s), chain_section(s.station.geometry.chain), calibration_section(s),
-       serials_section(s.serials), s.camera.section("camera", "The camera."), lens_section(s),
-       mount_section(s.mount), lens::lens_motor_section(s.lens),
-       tracker::tracker_section(s.tracker), detector_section(s.station.detection),
-       logic_section(s.station), s.inclinometer.section("inclinometer", "The inclinometer."),
-       s.gnss.section("gnss", "The GNSS receiver."), gpio::gpio_section(s.gpio),
-       recorder::recorder_section(s.recorder), video::video_section(s.video),
-       clock_section(s.clock), watchdog_section(s), trust::trust_section(s.trust)},
+      {pose_section(s),
+       chain_section(s.station.geometry.chain),
+       calibration_section(s),
+       serials_section(s.serials),
+       s.camera.section("camera", "The camera."),
+       lens_section(s),
+       mount_section(s.mount),
+       lens::lens_motor_section(s.lens),
+       tracker::tracker_section(s.tracker),
+       detector_section(s.station.detection),
+       watch_section(s.station.watch),
+       logic_section(s.station),
+       s.inclinometer.section("inclinometer", "The inclinometer."),
+       s.gnss.section("gnss", "The GNSS receiver."),
+       gpio::gpio_section(s.gpio),
+       recorder::recorder_section(s.recorder),
+       video::video_section(s.video),
+       clock_section(s.clock),
+       watchdog_section(s),
+       trust::trust_section(s.trust)},
       [&s](ConfigTable& root) {
         use_survey(root, s);
         use_lens(root, s);

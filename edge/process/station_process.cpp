@@ -221,7 +221,8 @@ void StationProcess::take_angles() {
   }
 }
 
-// A check of the reference views has the unit only while nobody else wants it.
+// A check of the reference views has the unit only while nobody else wants it; it comes before the
+// watch.
 std::optional<mount::Goal> StationProcess::goal(const StationOutput& output, double now_s) {
   const auto newest = station_.reported_angles();
   const bool free = settings().station.moves && station_.state() == StationState::kIdle &&
@@ -231,7 +232,8 @@ std::optional<mount::Goal> StationProcess::goal(const StationOutput& output, dou
   if (const auto doubt = calibration_.take_doubt()) {
     station_.doubt_setup(doubt->heading_rad, doubt->tilt_rad);
   }
-  return output.goal ? output.goal : check;
+  if (output.goal) return output.goal;
+  return check || halted_ ? check : output.watch;
 }
 
 void StationProcess::trigger_camera(double now_s) {

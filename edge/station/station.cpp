@@ -17,7 +17,8 @@ Station::Station(const StationConfig& config, std::unique_ptr<tracker::TargetTra
       search_(config),
       bearings_(config),
       detected_(config),
-      motion_(config.motion) {}
+      motion_(config.motion),
+      watch_(config.watch) {}
 
 void Station::on_angles(const mount::AngleSample& sample) { pointing_.add(sample); }
 
@@ -337,7 +338,19 @@ StationOutput Station::step(double now_s) {
     if (made.to_send) output.bearings.push_back(made.bearing);
   }
   output.goal = goal(now_s);
+  output.watch = watch(now_s);
   return output;
+}
+
+// Also when the target has been lost for so long that nobody looks for it any more.
+std::optional<mount::Goal> Station::watch(double now_s) {
+  constexpr double kLost_s = 15.0, kNewest_s = 1.0;
+  const bool free = mode_.reference() == mount::Reference::kTrusted &&
+                    (mode_.is(StationState::kIdle) ||
+                     (mode_.is(StationState::kLost) && now_s - believed_s_ > kLost_s));
+  const auto& found = detected_.newest();
+  const bool sees = found && !found->confirmed.empty() && now_s - found->mid_exposure_s < kNewest_s;
+  return watch_.step(now_s, free, sees, pointing_);
 }
 
 void Station::expire(double now_s) {

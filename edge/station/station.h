@@ -15,6 +15,7 @@
 #include "edge/command/command_judgement.h"
 #include "edge/command/manual_motion.h"
 #include "edge/command/slew_search.h"
+#include "edge/command/watch.h"
 #include "edge/frames/frame_history.h"
 #include "edge/frames/pointing_model.h"
 #include "edge/mount/goal.h"
@@ -41,8 +42,9 @@ struct UnitActions {
 };
 
 struct StationOutput {
-  std::vector<Bearing> bearings;    // bearings whose PTU angles are known
-  std::optional<mount::Goal> goal;  // of the PTU; empty: halt
+  std::vector<Bearing> bearings;     // bearings whose PTU angles are known
+  std::optional<mount::Goal> goal;   // of the PTU; empty: halt,
+  std::optional<mount::Goal> watch;  // or look here, if nothing else wants the unit either
 };
 
 class Station {
@@ -144,6 +146,7 @@ class Station {
   void expire(double now_s);
   void enter(StationState state);
   void give_up_unit();
+  std::optional<mount::Goal> watch(double now_s);
   void forget_angles();
   Refusal stand_at(const PanTilt& angles, const char* command, double now_s);
   bool follows_target() const { return target_.exists() && mode_.may_track(); }
@@ -167,6 +170,7 @@ class Station {
   DetectedObjects detected_;
   AngularTrack motion_;
   ManualMotion manual_;
+  Watch watch_;
   UnitActions actions_;
   double believed_s_ = 0.0;  // mid-exposure of the last believed frame
   int believed_in_a_row_ = 0;

@@ -21,6 +21,13 @@ struct DetectionConfig {
   detector::DetectorConfig detector;
 };
 
+// Where the station looks while nobody wants its unit.
+struct WatchConfig {
+  std::optional<AzimuthElevation> middle;  // of the field of regard; empty: the unit stays
+  Eigen::Vector2d size_rad = Eigen::Vector2d::Zero();  // of the field: azimuth, elevation
+  double stay_s = 3.0;                                 // at each picture
+};
+
 struct StationConfig {
   StationGeometry geometry;
   // What an adjustment found; `geometry` then comes from its model.
@@ -48,6 +55,7 @@ struct StationConfig {
   int disagreeing_frames = 5;  // consecutive; raise the alarm
   tracker::AcquisitionConfig acquisition;
   DetectionConfig detection;
+  WatchConfig watch;
   bool moves = true;              // false: the mount is fixed
   bool homing_allowed = true;     // on command
   bool rearm_over_bus = false;    // any sender may re-arm; false: only a person at the station

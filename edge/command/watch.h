@@ -1,0 +1,42 @@
+// Where a station looks while nobody wants its unit. It stands at the middle of its field of
+// regard; if the field is larger than the picture, it steps through it, picture beside picture, and
+// stays at each for a while. Where its detector sees an object it stays longer, so that other
+// stations can be led along its line of sight. Pure.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "edge/frames/pointing_model.h"
+#include "edge/mount/goal.h"
+
+namespace ols::station {
+
+// The middles of the pictures that cover the field, row by row, there and back. Neighbours overlap
+// by a tenth. `view_rad`: width and height of the picture.
+std::vector<AzimuthElevation> pictures_of(const WatchConfig& config,
+                                          const Eigen::Vector2d& view_rad);
+
+class Watch {
+ public:
+  static constexpr double kLongest_s = 10.0;  // at a picture, whatever is seen there
+
+  explicit Watch(const WatchConfig& config) : config_(config) {}
+
+  // Call in every turn. `free`: nobody else wants the unit. `sees`: the detector sees an object
+  // now. Returns the unit's goal; nullopt: the station watches nothing, or cannot look there.
+  std::optional<mount::Goal> step(double now_s, bool free, bool sees,
+                                  const PointingModel& pointing);
+
+ private:
+  bool is_over(double now_s, bool sees) const;
+  void go_on();
+
+  WatchConfig config_;
+  std::size_t picture_ = 0;
+  std::optional<double> stands_since_s_;
+};
+
+}  // namespace ols::station
