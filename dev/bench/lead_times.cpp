@@ -12,6 +12,7 @@
 #include "dev/bench/program.h"
 #include "sim/lockstep/outside_cue.h"
 #include "sim/lockstep/overview_click.h"
+#include "sim/lockstep/unattended.h"
 
 namespace {
 
@@ -21,6 +22,7 @@ struct Arguments {
   double apart_s = 11.0;
   double patience_s = 20.0;
   bool places_only = false;
+  double seconds = 60.0;
   ols::sim::OutsideCueConfig cue;
 };
 
@@ -38,6 +40,13 @@ void declare(CLI::App& app, Arguments& arguments) {
   app.require_subcommand(1);
   app.fallthrough();
   app.add_subcommand("look", "a click in the overview station's picture");
+  auto* alone =
+      app.add_subcommand("unattended",
+                         "nothing: a site without any person finds what flies (--scenario "
+                         "sim/scenarios/unattended.toml)");
+  alone->add_option("--seconds", arguments.seconds, "[s] of the scenario")
+      ->check(CLI::Range(1.0, 3600.0))
+      ->capture_default_str();
   auto* cue = app.add_subcommand("cue", "an operator's word on a cue from outside");
   cue->add_option("--sd", arguments.cue.sd_m, "[m] 1-sigma of the cue's places, each axis")
       ->check(CLI::Range(0.1, 1000.0))
@@ -102,6 +111,36 @@ void run(const Arguments& arguments, bool look) {
               arguments.seeds.size(), one, all);
 }
 
+void watch_alone(const Arguments& arguments) {
+  cv::setNumThreads(1);
+  const auto scenario = ols::sim::load_scenario(arguments.scenario);
+  std::printf(
+      "[s of the scenario]\nseed  target      seen   located  named    identities  "
+      "wrong names\n");
+  std::size_t good = 0;
+  for (const std::uint64_t seed : arguments.seeds) {
+    const auto elapsed = later(scenario, static_cast<double>(seed - 1) * arguments.apart_s);
+    const auto run = ols::sim::run_unattended(
+        elapsed, seed, arguments.seconds,
+        {ols::fusion::ObjectClass::kUnknown, ols::fusion::ObjectClass::kDrone});
+    for (const auto& [id, found] : run.targets) {
+      std::printf("%4d  %-10s  %-5s  %-7s  %-7s  %10zu  %11d\n", static_cast<int>(seed), id.c_str(),
+                  text(found.seen_s).c_str(), text(found.located_s).c_str(),
+                  text(found.named_s).c_str(), found.identities.size(), found.wrong_names);
+    }
+    std::printf("      stations on the first target %zu, ghosts %zu, false drones %d\n",
+                run.stations_on_it, run.ghosts.size(), run.drones_that_are_none);
+    std::fflush(stdout);
+    const auto first = run.targets.find(scenario.targets.front().id);
+    const bool found = first != run.targets.end() && first->second.named_s;
+    good += found && run.stations_on_it >= 2 && run.drones_that_are_none == 0 ? 1 : 0;
+  }
+  std::printf(
+      "found, tracked by two stations or more at the end, named, and nothing else taken for "
+      "a drone: %zu of %zu\n",
+      good, arguments.seeds.size());
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -109,6 +148,11 @@ int main(int argc, char** argv) {
                "ols-bench-lead-times");
   Arguments arguments;
   declare(app, arguments);
-  return ols::bench::run_program(app, argc, argv,
-                                 [&] { run(arguments, app.got_subcommand("look")); });
+  return ols::bench::run_program(app, argc, argv, [&] {
+    if (app.got_subcommand("unattended")) {
+      watch_alone(arguments);
+    } else {
+      run(arguments, app.got_subcommand("look"));
+    }
+  });
 }

@@ -6,7 +6,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "geometry/angles.h"
-#include "sim/world/drone.h"
+#include "sim/world/flyer.h"
 
 namespace ols::bench {
 namespace {
@@ -23,9 +23,9 @@ Eigen::Matrix<double, 2, 3> from_body(double px_per_m) {
   return px_per_m * axes;
 }
 
-sim::DroneView view_of(double px_per_m, const Eigen::Vector2d& centre_px,
+sim::FlyerView view_of(double px_per_m, const Eigen::Vector2d& centre_px,
                        const Eigen::Vector2d& smear_px) {
-  sim::DroneView view;
+  sim::FlyerView view;
   view.centre_px = centre_px;
   view.px_per_m = from_body(px_per_m);
   view.span_m = kSpan_m;
@@ -41,9 +41,9 @@ int oversampling(double width_px) {
 }
 
 // The rectangle around the target; not clipped to the image.
-sim::DroneMatte blurred_matte(double px_per_m, double blur_px, const Eigen::Vector2d& centre_px,
+sim::FlyerMatte blurred_matte(double px_per_m, double blur_px, const Eigen::Vector2d& centre_px,
                               const Eigen::Vector2d& smear_px) {
-  const cv::Rect2d box = sim::drone_box(view_of(px_per_m, centre_px, smear_px));
+  const cv::Rect2d box = sim::flyer_box(view_of(px_per_m, centre_px, smear_px));
   const int half = static_cast<int>(std::ceil(0.5 * std::max(box.width, box.height) +
                                               4.0 * blur_px + 0.5 * smear_px.norm())) +
                    2;
@@ -52,7 +52,7 @@ sim::DroneMatte blurred_matte(double px_per_m, double blur_px, const Eigen::Vect
   const int finer = oversampling(box.width);
   const Eigen::Vector2d inside = centre_px - corner.cast<double>();
   const Eigen::Vector2d fine_px = (inside.array() + 0.5) * finer - 0.5;
-  const auto fine = sim::drone_matte(view_of(finer * px_per_m, fine_px, finer * smear_px),
+  const auto fine = sim::flyer_matte(view_of(finer * px_per_m, fine_px, finer * smear_px),
                                      cv::Size(finer * size.width, finer * size.height));
   const auto averaged = [&](const cv::Mat1f& part) {
     cv::Mat1f whole(finer * size.height, finer * size.width, 0.0F), result;
@@ -68,7 +68,7 @@ sim::DroneMatte blurred_matte(double px_per_m, double blur_px, const Eigen::Vect
 }  // namespace
 
 SyntheticTarget::SyntheticTarget(const TargetLook& look) : look_(look) {
-  const double width = sim::drone_box(view_of(1.0, {0, 0}, {0, 0})).width;
+  const double width = sim::flyer_box(view_of(1.0, {0, 0}, {0, 0})).width;
   px_per_m_ = look.width_px / width;
   if (look.contrast_sigma <= 0.0) return;
   const auto matte = blurred_matte(px_per_m_, look.blur_px, {0.0, 0.0}, {0.0, 0.0});
@@ -92,7 +92,7 @@ void SyntheticTarget::draw(cv::Mat1f& picture, const Eigen::Vector2d& centre_px,
 }
 
 cv::Rect2d SyntheticTarget::box(const Eigen::Vector2d& centre_px) const {
-  const cv::Rect2d inner = sim::drone_box(view_of(px_per_m_, centre_px, {0, 0}));
+  const cv::Rect2d inner = sim::flyer_box(view_of(px_per_m_, centre_px, {0, 0}));
   constexpr double kMargin = 0.5;
   return {inner.x - kMargin, inner.y - kMargin, inner.width + 2 * kMargin,
           inner.height + 2 * kMargin};

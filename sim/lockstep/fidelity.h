@@ -23,7 +23,7 @@ struct Fidelity {
   double pixel_sd_px = 0.3;
   std::vector<std::string> not_designated = {};  // stations without a designation
   std::vector<Misdesignation> misdesignated = {};
-  fusion::HandoverMode handover = fusion::HandoverMode::kOff;
+  fusion::HandoverConfig handover{};
 };
 
 }  // namespace ols::sim

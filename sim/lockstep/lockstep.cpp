@@ -28,7 +28,7 @@ Lockstep::Lockstep(const World& world, const Fidelity& fidelity,
       bearings_(world.scenario().errors.messages, derived_seed(world.seed(), kBearingTag)),
       slews_(world.scenario().errors.messages, derived_seed(world.seed(), kSlewTag)),
       newest_slew_us_(world.stations().size(), 0),
-      fusion_({.handover = {.mode = fidelity.handover}}) {
+      fusion_({.handover = fidelity.handover}) {
   auto renderers = fidelity.pictures
                        ? make_renderers(world)
                        : std::vector<std::unique_ptr<Renderer>>(world.stations().size());
@@ -106,6 +106,9 @@ void Lockstep::send(std::size_t station, const station::Bearing& bearing, double
 
 void Lockstep::fuse(const fusion::BearingMeasurement& measurement, double time_s) {
   const fusion::FusionOutput output = fusion_.add(measurement);
+  if (listener_) {
+    for (const fusion::FusedTarget& target : output.targets) listener_(target, time_s);
+  }
   if (result_.designated_s >= 0.0) {
     for (const fusion::FusedTarget& target : output.targets) record(target, time_s, result_.joint);
     for (const fusion::FusedTarget& target : output.targets_paper)

@@ -4,9 +4,11 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "central/fusion/fusion.h"
@@ -56,6 +58,9 @@ class Lockstep {
   void hear(const fusion::Cue& cue, double time_s);
   bool allow_cue(const std::string& id) { return fusion_.allow_cue(id, true); }
   const fusion::Fusion& fusion() const { return fusion_; }
+  // Called with every target that the fusion publishes, and the scenario's time.
+  using Listener = std::function<void(const fusion::FusedTarget&, double time_s)>;
+  void listen(Listener listener) { listener_ = std::move(listener); }
   LockstepResult result() const;
 
   // UTC of the scenario's start.
@@ -82,6 +87,7 @@ class Lockstep {
   std::vector<std::int64_t> newest_slew_us_;
   fusion::Fusion fusion_;
   LockstepResult result_;
+  Listener listener_;
   std::int64_t tick_ = 0;
 };
 

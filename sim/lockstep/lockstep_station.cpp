@@ -23,6 +23,8 @@ station::StationConfig station_config(const World& world, std::size_t index, boo
   config.calibration = calibration;
   config.overview = world.scenario().stations[index].overview;
   config.detection.enabled = pictures && world.scenario().detector_on;
+  const StationScenario& scenario = world.scenario().stations[index];
+  config.watch = {.middle = scenario.watch, .size_rad = scenario.watch_size_rad};
   const auto& points = world.stations()[index].zoom_points;
   if (!points.empty()) config.zoom.emplace(ZoomTable(points), kZoomSd);
   if (const auto& fixed = world.scenario().stations[index].fixed) {
@@ -87,7 +89,7 @@ std::vector<station::Bearing> LockstepStation::advance(double time_s) {
   detect(time_s);
   const double now_s = monotonic_s(time_s);
   station::StationOutput output = station_.step(now_s);
-  mount_->set_goal(output.goal);
+  mount_->set_goal(output.goal ? output.goal : output.watch);
   return std::move(output.bearings);
 }
 

@@ -243,7 +243,7 @@ Section station_section(std::vector<StationScenario>& stations) {
       StationScenario station;
       std::array<double, 2> tilt_xy_rad{};
       std::array<double, 3> mount_zxy_rad{};
-      std::array<double, 2> fixed_rad{};
+      std::array<double, 2> fixed_rad{}, watch_rad{};
     };
     auto keys = std::make_shared<Keys>();
     auto rows = station_rows(keys->station);
@@ -256,6 +256,12 @@ Section station_section(std::vector<StationScenario>& stations) {
                                    station::in_degrees(),
                                    "Angles at which its camera stands still, without a PTU.")
                        .default_is("a PTU"));
+    rows.push_back(config::numbers("watch_deg", keys->watch_rad, {-360, 360}, station::in_degrees(),
+                                   "Azimuth and elevation at which it looks while it is idle.")
+                       .default_is("where it was left"));
+    rows.push_back(config::numbers("watch_size_deg", {keys->station.watch_size_rad.data(), 2},
+                                   {0, 360}, station::in_degrees(),
+                                   "Width and height of what it looks at there."));
     std::ranges::move(zoom_rows(keys->station.zoom), std::back_inserter(rows));
     return Section{"", "", rows, {}, [keys, &stations](ConfigTable& table) {
                      StationScenario& s = keys->station;
@@ -268,6 +274,9 @@ Section station_section(std::vector<StationScenario>& stations) {
                      c.mount_y_rad = keys->mount_zxy_rad[2];
                      if (table.has("fixed_pan_tilt_deg")) {
                        s.fixed = PanTilt{keys->fixed_rad[0], keys->fixed_rad[1]};
+                     }
+                     if (table.has("watch_deg")) {
+                       s.watch = AzimuthElevation{keys->watch_rad[0], keys->watch_rad[1]};
                      }
                      if (!table.has("ptu_line")) s.ptu_line = s.id + ".ptu";
                      stations.push_back(s);
@@ -285,7 +294,13 @@ Section target_section(Scenario& s, const std::string& folder) {
         "",
         "",
         {config::text("id", target->id, "Its name, a word.").default_is("its number, from 1"),
-         config::number("span_m", target->span_m, {0.05, 100}, "m", "From rotor tip to rotor tip."),
+         config::word("kind", target->shape,
+                      {{"drone", FlyerShape::kDrone},
+                       {"bird", FlyerShape::kBird},
+                       {"aircraft", FlyerShape::kAircraft}},
+                      "How it looks: a multicopter, a bird that beats its wings, an aeroplane."),
+         config::number("span_m", target->span_m, {0.05, 100}, "m",
+                        "From rotor tip to rotor tip, or from wing tip to wing tip."),
          config::number("brightness", target->brightness, {0, 2}, "",
                         "0: black, 1: as bright as the sky.")},
         {trajectory_section(target->trajectory, {s.origin, folder})},

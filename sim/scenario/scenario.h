@@ -13,6 +13,7 @@
 #include "sim/lens/zoom_truth.h"
 #include "sim/scenario/fault_plan.h"
 #include "sim/world/boards.h"
+#include "sim/world/flyer.h"
 #include "sim/world/marks.h"
 #include "sim/world/trajectory.h"
 #include "sim/world/unit_truth.h"
@@ -82,13 +83,17 @@ struct StationScenario {
   bool overview = false;  // driven by a person, with a zoom lens
   ZoomScenario zoom;
   std::optional<PanTilt> fixed;  // the camera stands still at these angles; empty: a PTU
-  std::string ptu_device;        // of a real unit that replaces the simulated one; empty: none
+  // Where it looks while nobody wants its unit: the middle, and the field's width and height.
+  std::optional<AzimuthElevation> watch;
+  Eigen::Vector2d watch_size_rad = Eigen::Vector2d::Zero();
+  std::string ptu_device;  // of a real unit that replaces the simulated one; empty: none
 };
 
 struct TargetScenario {
   std::string id;  // a word; by default its number, from 1
   std::shared_ptr<const Trajectory> trajectory;
-  double span_m = 1.0;       // from rotor tip to rotor tip
+  FlyerShape shape = FlyerShape::kDrone;
+  double span_m = 1.0;       // from rotor tip to rotor tip, or from wing tip to wing tip
   double brightness = 0.22;  // 0 black .. 1 as bright as the sky
 };
 

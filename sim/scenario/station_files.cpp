@@ -84,6 +84,14 @@ void write_video(std::ostream& out, const StationScenario& station) {
       << "\naddress = " << toml_text(station.camera_address + ":" + std::to_string(kPort)) << "\n";
 }
 
+void write_watch(std::ostream& out, const StationScenario& station) {
+  if (!station.watch) return;
+  out << "\n[watch]\nazimuth_deg = " << degrees(station.watch->azimuth_rad)
+      << "\nelevation_deg = " << degrees(station.watch->elevation_rad) << "\nsize_deg = ["
+      << degrees(station.watch_size_rad.x()) << ", " << degrees(station.watch_size_rad.y())
+      << "]\n";
+}
+
 void write_sensors(std::ostream& out, const Scenario& s, std::size_t station,
                    const std::string& line_stem) {
   if (s.inclinometer.on) {
@@ -145,6 +153,7 @@ std::string station_file(const World& world, std::size_t station,
   write_lens_motor(out, truth, options.line_folder + "/" + truth.id);
   write_video(out, world.scenario().stations[station]);
   out << "\n[detector]\nenabled = " << (world.scenario().detector_on ? "true" : "false") << "\n";
+  write_watch(out, world.scenario().stations[station]);
   return out.str();
 }
 

@@ -1,5 +1,6 @@
-#include "sim/world/drone.h"
+#include "sim/world/flyer.h"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -23,7 +24,7 @@ Part ellipsoid(const Eigen::Vector3d& centre, const Eigen::Vector3d& half, doubl
   return {centre, turn * half.asDiagonal(), brightness, opacity};
 }
 
-std::vector<Part> make_parts() {
+std::vector<Part> drone_parts() {
   constexpr double kArm = 0.34, kDiagonal = 0.7853981633974483;
   std::vector<Part> parts;
   for (double yaw : {kDiagonal, -kDiagonal}) {
@@ -40,9 +41,38 @@ std::vector<Part> make_parts() {
   return parts;
 }
 
-const std::vector<Part>& parts() {
-  static const std::vector<Part> kParts = make_parts();
-  return kParts;
+// A wing from the body's middle outwards: side 1 is the left one.
+Part wing(int side, double length, double chord, double up_rad) {
+  const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(side * up_rad, Eigen::Vector3d::UnitX()).toRotationMatrix();
+  const Eigen::Vector3d half(0.5 * chord, 0.5 * length, 0.012);
+  return {turn * Eigen::Vector3d(0.0, side * 0.5 * length, 0.0), turn * half.asDiagonal(), 1.0,
+          1.0};
+}
+
+std::vector<Part> bird_parts(double wing_rad) {
+  return {ellipsoid({0.02, 0.0, 0.0}, {0.20, 0.06, 0.06}, 0.0, 1.0, 1.0),
+          ellipsoid({-0.22, 0.0, 0.0}, {0.10, 0.06, 0.01}, 0.0, 1.0, 1.0),
+          wing(1, 0.5, 0.2, wing_rad), wing(-1, 0.5, 0.2, wing_rad)};
+}
+
+std::vector<Part> aircraft_parts() {
+  return {ellipsoid({0.0, 0.0, 0.0}, {0.40, 0.05, 0.05}, 0.0, 1.0, 1.0),
+          ellipsoid({-0.36, 0.0, 0.0}, {0.04, 0.16, 0.008}, 0.0, 1.0, 1.0),
+          ellipsoid({-0.36, 0.0, 0.06}, {0.05, 0.006, 0.07}, 0.0, 1.0, 1.0),
+          wing(1, 0.5, 0.12, 0.05), wing(-1, 0.5, 0.12, 0.05)};
+}
+
+std::vector<Part> parts_of(const FlyerView& view) {
+  static const std::vector<Part> kDrone = drone_parts(), kAircraft = aircraft_parts();
+  switch (view.shape) {
+    case FlyerShape::kBird:
+      return bird_parts(view.wing_rad);
+    case FlyerShape::kAircraft:
+      return kAircraft;
+    default:
+      return kDrone;
+  }
 }
 
 // A part's image: an ellipse { x : (x - centre)' Q^-1 (x - centre) <= 1 }.
@@ -51,7 +81,7 @@ struct Ellipse {
   Eigen::Matrix2d Q;
 };
 
-Ellipse image_of(const Part& part, const DroneView& view) {
+Ellipse image_of(const Part& part, const FlyerView& view) {
   const Eigen::Matrix<double, 2, 3> px_per_span = view.px_per_m * view.span_m;
   const Eigen::Matrix<double, 2, 3> axes = px_per_span * part.half_axes;
   return {view.centre_px + px_per_span * part.centre, axes * axes.transpose()};
@@ -62,7 +92,7 @@ void over(float& colour, float& covered, float gray, float alpha) {
   covered = covered * (1 - alpha) + alpha;
 }
 
-void draw_ellipse(const Ellipse& ellipse, float gray, double opacity, DroneMatte& canvas) {
+void draw_ellipse(const Ellipse& ellipse, float gray, double opacity, FlyerMatte& canvas) {
   // Thinner than a pixel: drawn one pixel wide and fainter, so that its total light is right.
   constexpr double kLeastHalfAxis = 0.5;
   const Eigen::Matrix2d Q =
@@ -93,9 +123,9 @@ void draw_ellipse(const Ellipse& ellipse, float gray, double opacity, DroneMatte
   }
 }
 
-DroneMatte draw_still(const DroneView& view, const cv::Rect& area) {
-  DroneMatte canvas{area, cv::Mat1f::zeros(area.size()), cv::Mat1f::zeros(area.size())};
-  for (const Part& part : parts()) {
+FlyerMatte draw_still(const FlyerView& view, const cv::Rect& area) {
+  FlyerMatte canvas{area, cv::Mat1f::zeros(area.size()), cv::Mat1f::zeros(area.size())};
+  for (const Part& part : parts_of(view)) {
     const auto gray =
         static_cast<float>(std::min(255.0, 205.0 * view.brightness * part.brightness));
     draw_ellipse(image_of(part, view), gray, part.opacity, canvas);
@@ -103,8 +133,8 @@ DroneMatte draw_still(const DroneView& view, const cv::Rect& area) {
   return canvas;
 }
 
-cv::Rect area_of(const DroneView& view, cv::Size picture) {
-  const cv::Rect2d box = drone_box(view);
+cv::Rect area_of(const FlyerView& view, cv::Size picture) {
+  const cv::Rect2d box = flyer_box(view);
   const double margin_x = 3.0 + std::abs(view.smear_px.x());
   const double margin_y = 3.0 + std::abs(view.smear_px.y());
   const cv::Rect2d wide(box.x - margin_x, box.y - margin_y, box.width + 2 * margin_x,
@@ -119,35 +149,35 @@ cv::Rect area_of(const DroneView& view, cv::Size picture) {
 
 }  // namespace
 
-cv::Rect2d drone_box(const DroneView& view) {
-  Eigen::Vector2d half = Eigen::Vector2d::Zero();
-  for (const Part& part : parts()) {
+cv::Rect2d flyer_box(const FlyerView& view) {
+  Eigen::AlignedBox2d box;
+  for (const Part& part : parts_of(view)) {
     const Ellipse ellipse = image_of(part, view);
-    half = half.cwiseMax((ellipse.centre - view.centre_px).cwiseAbs() +
-                         ellipse.Q.diagonal().cwiseMax(0.0).cwiseSqrt());
+    const Eigen::Vector2d half = ellipse.Q.diagonal().cwiseMax(0.0).cwiseSqrt();
+    box.extend(ellipse.centre - half).extend(ellipse.centre + half);
   }
-  const Eigen::Vector2d corner = view.centre_px - half + Eigen::Vector2d(0.5, 0.5);
-  return {corner.x(), corner.y(), 2 * half.x(), 2 * half.y()};
+  const Eigen::Vector2d corner = box.min() + Eigen::Vector2d(0.5, 0.5), size = box.sizes();
+  return {corner.x(), corner.y(), size.x(), size.y()};
 }
 
-DroneMatte drone_matte(const DroneView& view, cv::Size picture) {
+FlyerMatte flyer_matte(const FlyerView& view, cv::Size picture) {
   const cv::Rect area = area_of(view, picture);
-  DroneMatte sum{area, cv::Mat1f::zeros(area.size()), cv::Mat1f::zeros(area.size())};
+  FlyerMatte sum{area, cv::Mat1f::zeros(area.size()), cv::Mat1f::zeros(area.size())};
   if (area.empty()) return sum;
   // The smear is the mean of still images along it, at most half a pixel apart.
   const int stills = std::clamp(static_cast<int>(std::ceil(2.0 * view.smear_px.norm())), 1, 16);
   for (int i = 0; i < stills; ++i) {
-    DroneView still = view;
+    FlyerView still = view;
     still.centre_px += ((i + 0.5) / stills - 0.5) * view.smear_px;
-    const DroneMatte one = draw_still(still, area);
+    const FlyerMatte one = draw_still(still, area);
     sum.colour += one.colour / stills;
     sum.covered += one.covered / stills;
   }
   return sum;
 }
 
-void draw_drone(const DroneView& view, cv::Mat& gray) {
-  const DroneMatte matte = drone_matte(view, gray.size());
+void draw_flyer(const FlyerView& view, cv::Mat& gray) {
+  const FlyerMatte matte = flyer_matte(view, gray.size());
   if (matte.area.empty()) return;
   cv::Mat behind, mixed;
   gray(matte.area).convertTo(behind, CV_32F);

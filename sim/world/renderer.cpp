@@ -23,6 +23,12 @@ Matrix3d level_body(const Vector3d& v_enu) {
   return Eigen::AngleAxisd(course, Vector3d::UnitZ()).toRotationMatrix();
 }
 
+// Of a bird: the longer its wings, the slower they beat (about 4 Hz for a crow).
+double wing_rad(double span_m, double time_s) {
+  constexpr double kBeat_m_s = 3.5, kStroke_rad = 0.7;
+  return kStroke_rad * std::sin(2.0 * kPi * kBeat_m_s / span_m * time_s);
+}
+
 Eigen::Isometry3d camera_pose(const StationTruth& station, const PanTilt& angles) {
   if (station.unit.exact) return enu_from_camera(station.truth.chain, angles);
   return camera_on(station.truth.chain, station.unit.trunnion_rad, angles);
@@ -36,7 +42,7 @@ Vector3d in_camera(const World& world, const StationTruth& station, std::size_t 
   return camera_pose(station, angles).inverse() * p_enu;
 }
 
-std::optional<DroneView> drone_view(const World& world, const StationTruth& station,
+std::optional<FlyerView> flyer_view(const World& world, const StationTruth& station,
                                     std::size_t target, const ExposureTruth& exposure) {
   const CameraIntrinsics camera = camera_of(station, exposure);
   const Vector3d p_cam = in_camera(world, station, target, exposure.mid_s, exposure.mid);
@@ -47,10 +53,12 @@ std::optional<DroneView> drone_view(const World& world, const StationTruth& stat
   const Vector3d v_enu =
       local.R_ecef_enu().transpose() * world.target(target, exposure.mid_s).v_ecef;
   const Matrix3d R_cam_enu = camera_pose(station, exposure.mid).linear().transpose();
-  DroneView view;
+  FlyerView view;
   view.centre_px = *centre;
   view.px_per_m = project_jacobian(camera, p_cam) * R_cam_enu * level_body(v_enu);
+  view.shape = scenario.shape;
   view.span_m = scenario.span_m;
+  view.wing_rad = wing_rad(scenario.span_m, exposure.mid_s);
   view.brightness = scenario.brightness;
   const double half_s = 0.5 * exposure.exposure_s;
   const auto first =
@@ -95,13 +103,13 @@ CameraIntrinsics camera_of(const StationTruth& station, const ExposureTruth& exp
 ViewTruth view_truth(const World& world, std::size_t station, const ExposureTruth& exposure,
                      std::size_t target) {
   const StationTruth& truth = world.stations()[station];
-  const auto view = drone_view(world, truth, target, exposure);
+  const auto view = flyer_view(world, truth, target, exposure);
   if (!view) return {};
   const CameraIntrinsics camera = camera_of(truth, exposure);
   const Eigen::Vector2d& c = view->centre_px;
   const bool inside = c.x() >= -0.5 && c.y() >= -0.5 && c.x() < camera.width_px - 0.5 &&
                       c.y() < camera.height_px - 0.5;
-  return {inside, c, drone_box(*view)};
+  return {inside, c, flyer_box(*view)};
 }
 
 std::vector<std::unique_ptr<Renderer>> make_renderers(const World& world) {
@@ -165,7 +173,7 @@ void Renderer::draw_scene(const ExposureTruth& exposure, cv::Mat& gray) {
   boards_.draw(camera, pose, gray);
   if (world_.scenario().errors.motion_blur.on) smear(exposure, gray);
   for (std::size_t target = 0; target < world_.scenario().targets.size(); ++target) {
-    if (const auto view = drone_view(world_, truth, target, exposure)) draw_drone(*view, gray);
+    if (const auto view = flyer_view(world_, truth, target, exposure)) draw_flyer(*view, gray);
   }
 }
 

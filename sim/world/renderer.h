@@ -9,7 +9,7 @@
 
 #include "sim/scenario/faults.h"
 #include "sim/world/boards.h"
-#include "sim/world/drone.h"
+#include "sim/world/flyer.h"
 #include "sim/world/panorama.h"
 #include "sim/world/sun.h"
 #include "sim/world/world.h"

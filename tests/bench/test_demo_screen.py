@@ -9,6 +9,7 @@ import ols_msg
 import pytest
 from conftest import BIN, finished
 from ols_demo import __main__ as demo
+from ols_demo.finding import Finding
 from ols_demo.inside import write_in_site
 from ols_demo.live import Screen, at_work, station_lines, target_lines
 from ols_demo.observer import Observer
@@ -120,3 +121,30 @@ def test_what_is_missing_is_named(tmp_path, monkeypatch, capsys, words, problem)
     assert demo.main() == 1
     said = capsys.readouterr().err
     assert said.startswith("tools/demo: ") and problem in said
+
+
+def test_what_an_unattended_site_finds_is_said_once():
+    said = []
+    finding = Finding(said.append)
+    bearing = ols_msg.bearing_t()
+    bearing.station, bearing.detected = "overview", True
+    incident = ols_msg.incident_t()
+    incident.number, incident.target_id = 1, 2
+    incident.object_class, incident.area = "drone", "site"
+    fix = {"target_id": 2, "solution": TARGET.SOLUTION_OK, "station": ["alfa", "bravo"]}
+    named = fix | {"object_class": TARGET.CLASS_DRONE, "class_probability": 0.93, "size_m": 1.2}
+    observer = heard(status("alfa", STATUS.STATE_TRACKING), status("bravo", STATUS.STATE_TRACKING))
+    for _ in range(2):
+        finding.receive("OLS_BEARING_overview", bearing)
+        finding.receive("OLS_TARGET", target(**fix))
+        finding.receive("OLS_TARGET", target(**named))
+        finding.receive("OLS_INCIDENT", incident)
+    assert [line.split("s  ")[1] for line in said] == [
+        "overview sees something for the first time",
+        "target 2 is located by alfa, bravo",
+        "target 2 is named: drone (0.93), 1.2 m",
+        "ALARM: drone 2 is inside area site",
+    ]
+    assert finding.drones == {2}
+    assert finding.holds(observer)
+    assert not finding.holds(heard(status("alfa", STATUS.STATE_TRACKING)))

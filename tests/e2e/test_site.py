@@ -24,7 +24,8 @@ RUN_S = 5
 def run(network, tmp_path_factory):
     folder = tmp_path_factory.mktemp("site")
     report = folder / "r.json"
-    command = [sys.executable, "-m", "ols_demo", "--headless", "--seconds", str(RUN_S)]
+    command = [sys.executable, "-m", "ols_demo", "--operator", "--headless"]
+    command += ["--seconds", str(RUN_S)]
     # Small pictures: two ordinary processors have other tests to run as well.
     command += ["--scenario", str(ROOT / "sim/scenarios/faults.toml")]
     command += ["--report", str(report), "--output", str(folder), "--bin", relpath(BIN, ROOT)]

@@ -26,7 +26,8 @@ def arguments() -> argparse.Namespace:
 
 
 def start_demo(options: argparse.Namespace, folder: Path) -> subprocess.Popen:
-    command = [sys.executable, "-m", "ols_demo", "--headless", "--seconds", "600"]
+    command = [sys.executable, "-m", "ols_demo", "--operator", "--headless"]
+    command += ["--seconds", "600"]
     command += ["--output", str(folder), "--bin", str(options.bin.resolve())]
     command += ["--patience", str(PATIENCE_S)]
     return subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, text=True)

@@ -7,38 +7,52 @@ import signal
 import sys
 import time
 from pathlib import Path
+from typing import Any
 
 import ols
 
 from ols_demo import evaluate, plot, recording
 from ols_demo.bus import LIVE_URL, Bus
 from ols_demo.doorway import VARIABLE
+from ols_demo.finding import Finding
 from ols_demo.inside import write_in_site
 from ols_demo.live import Screen, at_work
 from ols_demo.observer import Observer
 from ols_demo.operator import Operator
 from ols_demo.site import Site, SiteError, bring_up_loopback
-from ols_demo.wiring import Wiring, add_site_options
+from ols_demo.wiring import Wiring, add_site_options, scenario_file
 
-DESIGNATION_S = 60.0
+PATIENCE_S = 120.0
 PROGRAMS = ["ols-station", "ols-fusion", "ols-sim", "ols-key"]
 
 
 def arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog="tools/demo", description=__doc__)
-    parser.add_argument("--seconds", type=float, default=60.0, help="to run after designation [s]")
+    parser.add_argument(
+        "--seconds", type=float, default=60.0, help="to run once the target is tracked [s]"
+    )
+    parser.add_argument(
+        "--operator",
+        action="store_true",
+        help="an operator points the stations and designates the target, in place of the "
+        "detectors (scenario: overview.toml)",
+    )
     parser.add_argument(
         "--headless", action="store_true", help="neither console nor live picture in the terminal"
     )
     parser.add_argument("--report", type=Path, help="JSON file; a plot is written beside it")
-    add_site_options(parser, "overview", "demo")
+    add_site_options(parser, "unattended", "demo")
+    parser.set_defaults(scenario=None)
     parser.add_argument(
-        "--patience", type=float, default=DESIGNATION_S, help="until all stations track [s]"
+        "--patience", type=float, default=PATIENCE_S, help="until the target is tracked [s]"
     )
     parser.add_argument(
         "--console-only", type=Path, metavar="LOG", help="only replay this log on the console"
     )
-    return parser.parse_args()
+    options = parser.parse_args()
+    if options.scenario is None:
+        options.scenario = scenario_file("overview" if options.operator else "unattended")
+    return options
 
 
 class Run:
@@ -48,15 +62,24 @@ class Run:
         """keys: the folder of the site's throw-away keys; None: the site is unsigned."""
         self.options = options
         self.observer = Observer()
+        self.finding = Finding()
         trust = ols.Trust(keys, "operator", 1) if keys else None
-        self.bus = Bus(LIVE_URL, self.observer.receive, trust)
-        self.operator = Operator(self.bus, self.observer, options.seed)
+        self.bus = Bus(LIVE_URL, self._receive, trust)
+        self.operator = (
+            Operator(self.bus, self.observer, options.seed) if options.operator else None
+        )
         self.screen = None if options.headless else Screen()
         self._draw_due = 0.0
 
+    def _receive(self, channel: str, message: Any) -> None:
+        self.observer.receive(channel, message)
+        if not self.operator:
+            self.finding.receive(channel, message)
+
     def turn(self, site: Site, title: str) -> None:
         self.bus.handle(0.05)
-        self.operator.act()
+        if self.operator:
+            self.operator.act()
         site.check()
         if self.screen and time.monotonic() >= self._draw_due:
             self._draw_due = time.monotonic() + self.screen.period_s
@@ -70,6 +93,18 @@ class Run:
             if time.monotonic() > deadline:
                 missing = ", ".join(sorted(set(stations) - self.operator.tracking))
                 raise SiteError(f"not tracking after {self.options.patience:.0f} s: {missing}")
+
+    def find(self, site: Site) -> None:
+        """Waits for what the site does by itself."""
+        print("nobody operates the site: it looks, follows and names by itself", flush=True)
+        deadline = time.monotonic() + self.options.patience
+        while not self.finding.holds(self.observer):
+            self.turn(site, "the site looks for what flies")
+            if time.monotonic() > deadline:
+                raise SiteError(
+                    f"no drone was found and tracked in {self.options.patience:.0f} s; "
+                    "a scenario without detectors needs --operator"
+                )
 
     def watch(self, site: Site) -> tuple[int, int]:
         """Runs for the asked time; the window [us] in which the run is judged."""
@@ -97,8 +132,13 @@ def plot_of(options: argparse.Namespace) -> Path:
     return report_of(options).with_suffix(".png")
 
 
-def write_report(options: argparse.Namespace, window: tuple[int, int], log: Path) -> dict:
+def write_report(
+    options: argparse.Namespace, window: tuple[int, int], log: Path, targets: set[int] | None
+) -> dict:
+    """targets: those that are judged; None: all."""
     recorded = recording.read(log)
+    if targets is not None:
+        evaluate.keep_targets(recorded, targets)
     result = {
         "scenario": options.scenario.stem,
         "seed": options.seed,
@@ -166,7 +206,14 @@ def replay(options: argparse.Namespace) -> int:
 
 def demonstrate(options: argparse.Namespace) -> int:
     """Runs the site and reports on it."""
-    wiring = Wiring(options.bin, options.scenario, options.seed, options.output, signed=True)
+    wiring = Wiring(
+        options.bin,
+        options.scenario,
+        options.seed,
+        options.output,
+        signed=True,
+        unattended=not options.operator,
+    )
     for former in (report_of(options), plot_of(options)):
         former.unlink(missing_ok=True)  # of a run that fails nothing is to be read
     check_programs(options.bin, PROGRAMS + ([] if options.headless else ["ols-console"]))
@@ -179,10 +226,14 @@ def demonstrate(options: argparse.Namespace) -> int:
         in_site = write_in_site(options.output, options.bin, wiring.keys)
         print(f"commands to its stations: {in_site} ols-ctl all status", flush=True)
         run = Run(options, wiring.keys["OLS_KEYS"])
-        run.designate(site, wiring.tracking_stations)
+        if options.operator:
+            run.designate(site, wiring.tracking_stations)
+        else:
+            run.find(site)
         window = run.watch(site)
         print("ending the processes")
-    result = write_report(options, window, wiring.log)
+    drones = None if options.operator else run.finding.drones
+    result = write_report(options, window, wiring.log, drones)
     print(summary(result))
     return 0 if result["fixes"] else 1
 

@@ -17,6 +17,7 @@ TYPES: list[tuple[str, Any]] = [
     (r"OLS_FUSION_STATUS", ols_msg.fusion_status_t),
     (r"OLS_CUE", ols_msg.cue_t),
     (r"OLS_CUE_ORDER", ols_msg.cue_order_t),
+    (r"OLS_INCIDENT", ols_msg.incident_t),
     (r"OLS_SIM_TRUTH", ols_msg.truth_target_t),
     (r"OLS_SIM_VIEW_.+", ols_msg.truth_view_t),
     (r"OLS_SIM_PTU_.+", ols_msg.truth_ptu_t),

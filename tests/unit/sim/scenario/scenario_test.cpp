@@ -43,6 +43,15 @@ TEST(Scenario, ShippedOnesLoad) {
   }
 }
 
+TEST(Scenario, TheUnattendedOneHasThreeKindsOfTargets) {
+  const Scenario s = load_scenario(std::string(OLS_SCENARIOS) + "/unattended.toml");
+  EXPECT_TRUE(s.detector_on);
+  std::vector<FlyerShape> shapes;
+  for (const TargetScenario& target : s.targets) shapes.push_back(target.shape);
+  EXPECT_EQ(shapes, (std::vector{FlyerShape::kDrone, FlyerShape::kBird, FlyerShape::kAircraft}));
+  for (const StationScenario& station : s.stations) EXPECT_TRUE(station.watch) << station.id;
+}
+
 TEST(Scenario, ThePapersExperimentsLoad) {
   Scenario table1 = load_scenario(std::string(OLS_SCENARIOS) + "/table1.toml");
   EXPECT_EQ(table1.targets.size(), 9U);

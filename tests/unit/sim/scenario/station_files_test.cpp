@@ -70,6 +70,24 @@ TEST(StationFiles, SayWhichCameraStandsStill) {
   EXPECT_NE(file.find("[mount]\nkind = \"fixed\"\npan_deg = 20"), std::string::npos) << file;
 }
 
+TEST(StationFiles, SayWhereAnIdleStationLooks) {
+  Scenario scenario = load_scenario(std::string(OLS_SCENARIOS) + "/fig7.toml");
+  scenario.stations[0].watch = AzimuthElevation{radians(20.0), radians(4.0)};
+  scenario.stations[0].watch_size_rad = {radians(30.0), radians(5.0)};
+  const auto folder = std::filesystem::path(temp_dir()) / ("watch_" + std::to_string(::getpid()));
+  write_station_files(World(scenario, 5), {"udpm://239.255.76.67:7667?ttl=0", "/tmp/lines", ""},
+                      folder);
+  const auto watch_of = [&](std::size_t station) {
+    return station::load_station_settings(folder / (scenario.stations[station].id + ".toml"))
+        .station.watch;
+  };
+  EXPECT_NEAR(watch_of(0).middle.value().azimuth_rad, radians(20.0), 1e-12);
+  EXPECT_NEAR(watch_of(0).middle.value().elevation_rad, radians(4.0), 1e-12);
+  EXPECT_LT((watch_of(0).size_rad - scenario.stations[0].watch_size_rad).norm(), 1e-12);
+  EXPECT_FALSE(watch_of(1).middle);
+  std::filesystem::remove_all(folder);
+}
+
 TEST(StationFiles, AreReadFromAFolderOfAnyName) {
   const World world(load_scenario(std::string(OLS_SCENARIOS) + "/fig7.toml"), 5);
   const auto folder = std::filesystem::path(temp_dir()) / ("named_" + std::to_string(::getpid()));
