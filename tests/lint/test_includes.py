@@ -21,20 +21,21 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 
 # Folder of the project -> folders that it may include, besides itself.
-PRODUCT = {"bridge", "calibration", "central", "console", "cue", "edge", "export"}
+PRODUCT = {"bridge", "calibration", "central", "console", "cue", "edge", "export", "land"}
 ALLOWED = {
     "geometry": set(),
     "conditions": set(),
     "base": {"conditions"},
     "calibration": {"geometry", "conditions"},
+    "land": {"geometry", "base", "conditions"},
     "wire": {"geometry", "base", "conditions"},
-    "edge": {"calibration", "geometry", "base", "conditions"},
-    "central": {"wire", "geometry", "base", "conditions"},
-    "console": {"wire", "geometry", "base", "conditions"},
-    "export": {"wire", "geometry", "base", "conditions"},
+    "edge": {"calibration", "land", "geometry", "base", "conditions"},
+    "central": {"wire", "land", "geometry", "base", "conditions"},
+    "console": {"wire", "land", "geometry", "base", "conditions"},
+    "export": {"wire", "land", "geometry", "base", "conditions"},
     "cue": {"wire", "export", "geometry", "base", "conditions"},
     "bridge": {"geometry", "base", "conditions"},
-    "sim": {"edge", "central", "calibration", "geometry", "base", "conditions"},
+    "sim": {"edge", "central", "calibration", "land", "geometry", "base", "conditions"},
     "tools": {*PRODUCT, "wire", "geometry", "base", "conditions"},
     "dev": {*PRODUCT, "tools", "sim", "wire", "geometry", "base", "conditions"},
 }

@@ -1,0 +1,23 @@
+// The surface of the land around a site: ground, buildings and woods.
+#pragma once
+
+#include <optional>
+
+namespace ols::land {
+
+struct SurfaceHeight {
+  double height_m = 0.0;  // above the WGS84 ellipsoid
+  double sd_m = 0.0;      // 1-sigma of it
+};
+
+// What stands where. Implementations are immutable after they were made; any thread may ask.
+class Surface {
+ public:
+  virtual ~Surface() = default;
+  // The bare ground; nothing where no model knows it.
+  virtual std::optional<SurfaceHeight> ground(double latitude_rad, double longitude_rad) const = 0;
+  // The top of what stands there: the ground, or a roof, or the tree-tops.
+  virtual std::optional<SurfaceHeight> top(double latitude_rad, double longitude_rad) const = 0;
+};
+
+}  // namespace ols::land
