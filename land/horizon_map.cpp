@@ -1,0 +1,241 @@
+#include "land/horizon_map.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <stdexcept>
+#include <string>
+
+#include "land/column_march.h"
+
+namespace ols::land {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::infinity();
+
+// Means of the fifths of a standard normal distribution, each as probable as the others.
+constexpr std::array kFifths{-1.39981, -0.53190, 0.0, 0.53190, 1.39981};
+
+using Steps = std::span<const Step>;
+
+double interpolate(double at, double from, double to, double value_from, double value_to) {
+  return to > from ? value_from + (at - from) / (to - from) * (value_to - value_from) : value_to;
+}
+
+struct Height {
+  double elevation_rad = -0.5 * kPi;
+  double sd_rad = 0.0;
+};
+
+// Before the first step there is nothing but the ground at the camera's foot.
+Height height_at(Steps steps, double distance_m) {
+  const auto after = std::ranges::upper_bound(steps, distance_m, {}, &Step::distance_m);
+  if (after == steps.begin()) return {};
+  const Step& from = after[-1];
+  if (after == steps.end()) return {from.elevation_rad, from.elevation_sd_rad};
+  const auto mix = [&](float Step::*value) {
+    return interpolate(distance_m, from.distance_m, after->distance_m, from.*value,
+                       (*after).*value);
+  };
+  return {mix(&Step::elevation_rad), mix(&Step::elevation_sd_rad)};
+}
+
+// The first distance where the land is as high; infinite above the skyline.
+double distance_at(Steps steps, double elevation_rad) {
+  const auto at = std::ranges::lower_bound(steps, elevation_rad, {}, &Step::elevation_rad);
+  if (at == steps.end()) return kNone;
+  if (at == steps.begin()) return at->distance_m;
+  return interpolate(elevation_rad, at[-1].elevation_rad, at->elevation_rad, at[-1].distance_m,
+                     at->distance_m);
+}
+
+double normal_below(double sigmas) { return 0.5 * std::erfc(-sigmas / std::sqrt(2.0)); }
+
+// A camera on top of what the model has there is covered by nothing.
+struct Standing {
+  double lowered_m = 0.0;
+  bool covered = false;
+};
+
+Standing standing_of(const Surface& surface, const Geodetic& camera) {
+  const auto ground = surface.ground(camera.latitude_rad, camera.longitude_rad);
+  if (!ground) {
+    throw std::invalid_argument("the surface does not know the ground at the camera");
+  }
+  const double above_m = camera.height_m - ground->height_m;
+  if (!(above_m > -3.0 * ground->sd_m)) {
+    throw std::invalid_argument(
+        "the camera is " + std::to_string(std::lround(-above_m)) +
+        " m under the ground of the surface, which states an error of " +
+        std::to_string(ground->sd_m) +
+        " m: the camera's height, the surface's vertical datum or its place is wrong");
+  }
+  const auto top = surface.top(camera.latitude_rad, camera.longitude_rad);
+  return {std::max(0.0, HorizonMap::kLeastAboveGround_m - above_m),
+          top && top->height_m > std::max(camera.height_m, ground->height_m)};
+}
+
+}  // namespace
+
+struct HorizonMap::Columns {
+  Steps left, right;
+  double share_right = 0.0;
+
+  bool empty() const { return left.empty() || right.empty(); }
+  Steps nearer() const { return share_right < 0.5 ? left : right; }
+  Height before(double distance_m) const {
+    const Height l = height_at(left, distance_m), r = height_at(right, distance_m);
+    return {l.elevation_rad + share_right * (r.elevation_rad - l.elevation_rad),
+            l.sd_rad + share_right * (r.sd_rad - l.sd_rad)};
+  }
+};
+
+HorizonMap::HorizonMap(const Surface& surface, const Geodetic& camera,
+                       const HorizonMapConfig& config)
+    : frame_(camera), config_(config) {
+  const Standing standing = standing_of(surface, camera);
+  lowered_m_ = standing.lowered_m;
+  march_all(surface, standing.covered);
+}
+
+void HorizonMap::march_all(const Surface& surface, bool covered) {
+  const double column_rad = 2.0 * kPi / config_.columns;
+  const MarchSettings settings{.reach_m = config_.reach_m,
+                               .least_cell_m = config_.least_cell_m,
+                               .cell_per_distance = column_rad,
+                               .refraction_k = config_.refraction_k,
+                               .refraction_k_sd = config_.refraction_k_sd,
+                               .lowered_m = lowered_m_,
+                               .covered = covered};
+  for (int column = 0; column < config_.columns; ++column) {
+    begins_.push_back(steps_.size());
+    const double azimuth_rad = column * column_rad;
+    const double into_rad = wrap_two_pi(azimuth_rad - config_.from_azimuth_rad);
+    const double known_to_m = into_rad <= config_.sector_rad
+                                  ? march(surface, frame_, azimuth_rad, settings, steps_)
+                                  : 0.0;
+    known_to_m_.push_back(static_cast<float>(known_to_m));
+  }
+  begins_.push_back(steps_.size());
+  steps_.shrink_to_fit();
+}
+
+HorizonMap::Columns HorizonMap::beside(double azimuth_rad) const {
+  const double place = wrap_two_pi(azimuth_rad) / (2.0 * kPi) * config_.columns;
+  const auto left = std::min(static_cast<int>(place), config_.columns - 1);
+  const auto of_column = [&](int column) {
+    const auto at = static_cast<std::size_t>(column % config_.columns);
+    return Steps(steps_).subspan(begins_[at], begins_[at + 1] - begins_[at]);
+  };
+  return {of_column(left), of_column(left + 1), place - left};
+}
+
+double HorizonMap::cell_m(double distance_m) const {
+  return std::max(config_.least_cell_m, 2.0 * kPi / config_.columns * distance_m);
+}
+
+std::optional<Skyline> HorizonMap::skyline(double azimuth_rad) const {
+  return highest_before(azimuth_rad, kNone);
+}
+
+std::optional<Skyline> HorizonMap::highest_before(double azimuth_rad, double distance_m) const {
+  const Columns columns = beside(azimuth_rad);
+  if (columns.empty()) return std::nullopt;
+  const Height height = columns.before(distance_m);
+  const Steps steps = columns.nearer();
+  const double own_rad = height_at(steps, distance_m).elevation_rad;
+  return Skyline{height.elevation_rad, height.sd_rad,
+                 std::min(distance_m, distance_at(steps, own_rad))};
+}
+
+std::optional<GroundHit> HorizonMap::ground(const AzimuthElevation& sight) const {
+  const Columns columns = beside(sight.azimuth_rad);
+  if (columns.empty()) return std::nullopt;
+  const double left_m = distance_at(columns.left, sight.elevation_rad);
+  const double right_m = distance_at(columns.right, sight.elevation_rad);
+  double near_m = std::min(left_m, right_m), far_m = std::max(left_m, right_m);
+  if (far_m == kNone) {
+    far_m = config_.reach_m;
+    if (near_m == kNone || columns.before(kNone).elevation_rad < sight.elevation_rad) {
+      return std::nullopt;
+    }
+  }
+  // Between the two columns the staircase is between theirs.
+  while (far_m - near_m > 0.05 * cell_m(near_m)) {
+    const double middle_m = 0.5 * (near_m + far_m);
+    const bool below = columns.before(middle_m).elevation_rad < sight.elevation_rad;
+    (below ? near_m : far_m) = middle_m;
+  }
+  const double step_m = 0.5 * cell_m(far_m);
+  const Height nearer = columns.before(far_m - step_m), farther = columns.before(far_m + step_m);
+  const bool is_first = nearer.elevation_rad <= -0.5 * kPi;
+  return GroundHit{
+      .range_m = far_m / std::cos(sight.elevation_rad),
+      .elevation_sd_rad = columns.before(far_m).sd_rad,
+      .rise_rad_per_m =
+          is_first ? 0.0 : (farther.elevation_rad - nearer.elevation_rad) / (2.0 * step_m)};
+}
+
+double HorizonMap::probability_at(const Columns& columns, double distance_m, double elevation_rad,
+                                  double elevation_sd_rad) const {
+  const Height land = columns.before(distance_m);
+  const double above_rad = elevation_rad - land.elevation_rad;
+  const double sd_rad = std::hypot(elevation_sd_rad, land.sd_rad);
+  if (sd_rad == 0.0) return above_rad > 0.0 ? 1.0 : 0.0;
+  return normal_below(above_rad / sd_rad);
+}
+
+// Azimuth, distance and elevation of the point are jointly normal. Over azimuth and distance the
+// mean is taken by the fifths of each, over the elevation, given both, in closed form.
+double HorizonMap::visible_probability(const Eigen::Vector3d& p_ecef,
+                                       const Eigen::Matrix3d& covariance_ecef) const {
+  const Eigen::Vector3d enu = frame_.to_enu(p_ecef);
+  const double distance_m = enu.head<2>().norm();
+  if (distance_m == 0.0) return enu.z() > 0.0 ? 1.0 : 0.0;
+  const double azimuth_rad = std::atan2(enu.x(), enu.y());
+  const Eigen::Vector2d outward = enu.head<2>() / distance_m;
+  const double range2 = enu.squaredNorm();
+  Eigen::Matrix3d J;  // azimuth, distance, elevation by east, north, up
+  J << outward.y() / distance_m, -outward.x() / distance_m, 0.0,  //
+      outward.x(), outward.y(), 0.0,                              //
+      -enu.z() * outward.x() / range2, -enu.z() * outward.y() / range2, distance_m / range2;
+  const Eigen::Matrix3d to_polar = J * frame_.R_ecef_enu().transpose();
+  const Eigen::Matrix3d P = to_polar * covariance_ecef * to_polar.transpose();
+
+  // P = L L^T; a dimension without variance has zeros.
+  const auto root = [](double variance) { return std::sqrt(std::max(variance, 0.0)); };
+  const auto over = [](double value, double by) { return by > 0.0 ? value / by : 0.0; };
+  const double l00 = root(P(0, 0)), l10 = over(P(1, 0), l00), l20 = over(P(2, 0), l00);
+  const double l11 = root(P(1, 1) - l10 * l10), l21 = over(P(2, 1) - l20 * l10, l11);
+  const double l22 = root(P(2, 2) - l20 * l20 - l21 * l21);
+
+  const double lift_rad = refraction_slope(config_.refraction_k, distance_m);
+  const double elevation_rad = std::atan(enu.z() / distance_m + lift_rad);
+  const auto fifths = [](double sd, double fine) {
+    return sd > fine ? std::span<const double>(kFifths) : std::span<const double>(&kFifths[2], 1);
+  };
+  double sum = 0.0;
+  const auto across = fifths(l00, 0.1 * 2.0 * kPi / config_.columns);
+  const auto along = fifths(l11, 0.1 * cell_m(distance_m));
+  for (const double a : across) {
+    const Columns columns = beside(azimuth_rad + l00 * a);
+    if (columns.empty()) {
+      sum += static_cast<double>(along.size());
+      continue;
+    }
+    for (const double b : along) {
+      sum += probability_at(columns, distance_m + l10 * a + l11 * b,
+                            elevation_rad + l20 * a + l21 * b, l22);
+    }
+  }
+  return sum / static_cast<double>(across.size() * along.size());
+}
+
+double HorizonMap::known_to_m(double azimuth_rad) const {
+  const double place = wrap_two_pi(azimuth_rad) / (2.0 * kPi) * config_.columns;
+  return known_to_m_[static_cast<std::size_t>(std::lround(place) % config_.columns)];
+}
+
+}  // namespace ols::land
