@@ -51,6 +51,8 @@ const std::array<ParameterText, kStationParameters>& parameter_texts() {
       {"tilt_worm_sin_deg", true, kWorm, "Error of a turn of the tilt worm, sin."},
       {"tilt_backlash_deg", true, kBacklash, "Backlash of tilt."},
       {"exposure_offset_s", false, 2e-3, "Exposure later than the stamp of the unit's counts."},
+      {"k3", false, 0.0, "Radial distortion, sixth order; of a radial lens, its third term."},
+      {"k4", false, 0.0, "Fourth term of a radial lens."},
       {"heading_deg", true, 0.0, "Direction of zero pan, clockwise from true north."},
       {"tilt_x_deg", true, 0.0, "Inclination of ORIGIN about X."},
       {"tilt_y_deg", true, 0.0, "Inclination of ORIGIN about Y."},
@@ -82,7 +84,7 @@ InstrumentVector instrument_of(const StationModel& model) {
       chain.mount_z_rad, chain.mount_x_rad, chain.mount_y_rad, chain.trunnion_rad, pan.cos1_rad,
       pan.sin1_rad, pan.cos2_rad, pan.sin2_rad, pan.worm_cos_rad, pan.worm_sin_rad,
       pan.backlash_rad, tilt.cos1_rad, tilt.sin1_rad, tilt.worm_cos_rad, tilt.worm_sin_rad,
-      tilt.backlash_rad, model.exposure_offset_s;
+      tilt.backlash_rad, model.exposure_offset_s, camera.k3, camera.k4;
   return v;
 }
 

@@ -76,15 +76,15 @@ void add_camera(ByParameters& J, const CameraIntrinsics& camera, const Vector3d&
   const double aspect = camera.fy_px / camera.fx_px;
   const double y_plane = (pixel.y() - camera.cy_px) / camera.fy_px;
   const double x_plane = (pixel.x() - camera.cx_px - camera.skew * y_plane) / camera.fx_px;
-  const Vector2d xy = p_cam.hnormalized();
-  const double u = xy.squaredNorm();
-  const Eigen::Matrix2d K{{camera.fx_px, camera.skew}, {0.0, camera.fy_px}};
+  const Eigen::Matrix<double, 2, 4> by_k = project_by_coefficients(camera, p_cam);
   J.col(kFocal) << x_plane, aspect * y_plane;
   J.col(kAspect) << 0.0, camera.fx_px * y_plane;
   J.col(kCx) = Vector2d::UnitX();
   J.col(kCy) = Vector2d::UnitY();
-  J.col(kK1) = K * xy * u;
-  J.col(kK2) = K * xy * u * u;
+  J.col(kK1) = by_k.col(0);
+  J.col(kK2) = by_k.col(1);
+  J.col(kK3) = by_k.col(2);
+  J.col(kK4) = by_k.col(3);
 }
 
 // By the errors of one axis, of the image's motion with its shaft.

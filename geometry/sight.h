@@ -6,7 +6,7 @@
 
 #include "geometry/direction.h"
 #include "geometry/kinematic_chain.h"
-#include "geometry/pinhole.h"
+#include "geometry/lens.h"
 #include "geometry/wgs84.h"
 
 namespace ols {

@@ -26,6 +26,8 @@ void change_camera(CameraIntrinsics& camera, const ModelParameters& by) {
   camera.cy_px += by[kCy];
   camera.k1 += by[kK1];
   camera.k2 += by[kK2];
+  camera.k3 += by[kK3];
+  camera.k4 += by[kK4];
 }
 
 }  // namespace

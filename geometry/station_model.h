@@ -65,6 +65,8 @@ enum Parameter : int {
   kTiltWormSin,
   kTiltBacklash,
   kExposureOffset,  // [s]
+  kK3,
+  kK4,
   // of the setup
   kHeading,
   kTiltX,

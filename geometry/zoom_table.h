@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "geometry/pinhole.h"
+#include "geometry/lens.h"
 
 namespace ols {
 

@@ -201,7 +201,9 @@ std::variant<StationPlace, MessageRefusal> station_place_from(const std::string&
     place.no_place = MessageRefusal::kOutOfRange;
   }
   const double view_rad = std::min(message.field_of_view_rad[0], message.field_of_view_rad[1]);
-  if (view_rad > 1e-4 && view_rad < kPi) place.traits.field_of_view_rad = view_rad;
+  if (view_rad > 1e-4 && view_rad <= 2.0 * kPi) {
+    place.traits.field_of_view_rad = std::min(view_rad, kPi);
+  }
   if (std::isfinite(message.azimuth_rad) && std::abs(message.elevation_rad) <= kPi / 2.0) {
     place.traits.axis = AzimuthElevation{message.azimuth_rad, message.elevation_rad};
   }

@@ -19,11 +19,15 @@ class CovarianceRows {
 
   explicit CovarianceRows(const std::string& path) : path_(path) {
     header_.names[0] = "parameter";
-    header_.required = 1 + kParameters;
-    for (std::size_t k = 0; k < kParameters; ++k) header_.names[1 + k] = parameter_texts()[k].key;
+    header_.required = 1 + kParameters - kLater;
+    std::size_t earlier = 1, later = header_.required;
+    for (std::size_t k = 0; k < kParameters; ++k) {
+      column_[k] = is_later(k) ? later++ : earlier++;
+      header_.names[column_[k]] = parameter_texts()[k].key;
+    }
     csv::for_each_row(path, header_, [this](const Row& row) { take(row); });
     for (std::size_t k = 0; k < kParameters; ++k) {
-      if (lines_[k] == 0) fail(last_line_ + 1, k, "the row is missing");
+      if (lines_[k] == 0 && !is_later(k)) fail(last_line_ + 1, k, "the row is missing");
     }
   }
 
@@ -57,17 +61,23 @@ class CovarianceRows {
   }
 
  private:
+  // Older files lack these: they are then known exactly.
+  static constexpr std::size_t kLater = 2;
+  static bool is_later(std::size_t k) { return k == kK3 || k == kK4; }
+  static const char* key(std::size_t k) { return parameter_texts()[k].key; }
+
   void take(const Row& row) {
     last_line_ = row.line();
     const std::string name = row.text(0);
     std::size_t k = 0;
-    while (k < kParameters && name != header_.names[1 + k]) ++k;
+    while (k < kParameters && name != key(k)) ++k;
     if (k == kParameters) return;
     if (lines_[k] != 0) fail(row.line(), k, "the row appears twice");
     lines_[k] = row.line();
     for (std::size_t l = 0; l < kParameters; ++l) {
+      if (is_later(l) && !row.has_column(column_[l])) continue;
       cells_(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(l)) =
-          row.template number<double>(1 + l, -1e12, 1e12);
+          row.template number<double>(column_[l], -1e12, 1e12);
     }
   }
   void check_symmetry(const Matrix& R) const {
@@ -81,12 +91,13 @@ class CovarianceRows {
     }
   }
   [[noreturn]] void fail(unsigned line, std::size_t parameter, const std::string& what) const {
-    throw CsvError(path_ + ":" + std::to_string(line) + ": " + header_.names[1 + parameter] + ": " +
+    throw CsvError(path_ + ":" + std::to_string(line) + ": " + key(parameter) + ": " +
                    what);
   }
 
   std::string path_;
   Header header_{};
+  std::array<std::size_t, kParameters> column_{};  // of each parameter
   Matrix cells_ = Matrix::Zero();              // in the units of the file
   std::array<unsigned, kParameters> lines_{};  // of the rows; 0: none yet
   unsigned last_line_ = 1;

@@ -16,6 +16,8 @@
 namespace ols::calibration {
 namespace {
 
+// 1-sigma of each coefficient of a fisheye or polynomial that nobody has calibrated.
+constexpr double kWideSd = 0.02;
 constexpr double kLeastFocal = 1e-3;  // of the focal length [px], and of the aspect
 
 // Numbers of instrument.toml, in the units of the file.
@@ -62,13 +64,15 @@ config::Section unit_section(Instrument& instrument) {
                           station::in_degrees(), "Shaft angle of tilt at zero counts.")}};
 }
 
-config::Section lens_section(FixedValues& fixed) {
+config::Section lens_section(FixedValues& fixed, Numbers& numbers) {
   return {"lens",
           "Of the lens, what no adjustment changes.",
-          {config::number("skew", fixed.skew, {-1e5, 1e5}, "px", "Skew of the pixel axes."),
+          {config::word("model", fixed.model, station::lens_model_words(), "As in the station's configuration."),
+           config::number("skew", fixed.skew, {-1e5, 1e5}, "px", "Skew of the pixel axes."),
            config::number("p1", fixed.p1, {-1e3, 1e3}, "", "Tangential distortion."),
            config::number("p2", fixed.p2, {-1e3, 1e3}, "", "Tangential distortion."),
-           config::number("k3", fixed.k3, {-1e9, 1e9}, "", "Radial distortion, sixth order.")}};
+           // Older files have it here; [values] is read after it.
+           config::number("k3", numbers.values[kK3], {-1e9, 1e9}, "", "As in [values].")}};
 }
 
 config::Section serials_section(station::InstrumentSerials& serials) {
@@ -86,7 +90,7 @@ config::Section instrument_section(Instrument& instrument, Numbers& numbers) {
           {config::text("covariance", instrument.covariance_file,
                         "Covariance of the values, a CSV file beside this one; it replaces [sd].")},
           {serials_section(instrument.serials), unit_section(instrument),
-           lens_section(instrument.fixed),
+           lens_section(instrument.fixed, numbers),
            numbers_section("values", "What was found.", numbers.values, kLeast),
            numbers_section("sd", "1-sigma of each value alone.", numbers.sds, 0.0)}};
 }
@@ -109,7 +113,7 @@ Instrument new_instrument(const station::StationSettings& settings) {
   instrument.serials = settings.serials;
   const CameraIntrinsics& camera = geometry.camera;
   const ChainParameters& chain = geometry.chain;
-  instrument.fixed = {camera.skew,    camera.p1,       camera.p2,          camera.k3,
+  instrument.fixed = {camera.model, camera.skew,    camera.p1,       camera.p2,
                       chain.pan_sign, chain.tilt_sign, chain.pan_zero_rad, chain.tilt_zero_rad};
   instrument.values = instrument_of({.geometry = geometry, .pan = {}, .tilt = {}});
   InstrumentVector sd;
@@ -118,6 +122,10 @@ Instrument new_instrument(const station::StationSettings& settings) {
   }
   constexpr double kFocalShare = 0.003;
   sd[kFocal] = kFocalShare * geometry.camera.fx_px;
+  if (camera.model != LensModel::kPinhole) {
+    sd.segment<2>(kK1).setConstant(kWideSd);
+    sd.segment<2>(kK3).setConstant(kWideSd);
+  }
   sd[kMountZ] = std::max(sd[kMountZ], geometry.sd.mount_rad);
   sd[kMountY] = std::max(sd[kMountY], geometry.sd.mount_rad);
   sd[kMountX] = std::max(sd[kMountX], geometry.sd.mount_roll_rad);
@@ -131,6 +139,9 @@ Instrument read_instrument(const std::string& path, const Instrument& fallback) 
   ConfigFile file(path);
   config::read(instrument_section(instrument, numbers), file.root());
   check_plain(instrument.serials, path);
+  if (instrument.fixed.model != fallback.fixed.model) {
+    throw ConfigError(path + ": lens.model: is not that of the station's configuration");
+  }
   for (int i = 0; i < kInstrumentParameters; ++i) {
     const auto k = static_cast<std::size_t>(i);
     instrument.values[i] = from_file(i, numbers.values[k]);
@@ -187,10 +198,10 @@ StationModel with_instrument(const StationGeometry& geometry, const Instrument& 
   const FixedValues& fixed = instrument.fixed;
   CameraIntrinsics& camera = model.geometry.camera;
   ChainParameters& chain = model.geometry.chain;
+  camera.model = fixed.model;
   camera.skew = fixed.skew;
   camera.p1 = fixed.p1;
   camera.p2 = fixed.p2;
-  camera.k3 = fixed.k3;
   chain.pan_sign = fixed.pan_sign;
   chain.tilt_sign = fixed.tilt_sign;
   chain.pan_zero_rad = fixed.pan_zero_rad;
@@ -221,8 +232,10 @@ std::string instrument_text(const Instrument& instrument) {
       << "\nangle_sd_deg = " << degrees(instrument.angle_sd_rad)
       << "\npan_sign = " << fixed.pan_sign << "\ntilt_sign = " << fixed.tilt_sign
       << "\npan_zero_deg = " << degrees(fixed.pan_zero_rad)
-      << "\ntilt_zero_deg = " << degrees(fixed.tilt_zero_rad) << "\n\n[lens]\nskew = " << fixed.skew
-      << "\np1 = " << fixed.p1 << "\np2 = " << fixed.p2 << "\nk3 = " << fixed.k3 << "\n";
+      << "\ntilt_zero_deg = " << degrees(fixed.tilt_zero_rad) << "\n\n[lens]\nmodel = "
+      << toml_text(kLensModelNames.at(static_cast<std::size_t>(fixed.model)))
+      << "\nskew = " << fixed.skew
+      << "\np1 = " << fixed.p1 << "\np2 = " << fixed.p2 << "\n";
   const Numbers numbers = numbers_of(instrument);
   for (const auto& [name, list] :
        {std::pair{"values", &numbers.values}, std::pair{"sd", &numbers.sds}}) {

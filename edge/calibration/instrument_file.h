@@ -12,7 +12,8 @@ namespace ols::calibration {
 // Constants of the lens model and of the unit with which the values were found. No adjustment
 // changes them.
 struct FixedValues {
-  double skew = 0.0, p1 = 0.0, p2 = 0.0, k3 = 0.0;
+  LensModel model = LensModel::kPinhole;
+  double skew = 0.0, p1 = 0.0, p2 = 0.0;
   int pan_sign = 1, tilt_sign = 1;
   double pan_zero_rad = 0.0, tilt_zero_rad = 0.0;
 };

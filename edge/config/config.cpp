@@ -95,8 +95,12 @@ Section lens_section(StationSettings& settings) {
   };
   return {
       "lens",
-      "The camera's calibration, in OpenCV's model.",
-      {config::number("fx_px", lens.fx_px, {1.0, 1e7}, "px", "Focal length along x.").required(),
+      "The camera's calibration, in OpenCV's models or a polynomial.",
+      {config::word("model", lens.model, lens_model_words(),
+                    "pinhole: OpenCV's; fisheye: OpenCV's; polynomial: the radius is theta (1 + k1 "
+                    "theta + k2 theta^2 + k3 theta^3 + k4 theta^4), theta being the angle off the "
+                    "axis. The last two are for wide cameras without a motor."),
+       config::number("fx_px", lens.fx_px, {1.0, 1e7}, "px", "Focal length along x.").required(),
        config::number("fy_px", lens.fy_px, {1.0, 1e7}, "px", "Focal length along y.").required(),
        config::number("cx_px", lens.cx_px, {-1e5, 1e5}, "px", "Principal point, x.")
            .default_is("middle of the image"),
@@ -107,13 +111,16 @@ Section lens_section(StationSettings& settings) {
        term("k2", lens.k2, 1e6, "Radial distortion, fourth order."),
        term("p1", lens.p1, 1e3, "Tangential distortion."),
        term("p2", lens.p2, 1e3, "Tangential distortion."),
-       term("k3", lens.k3, 1e9, "Radial distortion, sixth order.")},
+       term("k3", lens.k3, 1e9, "Radial distortion, sixth order."),
+       term("k4", lens.k4, 1e9, "Fourth term of a fisheye or polynomial.")},
       {},
       [&settings, &lens](ConfigTable& table) {
         lens.width_px = settings.camera->config().width_px;
         lens.height_px = settings.camera->config().height_px;
         if (!table.has("cx_px")) lens.cx_px = (lens.width_px - 1) / 2.0;
         if (!table.has("cy_px")) lens.cy_px = (lens.height_px - 1) / 2.0;
+        const std::string foreign = foreign_coefficients(lens);
+        if (!foreign.empty()) throw table.error("model", "has no " + foreign);
       }};
 }
 
@@ -294,6 +301,11 @@ void use_lens(ConfigTable& root, StationSettings& settings) {
 void check_mount(const ConfigTable& root, const StationSettings& settings) {
   if (settings.station.overview && !settings.mount->traits().moves) {
     throw root.error("kind", "an overview station is driven by a person: its mount must move");
+  }
+  // The image's motion with the mount is predicted as that of a pinhole.
+  if (settings.station.geometry.camera.model != LensModel::kPinhole &&
+      settings.mount->traits().moves) {
+    throw root.error("lens", "a fisheye or polynomial is for a camera whose mount is \"fixed\"");
   }
 }
 

@@ -35,6 +35,8 @@ void fill_camera(const std::optional<CameraView>& camera, ols_msg::video_frame_t
     message.camera_matrix_px[i] = camera ? matrix[i] : kNaN;
     message.distortion[i] = camera ? distortion[i] : kNaN;
   }
+  message.lens_model = static_cast<std::int32_t>(k.model);
+  message.lens_k4 = camera ? k.k4 : kNaN;
 }
 
 void fill_picture(const VideoFrame& frame, const VideoRequest& request, H264Encoder& stream,

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "geometry/pinhole.h"
+#include "geometry/lens.h"
 
 namespace ols::video {
 

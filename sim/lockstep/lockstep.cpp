@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/pinhole.h"
+#include "geometry/lens.h"
 
 namespace ols::sim {
 namespace {

@@ -8,7 +8,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "geometry/pinhole.h"
+#include "geometry/lens.h"
 #include "sim/scenario/faults.h"
 #include "sim/world/unit_truth.h"
 

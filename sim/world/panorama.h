@@ -7,7 +7,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "geometry/pinhole.h"
+#include "geometry/lens.h"
 #include "sim/scenario/scenario.h"
 
 namespace ols::sim {

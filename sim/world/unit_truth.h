@@ -7,7 +7,7 @@
 #include <cstdint>
 
 #include "geometry/kinematic_chain.h"
-#include "geometry/pinhole.h"
+#include "geometry/lens.h"
 
 namespace ols::sim {
 

@@ -57,6 +57,7 @@ FORMER = {
     "fusion_status_v1": "5eae55e2",
     "station_status_v1": "f51c5e11",
     "target_v1": "7ceb0a14",
+    "video_frame_v1": "3273b474",
 }
 
 

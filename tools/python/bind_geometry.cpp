@@ -3,7 +3,7 @@
 
 #include "geometry/direction.h"
 #include "geometry/kinematic_chain.h"
-#include "geometry/pinhole.h"
+#include "geometry/lens.h"
 #include "geometry/sight.h"
 #include "geometry/wgs84.h"
 #include "tools/python/bindings.h"

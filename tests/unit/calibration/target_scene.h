@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-#include "geometry/pinhole.h"
+#include "geometry/lens.h"
 
 namespace ols::calibration::test {
 

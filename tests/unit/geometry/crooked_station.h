@@ -8,12 +8,15 @@
 
 namespace ols::test {
 
-inline StationModel crooked(std::mt19937& random) {
+inline StationModel crooked(std::mt19937& random, LensModel lens = LensModel::kPinhole) {
   std::normal_distribution<double> normal;
   StationModel model;
   model.geometry.position = {radians(49.2), radians(16.6), 300.0};
   ChainParameters& chain = model.geometry.chain;
   chain.heading_rad = radians(123.0);
+  CameraIntrinsics& camera = model.geometry.camera;
+  camera.model = lens;
+  if (lens != LensModel::kPinhole) camera.fx_px = camera.fy_px = 700.0;
   chain.azi_to_ele_m = {0.01, -0.02, 0.03};
   chain.pan_sign = normal(random) > 0.0 ? 1 : -1;
   chain.tilt_sign = normal(random) > 0.0 ? 1 : -1;

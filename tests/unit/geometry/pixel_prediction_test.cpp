@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <random>
+#include <utility>
 
 #include "tests/unit/geometry/crooked_station.h"
 #include "tests/unit/geometry/near.h"
@@ -22,8 +23,12 @@ constexpr unsigned kSeed = 20260117;
 // Central differences of the pixel by each parameter.
 TEST(PixelPrediction, ItsDerivativesAreThoseOfDifferences) {
   std::mt19937 random(kSeed);
-  for (const double w : {1.0 / 200.0, 1.0 / 3.0}) {
-    const StationModel model = crooked(random);
+  for (const auto& [distance_inverse, lens] :
+       {std::pair{1.0 / 200.0, LensModel::kPinhole}, std::pair{1.0 / 3.0, LensModel::kPinhole},
+        std::pair{1.0 / 3.0, LensModel::kFisheye},
+        std::pair{1.0 / 200.0, LensModel::kPolynomial}}) {
+    const double w = distance_inverse;
+    const StationModel model = crooked(random, lens);
     const UnitReading reading = some_reading(random);
     const HomogeneousPoint point = seen_at(model, reading, {300.0, 800.0}, w);
     const auto here = predict_pixel(model, reading, point);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <cmath>
 #include <functional>
 
 #include "geometry/angles.h"
@@ -97,6 +98,22 @@ TEST(Sight, PixelCovarianceByHand) {
   EXPECT_TRUE(near(line->covariance_white / (px_rad * px_rad), expected, 1e-6));
   const Eigen::Matrix2d systematic = Vector2d(1.0, 16.0).asDiagonal();
   EXPECT_TRUE(near(line->covariance_systematic / (px_rad * px_rad), systematic, 1e-6));
+}
+
+// A direction at 70 degrees off the axis of an equidistant lens: f pixels a radian outwards, and
+// f theta / sin(theta) around.
+TEST(Sight, PixelCovarianceFarOffTheAxisOfAWideLens) {
+  StationGeometry station = plain_station();
+  station.camera.model = LensModel::kFisheye;
+  station.camera.fx_px = station.camera.fy_px = 400.0;
+  const double theta = radians(70.0);
+  PixelSight measurement = at_pixel(kCentre + Vector2d(400.0 * theta, 0.0));
+  measurement.covariance_px2 = Vector2d(4.0, 9.0).asDiagonal();
+  const auto line = sight(station, measurement);
+  EXPECT_NEAR(degrees(line->direction.azimuth_rad), 160.0, 1e-6);
+  const Vector2d expected(4.0, 9.0 * std::pow(std::sin(theta) / theta, 2));
+  EXPECT_TRUE(
+      near(line->covariance_white * 400.0 * 400.0, Eigen::Matrix2d(expected.asDiagonal()), 1e-5));
 }
 
 TEST(Sight, PanJitterIsSmallerAcrossWhenLookingUp) {

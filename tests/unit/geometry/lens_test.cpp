@@ -1,13 +1,15 @@
-#include "geometry/pinhole.h"
+#include "geometry/lens.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <array>
 #include <limits>
 #include <opencv2/calib3d.hpp>
 #include <random>
 
 #include "geometry/angles.h"
+#include "geometry/direction.h"
 #include "tests/unit/geometry/near.h"
 
 namespace ols {
@@ -35,14 +37,14 @@ CameraIntrinsics distorted_camera() {
   return camera;
 }
 
-TEST(Pinhole, SkewMovesXByY) {
+TEST(Lens, SkewMovesXByY) {
   CameraIntrinsics camera = simple_camera();
   camera.skew = 10.0;
   EXPECT_TRUE(
       near(*project(camera, {0.0, 0.5, 1.0}), Eigen::Vector2d(645.0, 480.0 + 550.0), 1e-12));
 }
 
-TEST(Pinhole, ProjectsAsOpenCvDoes) {
+TEST(Lens, ProjectsAsOpenCvDoes) {
   const CameraIntrinsics c = distorted_camera();
   const cv::Matx33d K(c.fx_px, 0.0, c.cx_px, 0.0, c.fy_px, c.cy_px, 0.0, 0.0, 1.0);
   const std::vector<double> distortion{c.k1, c.k2, c.p1, c.p2, c.k3};
@@ -60,13 +62,13 @@ TEST(Pinhole, ProjectsAsOpenCvDoes) {
   }
 }
 
-TEST(Pinhole, NothingBehindTheCamera) {
+TEST(Lens, NothingBehindTheCamera) {
   EXPECT_FALSE(project(simple_camera(), {0.1, 0.1, -1.0}));
   EXPECT_FALSE(project(simple_camera(), {0.1, 0.1, 0.0}));
   EXPECT_FALSE(project(simple_camera(), {0.1, 0.1, std::numeric_limits<double>::quiet_NaN()}));
 }
 
-TEST(Pinhole, UnprojectsWhatItProjected) {
+TEST(Lens, UnprojectsWhatItProjected) {
   for (const CameraIntrinsics& camera : {CameraIntrinsics{}, distorted_camera()}) {
     for (double x = -0.5; x < camera.width_px; x += 53.0) {
       for (double y = -0.5; y < camera.height_px; y += 41.0) {
@@ -79,7 +81,137 @@ TEST(Pinhole, UnprojectsWhatItProjected) {
   }
 }
 
-TEST(Pinhole, NothingBeyondTheFoldOfBarrelDistortion) {
+struct WideLens {
+  const char* name;
+  LensModel model;
+  std::array<double, 4> k;
+  double field_rad;  // off the axis: where it ends
+};
+
+CameraIntrinsics camera_of(const WideLens& lens) {
+  CameraIntrinsics camera = simple_camera();
+  camera.fx_px = 300.0;
+  camera.fy_px = 310.0;
+  camera.skew = 2.0;
+  camera.model = lens.model;
+  camera.k1 = lens.k[0], camera.k2 = lens.k[1], camera.k3 = lens.k[2], camera.k4 = lens.k[3];
+  return camera;
+}
+
+Eigen::Vector3d off_axis(double theta_rad, double around_rad) {
+  return {std::sin(theta_rad) * std::cos(around_rad), std::sin(theta_rad) * std::sin(around_rad),
+          std::cos(theta_rad)};
+}
+
+class Wide : public testing::TestWithParam<WideLens> {
+ protected:
+  const CameraIntrinsics camera_ = camera_of(GetParam());
+};
+
+INSTANTIATE_TEST_SUITE_P(
+    Lenses, Wide,
+    testing::Values(
+        WideLens{"equidistant", LensModel::kFisheye, {}, kPi},
+        WideLens{"measured", LensModel::kFisheye, {-0.032, 0.011, -0.0083, 0.0012}, kPi},
+        // 2 sin(theta / 2)
+        WideLens{"equisolid", LensModel::kFisheye, {-1.0 / 24, 1.0 / 1920, 0, 0}, kPi},
+        // 1 - 0.6 theta^2 is zero at 1.29.
+        WideLens{"folded", LensModel::kFisheye, {-0.2, 0, 0, 0}, 1.2909944},
+        // 1 - 2.4 s + 1.25 s^2, s = theta^2, is negative from 0.6112 to 1.3088: it unfolds again.
+        WideLens{"unfolded", LensModel::kFisheye, {-0.8, 0.25, 0, 0}, 0.7818491},
+        WideLens{"polynomial", LensModel::kPolynomial, {0.02, -0.09, 0.011, 0.001}, kPi},
+        // 1 - 0.5 theta
+        WideLens{"parabola", LensModel::kPolynomial, {-0.25, 0, 0, 0}, 2.0}),
+    [](const auto& lens) { return std::string(lens.param.name); });
+
+TEST_P(Wide, ThereAndBackUpToWhereItEnds) {
+  const double field = GetParam().field_rad;
+  for (double theta = 0.0; theta < field - 1e-3; theta += 0.0173) {
+    for (double around = 0.0; around < 6.2; around += 0.7) {
+      const auto pixel = project(camera_, 7.0 * off_axis(theta, around));
+      ASSERT_TRUE(pixel) << theta;
+      const auto ray = unproject(camera_, *pixel);
+      ASSERT_TRUE(ray) << theta;
+      EXPECT_TRUE(near(*project(camera_, *ray), *pixel, 1e-9));
+      EXPECT_LT(angle_between(*ray, off_axis(theta, around)), 1e-8);
+    }
+  }
+  if (field < kPi) {
+    EXPECT_FALSE(project(camera_, off_axis(field + 1e-6, 1.0)));
+  }
+  EXPECT_FALSE(project(camera_, {0.0, 0.0, -1.0}));
+  const Eigen::Vector2d rim =
+      *project(camera_, off_axis(field - 1e-3, 0.0)) - Eigen::Vector2d(camera_.cx_px, 480.0);
+  EXPECT_FALSE(unproject(camera_, Eigen::Vector2d(camera_.cx_px, 480.0) + 1.01 * rim));
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(project(camera_, {0.1, nan, 1.0}));
+  EXPECT_FALSE(unproject(camera_, {0.1, nan}));
+}
+
+TEST_P(Wide, JacobiansAreTheDerivatives) {
+  constexpr double kStep = 1e-6;
+  for (const double share : {0.0, 1e-4, 0.3, 0.6, 0.9}) {
+    const Eigen::Vector3d p = 3.0 * off_axis(share * GetParam().field_rad, 0.4);
+    Eigen::Matrix<double, 2, 3> by_point;
+    for (int axis = 0; axis < 3; ++axis) {
+      const Eigen::Vector3d step = kStep * Eigen::Vector3d::Unit(axis);
+      by_point.col(axis) =
+          (*project(camera_, p + step) - *project(camera_, p - step)) / (2.0 * kStep);
+    }
+    EXPECT_TRUE(near(project_jacobian(camera_, p), by_point, 1e-5)) << share;
+    Eigen::Matrix<double, 2, 4> by_k;
+    for (int k = 0; k < 4; ++k) {
+      const auto at = [&](double change) {
+        CameraIntrinsics other = camera_;
+        *std::array{&other.k1, &other.k2, &other.k3, &other.k4}[static_cast<std::size_t>(k)] +=
+            change;
+        return *project(other, p);
+      };
+      by_k.col(k) = (at(kStep) - at(-kStep)) / (2.0 * kStep);
+    }
+    EXPECT_TRUE(near(project_by_coefficients(camera_, p), by_k, 1e-4)) << share;
+  }
+}
+
+TEST_P(Wide, FisheyeProjectsAsOpenCvDoes) {
+  if (GetParam().model != LensModel::kFisheye) return;
+  const CameraIntrinsics& c = camera_;
+  const cv::Matx33d K(c.fx_px, 0.0, c.cx_px, 0.0, c.fy_px, c.cy_px, 0.0, 0.0, 1.0);
+  std::vector<cv::Point3d> points;
+  for (double theta = 0.01; theta < std::min(GetParam().field_rad, radians(89.0)); theta += 0.02) {
+    const Eigen::Vector3d p = 5.0 * off_axis(theta, 40.0 * theta);
+    points.emplace_back(p.x(), p.y(), p.z());
+  }
+  std::vector<cv::Point2d> pixels;
+  cv::fisheye::projectPoints(points, pixels, cv::Vec3d(), cv::Vec3d(), K,
+                             cv::Vec4d(c.k1, c.k2, c.k3, c.k4), c.skew / c.fx_px);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto pixel = project(c, {points[i].x, points[i].y, points[i].z});
+    ASSERT_TRUE(pixel);
+    EXPECT_TRUE(near(*pixel, Eigen::Vector2d(pixels[i].x, pixels[i].y), 1e-6));
+  }
+}
+
+TEST(Lens, WideFieldOfView) {
+  CameraIntrinsics camera = camera_of({"", LensModel::kFisheye, {-0.2, 0, 0, 0}, 0.0});
+  camera.fx_px = 640.5;
+  const double r = 0.8 * (1.0 - 0.2 * 0.64);
+  camera.cx_px = 1279.5 - 640.5 * r;
+  // The left half is wider than the lens.
+  EXPECT_NEAR(field_of_view(camera).x(), 0.8 + 1.2909944, 1e-6);
+}
+
+TEST(Lens, NamesCoefficientsThatTheModelLacks) {
+  CameraIntrinsics camera = distorted_camera();
+  EXPECT_EQ(foreign_coefficients(camera), "");
+  camera.k4 = 1.0;
+  EXPECT_EQ(foreign_coefficients(camera), "k4");
+  camera.model = LensModel::kFisheye;
+  EXPECT_EQ(foreign_coefficients(camera), "p1, p2");
+  EXPECT_EQ(foreign_coefficients(undistorted(camera)), "");
+}
+
+TEST(Lens, NothingBeyondTheFoldOfBarrelDistortion) {
   // r (1 - 0.3 r^2) is greatest at r = 1.054 and is back at the axis at r = 1.826.
   CameraIntrinsics camera = simple_camera();
   camera.k1 = -0.3;
@@ -90,7 +222,7 @@ TEST(Pinhole, NothingBeyondTheFoldOfBarrelDistortion) {
   EXPECT_FALSE(unproject(camera, {640.0 + 710.0, 480.0}));  // 0.703 is the greatest radius
 }
 
-TEST(Pinhole, NothingBeyondAFoldThatUnfoldsAgain) {
+TEST(Lens, NothingBeyondAFoldThatUnfoldsAgain) {
   // d/dr = 1 - 4.5 u + 5 u^2 is negative for 0.4 < u < 0.5, and positive again at u = 0.6.
   CameraIntrinsics camera = simple_camera();
   camera.k1 = -1.5;
@@ -106,7 +238,7 @@ TEST(Pinhole, NothingBeyondAFoldThatUnfoldsAgain) {
   EXPECT_FALSE(project(camera, {1.0, 0.0, 1.0}));
 }
 
-TEST(Pinhole, PincushionDoesNotFold) {
+TEST(Lens, PincushionDoesNotFold) {
   CameraIntrinsics camera = simple_camera();
   camera.k1 = 0.2;
   camera.k2 = 0.05;
@@ -116,13 +248,13 @@ TEST(Pinhole, PincushionDoesNotFold) {
   EXPECT_TRUE(near(*unproject(camera, *pixel) * std::sqrt(10.0), Eigen::Vector3d(3, 0, 1), 1e-9));
 }
 
-TEST(Pinhole, NonFinitePixelsHaveNoRay) {
+TEST(Lens, NonFinitePixelsHaveNoRay) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_FALSE(unproject(distorted_camera(), {nan, 0.0}));
   EXPECT_FALSE(unproject(distorted_camera(), {0.0, std::numeric_limits<double>::infinity()}));
 }
 
-TEST(Pinhole, JacobianIsTheDerivative) {
+TEST(Lens, JacobianIsTheDerivative) {
   CameraIntrinsics camera = distorted_camera();
   camera.skew = 3.0;
   const double h = 1e-6;
@@ -146,7 +278,7 @@ struct WorldCamera {
   Eigen::Vector3d C{4e6, 1.2e6, 4.8e6};
 };
 
-TEST(Pinhole, ProjectionMatrixAgreesWithProject) {
+TEST(Lens, ProjectionMatrixAgreesWithProject) {
   const WorldCamera w;
   const auto P = projection_matrix(camera_matrix(w.intrinsics), w.R, w.C);
   const Eigen::Vector3d p_cam(3.0, -7.0, 40.0);
@@ -154,7 +286,7 @@ TEST(Pinhole, ProjectionMatrixAgreesWithProject) {
   EXPECT_TRUE(near((P * p_world.homogeneous()).hnormalized(), *project(w.intrinsics, p_cam), 1e-6));
 }
 
-TEST(Pinhole, BackProjectionPointsToTheFront) {
+TEST(Lens, BackProjectionPointsToTheFront) {
   const WorldCamera w;
   const Eigen::Vector2d pixel(100.0, 900.0);
   const auto P = projection_matrix(camera_matrix(w.intrinsics), w.R, w.C);
@@ -163,7 +295,7 @@ TEST(Pinhole, BackProjectionPointsToTheFront) {
   EXPECT_TRUE(near(back_project(-2.0 * P, pixel), expected, 1e-12));  // P is known up to scale
 }
 
-TEST(Pinhole, BackProjectionIsThePapersLine) {
+TEST(Lens, BackProjectionIsThePapersLine) {
   // X(lambda) = P+ x + lambda C, with P+ = P^T (P P^T)^-1: near the origin its arithmetic is good.
   WorldCamera w;
   w.C = {3.0, -2.0, 5.0};
@@ -175,7 +307,7 @@ TEST(Pinhole, BackProjectionIsThePapersLine) {
   EXPECT_NEAR(along.normalized().cross(back_project(P, pixel)).norm(), 0.0, 1e-9);
 }
 
-TEST(Pinhole, FieldOfView) {
+TEST(Lens, FieldOfView) {
   CameraIntrinsics camera;
   camera.width_px = 2000;
   camera.height_px = 1000;
