@@ -9,6 +9,7 @@
 #include "base/bus/channel_names.h"
 #include "base/bus/lcm_bus.h"
 #include "console/rounded.h"
+#include "geometry/lens.h"
 #include "ols_msg/preview_t.hpp"
 #include "ols_msg/video_frame_t.hpp"
 #include "ols_msg/video_request_t.hpp"
@@ -34,13 +35,18 @@ Json header_of(const Message& m) {
           {"box_px", box}};
 }
 
-// Null while the unit's angles are unknown.
+// Null while the unit's angles are unknown, and for a lens that only a newer station knows.
 Json camera_of(const ols_msg::video_frame_t& f) {
   if (!std::isfinite(f.camera_from_ecef[0])) return nullptr;
+  const auto model = static_cast<std::size_t>(f.lens_model);
+  if (model >= kLensModelNames.size()) return nullptr;
+  Json distortion = rounded_all(f.distortion, 6);
+  distortion.push_back(rounded(f.lens_k4, 6));
   return {{"ecef_m", rounded_all(f.camera_ecef_m, 3)},
           {"from_ecef", rounded_all(f.camera_from_ecef, 9)},
           {"matrix_px", rounded_all(f.camera_matrix_px, 4)},
-          {"distortion", rounded_all(f.distortion, 6)}};
+          {"lens", kLensModelNames[model]},
+          {"distortion", distortion}};
 }
 
 template <class Request>

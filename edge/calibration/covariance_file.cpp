@@ -91,15 +91,14 @@ class CovarianceRows {
     }
   }
   [[noreturn]] void fail(unsigned line, std::size_t parameter, const std::string& what) const {
-    throw CsvError(path_ + ":" + std::to_string(line) + ": " + key(parameter) + ": " +
-                   what);
+    throw CsvError(path_ + ":" + std::to_string(line) + ": " + key(parameter) + ": " + what);
   }
 
   std::string path_;
   Header header_{};
   std::array<std::size_t, kParameters> column_{};  // of each parameter
-  Matrix cells_ = Matrix::Zero();              // in the units of the file
-  std::array<unsigned, kParameters> lines_{};  // of the rows; 0: none yet
+  Matrix cells_ = Matrix::Zero();                  // in the units of the file
+  std::array<unsigned, kParameters> lines_{};      // of the rows; 0: none yet
   unsigned last_line_ = 1;
 };
 

@@ -67,7 +67,8 @@ config::Section unit_section(Instrument& instrument) {
 config::Section lens_section(FixedValues& fixed, Numbers& numbers) {
   return {"lens",
           "Of the lens, what no adjustment changes.",
-          {config::word("model", fixed.model, station::lens_model_words(), "As in the station's configuration."),
+          {config::word("model", fixed.model, station::lens_model_words(),
+                        "As in the station's configuration."),
            config::number("skew", fixed.skew, {-1e5, 1e5}, "px", "Skew of the pixel axes."),
            config::number("p1", fixed.p1, {-1e3, 1e3}, "", "Tangential distortion."),
            config::number("p2", fixed.p2, {-1e3, 1e3}, "", "Tangential distortion."),
@@ -113,7 +114,7 @@ Instrument new_instrument(const station::StationSettings& settings) {
   instrument.serials = settings.serials;
   const CameraIntrinsics& camera = geometry.camera;
   const ChainParameters& chain = geometry.chain;
-  instrument.fixed = {camera.model, camera.skew,    camera.p1,       camera.p2,
+  instrument.fixed = {camera.model,   camera.skew,     camera.p1,          camera.p2,
                       chain.pan_sign, chain.tilt_sign, chain.pan_zero_rad, chain.tilt_zero_rad};
   instrument.values = instrument_of({.geometry = geometry, .pan = {}, .tilt = {}});
   InstrumentVector sd;
@@ -234,8 +235,7 @@ std::string instrument_text(const Instrument& instrument) {
       << "\npan_zero_deg = " << degrees(fixed.pan_zero_rad)
       << "\ntilt_zero_deg = " << degrees(fixed.tilt_zero_rad) << "\n\n[lens]\nmodel = "
       << toml_text(kLensModelNames.at(static_cast<std::size_t>(fixed.model)))
-      << "\nskew = " << fixed.skew
-      << "\np1 = " << fixed.p1 << "\np2 = " << fixed.p2 << "\n";
+      << "\nskew = " << fixed.skew << "\np1 = " << fixed.p1 << "\np2 = " << fixed.p2 << "\n";
   const Numbers numbers = numbers_of(instrument);
   for (const auto& [name, list] :
        {std::pair{"values", &numbers.values}, std::pair{"sd", &numbers.sds}}) {

@@ -53,7 +53,7 @@ Matrix2d outer(const Vector2d& v) { return v * v.transpose(); }
 
 // Covariance of one pixel measurement about the prediction from the position.
 Matrix2d pixel_covariance(const World& world, const StationTruth& station, const PanTilt& angles,
-                          const TargetTruth& target, const MeasurementNoise& noise) {
+                          const TargetTruth& target, const MeasurementNoise& noise, bool is_fixed) {
   const Errors& e = world.scenario().errors;
   const StationGeometry& g = station.truth;
   Matrix2d R =
@@ -71,7 +71,7 @@ Matrix2d pixel_covariance(const World& world, const StationTruth& station, const
                return pixel_of(g, angles, target.p_ecef + dt * target.v_ecef);
              }));
   const double step_rad = radians(world.ptu_unit_config().resolution_arcsec / 3600.0);
-  const double encoder_variance = noise.white_share * step_rad * step_rad / 12.0;
+  const double encoder_variance = is_fixed ? 0.0 : noise.white_share * step_rad * step_rad / 12.0;
   const Vector2d pan = slope(1e-5, [&](double d) {
     return pixel_of(g, {angles.pan_rad + d, angles.tilt_rad}, target.p_ecef);
   });
@@ -84,7 +84,7 @@ Matrix2d pixel_covariance(const World& world, const StationTruth& station, const
 // The same covariance on the tangent plane of the direction to the target.
 BearingPrecision bearing_precision_of(const World& world, const StationTruth& station,
                                       const PanTilt& angles, const TargetTruth& target,
-                                      const MeasurementNoise& noise) {
+                                      const MeasurementNoise& noise, bool is_fixed) {
   const LocalFrame centre(geodetic_from_ecef(camera_centre_ecef(station.truth, angles)));
   const auto H = bearing_jacobian(centre, target.p_ecef);
   Eigen::Matrix<double, 2, 3> pixel_by_position;
@@ -95,7 +95,7 @@ BearingPrecision bearing_precision_of(const World& world, const StationTruth& st
   }
   const Matrix2d pixel_by_angle = pixel_by_position * H.transpose() * (H * H.transpose()).inverse();
   const Matrix2d angle_by_pixel = pixel_by_angle.inverse();
-  const Matrix2d R = pixel_covariance(world, station, angles, target, noise);
+  const Matrix2d R = pixel_covariance(world, station, angles, target, noise, is_fixed);
   return {centre, angle_by_pixel * R * angle_by_pixel.transpose()};
 }
 
@@ -108,9 +108,11 @@ std::optional<Eigen::Matrix3d> position_bound_enu(const World& world, double tim
   std::vector<BearingPrecision> bearings;
   for (const std::size_t index : stations) {
     const StationTruth& station = world.stations()[index];
-    const auto angles = aim_at(station.truth, target.p_ecef);
-    if (!angles) continue;
-    bearings.push_back(bearing_precision_of(world, station, *angles, target, noise));
+    const auto& fixed = world.scenario().stations[index].fixed;
+    const auto angles = fixed ? fixed : aim_at(station.truth, target.p_ecef);
+    if (!angles || !view(station.truth, *angles, target.p_ecef)) continue;
+    bearings.push_back(
+        bearing_precision_of(world, station, *angles, target, noise, fixed.has_value()));
   }
   const auto bound = cramer_rao_bound(bearings, target.p_ecef);
   if (!bound) return std::nullopt;

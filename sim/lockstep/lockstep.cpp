@@ -133,6 +133,7 @@ void Lockstep::record(const fusion::FusedTarget& target, double time_s,
   if (target.estimate.solution != fusion::Solution::kOk) return;
   Fix fix;
   fix.utime_us = target.utime_us;
+  fix.target_id = target.target_id;
   fix.time_s = time_of(target.utime_us);
   fix.published_s = time_s;
   fix.position = geodetic_from_ecef(target.estimate.position_ecef);

@@ -19,9 +19,10 @@
 
 namespace ols::sim {
 
-// One published target and the truth, in the site's east, north, up.
+// One published target and the truth about the scenario's first one, in the site's east, north, up.
 struct Fix {
   std::int64_t utime_us = 0;
+  std::int64_t target_id = 0;
   double time_s = 0.0;       // of the scenario
   double published_s = 0.0;  // of the scenario
   Geodetic position;

@@ -47,6 +47,14 @@ void use_optics(ConfigTable& table, const Optics& optics, CameraIntrinsics& c) {
   centre("cy_px", c.cy_px, c.height_px);
   c.k1 = optics.distortion[0], c.k2 = optics.distortion[1];
   c.p1 = optics.distortion[2], c.p2 = optics.distortion[3], c.k3 = optics.distortion[4];
+  const std::string foreign = foreign_coefficients(c);
+  if (!foreign.empty()) throw table.error("lens", "has no " + foreign);
+  for (const double x : {-0.5, c.width_px - 0.5}) {
+    for (const double y : {-0.5, c.height_px - 0.5}) {
+      if (!unproject(c, {x, y}))
+        throw table.error("distortion", "leaves a corner without an image");
+    }
+  }
 }
 
 Section camera_section(Scenario& s) {
@@ -58,13 +66,17 @@ Section camera_section(Scenario& s) {
       "The camera of every station.",
       {config::integer("width_px", c.width_px, 64, 2048, "px", "Width of the image."),
        config::integer("height_px", c.height_px, 64, 2048, "px", "Height of the image."),
-       config::number("focal_length_mm", optics->focal_length_mm, {4, 1000}, "mm", "Focal length."),
+       config::number("focal_length_mm", optics->focal_length_mm, {1, 1000}, "mm", "Focal length."),
+       config::word("lens", c.model, station::lens_model_words(),
+                    "The model of the lens; all but "
+                    "the pinhole only for stations that stand still."),
        config::number("pixel_um", optics->pixel_um, {1, 20}, "um", "Pixel pitch."),
        config::number("cx_px", c.cx_px, kPixels, "px", "Principal point, x.")
            .default_is("middle of the image"),
        config::number("cy_px", c.cy_px, kPixels, "px", "Principal point, y.")
            .default_is("middle of the image"),
        config::numbers("distortion", optics->distortion, {-10, 10}, "", "k1, k2, p1, p2, k3."),
+       config::number("k4", c.k4, {-10, 10}, "", "Fourth term of a fisheye or polynomial."),
        config::number("frame_rate_hz", s.frame_rate_hz, {1, 60}, "Hz", "Frame rate."),
        config::number("exposure_ms", s.exposure_s, {0.01, 100}, config::kMilliseconds,
                       "Exposure time."),
@@ -378,6 +390,11 @@ Section scenario_section(Scenario& s, const std::string& folder) {
           [&s](ConfigTable& root) {
             if (s.stations.empty()) throw root.error("station", "at least one is needed");
             if (s.targets.empty()) throw root.error("target", "at least one is needed");
+            const bool moves = std::ranges::any_of(
+                s.stations, [](const StationScenario& one) { return !one.fixed; });
+            if (s.camera.model != LensModel::kPinhole && moves) {
+              throw root.error("station", "with this camera.lens it needs fixed_pan_tilt_deg");
+            }
           }};
 }
 

@@ -34,9 +34,10 @@ void write_chain(std::ostream& out, const ChainParameters& c) {
 
 void write_lens(std::ostream& out, const CameraIntrinsics& c) {
   out << "\n[lens]"
+      << "\nmodel = " << toml_text(kLensModelNames.at(static_cast<std::size_t>(c.model)))
       << "\nfx_px = " << c.fx_px << "\nfy_px = " << c.fy_px << "\ncx_px = " << c.cx_px
       << "\ncy_px = " << c.cy_px << "\nk1 = " << c.k1 << "\nk2 = " << c.k2 << "\np1 = " << c.p1
-      << "\np2 = " << c.p2 << "\nk3 = " << c.k3 << "\n";
+      << "\np2 = " << c.p2 << "\nk3 = " << c.k3 << "\nk4 = " << c.k4 << "\n";
 }
 
 void write_lens_motor(std::ostream& out, const StationTruth& station,

@@ -39,9 +39,8 @@ void mount_zoom(const StationScenario& scenario, double px_per_mm, std::uint64_t
                 StationTruth& station) {
   const ZoomScenario& zoom = scenario.zoom;
   if (zoom.is_fixed()) return;
-  CameraIntrinsics widest = station.truth.camera;
+  CameraIntrinsics widest = undistorted(station.truth.camera);
   widest.fx_px = widest.fy_px = zoom.range_mm[0] * px_per_mm;
-  widest.k1 = widest.k2 = widest.p1 = widest.p2 = widest.k3 = 0.0;
   station.zoom.emplace(widest, zoom.range_mm[1] / zoom.range_mm[0]);
   station.zoom_points = station.zoom->calibrated(zoom.focal_sd, seed);
   station.truth.camera = widest;
@@ -63,9 +62,7 @@ StationGeometry nominal_geometry(const Scenario& s, const StationScenario& stati
   g.chain = station.chain;
   g.camera = s.camera;
   g.sd = stated_sd(s.errors);
-  if (!s.errors.distortion.on) {
-    g.camera.k1 = g.camera.k2 = g.camera.p1 = g.camera.p2 = g.camera.k3 = 0.0;
-  }
+  if (!s.errors.distortion.on) g.camera = undistorted(g.camera);
   return g;
 }
 

@@ -79,9 +79,14 @@ void bind_direction(py::module_& m) {
 }
 
 void bind_pinhole(py::module_& m) {
-  data_class<CameraIntrinsics>(m, "CameraIntrinsics",
-                               "Pinhole camera with OpenCV's distortion (k1, k2, p1, p2, k3); "
-                               "pixel (0, 0) is the centre of the top-left pixel.")
+  py::enum_<LensModel>(m, "LensModel", "How a lens images directions (geometry/lens.h).")
+      .value("PINHOLE", LensModel::kPinhole)
+      .value("FISHEYE", LensModel::kFisheye)
+      .value("POLYNOMIAL", LensModel::kPolynomial);
+  data_class<CameraIntrinsics>(
+      m, "CameraIntrinsics",
+      "A camera: a pinhole with OpenCV's distortion (k1, k2, p1, p2, k3), or a fisheye or polynomial "
+      "(k1 to k4); pixel (0, 0) is the centre of the top-left pixel.")
       .def_readwrite("width_px", &CameraIntrinsics::width_px)
       .def_readwrite("height_px", &CameraIntrinsics::height_px)
       .def_readwrite("fx_px", &CameraIntrinsics::fx_px)
@@ -89,11 +94,13 @@ void bind_pinhole(py::module_& m) {
       .def_readwrite("cx_px", &CameraIntrinsics::cx_px)
       .def_readwrite("cy_px", &CameraIntrinsics::cy_px)
       .def_readwrite("skew", &CameraIntrinsics::skew, "K(0, 1) [px]")
+      .def_readwrite("model", &CameraIntrinsics::model)
       .def_readwrite("k1", &CameraIntrinsics::k1)
       .def_readwrite("k2", &CameraIntrinsics::k2)
       .def_readwrite("p1", &CameraIntrinsics::p1)
       .def_readwrite("p2", &CameraIntrinsics::p2)
-      .def_readwrite("k3", &CameraIntrinsics::k3);
+      .def_readwrite("k3", &CameraIntrinsics::k3)
+      .def_readwrite("k4", &CameraIntrinsics::k4);
 
   m.def("camera_matrix", &camera_matrix, arg("intrinsics"), "(3, 3) K of the paper.");
   m.def("projection_matrix", &projection_matrix, arg("K"), arg("R"), arg("C"),

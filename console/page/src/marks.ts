@@ -3,7 +3,7 @@
 
 import { bearing, fixed } from "./format";
 import type { Picture } from "./link";
-import { axisOf, ecef, moved, pixelOf, towards } from "./projection";
+import { axisOf, ecef, moved, offAxis_deg, pixelOf, towards } from "./projection";
 import type { Border, Site, Target } from "./site";
 
 export type Mark = { kind: "target" | "station"; name: string; at: [number, number] };
@@ -94,7 +94,7 @@ export function horizonOf(site: Site, picture: Picture): PictureLine | null {
   if (!camera || station?.latitude_deg == null) return null;
   const [width, height] = picture.full_px;
   // As far to each side as the picture's corners are from its middle, however the camera is rolled.
-  const half_deg = (Math.atan(Math.hypot(width, height) / 2 / camera.matrix_px[0]) * 180) / Math.PI;
+  const half_deg = offAxis_deg(camera, Math.hypot(width, height) / 2);
   const middle_deg = axisOf(camera, station.latitude_deg, station.longitude_deg!).azimuth_deg;
   const points: [number, number][] = [];
   for (let i = 0; i <= HORIZON_PARTS; i++) {

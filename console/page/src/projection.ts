@@ -1,11 +1,12 @@
-// Where things with a known place are in a station's picture: WGS84 and OpenCV's camera model, by the
+// Where things with a known place are in a station's picture: WGS84 and the camera's lens model, by the
 // camera that came with the very picture (docs/video.md).
 
 export type Camera = {
   ecef_m: number[];
   from_ecef: number[]; // rotation by rows; x right, y down, z forward
   matrix_px: number[]; // fx, fy, cx, cy, skew
-  distortion: number[]; // k1, k2, p1, p2, k3
+  lens: string; // pinhole, fisheye, polynomial
+  distortion: number[]; // k1, k2, p1, p2, k3, k4
 };
 
 const A_M = 6378137;
@@ -50,20 +51,55 @@ export function axisOf(camera: Camera, latitude_deg: number, longitude_deg: numb
   return { azimuth_deg: (degrees(Math.atan2(east, north)) + 360) % 360, elevation_deg: degrees(Math.atan2(up, Math.hypot(east, north))) };
 }
 
+// A point before the camera on the plane that the camera matrix takes to pixels (geometry/lens.h): null behind
+// the camera or far outside of its lens.
+type Plane = [number, number] | null;
+
+function pinhole([k1, k2, p1, p2, k3]: number[], [px, py, pz]: number[]): Plane {
+  if (pz <= 0) return null;
+  const [x, y] = [px / pz, py / pz];
+  const r2 = x * x + y * y;
+  if (r2 > 1) return null; // the distortion's polynomial means nothing there
+  const radial = 1 + r2 * (k1 + r2 * (k2 + r2 * k3));
+  return [x * radial + 2 * p1 * x * y + p2 * (r2 + 2 * x * x), y * radial + p1 * (r2 + 2 * y * y) + 2 * p2 * x * y];
+}
+
+// The radius is a polynomial of the angle off the axis: theta (1 + k1 s + k2 s^2 + ...), s = theta^power. It
+// images as far as that grows.
+function radial(power: number, k: number[], [x, y, z]: number[]): Plane {
+  const away = Math.hypot(x, y);
+  const theta = Math.atan2(away, z);
+  const [k1, k2, , , k3, k4] = k;
+  const terms = [1, k1, k2, k3, k4];
+  const radius = (angle: number) => angle * terms.reduceRight((sum, term) => sum * angle ** power + term, 0);
+  const grows = (angle: number) => terms.reduceRight((sum, term, i) => sum * angle ** power + term * (1 + power * i), 0) > 0;
+  const steps = 64;
+  for (let i = 1; i <= steps; ++i) {
+    if (!grows((theta * i) / steps)) return null;
+  }
+  if (away === 0) return z > 0 ? [0, 0] : null;
+  return [(radius(theta) / away) * x, (radius(theta) / away) * y];
+}
+
+const PLANES: Record<string, (k: number[], p: number[]) => Plane> = {
+  pinhole,
+  fisheye: (k, p) => radial(2, k, p),
+  polynomial: (k, p) => radial(1, k, p),
+};
+
+// About the angle off the axis at this distance from the principal point.
+export function offAxis_deg(camera: Camera, away_px: number): number {
+  const away = away_px / camera.matrix_px[0];
+  return Math.min(180, ((camera.lens === "pinhole" ? Math.atan(away) : away) * 180) / Math.PI);
+}
+
 // The pixel in the full frame; null behind the camera or far outside of its lens.
 export function pixelOf(camera: Camera, place: number[]): [number, number] | null {
   const d = place.map((value, i) => value - camera.ecef_m[i]);
   const r = camera.from_ecef;
   const row = (i: number) => r[3 * i] * d[0] + r[3 * i + 1] * d[1] + r[3 * i + 2] * d[2];
-  const z = row(2);
-  if (z <= 0) return null;
-  const [x, y] = [row(0) / z, row(1) / z];
-  const r2 = x * x + y * y;
-  if (r2 > 1) return null; // the distortion's polynomial means nothing there
-  const [k1, k2, p1, p2, k3] = camera.distortion;
-  const radial = 1 + r2 * (k1 + r2 * (k2 + r2 * k3));
-  const xd = x * radial + 2 * p1 * x * y + p2 * (r2 + 2 * x * x);
-  const yd = y * radial + p1 * (r2 + 2 * y * y) + 2 * p2 * x * y;
+  const xy = PLANES[camera.lens](camera.distortion, [row(0), row(1), row(2)]);
+  if (!xy) return null;
   const [fx, fy, cx, cy, skew] = camera.matrix_px;
-  return [fx * xd + skew * yd + cx, fy * yd + cy];
+  return [fx * xy[0] + skew * xy[1] + cx, fy * xy[1] + cy];
 }
