@@ -21,9 +21,9 @@ constexpr double kAnyFocal = 0.01;  // of the focal length
 constexpr double kGates_px[] = {60.0, 40.0, 15.0, 6.0};
 constexpr double kGateSigmas = 5.0;
 
+// No corner is further from the middle of the picture.
 double field_radius_rad(const CameraIntrinsics& camera) {
-  return std::atan(std::hypot(camera.width_px, camera.height_px) / 2.0 /
-                   std::min(camera.fx_px, camera.fy_px));
+  return 0.5 * field_of_view(camera).norm();
 }
 
 }  // namespace
@@ -84,7 +84,8 @@ std::vector<std::pair<std::size_t, Vector2d>> StarFit::in_image(const StationMod
                                                                 double edge_px) const {
   const CameraIntrinsics& camera = model.geometry.camera;
   const Vector2d most(camera.width_px - 1.0, camera.height_px - 1.0);
-  const double within = std::cos(field_radius_rad(camera) + 2.0 * edge_px / camera.fx_px);
+  const double within =
+      std::cos(std::min(kPi, field_radius_rad(camera) + 2.0 * edge_px / camera.fx_px));
   const auto axis = predict_direction(model, frame.reading, 0.5 * most);
   std::vector<std::pair<std::size_t, Vector2d>> result;
   if (!axis) return result;

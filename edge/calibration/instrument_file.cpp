@@ -106,6 +106,15 @@ Numbers numbers_of(const Instrument& instrument) {
   return numbers;
 }
 
+// A camera that stands still has neither gears nor a stamp of counts, and its angles are constant.
+void without_gears(const mount::Limits& limits, Instrument& instrument, InstrumentVector& sd) {
+  constexpr double kAngleSd_rad = 1e-8;  // an angle without any error would have an infinite weight
+  instrument.pan.counts_per_turn = std::llround(2.0 * kPi / limits.count.pan_rad);
+  instrument.tilt.counts_per_turn = std::llround(2.0 * kPi / limits.count.tilt_rad);
+  instrument.angle_sd_rad = kAngleSd_rad;
+  sd.segment(kTrunnion, kExposureOffset + 1 - kTrunnion).setZero();
+}
+
 }  // namespace
 
 Instrument new_instrument(const station::StationSettings& settings) {
@@ -130,6 +139,8 @@ Instrument new_instrument(const station::StationSettings& settings) {
   sd[kMountZ] = std::max(sd[kMountZ], geometry.sd.mount_rad);
   sd[kMountY] = std::max(sd[kMountY], geometry.sd.mount_rad);
   sd[kMountX] = std::max(sd[kMountX], geometry.sd.mount_roll_rad);
+  const station::StationConfig& station = settings.station;
+  if (!station.moves) without_gears(station.limits, instrument, sd);
   instrument.covariance.diagonal() = sd.cwiseAbs2();
   return instrument;
 }

@@ -106,7 +106,7 @@ def test_what_no_adjustment_changes_is_in_the_instrument(run):
         file.write("p1 = 0.001\n[chain]\ntilt_zero_deg = 0.001\n")
     run.adjusted()
     instrument = tomllib.loads((run.output / "instrument.toml").read_text())
-    assert instrument["lens"] == {"skew": 0, "p1": 0.001, "p2": 0, "k3": 0}
+    assert instrument["lens"] == {"model": "pinhole", "skew": 0, "p1": 0.001, "p2": 0}
     assert instrument["unit"]["tilt_zero_deg"] == 0.001
     assert instrument["unit"]["pan_sign"] == 1
     assert instrument["unit"]["pan_counts_per_turn"] == 112000

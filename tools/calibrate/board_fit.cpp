@@ -5,6 +5,8 @@
 #include <opencv2/calib3d.hpp>
 #include <stdexcept>
 
+#include "tools/calibrate/radial_board_fit.h"
+
 namespace ols::calibration {
 namespace {
 
@@ -40,11 +42,13 @@ MatrixXd reduced(const std::vector<BoardView>& views, const cv::Mat& K, const cv
 
 }  // namespace
 
-BoardCamera fit_boards(const std::vector<BoardView>& views, const cv::Size& picture) {
+BoardCamera fit_boards(const std::vector<BoardView>& views, const cv::Size& picture,
+                       LensModel model) {
   if (views.size() < kLeastViews) {
     throw std::invalid_argument("the board is found in " + std::to_string(views.size()) +
                                 " pictures, 5 are needed at least");
   }
+  if (model != LensModel::kPinhole) return fit_boards_radially(views, picture, model);
   std::vector<std::vector<cv::Point3f>> boards;
   std::vector<std::vector<cv::Point2f>> pixels;
   double corners = 0.0;
@@ -70,11 +74,12 @@ BoardCamera fit_boards(const std::vector<BoardView>& views, const cv::Size& pict
     throw std::invalid_argument("the pictures leave the camera undetermined: tilt the board");
   }
   // From fx, fy to the focal length and the aspect.
-  BoardCamera::Matrix A = BoardCamera::Matrix::Identity();
+  Eigen::Matrix<double, kCameraSize, kOwn> A = Eigen::Matrix<double, kCameraSize, kOwn>::Identity();
   A(1, 0) = -fy / (fx * fx);
   A(1, 1) = 1.0 / fx;
   result.covariance = A * C * A.transpose();
-  result.values << fx, fy / fx, K.at<double>(0, 2), K.at<double>(1, 2), 0.0, 0.0, 0.0, 0.0, 0.0;
+  result.values << fx, fy / fx, K.at<double>(0, 2), K.at<double>(1, 2), 0.0, 0.0, 0.0, 0.0, 0.0,
+      0.0;
   for (int k = 0; k < kDistortions; ++k) result.values[4 + k] = distortion.at<double>(k);
   for (int i = 0; i < view_rms.rows; ++i) result.view_rms_px.push_back(view_rms.at<double>(i));
   return result;

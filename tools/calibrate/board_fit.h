@@ -1,11 +1,13 @@
-// Fits a camera in OpenCV's lens model to pictures of a flat board, with its full covariance. For
-// cameras that focus near. (A long lens focused at infinity sees only a blur.)
+// Fits a camera in one of the lens models (geometry/lens.h) to pictures of a flat board, with its
+// full covariance. For cameras that focus near. (A long lens focused at infinity sees only a blur.)
 #pragma once
 
 #include <Eigen/Core>
 #include <array>
 #include <opencv2/core.hpp>
 #include <vector>
+
+#include "geometry/lens.h"
 
 namespace ols::calibration {
 
@@ -15,9 +17,9 @@ struct BoardView {
   std::vector<cv::Point2f> pixels;
 };
 
-// The order in every vector and covariance.
-inline constexpr std::array<const char*, 9> kCameraParameters{
-    "focal_px", "aspect", "cx_px", "cy_px", "k1", "k2", "p1", "p2", "k3"};
+// The order in every vector and covariance; what a model lacks is zero, exactly.
+inline constexpr std::array<const char*, 10> kCameraParameters{
+    "focal_px", "aspect", "cx_px", "cy_px", "k1", "k2", "p1", "p2", "k3", "k4"};
 inline constexpr int kCameraSize = static_cast<int>(kCameraParameters.size());
 
 struct BoardCamera {
@@ -31,6 +33,7 @@ struct BoardCamera {
 
 // Throws std::invalid_argument for fewer than five views, or views that do not determine the
 // camera.
-BoardCamera fit_boards(const std::vector<BoardView>& views, const cv::Size& picture);
+BoardCamera fit_boards(const std::vector<BoardView>& views, const cv::Size& picture,
+                       LensModel model = LensModel::kPinhole);
 
 }  // namespace ols::calibration

@@ -14,17 +14,21 @@
 namespace ols::calibration {
 namespace {
 
-std::string instrument_text(const BoardCamera& camera) {
+bool is_adjusted(int k) { return k != 6 && k != 7; }  // all but p1, p2
+
+std::string instrument_text(const BoardCamera& camera, LensModel model) {
   std::ostringstream out;
   out << "# The camera's part of an instrument, from pictures of a board (docs/calibration.md).\n"
-      << std::setprecision(10) << "\n[lens]\np1 = " << camera.values[6]
-      << "\np2 = " << camera.values[7] << "\nk3 = " << camera.values[8] << "\n\n[values]\n";
-  constexpr int kAdjusted = 6;  // of the parameters, those that an adjustment knows
-  for (int k = 0; k < kAdjusted; ++k) {
+      << std::setprecision(10) << "\n[lens]\nmodel = \""
+      << kLensModelNames.at(static_cast<std::size_t>(model)) << "\"\np1 = " << camera.values[6]
+      << "\np2 = " << camera.values[7] << "\n\n[values]\n";
+  for (int k = 0; k < kCameraSize; ++k) {
+    if (!is_adjusted(k)) continue;
     out << kCameraParameters.at(static_cast<std::size_t>(k)) << " = " << camera.values[k] << '\n';
   }
   out << "\n[sd]\n";
-  for (int k = 0; k < kAdjusted; ++k) {
+  for (int k = 0; k < kCameraSize; ++k) {
+    if (!is_adjusted(k)) continue;
     out << kCameraParameters.at(static_cast<std::size_t>(k)) << " = "
         << std::sqrt(camera.covariance(k, k)) << '\n';
   }
@@ -112,8 +116,8 @@ CommandReport write_camera(const CameraOptions& options) {
   check_board(options.shape);
   const auto folder = checked_folder(options.output);
   const Boards boards = read_boards(options);
-  const BoardCamera camera = fit_boards(boards.views, boards.size);
-  write_folder(folder, {{"instrument.toml", instrument_text(camera)},
+  const BoardCamera camera = fit_boards(boards.views, boards.size, options.model);
+  write_folder(folder, {{"instrument.toml", instrument_text(camera, options.model)},
                         {"camera-covariance.csv", covariance_text(camera)}});
   return report_on(boards, camera);
 }

@@ -12,6 +12,7 @@ namespace ols::calibration {
 struct CameraOptions {
   std::vector<std::string> pictures;
   BoardShape shape;
+  LensModel model = LensModel::kPinhole;
   std::string output;
 };
 

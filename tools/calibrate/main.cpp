@@ -1,6 +1,7 @@
 // ols-calibrate: a station's calibration from whatever it has observed.
 #include <filesystem>
 #include <iostream>
+#include <map>
 #include <new>
 
 #include "base/files/atomic_file.h"
@@ -78,6 +79,11 @@ void add_camera_options(CLI::App& app, calibration::CameraOptions& o) {
   app.add_option("--square", o.shape.square_m, "[m] edge of a square; from one tag to the next")
       ->check(CLI::Range(1e-4, 10.0));
   app.add_option("--marker", o.shape.marker_m, "[m] edge of a ChArUco's marker, of a tag");
+  app.add_option("--lens", o.model, "its model: pinhole, fisheye or polynomial")
+      ->transform(CLI::CheckedTransformer(
+          std::map<std::string, ols::LensModel>{{"pinhole", ols::LensModel::kPinhole},
+                                           {"fisheye", ols::LensModel::kFisheye},
+                                           {"polynomial", ols::LensModel::kPolynomial}}));
   app.add_option("--output", o.output, "folder for the results; it must be new or empty")
       ->required();
 }

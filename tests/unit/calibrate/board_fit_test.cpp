@@ -48,20 +48,66 @@ std::vector<BoardView> boards(std::uint32_t seed, int count = 12) {
 
 // The told covariance is that of the errors: by the squares of 20 cameras, whitened.
 TEST(BoardFit, ItsCovarianceIsThatOfItsErrors) {
-  const BoardCamera::Vector truth{
-      {535.0, 536.0 / 535.0, 330.0, 236.0, -0.25, 0.05, 0.001, -0.0005, 0.02}};
+  using Vector = Eigen::Matrix<double, 9, 1>;  // all but k4, which the model lacks
+  const Vector truth{{535.0, 536.0 / 535.0, 330.0, 236.0, -0.25, 0.05, 0.001, -0.0005, 0.02}};
   constexpr int kCameras = 20;
   double squares = 0.0;
   for (int i = 0; i < kCameras; ++i) {
     const BoardCamera found = fit_boards(boards(100U + static_cast<std::uint32_t>(i)), kPicture);
-    const BoardCamera::Vector off = found.values - truth;
-    squares += off.dot(found.covariance.inverse() * off);
+    const Vector off = found.values.head<9>() - truth;
+    squares += off.dot(found.covariance.topLeftCorner<9, 9>().inverse() * off);
     EXPECT_NEAR(found.rms_px, 0.14, 0.02);
     EXPECT_EQ(found.view_rms_px.size(), 12U);
   }
   // Chi-square with 180 degrees of freedom: within four deviations.
   EXPECT_NEAR(squares, 9.0 * kCameras, 4.0 * std::sqrt(2.0 * 9.0 * kCameras));
 }
+
+// The same of lenses of 120 degrees, with half the boards beside the middle.
+class RadialBoardFit : public testing::TestWithParam<LensModel> {};
+
+TEST_P(RadialBoardFit, ItsCovarianceIsThatOfItsErrors) {
+  CameraIntrinsics truth;
+  truth.model = GetParam();
+  truth.width_px = kPicture.width, truth.height_px = kPicture.height;
+  truth.fx_px = 300.0, truth.fy_px = 301.0, truth.cx_px = 330.0, truth.cy_px = 236.0;
+  truth.k1 = -0.03, truth.k2 = 0.02, truth.k3 = -0.01, truth.k4 = 0.002;
+  using Vector = Eigen::Matrix<double, 8, 1>;  // all but p1, p2
+  const std::array of{0, 1, 2, 3, 4, 5, 8, 9};
+  const Vector values{{300.0, 301.0 / 300.0, 330.0, 236.0, -0.03, 0.02, -0.01, 0.002}};
+  constexpr int kCameras = 20;
+  double squares = 0.0;
+  for (std::uint32_t seed = 1; seed <= kCameras; ++seed) {
+    std::mt19937 random(seed);
+    std::normal_distribution<double> noise(0.0, 0.1);
+    std::vector<BoardView> views;
+    for (int i = 0; i < 12; ++i) {
+      const Eigen::Vector3d turn(0.5 * std::sin(i), 0.5 * std::cos(1.7 * i), 0.2 * i);
+      const Eigen::AngleAxisd R(turn.norm(), turn.normalized());
+      const Eigen::Vector3d shift(-0.1 + 0.2 * std::sin(2.0 * i), -0.06 + 0.1 * std::cos(3.0 * i),
+                                  0.2 + 0.01 * i);
+      BoardView view;
+      for (int k = 0; k < 54; ++k) {
+        const Eigen::Vector3d p(0.025 * (k % 9), 0.025 * (k / 9), 0.0);
+        const auto pixel = project(truth, R * p + shift);
+        ASSERT_TRUE(pixel);
+        view.board.emplace_back(p.x(), p.y(), p.z());
+        view.pixels.emplace_back(pixel->x() + noise(random), pixel->y() + noise(random));
+      }
+      views.push_back(std::move(view));
+    }
+    const BoardCamera found = fit_boards(views, kPicture, GetParam());
+    const Vector off = found.values(of) - values;
+    const Eigen::Matrix<double, 8, 8> covariance = found.covariance(of, of);
+    squares += off.dot(covariance.inverse() * off);
+    EXPECT_NEAR(found.rms_px, 0.14, 0.02);
+    EXPECT_EQ(found.view_rms_px.size(), 12U);
+  }
+  RecordProperty("chi_square_over_freedom", std::to_string(squares / (8.0 * kCameras)));
+  EXPECT_NEAR(squares, 8.0 * kCameras, 4.0 * std::sqrt(2.0 * 8.0 * kCameras));
+}
+INSTANTIATE_TEST_SUITE_P(Models, RadialBoardFit,
+                         testing::Values(LensModel::kFisheye, LensModel::kPolynomial));
 
 // The pictures that OpenCV comes with, from a folder that not everybody has: both cameras beside
 // what OpenCV 4.10 found (reference.json there, corners refined in a window of the same size).

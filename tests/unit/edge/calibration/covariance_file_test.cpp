@@ -24,6 +24,31 @@ TEST(CovarianceFile, OfTheInstrumentIsTheFirstPartOfTheStations) {
               1e-16);
 }
 
+// Files from before k3 and k4 were adjusted have neither.
+TEST(CovarianceFile, AnOlderFileKnowsK3AndK4Exactly) {
+  const station::test::CalibrationFolder files("covariance_file_older");
+  const StationMatrix all = read_station_covariance(files.path + "/covariance.csv");
+  std::istringstream text(station::test::covariance_text(1e-8));
+  std::string older;
+  int row = -1;
+  for (std::string line; std::getline(text, line); ++row) {
+    if (row == kK3 || row == kK4) continue;
+    std::istringstream cells(line);
+    int column = -1;
+    for (std::string cell; std::getline(cells, cell, ','); ++column) {
+      if (column != kK3 && column != kK4) older += (column < 0 ? "" : ",") + cell;
+    }
+    older += "\n";
+  }
+  files.put("covariance.csv", older);
+  StationMatrix expected = all;
+  for (const int k : {kK3, kK4}) {
+    expected.row(k).setZero();
+    expected.col(k).setZero();
+  }
+  EXPECT_EQ(read_station_covariance(files.path + "/covariance.csv"), expected);
+}
+
 using Lines = std::vector<std::string>;
 
 // Of the covariances across the diagonal, which are 0, one.

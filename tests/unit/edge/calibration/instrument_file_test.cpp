@@ -20,6 +20,43 @@ TEST(InstrumentFile, ReadsWhatItWrites) {
   EXPECT_NEAR(model.geometry.chain.trunnion_rad, 1e-4, 1e-12);
 }
 
+// Files from before k3 was adjusted have it in [lens].
+TEST(InstrumentFile, AnOlderFileHasItsK3) {
+  const station::test::CalibrationFolder files("instrument_file_older");
+  std::string text = files.instrument;
+  for (const char* line :
+       {"model = \"pinhole\"\n", "k3 = 0\n", "k4 = 0\n", "k3 = 0\n", "k4 = 0\n"}) {
+    text.erase(text.find(line), std::string(line).size());
+  }
+  text.insert(text.find("p1 = "), "k3 = 0.25\n");
+  files.put("instrument.toml", text);
+  const Instrument read =
+      read_instrument(files.path + "/instrument.toml", new_instrument(station::test::settings()));
+  EXPECT_EQ(read.values[kK3], 0.25);
+  EXPECT_EQ(read.covariance(kK3, kK3), 0.0);
+}
+
+TEST(InstrumentFile, OfAFixedWideCamera) {
+  station::StationSettings settings = station::test::settings();
+  settings.station.geometry.camera.model = LensModel::kPolynomial;
+  settings.station.geometry.camera.k4 = 0.125;
+  settings.station.moves = false;
+  settings.station.limits.count = {radians(1e-4), radians(1e-4)};
+  const Instrument fresh = new_instrument(settings);
+  EXPECT_EQ(fresh.pan.counts_per_turn, 3600000);
+  EXPECT_EQ(fresh.covariance(kPanWormCos, kPanWormCos), 0.0);
+  EXPECT_GT(fresh.covariance(kK4, kK4), 0.0);
+  const station::test::CalibrationFolder files("instrument_file_wide");
+  const std::string path = files.path + "/instrument.toml";
+  files.put("instrument.toml", instrument_text(fresh));
+  const Instrument read = read_instrument(path, new_instrument(settings));
+  const CameraIntrinsics camera = with_instrument({}, read).geometry.camera;
+  EXPECT_EQ(camera.model, LensModel::kPolynomial);
+  EXPECT_EQ(camera.k4, 0.125);
+  settings.station.geometry.camera.model = LensModel::kFisheye;
+  EXPECT_THROW(read_instrument(path, new_instrument(settings)), ConfigError);
+}
+
 TEST(InstrumentFile, AnUnknownKeyIsNamed) {
   const station::test::CalibrationFolder files("instrument_file_bad");
   files.put("instrument.toml", files.instrument + "\nbent_deg = 1\n");

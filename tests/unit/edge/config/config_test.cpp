@@ -199,5 +199,21 @@ TEST_F(StationConfigFile, AMountIsOfAKind) {
   }
 }
 
+TEST_F(StationConfigFile, AWideLensIsOfAModelAndOfAFixedMount) {
+  std::string fixed = kStart + "[pose]\nheading_deg = 10\n" + kPlace;
+  fixed.replace(fixed.find("[ptu]"), 19, "[mount]\nkind = \"fixed\"\n");
+  const auto with = [](std::string text, const std::string& keys) {
+    return text.insert(text.find("fx_px"), keys + ", ");
+  };
+  const std::string wide = "model = \"fisheye\", k4 = 0.01";
+  const auto lens = load(with(fixed, wide)).station.geometry.camera;
+  EXPECT_EQ(lens.model, LensModel::kFisheye);
+  EXPECT_EQ(lens.k4, 0.01);
+  EXPECT_NE(error(with(fixed, wide + ", p1 = 0.1")).find("has no p1"), std::string::npos);
+  EXPECT_NE(error(with(fixed, "k4 = 0.01")).find("lens.model: has no k4"), std::string::npos);
+  const std::string turned = kStart + "[pose]\nheading_deg = 10\n" + kPlace;
+  EXPECT_NE(error(with(turned, wide)).find("lens: a fisheye"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace ols::station

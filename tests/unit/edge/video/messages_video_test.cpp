@@ -137,6 +137,8 @@ TEST(VideoFrameMessage, BoxAndCamera) {
   camera.centre_ecef = {1, 2, 3};
   camera.R_camera_ecef << 0, 1, 0, 0, 0, 1, 1, 0, 0;
   camera.intrinsics.k1 = 0.05;
+  camera.intrinsics.model = LensModel::kPolynomial;
+  camera.intrinsics.k4 = 0.25;
   frame.camera = camera;
   const auto message = answer(frame, {.max_width_px = 50, .quality = 50});
   EXPECT_TRUE(message.has_box);
@@ -148,6 +150,8 @@ TEST(VideoFrameMessage, BoxAndCamera) {
   EXPECT_EQ(message.camera_from_ecef[3], 0.0);
   EXPECT_EQ(message.camera_matrix_px[0], camera.intrinsics.fx_px);
   EXPECT_EQ(message.distortion[0], 0.05);
+  EXPECT_EQ(message.lens_model, 2);
+  EXPECT_EQ(message.lens_k4, 0.25);
 }
 
 }  // namespace
