@@ -80,6 +80,8 @@ void add_alarms(const CameraConfig& config, const CameraFacts& facts, double now
   if (facts.missing_light < 1.0 / kMuchLight) alarms.push_back(alarm::image_too_bright());
   if (facts.ptp && *facts.ptp != PtpState::kSlave) alarms.push_back(alarm_of(*facts.ptp));
   if (facts.ptp_disagreement_s) alarms.push_back(alarm::ptp_differs(*facts.ptp_disagreement_s));
+  if (facts.state == CameraState::kStreaming)
+    alarms.insert(alarms.end(), facts.kind_alarms.begin(), facts.kind_alarms.end());
 }
 
 }  // namespace
@@ -115,6 +117,8 @@ device::DeviceReport make_camera_report(const CameraConfig& config, const Camera
       {"frames_captured", c.frames_captured},     {"frames_lost", c.frames_lost},
       {"frames_incomplete", c.frames_incomplete}, {"frames_late", c.frames_late},
       {"frames_refused", c.frames_refused},       {"camera_reconnects", c.reconnects}};
+  report.readings.insert(facts.kind_readings.begin(), facts.kind_readings.end());
+  report.counters.insert(facts.kind_counters.begin(), facts.kind_counters.end());
   return report;
 }
 

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "conditions/alarm.h"
 #include "edge/camera/camera_config.h"
@@ -51,6 +53,10 @@ struct CameraFacts {
   double stamp_sd_s = 0.0;
   std::optional<PtpState> ptp;  // if configured
   std::optional<double> ptp_disagreement_s;
+  // What only this kind of camera has to say.
+  std::vector<Alarm> kind_alarms;
+  std::map<std::string, double> kind_readings;
+  std::map<std::string, std::uint64_t> kind_counters;
 };
 
 // If packets are missing in a larger share of the recent frames, the camera is faulty.

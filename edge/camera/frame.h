@@ -14,10 +14,19 @@ struct Frame {
   double mid_exposure_s = 0.0;  // station's monotonic clock
   double stamp_sd_s = 0.0;      // 1-sigma of mid_exposure_s
   StampSource stamp_source = StampSource::kCamera;
+  // Rolling shutter: mid_exposure_s is that of the first row, the last row's is so much later. 0:
+  // all rows at once.
+  double row_readout_s = 0.0;
   std::uint64_t number = 0;  // the camera's frame counter, unwrapped
   // The raw image of the camera; empty where `gray` is identical, or where nobody needs it.
   cv::Mat raw;
   std::string pixel_format = "Mono8";  // GenICam's name of the camera's format
 };
+
+// Mid-exposure of the row at this height, from the top [px].
+inline double row_time_s(const Frame& frame, double y_px) {
+  if (frame.row_readout_s == 0.0) return frame.mid_exposure_s;
+  return frame.mid_exposure_s + frame.row_readout_s * y_px / frame.gray.rows;
+}
 
 }  // namespace ols::camera

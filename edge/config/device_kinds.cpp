@@ -1,6 +1,7 @@
 #include "edge/config/device_kinds.h"
 
 #include "edge/camera/aravis/aravis_kind.h"
+#include "edge/camera/rtsp/rtsp_kind.h"
 #include "edge/mount/fixed/fixed_kind.h"
 #include "edge/ptu/ptu_kind.h"
 #include "edge/sensors/dpg2/dpg2_kind.h"
@@ -12,7 +13,9 @@ using device::make_kind;
 
 const std::vector<device::KindRow<camera::CameraKind>>& camera_kinds() {
   static const std::vector<device::KindRow<camera::CameraKind>> kinds{
-      {"aravis", "A GigE Vision camera.", make_kind<camera::AravisKind>}};
+      {"aravis", "A GigE Vision camera.", make_kind<camera::AravisKind>},
+      {"rtsp", "An IP camera that sends a video stream by RTSP: H.264, H.265 or Motion JPEG.",
+       make_kind<camera::RtspKind>}};
   return kinds;
 }
 

@@ -178,7 +178,8 @@ ols_msg::bearing_t to_message(const Bearing& bearing, const Sender& sender,
   message.stamp_source = bearing.stamp_source == camera::StampSource::kCamera
                              ? ols_msg::bearing_t::STAMP_CAMERA
                              : ols_msg::bearing_t::STAMP_ARRIVAL;
-  message.clock_error_s = sender.clock.error_s;
+  // The error of the frame's stamp stays for many frames, as that of the clock does.
+  message.clock_error_s = std::hypot(sender.clock.error_s, bearing.stamp_sd_s);
   if (bearing.detected) fill_detected(*bearing.detected, message);
   return message;
 }

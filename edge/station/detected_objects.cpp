@@ -71,10 +71,10 @@ PixelMeasurement DetectedObjects::measured(const detector::Tracklet& tracklet,
   constexpr double kBlur_px = 2.0, kOutline = 0.25;  // of a point's size; of the size
   const double size_px = tracklet.size_px().maxCoeff();
   PixelMeasurement pixel;
-  pixel.mid_exposure_s = look.frame.mid_exposure_s;
   pixel.stamp_sd_s = look.frame.stamp_sd_s;
   pixel.stamp_source = look.frame.stamp_source;
   pixel.pixel = tracklet.measured_pixel();
+  pixel.mid_exposure_s = camera::row_time_s(look.frame, pixel.pixel.y());
   pixel.covariance_px2 = Eigen::Matrix2d::Identity() * std::pow(tracklet.measured_sd_px(), 2);
   pixel.belief = 1.0 / (1.0 + std::exp(-tracklet.log_ratio()));
   pixel.designation_sd_px = kCentring * size_px;

@@ -70,7 +70,7 @@ void Station::track(const camera::Frame& frame) {
   judge_belief(there && believed, frame.mid_exposure_s);
   if (mode_.is(StationState::kTracking) && believed) {
     bearings_.add({.arrived_s = std::max(now_s_, frame.mid_exposure_s),
-                   .mid_exposure_s = frame.mid_exposure_s,
+                   .mid_exposure_s = camera::row_time_s(frame, output->pixel.y()),
                    .stamp_sd_s = frame.stamp_sd_s,
                    .stamp_source = frame.stamp_source,
                    .pixel = output->pixel,

@@ -98,9 +98,12 @@ TEST(StationMessages, APositionThatIsNotKnownIsNotTold) {
 }
 
 TEST(StationMessages, TheClocksQualityIsInEveryBearing) {
-  const auto bearing = to_message(Bearing{}, sender(), StationSettings{}, 1);
+  Bearing made;
+  EXPECT_EQ(to_message(made, sender(), StationSettings{}, 1).clock_error_s, 2.0);
+  made.stamp_sd_s = 1.5;
+  const auto bearing = to_message(made, sender(), StationSettings{}, 1);
   EXPECT_EQ(bearing.clock_state, +ols_msg::bearing_t::CLOCK_UNSYNCHRONISED);
-  EXPECT_EQ(bearing.clock_error_s, 2.0);
+  EXPECT_EQ(bearing.clock_error_s, 2.5) << "the error of the frame's stamp is in it";
 }
 
 TEST(StationMessages, AnotherPoseIsAnotherCalibration) {

@@ -1,0 +1,123 @@
+#include "edge/camera/rtsp/arrival_line.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace ols::camera {
+namespace {
+
+constexpr double kSpan_s = 2.0;
+constexpr std::size_t kSpans = 150;     // five minutes
+constexpr std::size_t kLeastSpans = 5;  // for a measured rate, the open one included
+constexpr double kGap_s = 30.0;         // without pictures: nothing is known of the clock any more
+
+// What the scatter is taken for before it is seen, counted as so many spans.
+constexpr double kPrior_s = 0.010;
+constexpr double kPriorSpans = 3.0;
+
+constexpr double kOscillator = 1e-4;  // 1-sigma of an honest rate error
+constexpr double kFarOffRate = 5e-3;  // no oscillator: the stamps lie
+constexpr double kFarOffAtFirst = 0.02;
+
+constexpr std::size_t kStepSpans = 3;  // in a row on one side of the line: the clock was stepped
+constexpr double kLineStep_s = 0.05;
+constexpr double kStepSigmas = 6.0;
+constexpr double kHuber = 3.0;
+
+}  // namespace
+
+double ArrivalLine::seconds(std::int64_t device_ns) const {
+  return 1e-9 * static_cast<double>(device_ns - origin_ns_);
+}
+
+double ArrivalLine::residual_s(const Least& least) const {
+  return least.arrival_s - offset_s_ - rate_ * (least.device_s - reference_s_);
+}
+
+bool ArrivalLine::knows_rate() const { return least_.size() >= kLeastSpans; }
+
+void ArrivalLine::add(std::int64_t device_ns, double arrival_s) {
+  if (!least_.empty() && arrival_s - least_.back().arrival_s > kGap_s) clear();
+  if (least_.empty()) origin_ns_ = device_ns;
+  const Least picture{seconds(device_ns), arrival_s};
+  const bool begins = least_.empty() || arrival_s - span_from_s_ >= kSpan_s;
+  if (begins) {
+    forget_what_came_before_a_step();
+    least_.push_back(picture);
+    if (least_.size() > kSpans) least_.pop_front();
+    span_from_s_ = arrival_s;
+  } else if (residual_s(picture) < residual_s(least_.back())) {
+    least_.back() = picture;
+  } else if (knows_rate()) {
+    return;  // the line stays
+  }
+  fit();
+}
+
+void ArrivalLine::forget_what_came_before_a_step() {
+  if (least_.size() <= kStepSpans + 1) return;
+  ArrivalLine before = *this;
+  before.least_.erase(before.least_.end() - kStepSpans, before.least_.end());
+  before.fit();
+  const double limit_s = std::max(kLineStep_s, kStepSigmas * before.sd_s_);
+  const auto from = least_.end() - kStepSpans;
+  const auto beyond = [&](double sign) {
+    return std::all_of(from, least_.end(), [&](const Least& least) {
+      return sign * before.residual_s(least) > limit_s;
+    });
+  };
+  if (beyond(1.0) || beyond(-1.0)) least_.erase(least_.begin(), from);
+}
+
+// Least squares, with Huber weights against spans in which every picture was late. An honest
+// oscillator bounds the rate; a rate that is far off is fitted freely.
+void ArrivalLine::fit() {
+  const Least& newest = least_.back();
+  const double count = static_cast<double>(least_.size());
+  const Least& oldest = least_.front();
+  const double span_s = newest.device_s - oldest.device_s;
+  reference_s_ = newest.device_s;
+  const double slope = span_s > 0.0 ? (newest.arrival_s - oldest.arrival_s) / span_s : 1.0;
+  const bool lies = std::abs(slope - 1.0) > (knows_rate() ? kFarOffRate : kFarOffAtFirst);
+  const double start_rate = lies ? slope : 1.0;
+  const double rate_information = lies ? 0.0 : std::pow(std::max(kPrior_s, sd_s_) / kOscillator, 2);
+
+  std::array<double, 2> x{newest.arrival_s, start_rate};
+  double scale_s = 0.0;
+  for (int turn = 0; turn < 4; ++turn) {
+    double n = 0, t = 0, tt = rate_information, y = 0, ty = 0, square = 0;
+    for (const Least& least : least_) {
+      const double time_s = least.device_s - reference_s_;
+      const double value_s = least.arrival_s - newest.arrival_s - start_rate * time_s;
+      const double residual = least.arrival_s - x[0] - x[1] * time_s;
+      const bool late = turn > 0 && residual > kHuber * scale_s;
+      const double weight = late ? kHuber * scale_s / residual : 1.0;
+      n += weight;
+      t += weight * time_s;
+      tt += weight * time_s * time_s;
+      y += weight * value_s;
+      ty += weight * time_s * value_s;
+      if (turn > 0) square += weight * residual * residual;
+    }
+    if (turn > 0)
+      scale_s = std::sqrt((kPriorSpans * kPrior_s * kPrior_s + square) / (kPriorSpans + n));
+    else
+      scale_s = kPrior_s;
+    const double determinant = n * tt - t * t;
+    const bool solvable = determinant > 1e-9 * n * tt && count >= 2.0;
+    x[0] = newest.arrival_s + (solvable ? (tt * y - t * ty) / determinant : y / n);
+    x[1] = start_rate + (solvable ? (n * ty - t * y) / determinant : 0.0);
+  }
+  offset_s_ = x[0];
+  rate_ = x[1];
+  sd_s_ = scale_s;
+}
+
+std::optional<MappedTime> ArrivalLine::at(std::int64_t device_ns) const {
+  if (least_.empty()) return std::nullopt;
+  return MappedTime{.time_s = offset_s_ + rate_ * (seconds(device_ns) - reference_s_),
+                    .sd_s = sd_s_};
+}
+
+}  // namespace ols::camera

@@ -1,0 +1,49 @@
+// The arrival of a camera's pictures as a line over the camera's own stamps. Pure.
+//
+// Network, encoder and a busy host only ever delay a picture, so the least delayed picture of every
+// two seconds counts. A line through these has the camera's rate, even of a camera whose stamps run
+// far too fast or too slowly.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+
+#include "edge/camera/clock_map.h"
+
+namespace ols::camera {
+
+class ArrivalLine {
+ public:
+  // `device_ns`: the camera's stamp; `arrival_s`: CLOCK_MONOTONIC.
+  void add(std::int64_t device_ns, double arrival_s);
+  void clear() { *this = ArrivalLine(); }
+
+  // When a picture with this stamp arrives if nothing delays it more than usual; sd_s is what the
+  // least delayed pictures scatter about the line. Empty before the first add().
+  std::optional<MappedTime> at(std::int64_t device_ns) const;
+  // Seconds of the station per second of the camera's stamps; 1 in the first seconds, unless it is
+  // far off.
+  double rate() const { return rate_; }
+  // Whether rate() was measured, over at least eight seconds.
+  bool knows_rate() const;
+
+ private:
+  struct Least {
+    double device_s, arrival_s;
+  };
+  double seconds(std::int64_t device_ns) const;
+  double residual_s(const Least& least) const;
+  void forget_what_came_before_a_step();
+  void fit();
+
+  std::int64_t origin_ns_ = 0;
+  double span_from_s_ = 0.0;  // arrival with which the newest span began
+  std::deque<Least> least_;   // one a span, the newest is still open
+  double reference_s_ = 0.0;  // stamp of the newest, at the last fit
+  double offset_s_ = 0.0;     // arrival at reference_s_
+  double rate_ = 1.0;
+  double sd_s_ = 0.0;
+};
+
+}  // namespace ols::camera

@@ -1,0 +1,233 @@
+#include "edge/camera/rtsp/rtsp_camera.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <thread>
+#include <utility>
+
+#include "base/files/small_file.h"
+#include "base/process/clocks.h"
+#include "conditions/alarms.h"
+#include "edge/camera/camera_handover.h"
+#include "edge/camera/picture.h"
+#include "edge/camera/rtsp/picture_change.h"
+#include "edge/camera/rtsp/retry_pause.h"
+#include "edge/camera/rtsp/rtsp_stream.h"
+
+namespace ols::camera {
+namespace {
+
+constexpr double kPoll_s = 0.1;         // delay until the end is noticed
+constexpr double kLongestTurn_s = 0.2;  // maximum that one turn adds to the silence
+constexpr double kFilePoll_s = 1.0;     // between two looks at a password file
+constexpr std::size_t kLongestPassword = 4096;
+
+constexpr double kRateOff = 0.15;       // share of the configured rate
+constexpr double kRateKnown_s = 5.0;    // after the first picture
+constexpr double kStampRateOff = 2e-3;  // no oscillator is so bad
+
+std::string password_of(const RtspConfig& config) {
+  if (config.password_file.empty()) return {};
+  const std::string text = read_small_file(config.password_file, kLongestPassword);
+  return text.substr(0, text.find_first_of("\r\n"));
+}
+
+std::string milliseconds(const char* format, double seconds) {
+  std::array<char, 100> text{};
+  std::snprintf(text.data(), text.size(), format, 1e3 * seconds);
+  return text.data();
+}
+
+}  // namespace
+
+struct RtspCamera::Impl {
+  explicit Impl(const RtspConfig& config) : config_(config), clock_(config.clock) {
+    thread_ = std::thread([this] { run(); });
+  }
+  ~Impl() {
+    handover_.end();
+    thread_.join();
+  }
+
+  void run();
+  void wait_for_other_password(const std::string& refused);
+  void connect(const std::string& password);
+  void stream(RtspStream& stream);
+  void take(RtspStream& stream, DecodedPicture picture);
+  void note_opened(const RtspStream& stream, double now_s);
+  void note_time(const RtspStream& stream, const FrameTime& time, double now_s);
+  std::vector<Alarm> alarms(double now_s) const;
+
+  const RtspConfig config_;
+  CameraHandover handover_;
+  RtspClock clock_;
+  RetryPause pause_;
+  std::uint64_t number_ = 0;  // of the last frame
+  std::uint64_t lost_packets_ = 0, switches_ = 0;
+
+  // Of one connection.
+  FrameStatistics statistics_;
+  PictureChange change_;
+  std::uint64_t first_number_ = 0;
+  std::optional<double> first_s_, last_s_;  // arrivals of good frames
+  std::uint64_t lost_here_ = 0;
+  std::thread thread_;
+};
+
+void RtspCamera::Impl::run() {
+  while (!handover_.ended()) {
+    std::string password;
+    try {
+      password = password_of(config_);
+      connect(password);
+      continue;  // ended
+    } catch (const LoginRefused& error) {
+      handover_.note_failure(CameraState::kFault, error.alarm);
+      wait_for_other_password(password);
+      continue;
+    } catch (const CameraUnfit& error) {
+      handover_.note_failure(CameraState::kFault, error.alarm);
+    } catch (const CameraAbsent& error) {
+      handover_.note_failure(CameraState::kAbsent, error.alarm);
+    } catch (const std::exception& error) {
+      handover_.note_failure(CameraState::kAbsent, {error.what(), {}, {}});
+    }
+    handover_.wait(pause_.after_stream(last_s_.value_or(0.0) - first_s_.value_or(0.0)));
+  }
+}
+
+// Another password is tried at once, the same only after a time in which no camera locks the
+// account.
+void RtspCamera::Impl::wait_for_other_password(const std::string& refused) {
+  const double until_s = clock_monotonic_s() + RetryPause::kLogin_s;
+  while (!handover_.ended() && clock_monotonic_s() < until_s) {
+    handover_.wait(kFilePoll_s);
+    try {
+      if (password_of(config_) != refused) return;
+    } catch (const std::exception&) {  // the file is being replaced
+    }
+  }
+}
+
+void RtspCamera::Impl::connect(const std::string& password) {
+  statistics_ = {};
+  change_ = {};
+  first_number_ = number_;
+  first_s_.reset();
+  last_s_.reset();
+  clock_.restart();
+  RtspStream connection(config_, password);
+  stream(connection);
+}
+
+void RtspCamera::Impl::stream(RtspStream& stream) {
+  const double period_s = 1.0 / config_.frame_rate_hz;
+  double silence_s = 0.0, turned_s = clock_monotonic_s();
+  lost_here_ = 0;
+  while (!handover_.ended()) {
+    auto picture = stream.receive(kPoll_s);
+    const double now_s = clock_monotonic_s();
+    // A longer turn was a pause of this process, not of the camera.
+    silence_s = picture ? 0.0 : silence_s + std::min(now_s - turned_s, kLongestTurn_s);
+    turned_s = now_s;
+    if (picture) take(stream, std::move(*picture));
+    const double patience_s = first_s_ ? config_.no_frame_timeout_s : config_.first_frame_timeout_s;
+    if (silence_s > patience_s + 2.0 * period_s) throw CameraAbsent(alarm::camera_lost());
+  }
+}
+
+void RtspCamera::Impl::take(RtspStream& stream, DecodedPicture picture) {
+  const std::uint64_t number = first_number_ + picture.rtp.number;
+  const std::uint64_t lost = number > number_ + 1 && first_s_ ? number - number_ - 1 : 0;
+  number_ = std::max(number_, number);
+  statistics_.add(picture.rtp.arrival_s, !picture.rtp.broken);
+  lost_packets_ += stream.lost_packets() - std::exchange(lost_here_, stream.lost_packets());
+  if (picture.rtp.broken) return handover_.note_incomplete(lost, statistics_);
+  const double now_s = picture.rtp.arrival_s;
+  if (!first_s_) {
+    first_s_ = now_s;
+    note_opened(stream, clock_monotonic_s());
+  }
+  last_s_ = now_s;
+  if (picture.gray.cols != config_.width_px || picture.gray.rows != config_.height_px)
+    return handover_.note_refused(
+        std::string("frame refused: ") + to_string(PictureRefusal::kWrongSize), lost, statistics_);
+  const double unchanged_s = change_.unchanged_s(picture.gray, now_s);
+  if (config_.frozen_s > 0.0 && unchanged_s >= config_.frozen_s)
+    throw CameraAbsent(alarm::camera_frozen(unchanged_s));
+  const FrameTime time = clock_.stamp({.device_ns = picture.rtp.device_ns,
+                                       .arrival_s = picture.rtp.arrival_s,
+                                       .report_utc_ns = picture.rtp.report_utc_ns},
+                                      clock_utc_ns() - clock_monotonic_ns());
+  note_time(stream, time, now_s);
+  Frame frame{.gray = std::move(picture.gray),
+              .mid_exposure_s = time.mid_exposure_s,
+              .stamp_sd_s = time.sd_s,
+              .stamp_source = time.source,
+              .row_readout_s = config_.row_readout_s,
+              .number = number,
+              .raw = std::move(picture.bgr),
+              .pixel_format = config_.pixel_format};
+  handover_.publish(std::move(frame), lost, statistics_);
+}
+
+void RtspCamera::Impl::note_opened(const RtspStream& stream, double now_s) {
+  handover_.change_facts([&](CameraFacts& facts) {
+    if (facts.opened_s) ++facts.counters.reconnects;
+    facts.state = CameraState::kStarting;
+    facts.fault = {};
+    facts.identity = "RTSP " + stream.codec();
+    facts.opened_s = now_s;
+    facts.last_frame_s.reset();
+  });
+}
+
+std::vector<Alarm> RtspCamera::Impl::alarms(double now_s) const {
+  std::vector<Alarm> alarms;
+  const double rate_hz = statistics_.rate_hz();
+  if (now_s - first_s_.value_or(now_s) > kRateKnown_s &&
+      std::abs(rate_hz / config_.frame_rate_hz - 1.0) > kRateOff)
+    alarms.push_back(alarm::camera_rate_differs(rate_hz, config_.frame_rate_hz));
+  const double rate = clock_.rate().value_or(1.0);
+  if (std::abs(rate - 1.0) > kStampRateOff)
+    alarms.push_back(alarm::camera_stamps_run_wrong(100.0 * (1.0 / rate - 1.0)));
+  if (const auto delay_s = clock_.refused_delay_s())
+    alarms.push_back(alarm::camera_reports_refused(*delay_s));
+  return alarms;
+}
+
+void RtspCamera::Impl::note_time(const RtspStream& stream, const FrameTime& time, double now_s) {
+  const bool by_reports = time.source == StampSource::kCamera;
+  std::string switched;
+  if (const auto jump_s = clock_.jump_s()) {
+    ++switches_;
+    switched = std::string("camera: its times are now by ") +
+               (by_reports ? "sender reports: " : "arrivals: ") + milliseconds("%+.0f ms", *jump_s);
+  }
+  const double delay_s = clock_.learnt_delay_s().value_or(config_.clock.delay_s);
+  handover_.change_facts([&](CameraFacts& facts) {
+    facts.identity = "RTSP " + stream.codec() +
+                     (by_reports ? ", times by sender reports" : ", times by arrivals") +
+                     milliseconds(", delay %.0f ms", delay_s);
+    facts.kind_alarms = alarms(now_s);
+    facts.kind_readings = {{"camera_delay_s", delay_s}};
+    facts.kind_counters = {{"camera_packets_lost", lost_packets_},
+                           {"camera_time_switches", switches_}};
+    if (switched.empty()) return;
+    facts.last_error = switched;
+    ++facts.errors;
+  });
+}
+
+RtspCamera::RtspCamera(const RtspConfig& config) : impl_(std::make_unique<Impl>(config)) {}
+RtspCamera::~RtspCamera() = default;
+
+std::optional<Frame> RtspCamera::next(double timeout_s) { return impl_->handover_.next(timeout_s); }
+
+device::DeviceReport RtspCamera::report() const {
+  return make_camera_report(impl_->config_, impl_->handover_.facts(), clock_monotonic_s());
+}
+
+}  // namespace ols::camera

@@ -1,0 +1,108 @@
+#include "edge/camera/rtsp/rtsp_clock.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+namespace ols::camera {
+namespace {
+
+constexpr double kSigmas = 5.0;
+constexpr std::int64_t kNewReport_ns = 50'000;  // rounding of the stamps alone makes less
+constexpr double kStep_s = 0.1;                 // between two reports: the clock was set
+constexpr int kSteady = 2;                      // reports after such a step, before they count
+constexpr double kSmoothing = 0.2;
+constexpr int kLearnFrom = 720;      // reports, an hour: a slow drift shows against their mean
+constexpr double kForget_s = 600.0;  // reports refused for so long may have become right
+
+}  // namespace
+
+void RtspClock::restart() {
+  arrivals_.clear();
+  report_ns_.reset();
+  steady_reports_ = 0;
+  step_square_s2_ = 0.0;
+}
+
+std::optional<double> RtspClock::learnt_delay_s() const {
+  return learnt_from_ > 0 ? std::optional(learnt_delay_s_) : std::nullopt;
+}
+
+std::optional<double> RtspClock::rate() const {
+  return arrivals_.knows_rate() ? std::optional(arrivals_.rate()) : std::nullopt;
+}
+
+// `report_ns`: UTC minus stamp by the camera; `offset_ns`: the station's monotonic time minus
+// stamp.
+void RtspClock::note_report(std::int64_t report_ns, std::int64_t offset_ns) {
+  report_is_new_ = !report_ns_ || std::abs(report_ns - *report_ns_) > kNewReport_ns;
+  if (!report_is_new_) return;
+  if (report_ns_) {
+    const double step_s = 1e-9 * static_cast<double>(offset_ns - report_offset_ns_);
+    const bool stepped = std::abs(step_s) > kStep_s;
+    steady_reports_ = stepped ? 0 : steady_reports_ + 1;
+    if (!stepped) step_square_s2_ += kSmoothing * (step_s * step_s - step_square_s2_);
+  } else {
+    steady_reports_ = kSteady;  // nothing to compare the first with
+  }
+  report_ns_ = report_ns;
+  report_offset_ns_ = offset_ns;
+}
+
+// Not before the exposure, not later than the configured delay allows, and as ever.
+bool RtspClock::credible(double delay_s, double sd_s) const {
+  if (steady_reports_ < kSteady) return false;
+  const double slack_s = kSigmas * sd_s;
+  if (delay_s < -slack_s) return false;
+  if (delay_s > config_.delay_s + kSigmas * config_.delay_sd_s + slack_s) return false;
+  return learnt_from_ == 0 || std::abs(delay_s - learnt_delay_s_) < slack_s;
+}
+
+void RtspClock::learn(double delay_s) {
+  if (!report_is_new_ && learnt_from_ > 0) return;
+  learnt_from_ = std::min(learnt_from_ + 1, kLearnFrom);
+  learnt_delay_s_ += (delay_s - learnt_delay_s_) / learnt_from_;
+}
+
+MappedTime RtspClock::by_arrivals(const MappedTime& arrival) const {
+  const bool learnt = learnt_from_ > 0;
+  return {.time_s = arrival.time_s - (learnt ? learnt_delay_s_ : config_.delay_s),
+          .sd_s = std::hypot(arrival.sd_s, learnt ? config_.report_sd_s : config_.delay_sd_s)};
+}
+
+FrameTime RtspClock::stamp(const RtspStamp& picture, std::int64_t utc_minus_monotonic_ns) {
+  arrivals_.add(picture.device_ns, picture.arrival_s);
+  const MappedTime arrival = *arrivals_.at(picture.device_ns);
+  MappedTime time = by_arrivals(arrival);
+  StampSource source = StampSource::kArrival;
+  MappedTime other = time;
+  refused_delay_s_.reset();
+  if (picture.report_utc_ns) {
+    const std::int64_t monotonic_ns = *picture.report_utc_ns - utc_minus_monotonic_ns;
+    note_report(*picture.report_utc_ns - picture.device_ns, monotonic_ns - picture.device_ns);
+    const MappedTime reported{
+        .time_s = 1e-9 * static_cast<double>(monotonic_ns) - config_.report_delay_s,
+        .sd_s = std::hypot(config_.report_sd_s, std::sqrt(step_square_s2_))};
+    const double delay_s = arrival.time_s - reported.time_s;
+    if (credible(delay_s, std::hypot(reported.sd_s, arrival.sd_s))) {
+      learn(delay_s);
+      time = reported;
+      source = StampSource::kCamera;
+      refused_since_s_.reset();
+    } else {
+      other = reported;
+      refused_delay_s_ = delay_s;
+      if (!refused_since_s_) refused_since_s_ = picture.arrival_s;
+      if (picture.arrival_s - *refused_since_s_ > kForget_s) {
+        learnt_from_ = 0;
+        refused_since_s_ = picture.arrival_s;
+      }
+    }
+  }
+  jump_s_.reset();
+  if (source_ && *source_ != source) jump_s_ = time.time_s - other.time_s;
+  source_ = source;
+  return {.mid_exposure_s = time.time_s, .sd_s = time.sd_s, .source = source};
+}
+
+}  // namespace ols::camera

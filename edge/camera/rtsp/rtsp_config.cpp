@@ -1,0 +1,78 @@
+#include "edge/camera/rtsp/rtsp_config.h"
+
+#include <algorithm>
+#include <iterator>
+#include <stdexcept>
+
+namespace ols::camera {
+namespace {
+
+// Position behind "rtsp://"; 0: no such address.
+std::size_t host_at(const std::string& url) {
+  for (const std::string scheme : {"rtsp://", "rtsps://"}) {
+    if (url.starts_with(scheme) && url.size() > scheme.size()) return scheme.size();
+  }
+  return 0;
+}
+
+void check_url(const std::string& url) {
+  const std::size_t host = host_at(url);
+  if (host == 0) throw std::invalid_argument("must be rtsp://HOST/... or rtsps://HOST/...");
+  if (url.substr(host, url.find('/', host) - host).find('@') != std::string::npos) {
+    throw std::invalid_argument(
+        "must not name user and password: they belong in user and "
+        "password_file");
+  }
+}
+
+void check(ConfigTable& table, const RtspConfig& c) {
+  if (c.pixel_format != "Mono8" && c.pixel_format != "BGR8")
+    throw table.error("pixel_format", "an RTSP camera has Mono8 or BGR8");
+  if (c.user.empty() != c.password_file.empty())
+    throw table.error(c.user.empty() ? "password_file" : "user",
+                      "user and password_file need each other");
+}
+
+}  // namespace
+
+std::string shown_url(const std::string& url) {
+  const std::size_t path = url.find('/', host_at(url));
+  return path == std::string::npos ? url : url.substr(0, path) + "/...";
+}
+
+config::Section rtsp_section(RtspConfig& c) {
+  using config::number;
+  std::vector<config::Row> rows{
+      config::text("url", c.url,
+                   "Address of the stream, rtsp:// or rtsps://, without user and password.",
+                   check_url)
+          .required(),
+      config::text("user", c.user, "User name at the camera; empty: none."),
+      config::text("password_file", c.password_file,
+                   "File whose first line is that user's password; only the station may be able "
+                   "to read it."),
+      config::word("transport", c.transport,
+                   {{"tcp", RtspTransport::kTcp}, {"udp", RtspTransport::kUdp}},
+                   "TCP loses no packets; UDP does not wait for lost ones.")};
+  std::ranges::move(picture_rows(c), std::back_inserter(rows));
+  std::vector<config::Row> more{
+      number("delay_s", c.clock.delay_s, {0.0, 10.0}, "s",
+             "From mid-exposure to the arrival of a picture; used where the camera sends no "
+             "credible sender reports."),
+      number("delay_sd_s", c.clock.delay_sd_s, {1e-4, 10.0}, "s",
+             "1-sigma of delay_s; reports that imply a delay beyond five of it are not believed."),
+      number("report_delay_s", c.clock.report_delay_s, {-1.0, 10.0}, "s",
+             "From mid-exposure to the instant that the camera's sender reports give."),
+      number("report_sd_s", c.clock.report_sd_s, {1e-5, 10.0}, "s",
+             "1-sigma of report_delay_s and of the camera's own UTC together."),
+      number("row_readout_s", c.row_readout_s, {0.0, 0.5}, "s",
+             "Rolling shutter: from the exposure of the first row to that of the last; 0: all rows "
+             "at once."),
+      number("frozen_s", c.frozen_s, {0.0, 3600.0}, "s",
+             "A picture that stays the same to the last bit for so long is not used, and the "
+             "camera is connected anew; 0: never.")};
+  std::ranges::move(more, std::back_inserter(rows));
+  return {"camera", "", rows, {}, [&c](ConfigTable& table) { check(table, c); }};
+}
+
+}  // namespace ols::camera

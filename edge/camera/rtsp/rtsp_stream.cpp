@@ -1,0 +1,319 @@
+#include "edge/camera/rtsp/rtsp_stream.h"
+
+#include <gst/app/gstappsink.h>
+#include <gst/gst.h>
+#include <gst/video/video.h>
+
+#include <algorithm>
+#include <array>
+#include <mutex>
+#include <opencv2/imgproc.hpp>
+#include <string_view>
+
+#include "base/process/clocks.h"
+#include "conditions/alarms.h"
+
+namespace ols::camera {
+namespace {
+
+// A gap in the packets is waited for this long; packets in order do not wait.
+constexpr guint kReorder_ms = 50;
+constexpr guint64 kTimeout_us = 5'000'000;
+constexpr std::int64_t kNtpToUtc_ns = 2'208'988'800LL * 1'000'000'000LL;
+
+struct Codec {
+  std::string_view rtp_name;
+  const char* description;  // of the elements from packets to pictures
+};
+
+// One thread, because a picture per thread would wait in the decoder.
+constexpr std::array<Codec, 3> kCodecs{{
+    {"H264",
+     "rtph264depay ! video/x-h264,alignment=au ! h264parse ! avdec_h264 name=decoder "
+     "max-threads=1"},
+    {"H265",
+     "rtph265depay ! video/x-h265,alignment=au ! h265parse ! avdec_h265 name=decoder "
+     "max-threads=1"},
+    {"JPEG", "rtpjpegdepay ! jpegdec name=decoder"},
+}};
+
+void start_library() {
+  static std::once_flag once;
+  std::call_once(once, [] {
+    gst_registry_fork_set_enabled(FALSE);  // the station starts no other program
+    gst_init(nullptr, nullptr);
+  });
+}
+
+std::string value_of(const GstCaps* caps, const char* field) {
+  const char* text = gst_structure_get_string(gst_caps_get_structure(caps, 0), field);
+  return text == nullptr ? "" : text;
+}
+
+const Codec* codec_of(const GstCaps* caps) {
+  const std::string name = value_of(caps, "encoding-name");
+  const auto codec = std::ranges::find(kCodecs, std::string_view(name), &Codec::rtp_name);
+  return codec == kCodecs.end() ? nullptr : &*codec;
+}
+
+// What a device says, for a line of text.
+std::string printable(std::string text) {
+  std::erase_if(text, [](unsigned char c) { return c < 0x20 || c == 0x7f; });
+  return text.substr(0, 120);
+}
+
+struct Caps {
+  explicit Caps(const char* text) : caps(gst_caps_from_string(text)) {}
+  ~Caps() { gst_caps_unref(caps); }
+  Caps(const Caps&) = delete;
+  Caps& operator=(const Caps&) = delete;
+  GstCaps* caps;
+};
+
+cv::Mat plane(const GstVideoFrame& frame, int index, int rows, int columns) {
+  // cv::Mat takes no const pointer; nothing writes through it.
+  return {rows, columns, CV_8U, GST_VIDEO_FRAME_PLANE_DATA(&frame, index),
+          static_cast<std::size_t>(GST_VIDEO_FRAME_PLANE_STRIDE(&frame, index))};
+}
+
+// The planes one after the other, as OpenCV wants them.
+cv::Mat bgr_of(const GstVideoFrame& frame, int rows, int columns) {
+  cv::Mat planes(rows * 3 / 2, columns, CV_8U);
+  plane(frame, 0, rows, columns).copyTo(planes.rowRange(0, rows));
+  std::uint8_t* to = planes.ptr(rows);
+  for (int index : {1, 2}) {
+    cv::Mat chroma(rows / 2, columns / 2, CV_8U, to + (index - 1) * (rows / 2) * (columns / 2));
+    plane(frame, index, rows / 2, columns / 2).copyTo(chroma);
+  }
+  cv::Mat bgr;
+  cv::cvtColor(planes, bgr, cv::COLOR_YUV2BGR_I420);
+  return bgr;
+}
+
+}  // namespace
+
+struct RtspStream::Impl {
+  Impl(const RtspConfig& config, const std::string& password);
+  ~Impl();
+
+  void add_source(const RtspConfig& config, const std::string& password);
+  bool choose(const GstCaps* caps);
+  void link(GstPad* pad);
+  void note_packet(GstBuffer* buffer);
+  void note_decoding(GstBuffer* buffer);
+  void check_bus();
+  [[noreturn]] void fail(GstMessage* message);
+  std::optional<DecodedPicture> picture_of(GstSample* sample);
+
+  const bool wants_colour_;
+  const Caps ntp_{"timestamp/x-ntp"};
+  GstElement* pipeline_ = nullptr;
+  GstElement* sink_ = nullptr;  // in the pipeline
+
+  mutable std::mutex mutex_;  // guards all below: GStreamer's threads write them
+  const Codec* codec_ = nullptr;
+  std::string trouble_;  // there is nothing to decode
+  std::optional<RtpPictures> pictures_;
+  bool linked_ = false;
+};
+
+RtspStream::Impl::Impl(const RtspConfig& config, const std::string& password)
+    : wants_colour_(config.keep_raw) {
+  pipeline_ = gst_pipeline_new(nullptr);
+  try {
+    add_source(config, password);
+  } catch (...) {
+    gst_object_unref(pipeline_);
+    throw;
+  }
+  gst_element_set_state(pipeline_, GST_STATE_PLAYING);
+}
+
+RtspStream::Impl::~Impl() {
+  gst_element_set_state(pipeline_, GST_STATE_NULL);  // joins its threads
+  gst_object_unref(pipeline_);
+}
+
+void RtspStream::Impl::add_source(const RtspConfig& config, const std::string& password) {
+  GstElement* source = gst_element_factory_make("rtspsrc", nullptr);
+  sink_ = gst_element_factory_make("appsink", nullptr);
+  for (GstElement* element : {source, sink_}) {
+    if (element != nullptr) gst_bin_add(GST_BIN(pipeline_), element);
+  }
+  if (source == nullptr || sink_ == nullptr)
+    throw CameraUnfit(alarm::camera_not_video("GStreamer has no rtspsrc or appsink"));
+  // Stamps as the camera makes them (buffer-mode none): the arrivals are judged by our own clock.
+  g_object_set(source, "location", config.url.c_str(), "latency", kReorder_ms, "buffer-mode", 0,
+               "drop-on-latency", TRUE, "add-reference-timestamp-meta", TRUE, "tcp-timeout",
+               kTimeout_us, "timeout", kTimeout_us, "protocols",
+               config.transport == RtspTransport::kTcp ? 4 : 1, nullptr);
+  if (!config.user.empty())
+    g_object_set(source, "user-id", config.user.c_str(), "user-pw", password.c_str(), nullptr);
+  g_signal_connect(source, "select-stream",
+                   G_CALLBACK(+[](GstElement*, guint, GstCaps* caps, Impl* self) -> gboolean {
+                     return self->choose(caps) ? TRUE : FALSE;
+                   }),
+                   this);
+  g_signal_connect(source, "pad-added",
+                   G_CALLBACK(+[](GstElement*, GstPad* pad, Impl* self) { self->link(pad); }),
+                   this);
+  // Planes whose first one is gray; colours of one layout.
+  const Caps formats(wants_colour_ ? "video/x-raw,format=I420"
+                                   : "video/x-raw,format={I420,NV12,Y42B,Y444,GRAY8}");
+  g_object_set(sink_, "caps", formats.caps, "sync", FALSE, "drop", TRUE, "max-buffers", 1,
+               "wait-on-eos", FALSE, nullptr);
+}
+
+// The first video stream; no sound, no metadata.
+bool RtspStream::Impl::choose(const GstCaps* caps) {
+  const std::lock_guard lock(mutex_);
+  if (codec_ != nullptr || value_of(caps, "media") != "video") return false;
+  codec_ = codec_of(caps);
+  if (codec_ == nullptr) trouble_ = "codec " + printable(value_of(caps, "encoding-name"));
+  return codec_ != nullptr;
+}
+
+void RtspStream::Impl::link(GstPad* pad) {
+  const std::lock_guard lock(mutex_);
+  GstCaps* caps = gst_pad_get_current_caps(pad);
+  if (caps == nullptr) caps = gst_pad_query_caps(pad, nullptr);
+  gint clock_hz = 0;
+  const bool usable =
+      !linked_ && codec_ != nullptr && codec_ == codec_of(caps) &&
+      gst_structure_get_int(gst_caps_get_structure(caps, 0), "clock-rate", &clock_hz) != FALSE &&
+      clock_hz > 0;
+  gst_caps_unref(caps);
+  if (!usable) return;
+  const std::string description = std::string(codec_->description) + " ! videoconvert n-threads=1";
+  GError* error = nullptr;
+  GstElement* bin = gst_parse_bin_from_description(description.c_str(), TRUE, &error);
+  if (error != nullptr) {
+    trouble_ = error->message;
+    g_clear_error(&error);
+  }
+  if (bin == nullptr) return;
+  linked_ = true;
+  pictures_.emplace(clock_hz);
+  GstElement* decoder = gst_bin_get_by_name(GST_BIN(bin), "decoder");
+  GstPad* encoded = gst_element_get_static_pad(decoder, "sink");
+  gst_pad_add_probe(
+      encoded, GST_PAD_PROBE_TYPE_BUFFER,
+      [](GstPad*, GstPadProbeInfo* info, gpointer self) {
+        static_cast<Impl*>(self)->note_decoding(GST_PAD_PROBE_INFO_BUFFER(info));
+        return GST_PAD_PROBE_OK;
+      },
+      this, nullptr);
+  gst_object_unref(encoded);
+  gst_object_unref(decoder);
+  gst_pad_add_probe(
+      pad, GST_PAD_PROBE_TYPE_BUFFER,
+      [](GstPad*, GstPadProbeInfo* info, gpointer self) {
+        static_cast<Impl*>(self)->note_packet(GST_PAD_PROBE_INFO_BUFFER(info));
+        return GST_PAD_PROBE_OK;
+      },
+      this, nullptr);
+  gst_bin_add(GST_BIN(pipeline_), bin);
+  gst_element_link(bin, sink_);
+  gst_element_sync_state_with_parent(bin);
+  GstPad* in = gst_element_get_static_pad(bin, "sink");
+  if (gst_pad_link(pad, in) != GST_PAD_LINK_OK) trouble_ = "its packets do not fit their codec";
+  gst_object_unref(in);
+}
+
+void RtspStream::Impl::note_packet(GstBuffer* buffer) {
+  std::array<std::uint8_t, 8> head{};
+  if (gst_buffer_extract(buffer, 0, head.data(), head.size()) != head.size()) return;
+  RtpPacket packet;
+  packet.sequence = static_cast<std::uint16_t>(head[2] << 8 | head[3]);
+  packet.stamp = std::uint32_t{head[4]} << 24 | std::uint32_t{head[5]} << 16 |
+                 std::uint32_t{head[6]} << 8 | head[7];
+  packet.pts_ns = GST_BUFFER_PTS(buffer);
+  packet.arrival_s = clock_monotonic_s();
+  const auto* report = gst_buffer_get_reference_timestamp_meta(buffer, ntp_.caps);
+  if (report != nullptr)
+    packet.report_utc_ns = static_cast<std::int64_t>(report->timestamp) - kNtpToUtc_ns;
+  const std::lock_guard lock(mutex_);
+  pictures_->add(packet);
+}
+
+void RtspStream::Impl::note_decoding(GstBuffer* buffer) {
+  const std::lock_guard lock(mutex_);
+  pictures_->decoding(GST_BUFFER_PTS(buffer),
+                      !GST_BUFFER_FLAG_IS_SET(buffer, GST_BUFFER_FLAG_DELTA_UNIT));
+}
+
+void RtspStream::Impl::fail(GstMessage* message) {
+  if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_EOS)
+    throw CameraAbsent(alarm::camera_no_stream("it ended the stream"));
+  GError* error = nullptr;
+  gst_message_parse_error(message, &error, nullptr);
+  const std::string text = printable(error->message);
+  const bool login =
+      g_error_matches(error, GST_RESOURCE_ERROR, GST_RESOURCE_ERROR_NOT_AUTHORIZED) != FALSE;
+  const bool unfit = error->domain == GST_STREAM_ERROR;
+  g_clear_error(&error);
+  const std::lock_guard lock(mutex_);
+  if (login) throw LoginRefused(alarm::camera_refuses_login());
+  if (unfit || !trouble_.empty())
+    throw CameraUnfit(alarm::camera_not_video(trouble_.empty() ? text : trouble_));
+  throw CameraAbsent(alarm::camera_no_stream(text));
+}
+
+void RtspStream::Impl::check_bus() {
+  GstBus* bus = gst_element_get_bus(pipeline_);
+  GstMessage* message =
+      gst_bus_pop_filtered(bus, static_cast<GstMessageType>(GST_MESSAGE_ERROR | GST_MESSAGE_EOS));
+  gst_object_unref(bus);
+  if (message == nullptr) return;
+  const std::unique_ptr<GstMessage, decltype(&gst_message_unref)> owned(message, gst_message_unref);
+  fail(message);
+}
+
+std::optional<DecodedPicture> RtspStream::Impl::picture_of(GstSample* sample) {
+  GstBuffer* buffer = gst_sample_get_buffer(sample);
+  DecodedPicture picture;
+  {
+    const std::lock_guard lock(mutex_);
+    const auto rtp = pictures_->take(GST_BUFFER_PTS(buffer));
+    if (!rtp) return std::nullopt;
+    picture.rtp = *rtp;
+  }
+  GstVideoInfo info;
+  GstVideoFrame frame;
+  if (gst_video_info_from_caps(&info, gst_sample_get_caps(sample)) == FALSE ||
+      gst_video_frame_map(&frame, &info, buffer, GST_MAP_READ) == FALSE)
+    return std::nullopt;
+  const int rows = GST_VIDEO_FRAME_HEIGHT(&frame), columns = GST_VIDEO_FRAME_WIDTH(&frame);
+  picture.gray = plane(frame, 0, rows, columns).clone();
+  if (wants_colour_ && rows % 2 == 0 && columns % 2 == 0)
+    picture.bgr = bgr_of(frame, rows, columns);
+  gst_video_frame_unmap(&frame);
+  return picture;
+}
+
+RtspStream::RtspStream(const RtspConfig& config, const std::string& password) {
+  start_library();
+  impl_ = std::make_unique<Impl>(config, password);
+}
+RtspStream::~RtspStream() = default;
+
+std::optional<DecodedPicture> RtspStream::receive(double timeout_s) {
+  impl_->check_bus();
+  GstSample* sample = gst_app_sink_try_pull_sample(GST_APP_SINK(impl_->sink_),
+                                                   static_cast<GstClockTime>(timeout_s * 1e9));
+  if (sample == nullptr) return std::nullopt;
+  const std::unique_ptr<GstSample, decltype(&gst_sample_unref)> owned(sample, gst_sample_unref);
+  return impl_->picture_of(sample);
+}
+
+std::string RtspStream::codec() const {
+  const std::lock_guard lock(impl_->mutex_);
+  return impl_->codec_ == nullptr ? std::string() : std::string(impl_->codec_->rtp_name);
+}
+
+std::uint64_t RtspStream::lost_packets() const {
+  const std::lock_guard lock(impl_->mutex_);
+  return impl_->pictures_ ? impl_->pictures_->lost_packets() : 0;
+}
+
+}  // namespace ols::camera

@@ -1,0 +1,176 @@
+#include "edge/camera/rtsp/rtsp_clock.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace ols::camera {
+namespace {
+
+constexpr std::int64_t kUtcMinusMonotonic_ns = 1'700'000'000'000'000'000;
+
+// A camera that sends 25 pictures a second, by TCP over a network that holds some up.
+struct RtspWorld {
+  double delay_s = 0.4;      // least, mid-exposure to arrival
+  double jitter_s = 0.004;   // mean of an exponential one
+  double stamp_rate = 1.0;   // seconds of stamps a second
+  double clock_off_s = 0.0;  // of the camera's UTC
+  double clock_drift = 0.0;
+  double report_every_s = 5.0;  // 0: never
+  double first_report_s = 10.0;
+  double start_s = 1000.0;
+  std::mt19937_64 random{7};
+
+  std::int64_t device_ns(double time_s) const {
+    return std::llround(1e9 * stamp_rate * (time_s - start_s));
+  }
+  RtspStamp picture(double time_s) {
+    std::exponential_distribution<double> jitter(1.0 / jitter_s);
+    RtspStamp stamp{.device_ns = device_ns(time_s),
+                    .arrival_s = time_s + delay_s + jitter(random),
+                    .report_utc_ns = {}};
+    const double since_s = time_s - start_s - first_report_s;
+    if (report_every_s > 0.0 && since_s >= 0.0) {
+      const double report_s =
+          start_s + first_report_s + report_every_s * std::floor(since_s / report_every_s);
+      const double utc_s = report_s + clock_off_s + clock_drift * (report_s - start_s);
+      stamp.report_utc_ns = kUtcMinusMonotonic_ns + std::llround(1e9 * utc_s) +
+                            (stamp.device_ns - device_ns(report_s));
+    }
+    return stamp;
+  }
+};
+
+struct Judged {
+  double worst_s = 0.0, square_s2 = 0.0, told_s2 = 0.0;
+  int count = 0, by_reports = 0, jumps = 0;
+  double largest_jump_s = 0.0;
+  double rms_s() const { return std::sqrt(square_s2 / count); }
+  double told_over_actual() const { return std::sqrt(told_s2 / square_s2); }
+};
+
+// From `from_s` after the start on, for `for_s`; each picture before that is seen as well.
+Judged run(RtspWorld& world, RtspClock& clock, double from_s, double for_s) {
+  Judged judged;
+  for (double since_s = 0.0; since_s < from_s + for_s; since_s += 0.04) {
+    const double true_s = world.start_s + since_s;
+    const FrameTime time = clock.stamp(world.picture(true_s), kUtcMinusMonotonic_ns);
+    if (const auto jump_s = clock.jump_s()) {
+      ++judged.jumps;
+      judged.largest_jump_s = std::max(judged.largest_jump_s, std::abs(*jump_s));
+    }
+    if (since_s < from_s) continue;
+    const double error_s = time.mid_exposure_s - true_s;
+    judged.worst_s = std::max(judged.worst_s, std::abs(error_s));
+    judged.square_s2 += error_s * error_s;
+    judged.told_s2 += time.sd_s * time.sd_s;
+    judged.by_reports += time.source == StampSource::kCamera ? 1 : 0;
+    ++judged.count;
+  }
+  return judged;
+}
+
+TEST(RtspClock, ArrivalsGiveTheTimeBeforeTheFirstReport) {
+  RtspWorld world;
+  RtspClock clock({.delay_s = 0.35, .delay_sd_s = 0.1});
+  const Judged judged = run(world, clock, 0.0, 9.0);
+  EXPECT_EQ(judged.by_reports, 0);
+  EXPECT_NEAR(judged.rms_s(), 0.05, 0.01) << "what the delay is wrong by";
+  EXPECT_NEAR(std::sqrt(judged.told_s2 / judged.count), 0.1, 0.01);
+}
+
+TEST(RtspClock, ReportsAreExactAndTheChangeToThemIsSaid) {
+  RtspWorld world;
+  RtspClock clock({.delay_s = 0.3, .delay_sd_s = 0.2});
+  const Judged judged = run(world, clock, 10.1, 60.0);
+  EXPECT_EQ(judged.by_reports, judged.count);
+  EXPECT_LT(judged.worst_s, 1e-3);
+  EXPECT_EQ(judged.jumps, 1);
+  EXPECT_NEAR(judged.largest_jump_s, 0.1, 0.01);
+  EXPECT_NEAR(*clock.learnt_delay_s(), 0.4, 0.01);
+}
+
+TEST(RtspClock, TheLearntDelayHoldsWhenTheReportsCease) {
+  RtspWorld world;
+  RtspClock clock({.delay_s = 0.1, .delay_sd_s = 0.2});
+  run(world, clock, 0.0, 60.0);
+  clock.restart();
+  world.start_s += 100.0;
+  world.report_every_s = 0.0;
+  const Judged judged = run(world, clock, 20.0, 20.0);
+  EXPECT_EQ(judged.by_reports, 0);
+  EXPECT_LT(judged.worst_s, 0.01);
+  EXPECT_LT(judged.largest_jump_s, 0.01);
+}
+
+// Told over actual, by arrivals after five minutes with the delay calibrated to some milliseconds.
+TEST(RtspClock, ArrivalsAreHonestAfterFiveMinutes) {
+  double square_s2 = 0.0, told_s2 = 0.0;
+  constexpr double kCalibrated_s = 0.004;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    RtspWorld world;
+    world.random.seed(seed);
+    world.stamp_rate = 1.0 + std::normal_distribution<double>(0.0, 50e-6)(world.random);
+    world.report_every_s = 0.0;
+    const double off_s = std::normal_distribution<double>(0.0, kCalibrated_s)(world.random);
+    RtspClock clock({.delay_s = world.delay_s + off_s, .delay_sd_s = kCalibrated_s});
+    const Judged judged = run(world, clock, 300.0, 20.0);
+    EXPECT_LT(judged.worst_s, 0.015) << "seed " << seed;
+    square_s2 += judged.square_s2;
+    told_s2 += judged.told_s2;
+  }
+  EXPECT_GT(std::sqrt(told_s2 / square_s2), 0.7);
+  EXPECT_LT(std::sqrt(told_s2 / square_s2), 1.5);
+}
+
+TEST(RtspClock, ReportsOfAWrongClockAreNotBelieved) {
+  struct Case {
+    const char* what;
+    double off_s, drift, stamp_rate;
+  };
+  for (const Case& c : {Case{"local time", 7200.0, 0.0, 1.0}, Case{"ahead", 1.0, 0.0, 1.0},
+                        Case{"far behind", -30.0, 0.0, 1.0}, Case{"drifts", 0.0, -2e-3, 1.0},
+                        Case{"stamps 25, sends 21", 0.0, 0.0, 0.84}}) {
+    RtspWorld world;
+    world.clock_off_s = c.off_s;
+    world.clock_drift = c.drift;
+    world.stamp_rate = c.stamp_rate;
+    RtspClock clock({.delay_s = 0.4, .delay_sd_s = 0.05, .report_delay_s = 0, .report_sd_s = 0.01});
+    const Judged judged = run(world, clock, 120.0, 60.0);
+    EXPECT_EQ(judged.by_reports, 0) << c.what;
+    EXPECT_TRUE(clock.refused_delay_s()) << c.what;
+    EXPECT_LT(judged.worst_s, 0.1) << c.what;
+    EXPECT_NEAR(*clock.rate(), 1.0 / c.stamp_rate, 1e-3) << c.what;
+  }
+}
+
+TEST(RtspClock, AStepOfTheStationsUtcIsNotTakenForTheCameras) {
+  RtspWorld world;
+  RtspClock clock({.delay_s = 0.4, .delay_sd_s = 0.2});
+  run(world, clock, 0.0, 60.0);
+  const FrameTime time = clock.stamp(world.picture(1060.0), kUtcMinusMonotonic_ns + 300'000'000);
+  EXPECT_NEAR(time.mid_exposure_s, 1060.0, 0.01);
+  EXPECT_EQ(time.source, StampSource::kArrival);
+}
+
+TEST(RtspClock, AStepOfTheStampsIsForgotten) {
+  for (const double step_s : {0.5, -0.5, 100.0, -100.0}) {
+    RtspWorld world;
+    world.report_every_s = 0.0;
+    RtspClock clock({.delay_s = 0.4, .delay_sd_s = 0.01});
+    run(world, clock, 0.0, 60.0);
+    double worst_s = 0.0;
+    for (double since_s = 60.0; since_s < 80.0; since_s += 0.04) {
+      RtspStamp picture = world.picture(1000.0 + since_s);
+      picture.device_ns += std::llround(1e9 * step_s);
+      const FrameTime time = clock.stamp(picture, kUtcMinusMonotonic_ns);
+      if (since_s > 70.0)
+        worst_s = std::max(worst_s, std::abs(time.mid_exposure_s - 1000.0 - since_s));
+    }
+    EXPECT_LT(worst_s, 0.03) << step_s;
+  }
+}
+
+}  // namespace
+}  // namespace ols::camera

@@ -1,0 +1,108 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "edge/camera/rtsp/picture_change.h"
+#include "edge/camera/rtsp/retry_pause.h"
+#include "edge/camera/rtsp/rtp_pictures.h"
+#include "edge/camera/rtsp/rtsp_config.h"
+#include "tests/unit/error_text.h"
+
+namespace ols::camera {
+namespace {
+
+using testing::HasSubstr;
+
+std::string complaint(const std::string& text) {
+  return error_text<ConfigError>([&] {
+    RtspConfig config;
+    ConfigFile file(text, "station.toml");
+    config::read(rtsp_section(config), file.root());
+  });
+}
+
+TEST(RtspConfig, NeedsAnAddressWithoutLogin) {
+  RtspConfig config;
+  ConfigFile file("url = 'rtsp://10.0.0.5:554/a@b'", "station.toml");
+  config::read(rtsp_section(config), file.root());
+  for (const auto& [text, what] :
+       {std::pair{"", "url"}, std::pair{"url = \"http://10.0.0.5/\"", "rtsp://"},
+        std::pair{"url = \"rtsp://\"", "rtsp://"},
+        std::pair{"url = \"rtsp://admin:x@10.0.0.5/\"", "password_file"},
+        std::pair{"url = \"rtsp://h/\"\nuser = \"admin\"", "password_file"},
+        std::pair{"url = \"rtsp://h/\"\npixel_format = \"BayerRG8\"", "Mono8 or BGR8"},
+        std::pair{"url = \"rtsp://h/\"\nexposure_us = 5", "exposure_us"}}) {
+    EXPECT_THAT(complaint(std::string(text) + "\n"), HasSubstr(what));
+  }
+  EXPECT_EQ(shown_url("rtsp://10.0.0.5:554/user=a_password=b?c"), "rtsp://10.0.0.5:554/...");
+}
+
+RtpPacket packet(std::uint16_t sequence, std::uint32_t stamp) {
+  return {.sequence = sequence,
+          .stamp = stamp,
+          .pts_ns = stamp,
+          .arrival_s = 1.0 * sequence,
+          .report_utc_ns = {}};
+}
+
+TEST(RtpPictures, CountThroughTheEndsOfBothCounters) {
+  RtpPictures pictures(90000.0);
+  pictures.add(packet(65534, 0xfffffff0U));
+  pictures.add(packet(65535, 0xfffffff0U));
+  pictures.add(packet(0, 9000 - 16));
+  pictures.decoding(0xfffffff0U, true);
+  pictures.decoding(9000 - 16, false);
+  const auto first = pictures.take(0xfffffff0U), second = pictures.take(9000 - 16);
+  ASSERT_TRUE(first && second);
+  EXPECT_EQ(first->arrival_s, 65534.0) << "of the first packet";
+  EXPECT_EQ(second->device_ns - first->device_ns, 100'000'000);
+  EXPECT_EQ(second->number, first->number + 1);
+  EXPECT_FALSE(second->broken);
+  EXPECT_EQ(pictures.lost_packets(), 0U);
+  EXPECT_FALSE(pictures.take(4711));
+}
+
+TEST(RtpPictures, ALostPacketBreaksAllPicturesUntilAWholeOne) {
+  RtpPictures pictures(90000.0);
+  const auto broken = [&](std::uint16_t sequence, bool whole) {
+    pictures.add(packet(sequence, 100U * sequence));
+    pictures.decoding(100U * sequence, whole);
+    return pictures.take(100U * sequence)->broken;
+  };
+  EXPECT_FALSE(broken(1, true));
+  EXPECT_FALSE(broken(2, false));
+  EXPECT_TRUE(broken(5, false));
+  EXPECT_TRUE(broken(6, false));
+  EXPECT_FALSE(broken(7, true));
+  EXPECT_TRUE(broken(9, true)) << "its own beginning may be lost";
+  EXPECT_EQ(pictures.lost_packets(), 3U);
+}
+
+TEST(RtpPictures, APictureThatIsShownBeforeAnEarlierSentOneTakesNothingAway) {
+  RtpPictures pictures(90000.0);
+  pictures.add(packet(1, 200));  // P
+  pictures.add(packet(2, 100));  // B
+  for (std::uint64_t pts : {200, 100}) pictures.decoding(pts, pts == 200);
+  EXPECT_TRUE(pictures.take(100));
+  EXPECT_TRUE(pictures.take(200));
+}
+
+TEST(RetryPause, GrowsWhileNothingComes) {
+  RetryPause pause;
+  EXPECT_EQ(pause.after_stream(0.0), 0.5);
+  EXPECT_EQ(pause.after_stream(0.0), 1.0);
+  for (int i = 0; i < 10; ++i) pause.after_stream(2.0);
+  EXPECT_EQ(pause.after_stream(0.0), RetryPause::kLongest_s);
+  EXPECT_EQ(pause.after_stream(60.0), 0.5) << "it was well";
+}
+
+TEST(PictureChange, ALivePictureHasNoise) {
+  PictureChange change;
+  cv::Mat picture(64, 64, CV_8U, cv::Scalar(90));
+  EXPECT_EQ(change.unchanged_s(picture, 10.0), 0.0);
+  EXPECT_EQ(change.unchanged_s(picture, 15.0), 5.0);
+  picture.at<std::uint8_t>(8, 31) ^= 1;
+  EXPECT_EQ(change.unchanged_s(picture, 16.0), 0.0);
+}
+
+}  // namespace
+}  // namespace ols::camera
