@@ -20,10 +20,13 @@ struct PtuFaults {
 };
 
 struct CameraFaults {
-  bool gone = false;         // answers nothing, as if unplugged
-  double packet_loss = 0.0;  // share of image packets
-  bool no_resend = false;    // a camera without packet resend
-  std::string pixel_format;  // enforced by the camera after the next connection; empty: none
+  bool gone = false;          // answers nothing, as if unplugged
+  double packet_loss = 0.0;   // share of image packets
+  bool no_resend = false;     // a camera without packet resend
+  double missing_rate = 0.0;  // of RTSP: share of the stamped pictures that are not sent
+  double clock_off_s = 0.0;   // of RTSP: the camera's own clock against UTC
+  double clock_drift = 0.0;   // of RTSP: the same, [s/s] since it was switched on
+  std::string pixel_format;   // enforced by the camera after the next connection; empty: none
   bool operator==(const CameraFaults&) const = default;
 };
 

@@ -21,6 +21,9 @@ void RtpPictures::add(const RtpPacket& packet) {
   const bool lost = sequence_ && step > 1;
   if (lost) lost_packets_ += static_cast<std::uint64_t>(step - 1);
   if (!sequence_) stamp_ = packet.stamp;
+  // The end of the picture before is lost, too.
+  if (lost && !ended_ && !entries_.empty()) entries_.back().lost_here = true;
+  ended_ = packet.last;
   sequence_ = packet.sequence;
   ticks_ += static_cast<std::int32_t>(packet.stamp - stamp_);
   stamp_ = packet.stamp;
@@ -44,8 +47,7 @@ void RtpPictures::add(const RtpPacket& packet) {
 void RtpPictures::decoding(std::uint64_t pts_ns, bool whole) {
   Entry* entry = find(pts_ns);
   if (whole) broken_ = false;
-  // The end of the picture before may be what is lost, and a whole picture with a gap before it may
-  // have lost its own beginning.
+  // A whole picture with a gap before it may have lost its own beginning.
   if (entry == nullptr || entry->lost_here) broken_ = true;
   if (entry != nullptr) entry->picture.broken = broken_;
 }

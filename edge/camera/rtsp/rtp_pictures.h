@@ -13,6 +13,7 @@ namespace ols::camera {
 
 struct RtpPacket {
   std::uint16_t sequence = 0;
+  bool last = false;         // of its picture: the marker
   std::uint32_t stamp = 0;   // [ticks]
   std::uint64_t pts_ns = 0;  // the same in the pipeline: names the picture on its way
   double arrival_s = 0.0;    // CLOCK_MONOTONIC
@@ -52,6 +53,7 @@ class RtpPictures {
   std::deque<Entry> entries_;
   std::optional<std::uint16_t> sequence_;
   std::uint32_t stamp_ = 0;
+  bool ended_ = true;  // the newest packet was the last of its picture
   std::int64_t ticks_ = 0;
   std::uint64_t number_ = 0;
   std::uint64_t lost_packets_ = 0;

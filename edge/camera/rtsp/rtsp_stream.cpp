@@ -225,6 +225,7 @@ void RtspStream::Impl::note_packet(GstBuffer* buffer) {
   if (gst_buffer_extract(buffer, 0, head.data(), head.size()) != head.size()) return;
   RtpPacket packet;
   packet.sequence = static_cast<std::uint16_t>(head[2] << 8 | head[3]);
+  packet.last = (head[1] & 0x80U) != 0;
   packet.stamp = std::uint32_t{head[4]} << 24 | std::uint32_t{head[5]} << 16 |
                  std::uint32_t{head[6]} << 8 | head[7];
   packet.pts_ns = GST_BUFFER_PTS(buffer);

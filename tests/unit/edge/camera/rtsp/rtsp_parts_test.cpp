@@ -36,8 +36,9 @@ TEST(RtspConfig, NeedsAnAddressWithoutLogin) {
   EXPECT_EQ(shown_url("rtsp://10.0.0.5:554/user=a_password=b?c"), "rtsp://10.0.0.5:554/...");
 }
 
-RtpPacket packet(std::uint16_t sequence, std::uint32_t stamp) {
+RtpPacket packet(std::uint16_t sequence, std::uint32_t stamp, bool last = true) {
   return {.sequence = sequence,
+          .last = last,
           .stamp = stamp,
           .pts_ns = stamp,
           .arrival_s = 1.0 * sequence,
@@ -75,6 +76,16 @@ TEST(RtpPictures, ALostPacketBreaksAllPicturesUntilAWholeOne) {
   EXPECT_FALSE(broken(7, true));
   EXPECT_TRUE(broken(9, true)) << "its own beginning may be lost";
   EXPECT_EQ(pictures.lost_packets(), 3U);
+}
+
+TEST(RtpPictures, ALostEndBreaksItsPicture) {
+  for (const bool ended : {false, true}) {
+    RtpPictures pictures(90000.0);
+    pictures.add(packet(1, 100, ended));
+    pictures.add(packet(3, 200));
+    pictures.decoding(100, true);
+    EXPECT_EQ(pictures.take(100)->broken, !ended);
+  }
 }
 
 TEST(RtpPictures, APictureThatIsShownBeforeAnEarlierSentOneTakesNothingAway) {
