@@ -284,6 +284,15 @@ CueRequest read_cue(const Json& message, std::int64_t number) {
   return {number, {cue.get<std::string>(), allow.get<bool>()}, heard(message)};
 }
 
+CueRequest read_handover(const Json& message, std::int64_t number) {
+  refuse_unknown(message, {"do", "number", "mode", "heard_us"});
+  const std::string mode = text(message, "mode");
+  if (mode != "off" && mode != "propose" && mode != "automatic") {
+    throw FormError("mode must be off, propose or automatic");
+  }
+  return {number, {.cue = {}, .allow = mode != "off", .handover = mode}, heard(message)};
+}
+
 // The area itself is read where it is kept.
 AreaRequest read_area(const Json& message, std::int64_t number) {
   refuse_unknown(message, {"do", "number", "area"});
@@ -307,6 +316,7 @@ ClientMessage read(const Json& message, std::int64_t number) {
   if (what == "replay") return read_replay(message, number);
   if (what == "answer") return read_answer(message, number);
   if (what == "cue") return read_cue(message, number);
+  if (what == "handover") return read_handover(message, number);
   if (what == "name") return read_name(message, number);
   if (what == "area") return read_area(message, number);
   if (what == "remove_area") {

@@ -59,7 +59,7 @@ struct AnswerRequest {
   ProcedureAnswer answer;
   std::optional<std::int64_t> heard_utime_us;  // as with a command
 };
-// Whether stations may be led to a cue.
+// Whether stations may be led to a cue, or to what detectors find.
 struct CueRequest {
   std::int64_t number = 0;
   wire::CueOrder order;

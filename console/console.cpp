@@ -244,8 +244,10 @@ void Console::act(std::uint64_t id, const CueRequest& request, const Now& now) {
   if (!refusal.empty()) return answer(id, request.number, "", refusal);
   const bool is_target = target_named(request.order.cue).has_value();
   const std::string& cue = request.order.cue;
-  const Alarm what = is_target ? (allow ? note::allows_target(cue) : note::dismisses_target(cue))
-                               : (allow ? note::allows_cue(cue) : note::forbids_cue(cue));
+  const std::string& mode = request.order.handover;
+  const Alarm what = !mode.empty() ? note::sets_handover(mode)
+                     : is_target ? (allow ? note::allows_target(cue) : note::dismisses_target(cue))
+                                 : (allow ? note::allows_cue(cue) : note::forbids_cue(cue));
   const auto event = site_.note(noted(now.utime_us, "command", "", viewer.name, what, "sent"));
   cues_.give(request.order, {id, request.number, event}, now.monotonic_s);
 }

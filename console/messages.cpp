@@ -295,6 +295,7 @@ std::optional<FusionHeard> fusion_from(const BusMessage& message) {
               {"utime_us", f.utime},
               {"stations", fusion_stations(f)},
               {"cues", cues_of(f)},
+              {"handover", f.handover},
               {"latency_s", rounded(f.latency_s, 4)},
               {"counters", named(f.counter_name, f.counter_value)},
               {"last_error", f.last_error}};

@@ -55,11 +55,13 @@ struct Order {
   std::string label = {};
 };
 
-// An operator's decision on a cue, for the fusion.
+// An operator's decision on a cue or target, for the fusion; or on all that detectors find.
 struct CueOrder {
   std::string cue;
   bool allow = false;
   OrderId id = {};
+  // "off", "propose" or "automatic", instead of a decision on `cue`; empty: it is on `cue`.
+  std::string handover = {};
 };
 
 // A station's answer to an order, or the fusion's to an order on a cue.

@@ -105,6 +105,7 @@ bool OrderSender::send(LcmBus& bus, const CueOrder& order, std::int64_t utime_us
   message.lease_s = kLease_s;
   message.cue = order.cue;
   message.allow = order.allow ? 1 : 0;
+  message.handover = order.handover;
   return bus.publish(std::string(kCueOrderChannel), message);
 }
 

@@ -160,6 +160,12 @@ std::string FusionProcess::obey(const CueOrder& order) {
   constexpr std::size_t kSenders = 1000;  // forged ones bring any number
   if (cue_orders_.size() >= kSenders) cue_orders_.clear();
   cue_orders_[order.boot_id] = order.sequence;
+  if (order.handover) {
+    write_to_journal({.text = "hand-over: an operator sets it to " + to_string(*order.handover),
+                      .id = event::kCueOrder});
+    fusion_.set_handover(*order.handover);
+    return {};
+  }
   const bool is_target = target_named(order.cue).has_value();
   write_to_journal({.text = (is_target ? "target " : "cue ") + order.cue + ": an operator " +
                             (order.allow ? "allows"
@@ -169,7 +175,7 @@ std::string FusionProcess::obey(const CueOrder& order) {
                     .id = event::kCueOrder});
   if (fusion_.allow_cue(order.cue, order.allow)) return {};
   if (is_target) {
-    return settings_.fusion.handover.mode == HandoverMode::kOff ? "handover_off" : "no_target";
+    return fusion_.handover() == HandoverMode::kOff ? "handover_off" : "no_target";
   }
   return settings_.fusion.cues.allow == CueAllowance::kNever ? "cues_not_allowed" : "no_cue";
 }

@@ -246,8 +246,15 @@ std::variant<CueOrder, MessageRefusal> cue_order_from(const void* data, int byte
   if (!(message.lease_s > 0.0) || message.cue.size() > kLongestId) {
     return MessageRefusal::kOutOfRange;
   }
-  return CueOrder{plain_text(message.cue), message.allow != 0, message.utime,
-                  message.lease_s,         message.boot_id,    message.sequence};
+  const auto handover = handover_mode_named(message.handover);
+  if (!message.handover.empty() && !handover) return MessageRefusal::kOutOfRange;
+  return CueOrder{.cue = plain_text(message.cue),
+                  .allow = message.allow != 0,
+                  .handover = handover,
+                  .utime_us = message.utime,
+                  .lease_s = message.lease_s,
+                  .boot_id = message.boot_id,
+                  .sequence = message.sequence};
 }
 
 ols_msg::target_t to_message(const FusedTarget& target, const MessageStamp& stamp) {
@@ -323,6 +330,7 @@ ols_msg::fusion_status_t to_message(const FusionHealth& health, double latency_s
                                     const MessageStamp& stamp) {
   ols_msg::fusion_status_t message;
   fill_cues(health.cues, message);
+  message.handover = to_string(health.handover);
   stamp_message(message, health.now_us, stamp.boot_id, stamp.sequence);
   message.stations_known = static_cast<std::int32_t>(health.stations.size());
   const auto told = in_turn(health.stations, stamp.sequence);

@@ -39,10 +39,11 @@ std::variant<StationPlace, MessageRefusal> station_place_from(const std::string&
 // The boot id of the fusion that sent the status.
 std::variant<std::int64_t, MessageRefusal> fusion_boot_from(const void* data, int bytes);
 
-// An operator's decision on a cue.
+// An operator's decision on a cue or target, or on all that detectors find.
 struct CueOrder {
   std::string cue;
   bool allow = false;
+  std::optional<HandoverMode> handover{};  // instead of a decision on `cue`
   std::int64_t utime_us = 0;
   double lease_s = 0.0;
   std::int64_t boot_id = 0, sequence = 0;

@@ -224,6 +224,7 @@ FusionHealth Fusion::health(std::int64_t present_us) const {
   FusionHealth health = health_of(admission_, pointing_, unassociated_, tracks_, log_);
   health.cues = cues_.health(present_us == 0 ? now_us() : present_us);
   std::ranges::move(handover_.health(now_us()), std::back_inserter(health.cues));
+  health.handover = handover_.mode();
   return health;
 }
 

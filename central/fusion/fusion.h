@@ -57,6 +57,9 @@ class Fusion {
   // An operator's decision on a cue, or on a target by its number (target_named()). False if there
   // is no such cue or target, or if the site uses neither cues nor hand-over.
   bool allow_cue(const std::string& id, bool allow);
+  // Which targets of detections lead stations from now on.
+  void set_handover(HandoverMode mode) { handover_.set_mode(mode); }
+  HandoverMode handover() const { return handover_.mode(); }
   void end_silent_cues(std::int64_t present_us) { cues_.end_silent(present_us); }
 
   // present_us: the time for which the positions of cues are given.

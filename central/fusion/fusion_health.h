@@ -12,6 +12,7 @@
 #include "central/admission/pointing_monitor.h"
 #include "central/admission/unassociated_monitor.h"
 #include "central/cues/cue_registry.h"
+#include "central/handover/handover_policy.h"
 #include "central/tracking/track_manager.h"
 #include "conditions/alarm.h"
 
@@ -46,6 +47,7 @@ struct FusionHealth {
   std::vector<Alarm> alarms;               // current ones
   std::string last_error;
   std::vector<CueHealth> cues{};  // in the order of their ids
+  HandoverMode handover = HandoverMode::kOff;
 };
 
 FusionHealth health_of(const Admission& admission, const PointingMonitor& pointing,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "central/measurement/time_span.h"
 
@@ -37,7 +38,24 @@ CueAim aim_of(const Track& track, double acceleration_sd_m_s2) {
   return {cue, acceleration_sd_m_s2};
 }
 
+constexpr std::pair<HandoverMode, std::string_view> kModes[] = {
+    {HandoverMode::kOff, "off"},
+    {HandoverMode::kPropose, "propose"},
+    {HandoverMode::kAutomatic, "automatic"}};
+
 }  // namespace
+
+std::string to_string(HandoverMode mode) {
+  return std::string(
+      std::ranges::find(kModes, mode, [](const auto& m) { return m.first; })->second);
+}
+
+std::optional<HandoverMode> handover_mode_named(std::string_view name) {
+  for (const auto& [mode, own] : kModes) {
+    if (own == name) return mode;
+  }
+  return std::nullopt;
+}
 
 void HandoverPolicy::settle(std::int64_t now_us, const std::vector<Track>& tracks) {
   if (settled_us_ && std::abs(seconds(now_us - *settled_us_)) < kSettle_s) return;

@@ -16,6 +16,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "central/cues/cue_registry.h"
@@ -24,6 +25,9 @@
 namespace ols::fusion {
 
 enum class HandoverMode { kOff, kPropose, kAutomatic };
+// "off", "propose", "automatic".
+std::string to_string(HandoverMode mode);
+std::optional<HandoverMode> handover_mode_named(std::string_view name);
 
 struct HandoverConfig {
   HandoverMode mode = HandoverMode::kOff;
@@ -42,6 +46,9 @@ class HandoverPolicy {
 
   // Takes note of the present targets, at a limited rate.
   void settle(std::int64_t now_us, const std::vector<Track>& tracks);
+  // Changes the mode. Decisions that an operator has made stay.
+  void set_mode(HandoverMode mode) { config_.mode = mode; }
+  HandoverMode mode() const { return config_.mode; }
   // An operator's decision. False if there is no such target, or if the mode is off.
   bool order(std::int64_t target_id, bool allow);
   // The target's priority when stations are allocated; 0: it leads no station. Higher for targets

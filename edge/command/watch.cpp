@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "geometry/angles.h"
-#include "geometry/pinhole.h"
+#include "geometry/lens.h"
 
 namespace ols::station {
 namespace {

@@ -275,6 +275,13 @@ def test_an_operators_word_leads_a_station_to_a_cue(rig):
     rig.until(lambda: rig.cue("json.J1") is None, "a cue that nobody renews ends")
 
 
+def test_an_operator_sets_the_hand_over(rig):
+    assert rig.operator("handover", "automatic") == (0, "hand-over: done\n")
+    code, table = rig.operator("cues")
+    assert (code, table.splitlines()[0]) == (0, "hand-over: automatic")
+    assert rig.operator("handover", "on")[0] != 0
+
+
 def test_every_way_and_format_arrives(rig):
     rig.file.write_text(aircraft())
 

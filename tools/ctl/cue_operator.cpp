@@ -35,7 +35,7 @@ std::optional<ols_msg::fusion_status_t> CueOperator::listen(double timeout_s) {
 
 std::optional<std::string> CueOperator::give(const wire::CueOrder& order, double timeout_s) {
   reply_.reset();
-  sender_.send(bus_, {order.cue, order.allow, sender_.next_id()}, clock_utime_us());
+  sender_.send(bus_, {order.cue, order.allow, sender_.next_id(), order.handover}, clock_utime_us());
   const double end_s = clock_monotonic_s() + timeout_s;
   while (!reply_ && clock_monotonic_s() < end_s) bus_.handle(kPoll_ms);
   if (!reply_) return "no answer";

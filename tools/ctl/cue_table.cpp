@@ -8,8 +8,10 @@
 namespace ols::ctl {
 
 std::string cue_table(const ols_msg::fusion_status_t& s) {
-  if (s.cue_id.empty()) return "no cues\n";
-  std::string table =
+  std::string table;
+  if (!s.handover.empty()) table = "hand-over: " + s.handover + "\n";
+  if (s.cue_id.empty()) return table + "no cues\n";
+  table +=
       "cue                  state      target   age s   latitude deg  longitude deg   height m  "
       "1-sigma m  label\n";
   for (std::size_t i = 0; i < s.cue_id.size(); ++i) {

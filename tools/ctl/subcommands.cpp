@@ -136,6 +136,16 @@ void add_cue_commands(CLI::App& app, Words& words) {
   };
   word("allow", "Let stations be led to a cue or target (ols-ctl fusion allow CUE)", true);
   word("forbid", "Let no station be led to a cue or target any more", false);
+  auto* handover = app.add_subcommand("handover",
+                                      "Which targets of detections lead stations, until the fusion "
+                                      "restarts (ols-ctl fusion handover MODE)");
+  handover->add_option("mode", words.label, "off, propose or automatic")
+      ->required()
+      ->check(CLI::IsMember({"off", "propose", "automatic"}));
+  handover->callback([&words, of_fusion] {
+    of_fusion("handover");
+    words.cue_order = wire::CueOrder{.cue = "hand-over", .handover = words.label};
+  });
 }
 
 void add_other_commands(CLI::App& app, Words& words) {

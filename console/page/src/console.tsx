@@ -164,6 +164,7 @@ export function Console({ session, look, onLoggedOut }: Props) {
           mayCommand={mayCommand}
           onSelect={(what) => setTarget(what === target ? "" : what)}
           onCue={(cue, allow) => orders.cue(cue, allow)}
+          onHandover={(mode) => orders.handover(mode)}
         />
         <History link={link} onAcknowledge={mayCommand ? (event) => orders.acknowledge(event) : null} />
       </main>

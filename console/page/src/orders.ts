@@ -4,7 +4,7 @@ import { conditionInWords, inWords, textOfEvent } from "./conditions";
 import type { Answer, Hand, Link } from "./link";
 import type { Notices } from "./notice";
 import type { ProcedureAnswer } from "./procedure";
-import type { Area, Incident, SiteEvent } from "./site";
+import type { Area, HandoverMode, Incident, SiteEvent } from "./site";
 import { named, t } from "./words";
 
 // Of all stopped stations, while it is under way.
@@ -47,6 +47,10 @@ export class Orders {
 
   cue(cue: string, allow: boolean) {
     this.give({ do: "cue", cue, allow }, `${cue} ${t(allow ? "cue_allow" : "cue_forbid")}`);
+  }
+
+  handover(mode: HandoverMode) {
+    this.give({ do: "handover", mode }, `${t("handover_mode")}: ${named("ho", mode)}`);
   }
 
   acknowledge(event: SiteEvent) {

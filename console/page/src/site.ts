@@ -111,8 +111,10 @@ export type Cue = {
   horizontal_sd_m: number | null;
   vertical_sd_m: number | null;
 };
+export type HandoverMode = "off" | "propose" | "automatic";
 export type Fusion = {
   stale: boolean;
+  handover: HandoverMode | ""; // which targets of detections lead stations; "": it does not say
   utime_us: number;
   latency_s: number | null;
   alarms: Alarm[];

@@ -6,7 +6,7 @@ import { bearing, DASH, fixed } from "./format";
 import type { Link } from "./link";
 import { length, position, speed } from "./measures";
 import { MeasuresChoice } from "./measureschoice";
-import { isTarget, nameOf, targetState, type Cue, type Line, type Target } from "./site";
+import { isTarget, nameOf, targetState, type Cue, type HandoverMode, type Line, type Target } from "./site";
 import { named, t, Word } from "./words";
 
 type Column = { word: Word; of: (target: Target) => string | number | null; text: (target: Target, link: Link) => string };
@@ -33,7 +33,41 @@ const COLUMNS: Column[] = [
 ];
 const STATES = ["confirmed", "tentative", "coasted", "stale"];
 
-type TargetsProps = { link: Link; selected: string; mayCommand: boolean; onSelect: (pick: string) => void; onCue: (cue: string, allow: boolean) => void };
+type TargetsProps = {
+  link: Link;
+  selected: string;
+  mayCommand: boolean;
+  onSelect: (pick: string) => void;
+  onCue: (cue: string, allow: boolean) => void;
+  onHandover: (mode: HandoverMode) => void;
+};
+const HANDOVER: HandoverMode[] = ["off", "propose", "automatic"];
+
+// Which targets of detections lead stations. A choice alone changes nothing: stations may begin to turn.
+function Handover({ mode, mayCommand, onHandover }: { mode: HandoverMode; mayCommand: boolean; onHandover: TargetsProps["onHandover"] }) {
+  const [wanted, setWanted] = useState<HandoverMode | null>(null);
+  const set = () => {
+    onHandover(wanted!);
+    setWanted(null);
+  };
+  return (
+    <span class="handover">
+      <label>
+        {t("handover_mode")}
+        <select value={wanted ?? mode} disabled={!mayCommand} onChange={(e) => setWanted(e.currentTarget.value as HandoverMode)}>
+          {HANDOVER.map((one) => (
+            <option value={one}>{named("ho", one)}</option>
+          ))}
+        </select>
+      </label>
+      {mayCommand && wanted && wanted !== mode && (
+        <button type="button" onClick={set}>
+          {t("handover_set")}
+        </button>
+      )}
+    </span>
+  );
+}
 
 // The operator's word on what others know of a target, or on a target that detectors have found.
 export function WordOn({ cue, mayCommand, onCue }: { cue: Cue; mayCommand: boolean; onCue: TargetsProps["onCue"] }) {
@@ -118,17 +152,19 @@ function Heads({ sort, onSort }: { sort: Sort; onSort: (sort: Sort) => void }) {
   );
 }
 
-export function Targets({ link, selected, mayCommand, onSelect, onCue }: TargetsProps) {
+export function Targets({ link, selected, mayCommand, onSelect, onCue, onHandover }: TargetsProps) {
   const [sort, setSort] = useState<Sort>({ column: 0, down: false });
   const [state, setState] = useState("");
   const targets = sorted([...link.site.targets.values()].filter((one) => !state || targetState(one) === state), sort);
   const lines = [...link.site.lines.values()].filter((line) => !line.stale);
-  const cues = link.site.fusion?.stale ? [] : (link.site.fusion?.cues ?? []);
+  const fusion = link.site.fusion?.stale ? null : link.site.fusion;
+  const cues = fusion?.cues ?? [];
   return (
     <section class="targets" aria-label={t("targets")}>
       <header>
         <h2>{t("targets")}</h2>
         <span class="gap" />
+        {fusion?.handover && <Handover mode={fusion.handover} mayCommand={mayCommand} onHandover={onHandover} />}
         <MeasuresChoice />
         <label>
           {t("filter")}

@@ -320,6 +320,11 @@ const WORDS = {
   s_searched: ["searched", "wird gesucht"],
   s_found: ["found", "gefunden"],
   s_forbidden: ["forbidden", "untersagt"],
+  handover_mode: ["hand-over", "Übergabe"],
+  handover_set: ["set hand-over", "Übergabe stellen"],
+  ho_off: ["off", "aus"],
+  ho_propose: ["propose", "vorschlagen"],
+  ho_automatic: ["automatic", "automatisch"],
   h_waiting: ["proposed", "vorgeschlagen"],
   h_found: ["leads stations", "führt Stationen"],
   h_searched: ["lost, looked for", "verloren, wird gesucht"],
@@ -349,7 +354,7 @@ export function inLanguage<T>(both: [T, T]): T {
 }
 
 // A word for a value that comes from the server; itself if there is none.
-export function named(prefix: "s" | "k" | "v" | "c" | "p" | "o" | "g" | "h" | "i" | "t" | "m", value: string): string {
+export function named(prefix: "s" | "k" | "v" | "c" | "p" | "o" | "g" | "h" | "ho" | "i" | "t" | "m", value: string): string {
   const word = `${prefix}_${value}` as Word;
   return word in WORDS ? t(word) : value;
 }

@@ -199,6 +199,18 @@ TEST(ClientMessage, AReplayIsToldWhereToGoAndHowFast) {
   }
 }
 
+TEST(ClientMessage, TheHandOversModeIsOneOfThree) {
+  const auto message = parse_client_message(R"({"do":"handover","number":4,"mode":"propose"})");
+  const auto* request = std::get_if<CueRequest>(&message);
+  ASSERT_NE(request, nullptr);
+  EXPECT_EQ(request->order.handover, "propose");
+  EXPECT_TRUE(request->order.allow) << "must come in time";
+  for (const char* wrong : {R"({"do":"handover"})", R"({"do":"handover","mode":"on"})",
+                            R"({"do":"handover","mode":true})"}) {
+    EXPECT_TRUE(std::holds_alternative<Refused>(parse_client_message(wrong))) << wrong;
+  }
+}
+
 TEST(ClientMessage, AWordOnACue) {
   const auto message =
       parse_client_message(R"({"do":"cue","number":4,"cue":"tak.A B","allow":true})");

@@ -447,6 +447,9 @@ TEST(Console, AnOperatorsWordOnACueGoesOutAndAViewersDoesNot) {
   console.take(operating, R"({"do":"cue","number":9,"cue":"12","allow":false})", {1.2, 6});
   EXPECT_EQ(console.take_cue_orders().at(0).cue, "12");
   EXPECT_EQ(console.state({1.2, 6}).at("events")[1].at("text"), "dismisses target 12");
+  console.take(operating, R"({"do":"handover","number":9,"mode":"automatic"})", {1.3, 6});
+  EXPECT_EQ(console.take_cue_orders().at(0).handover, "automatic");
+  EXPECT_EQ(console.state({1.3, 6}).at("events")[2].at("text"), "sets the hand-over to automatic");
   console.replay_is({{"name", "x"}}, true);
   console.take(operating, allow, {2.0, 6});
   EXPECT_TRUE(console.take_cue_orders().empty()) << "what was is not commanded";

@@ -62,6 +62,12 @@ TEST(CueMessages, AnOperatorsWordOnACueIsRead) {
   EXPECT_TRUE(std::get<CueOrder>(said).allow);
   EXPECT_EQ(std::get<CueOrder>(said).utime_us, 9);
   EXPECT_EQ(std::get<CueOrder>(said).sequence, 3);
+  EXPECT_FALSE(std::get<CueOrder>(said).handover);
+  order.handover = "propose";
+  EXPECT_EQ(std::get<CueOrder>(word(encoded(order))).handover, HandoverMode::kPropose);
+  order.handover = "on";
+  EXPECT_EQ(std::get<MessageRefusal>(word(encoded(order))), MessageRefusal::kOutOfRange);
+  order.handover = {};
   order.lease_s = std::nan("");
   EXPECT_EQ(std::get<MessageRefusal>(word(encoded(order))), MessageRefusal::kOutOfRange);
 }

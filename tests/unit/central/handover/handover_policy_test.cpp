@@ -57,6 +57,22 @@ class TheHandoverPolicy : public testing::Test {
   }
 };
 
+TEST_F(TheHandoverPolicy, ItsModeChangesAtOnceAndDecisionsStay) {
+  HandoverPolicy handover = with(HandoverMode::kOff);
+  const Track track = track_of(1, true);
+  handover.settle(kStart, {track});
+  EXPECT_EQ(handover.priority(track), 0.0);
+  handover.set_mode(HandoverMode::kAutomatic);
+  EXPECT_GT(handover.priority(track), 0.0);
+  EXPECT_TRUE(handover.order(1, false));
+  handover.set_mode(HandoverMode::kPropose);
+  EXPECT_EQ(state(handover), CueState::kForbidden);
+  for (const auto mode : {HandoverMode::kOff, HandoverMode::kPropose, HandoverMode::kAutomatic}) {
+    EXPECT_EQ(handover_mode_named(to_string(mode)), mode);
+  }
+  EXPECT_FALSE(handover_mode_named(""));
+}
+
 TEST_F(TheHandoverPolicy, OffTargetsOfDetectionsLeadNobodyAndDesignatedOnesDo) {
   HandoverPolicy off = with(HandoverMode::kOff);
   const std::vector<Track> tracks = {track_of(1, true), track_of(2, false)};
