@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "base/files/small_file.h"
-#include "export/geoid.h"
+#include "land/geoid.h"
 
 namespace ols::exports {
 namespace {
@@ -23,7 +23,7 @@ std::vector<Format> formats_of(const ExportConfig& config) {
 SiteContext site_context(const ExportConfig& config, const std::vector<Format>& formats) {
   SiteContext site{config.site};
   try {
-    const auto geoid = std::make_shared<const Geoid>(config.geoid);
+    const auto geoid = std::make_shared<const land::Geoid>(config.geoid);
     site.geoid_m = [geoid](double latitude_deg, double longitude_deg) {
       return geoid->height_m(latitude_deg, longitude_deg);
     };

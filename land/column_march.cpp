@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "geometry/angles.h"
@@ -10,7 +11,8 @@ namespace ols::land {
 namespace {
 
 constexpr double kKnots_m = 1000.0;  // quadratic between them: micrometres
-constexpr int kCrestHalvings = 12;   // golden sections: a cell in 300
+constexpr double kPerKnot = 1.0 / kKnots_m;
+constexpr int kCrestHalvings = 12;  // golden sections: a cell in 300
 
 // The vertical plane of one azimuth. A point Q(s) on the camera's horizontal plane, s metres away,
 // is `height` above the ellipsoid; below it, on the ellipsoid's normal, lies the land.
@@ -25,9 +27,10 @@ class VerticalPlane {
       : frame_(frame), along_enu_(std::sin(azimuth_rad), std::cos(azimuth_rad), 0.0) {}
 
   Below at(double s_m) {
-    const auto piece = static_cast<int>(s_m / kKnots_m);
+    const double knots = s_m * kPerKnot;
+    const auto piece = static_cast<int>(knots);
     if (piece != piece_) load(piece);
-    const double t = 2.0 * (s_m / kKnots_m - piece);  // 0..2: the middle is 1
+    const double t = 2.0 * (knots - piece);  // 0..2: the middle is 1
     const double first = 0.5 * (t - 1.0) * (t - 2.0);
     const double middle = t * (2.0 - t);
     const double last = 0.5 * t * (t - 1.0);
@@ -62,10 +65,10 @@ class VerticalPlane {
 };
 
 struct Sample {
-  double s_m = 0.0;  // where on the horizontal plane it was asked for
-  double elevation_rad = 0.0;
+  double s_m = 0.0;      // where on the horizontal plane it was asked for
+  double tangent = 0.0;  // of the apparent elevation
   double distance_m = 0.0;
-  double elevation_sd_rad = 0.0;
+  double sd_m = 0.0;  // of the height
 };
 
 class ColumnMarch {
@@ -114,20 +117,19 @@ class ColumnMarch {
     const Below below = plane_.at(s_m);
     const auto land = land_at(below.latitude_rad, below.longitude_rad);
     if (!land) return std::nullopt;
-    const double lowered_m = settings_.lowered_m * std::max(0.0, 1.0 - s_m / kLowered_m);
+    const double lowered_m =
+        s_m < kLowered_m ? settings_.lowered_m * (1.0 - s_m / kLowered_m) : 0.0;
     const double drop_m = below.height_m - land->height_m + lowered_m;
     Sample sample{.s_m = s_m, .distance_m = s_m - drop_m * below.normal_along};
-    const double bend = refraction_slope(1.0, sample.distance_m);
-    const double up_m = -drop_m * below.normal_up;
-    sample.elevation_rad = std::atan(up_m / sample.distance_m + settings_.refraction_k * bend);
-    sample.elevation_sd_rad = std::hypot(std::hypot(land->sd_m, lowered_m) / sample.distance_m,
-                                         settings_.refraction_k_sd * bend);
+    sample.tangent = -drop_m * below.normal_up / sample.distance_m +
+                     refraction_slope(settings_.refraction_k, sample.distance_m);
+    sample.sd_m = lowered_m > 0.0 ? std::hypot(land->sd_m, lowered_m) : land->sd_m;
     return sample;
   }
 
   // The highest sample is held back until the next one tells whether it was a crest.
   void take(const Sample& sample) {
-    if (!highest_ || sample.elevation_rad > highest_->elevation_rad) {
+    if (!highest_ || sample.tangent > highest_->tangent) {
       if (is_crest_pending_) {
         add(*highest_, false);
       } else if (highest_) {
@@ -147,13 +149,13 @@ class ColumnMarch {
   Sample emergence(const Sample& seen) const {
     if (!last_) {
       Sample edge = seen;
-      edge.elevation_rad = highest_->elevation_rad;
+      edge.tangent = highest_->tangent;
       return edge;
     }
-    const double rise_rad = seen.elevation_rad - last_->elevation_rad;
-    const double share = (highest_->elevation_rad - last_->elevation_rad) / rise_rad;
+    const double rise = seen.tangent - last_->tangent;
+    const double share = (highest_->tangent - last_->tangent) / rise;
     Sample edge = seen;
-    edge.elevation_rad = highest_->elevation_rad;
+    edge.tangent = highest_->tangent;
     edge.distance_m = last_->distance_m + share * (seen.distance_m - last_->distance_m);
     return edge;
   }
@@ -166,8 +168,8 @@ class ColumnMarch {
     Sample best = *highest_;
     const auto height = [&](double s_m) {
       const auto sample = sample_at(s_m);
-      if (sample && sample->elevation_rad > best.elevation_rad) best = *sample;
-      return sample ? sample->elevation_rad : -kPi;
+      if (sample && sample->tangent > best.tangent) best = *sample;
+      return sample ? sample->tangent : -std::numeric_limits<double>::infinity();
     };
     double left_m = to_m - kGolden * (to_m - from_m), right_m = from_m + kGolden * (to_m - from_m);
     double left = height(left_m), right = height(right_m);
@@ -197,7 +199,10 @@ class ColumnMarch {
   void add(const Sample& sample, bool corner) {
     // A crest refined on the front of a wall may lie before the place where it came into view.
     added_m_ = std::max(added_m_, sample.distance_m);
-    builder_.add(sample.elevation_rad, added_m_, sample.elevation_sd_rad, cell_m(added_m_), corner);
+    const double sd_rad =
+        std::hypot(sample.sd_m / sample.distance_m,
+                   refraction_slope(settings_.refraction_k_sd, sample.distance_m));
+    builder_.add(std::atan(sample.tangent), added_m_, sd_rad, cell_m(added_m_), corner);
   }
 
   const Surface& surface_;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <span>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -66,11 +67,12 @@ Standing standing_of(const Surface& surface, const Geodetic& camera) {
   }
   const double above_m = camera.height_m - ground->height_m;
   if (!(above_m > -3.0 * ground->sd_m)) {
-    throw std::invalid_argument(
-        "the camera is " + std::to_string(std::lround(-above_m)) +
-        " m under the ground of the surface, which states an error of " +
-        std::to_string(ground->sd_m) +
-        " m: the camera's height, the surface's vertical datum or its place is wrong");
+    std::ostringstream text;
+    text << "the camera is " << std::lround(-above_m)
+         << " m under the ground of the surface, which "
+         << "states an error of " << ground->sd_m << " m: the camera's height, the surface's "
+         << "vertical datum or its place is wrong";
+    throw std::invalid_argument(text.str());
   }
   const auto top = surface.top(camera.latitude_rad, camera.longitude_rad);
   return {std::max(0.0, HorizonMap::kLeastAboveGround_m - above_m),

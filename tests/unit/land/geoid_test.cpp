@@ -1,10 +1,10 @@
-#include "export/geoid.h"
+#include "land/geoid.h"
 
 #include <gtest/gtest.h>
 
 #include <stdexcept>
 
-namespace ols::exports {
+namespace ols::land {
 namespace {
 
 // Of NGA's test values for EGM96 (OUTPUT.DAT of its program F477), by longitude east: within the
@@ -29,4 +29,4 @@ TEST(Geoid, WithoutAGridThereIsNone) {
 }
 
 }  // namespace
-}  // namespace ols::exports
+}  // namespace ols::land

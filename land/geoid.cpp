@@ -1,14 +1,14 @@
-#include "export/geoid.h"
+#include "land/geoid.h"
 
 #include <proj.h>
 
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
-#include "export/records.h"
 #include "geometry/angles.h"
 
-namespace ols::exports {
+namespace ols::land {
 
 struct Geoid::Grid {
   ~Grid() {
@@ -39,7 +39,7 @@ double Geoid::height_m(double latitude_deg, double longitude_deg) const {
   const PJ_COORD on_ellipsoid = proj_coord(radians(longitude_deg), radians(latitude_deg), 0.0, 0.0);
   const double above_sea_m = proj_trans(grid_->shift, PJ_FWD, on_ellipsoid).lpz.z;
   proj_errno_reset(grid_->shift);
-  return std::isfinite(above_sea_m) ? -above_sea_m : kUnknown;
+  return std::isfinite(above_sea_m) ? -above_sea_m : std::numeric_limits<double>::quiet_NaN();
 }
 
-}  // namespace ols::exports
+}  // namespace ols::land

@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-namespace ols::exports {
+namespace ols::land {
 
 class Geoid {
  public:
@@ -24,4 +24,4 @@ class Geoid {
   std::unique_ptr<Grid> grid_;
 };
 
-}  // namespace ols::exports
+}  // namespace ols::land

@@ -1,0 +1,160 @@
+#include "land/terrain_folder.h"
+
+#include <fcntl.h>
+#include <sodium.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <bit>
+#include <cerrno>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include "geometry/angles.h"
+
+namespace ols::land {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kManifest = "land.json";
+constexpr const char* kCoverings = "coverings.json";
+static_assert(std::endian::native == std::endian::little, "grids are mapped as they are");
+
+std::string sha256(const void* bytes, std::size_t size) {
+  std::array<unsigned char, crypto_hash_sha256_BYTES> sum{};
+  crypto_hash_sha256(sum.data(), static_cast<const unsigned char*>(bytes), size);
+  std::string hex(2 * sum.size() + 1, '\0');
+  sodium_bin2hex(hex.data(), hex.size(), sum.data(), sum.size());
+  hex.pop_back();
+  return hex;
+}
+
+class MappedFile {
+ public:
+  explicit MappedFile(const std::string& path) {
+    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    struct stat status {};
+    const bool is_file = file >= 0 && ::fstat(file, &status) == 0 && S_ISREG(status.st_mode);
+    if (!is_file) {
+      const int why = file < 0 ? errno : EINVAL;  // a folder or a pipe
+      if (file >= 0) ::close(file);
+      throw std::system_error(why, std::generic_category(), path);
+    }
+    size_ = static_cast<std::size_t>(status.st_size);
+    if (size_ > 0) bytes_ = ::mmap(nullptr, size_, PROT_READ, MAP_SHARED, file, 0);
+    const int why = errno;
+    ::close(file);
+    if (bytes_ == MAP_FAILED) throw std::system_error(why, std::generic_category(), path);
+  }
+  ~MappedFile() {
+    if (size_ > 0) ::munmap(bytes_, size_);
+  }
+  MappedFile(const MappedFile&) = delete;
+  MappedFile& operator=(const MappedFile&) = delete;
+
+  const void* bytes() const { return bytes_; }
+  std::string_view text() const { return {static_cast<const char*>(bytes_), size_}; }
+  std::string sum() const { return sha256(bytes_, size_); }
+  std::size_t size() const { return size_; }
+
+ private:
+  void* bytes_ = nullptr;
+  std::size_t size_ = 0;
+};
+
+using Mapped = std::vector<std::unique_ptr<const MappedFile>>;
+
+HeightGrid map_grid(const std::string& folder, const GridFile& form, Mapped& mapped) {
+  const std::string path = folder + "/" + form.file;
+  const auto& file = *mapped.emplace_back(std::make_unique<MappedFile>(path));
+  const std::size_t heights =
+      static_cast<std::size_t>(form.rows) * static_cast<std::size_t>(form.columns);
+  if (file.size() != heights * sizeof(float)) {
+    throw std::runtime_error(path + ": has " + std::to_string(file.size()) + " bytes, not " +
+                             std::to_string(heights * sizeof(float)));
+  }
+  if (file.sum() != form.sha256) {
+    throw std::runtime_error(path + ": is damaged: its SHA-256 is not that of " + kManifest);
+  }
+  return height_grid(form, {static_cast<const float*>(file.bytes()), heights});
+}
+
+template <class Parse>
+auto parse_file(const std::string& path, const MappedFile& file, Parse parse) {
+  try {
+    return parse(file.text());
+  } catch (const std::invalid_argument& wrong) {
+    throw std::runtime_error(path + ": " + wrong.what());
+  }
+}
+
+void write_file(const std::string& path, const void* bytes, std::size_t size) {
+  std::ofstream file(path, std::ios::binary);
+  file.write(static_cast<const char*>(bytes), static_cast<std::streamsize>(size));
+  file.close();
+  if (!file) throw std::runtime_error(path + ": cannot be written");
+}
+
+}  // namespace
+
+HeightGrid height_grid(const GridFile& form, std::span<const float> heights_m) {
+  return {radians(form.north_deg),
+          radians(form.west_deg),
+          radians(form.step_latitude_deg),
+          radians(form.step_longitude_deg),
+          form.rows,
+          form.columns,
+          form.sd_m,
+          heights_m};
+}
+
+TerrainFolder read_terrain_folder(const std::string& path) {
+  TerrainFolder folder;
+  const std::string manifest_path = path + "/" + kManifest,
+                    coverings_path = path + "/" + kCoverings;
+  const MappedFile manifest(manifest_path), coverings(coverings_path);
+  folder.manifest = parse_file(manifest_path, manifest, parse_manifest);
+  folder.version = manifest.sum().substr(0, 12);
+  if (coverings.sum() != folder.manifest.coverings_sha256) {
+    throw std::runtime_error(coverings_path + ": is damaged: its SHA-256 is not that of " +
+                             kManifest);
+  }
+  auto mapped = std::make_shared<Mapped>();
+  std::vector<HeightGrid> grids;
+  for (const GridFile& form : folder.manifest.grids) grids.push_back(map_grid(path, form, *mapped));
+  folder.terrain = std::make_shared<const Terrain>(
+      grids, parse_file(coverings_path, coverings, parse_coverings), mapped);
+  return folder;
+}
+
+void write_terrain_folder(const std::string& path, Manifest manifest,
+                          const std::vector<NewGrid>& grids,
+                          const std::vector<Covering>& coverings) {
+  if (fs::exists(path)) throw std::runtime_error(path + ": exists");
+  const std::string unfinished = path + ".unfinished";
+  fs::remove_all(unfinished);
+  fs::create_directories(unfinished);
+  manifest.grids.clear();
+  for (const NewGrid& grid : grids) {
+    GridFile& form = manifest.grids.emplace_back(grid.form);
+    const std::size_t size = grid.heights_m.size() * sizeof(float);
+    form.file = "heights-" + std::to_string(manifest.grids.size()) + ".f32";
+    form.sha256 = sha256(grid.heights_m.data(), size);
+    write_file(unfinished + "/" + form.file, grid.heights_m.data(), size);
+  }
+  const std::string covering_text = to_text(coverings);
+  manifest.coverings_sha256 = sha256(covering_text.data(), covering_text.size());
+  write_file(unfinished + "/" + kCoverings, covering_text.data(), covering_text.size());
+  const std::string manifest_text = to_text(manifest);
+  write_file(unfinished + "/" + kManifest, manifest_text.data(), manifest_text.size());
+  fs::rename(unfinished, path);
+}
+
+}  // namespace ols::land
