@@ -24,6 +24,11 @@ find_package(nlohmann_json REQUIRED)
 find_package(spdlog REQUIRED)
 find_package(Threads REQUIRED)
 
+find_package(GDAL 3.6 REQUIRED)
+add_library(ols_gdal INTERFACE)
+target_link_libraries(ols_gdal INTERFACE ${GDAL_LIBRARIES})
+target_include_directories(ols_gdal SYSTEM INTERFACE ${GDAL_INCLUDE_DIRS})
+
 find_library(GeographicLib_LIBRARY NAMES GeographicLib Geographic REQUIRED)
 find_path(GeographicLib_INCLUDE_DIR GeographicLib/Geocentric.hpp REQUIRED)
 add_library(GeographicLib::lib INTERFACE IMPORTED)

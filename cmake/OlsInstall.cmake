@@ -10,7 +10,7 @@ set(OLS_PYTHON_INSTALL_DIR lib/python3/dist-packages CACHE STRING "Where the Pyt
 add_custom_target(shipped)
 foreach(program IN ITEMS ols-station ols-fusion ols-ctl ols-doctor ols-logger ols-track ols-fuse
                          ols-precision ols-stationing ols-calibrate ols-console ols-bridge ols-cue ols-export ols-exporter
-                         ols-key ols-setup)
+                         ols-key ols-land ols-setup)
   install(TARGETS ${program} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
   add_dependencies(shipped ${program})
 endforeach()

@@ -1,0 +1,34 @@
+// GDAL's files, closed at their end, and what GDAL says of them: kept for an exception's text.
+#pragma once
+
+#include <cpl_error.h>
+#include <gdal_priv.h>
+
+#include <memory>
+#include <string>
+
+namespace ols::land {
+
+struct CloseDataset {
+  void operator()(GDALDataset* dataset) const { GDALClose(dataset); }
+};
+using Dataset = std::unique_ptr<GDALDataset, CloseDataset>;
+
+// While it lives, GDAL writes nothing to the terminal.
+class QuietGdal {
+ public:
+  QuietGdal() {
+    CPLPushErrorHandler(CPLQuietErrorHandler);
+    CPLErrorReset();
+  }
+  ~QuietGdal() { CPLPopErrorHandler(); }
+  QuietGdal(const QuietGdal&) = delete;
+  QuietGdal& operator=(const QuietGdal&) = delete;
+};
+
+inline std::string gdal_error() {
+  const std::string text = CPLGetLastErrorMsg();
+  return text.empty() ? "no reason is given" : text;
+}
+
+}  // namespace ols::land
