@@ -54,7 +54,9 @@ def sum_of(text: str) -> str:
 # Of the fields of each former message: their logs must be read for ever.
 FORMER = {
     "bearing_v1": "31ee93e4",
+    "cue_order_v1": "b07b09c1",
     "fusion_status_v1": "5eae55e2",
+    "fusion_status_v2": "bc400360",
     "station_status_v1": "f51c5e11",
     "target_v1": "7ceb0a14",
     "video_frame_v1": "3273b474",
