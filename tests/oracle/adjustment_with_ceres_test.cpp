@@ -93,7 +93,8 @@ class AdjustmentWithCeres : public testing::Test {
       for (int i = 0; i < 2; ++i) one.pixel[i] += 0.4 * noise(random);
       one.reading.pan.approach = noise(random) > 0.0 ? 1 : -1;
     }
-    const StationMatrix& C = problem.stations[0].covariance;
+    StationMatrix& C = problem.stations[0].covariance;
+    for (const int k : {kK3, kK4}) C(k, k) = 1.0;
     for (int i = 0; i < kStationParameters; ++i) unit[i] = std::sqrt(C(i, i));
     unit[kHeading] = kHeadingUnit_rad;
   }

@@ -30,9 +30,11 @@ struct NightOptions {
 // A unit as drawn from the priors of a station.
 inline StationModel drawn(std::mt19937_64& random, const StationPrior& prior) {
   std::normal_distribution<double> normal;
-  ModelParameters by;
+  ModelParameters by = ModelParameters::Zero();
   for (int k = 0; k < kModelParameters; ++k) {
-    by[k] = std::sqrt(prior.covariance(k, k)) * normal(random);
+    const double sd = std::sqrt(prior.covariance(k, k));
+    const bool of_wide_lenses = k == kK3 || k == kK4;
+    if (sd > 0.0 || !of_wide_lenses) by[k] = sd * normal(random);
   }
   by[kHeading] = std::uniform_real_distribution<double>(0.0, 2.0 * kPi)(random);
   return changed(prior.model, by);

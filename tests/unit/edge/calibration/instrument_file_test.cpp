@@ -33,7 +33,6 @@ TEST(InstrumentFile, AnOlderFileHasItsK3) {
   const Instrument read =
       read_instrument(files.path + "/instrument.toml", new_instrument(station::test::settings()));
   EXPECT_EQ(read.values[kK3], 0.25);
-  EXPECT_EQ(read.covariance(kK3, kK3), 0.0);
 }
 
 TEST(InstrumentFile, OfAFixedWideCamera) {

@@ -58,12 +58,12 @@ std::size_t nearest(const World& world, const Fix& fix) {
 TEST(WideCameras, FiveObjectsAtOnceWithoutAnExchange) {
   const World world(wide(), 1);
   Lockstep site(world, nobody_designates(world.scenario()));
-  site.run(40.0);
+  site.run(25.0);
   std::map<std::int64_t, std::set<std::size_t>> objects_of;
   std::map<std::size_t, std::set<std::int64_t>> targets_of;
   std::map<std::size_t, double> last_s;
   for (const Fix& fix : site.result().joint) {
-    if (fix.time_s < 12.0) continue;
+    if (fix.time_s < 10.0) continue;
     const std::size_t object = nearest(world, fix);
     objects_of[fix.target_id].insert(object);
     targets_of[object].insert(fix.target_id);
@@ -73,7 +73,7 @@ TEST(WideCameras, FiveObjectsAtOnceWithoutAnExchange) {
   for (const auto& [id, objects] : objects_of) EXPECT_EQ(objects.size(), 1U) << "target " << id;
   for (const auto& [object, targets] : targets_of) {
     EXPECT_EQ(targets.size(), 1U) << "object " << object;
-    EXPECT_GT(last_s[object], 39.0);
+    EXPECT_GT(last_s[object], 24.0);
   }
 }
 
