@@ -24,23 +24,16 @@ constexpr double kStampClock_hz = 90'000.0;
 constexpr std::uint64_t kNtpMinusUtc_s = 2'208'988'800U;
 constexpr double kIdle_s = 0.05;
 
+// x264 is not everywhere; JPEG is.
 std::string launch_line(const RtspServerConfig& c) {
-  const std::string kbit_s = std::to_string(c.kbit_s), key_every = std::to_string(c.key_every);
   const std::string source = "( appsrc name=source is-live=true format=time block=false ! ";
-  switch (c.codec) {
-    case VideoCodec::kH264:
-      return source +
-             "x264enc tune=zerolatency speed-preset=ultrafast threads=1 key-int-max=" + key_every +
-             " bitrate=" + kbit_s +
-             " ! rtph264pay name=pay0 config-interval=-1 timestamp-offset=0 )";
-    case VideoCodec::kH265:
-      return source + "x265enc tune=zerolatency speed-preset=ultrafast key-int-max=" + key_every +
-             " bitrate=" + kbit_s +
-             " ! rtph265pay name=pay0 config-interval=-1 timestamp-offset=0 )";
-    case VideoCodec::kJpeg:
-      break;
-  }
-  return source + "jpegenc quality=85 ! rtpjpegpay name=pay0 timestamp-offset=0 )";
+  GstElementFactory* x264 = gst_element_factory_find("x264enc");
+  if (x264 != nullptr) gst_object_unref(x264);
+  if (c.codec == VideoCodec::kJpeg || x264 == nullptr)
+    return source + "jpegenc quality=85 ! rtpjpegpay name=pay0 timestamp-offset=0 )";
+  return source + "x264enc tune=zerolatency speed-preset=ultrafast threads=1 key-int-max=" +
+         std::to_string(c.key_every) + " bitrate=" + std::to_string(c.kbit_s) +
+         " ! rtph264pay name=pay0 config-interval=-1 timestamp-offset=0 )";
 }
 
 // The gray image as luma, without colour.

@@ -13,7 +13,7 @@
 
 namespace ols::sim {
 
-enum class VideoCodec { kH264, kH265, kJpeg };
+enum class VideoCodec { kH264, kJpeg };
 
 struct RtspServerConfig {
   std::string address;         // of an interface

@@ -5,7 +5,8 @@
 namespace ols::camera {
 namespace {
 
-constexpr int kEvery = 8;  // rows: a live picture has noise everywhere
+constexpr std::size_t kMostSeen = 1000;  // pictures: some key frame intervals
+constexpr int kEvery = 8;                // rows: a live picture has noise everywhere
 
 std::uint64_t print_of(const cv::Mat& gray) {
   std::uint64_t print = 14695981039346656037ULL;  // FNV-1a, by words
@@ -24,9 +25,8 @@ std::uint64_t print_of(const cv::Mat& gray) {
 }  // namespace
 
 double PictureChange::unchanged_s(const cv::Mat& gray, double arrival_s) {
-  const std::uint64_t print = print_of(gray);
-  if (print_ != print) since_s_ = arrival_s;
-  print_ = print;
+  if (seen_.size() > kMostSeen) seen_.clear();
+  if (seen_.insert(print_of(gray)).second) since_s_ = arrival_s;
   return arrival_s - since_s_;
 }
 

@@ -1,19 +1,20 @@
-// Notices a picture that stays the same to the last bit: a frozen camera. Pure.
+// Notices a camera that is frozen: no picture is new to the last bit. An encoder makes the same few
+// pictures of a frozen image again and again, one for each place between two key frames. Pure.
 #pragma once
 
 #include <cstdint>
 #include <opencv2/core.hpp>
-#include <optional>
+#include <unordered_set>
 
 namespace ols::camera {
 
 class PictureChange {
  public:
-  // For how long the picture has been the same.
+  // For how long there was no new picture.
   double unchanged_s(const cv::Mat& gray, double arrival_s);
 
  private:
-  std::optional<std::uint64_t> print_;
+  std::unordered_set<std::uint64_t> seen_;
   double since_s_ = 0.0;
 };
 

@@ -46,10 +46,18 @@ void RtpPictures::add(const RtpPacket& packet) {
 
 void RtpPictures::decoding(std::uint64_t pts_ns, bool whole) {
   Entry* entry = find(pts_ns);
+  // Pictures of which too little was left for the decoder.
+  for (Entry& before : entries_) {
+    if (entry == nullptr || before.picture.number >= entry->picture.number) break;
+    broken_ |= !before.decoding;
+    before.decoding = true;
+  }
   if (whole) broken_ = false;
   // A whole picture with a gap before it may have lost its own beginning.
   if (entry == nullptr || entry->lost_here) broken_ = true;
-  if (entry != nullptr) entry->picture.broken = broken_;
+  if (entry == nullptr) return;
+  entry->decoding = true;
+  entry->picture.broken = broken_;
 }
 
 std::optional<RtpPicture> RtpPictures::take(std::uint64_t pts_ns) {

@@ -46,6 +46,7 @@ class RtpPictures {
     std::uint64_t pts_ns = 0;
     RtpPicture picture;
     bool lost_here = false;
+    bool decoding = false;
   };
   Entry* find(std::uint64_t pts_ns);
 

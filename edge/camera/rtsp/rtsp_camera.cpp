@@ -64,12 +64,12 @@ struct RtspCamera::Impl {
   CameraHandover handover_;
   RtspClock clock_;
   RetryPause pause_;
+  PictureChange change_;      // over connections: a frozen camera sends the same picture again
   std::uint64_t number_ = 0;  // of the last frame
   std::uint64_t lost_packets_ = 0, switches_ = 0;
 
   // Of one connection.
   FrameStatistics statistics_;
-  PictureChange change_;
   std::uint64_t first_number_ = 0;
   std::optional<double> first_s_, last_s_;  // arrivals of good frames
   std::uint64_t lost_here_ = 0;
@@ -113,7 +113,6 @@ void RtspCamera::Impl::wait_for_other_password(const std::string& refused) {
 
 void RtspCamera::Impl::connect(const std::string& password) {
   statistics_ = {};
-  change_ = {};
   first_number_ = number_;
   first_s_.reset();
   last_s_.reset();

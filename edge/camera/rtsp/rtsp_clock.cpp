@@ -10,9 +10,12 @@ namespace {
 constexpr double kSigmas = 5.0;
 constexpr std::int64_t kNewReport_ns = 50'000;  // rounding of the stamps alone makes less
 constexpr double kStep_s = 0.1;                 // between two reports: the clock was set
-constexpr int kSteady = 2;                      // reports after such a step, before they count
+constexpr double kSteady_s = 12.0;              // after that it counts again: two reports
+constexpr double kLyingRate = 5e-3;             // no oscillator is so bad
 constexpr double kSmoothing = 0.2;
-constexpr int kLearnFrom = 720;      // reports, an hour: a slow drift shows against their mean
+constexpr double kLearnEvery_s = 5.0;
+constexpr int kLearnt = 6;  // times; the first reports may be of another clock than the camera's
+constexpr int kLearnFrom = 720;      // times, an hour: a slow drift shows against their mean
 constexpr double kForget_s = 600.0;  // reports refused for so long may have become right
 
 }  // namespace
@@ -20,7 +23,7 @@ constexpr double kForget_s = 600.0;  // reports refused for so long may have bec
 void RtspClock::restart() {
   arrivals_.clear();
   report_ns_.reset();
-  steady_reports_ = 0;
+  stepped_s_.reset();
   step_square_s2_ = 0.0;
 }
 
@@ -34,32 +37,35 @@ std::optional<double> RtspClock::rate() const {
 
 // `report_ns`: UTC minus stamp by the camera; `offset_ns`: the station's monotonic time minus
 // stamp.
-void RtspClock::note_report(std::int64_t report_ns, std::int64_t offset_ns) {
-  report_is_new_ = !report_ns_ || std::abs(report_ns - *report_ns_) > kNewReport_ns;
-  if (!report_is_new_) return;
-  if (report_ns_) {
+void RtspClock::note_report(std::int64_t report_ns, std::int64_t offset_ns, double arrival_s) {
+  const bool is_first = !report_ns_;
+  if (!is_first && std::abs(report_ns - *report_ns_) <= kNewReport_ns) return;
+  if (!is_first) {
     const double step_s = 1e-9 * static_cast<double>(offset_ns - report_offset_ns_);
-    const bool stepped = std::abs(step_s) > kStep_s;
-    steady_reports_ = stepped ? 0 : steady_reports_ + 1;
-    if (!stepped) step_square_s2_ += kSmoothing * (step_s * step_s - step_square_s2_);
-  } else {
-    steady_reports_ = kSteady;  // nothing to compare the first with
+    if (std::abs(step_s) > kStep_s)
+      stepped_s_ = arrival_s;
+    else
+      step_square_s2_ += kSmoothing * (step_s * step_s - step_square_s2_);
   }
   report_ns_ = report_ns;
   report_offset_ns_ = offset_ns;
 }
 
-// Not before the exposure, not later than the configured delay allows, and as ever.
-bool RtspClock::credible(double delay_s, double sd_s) const {
-  if (steady_reports_ < kSteady) return false;
+// Not before the exposure, not later than the configured delay allows, and as ever; by a clock that
+// was not set just now, and with stamps that run as time does.
+bool RtspClock::credible(double delay_s, double sd_s, double arrival_s) const {
+  if (stepped_s_ && arrival_s - *stepped_s_ < kSteady_s) return false;
+  if (std::abs(rate().value_or(1.0) - 1.0) > kLyingRate) return false;
   const double slack_s = kSigmas * sd_s;
   if (delay_s < -slack_s) return false;
   if (delay_s > config_.delay_s + kSigmas * config_.delay_sd_s + slack_s) return false;
-  return learnt_from_ == 0 || std::abs(delay_s - learnt_delay_s_) < slack_s;
+  return learnt_from_ < kLearnt || std::abs(delay_s - learnt_delay_s_) < slack_s;
 }
 
-void RtspClock::learn(double delay_s) {
-  if (!report_is_new_ && learnt_from_ > 0) return;
+void RtspClock::learn(double delay_s, double arrival_s) {
+  if (learnt_from_ > 0 && arrival_s - learnt_s_ < kLearnEvery_s) return;
+  learnt_s_ = arrival_s;
+  if (learnt_from_ < kLearnt && std::abs(delay_s - learnt_delay_s_) > kStep_s) learnt_from_ = 0;
   learnt_from_ = std::min(learnt_from_ + 1, kLearnFrom);
   learnt_delay_s_ += (delay_s - learnt_delay_s_) / learnt_from_;
 }
@@ -79,13 +85,14 @@ FrameTime RtspClock::stamp(const RtspStamp& picture, std::int64_t utc_minus_mono
   refused_delay_s_.reset();
   if (picture.report_utc_ns) {
     const std::int64_t monotonic_ns = *picture.report_utc_ns - utc_minus_monotonic_ns;
-    note_report(*picture.report_utc_ns - picture.device_ns, monotonic_ns - picture.device_ns);
+    note_report(*picture.report_utc_ns - picture.device_ns, monotonic_ns - picture.device_ns,
+                picture.arrival_s);
     const MappedTime reported{
         .time_s = 1e-9 * static_cast<double>(monotonic_ns) - config_.report_delay_s,
         .sd_s = std::hypot(config_.report_sd_s, std::sqrt(step_square_s2_))};
     const double delay_s = arrival.time_s - reported.time_s;
-    if (credible(delay_s, std::hypot(reported.sd_s, arrival.sd_s))) {
-      learn(delay_s);
+    if (credible(delay_s, std::hypot(reported.sd_s, arrival.sd_s), picture.arrival_s)) {
+      learn(delay_s, picture.arrival_s);
       time = reported;
       source = StampSource::kCamera;
       refused_since_s_.reset();

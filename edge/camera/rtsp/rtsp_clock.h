@@ -48,20 +48,20 @@ class RtspClock {
   std::optional<double> rate() const;
 
  private:
-  void note_report(std::int64_t report_ns, std::int64_t offset_ns);
-  bool credible(double delay_s, double sd_s) const;
-  void learn(double delay_s);
+  void note_report(std::int64_t report_ns, std::int64_t offset_ns, double arrival_s);
+  bool credible(double delay_s, double sd_s, double arrival_s) const;
+  void learn(double delay_s, double arrival_s);
   MappedTime by_arrivals(const MappedTime& arrival) const;
 
   Config config_;
   ArrivalLine arrivals_;
   std::optional<std::int64_t> report_ns_;  // of the newest report
   std::int64_t report_offset_ns_ = 0;
-  bool report_is_new_ = false;
-  int steady_reports_ = 0;       // in a row, without a step
-  double step_square_s2_ = 0.0;  // of the reports against one another, smoothed
+  std::optional<double> stepped_s_;  // arrival after the last step of the reports
+  double step_square_s2_ = 0.0;      // of the reports against one another, smoothed
   double learnt_delay_s_ = 0.0;
-  int learnt_from_ = 0;  // reports
+  double learnt_s_ = 0.0;  // arrival
+  int learnt_from_ = 0;    // times
   std::optional<double> refused_since_s_, refused_delay_s_;
   std::optional<StampSource> source_;
   std::optional<double> jump_s_;

@@ -144,9 +144,8 @@ void RtspStream::Impl::add_source(const RtspConfig& config, const std::string& p
     throw CameraUnfit(alarm::camera_not_video("GStreamer has no rtspsrc or appsink"));
   // Stamps as the camera makes them (buffer-mode none): the arrivals are judged by our own clock.
   g_object_set(source, "location", config.url.c_str(), "latency", kReorder_ms, "buffer-mode", 0,
-               "drop-on-latency", TRUE, "add-reference-timestamp-meta", TRUE, "tcp-timeout",
-               kTimeout_us, "timeout", kTimeout_us, "protocols",
-               config.transport == RtspTransport::kTcp ? 4 : 1, nullptr);
+               "add-reference-timestamp-meta", TRUE, "tcp-timeout", kTimeout_us, "timeout",
+               kTimeout_us, "protocols", config.transport == RtspTransport::kTcp ? 4 : 1, nullptr);
   if (!config.user.empty())
     g_object_set(source, "user-id", config.user.c_str(), "user-pw", password.c_str(), nullptr);
   g_signal_connect(source, "select-stream",

@@ -65,6 +65,19 @@ class DetectedObjectsTest : public testing::Test {
   std::int64_t ids_ = 7;  // designations so far
 };
 
+TEST_F(DetectedObjectsTest, AnObjectHasTheTimeOfItsRow) {
+  camera::Frame frame;
+  frame.gray = cv::Mat::zeros(960, 1280, CV_8U);
+  frame.mid_exposure_s = 0.5;
+  frame.row_readout_s = 0.03;
+  objects_->on_frame(frame, {}, 0.5);
+  taken_ = take(0.5);
+  ASSERT_TRUE(taken_);
+  const auto pixels = found({object(1, 640.0, 480.0)});
+  ASSERT_EQ(pixels.size(), 1U);
+  EXPECT_NEAR(pixels.front().mid_exposure_s, 0.515, 1e-4);
+}
+
 TEST_F(DetectedObjectsTest, ItLooksAtTheConfiguredRate) {
   int looked = 0;
   for (int i = 0; i < 30; ++i) {

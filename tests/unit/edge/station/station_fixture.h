@@ -82,7 +82,8 @@ class StationTest : public testing::Test {
       if (frames && now_ >= next_frame_) {
         camera::Frame frame;
         frame.gray = gray;
-        frame.mid_exposure_s = now_ - 0.02;
+        frame.mid_exposure_s = frame_s_ = now_ - 0.02;
+        frame.row_readout_s = row_readout_s_;
         station_.on_frame(frame);
         next_frame_ = now_ + kFrame_s;
       }
@@ -122,6 +123,7 @@ class StationTest : public testing::Test {
   Station station_;
   PanTilt angles_;
   double now_ = 100.0, next_sample_ = 100.0, next_frame_ = 100.0;
+  double frame_s_ = 0.0, row_readout_s_ = 0.0;
   std::vector<Bearing> bearings_;
 };
 

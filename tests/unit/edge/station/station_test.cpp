@@ -56,6 +56,19 @@ TEST_F(StationTest, AViewerSeesTheBoxOfThisVeryFrameAndWhereTheCameraLooks) {
   EXPECT_TRUE(in_camera.isApprox(Eigen::Vector3d(0.0, 0.0, 1000.0), 1e-5)) << in_camera;
 }
 
+TEST_F(StationTest, ABearingHasTheTimeOfItsRow) {
+  designated();
+  row_readout_s_ = 0.03;
+  bearings_.clear();
+  run_until(now_ + 0.2, true, cv::Mat::zeros(960, 1280, CV_8U));
+  ASSERT_FALSE(bearings_.empty());
+  const Bearing& bearing = bearings_.back();
+  ASSERT_GT(bearing.pixel.y(), 1.0);
+  const double frames =
+      (frame_s_ - bearing.mid_exposure_s + 0.03 * bearing.pixel.y() / 960) / 0.005;
+  EXPECT_NEAR(frames, std::round(frames), 1e-6) << "frames come in turns of 5 ms";
+}
+
 TEST_F(StationTest, AViewerGetsNoFrameThatTheStationRefused) {
   designated();
   EXPECT_FALSE(station_.video_frame(now_ + 1.0));

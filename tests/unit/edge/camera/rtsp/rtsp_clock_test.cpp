@@ -145,6 +145,25 @@ TEST(RtspClock, ReportsOfAWrongClockAreNotBelieved) {
   }
 }
 
+TEST(RtspClock, FirstReportsThatAreWrongDoNotOutliveTheirCorrection) {
+  RtspWorld world;
+  world.clock_off_s = -0.35;
+  RtspClock clock({.delay_s = 0.4, .delay_sd_s = 0.2});
+  run(world, clock, 0.0, 14.0);
+  EXPECT_NEAR(*clock.learnt_delay_s(), 0.75, 0.01);
+  world.clock_off_s = 0.0;
+  Judged judged;
+  for (double since_s = 14.0; since_s < 40.0; since_s += 0.04) {
+    const FrameTime time = clock.stamp(world.picture(1000.0 + since_s), kUtcMinusMonotonic_ns);
+    if (since_s > 30.0) {
+      judged.by_reports += time.source == StampSource::kCamera ? 1 : 0;
+      judged.worst_s = std::max(judged.worst_s, std::abs(time.mid_exposure_s - 1000.0 - since_s));
+    }
+  }
+  EXPECT_GT(judged.by_reports, 200);
+  EXPECT_LT(judged.worst_s, 1e-3);
+}
+
 TEST(RtspClock, AStepOfTheStationsUtcIsNotTakenForTheCameras) {
   RtspWorld world;
   RtspClock clock({.delay_s = 0.4, .delay_sd_s = 0.2});

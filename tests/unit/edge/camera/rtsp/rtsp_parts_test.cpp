@@ -88,6 +88,17 @@ TEST(RtpPictures, ALostEndBreaksItsPicture) {
   }
 }
 
+TEST(RtpPictures, APictureThatIsMissingBreaksThoseThatNeedIt) {
+  RtpPictures pictures(90000.0);
+  for (std::uint16_t i = 1; i <= 4; ++i) pictures.add(packet(i, 100U * i));
+  pictures.decoding(100, true);
+  pictures.decoding(300, false);  // too little was left of 200
+  pictures.decoding(400, true);
+  EXPECT_FALSE(pictures.take(100)->broken);
+  EXPECT_TRUE(pictures.take(300)->broken);
+  EXPECT_FALSE(pictures.take(400)->broken);
+}
+
 TEST(RtpPictures, APictureThatIsShownBeforeAnEarlierSentOneTakesNothingAway) {
   RtpPictures pictures(90000.0);
   pictures.add(packet(1, 200));  // P
@@ -113,6 +124,8 @@ TEST(PictureChange, ALivePictureHasNoise) {
   EXPECT_EQ(change.unchanged_s(picture, 15.0), 5.0);
   picture.at<std::uint8_t>(8, 31) ^= 1;
   EXPECT_EQ(change.unchanged_s(picture, 16.0), 0.0);
+  picture.at<std::uint8_t>(8, 31) ^= 1;
+  EXPECT_EQ(change.unchanged_s(picture, 18.0), 2.0) << "the first one again";
 }
 
 }  // namespace
