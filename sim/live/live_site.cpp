@@ -12,6 +12,7 @@
 #include "ols_msg/truth_target_t.hpp"
 #include "ols_msg/truth_view_t.hpp"
 #include "sim/camera/fixed_camera.h"
+#include "sim/camera/rtsp_server.h"
 #include "sim/gpio/gpio_socket.h"
 #include "sim/lens/lens_line.h"
 #include "sim/ptu/line.h"
@@ -34,8 +35,9 @@ struct LiveSite::Device {
   std::unique_ptr<Renderer> renderer;
   std::unique_ptr<PtuDevice> ptu;
   std::unique_ptr<ExposedUnit> exposed;
-  std::unique_ptr<LensLine> lens;  // null: a fixed one
-  std::unique_ptr<SimulatedCamera> camera;
+  std::unique_ptr<LensLine> lens;           // null: a fixed one
+  std::unique_ptr<SimulatedCamera> camera;  // or
+  std::unique_ptr<RtspServer> rtsp;
   std::unique_ptr<GpioServer> gpio;
   std::unique_ptr<InclinometerLine> inclinometer;  // null: not in the scenario
   std::unique_ptr<GnssLine> gnss;
@@ -68,17 +70,7 @@ LiveSite::LiveSite(const World& world, const std::string& line_folder, LcmBus& b
           std::make_unique<LensLine>(LensUnitConfig{.zoom_travel_s = s.stations[i].zoom.travel_s},
                                      line_folder + "/" + s.stations[i].id + ".lens");
     }
-    SimulatedCameraConfig camera;
-    camera.address = s.stations[i].camera_address;
-    camera.serial = s.stations[i].id;
-    camera.width_px = s.camera.width_px;
-    camera.height_px = s.camera.height_px;
-    camera.exposure_s = s.exposure_s;
-    camera.readout_s = s.readout_s;
-    device->camera = std::make_unique<SimulatedCamera>(
-        camera, [this, &device = *device](const Exposure& exposure, cv::Mat& gray) {
-          draw(device, exposure, gray);
-        });
+    connect_camera(*device);
     devices_.push_back(std::move(device));
   }
   for (const Fault& fault : s.faults) faults_.add(fault);
@@ -100,6 +92,32 @@ std::unique_ptr<PtuDevice> LiveSite::connect_ptu(std::size_t station, const std:
   tap.device = real_device;
   tap.baud = world_.scenario().ptu.baud;
   return std::make_unique<PtuTap>(tap, seed, link);
+}
+
+void LiveSite::connect_camera(Device& device) {
+  const Scenario& s = world_.scenario();
+  const StationScenario& station = s.stations[device.station];
+  const auto paint = [this, &device](const Exposure& exposure, cv::Mat& gray) {
+    draw(device, exposure, gray);
+  };
+  if (station.rtsp) {
+    device.rtsp = std::make_unique<RtspServer>(RtspServerConfig{.address = station.camera_address,
+                                                                .width_px = s.camera.width_px,
+                                                                .height_px = s.camera.height_px,
+                                                                .frame_rate_hz = s.frame_rate_hz,
+                                                                .exposure_s = s.exposure_s,
+                                                                .delay_s = s.readout_s},
+                                               paint);
+    return;
+  }
+  SimulatedCameraConfig camera;
+  camera.address = station.camera_address;
+  camera.serial = station.id;
+  camera.width_px = s.camera.width_px;
+  camera.height_px = s.camera.height_px;
+  camera.exposure_s = s.exposure_s;
+  camera.readout_s = s.readout_s;
+  device.camera = std::make_unique<SimulatedCamera>(camera, paint);
 }
 
 void LiveSite::connect_sensors(Device& device, const std::string& link_stem) {
@@ -243,7 +261,8 @@ void LiveSite::apply_faults() {
     const StationFaults now = faults_.at(world_.stations()[device->station].id, now_s);
     if (now == device->faults) continue;
     device->ptu->set_faults(now.ptu);
-    device->camera->set_faults(now.camera);
+    if (device->camera) device->camera->set_faults(now.camera);
+    if (device->rtsp) device->rtsp->set_faults(now.camera);
     if (device->inclinometer) device->inclinometer->set_faults(now.inclinometer);
     if (device->gnss) device->gnss->set_faults(now.gnss);
     if (now.stop_pressed != device->faults.stop_pressed) {

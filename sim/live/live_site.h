@@ -1,5 +1,5 @@
-// The world in real time, behind real wires: for every station a GigE Vision camera, and PTU,
-// inclinometer and GNSS receiver on ptys. The truth is published on channels that no product
+// The world in real time, behind real wires: for every station a GigE Vision or RTSP camera, and
+// PTU, inclinometer and GNSS receiver on ptys. The truth is published on channels that no product
 // process reads. Faults come from the scenario and by OLS_SIM_FAULT.
 #pragma once
 
@@ -40,6 +40,7 @@ class LiveSite {
   struct Device;
 
   std::unique_ptr<PtuDevice> connect_ptu(std::size_t station, const std::string& link);
+  void connect_camera(Device& device);
   void connect_sensors(Device& device, const std::string& link_stem);
   void receive_fault(const void* data, int bytes);
   void publish_target(std::size_t index, double now_s);

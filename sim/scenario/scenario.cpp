@@ -242,6 +242,8 @@ std::vector<Row> station_rows(StationScenario& station) {
                        "tracking, or overview: driven by a person."),
           config::text("camera_address", station.camera_address, "IPv4 address of its camera.")
               .required(),
+          config::word("camera", station.rtsp, {{"gige", false}, {"rtsp", true}},
+                       "GigE Vision, or video by RTSP (live only)."),
           config::text("ptu_line", station.ptu_line, "Name of the PTU's serial line.")
               .default_is("ID.ptu"),
           config::text("ptu_device", station.ptu_device,

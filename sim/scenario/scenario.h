@@ -79,6 +79,7 @@ struct StationScenario {
       Eigen::Vector3d::Zero();  // [m] of GROUND in the site's frame, as surveyed
   ChainParameters chain;        // as calibrated
   std::string camera_address;
+  bool rtsp = false;      // its camera sends video by RTSP, no GigE Vision
   std::string ptu_line;   // file name of the pty's link
   bool overview = false;  // driven by a person, with a zoom lens
   ZoomScenario zoom;

@@ -15,6 +15,8 @@
 namespace ols::sim {
 namespace {
 
+constexpr double kEncoder_s = 0.05;  // what drawing and encoding a picture takes
+
 void write_pose(std::ostream& out, const StationGeometry& g) {
   out << "\n[pose]"
       << "\nlatitude_deg = " << degrees(g.position.latitude_rad)
@@ -62,13 +64,25 @@ void write_sd(std::ostream& out, const World& world, const CalibrationSd& sd) {
       << "\n";
 }
 
+void write_camera(std::ostream& out, const Scenario& s, const StationScenario& station) {
+  out << "\n[camera]\n";
+  if (station.rtsp) {
+    out << "kind = \"rtsp\"\nurl = "
+        << toml_text("rtsp://" + station.camera_address + ":8554/video")
+        << "\ndelay_s = " << 0.5 * s.exposure_s + s.readout_s + kEncoder_s
+        << "\ndelay_sd_s = " << kEncoder_s;
+  } else {
+    out << "device = " << toml_text(station.camera_address)
+        << "\nexposure_us = " << 1e6 * s.exposure_s << "\nreadout_s = " << s.readout_s;
+  }
+  out << "\nwidth_px = " << s.camera.width_px << "\nheight_px = " << s.camera.height_px
+      << "\nframe_rate_hz = " << s.frame_rate_hz << "\n";
+}
+
 void write_devices(std::ostream& out, const Scenario& s, const StationScenario& station,
                    const std::string& line_folder) {
-  out << "\n[camera]"
-      << "\ndevice = " << toml_text(station.camera_address) << "\nwidth_px = " << s.camera.width_px
-      << "\nheight_px = " << s.camera.height_px << "\nframe_rate_hz = " << s.frame_rate_hz
-      << "\nexposure_us = " << 1e6 * s.exposure_s << "\nreadout_s = " << s.readout_s
-      << "\n\n[mount]\n";
+  write_camera(out, s, station);
+  out << "\n[mount]\n";
   if (station.fixed) {
     out << "kind = \"fixed\"\npan_deg = " << degrees(station.fixed->pan_rad)
         << "\ntilt_deg = " << degrees(station.fixed->tilt_rad) << "\n";

@@ -68,6 +68,11 @@ TEST(StationFiles, SayWhichCameraStandsStill) {
   scenario.stations[0].fixed = PanTilt{radians(20.0), radians(4.0)};
   const std::string file = station_file(World(scenario, 5), 0, {"", "/tmp/lines", ""});
   EXPECT_NE(file.find("[mount]\nkind = \"fixed\"\npan_deg = 20"), std::string::npos) << file;
+  scenario.stations[0].rtsp = true;
+  const std::string by_rtsp = station_file(World(scenario, 1), 0, {});
+  EXPECT_NE(by_rtsp.find("kind = \"rtsp\"\nurl = \"rtsp://127.0.0.11:8554/video\""),
+            std::string::npos)
+      << by_rtsp;
 }
 
 TEST(StationFiles, SayWhereAnIdleStationLooks) {
