@@ -13,8 +13,7 @@
 namespace ols::sim {
 
 struct MeasurementNoise {
-  double pixel_sd_px = 0.3;        // white
-  double designation_sd_px = 1.0;  // systematic
+  double pixel_sd_px = 0.3;  // white
   // Remaining share of the white noise. 0: averaged away, a bound that no smoothing beats.
   double white_share = 1.0;
 };

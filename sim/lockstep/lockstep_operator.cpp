@@ -12,7 +12,6 @@ constexpr double kPointInterval_s = 2.0, kPointLead_s = 1.2;
 constexpr double kStill_s = 0.1;   // an operator does not designate a target in a moving image
 constexpr double kSettle_s = 1.5;  // from the PTU's readiness to the first designation
 constexpr double kRemembered_s = 1.0;
-constexpr double kDesignationSd_px = 1.0;  // of each axis, as StationConfig assumes for a person
 
 }  // namespace
 
@@ -77,8 +76,9 @@ void LockstepOperator::designate_seen(double time_s) {
   }
   auto box = marked(*frame);
   if (!box) return;
-  box->x += kDesignationSd_px * noise_.gaussian();
-  box->y += kDesignationSd_px * noise_.gaussian();
+  const double sd_px = world_.scenario().errors.designation.told_px();
+  box->x += sd_px * noise_.gaussian();
+  box->y += sd_px * noise_.gaussian();
   designated_ =
       station_.designate({frame->stamp_s, *box}, monotonic_s(time_s)) == station::Refusal::kNone;
 }

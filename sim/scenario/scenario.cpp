@@ -150,7 +150,12 @@ std::vector<Section> pose_errors(Errors& e) {
                            "1-sigma about the optical axis.")}),
       error_section("position", "What the survey left of the position.", e.position,
                     {config::number("sd_m", e.position.sd_m, {0, 100}, "m",
-                                    "1-sigma of each of east, north, up.")})};
+                                    "1-sigma of each of east, north, up.")}),
+      error_section("designation",
+                    "Where on the target the operator's box is, in the lockstep simulation.",
+                    e.designation,
+                    {config::number("sd_px", e.designation.sd_px, {0, 100}, "px",
+                                    "1-sigma of each axis.")})};
 }
 
 std::vector<Section> image_errors(Errors& e) {

@@ -42,6 +42,10 @@ struct Errors {
   struct Position : Switch {
     double sd_m = 0.02;  // of each of east, north, up
   } position;
+  struct Designation : Switch {  // in the lockstep simulation
+    double sd_px = 1.0;          // of the operator's box, each axis
+    double told_px() const { return on ? sd_px : 0.0; }
+  } designation;
   struct Encoder : Switch {
     double step_arcsec = 11.5714;
   } encoder;
