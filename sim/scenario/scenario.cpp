@@ -151,11 +151,10 @@ std::vector<Section> pose_errors(Errors& e) {
       error_section("position", "What the survey left of the position.", e.position,
                     {config::number("sd_m", e.position.sd_m, {0, 100}, "m",
                                     "1-sigma of each of east, north, up.")}),
-      error_section("designation",
-                    "Where on the target the operator's box is, in the lockstep simulation.",
-                    e.designation,
-                    {config::number("sd_px", e.designation.sd_px, {0, 100}, "px",
-                                    "1-sigma of each axis.")})};
+      error_section(
+          "designation", "Where on the target the operator's box is, in the lockstep simulation.",
+          e.designation,
+          {config::number("sd_px", e.designation.sd_px, {0, 100}, "px", "1-sigma of each axis.")})};
 }
 
 std::vector<Section> image_errors(Errors& e) {
@@ -406,14 +405,20 @@ Section scenario_section(Scenario& s, const std::string& folder) {
 }
 
 void switch_off(Errors& e, const std::string& name) {
-  const std::pair<const char*, Errors::Switch*> switches[] = {
-      {"heading", &e.heading},       {"tilt", &e.tilt},
-      {"mounting", &e.mounting},     {"position", &e.position},
-      {"encoder", &e.encoder},       {"distortion", &e.distortion},
-      {"noise", &e.noise},           {"motion_blur", &e.motion_blur},
-      {"brightness", &e.brightness}, {"clock", &e.clock},
-      {"ptu_reply", &e.ptu_reply},   {"messages", &e.messages},
-      {"frames", &e.frames}};
+  const std::pair<const char*, Errors::Switch*> switches[] = {{"heading", &e.heading},
+                                                              {"tilt", &e.tilt},
+                                                              {"mounting", &e.mounting},
+                                                              {"position", &e.position},
+                                                              {"designation", &e.designation},
+                                                              {"encoder", &e.encoder},
+                                                              {"distortion", &e.distortion},
+                                                              {"noise", &e.noise},
+                                                              {"motion_blur", &e.motion_blur},
+                                                              {"brightness", &e.brightness},
+                                                              {"clock", &e.clock},
+                                                              {"ptu_reply", &e.ptu_reply},
+                                                              {"messages", &e.messages},
+                                                              {"frames", &e.frames}};
   std::string known;
   for (const auto& [known_name, error] : switches) {
     if (name == known_name) {
