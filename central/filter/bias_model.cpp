@@ -16,12 +16,17 @@ double by_chance(double weight, double differences) {
 
 bool states_anything(const Eigen::Array2d& stated_rad2) { return stated_rad2.maxCoeff() > 0.0; }
 
-// A tilt affects both axes. A heading error affects only cross-elevation: it is the excess of that
-// axis over elevation.
-Eigen::Array3d rotation_variance(const Eigen::Array2d& bias_rad2, double elevation_rad) {
+// The share of what both axes have that is taken to be fixed in the camera; the rest is tilt.
+// Nobody states it: with a half either may be all of it.
+constexpr double kCameraShare = 0.5;
+
+// A tilt affects both axes. A heading error affects only cross-elevation: it is what tilts leave of
+// that axis. camera: the part of elevation that is fixed in the camera.
+Eigen::Array3d rotation_variance(const Eigen::Array2d& bias_rad2, double camera,
+                                 double elevation_rad) {
   constexpr double kLevel = 1e-3;  // towards the zenith a heading is hardly observable
   const double up = std::pow(std::sin(elevation_rad), 2), level = std::max(kLevel, 1.0 - up);
-  const double tilt = bias_rad2.y();
+  const double tilt = bias_rad2.y() - camera;
   return {tilt, tilt, std::max(0.0, (bias_rad2.x() - tilt * up) / level)};
 }
 
@@ -147,16 +152,16 @@ BiasPrior BiasModel::prior(const std::string& station, const LineOfSight& sight,
   const double least = config_.least_over_noise * config_.least_over_noise;
   const double elevation_rad = sight.direction.elevation_rad;
   prior.covariance.diagonal().array() += more;
-  prior.rotation = rotation_variance((pose + more).max(least * noise), elevation_rad);
+  const double share = declared ? kCameraShare : 0.0;
+  const Eigen::Array2d all = (pose + more).max(least * noise);
+  prior.camera = share * all.minCoeff();
+  prior.rotation = rotation_variance(all, prior.camera, elevation_rad);
   Eigen::Array2d stated_pose = Eigen::Array2d::Zero();
   if (declared) stated_pose = pose.max(least * noise);
-  const Eigen::Array3d unseen = rotation_variance(stated_pose, elevation_rad);
+  const Eigen::Array3d unseen =
+      rotation_variance(stated_pose, share * stated_pose.minCoeff(), elevation_rad);
   prior.empirical = (1.0 - unseen / prior.rotation.max(kNone)).max(0.0);
-  prior.time_s.setConstant(declared ? config_.stated_time_s : config_.undeclared_time_s);
-  // The heading's excess over a tilt existed from the start: all axes drift alike.
-  constexpr double kLongest = 100.0;
-  const double ratio = prior.rotation(2) / std::max(kNone, prior.rotation(0));
-  if (declared) prior.time_s(2) *= std::clamp(ratio, 1.0, kLongest);
+  prior.time_s = declared ? config_.stated_time_s : config_.undeclared_time_s;
   prior.place_time_s = config_.stated_time_s;
   if (position_states) prior.place_m2 = sight.origin_sd_enu_m.array().square();
   return prior;

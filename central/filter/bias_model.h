@@ -35,7 +35,7 @@
 namespace ols::fusion {
 
 struct BiasModelConfig {
-  double stated_time_s = 1800.0;   // correlation time of a declared pose error
+  double stated_time_s = 60e3;     // correlation time of a declared pose error
   double undeclared_time_s = 5.0;  // correlation time of an undeclared one
   double memory_s = 600.0;         // older evidence counts less than 1/e
   double stated_weight = 20.0;     // weight of a declared bias, in estimated biases
@@ -58,15 +58,18 @@ struct BiasModelConfig {
 };
 
 // The prior of one station's bias in the direction of a target, and the causes of that bias: a
-// small rotation of the station (about east, north, up: two equal tilts and a heading) and, with
-// position_states, an error of its position.
+// small rotation of the station (about east, north, up: two equal tilts and a heading), an
+// elevation error that is fixed in the camera (mounting, and where on the target it points) and,
+// with position_states, an error of its position. What a camera's error adds to cross-elevation
+// counts as heading: at low elevations it is the same.
 struct BiasPrior {
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  // [rad^2] stationary, tangent plane
   Eigen::Array3d rotation = Eigen::Array3d::Zero();      // [rad^2] stationary variances
-  Eigen::Array3d time_s = Eigen::Array3d::Ones();        // correlation times of the rotation
-  bool position_states = false;                          // false: the rotation contains it
-  Eigen::Array3d place_m2 = Eigen::Array3d::Zero();      // stationary variances: east, north, up
-  double place_time_s = 1.0;                             // correlation time of the position error
+  double camera = 0.0;  // [rad^2] stationary variance of the elevation error fixed in the camera
+  double time_s = 1.0;  // correlation time of the rotation
+  bool position_states = false;                      // false: the rotation contains it
+  Eigen::Array3d place_m2 = Eigen::Array3d::Zero();  // stationary variances: east, north, up
+  double place_time_s = 1.0;                         // correlation time of the position error
   // The share of the rotation's variances that no station declares and only residuals show.
   Eigen::Array3d empirical = Eigen::Array3d::Zero();
 };

@@ -12,7 +12,8 @@ bool is_linear(const StationPart& part, const RayFrame& frame, double depth_m,
   const auto greatest = [&](const Eigen::Matrix<double, 2, 3>& H, Eigen::Index first) {
     return (H * whole_block<3>(P, first) * H.transpose()).diagonal().maxCoeff();
   };
-  double bias_variance = greatest(part.by_rotation, part.first);
+  const Eigen::Index camera = part.first + kCameraState;
+  double bias_variance = greatest(part.by_rotation, part.first) + P(camera, camera);
   if (part.has_place) {
     bias_variance +=
         greatest(frame.tangent.transpose() * part.R_ecef_enu / depth_m, part.first + kPoseStates);
@@ -31,10 +32,11 @@ bool is_linear(const StationPart& part, const RayFrame& frame, double depth_m,
 bool shows_bias(const FilterMatrix2& G, const FilterMatrix& P, const StationPart& part,
                 const Eigen::Vector3d& along, double off_share) {
   constexpr double kSmall = 3.0;
-  const Eigen::Index place = part.first + kPoseStates, clock = part.first + 3;
+  const Eigen::Index place = part.first + kPoseStates, clock = part.first + kClockState;
   double drift = 0.0;  // squared
   Eigen::RowVector2d told = Eigen::RowVector2d::Zero();
-  for (Eigen::Index at = part.first; at < (part.has_place ? place + kPlaceStates : clock); ++at) {
+  const Eigen::Index end = part.has_place ? place + kPlaceStates : place;
+  for (Eigen::Index at = part.first; at < end; ++at) {
     if (at == clock || !(P(at, at) > 0.0)) continue;
     double with_depth = P.block<1, 3>(at, 0).dot(along);
     if (part.has_place) {

@@ -15,9 +15,10 @@
 namespace ols::fusion {
 
 inline constexpr int kFilterStations = 12;  // with states of their own
-// Of a station: its rotation about east, north and up, its clock's offset, and where relevant the
-// error of its position (east, north, up).
-inline constexpr int kPoseStates = 4, kPlaceStates = 3;
+// Of a station: its rotation about east, north and up, its clock's offset, the elevation error that
+// is fixed in its camera, and where relevant the error of its position (east, north, up).
+inline constexpr int kPoseStates = 5, kPlaceStates = 3;
+inline constexpr int kClockState = 3, kCameraState = 4;
 inline constexpr int kStationStates = kPoseStates + kPlaceStates;
 inline constexpr int kFilterStates = 9 + kStationStates * kFilterStations;
 

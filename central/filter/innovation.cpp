@@ -34,7 +34,7 @@ void see_station(const FilterGaussian& state, const StationPart& part, ModelInno
     }
     return Eigen::Matrix2d(H * then * seen.J.transpose());
   };
-  seen.by_pose << part.by_rotation, -seen.J * seen.velocity;
+  seen.by_pose << part.by_rotation, -seen.J * seen.velocity, Eigen::Vector2d::UnitY();
   Eigen::Matrix2d mixed = with_target(seen.by_pose, pose);
   seen.residual -= seen.by_pose * state.mean.segment<kPoseStates>(pose);
   seen.covariance += seen.by_pose * whole_block<kPoseStates>(P, pose) * seen.by_pose.transpose();

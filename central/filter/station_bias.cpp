@@ -52,13 +52,14 @@ StationBias station_bias(const InteractingModels& models, Eigen::Index first,
   Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, kStationStates> B(2, n);
   B.setZero();
   B.leftCols<3>() = shift_by_rotation(tangent);
+  B(1, kCameraState) = 1.0;
   if (prior.position_states) B.rightCols<kPlaceStates>() = -tangent.transpose() / range_m;
   StationBias result;
   result.bias_rad = B * mean;
   result.covariance_rad2 = B * P * B.transpose();
   result.prior_rad2 = prior.covariance;
-  result.clock_s = mean(3);
-  result.clock_sd_s = std::sqrt(std::max(0.0, P(3, 3)));
+  result.clock_s = mean(kClockState);
+  result.clock_sd_s = std::sqrt(std::max(0.0, P(kClockState, kClockState)));
   return result;
 }
 

@@ -82,6 +82,7 @@ void TrackFilter::enter(int station, const BearingMeasurement& measurement,
     model.covariance.middleRows(at, n).setZero();
     model.covariance.middleCols(at, n).setZero();
     model.covariance.diagonal().segment<3>(at) = prior.rotation;
+    model.covariance(at + kCameraState, at + kCameraState) = prior.camera;
     if (!prior.position_states) continue;
     model.covariance.diagonal().segment<kPlaceStates>(at + kPoseStates) = prior.place_m2;
   }
@@ -147,8 +148,9 @@ void TrackFilter::reset_bias(int station, std::int64_t track_id) {
   stations_[static_cast<std::size_t>(station)].track_id = track_id;
   const BiasPrior& prior = priors_[static_cast<std::size_t>(station)];
   for (FilterGaussian& model : models_.each()) {
-    auto variance = model.covariance.diagonal().segment<3>(first_of(station)).array();
-    variance = variance.max(prior.rotation);
+    auto variance = model.covariance.diagonal().segment<kPoseStates>(first_of(station)).array();
+    variance.head<3>() = variance.head<3>().max(prior.rotation);
+    variance(kCameraState) = std::max(variance(kCameraState), prior.camera);
   }
 }
 
@@ -175,7 +177,7 @@ int TrackFilter::station_of(const BearingMeasurement& measurement, const BiasMod
       measurement.clock_sd_s * std::sqrt(priors.clock_scale(measurement.station));
   // A worse clock counts at once, a better one as the old error fades.
   if (clock_sd_s > entry.clock_sd_s) {
-    const Eigen::Index at = first_of(station) + 3;
+    const Eigen::Index at = first_of(station) + kClockState;
     const double more = std::pow(clock_sd_s, 2) - std::pow(entry.clock_sd_s, 2);
     for (FilterGaussian& model : models_.each()) model.covariance(at, at) += more;
     ++state_;
@@ -365,6 +367,9 @@ void TrackFilter::add_position_states(int station) {
   }
 }
 
+// The point that a tracker follows moves on the target; a tripod hardly moves.
+constexpr double kCameraHaste = 6.0;
+
 // Each of the stations' states decays, and gets the noise that keeps its prior variance.
 void TrackFilter::fade_biases(double dt_s, double clock_time_s) {
   const Eigen::Index n = models_[0].mean.size();
@@ -372,8 +377,10 @@ void TrackFilter::fade_biases(double dt_s, double clock_time_s) {
   Eigen::Index at = 9;
   for (std::size_t i = 0; i < stations_.size(); ++i) {
     const BiasPrior& prior = priors_[i];
-    rate.segment<kPoseStates>(at) << prior.time_s.inverse(), 1.0 / clock_time_s;
-    variance.segment<kPoseStates>(at) << prior.rotation, std::pow(stations_[i].clock_sd_s, 2);
+    rate.segment<kPoseStates>(at) << Eigen::Array3d::Constant(1.0 / prior.time_s),
+        1.0 / clock_time_s, kCameraHaste / prior.time_s;
+    variance.segment<kPoseStates>(at) << prior.rotation, std::pow(stations_[i].clock_sd_s, 2),
+        prior.camera;
     if (prior.position_states) {
       rate.segment<kPlaceStates>(at + kPoseStates).setConstant(1.0 / prior.place_time_s);
       variance.segment<kPlaceStates>(at + kPoseStates) = prior.place_m2;

@@ -43,7 +43,7 @@ Whole spread(const TrackFilter& filter, const FilterGaussian& mixed, const Order
   std::size_t k = 9;
   for (std::size_t i = 0; i < filter.stations().size(); ++i) {
     const Eigen::Index first = order.at(filter.stations()[i].station);
-    sign[k + 3] = clock_sign;
+    sign[k + kClockState] = clock_sign;
     for (Eigen::Index axis = 0; axis < states_of(filter.priors()[i]); ++axis)
       to[k++] = first + axis;
   }
@@ -246,7 +246,8 @@ Eigen::VectorXd Smoother::prior(const Order& held, const Eigen::Vector3d& p_ecef
     const BiasPrior bias = learnt_.errors().prior(station, own.sight, range_m, has_places_);
     variance.segment<3>(at) = bias.rotation.max(kLeast);
     const double clock_scale = learnt_.errors().clock_scale(station);
-    variance(at + 3) = std::max(kLeast, clock_scale * own.clock_sd_s * own.clock_sd_s);
+    variance(at + kClockState) = std::max(kLeast, clock_scale * own.clock_sd_s * own.clock_sd_s);
+    variance(at + kCameraState) = std::max(kLeast, bias.camera);
     if (has_places_) variance.segment<kPlaceStates>(at + kPoseStates) = bias.place_m2.max(kLeast);
   }
   return variance;

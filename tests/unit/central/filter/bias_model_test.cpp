@@ -108,27 +108,30 @@ LineOfSight stated(double elevation_rad, double cross_rad2, double up_rad2) {
 TEST(BiasModel, WhatIsStatedLastsAndWhatNobodyToldDoesNot) {
   const BiasModelConfig config;
   const BiasModel errors(config);
-  EXPECT_TRUE((errors.prior("a", sight(), 500.0).time_s == config.undeclared_time_s).all());
-  const BiasPrior told = errors.prior("a", stated(0.3, 1e-6, 1e-6), 500.0);
-  EXPECT_TRUE(told.time_s.isApproxToConstant(config.stated_time_s, 1e-6));
+  EXPECT_EQ(errors.prior("a", sight(), 500.0).time_s, config.undeclared_time_s);
+  EXPECT_EQ(errors.prior("a", stated(0.3, 1e-6, 1e-6), 500.0).time_s, config.stated_time_s);
 }
 
-// Four times the variance on the level axis: three parts are the heading's, whose correlation time
-// is longer, so that both change by the same amount in the same time.
-TEST(BiasModel, TakeForAHeadingWhatOneAxisHasMore) {
-  const BiasPrior prior = BiasModel().prior("a", stated(0.0, 4e-6, 1e-6), 500.0);
-  EXPECT_TRUE(prior.rotation.isApprox(Eigen::Array3d(1e-6, 1e-6, 4e-6), 1e-9));
-  EXPECT_NEAR(prior.time_s(2) / prior.time_s(0), 4.0, 1e-6);
-  EXPECT_NEAR(prior.time_s(1) / prior.time_s(0), 1.0, 1e-6);
+// What both axes have may be fixed in the camera, or a tilt; what elevation has alone is a tilt,
+// what cross-elevation has alone a heading.
+TEST(BiasModel, TakesForTheCamerasWhatBothAxesHave) {
+  const auto causes = [](double cross_rad2, double up_rad2) {
+    const BiasPrior prior = BiasModel().prior("a", stated(0.0, cross_rad2, up_rad2), 500.0);
+    return Eigen::Array4d(prior.rotation(0), prior.rotation(1), prior.rotation(2), prior.camera);
+  };
+  EXPECT_TRUE(causes(4e-6, 1e-6).isApprox(Eigen::Array4d(5e-7, 5e-7, 4e-6, 5e-7), 1e-9));
+  EXPECT_TRUE(causes(1e-6, 4e-6).isApprox(Eigen::Array4d(3.5e-6, 3.5e-6, 1e-6, 5e-7), 1e-9));
 }
 
-// At any elevation, a rotation with the prior's variances makes the stated bias.
-TEST(BiasModel, ARotationMakesWhatIsStated) {
+// At any elevation, a rotation and a camera's error with the prior's variances make the stated
+// bias.
+TEST(BiasModel, ItsCausesMakeWhatIsStated) {
   for (const double elevation_rad : {-0.2, 0.0, 0.7, 1.4}) {
     const LineOfSight line = stated(elevation_rad, 5e-6, 2e-6);
     const BiasPrior prior = BiasModel().prior("a", line, 500.0);
     const auto B = shift_by_rotation(tangent_basis(line.direction));
-    const Eigen::Matrix2d made = B * prior.rotation.matrix().asDiagonal() * B.transpose();
+    Eigen::Matrix2d made = B * prior.rotation.matrix().asDiagonal() * B.transpose();
+    made(1, 1) += prior.camera;
     EXPECT_NEAR(made(0, 0), 5e-6, 1e-9) << elevation_rad;
     EXPECT_NEAR(made(1, 1), 2e-6, 1e-9) << elevation_rad;
     EXPECT_NEAR(made(0, 1), 0.0, 1e-12) << elevation_rad;
@@ -149,8 +152,8 @@ TEST(BiasModel, APlaceIsPartOfTheRotationOrApart) {
   line.origin_sd_enu_m.setConstant(1.0);
   const BiasPrior within = BiasModel().prior("a", line, 500.0);
   const BiasPrior apart = BiasModel().prior("a", line, 500.0, true);
-  EXPECT_NEAR(within.rotation(0), 1e-6 + 1.0 / (500.0 * 500.0), 1e-12);
-  EXPECT_NEAR(apart.rotation(0), 1e-6, 1e-12);
+  EXPECT_NEAR(within.rotation(0) + within.camera, 1e-6 + 1.0 / (500.0 * 500.0), 1e-12);
+  EXPECT_NEAR(apart.rotation(0) + apart.camera, 1e-6, 1e-12);
   EXPECT_TRUE(apart.place_m2.isApproxToConstant(1.0, 1e-12));
   EXPECT_TRUE(within.covariance.isApprox(apart.covariance, 1e-12));
 }

@@ -75,7 +75,8 @@ class OneModel : public testing::TestWithParam<Motion> {
     H.middleCols<3>(3) = ahead_s * J;
     H.middleCols<3>(6) = curved_s2 * J;
     H.middleCols<3>(last) = shift_by_rotation(tangent_basis(next.sight.direction));
-    H.col(last + 3) = -J * mean.segment<3>(3);
+    H(1, last + kCameraState) = 1.0;
+    H.col(last + kClockState) = -J * mean.segment<3>(3);
     H.rightCols<3>() = -J * R_ecef_enu(next.sight.origin_ecef);
     const Transition between =
         transition(GetParam(), mean.head<9>(), std::abs(ahead_s), config.motion);
