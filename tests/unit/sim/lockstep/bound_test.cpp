@@ -33,13 +33,13 @@ start_enu_m = [0.0, 300.0, 1.65]
                               "two.toml", ".");
   Errors& e = s.errors;
   e.heading.on = e.tilt.on = e.mounting.on = e.position.on = e.distortion.on = e.clock.on = false;
-  e.encoder.on = false;
+  e.encoder.on = e.designation.on = false;
   return s;
 }
 
 TEST(Bound, OfTwoCrossingRaysIsThatComputedByHand) {
   const World world(two_stations(), 1);
-  const MeasurementNoise noise{1.0, 0.0, 1.0};
+  const MeasurementNoise noise{1.0, 1.0};
   const auto bound = position_bound_enu(world, 0.0, {0, 1}, noise);
   ASSERT_TRUE(bound);
   // Across each ray range * pixel / f; two rays at right angles give it on both horizontal axes,
@@ -54,7 +54,7 @@ TEST(Bound, OfTwoCrossingRaysIsThatComputedByHand) {
 
 TEST(Bound, SummaryTellsItsHorizontalPart) {
   const World world(two_stations(), 1);
-  const MeasurementNoise noise{1.0, 0.5, 1.0};
+  const MeasurementNoise noise{1.0, 1.0};
   const Eigen::Matrix3d bound = position_bound_enu(world, 0.0, {0, 1}, noise).value();
   Fix fix;
   fix.used = {0, 1};
