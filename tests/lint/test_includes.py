@@ -44,8 +44,8 @@ NOT_JUDGED = {"tools", "dev"}  # programs of users and developers, which may tou
 PURE_FOLDERS = (
     *("geometry/", "calibration/", "edge/detector/", "edge/tracker/", "bridge/ownership/"),
     *("central/admission/", "central/cues/", "central/estimators/", "central/filter/"),
-    *("central/fusion/", "central/handover/", "central/measurement/", "central/offline/"),
-    *("central/classify/", "central/tracking/"),
+    *("central/fusion/", "central/ground/", "central/handover/", "central/measurement/"),
+    *("central/classify/", "central/offline/", "central/tracking/"),
     *("export/asterix/", "export/files/", "export/mqtt/", "export/sapient/", "export/tak/"),
 )
 FIRST_WORDS = {"messages", "bus", "aravis", "gige", "kept"}

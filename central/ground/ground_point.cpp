@@ -1,0 +1,186 @@
+#include "central/ground/ground_point.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "central/ground/above_ground.h"
+#include "central/ground/visibility.h"
+#include "central/measurement/ray.h"
+#include "geometry/chi_square.h"
+#include "geometry/wgs84.h"
+
+namespace ols::fusion {
+namespace {
+
+constexpr double kFar = 6.0;  // sigmas from the ground at which no target is
+
+// The line at one range.
+struct Node {
+  double range_m = 0.0;
+  Eigen::Vector3d p_ecef = Eigen::Vector3d::Zero();
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  // ECEF, unit
+  double above_m = 0.0;  // the line above the middle of an object that stands there
+  double clear_m = 0.0;  // the line above the top of the land
+  double top_sd_m = 0.0;
+  double ground_m2 = 0.0;  // variance of that middle's height
+  double line_m2 = 0.0;    // variance of the line's height
+  double weight = 0.0;
+
+  double variance_m2() const { return ground_m2 + line_m2; }
+  double sigmas() const { return above_m / std::sqrt(variance_m2()); }
+};
+
+struct Errors {
+  double white_rad2 = 0.0, all_rad2 = 0.0;  // of the elevation
+  double origin_m2 = 0.0;                   // of the camera's height
+};
+
+std::optional<Node> node_at(const land::Surface& surface, const LineOfSight& sight,
+                            const Eigen::Vector3d& along, const Errors& errors, double range_m) {
+  Node node{.range_m = range_m};
+  const Eigen::Vector3d straight = sight.origin_ecef + range_m * along;
+  const Geodetic place = geodetic_from_ecef(straight);
+  const auto ground = surface.ground(place.latitude_rad, place.longitude_rad);
+  const auto top = surface.top(place.latitude_rad, place.longitude_rad);
+  if (!ground || !top) return std::nullopt;
+  const double bent_m = kRefraction * range_m * range_m / (2.0 * kEarth_m);
+  node.up = R_ecef_enu(place).col(2);
+  node.p_ecef = straight - bent_m * node.up;
+  node.above_m = place.height_m - bent_m - ground->height_m - kMiddle_m;
+  node.clear_m = place.height_m - bent_m - top->height_m;
+  node.top_sd_m = top->sd_m;
+  node.ground_m2 = ground->sd_m * ground->sd_m + kMiddleSd_m * kMiddleSd_m;
+  node.line_m2 = range_m * range_m * errors.all_rad2 + errors.origin_m2;
+  return node;
+}
+
+constexpr double kShortest_m = 0.5;
+
+// Far from the ground in big steps; near it, some for each sigma.
+double step_m(const Node& node, double slope) {
+  constexpr double kOfASigma = 0.25;
+  const double longest_m = 5.0 + 0.004 * node.range_m;
+  const double sd_m = std::sqrt(node.variance_m2());
+  const double away_m = std::abs(node.above_m) - kFar * sd_m;
+  if (away_m > 0.0) return std::max(longest_m, away_m / 2.0);
+  return std::clamp(kOfASigma * sd_m / std::max(1e-6, std::abs(slope)), kShortest_m, longest_m);
+}
+
+// Whether so much happens to the height between the two that something belongs in between.
+bool is_gap(const Node& before, const Node& after) {
+  const bool is_far = std::min(before.sigmas(), after.sigmas()) > kFar;
+  const double sd_m = std::sqrt(after.variance_m2());
+  return !is_far && std::abs(after.above_m - before.above_m) > sd_m;
+}
+
+// Until the line is so far below the ground that nothing behind is seen. Empty if it never is.
+std::vector<Node> walk(const land::Surface& surface, const LineOfSight& sight, const Errors& errors,
+                       double max_range_m) {
+  const Eigen::Vector3d along = direction_ecef(sight);
+  std::vector<Node> nodes;
+  for (double range_m = 5.0; range_m < max_range_m;) {
+    const auto node = node_at(surface, sight, along, errors, range_m);
+    if (!node) return {};
+    double slope = 0.0;
+    if (!nodes.empty()) {
+      const double gap_m = range_m - nodes.back().range_m;
+      if (gap_m > kShortest_m && is_gap(nodes.back(), *node)) {
+        range_m -= gap_m / 2.0;
+        continue;
+      }
+      slope = (node->above_m - nodes.back().above_m) / gap_m;
+      if (gap_m <= kShortest_m && nodes.back().above_m > 0.0 && node->above_m < 0.0) {
+        Node wall = nodes.back();  // it ends there, whatever the errors are
+        wall.above_m = 0.0;
+        wall.range_m += gap_m / 2.0;
+        nodes.push_back(wall);
+      }
+    }
+    nodes.push_back(*node);
+    if (node->sigmas() < -kFar) return nodes;
+    range_m += step_m(*node, slope);
+  }
+  return !nodes.empty() && nodes.back().sigmas() < -3.0 ? nodes : std::vector<Node>{};
+}
+
+// The probability that nothing hides a target at nodes[i], never zero. If the target is there, line
+// or ground are off by the height that separates them there, each by its share of the variance: the
+// line by an angle, the ground everywhere.
+double seen(const std::vector<Node>& nodes, std::size_t i) {
+  constexpr double kLeast = 1e-3, kLeastSd_m = 0.1;
+  const Node& target = nodes[i];
+  const double of_line = target.line_m2 / target.variance_m2();
+  double least = 0.0;
+  for (std::size_t k = 0; k < i; ++k) {
+    const double nearer = 1.0 - nodes[k].range_m / target.range_m;
+    const double off_m = target.above_m * (1.0 - nearer * of_line);
+    least = std::min(least, (nodes[k].clear_m - off_m) / std::max(kLeastSd_m, nodes[k].top_sd_m));
+  }
+  return std::max(kLeast, 2.0 * normal_level(-least));
+}
+
+void weigh(std::vector<Node>& nodes) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    Node& node = nodes[i];
+    const double sigmas = node.sigmas();
+    if (std::abs(sigmas) > kFar) continue;
+    const double before_m = i == 0 ? node.range_m : nodes[i - 1].range_m;
+    const double after_m = i + 1 == nodes.size() ? node.range_m : nodes[i + 1].range_m;
+    node.weight = (after_m - before_m) / 2.0 * node.range_m / std::sqrt(node.variance_m2()) *
+                  std::exp(-sigmas * sigmas / 2.0) * seen(nodes, i);
+    sum += node.weight;
+  }
+  for (Node& node : nodes) node.weight /= sum;
+}
+
+// Where an object at this range is, from the heights of line and ground.
+Eigen::Vector3d place_of(const Node& node) {
+  return node.p_ecef - node.line_m2 / node.variance_m2() * node.above_m * node.up;
+}
+
+}  // namespace
+
+std::optional<GroundPoint> ground_point(const land::Surface& surface, const LineOfSight& sight,
+                                        const GroundPointConfig& config) {
+  const double origin_m = sight.origin_sd_enu_m.z();
+  const Errors errors{sight.covariance_white(1, 1),
+                      sight.covariance_white(1, 1) + sight.covariance_systematic(1, 1),
+                      origin_m * origin_m};
+  std::vector<Node> nodes = walk(surface, sight, errors, config.max_range_m);
+  if (nodes.empty()) return std::nullopt;
+  weigh(nodes);
+  GroundPoint point{Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(), Eigen::Matrix3d::Zero()};
+  for (const Node& node : nodes) {
+    if (node.weight == 0.0) continue;
+    point.p_ecef += node.weight * place_of(node);
+    point.range_m += node.weight * node.range_m;
+  }
+  if (!point.p_ecef.allFinite() || point.range_m == 0.0) return std::nullopt;
+  const RayFrame frame = ray_frame(sight);
+  const Eigen::Vector3d across = frame.tangent.col(0);
+  const double white_across = sight.covariance_white(0, 0);
+  const double all_across = white_across + sight.covariance_systematic(0, 0);
+  const double origin_across_m2 = sight.origin_sd_enu_m.head<2>().squaredNorm() / 2.0;
+  double along_m2 = 0.0;
+  for (const Node& node : nodes) {
+    if (node.weight == 0.0) continue;
+    const double squared_m2 = node.range_m * node.range_m;
+    const Eigen::Vector3d off = place_of(node) - point.p_ecef;
+    const Eigen::Matrix3d of_height = off * off.transpose() + node.ground_m2 * node.line_m2 /
+                                                                  node.variance_m2() * node.up *
+                                                                  node.up.transpose();
+    const double white = squared_m2 * errors.white_rad2 / node.variance_m2();
+    const Eigen::Matrix3d sideways = across * across.transpose();
+    point.covariance_ecef += node.weight * (of_height + (squared_m2 * all_across) * sideways);
+    point.covariance_white_ecef +=
+        node.weight * (white * of_height + squared_m2 * white_across * sideways);
+    along_m2 += node.weight * std::pow(node.range_m - point.range_m, 2);
+  }
+  point.covariance_ecef += origin_across_m2 * Eigen::Matrix3d::Identity();
+  if (std::sqrt(along_m2) > config.range_sd_limit * point.range_m) return std::nullopt;
+  return point;
+}
+
+}  // namespace ols::fusion

@@ -1,0 +1,30 @@
+// Whether the land lets a station see a place. Pure.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "land/surface.h"
+
+namespace ols::fusion {
+
+// Light bends towards the earth: over d metres it falls below a straight line by this share of what
+// the earth's curvature makes, d^2 / 2 R. In daylight over land about 0.13; +/- 0.1 of it is 0.3 m
+// at 6 km.
+inline constexpr double kRefraction = 0.13;
+inline constexpr double kEarth_m = 6.371e6;
+
+// The probability that nothing stands between a camera and a target with this covariance [m^2,
+// ECEF]. What stands within 3 sigmas of the target along the line does not count: the target may be
+// in front of it. 1 where the surface is unknown.
+double visibility(const land::Surface& surface, const Eigen::Vector3d& camera_ecef,
+                  const Eigen::Vector3d& target_ecef, const Eigen::Matrix3d& covariance_ecef);
+
+// The same for whether it is possible at all: in front of what a line of sight ends at, and not
+// below the ground. The smaller of the two probabilities.
+double plausibility(const land::Surface& surface, const Eigen::Vector3d& camera_ecef,
+                    const Eigen::Vector3d& target_ecef, const Eigen::Matrix3d& covariance_ecef);
+
+// From this plausibility on, a position behind or below the ground is one by more than 3 sigmas.
+inline constexpr double kImplausible = 0.00135;
+
+}  // namespace ols::fusion
