@@ -141,6 +141,12 @@ void add_appearance(const Target& t, Json& fields) {
   fields["size_m"] = known(t.size_m, 2);
   fields["size_sd_m"] = known(t.size_sd_m, 2);
   fields["signal"] = known(t.signal, 1);
+  const bool has_ground = t.has_height_above_ground != 0;
+  const auto above = [&](double value_m) {
+    return has_ground ? Json(rounded(value_m, 1)) : Json(nullptr);
+  };
+  fields["height_above_ground_m"] = above(t.height_above_ground_m);
+  fields["height_above_ground_sd_m"] = above(t.height_above_ground_sd_m);
 }
 
 Json stations_of(const Target& t) {

@@ -44,6 +44,10 @@ void add_appearance(const TargetMessage& t, Target& target) {
   target.class_probability = std::min(known(t.class_probability), 1.0);
   target.size_m = known(t.size_m);
   target.size_sd_m = known(t.size_sd_m);
+  if (t.has_height_above_ground) {
+    target.above_ground_m = t.height_above_ground_m;
+    target.above_ground_sd_m = t.height_above_ground_sd_m;
+  }
 }
 
 std::vector<std::string> used_stations(const TargetMessage& t) {

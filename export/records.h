@@ -44,6 +44,7 @@ struct Target {
   ObjectClass object_class = ObjectClass::kUnknown;
   double class_probability = kUnknown;             // 0..1 of this class
   double size_m = kUnknown, size_sd_m = kUnknown;  // largest extent, and its 1-sigma
+  double above_ground_m = kUnknown, above_ground_sd_m = kUnknown;  // height, and its 1-sigma
 };
 
 // In the order of the bus's numbers, then the word for an unknown number.

@@ -139,6 +139,16 @@ Section handover_section(HandoverConfig& c) {
                       "uncertain where it is.")}};
 }
 
+Section land_section(FusionSettings& s) {
+  return {"land",
+          "The land around the site (docs/land.md).",
+          {config::text("folder", s.land_folder,
+                        "Folder that `ols-land import` has made; empty: no land is known."),
+           config::texts("on_ground", s.fusion.land.on_ground,
+                         "Stations whose designated objects stand on the ground: one of them "
+                         "alone gives a position (docs/fusion.md, section 11).")}};
+}
+
 std::vector<config::Row> admission_rows(FusionConfig& c) {
   return {
       config::choice("estimator", c.estimator, {"filter", "least-squares", "paper"},
@@ -179,7 +189,7 @@ Section fusion_section(FusionSettings& s) {
        motion_section(fusion.tracks.filter.motion), station_errors_section(fusion.tracks.errors),
        tracks_section(fusion.tracks), slew_section(fusion.slew),
        clocks_section(fusion.admission.clocks), cues_section(fusion.cues),
-       handover_section(fusion.handover), trust::trust_section(s.trust)}};
+       handover_section(fusion.handover), land_section(s), trust::trust_section(s.trust)}};
   std::ranges::move(admission_rows(fusion), std::back_inserter(root.rows));
   return root;
 }

@@ -8,6 +8,7 @@
 #include "base/process/service_frame.h"
 #include "base/process/service_notifier.h"
 #include "central/app/fusion_process.h"
+#include "land/terrain_folder.h"
 
 namespace {
 
@@ -20,8 +21,10 @@ struct Arguments : ols::ServiceOptions {
 };
 
 int run(const Arguments& arguments) {
-  const ols::fusion::FusionSettings settings =
+  ols::fusion::FusionSettings settings =
       configuration_of(arguments, ols::fusion::load_fusion_settings);
+  if (!settings.land_folder.empty())
+    settings.fusion.land.surface = ols::land::read_terrain_folder(settings.land_folder).terrain;
   if (arguments.check_config) return 0;
   ols::fusion::FusionProcessOptions options{
       .slew_url = arguments.replay ? kReplaySlewUrl : settings.lcm_url,

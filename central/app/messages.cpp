@@ -104,6 +104,12 @@ void fill_appearance(const Appearance& appearance, ols_msg::target_t& message) {
   message.signal = appearance.signal;
 }
 
+void fill_above_ground(const std::optional<HeightAboveGround>& above, ols_msg::target_t& message) {
+  message.has_height_above_ground = above ? 1 : 0;
+  message.height_above_ground_m = above ? above->height_m : 0.0;
+  message.height_above_ground_sd_m = above ? above->sd_m : 0.0;
+}
+
 static_assert(code(Solution::kRaysMiss) == ols_msg::target_t::SOLUTION_RAYS_MISS);
 static_assert(code(TrackState::kDeleted) == ols_msg::target_t::TRACK_DROPPED);
 static_assert(code(CalibrationState::kDoubted) == ols_msg::station_status_t::CALIBRATION_DOUBTED);
@@ -267,6 +273,7 @@ ols_msg::target_t to_message(const FusedTarget& target, const MessageStamp& stam
   fill_position(target.estimate, message);
   fill_bearing(target.bearing_only, message);
   fill_appearance(target.appearance, message);
+  fill_above_ground(target.above_ground, message);
   message.crossing_angle_rad = target.estimate.crossing_angle_rad;
   message.residual = target.estimate.residual;
   message.stations = static_cast<std::int16_t>(target.stations.size());

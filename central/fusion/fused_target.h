@@ -10,6 +10,7 @@
 #include "central/admission/bearing_check.h"
 #include "central/estimators/estimator.h"
 #include "central/fusion/slew_planner.h"
+#include "central/ground/above_ground.h"
 #include "central/tracking/target_appearance.h"
 #include "central/tracking/track.h"
 
@@ -32,6 +33,7 @@ struct FusedTarget {
   std::vector<ContributingStation> stations;  // in the order of their ids
   std::optional<BearingOnly> bearing_only;    // instead of a position
   Appearance appearance;
+  std::optional<HeightAboveGround> above_ground;  // where position and ground are known
 };
 
 struct FusionOutput {

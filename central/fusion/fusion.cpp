@@ -20,7 +20,14 @@ TargetScheduleConfig schedule_of(const FusionConfig& config) {
           .rate_hz = config.rate_hz,
           .paper_targets = config.paper_targets,
           .give_up_s = config.tracks.drop_s,
-          .estimators = config.estimators};
+          .estimators = config.estimators,
+          .land = config.land};
+}
+
+TrackManagerConfig tracks_of(const FusionConfig& config) {
+  TrackManagerConfig tracks = config.tracks;
+  tracks.initiation.land = config.land.surface;
+  return tracks;
 }
 
 }  // namespace
@@ -30,7 +37,7 @@ Fusion::Fusion(const FusionConfig& config)
       admission_(config.admission),
       pointing_(config.pointing),
       unassociated_(config.unassociated),
-      tracks_(config.tracks),
+      tracks_(tracks_of(config)),
       targets_(schedule_of(config)),
       slews_(config.slew, config.tracks.drop_s, config.handover.staring),
       cues_(config.cues),

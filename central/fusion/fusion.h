@@ -21,6 +21,7 @@
 #include "central/fusion/fusion_health.h"
 #include "central/fusion/slew_schedule.h"
 #include "central/fusion/target_schedule.h"
+#include "central/ground/land_use.h"
 #include "central/tracking/live_tracks.h"
 
 namespace ols::fusion {
@@ -37,6 +38,7 @@ struct FusionConfig {
   UnassociatedConfig unassociated{};
   CueConfig cues{};
   HandoverConfig handover{};
+  LandUse land{};
 };
 
 class Fusion {

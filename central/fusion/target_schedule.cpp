@@ -4,6 +4,7 @@
 #include <set>
 
 #include "central/fusion/output_period.h"
+#include "central/ground/ground_point.h"
 #include "central/measurement/time_span.h"
 #include "central/tracking/target_appearance.h"
 
@@ -125,9 +126,47 @@ FusedTarget TargetSchedule::locate(const Track& track, bool by_paper, const Trac
     });
   }
   FusedTarget target = target_of(epoch_us, track, estimator.name(), std::move(located));
-  if (target.estimate.solution == Solution::kOk)
+  if (target.estimate.solution == Solution::kOk) {
     target.appearance = appearance_of(track, target.estimate.position_ecef);
+    if (!by_paper) use_land(target);
+  }
   return target;
+}
+
+// A located target's height above the ground. If the site has said that it stands there, the ground
+// improves its position.
+void TargetSchedule::use_land(FusedTarget& target) const {
+  if (!config_.land.surface) return;
+  const land::Surface& surface = *config_.land.surface;
+  Estimate& estimate = target.estimate;
+  const bool stands = std::ranges::any_of(target.stations, [this](const ContributingStation& s) {
+    return s.used && config_.land.stands(s.station);
+  });
+  if (stands) {
+    if (const auto placed =
+            put_on_ground(surface, {estimate.position_ecef, estimate.covariance_ecef})) {
+      estimate.position_ecef = placed->p_ecef;
+      estimate.covariance_ecef = placed->covariance_ecef;
+    }
+  }
+  target.above_ground =
+      height_above_ground(surface, estimate.position_ecef, estimate.covariance_ecef);
+}
+
+// A bearing-only track of an object that stands on the ground has a position, where its line of
+// sight ends.
+void TargetSchedule::end_in_ground(FusedTarget& target) const {
+  if (target.target_id == 0) return;
+  const auto point = ground_point(*config_.land.surface, target.bearing_only->sight);
+  if (!point) return;
+  target.estimator = "ground";
+  target.state = TrackState::kConfirmed;
+  target.bearing_only.reset();
+  target.estimate.solution = Solution::kOk;
+  target.estimate.position_ecef = point->p_ecef;
+  target.estimate.covariance_ecef = point->covariance_ecef;
+  target.estimate.covariance_white_ecef = point->covariance_white_ecef;
+  target.above_ground = HeightAboveGround{kMiddle_m, kMiddleSd_m};
 }
 
 // Without an object: the reason, or the single bearing-only track. Also the bearing-only track of
@@ -165,6 +204,7 @@ void TargetSchedule::report_bearing_only(TrackManager& tracks, const PointingMon
       target.stations = {{station, true, 1.0, 0.0}};
       target.bearing_only = line;
       output.targets.push_back(target);
+      if (config_.land.stands(station)) end_in_ground(output.targets.back());
     }
   }
 }

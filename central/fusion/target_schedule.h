@@ -15,6 +15,7 @@
 #include "central/fusion/bearing_lines.h"
 #include "central/fusion/epoch_rule.h"
 #include "central/fusion/fused_target.h"
+#include "central/ground/land_use.h"
 #include "central/tracking/track_manager.h"
 
 namespace ols::fusion {
@@ -25,6 +26,7 @@ struct TargetScheduleConfig {
   int paper_targets = 8;             // max number of targets with a paper estimate too; 0: none
   double give_up_s = 2.0;            // older pending outputs are discarded
   EstimatorConfig estimators{};
+  LandUse land{};
 };
 
 class TargetSchedule {
@@ -58,6 +60,8 @@ class TargetSchedule {
   void begin(std::int64_t epoch_us, std::int64_t now_us, TrackManager& tracks);
   FusedTarget locate(const Track& track, bool by_paper, const TrackManager& tracks,
                      const ClockMonitor& clocks);
+  void use_land(FusedTarget& target) const;
+  void end_in_ground(FusedTarget& target) const;
   void report_bearing_only(TrackManager& tracks, const PointingMonitor& pointing,
                            FusionOutput& output);
 

@@ -26,6 +26,7 @@ double visibility(const land::Surface& surface, const Eigen::Vector3d& camera_ec
   const double up_variance_m2 = up.dot(covariance_ecef * up);
   const double end_m = range_m - 3.0 * along_sd_m - kBeside_m;
   double least = std::numeric_limits<double>::infinity();
+  bool is_out = false;  // of what covers the camera
   for (double at_m = kBeside_m; at_m < end_m;) {
     const Geodetic place = geodetic_from_ecef(camera_ecef + at_m * along);
     const auto top = surface.top(place.latitude_rad, place.longitude_rad);
@@ -35,7 +36,9 @@ double visibility(const land::Surface& surface, const Eigen::Vector3d& camera_ec
       clearance_m = place.height_m + bent_m - top->height_m;
       const double share = at_m / range_m;
       const double variance_m2 = top->sd_m * top->sd_m + share * share * up_variance_m2;
-      least = std::min(least, clearance_m / std::max(kLeastSd_m, std::sqrt(variance_m2)));
+      is_out |= clearance_m > 0.0;
+      if (is_out)
+        least = std::min(least, clearance_m / std::max(kLeastSd_m, std::sqrt(variance_m2)));
     }
     at_m += kLeastStep_m + 0.01 * at_m;
     if (top) at_m += std::max(0.0, clearance_m - kNoBuilding_m) / 2.0;

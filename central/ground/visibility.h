@@ -15,7 +15,8 @@ inline constexpr double kEarth_m = 6.371e6;
 
 // The probability that nothing stands between a camera and a target with this covariance [m^2,
 // ECEF]. What stands within 3 sigmas of the target along the line does not count: the target may be
-// in front of it. 1 where the surface is unknown.
+// in front of it. Nor does what covers the camera, as a roof or a model that is too high there, up
+// to where the line first comes out of it. 1 where the surface is unknown.
 double visibility(const land::Surface& surface, const Eigen::Vector3d& camera_ecef,
                   const Eigen::Vector3d& target_ecef, const Eigen::Matrix3d& covariance_ecef);
 

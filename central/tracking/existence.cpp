@@ -23,8 +23,8 @@ void Existence::seen() {
   log_odds_ = std::min(log_odds_ + std::log(kShown / kByChance), kMostLogOdds);
 }
 
-void Existence::missed() {
-  const double by = std::log((1.0 - kShown) / (1.0 - kByChance));
+void Existence::missed(double visible) {
+  const double by = std::log((1.0 - kShown * visible) / (1.0 - kByChance * visible));
   log_odds_ = std::max(log_odds_ + by, -kMostLogOdds);
 }
 

@@ -20,7 +20,8 @@ class Existence {
   // tracklets always does.
   void begin() { is_judged_ = true; }
   void seen();
-  void missed();
+  // visible: the probability that nothing hid it. Where it is hidden, a miss shows nothing.
+  void missed(double visible = 1.0);
   bool is_judged() const { return is_judged_; }
   double probability() const;
 

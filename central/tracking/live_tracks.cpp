@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "central/ground/visibility.h"
 #include "central/measurement/time_span.h"
 #include "central/tracking/appearance.h"
 #include "central/tracking/position_guard.h"
@@ -185,10 +186,17 @@ void LiveTracks::judge_existence(std::span<const BearingMeasurement> image) {
     if (track.has_taken(any)) {
       track.existence.seen();
     } else if (should_show(any, track)) {
-      track.existence.missed();
+      track.existence.missed(visible(any, track));
     }
     if (track.existence.probability() < kDeleted) track.state = TrackState::kDeleted;
   }
+}
+
+double LiveTracks::visible(const BearingMeasurement& in_image, const Track& track) const {
+  if (!config_.initiation.land) return 1.0;
+  const KinematicState there = track.filter.at(in_image.utime_us);
+  return visibility(*config_.initiation.land, in_image.sight.origin_ecef, there.mean.head<3>(),
+                    there.covariance.topLeftCorner<3, 3>());
 }
 
 // Two other stations see it, it is in the field of view, and as bright as there it would be found.

@@ -71,6 +71,7 @@ class LiveTracks : public TrackManager {
   Association give_up(const BearingMeasurement& measurement, bool may_begin);
   void judge_existence(std::span<const BearingMeasurement> image);
   bool should_show(const BearingMeasurement& in_image, const Track& track) const;
+  double visible(const BearingMeasurement& in_image, const Track& track) const;
   bool has_rival(const Track& track) const;
   void note_clutter(std::span<const BearingMeasurement> image,
                     std::span<const std::optional<Association>> of_targets,

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "central/measurement/time_span.h"
+#include "central/tracking/behind_land.h"
 #include "central/tracking/position_guard.h"
 
 namespace ols::fusion {
@@ -23,9 +24,16 @@ std::optional<TrackStart> TrackInitiation::search(const BearingMeasurement& meas
                                                   const BiasModel& errors, bool accept_two_rays) {
   failure_ = Solution::kTooFewRays;
   const std::vector<RayMeeting> starts = meetings_.of(measurement, pool_, errors, failure_);
-  for (std::size_t i = 0; i < std::min(starts.size(), kMostStarts); ++i) {
-    auto begun = try_start(measurement, starts[i], errors,
-                           accept_two_rays ? Needed::kTwoRays : Needed::kAll);
+  std::size_t tried = 0;
+  for (const RayMeeting& start : starts) {
+    if (tried == kMostStarts) break;
+    auto begun =
+        try_start(measurement, start, errors, accept_two_rays ? Needed::kTwoRays : Needed::kAll);
+    if (begun && is_behind_land(begun->start.track.filter, config_.land.get())) {
+      failure_ = Solution::kRaysMiss;
+      continue;
+    }
+    ++tried;
     if (!begun) continue;
     if (!accept_two_rays && has_better_hypothesis(*begun, measurement, errors)) continue;
     if (!accept_two_rays) take(begun->start.track);
@@ -86,7 +94,8 @@ bool TrackInitiation::has_better_hypothesis(const Hypothesis& begun,
     for (const RayMeeting& start : meetings_.of(third, pool_, errors, failure_)) {
       if (!own.contains(start.second)) continue;
       const auto rival = try_start(third, start, errors, Needed::kHalf);
-      if (rival && (rival->start.track.hits.size() > 2 || rival->misfit < begun.misfit)) {
+      const bool counts = rival && !is_behind_land(rival->start.track.filter, config_.land.get());
+      if (counts && (rival->start.track.hits.size() > 2 || rival->misfit < begun.misfit)) {
         failure_ = Solution::kRaysMiss;
         return true;
       }

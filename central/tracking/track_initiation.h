@@ -6,7 +6,8 @@
 // these bearings. If three stations agree, the hypothesis is accepted at once. If only two agree,
 // they must do so for longer, until the true objects have taken their own bearings. The filter
 // takes the two stations of the hypothesis first. A third station that is wrong, or follows another
-// object, is then outside the gate and does no harm.
+// object, is then outside the gate and does no harm. Two stations alone begin no track below or
+// behind the ground (behind_land.h).
 //
 // The cost of a search grows with the number of stations with such bearings. If there are many,
 // they take turns, so that the cost per bearing does not grow.
@@ -15,6 +16,7 @@
 #include <cmath>
 #include <cstdint>
 #include <deque>
+#include <memory>
 #include <optional>
 #include <random>
 #include <string>
@@ -24,6 +26,7 @@
 #include "central/measurement/time_span.h"
 #include "central/tracking/ray_meetings.h"
 #include "central/tracking/track.h"
+#include "land/surface.h"
 
 namespace ols::fusion {
 
@@ -33,7 +36,8 @@ struct InitiationConfig {
   double explained = 0.6;        // min share of the stations' frames that a hypothesis must explain
   double two_stations_s = 0.35;  // required duration of agreement if only two stations agree
   int least_bearings = 6;
-  int pool_of_a_station = 64;  // max number of kept bearings per station
+  int pool_of_a_station = 64;                   // max number of kept bearings per station
+  std::shared_ptr<const land::Surface> land{};  // null: none is known
 };
 
 // A new track, and what its bearings show of the stations' errors.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "central/measurement/time_span.h"
+#include "central/tracking/behind_land.h"
 #include "central/tracking/likeness.h"
 #include "central/tracking/position_guard.h"
 #include "central/tracking/target_appearance.h"
@@ -105,7 +106,10 @@ void TrackManager::forget_what_it_taught(const Track& track) {
 }
 
 void TrackManager::age(Track& track, std::int64_t now_us) {
-  if (is_inconsistent_pair(track.filter)) {  // what it has taught of the stations is wrong, too
+  if (is_inconsistent_pair(track.filter) ||
+      is_behind_land(
+          track.filter,
+          config_.initiation.land.get())) {  // what it has taught of the stations is wrong, too
     forget_what_it_taught(track);
     track.state = TrackState::kDeleted;
     return;

@@ -6,7 +6,7 @@
 //  - confirmed -> coasting: no two stations have seen it for coast_s. coasting -> confirmed: two
 //    stations see it again.
 //  - any -> deleted: an inconsistent pair. Only two stations see it, and their rays intersect only
-//    if their biases are larger than stated.
+//    if their biases are larger than stated; or below or behind the ground (behind_land.h).
 #pragma once
 
 #include <cstdint>

@@ -44,6 +44,8 @@ Json target_properties(const Target& target) {
           {"state", to_string(target.state)},
           {"height_ellipsoid_m", number(target.place.height_m, 2)},
           {"height_above_sea_m", number(target.place.above_sea_m(), 2)},
+          {"height_above_ground_m", number(target.above_ground_m, 1)},
+          {"height_above_ground_sd_m", number(rounded_up(target.above_ground_sd_m, 1), 1)},
           {"speed_m_s", number(motion.speed_m_s, 2)},
           {"course_deg", number(motion.course_deg, 1)},
           {"climb_m_s", number(motion.climb_m_s, 2)},

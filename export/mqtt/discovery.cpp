@@ -92,6 +92,7 @@ Packets discover_slot(const MqttSettings& settings, const std::string& site, std
       one_of(device, "state", "State", states_of_targets()),
       one_of(device, "class", "Class", classes_of_targets()),
       sensor(device, "height_above_sea_m", "Height above the sea", "m", "distance"),
+      sensor(device, "height_above_ground_m", "Height above the ground", "m", "distance"),
       sensor(device, "height_ellipsoid_m", "Height above the ellipsoid", "m", "distance"),
       sensor(device, "speed_m_s", "Speed", "m/s", "speed"),
       sensor(device, "gps_accuracy", "Accuracy", "m", "distance")};

@@ -52,6 +52,8 @@ Json json_of(const Target& target) {
               {"time", iso_time(target.utime_us)},
               {"state", to_string(target.state)}};
   add_place(target.place, fields);
+  fields["height_above_ground_m"] = number(target.above_ground_m, 1);
+  fields["height_above_ground_sd_m"] = deviation(target.above_ground_sd_m, 1);
   add_uncertainty(target, fields);
   const Motion motion = motion_of(target);
   fields["speed_m_s"] = number(motion.speed_m_s, 2);

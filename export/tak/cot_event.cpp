@@ -53,6 +53,8 @@ std::string target_detail(const Target& target) {
       .append(
           covariance_attribute("velocity_covariance_enu_m2_s2", target.velocity_covariance_m2_s2))
       .append(attribute("climb_m_s", target.velocity_enu_m_s[2], 2))
+      .append(attribute("height_above_ground_m", target.above_ground_m, 1))
+      .append(attribute("height_above_ground_sd_m", target.above_ground_sd_m, 1))
       .append(" class=\"")
       .append(to_string(target.object_class))
       .append("\"")

@@ -40,6 +40,7 @@ TARGET = {
         **dict.fromkeys(
             (
                 *("height_ellipsoid_m", "height_above_sea_m", "gps_accuracy"),
+                *("height_above_ground_m", "height_above_ground_sd_m"),
                 *("ellipse_semi_major_m", "ellipse_semi_minor_m", "ellipse_azimuth_deg"),
                 *("height_sd_m", "speed_m_s", "course_deg", "climb_m_s"),
                 *("class_probability", "size_m"),

@@ -78,6 +78,8 @@ export type Target = {
   latitude_deg: number;
   longitude_deg: number;
   height_m: number;
+  height_above_ground_m: number | null;
+  height_above_ground_sd_m: number | null;
   mgrs?: string;
   sd_enu_m: (number | null)[];
   covariance_enu_m2?: (number | null)[]; // ee, en, eu, nn, nu, uu

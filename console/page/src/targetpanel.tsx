@@ -143,6 +143,11 @@ export function TargetPanel({ target, link, mayCommand, onPoint, onCue, onName, 
       <dl>
         <PositionRows of={target} />
         <PanelRow word="height">{length(height_m, 1)}</PanelRow>
+        {target.height_above_ground_m != null && (
+          <PanelRow word="above_ground">
+            {length(target.height_above_ground_m, 1)} ± {length(target.height_above_ground_sd_m, 1)}
+          </PanelRow>
+        )}
         <PanelRow word="speed">
           {speed(target.speed_m_s, 1)}, {bearing(target.course_deg, 0)}, {climb(target.velocity_enu_m_s?.[2])}
         </PanelRow>

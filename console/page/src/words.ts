@@ -76,6 +76,7 @@ const WORDS = {
   position: ["Position", "Position"],
   mgrs: ["MGRS", "MGRS"],
   height: ["Height", "Höhe"],
+  above_ground: ["Above ground", "Über Grund"],
   speed: ["Speed", "Tempo"],
   course: ["Course", "Kurs"],
   sigma: ["1σ E N U", "1σ O N H"],

@@ -56,6 +56,10 @@ TEST(ConsoleMessages, ATargetHasItsVelocityInTheHorizonAndItsEllipse) {
   EXPECT_NEAR(heard->fields.at("course_deg"), 90.0, 1e-9);
   EXPECT_NEAR(heard->fields.at("ellipse95").at("azimuth_deg"), 90.0, 1e-9);
   EXPECT_EQ(heard->fields.at("sd_enu_m"), Json::parse("[2.0,1.0,3.0]"));
+  EXPECT_EQ(heard->fields.at("height_above_ground_m"), nullptr);
+  auto known = target();
+  known.has_height_above_ground = 1;
+  EXPECT_EQ(target_from(on("OLS_TARGET", known))->fields.at("height_above_ground_m"), 0.0);
 }
 
 TEST(ConsoleMessages, WhatIsNoPositionIsNoPosition) {

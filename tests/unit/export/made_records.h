@@ -18,6 +18,8 @@ inline Target made_target(std::int64_t id = 7, std::int64_t after_us = 0) {
   target.velocity_enu_m_s = {3.0, 4.0, -1.5};
   target.velocity_covariance_m2_s2 = {0.25, 0.0, 0.0, 0.25, 0.0, 1.0};
   target.stations = {"alfa", "bravo"};
+  target.above_ground_m = 12.26;
+  target.above_ground_sd_m = 1.51;
   return target;
 }
 

@@ -42,6 +42,13 @@ TEST(ExportMessages, AnIncidentNamesItsTargetAsTheTargetIsNamed) {
   EXPECT_FALSE(incident_from(on("OLS_INCIDENTS", incident_message()), kSite));
 }
 
+TEST(ExportMessages, AHeightAboveTheGroundMayBeZeroOrUnknown) {
+  auto message = target_message();
+  EXPECT_TRUE(std::isnan(target_from(on("OLS_TARGET", message), kSite)->above_ground_m));
+  message.has_height_above_ground = 1;
+  EXPECT_EQ(target_from(on("OLS_TARGET", message), kSite)->above_ground_m, 0.0);
+}
+
 TEST(ExportMessages, WithoutAPositionThereIsNoTarget) {
   auto message = target_message();
   message.solution = ols_msg::target_t::SOLUTION_TOO_FEW_RAYS;

@@ -78,6 +78,7 @@ TEST(HeardTarget, OfBeforeItGrewLacksWhatItDidNotSay) {
   EXPECT_EQ(target->age_s, std::vector{0.25});
   EXPECT_STREQ(class_name(target->object_class), "unknown");
   EXPECT_EQ(target->size_m, 0.0);
+  EXPECT_FALSE(target->has_height_above_ground);
   EXPECT_TRUE(has_position(*target));
   message.payload.push_back(0);
   EXPECT_FALSE(heard_target(message)) << "more than the message";

@@ -49,6 +49,13 @@ TEST_F(FusionSettingsTest, ModelsThatCannotBeMixedAreRefusedByName) {
   EXPECT_EQ(refusal("[motion]\nmodels = []\n"), place + "needs at least one entry");
 }
 
+TEST_F(FusionSettingsTest, TheLandIsUnknownUntilItIsNamed) {
+  EXPECT_EQ(load("").land_folder, "");
+  const auto known = load("[land]\nfolder = \"/var/lib/ols/land\"\non_ground = [\"alfa\"]\n");
+  EXPECT_EQ(known.land_folder, "/var/lib/ols/land");
+  EXPECT_EQ(known.fusion.land.on_ground, std::vector<std::string>{"alfa"});
+}
+
 TEST_F(FusionSettingsTest, ACuesAccelerationHasLimits) {
   EXPECT_EQ(load("[cues]\nacceleration_sd_m_s2 = 100.0\n").fusion.cues.acceleration_sd_m_s2, 100.0);
   EXPECT_THAT(refusal("[cues]\nacceleration_sd_m_s2 = 101.0\n"),

@@ -304,6 +304,7 @@ TEST(Messages, TargetCarriesGeodeticPositionAndEnuCovariance) {
   target.estimate.position_ecef = ecef_from_geodetic(place);
   target.estimate.covariance_ecef = R * enu * R.transpose();
   target.estimate.covariance_white_ecef = target.estimate.covariance_ecef / 2.0;
+  target.above_ground = HeightAboveGround{-0.5, 1.5};
   const auto message = to_message(target, MessageStamp{7, 8});
   EXPECT_EQ(message.boot_id, 7);
   EXPECT_EQ(message.sequence, 8);
@@ -315,6 +316,9 @@ TEST(Messages, TargetCarriesGeodeticPositionAndEnuCovariance) {
     EXPECT_NEAR(message.position_covariance_white_enu_m2[i], expected[i] / 2.0, 1e-9);
     EXPECT_TRUE(std::isnan(message.velocity_covariance_enu_m2_s2[i]));
   }
+  EXPECT_TRUE(message.has_height_above_ground);
+  EXPECT_EQ(message.height_above_ground_m, -0.5);
+  EXPECT_EQ(message.height_above_ground_sd_m, 1.5);
   ASSERT_EQ(message.stations, 2);
   EXPECT_TRUE(message.used[0]);
   EXPECT_FALSE(message.used[1]);

@@ -42,5 +42,12 @@ TEST(Visibility, OfPlacesBehindAndBeforeARidge) {
   }
 }
 
+// A camera on a roof that the model has too high by 2 m, and 30 m too long.
+TEST(Visibility, IsNotOfWhatCoversTheCamera) {
+  const Land land([](double east_m, double) { return east_m < 40.0 ? 12.0 : 0.0; }, 0.1);
+  const Eigen::Vector3d camera = land.at(0.0, 0.0, 10.0), p = land.at(400.0, 0.0, 20.0);
+  EXPECT_GT(visibility(land, camera, p, enu_covariance(p, {1.0, 1.0, 1.0})), 0.99);
+}
+
 }  // namespace
 }  // namespace ols::fusion

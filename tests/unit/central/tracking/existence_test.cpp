@@ -29,6 +29,17 @@ TEST(Existence, GrowsWithThreeOfFourStationsAndFallsWithTwo) {
   EXPECT_LT(ghost.probability(), 0.05);
 }
 
+TEST(Existence, LearnsNothingFromAMissWhereItIsHidden) {
+  Existence hidden, half, seen;
+  for (Existence* existence : {&hidden, &half, &seen}) existence->begin();
+  hidden.missed(0.0);
+  half.missed(0.5);
+  seen.missed();
+  EXPECT_EQ(hidden.probability(), 0.5);
+  EXPECT_NEAR(half.probability(), 0.6 / 1.4, 1e-9);
+  EXPECT_NEAR(seen.probability(), 0.25, 1e-9);
+}
+
 TEST(Existence, ChangesItsMindWithinSomeImages) {
   Existence existence;
   existence.begin();

@@ -132,6 +132,8 @@ TEST(ExportGeoJson, HeightsAreAboveTheEllipsoid) {
   EXPECT_EQ(features[0].at("geometry").at("coordinates"),
             nlohmann::json::parse("[13.25, 47.5, 100.0]"));
   EXPECT_EQ(features[0].at("properties").at("height_above_sea_m"), 54.0);
+  EXPECT_EQ(features[0].at("properties").at("height_above_ground_m"), 12.3);
+  EXPECT_EQ(features[0].at("properties").at("height_above_ground_sd_m"), 1.6);
   EXPECT_EQ(features[0].at("properties").at("covariance_enu_m2"),
             nlohmann::json::parse("[4.0, 1.0, 0.0, 9.0, 0.0, 25.0]"));
   EXPECT_EQ(features[1].at("geometry").at("type"), "LineString");
@@ -144,12 +146,13 @@ TEST(ExportGeoJson, HeightsAreAboveTheEllipsoid) {
 TEST(ExportGeoJson, WhatIsUnknownIsNull) {
   Picture picture;
   Target target = made_target();
-  target.place.geoid_m = kUnknown;
+  target.place.geoid_m = target.above_ground_m = kUnknown;
   target.velocity_enu_m_s.fill(kUnknown);
   picture.take(target);
   const auto properties =
       nlohmann::json::parse(geojson(picture, 1.0)).at("features")[0].at("properties");
   EXPECT_TRUE(properties.at("height_above_sea_m").is_null());
+  EXPECT_TRUE(properties.at("height_above_ground_m").is_null());
   EXPECT_TRUE(properties.at("speed_m_s").is_null());
 }
 

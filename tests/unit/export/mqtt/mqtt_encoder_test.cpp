@@ -23,6 +23,7 @@ TEST(MqttEncoder, ATargetHasASlotAsLongAsItIsThere) {
   EXPECT_TRUE(first[1].is_retained);
   EXPECT_EQ(json_of(first[1]).at("height_above_sea_m"), 54.0);
   EXPECT_EQ(json_of(first[1]).at("height_ellipsoid_m"), 100.0);
+  EXPECT_EQ(json_of(first[1]).at("height_above_ground_m"), 12.3);
   EXPECT_EQ(encoder.encode(made_target(2)).size(), 1U) << "no slot is free";
   Target end = made_target(1);
   end.state = TrackState::kEnded;
@@ -126,18 +127,19 @@ TEST(MqttEncoder, EntitiesSayWhatTheyMeasureAndKeepTheirNames) {
     EXPECT_NE(config.at("options").dump().find('"' + now + '"'), std::string::npos) << id;
     EXPECT_FALSE(config.contains("state_class"));
   }
-  EXPECT_EQ(classes,
-            (std::map<std::string, std::string>{{"Brno_1_target_1", ""},
-                                                {"Brno_1_target_1_state", "enum"},
-                                                {"Brno_1_target_1_class", "enum"},
-                                                {"Brno_1_target_1_height_above_sea_m", "distance"},
-                                                {"Brno_1_target_1_height_ellipsoid_m", "distance"},
-                                                {"Brno_1_target_1_speed_m_s", "speed"},
-                                                {"Brno_1_target_1_gps_accuracy", "distance"},
-                                                {"Brno_1_station_alfa_state", "enum"},
-                                                {"Brno_1_station_alfa_azimuth_deg", ""},
-                                                {"Brno_1_station_alfa_elevation_deg", ""},
-                                                {"Brno_1_station_alfa_problem", "problem"}}));
+  EXPECT_EQ(classes, (std::map<std::string, std::string>{
+                         {"Brno_1_target_1", ""},
+                         {"Brno_1_target_1_state", "enum"},
+                         {"Brno_1_target_1_class", "enum"},
+                         {"Brno_1_target_1_height_above_sea_m", "distance"},
+                         {"Brno_1_target_1_height_above_ground_m", "distance"},
+                         {"Brno_1_target_1_height_ellipsoid_m", "distance"},
+                         {"Brno_1_target_1_speed_m_s", "speed"},
+                         {"Brno_1_target_1_gps_accuracy", "distance"},
+                         {"Brno_1_station_alfa_state", "enum"},
+                         {"Brno_1_station_alfa_azimuth_deg", ""},
+                         {"Brno_1_station_alfa_elevation_deg", ""},
+                         {"Brno_1_station_alfa_problem", "problem"}}));
 }
 
 TEST(MqttEncoder, NamesAreMadeFitForTopics) {

@@ -24,6 +24,7 @@ TEST(CotEvent, OfATarget) {
   EXPECT_DOUBLE_EQ(event.speed_m_s, 5.0);
   EXPECT_THAT(event.detail, HasSubstr("covariance_enu_m2=\"4.0000 1.0000 0.0000 9.0000"));
   EXPECT_THAT(event.detail, HasSubstr("stations=\"alfa bravo\""));
+  EXPECT_THAT(event.detail, HasSubstr("height_above_ground_m=\"12.3\""));
 }
 
 TEST(CotEvent, ADroneHasATypeOfItsOwn) {
