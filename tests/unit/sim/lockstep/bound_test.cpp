@@ -68,7 +68,7 @@ TEST(Bound, HeadingErrorActsAcrossTheRayOnly) {
   s.errors.heading.on = true;
   s.errors.heading.sd_rad = 1e-3;
   const World world(s, 1);
-  const auto bound = position_bound_enu(world, 0.0, {0, 1}, {0.01, 0.0, 1.0});
+  const auto bound = position_bound_enu(world, 0.0, {0, 1}, {0.01, 1.0});
   ASSERT_TRUE(bound);
   const double across_m = 300.0 * std::sqrt(2.0) * 1e-3;
   EXPECT_NEAR(std::sqrt((*bound)(0, 0)) / across_m, 1.0, 0.01);
@@ -84,7 +84,7 @@ TEST(Bound, AClockErrorActsAlongTheMotion) {
   s.errors.clock.on = true;
   s.errors.clock.sd_s = 0.01;
   const World world(s, 1);
-  const auto bound = position_bound_enu(world, 0.0, {0, 1}, {0.01, 0.0, 1.0});
+  const auto bound = position_bound_enu(world, 0.0, {0, 1}, {0.01, 1.0});
   ASSERT_TRUE(bound);
   EXPECT_NEAR(std::sqrt((*bound)(2, 2)), 0.2 / std::sqrt(2.0), 0.005);
 }
