@@ -49,7 +49,7 @@ TEST(MqttEncoder, AnIncidentSaysWhetherItIsAnAlarm) {
 TEST(MqttEncoder, EntitiesAreToldOnceAndAgainToANewBroker) {
   MqttEncoder encoder({.slots = 2}, "brno");
   const Packets told = encoder.turn(0);
-  ASSERT_EQ(told.size(), 16U);  // seven entities and the free slot, twice
+  ASSERT_EQ(told.size(), 18U);  // eight entities and the free slot, twice
   EXPECT_EQ(told[0].where, "homeassistant/device_tracker/brno_target_1/config");
   EXPECT_EQ(json_of(told[0]).at("availability_topic"), "ols/brno/status");
   EXPECT_TRUE(encoder.turn(0).empty());
@@ -57,7 +57,7 @@ TEST(MqttEncoder, EntitiesAreToldOnceAndAgainToANewBroker) {
   EXPECT_EQ(encoder.encode(made_station()).size(), 1U);
   encoder.encode(made_target());
   encoder.begin_again();
-  EXPECT_EQ(encoder.turn(0).size(), 15U) << "a slot that is taken is not told to be free";
+  EXPECT_EQ(encoder.turn(0).size(), 17U) << "a slot that is taken is not told to be free";
   EXPECT_EQ(encoder.encode(made_station()).size(), 5U);
 }
 
@@ -72,7 +72,7 @@ TEST(MqttEncoder, WhatIsOldNewsBecomesUnavailable) {
     EXPECT_EQ(json_of(packet).contains("expire_after"), !is_place) << packet.where;
     expiring += json_of(packet).value("expire_after", 0) == 12 ? 1 : 0;
   }
-  EXPECT_EQ(expiring, 10);
+  EXPECT_EQ(expiring, 11);
   MqttEncoder never({.stale_s = 0.0, .slots = 1}, "brno");
   EXPECT_FALSE(json_of(never.turn(0)[1]).contains("expire_after"));
   EXPECT_TRUE(never.turn(3'600'000'000).empty());
