@@ -21,8 +21,8 @@
 #include "cue/live_cues.h"
 #include "cue/source.h"
 #include "cue/status.h"
-#include "land/geoid.h"
 #include "export/protobuf_log.h"
+#include "land/geoid.h"
 
 namespace {
 
@@ -36,8 +36,8 @@ constexpr double kSend_s = 0.2;  // the fusion ends a cue that has been silent f
 // Without a grid, heights above the geoid are refused one by one, and others are not.
 cues::GeoidHeight geoid_of(const cues::CueConfig& config) {
   try {
-    return [geoid = std::make_shared<const ols::land::Geoid>(config.geoid)](
-               double latitude_deg, double longitude_deg) {
+    return [geoid = std::make_shared<const ols::land::Geoid>(config.geoid)](double latitude_deg,
+                                                                            double longitude_deg) {
       return geoid->height_m(latitude_deg, longitude_deg);
     };
   } catch (const std::invalid_argument& missing) {

@@ -16,7 +16,7 @@ struct FusionSettings {
   double status_interval_s = 1.0;
   double slew_clock_tolerance_s = 2.0;  // a slew whose time is further from this host's clock is
                                         // withheld
-  std::string land_folder;  // of `ols-land import`; empty: no land is known
+  std::string land_folder;              // of `ols-land import`; empty: no land is known
   FusionConfig fusion{};
   trust::TrustConfig trust{};
 };

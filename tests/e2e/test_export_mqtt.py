@@ -119,7 +119,7 @@ def test_a_target_and_its_entities(tmp_path, subscriber):
             assert found["height_ellipsoid_m"] == HEIGHT_M
             assert found["height_above_sea_m"] == pytest.approx(HEIGHT_M - GEOID_M, abs=0.02)
         configs = [t for t in subscriber.topics if t.startswith("homeassistant/")]
-        assert len(configs) == 8 * 7 + 4
+        assert len(configs) == 8 * 8 + 4
         for topic in configs:
             config = subscriber.json(topic)
             jsonschema.validate(config, DISCOVERY)

@@ -165,6 +165,7 @@ def flight(pan_deg):
 
     for i in range(round(SECONDS * 25) + 1):
         truth = SimpleNamespace(
+            target_id=0,
             utime=i * 40_000,
             position_ecef_m=frame.to_ecef(place(i * 0.04)),
             velocity_ecef_m_s=(frame.to_ecef(place(1.0)) - frame.to_ecef(place(0.0))),

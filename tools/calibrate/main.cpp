@@ -82,8 +82,8 @@ void add_camera_options(CLI::App& app, calibration::CameraOptions& o) {
   app.add_option("--lens", o.model, "its model: pinhole, fisheye or polynomial")
       ->transform(CLI::CheckedTransformer(
           std::map<std::string, ols::LensModel>{{"pinhole", ols::LensModel::kPinhole},
-                                           {"fisheye", ols::LensModel::kFisheye},
-                                           {"polynomial", ols::LensModel::kPolynomial}}));
+                                                {"fisheye", ols::LensModel::kFisheye},
+                                                {"polynomial", ols::LensModel::kPolynomial}}));
   app.add_option("--output", o.output, "folder for the results; it must be new or empty")
       ->required();
 }

@@ -83,10 +83,10 @@ void bind_pinhole(py::module_& m) {
       .value("PINHOLE", LensModel::kPinhole)
       .value("FISHEYE", LensModel::kFisheye)
       .value("POLYNOMIAL", LensModel::kPolynomial);
-  data_class<CameraIntrinsics>(
-      m, "CameraIntrinsics",
-      "A camera: a pinhole with OpenCV's distortion (k1, k2, p1, p2, k3), or a fisheye or polynomial "
-      "(k1 to k4); pixel (0, 0) is the centre of the top-left pixel.")
+  data_class<CameraIntrinsics>(m, "CameraIntrinsics",
+                               "A camera: a pinhole with OpenCV's distortion (k1, k2, p1, p2, k3), "
+                               "or a fisheye or polynomial "
+                               "(k1 to k4); pixel (0, 0) is the centre of the top-left pixel.")
       .def_readwrite("width_px", &CameraIntrinsics::width_px)
       .def_readwrite("height_px", &CameraIntrinsics::height_px)
       .def_readwrite("fx_px", &CameraIntrinsics::fx_px)

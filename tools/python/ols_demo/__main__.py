@@ -58,16 +58,15 @@ def arguments() -> argparse.Namespace:
 class Run:
     """One run of the site, from start to the report."""
 
-    def __init__(self, options: argparse.Namespace, keys: str | None):
-        """keys: the folder of the site's throw-away keys; None: the site is unsigned."""
+    def __init__(self, options: argparse.Namespace, keys: str | None, operated: bool = True):
+        """keys: the folder of the site's throw-away keys; None: the site is unsigned. operated:
+        an operator points and designates; else the site finds targets by itself."""
         self.options = options
         self.observer = Observer()
         self.finding = Finding()
         trust = ols.Trust(keys, "operator", 1) if keys else None
         self.bus = Bus(LIVE_URL, self._receive, trust)
-        self.operator = (
-            Operator(self.bus, self.observer, options.seed) if options.operator else None
-        )
+        self.operator = Operator(self.bus, self.observer, options.seed) if operated else None
         self.screen = None if options.headless else Screen()
         self._draw_due = 0.0
 
@@ -225,7 +224,7 @@ def demonstrate(options: argparse.Namespace) -> int:
             print(f"the console shows it in a browser: {address}", flush=True)
         in_site = write_in_site(options.output, options.bin, wiring.keys)
         print(f"commands to its stations: {in_site} ols-ctl all status", flush=True)
-        run = Run(options, wiring.keys["OLS_KEYS"])
+        run = Run(options, wiring.keys["OLS_KEYS"], options.operator)
         if options.operator:
             run.designate(site, wiring.tracking_stations)
         else:
