@@ -90,6 +90,7 @@ class PaperSite(threading.Thread):
         self.targets = {7: PaperTarget()}
         self.lines: dict[str, tuple[float, float]] = {}  # station -> azimuth, elevation [rad]
         self.fusion_boot, self.fusion_alarms, self.is_fusion_silent = 9, [], False
+        self.handover = "off"
         self.pictures: dict[int, str] = {}  # utime -> station
         self.utime_us = lambda: time.time_ns() // 1000
         self.borders: dict[str, list[list[tuple[float, float]]]] = {}  # keep-outs [rad]
@@ -99,6 +100,7 @@ class PaperSite(threading.Thread):
         self.lcm.subscribe("OLS_PTU_.+", self._commanded)
         self.lcm.subscribe("OLS_LENS_.+", self._lens_moved)
         self.lcm.subscribe("OLS_RECORD_.+", self._recorded)
+        self.lcm.subscribe("OLS_CUE_ORDER", self._handed_over)
 
     def _publish(self, channel: str, message: Any) -> None:
         message.sequence = next(self._sequences)
@@ -124,6 +126,14 @@ class PaperSite(threading.Thread):
         m.accepted, m.reason = not reason, reason
         self._publish(f"OLS_REPLY_{order.station}", m)
         return not reason
+
+    def _handed_over(self, _channel: str, data: bytes) -> None:
+        order = ols_msg.cue_order_t.decode(data)
+        self.handover = order.handover or self.handover
+        m = ols_msg.command_reply_t()
+        m.utime, m.schema_version, m.boot_id = self.utime_us(), m.SCHEMA_VERSION, self.fusion_boot
+        m.order_boot_id, m.order_sequence, m.accepted = order.boot_id, order.sequence, True
+        self._publish("OLS_CUE_REPLY", m)
 
     def _designated(self, _channel: str, data: bytes) -> None:
         message = ols_msg.designate_t.decode(data)
@@ -255,6 +265,7 @@ class PaperSite(threading.Thread):
         m = ols_msg.fusion_status_t()
         m.utime = self.utime_us()
         m.schema_version, m.boot_id, m.last_error = m.SCHEMA_VERSION, self.fusion_boot, ""
+        m.handover = self.handover
         put_alarms(m, self.fusion_alarms)
         m.station = ["alfa", "bravo"]
         m.stations = 2

@@ -42,6 +42,21 @@ def test_targets_are_sorted_and_filtered(page, paper):
         expect(rows(page, "Targets")).to_have_count(2)
 
 
+def test_the_hand_over_changes_when_it_is_set_and_not_when_it_is_chosen(page, paper):
+    targets, handover = region(page, "Targets"), page.get_by_label("hand-over")
+    expect(handover).to_have_value("off")
+    handover.select_option("automatic")
+    button = targets.get_by_role("button", name="set hand-over")
+    expect(button).to_be_visible()
+    assert paper.handover == "off"
+    button.click()
+    wait(lambda: paper.handover == "automatic", "the order")
+    expect(handover).to_have_value("automatic")
+    expect(button).to_have_count(0)
+    expect(region(page, "History")).to_contain_text("sets the hand-over to automatic → done")
+    paper.handover = "off"
+
+
 def test_history_is_filtered(page, paper):
     paper.alarms["bravo"] = [LOW_SUPPLY]
     region(page, "Stations").get_by_role("button", name="alfa").click()
