@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "geometry/angles.h"
+#include "land/refraction.h"
 
 namespace ols::land {
 namespace {

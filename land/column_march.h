@@ -21,12 +21,6 @@ struct MarchSettings {
   bool covered = false;
 };
 
-// What the bend of a ray adds to the tangent of an elevation.
-inline double refraction_slope(double refraction_k, double distance_m) {
-  constexpr double kEarth_m = 6'371'000.0;
-  return refraction_k * distance_m / (2.0 * kEarth_m);
-}
-
 // How far an error of an elevation model is the same: some samples of the usual models.
 inline constexpr double kLowered_m = 300.0;
 

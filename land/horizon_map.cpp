@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "geometry/chi_square.h"
 #include "land/column_march.h"
 
 namespace ols::land {
@@ -51,8 +52,6 @@ double distance_at(Steps steps, double elevation_rad) {
   return interpolate(elevation_rad, at[-1].elevation_rad, at->elevation_rad, at[-1].distance_m,
                      at->distance_m);
 }
-
-double normal_below(double sigmas) { return 0.5 * std::erfc(-sigmas / std::sqrt(2.0)); }
 
 // A camera on top of what the model has there is covered by nothing.
 struct Standing {
@@ -186,7 +185,7 @@ double HorizonMap::probability_at(const Columns& columns, double distance_m, dou
   const double above_rad = elevation_rad - land.elevation_rad;
   const double sd_rad = std::hypot(elevation_sd_rad, land.sd_rad);
   if (sd_rad == 0.0) return above_rad > 0.0 ? 1.0 : 0.0;
-  return normal_below(above_rad / sd_rad);
+  return normal_level(-above_rad / sd_rad);
 }
 
 // Azimuth, distance and elevation of the point are jointly normal. Over azimuth and distance the

@@ -19,6 +19,7 @@
 #include "geometry/angles.h"
 #include "geometry/direction.h"
 #include "geometry/wgs84.h"
+#include "land/refraction.h"
 #include "land/staircase.h"
 #include "land/surface.h"
 
@@ -31,8 +32,8 @@ struct HorizonMapConfig {
   // Only these azimuths are looked at, as far as a mount turns; elsewhere no land is known.
   double from_azimuth_rad = 0.0;
   double sector_rad = 2.0 * kPi;  // clockwise
-  double refraction_k = 0.13;
-  double refraction_k_sd = 0.1;
+  double refraction_k = kRefraction;
+  double refraction_k_sd = kRefractionSd;
 };
 
 // A highest elevation.

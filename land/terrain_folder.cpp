@@ -1,19 +1,15 @@
 #include "land/terrain_folder.h"
 
-#include <fcntl.h>
 #include <sodium.h>
-#include <sys/mman.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <array>
 #include <bit>
-#include <cerrno>
+#include <boost/interprocess/file_mapping.hpp>
+#include <boost/interprocess/mapped_region.hpp>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
 #include <string_view>
-#include <system_error>
 #include <utility>
 
 #include "geometry/angles.h"
@@ -22,6 +18,7 @@ namespace ols::land {
 namespace {
 
 namespace fs = std::filesystem;
+namespace mapping = boost::interprocess;
 
 constexpr const char* kManifest = "land.json";
 constexpr const char* kCoverings = "coverings.json";
@@ -38,35 +35,24 @@ std::string sha256(const void* bytes, std::size_t size) {
 
 class MappedFile {
  public:
-  explicit MappedFile(const std::string& path) {
-    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    struct stat status {};
-    const bool is_file = file >= 0 && ::fstat(file, &status) == 0 && S_ISREG(status.st_mode);
-    if (!is_file) {
-      const int why = file < 0 ? errno : EINVAL;  // a folder or a pipe
-      if (file >= 0) ::close(file);
-      throw std::system_error(why, std::generic_category(), path);
+  explicit MappedFile(const std::string& path) : size_(fs::file_size(path)) {
+    if (size_ == 0) return;  // nothing can be mapped
+    try {
+      region_ = mapping::mapped_region(mapping::file_mapping(path.c_str(), mapping::read_only),
+                                       mapping::read_only);
+    } catch (const mapping::interprocess_exception& error) {
+      throw std::runtime_error(path + ": " + error.what());
     }
-    size_ = static_cast<std::size_t>(status.st_size);
-    if (size_ > 0) bytes_ = ::mmap(nullptr, size_, PROT_READ, MAP_SHARED, file, 0);
-    const int why = errno;
-    ::close(file);
-    if (bytes_ == MAP_FAILED) throw std::system_error(why, std::generic_category(), path);
   }
-  ~MappedFile() {
-    if (size_ > 0) ::munmap(bytes_, size_);
-  }
-  MappedFile(const MappedFile&) = delete;
-  MappedFile& operator=(const MappedFile&) = delete;
 
-  const void* bytes() const { return bytes_; }
-  std::string_view text() const { return {static_cast<const char*>(bytes_), size_}; }
-  std::string sum() const { return sha256(bytes_, size_); }
+  const void* bytes() const { return region_.get_address(); }
+  std::string_view text() const { return {static_cast<const char*>(bytes()), size_}; }
+  std::string sum() const { return sha256(bytes(), size_); }
   std::size_t size() const { return size_; }
 
  private:
-  void* bytes_ = nullptr;
-  std::size_t size_ = 0;
+  std::size_t size_;
+  mapping::mapped_region region_;
 };
 
 using Mapped = std::vector<std::unique_ptr<const MappedFile>>;

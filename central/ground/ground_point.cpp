@@ -9,6 +9,7 @@
 #include "central/measurement/ray.h"
 #include "geometry/chi_square.h"
 #include "geometry/wgs84.h"
+#include "land/refraction.h"
 
 namespace ols::fusion {
 namespace {
@@ -44,7 +45,7 @@ std::optional<Node> node_at(const land::Surface& surface, const LineOfSight& sig
   const auto ground = surface.ground(place.latitude_rad, place.longitude_rad);
   const auto top = surface.top(place.latitude_rad, place.longitude_rad);
   if (!ground || !top) return std::nullopt;
-  const double bent_m = kRefraction * range_m * range_m / (2.0 * kEarth_m);
+  const double bent_m = land::refraction_slope(land::kRefraction, range_m) * range_m;
   node.up = R_ecef_enu(place).col(2);
   node.p_ecef = straight - bent_m * node.up;
   node.above_m = place.height_m - bent_m - ground->height_m - kMiddle_m;
@@ -140,6 +141,33 @@ Eigen::Vector3d place_of(const Node& node) {
   return node.p_ecef - node.line_m2 / node.variance_m2() * node.above_m * node.up;
 }
 
+// Adds the covariances of the mixture of these nodes about its mean; returns the variance of the
+// range [m^2].
+double add_spread(const std::vector<Node>& nodes, const LineOfSight& sight, const Errors& errors,
+                  GroundPoint& point) {
+  const Eigen::Vector3d across = ray_frame(sight).tangent.col(0);
+  const Eigen::Matrix3d sideways = across * across.transpose();
+  const double white_across = sight.covariance_white(0, 0);
+  const double all_across = white_across + sight.covariance_systematic(0, 0);
+  double along_m2 = 0.0;
+  for (const Node& node : nodes) {
+    if (node.weight == 0.0) continue;
+    const double squared_m2 = node.range_m * node.range_m;
+    const Eigen::Vector3d off = place_of(node) - point.p_ecef;
+    const Eigen::Matrix3d of_height = off * off.transpose() + node.ground_m2 * node.line_m2 /
+                                                                  node.variance_m2() * node.up *
+                                                                  node.up.transpose();
+    const double white = squared_m2 * errors.white_rad2 / node.variance_m2();
+    point.covariance_ecef += node.weight * (of_height + (squared_m2 * all_across) * sideways);
+    point.covariance_white_ecef +=
+        node.weight * (white * of_height + squared_m2 * white_across * sideways);
+    along_m2 += node.weight * std::pow(node.range_m - point.range_m, 2);
+  }
+  point.covariance_ecef +=
+      sight.origin_sd_enu_m.head<2>().squaredNorm() / 2.0 * Eigen::Matrix3d::Identity();
+  return along_m2;
+}
+
 }  // namespace
 
 std::optional<GroundPoint> ground_point(const land::Surface& surface, const LineOfSight& sight,
@@ -158,27 +186,7 @@ std::optional<GroundPoint> ground_point(const land::Surface& surface, const Line
     point.range_m += node.weight * node.range_m;
   }
   if (!point.p_ecef.allFinite() || point.range_m == 0.0) return std::nullopt;
-  const RayFrame frame = ray_frame(sight);
-  const Eigen::Vector3d across = frame.tangent.col(0);
-  const double white_across = sight.covariance_white(0, 0);
-  const double all_across = white_across + sight.covariance_systematic(0, 0);
-  const double origin_across_m2 = sight.origin_sd_enu_m.head<2>().squaredNorm() / 2.0;
-  double along_m2 = 0.0;
-  for (const Node& node : nodes) {
-    if (node.weight == 0.0) continue;
-    const double squared_m2 = node.range_m * node.range_m;
-    const Eigen::Vector3d off = place_of(node) - point.p_ecef;
-    const Eigen::Matrix3d of_height = off * off.transpose() + node.ground_m2 * node.line_m2 /
-                                                                  node.variance_m2() * node.up *
-                                                                  node.up.transpose();
-    const double white = squared_m2 * errors.white_rad2 / node.variance_m2();
-    const Eigen::Matrix3d sideways = across * across.transpose();
-    point.covariance_ecef += node.weight * (of_height + (squared_m2 * all_across) * sideways);
-    point.covariance_white_ecef +=
-        node.weight * (white * of_height + squared_m2 * white_across * sideways);
-    along_m2 += node.weight * std::pow(node.range_m - point.range_m, 2);
-  }
-  point.covariance_ecef += origin_across_m2 * Eigen::Matrix3d::Identity();
+  const double along_m2 = add_spread(nodes, sight, errors, point);
   if (std::sqrt(along_m2) > config.range_sd_limit * point.range_m) return std::nullopt;
   return point;
 }

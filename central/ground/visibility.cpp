@@ -7,6 +7,7 @@
 #include "central/ground/above_ground.h"
 #include "geometry/chi_square.h"
 #include "geometry/wgs84.h"
+#include "land/refraction.h"
 
 namespace ols::fusion {
 
@@ -32,7 +33,7 @@ double visibility(const land::Surface& surface, const Eigen::Vector3d& camera_ec
     const auto top = surface.top(place.latitude_rad, place.longitude_rad);
     double clearance_m = std::numeric_limits<double>::infinity();
     if (top) {
-      const double bent_m = kRefraction * at_m * (range_m - at_m) / (2.0 * kEarth_m);
+      const double bent_m = land::refraction_slope(land::kRefraction, at_m) * (range_m - at_m);
       clearance_m = place.height_m + bent_m - top->height_m;
       const double share = at_m / range_m;
       const double variance_m2 = top->sd_m * top->sd_m + share * share * up_variance_m2;

@@ -7,12 +7,6 @@
 
 namespace ols::fusion {
 
-// Light bends towards the earth: over d metres it falls below a straight line by this share of what
-// the earth's curvature makes, d^2 / 2 R. In daylight over land about 0.13; +/- 0.1 of it is 0.3 m
-// at 6 km.
-inline constexpr double kRefraction = 0.13;
-inline constexpr double kEarth_m = 6.371e6;
-
 // The probability that nothing stands between a camera and a target with this covariance [m^2,
 // ECEF]. What stands within 3 sigmas of the target along the line does not count: the target may be
 // in front of it. Nor does what covers the camera, as a roof or a model that is too high there, up

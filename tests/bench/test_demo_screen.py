@@ -9,10 +9,12 @@ import ols_msg
 import pytest
 from conftest import BIN, finished
 from ols_demo import __main__ as demo
+from ols_demo.evaluate import keep_targets
 from ols_demo.finding import Finding
 from ols_demo.inside import write_in_site
 from ols_demo.live import Screen, at_work, station_lines, target_lines
 from ols_demo.observer import Observer
+from ols_demo.recording import Recording
 
 STATUS, TARGET = ols_msg.station_status_t, ols_msg.target_t
 HEARD_US = 1_700_000_000_000_000
@@ -148,3 +150,16 @@ def test_what_an_unattended_site_finds_is_said_once():
     assert finding.drones == {2}
     assert finding.holds(observer)
     assert not finding.holds(heard(status("alfa", STATUS.STATE_TRACKING)))
+
+
+def test_a_run_is_judged_by_the_chosen_targets_and_the_first_ones_truth():
+    recording = Recording()
+    for arrival, number in enumerate((1, 2, 1)):
+        recording.receive("OLS_TARGET", target(target_id=number), arrival)
+        truth = ols_msg.truth_target_t()
+        truth.target_id = number - 1
+        recording.receive("OLS_SIM_TRUTH", truth, arrival)
+    keep_targets(recording, {1})
+    assert [t.target_id for t in recording.targets["OLS_TARGET"]] == [1, 1]
+    assert recording.arrivals_us["OLS_TARGET"] == [0, 2]
+    assert [t.target_id for t in recording.truth] == [0, 0]

@@ -1,6 +1,8 @@
 #include "edge/camera/rtsp/picture_change.h"
 
-#include <cstring>
+#include <boost/container_hash/hash.hpp>
+#include <functional>
+#include <string_view>
 
 namespace ols::camera {
 namespace {
@@ -8,16 +10,11 @@ namespace {
 constexpr std::size_t kMostSeen = 1000;  // pictures: some key frame intervals
 constexpr int kEvery = 8;                // rows: a live picture has noise everywhere
 
-std::uint64_t print_of(const cv::Mat& gray) {
-  std::uint64_t print = 14695981039346656037ULL;  // FNV-1a, by words
+std::size_t print_of(const cv::Mat& gray) {
+  std::size_t print = 0;
   for (int row = 0; row < gray.rows; row += kEvery) {
-    const std::uint8_t* bytes = gray.ptr(row);
-    for (int at = 0; at + 8 <= gray.cols; at += 8) {
-      std::uint64_t word = 0;
-      std::memcpy(&word, bytes + at, sizeof word);
-      print = (print ^ word) * 1099511628211ULL;
-      print ^= print >> 29U;
-    }
+    const std::string_view bytes(gray.ptr<char>(row), static_cast<std::size_t>(gray.cols));
+    boost::hash_combine(print, std::hash<std::string_view>{}(bytes));
   }
   return print;
 }

@@ -2,7 +2,7 @@
 // pictures of a frozen image again and again, one for each place between two key frames. Pure.
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <opencv2/core.hpp>
 #include <unordered_set>
 
@@ -14,7 +14,7 @@ class PictureChange {
   double unchanged_s(const cv::Mat& gray, double arrival_s);
 
  private:
-  std::unordered_set<std::uint64_t> seen_;
+  std::unordered_set<std::size_t> seen_;
   double since_s_ = 0.0;
 };
 

@@ -10,6 +10,7 @@
 
 #include "central/ground/above_ground.h"
 #include "central/ground/visibility.h"
+#include "land/refraction.h"
 #include "tests/unit/central/ground/lands.h"
 
 namespace ols::fusion {
@@ -22,7 +23,8 @@ LineOfSight sight_of(const Eigen::Vector3d& camera, const Eigen::Vector3d& p_ece
   sight.origin_ecef = camera;
   const Eigen::Vector3d line = R_ecef_enu(camera).transpose() * (p_ecef - camera);
   sight.direction = azimuth_elevation_from_enu(line);
-  sight.direction.elevation_rad += kRefraction * line.norm() / (2.0 * kEarth_m);
+  sight.direction.elevation_rad +=
+      std::atan(land::refraction_slope(land::kRefraction, line.norm()));
   sight.covariance_white = Eigen::Matrix2d::Identity() * white_rad * white_rad;
   sight.covariance_systematic = Eigen::Matrix2d::Identity() * systematic_rad * systematic_rad;
   return sight;

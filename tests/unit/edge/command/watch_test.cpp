@@ -147,5 +147,26 @@ TEST_F(WatchingStation, WatchesOnlyWhileItIsFree) {
   EXPECT_FALSE(turn().watch);
 }
 
+// A lost target may come back: the station waits for it, but not for ever.
+TEST_F(WatchingStation, ALostTargetKeepsItFromWatchingForAWhile) {
+  const auto turn_for = [this](double seconds) {
+    StationOutput output;
+    for (const double end = now_ + seconds; now_ < end;) {
+      output = turn();
+      camera::Frame frame;
+      frame.mid_exposure_s = now_ - 0.02;
+      watching_->on_frame(frame, now_);
+    }
+    return output;
+  };
+  turn_for(0.5);
+  ASSERT_EQ(watching_->designate({std::nullopt, {629, 469, 20, 20}}, now_), Refusal::kNone);
+  EXPECT_FALSE(turn_for(1.0).watch);
+  script_.belief = 0.0;
+  EXPECT_FALSE(turn_for(10.0).watch);
+  EXPECT_EQ(watching_->state(), StationState::kLost);
+  EXPECT_TRUE(turn_for(8.0).watch);
+}
+
 }  // namespace
 }  // namespace ols::station

@@ -1,0 +1,17 @@
+// How the air bends a line of sight over land.
+#pragma once
+
+namespace ols::land {
+
+// Light bends towards the earth: over d metres it falls below a straight line by this share of what
+// the earth's curvature makes, d^2 / 2 R. In daylight over land about 0.13, with a 1-sigma of 0.1:
+// 0.3 m at 6 km.
+inline constexpr double kRefraction = 0.13, kRefractionSd = 0.1;
+
+// What that adds to the tangent of an elevation.
+inline double refraction_slope(double refraction_k, double distance_m) {
+  constexpr double kEarth_m = 6'371'000.0;
+  return refraction_k * distance_m / (2.0 * kEarth_m);
+}
+
+}  // namespace ols::land
