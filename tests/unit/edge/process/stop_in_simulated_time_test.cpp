@@ -163,5 +163,41 @@ TEST_F(EmergencyStop, WhatIsDamagedNeedsAHandAtTheStation) {
   EXPECT_TRUE(is_forgiven(kUnknown));
 }
 
+// It turns by itself, so a stop must hold it, and only a person lets it go on.
+class WatchingProcess : public test::StationInSimulatedTime {
+ protected:
+  WatchingProcess()
+      : StationInSimulatedTime(with_stop_input(), [](StationSettings& settings) {
+          settings.station.watch.middle = AzimuthElevation{radians(80.0), radians(3.0)};
+          settings.station.watch.size_rad.x() = radians(40.0);
+        }) {}
+  static sim::Scenario with_stop_input() {
+    sim::Scenario s = scenario();
+    s.gpio.on = true;
+    return s;
+  }
+  bool turns() {
+    const double from_rad = station_->angles().pan_rad;
+    return time_.pass(test::kPatience_s, [&] {
+      return std::abs(station_->angles().pan_rad - from_rad) > radians(2.0);
+    });
+  }
+};
+
+TEST_F(WatchingProcess, AStopHoldsItAndAReleaseLetsItGoOn) {
+  EXPECT_TRUE(turns());
+  EXPECT_TRUE(status_.state == Status::STATE_IDLE);
+  EXPECT_TRUE(give(Command::COMMAND_STOP));
+  time_.pass(1.0);
+  EXPECT_FALSE(turns());
+  EXPECT_TRUE(give(Command::COMMAND_RELEASE));
+  EXPECT_TRUE(turns());
+  sim::StationFaults pressed;
+  pressed.stop_pressed = true;
+  station_->set_faults(pressed);
+  time_.pass(1.0);
+  EXPECT_FALSE(turns());
+}
+
 }  // namespace
 }  // namespace ols::station
