@@ -302,6 +302,9 @@ void check_mount(const ConfigTable& root, const StationSettings& settings) {
   if (settings.station.overview && !settings.mount->traits().moves) {
     throw root.error("kind", "an overview station is driven by a person: its mount must move");
   }
+  if (settings.station.watch.middle && !settings.mount->traits().moves) {
+    throw root.error("watch", "is for a mount that moves");
+  }
   // The image's motion with the mount is predicted as that of a pinhole.
   if (settings.station.geometry.camera.model != LensModel::kPinhole &&
       settings.mount->traits().moves) {

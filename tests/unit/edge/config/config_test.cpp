@@ -215,5 +215,19 @@ TEST_F(StationConfigFile, AWideLensIsOfAModelAndOfAFixedMount) {
   EXPECT_NE(error(with(turned, wide)).find("lens: a fisheye"), std::string::npos);
 }
 
+TEST_F(StationConfigFile, AWatchHasAMiddleAndAMountThatMoves) {
+  const std::string rest = "[pose]\nheading_deg = 10\n" + kPlace;
+  const std::string watch = "[watch]\nazimuth_deg = 350\nelevation_deg = 10\nsize_deg = [30, 5]\n";
+  const WatchConfig read = load(kStart + rest + watch).station.watch;
+  EXPECT_DOUBLE_EQ(read.middle.value().azimuth_rad, radians(350.0));
+  EXPECT_DOUBLE_EQ(read.size_rad.x(), radians(30.0));
+  EXPECT_FALSE(load(kStart + rest).station.watch.middle);
+  EXPECT_NE(error(kStart + rest + "[watch]\nazimuth_deg = 350\n").find("elevation_deg: is missing"),
+            std::string::npos);
+  std::string fixed = kStart + rest + watch;
+  fixed.replace(fixed.find("[ptu]"), 19, "[mount]\nkind = \"fixed\"\n");
+  EXPECT_NE(error(fixed).find("watch: is for a mount that moves"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace ols::station
