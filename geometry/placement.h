@@ -1,27 +1,24 @@
 // Where to put stations: the best n of given places for an area to protect. Pure, and deterministic
 // for a given generator.
 //
-// The value of a place is its information about each point of the area (geometry/precision.h). The
-// cost of a choice is the root of the mean, over the area, of the expected squared distance from
-// the truth; or the largest such distance over the area (as a power mean of high order, which a
-// search can descend). The search starts from random choices. It improves each choice by exchanging
-// one place at a time for the best other place, until no exchange helps (V. Fedorov's exchange
-// algorithm).
+// The value of a place is its information about each point of the area that it sees
+// (geometry/precision.h). A choice is better if it leaves fewer points undetermined. Among those
+// that are alike in this, its cost is the root of the mean, over the determined points, of the
+// expected squared distance from the truth; or the largest such distance. The search starts from
+// random choices. It improves each choice by exchanging one place at a time for the best other
+// place, until no exchange helps (V. Fedorov's exchange algorithm). For the worst point it first
+// descends a power mean of high order: where several points share the largest error, no single
+// exchange lowers it.
 #pragma once
 
 #include <cstddef>
 #include <functional>
 #include <random>
-#include <span>
 #include <vector>
 
 #include "geometry/precision.h"
 
 namespace ols {
-
-// The error assumed where the stations do not determine the position. A point on which a chosen
-// station stands is then left out.
-inline constexpr double kUndetermined_m = 1e6;
 
 // The default is the worst point. Where stations may stand anywhere around the area, it gives the
 // paper's regular polygon on the edge. kMean gives the polygon only for four or more stations. It
@@ -40,10 +37,12 @@ struct PlacementProblem {
 
 struct Placement {
   std::vector<std::size_t> chosen;  // indices into `places`, ascending
-  double mean_m = 0.0;              // root of the mean squared 3-D error over the area
-  double worst_m = 0.0;             // the largest root mean squared 3-D error in it
+  // Points that the stations do not determine. Those on which a station stands are not counted.
+  std::size_t undetermined = 0;
+  double mean_m = 0.0;   // root of the mean squared 3-D error over the other points
+  double worst_m = 0.0;  // the largest root mean squared 3-D error of them
 
-  bool determines_all() const { return worst_m < 0.1 * kUndetermined_m; }
+  bool determines_all() const { return undetermined == 0; }
 };
 
 // Called repeatedly during a search, with the number of starts done and their total.

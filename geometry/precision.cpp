@@ -92,22 +92,25 @@ BearingPrecision bearing_precision(const PlannedStation& station, const PlannedT
 
 std::optional<PositionPrecision> position_precision(std::span<const PlannedStation> stations,
                                                     const PlannedTarget& target, double exposures) {
+  std::vector<const PlannedStation*> seeing;
   std::vector<BearingPrecision> bearings;
   for (const PlannedStation& station : stations) {
+    if (!station.in_sight(target.p_ecef)) continue;
+    seeing.push_back(&station);
     bearings.push_back(bearing_precision(station, target, exposures));
   }
   const auto bound = cramer_rao_bound(bearings, target.p_ecef);
   if (!bound) return std::nullopt;
   PositionPrecision precision{*bound, {}};
   precision.parts_ecef.fill(Matrix3d::Zero());
-  for (std::size_t i = 0; i < stations.size(); ++i) {
+  for (std::size_t i = 0; i < seeing.size(); ++i) {
     // How the efficient estimate moves with this station's direction: C H' R^-1.
-    const auto H = bearing_jacobian(stations[i].place, target.p_ecef);
+    const auto H = bearing_jacobian(seeing[i]->place, target.p_ecef);
     const Eigen::Matrix<double, 3, 2> gain =
         *bound * H.transpose() * bearings[i].covariance_rad2.inverse();
     for (std::size_t k = 0; k < kErrorSources.size(); ++k) {
       precision.parts_ecef.at(k) +=
-          gain * source_covariance(stations[i], kErrorSources.at(k), target, exposures) *
+          gain * source_covariance(*seeing[i], kErrorSources.at(k), target, exposures) *
           gain.transpose();
     }
   }

@@ -13,6 +13,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <functional>
 #include <optional>
 #include <span>
 
@@ -53,6 +54,10 @@ struct PlannedStation {
   double white_rad = 0.0;        // 1-sigma of each axis of the tangent plane, new with every frame
   CalibrationSd calibration;     // constant; the roll about the optical axis has no effect there
   double clock_sd_s = 0.0;       // constant; acts as the target's motion in that time
+  // Whether the land leaves a point [m, ECEF] in sight; empty: every point is.
+  std::function<bool(const Eigen::Vector3d& p_ecef)> sees = {};
+
+  bool in_sight(const Eigen::Vector3d& p_ecef) const { return !sees || sees(p_ecef); }
 };
 
 // Where an error comes from.
@@ -84,7 +89,7 @@ struct PositionPrecision {
   std::array<Eigen::Matrix3d, kErrorSources.size()> parts_ecef{};
 };
 
-// nullopt when the stations do not determine the position.
+// Of the stations that see the target; nullopt when they do not determine its position.
 std::optional<PositionPrecision> position_precision(std::span<const PlannedStation> stations,
                                                     const PlannedTarget& target,
                                                     double exposures = 1.0);

@@ -117,6 +117,7 @@ void bind_placement(py::module_& m) {
       .def_readwrite("starts", &PlacementProblem::starts);
   data_class<Placement>(m, "Placement", "A choice of places.")
       .def_readwrite("chosen", &Placement::chosen)
+      .def_readwrite("undetermined", &Placement::undetermined, "Points without a position.")
       .def_readwrite("mean_m", &Placement::mean_m)
       .def_readwrite("worst_m", &Placement::worst_m);
   m.def(
