@@ -61,12 +61,13 @@ struct Cost {
 
 // The points of the area, one after the other.
 struct Tally {
+  double within_m2;
   std::size_t undetermined = 0, points = 0;
   double squares = 0.0, powers = 0.0, worst = 0.0;
 
   void add(const Information& information) {
     const auto squared = information.squared_error_m2();
-    if (!squared) {
+    if (!squared || *squared > within_m2) {
       undetermined += information.is_a_station ? 0 : 1;
       return;
     }
@@ -95,7 +96,10 @@ struct Tally {
 class Search {
  public:
   explicit Search(const PlacementProblem& problem, TellStarts told = {})
-      : problem_(problem), tell_(std::move(told)), kept_(problem.area.size()) {
+      : problem_(problem),
+        tell_(std::move(told)),
+        within_m2_(problem.within_m * problem.within_m),
+        kept_(problem.area.size()) {
     for (const PlannedStation& station : problem.kept) add(seen(station), kept_);
     for (const PlannedStation& place : problem.places) {
       tell();
@@ -104,7 +108,7 @@ class Search {
   }
 
   Placement rate(const std::vector<std::size_t>& chosen) const {
-    Tally tally;
+    Tally tally{within_m2_};
     for (const Information& information : told_by(chosen, chosen.size())) tally.add(information);
     const auto root = [&](Measure measure) {
       return std::sqrt(tally.cost(measure, tally.points).value);
@@ -159,7 +163,7 @@ class Search {
                                  Measure measure) const {
     constexpr std::size_t kLookAfter = 16;
     const OverArea& added = places_[place];
-    Tally tally;
+    Tally tally{within_m2_};
     for (std::size_t point = 0; point < others.size(); ++point) {
       tally.add(others[point] + added[point]);
       if (point % kLookAfter == 0 && tally.cost(measure, others.size()) >= limit) return {};
@@ -195,6 +199,7 @@ class Search {
 
   const PlacementProblem& problem_;
   TellStarts tell_;
+  double within_m2_;
   std::size_t done_ = 0;  // starts
   OverArea kept_;
   std::vector<OverArea> places_;

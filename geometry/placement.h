@@ -13,6 +13,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -32,12 +33,15 @@ struct PlacementProblem {
   std::size_t stations = 0;            // number to choose
   PlacementGoal goal = PlacementGoal::kWorst;
   double exposures = 1.0;
+  // A point with a larger error counts as undetermined [m].
+  double within_m = std::numeric_limits<double>::infinity();
   int starts = 30;
 };
 
 struct Placement {
   std::vector<std::size_t> chosen;  // indices into `places`, ascending
-  // Points that the stations do not determine. Those on which a station stands are not counted.
+  // Points that the stations do not determine to within_m. Those on which a station stands are not
+  // counted.
   std::size_t undetermined = 0;
   double mean_m = 0.0;   // root of the mean squared 3-D error over the other points
   double worst_m = 0.0;  // the largest root mean squared 3-D error of them

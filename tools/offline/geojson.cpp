@@ -140,6 +140,14 @@ class Reader {
 
 GeoShapes read_geojson(const std::string& path) { return Reader(path).read(); }
 
+nlohmann::json station_feature(const std::string& station, const GeoPosition& p) {
+  return {{"type", "Feature"},
+          {"geometry",
+           {{"type", "Point"},
+            {"coordinates", {p.longitude_deg, p.latitude_deg, p.height_m.value_or(0.0)}}}},
+          {"properties", {{"station", station}}}};
+}
+
 bool contains(const GeoPolygon& polygon, double longitude_deg, double latitude_deg) {
   const auto [west, east] = std::ranges::minmax(polygon.front(), {}, &GeoPosition::longitude_deg);
   longitude_deg = near_to((west.longitude_deg + east.longitude_deg) / 2.0, longitude_deg);

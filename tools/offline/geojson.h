@@ -2,6 +2,7 @@
 // degrees and, where given, metres above the WGS84 ellipsoid.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -40,6 +41,9 @@ struct GeoShapes {
 // Points and polygons, alone or in features and collections. Throws GeoJsonError for anything else,
 // for positions out of range, and for rings that are not closed or go round a pole.
 GeoShapes read_geojson(const std::string& path);
+
+// A point with its height and the property "station".
+nlohmann::json station_feature(const std::string& station, const GeoPosition& position);
 
 // Whether the point is inside the outline and outside the holes, as plane figures of longitude and
 // latitude. Good for areas of some kilometres away from the poles.

@@ -19,6 +19,8 @@ int main(int argc, char** argv) {
   ols::offline::add_map(app);
   ols::offline::add_budget(app);
   ols::offline::add_advice(app);
+  ols::offline::add_coverage(app);
+  ols::offline::add_vertical(app);
   try {
     if (const auto status = ols::parse_command_line(app, argc, argv, "ols-precision")) {
       return *status;

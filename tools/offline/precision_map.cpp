@@ -15,6 +15,7 @@
 #include "base/files/output_check.h"
 #include "base/process/progress.h"
 #include "geometry/angles.h"
+#include "tools/offline/geojson.h"
 #include "tools/offline/near_place.h"
 #include "tools/offline/precision_options.h"
 #include "tools/offline/precision_site_files.h"
@@ -176,14 +177,6 @@ json feature_of(const Cell& cell, double spacing_m, double above_m) {
             {"horizontal_m", rounded(std::sqrt(C(0, 0) + C(1, 1)))}}}};
 }
 
-json station_feature(const StationRow& row) {
-  return {
-      {"type", "Feature"},
-      {"geometry",
-       {{"type", "Point"}, {"coordinates", {row.longitude_deg, row.latitude_deg, row.height_m}}}},
-      {"properties", {{"station", row.station}}}};
-}
-
 void require_determined(const std::vector<Cell>& cells, const MapOptions& o, double above_m) {
   const auto known = [](const Cell& cell) { return cell.covariance_enu.has_value(); };
   if (std::ranges::any_of(cells, known)) return;
@@ -212,7 +205,10 @@ void write_map(const MapOptions& o) {
   const auto stations = planned_stations(rows, o.measurement);
   const Grid grid = grid_about(rows, o);
   json features = json::array();
-  for (const StationRow& row : rows) features.push_back(station_feature(row));
+  for (const StationRow& row : rows) {
+    features.push_back(
+        station_feature(row.station, {row.longitude_deg, row.latitude_deg, row.height_m}));
+  }
   AtomicFile file(o.output);
   file.stream() << "latitude_deg,longitude_deg,height_m,above_stations_m,east_sd_m,north_sd_m,"
                    "up_sd_m,east_north_m2,east_up_m2,north_up_m2,horizontal_m\n";

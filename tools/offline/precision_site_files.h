@@ -1,5 +1,5 @@
-// The precision of a site: a map of its covariance, the error budget of one place, and advice on
-// where to put stations.
+// The precision of a site: a map of its covariance, the error budget of one place, advice on where
+// to put stations, and what stations see over the land.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -10,5 +10,7 @@ namespace ols::offline {
 void add_map(CLI::App& app);
 void add_budget(CLI::App& app);
 void add_advice(CLI::App& app);
+void add_coverage(CLI::App& app);
+void add_vertical(CLI::App& app);
 
 }  // namespace ols::offline

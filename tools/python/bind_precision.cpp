@@ -114,6 +114,8 @@ void bind_placement(py::module_& m) {
       .def_readwrite("stations", &PlacementProblem::stations, "How many to choose.")
       .def_readwrite("goal", &PlacementProblem::goal)
       .def_readwrite("exposures", &PlacementProblem::exposures)
+      .def_readwrite("within_m", &PlacementProblem::within_m,
+                     "[m] A point with a larger error counts as undetermined.")
       .def_readwrite("starts", &PlacementProblem::starts);
   data_class<Placement>(m, "Placement", "A choice of places.")
       .def_readwrite("chosen", &Placement::chosen)

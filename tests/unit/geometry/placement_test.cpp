@@ -119,6 +119,10 @@ TEST(Placement, PointsThatFewerThanTwoSeeAreCounted) {
   EXPECT_EQ(placement.undetermined, west);
   EXPECT_LT(placement.worst_m, 1.0);
   EXPECT_FALSE(placement.determines_all());
+  problem.within_m = 0.9 * placement.worst_m;
+  const Placement nearer = rate_placement(problem, {0, 1});
+  EXPECT_GT(nearer.undetermined, west);
+  EXPECT_LE(nearer.worst_m, problem.within_m);
   const PlannedTarget& hidden = problem.area.front();
   EXPECT_FALSE(position_precision(problem.places, hidden));
   problem.places[1].sees = {};

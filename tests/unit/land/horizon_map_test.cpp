@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "land/lowest_visible.h"
 #include "tests/unit/error_text.h"
 #include "tests/unit/land/made_land.h"
 
@@ -215,6 +216,36 @@ TEST(HorizonMap, WhatCoversTheCameraHidesNothing) {
   const auto skyline = look(Grove(), 0.0).skyline(0.0);
   EXPECT_NEAR(skyline->elevation_rad, 15.0 / 500.0, 1e-3);
   EXPECT_NEAR(skyline->distance_m, 500.0, 2.0);
+}
+
+// Against what is hidden below and not above.
+TEST(LowestVisible, IsTheHeightOfTheLineOverTheCrest) {
+  const HorizonMap map = look(kRidge, 0.0);
+  for (const double distance_m : {500.0, 4500.0, 5500.0, 7000.0, 12'000.0}) {
+    const Geodetic place = place_at(kFrame, 0.0, distance_m, 0.0);
+    const double ground_m = kRidge.ground(place.latitude_rad, place.longitude_rad)->height_m;
+    const double before_m = std::min(distance_m, 5000.0);
+    const double highest_rad = highest(kRidge, 0.0, std::max(2.0, before_m - 200.0), before_m);
+    const double lowest_m = lowest_visible_m(map, place.latitude_rad, place.longitude_rad).value();
+    EXPECT_GT(lowest_m, ground_m - 0.5) << distance_m;
+    Geodetic seen = place;
+    seen.height_m = lowest_m;
+    EXPECT_NEAR(see(kFrame, seen).direction.elevation_rad, highest_rad, 2.0 * kHorizon_rad)
+        << distance_m;
+  }
+}
+
+TEST(LowestVisible, IsNotKnownBehindAGap) {
+  const MadeLand land([](double latitude_rad, double) {
+    return std::abs(north_m(latitude_rad) - 3000.0) < 100.0 ? std::nullopt : std::optional(0.0);
+  });
+  const HorizonMap map = look(land, 0.0);
+  const auto at = [&](double distance_m) {
+    const Geodetic place = place_at(kFrame, 0.0, distance_m, 0.0);
+    return lowest_visible_m(map, place.latitude_rad, place.longitude_rad);
+  };
+  EXPECT_TRUE(at(2500.0));
+  EXPECT_FALSE(at(3500.0));
 }
 
 }  // namespace

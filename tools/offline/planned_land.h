@@ -1,0 +1,35 @@
+// The land as a plan sees it: heights of the ground, and what hides targets from planned stations.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "geometry/precision.h"
+#include "land/horizon_map.h"
+#include "land/terrain_folder.h"
+
+namespace ols::offline {
+
+class PlannedLand {
+ public:
+  // A folder of `ols-land import`. Throws std::runtime_error naming the file that is wrong.
+  explicit PlannedLand(const std::string& folder);
+
+  const land::Surface& surface() const { return *folder_.terrain; }
+  // Above the WGS84 ellipsoid; nothing where the models do not know it.
+  std::optional<double> ground_m(const Geodetic& place) const;
+
+  // What is hidden from a camera, up to `reach_m`. Throws std::invalid_argument naming the station
+  // where the ground is not known or above the camera.
+  std::shared_ptr<const land::HorizonMap> look(const std::string& station, const Geodetic& camera,
+                                               double reach_m) const;
+
+ private:
+  land::TerrainFolder folder_;
+};
+
+// A target is in sight if it is more probably visible than not.
+void hide_behind(std::shared_ptr<const land::HorizonMap> map, PlannedStation& station);
+
+}  // namespace ols::offline
