@@ -159,6 +159,82 @@ def test_advice_says_what_a_lone_station_leaves_open(stations, tmp_path):
     assert "undetermined" in result.stdout and "e+" not in result.stdout
 
 
+@pytest.fixture(scope="module", name="ridge")
+def fixture_ridge(tmp_path_factory):
+    """The folder of a level land at 250 m with a ridge of 150 m from north to south, at 16.6 E."""
+    folder = tmp_path_factory.mktemp("ridge")
+    step, half = 0.0005, 100  # degrees
+    row = np.where(np.abs(np.arange(-half, half + 1)) <= 2, 400.0, 250.0)
+    corner = f"xllcenter {16.6 - half * step}\nyllcenter {49.2 - half * step}\n"
+    head = f"ncols {2 * half + 1}\nnrows {2 * half + 1}\n{corner}cellsize {step}\n"
+    line = " ".join(f"{height:g}" for height in row)
+    (folder / "ridge.asc").write_text(head + "\n".join([line] * (2 * half + 1)) + "\n")
+    spheroid = 'DATUM["WGS_1984",SPHEROID["WGS 84",6378137,298.257223563]]'
+    units = 'PRIMEM["Greenwich",0],UNIT["degree",0.0174532925199433]'
+    (folder / "ridge.prj").write_text(f'GEOGCS["WGS 84",{spheroid},{units}]')
+    command = [BIN / "ols-land", "import", "--site", "49.2,16.6", "--radius-km", 3, "--sd", 1]
+    command += ["--elevation", folder / "ridge.asc", "--heights", "ellipsoid"]
+    done = finished(*map(str, [*command, "--output", folder / "land"]))
+    assert done.returncode == 0, done.stderr
+    return folder / "land"
+
+
+def test_a_ridge_hides_what_is_low_behind_it(ridge, tmp_path):
+    """Two stations 1 km west of it, 2 m above the ground: shadows by similar triangles."""
+    stations, output = tmp_path / "stations.csv", tmp_path / "coverage.csv"
+    east = 16.6 - 1000 / 72_990
+    lines = [f"{name},{49.2 + off},{east},252" for name, off in (("a", -0.002), ("b", 0.002))]
+    stations.write_text("\n".join([STATIONS.splitlines()[0], *lines]) + "\n")
+    files = ("--geojson", tmp_path / "c.geojson", "--geotiff", tmp_path / "c.tif")
+    site = ("--stations", stations, "--land", ridge, "--reach", 1800)
+    done = precision("coverage", *site, "--spacing", 60, *files, "--output", output)
+    assert done.returncode == 0, done.stderr
+    offset_m = (column(output, "longitude_deg") - 16.6) * 72_990
+    near = np.abs(column(output, "latitude_deg") - 49.2) < 0.001
+    two = column(output, "two_m")
+    before, behind = near & (offset_m < -200), near & (offset_m > 250)
+    assert np.abs(two[before]).max() < 3
+    shadow_m = 148 * (1000 + offset_m) / 1000 + 2  # over the ridge's crest
+    assert np.abs(two[behind] / shadow_m[behind] - 1).max() < 0.1
+    assert np.isnan(column(output, "error_30_m")[behind]).all()
+    assert np.isfinite(column(output, "error_300_m")[behind & (offset_m < 700)]).all()
+    features = json.loads(files[1].read_text())["features"]
+    assert [f["properties"].get("above_ground_m") for f in features[2:]] == [10, 30, 100, 300]
+    assert "seen by one" in done.stdout and files[3].stat().st_size > 1000
+
+    diagram = tmp_path / "vertical.csv"
+    options = (*site, "--azimuths", "90", "--output", diagram)
+    assert precision("vertical", *options).returncode == 0
+    lowest, distance = column(diagram, "lowest_m"), column(diagram, "distance_m")
+    assert lowest[distance == 1500][0] == pytest.approx(252 + 148 * 1.5, rel=0.05)
+    for kind, source in (("coverage", output), ("vertical", diagram)):
+        picture = tmp_path / f"{kind}.png"
+        plot = finished(str(ROOT / "tools/precision-plot"), kind, str(source), str(picture))
+        assert plot.returncode == 0, plot.stderr
+        assert picture.stat().st_size > 5_000
+
+
+def test_advice_stands_where_the_ridge_leaves_the_area_in_sight(ridge, tmp_path):
+    area, places, output = (tmp_path / n for n in ("area.geojson", "places.geojson", "out.csv"))
+    corners = [[16.602, 49.197], [16.612, 49.197], [16.612, 49.203], [16.602, 49.203]]
+    area.write_text(json.dumps({"type": "Polygon", "coordinates": [corners + corners[:1]]}))
+    west = [[16.586, 49.198], [16.586, 49.202]]
+    points = [*west, [16.617, 49.198], [16.6165, 49.203]]
+    places.write_text(json.dumps({"type": "MultiPoint", "coordinates": points}))
+    options = ("--places", places, "--area", area, "--stations", 2, "--spacing", 100)
+    advise = ("advise", *options, "--heights", 20, "--output", output)
+    done = precision(*advise, "--land", ridge)
+    assert done.returncode == 0, done.stderr
+    assert column(output, "longitude_deg").min() > 16.6 and "undetermined" not in done.stdout
+    np.testing.assert_allclose(column(output, "height_m"), 252, atol=0.1)
+    places.write_text(json.dumps({"type": "MultiPoint", "coordinates": west}))
+    assert "stay undetermined" in precision(*advise, "--land", ridge).stdout
+    for ground in ((), ("--land", ridge, "--ground", 250)):
+        assert "give either --ground or --land" in precision(*advise, *ground).stderr
+    far = ("--land", tmp_path)
+    assert f"{tmp_path}/land.json" in precision(*advise, *far).stderr
+
+
 def test_latitude_and_longitude_that_are_exchanged_are_named(stations, tmp_path):
     """In the area, in one station, at one place: each is on another continent."""
     area, output = tmp_path / "area.geojson", tmp_path / "out.csv"

@@ -4,13 +4,6 @@
 #include <utility>
 
 namespace ols::offline {
-namespace {
-
-// 35 m at 10 km, about what elevation models resolve; a finer map of hundreds of places would cost
-// minutes.
-constexpr int kColumns = 1800;
-
-}  // namespace
 
 PlannedLand::PlannedLand(const std::string& folder) : folder_(land::read_terrain_folder(folder)) {}
 
@@ -24,7 +17,7 @@ std::shared_ptr<const land::HorizonMap> PlannedLand::look(const std::string& sta
                                                           double reach_m) const {
   try {
     return std::make_shared<land::HorizonMap>(
-        surface(), camera, land::HorizonMapConfig{.columns = kColumns, .reach_m = reach_m});
+        surface(), camera, land::HorizonMapConfig{.columns = kPlanColumns, .reach_m = reach_m});
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(station + ": " + error.what());
   }

@@ -11,6 +11,10 @@
 
 namespace ols::offline {
 
+// Of a planned station's map: 35 m at 10 km, about what elevation models resolve. A finer map of
+// hundreds of places would cost minutes.
+inline constexpr int kPlanColumns = 1800;
+
 class PlannedLand {
  public:
   // A folder of `ols-land import`. Throws std::runtime_error naming the file that is wrong.

@@ -141,24 +141,44 @@ def table1(source: Path, output: Path) -> None:
     save(figure, output)
 
 
+class LocalAxes:
+    """Metres east and north of a map's middle: plane, for a plot."""
+
+    def __init__(self, table: Table):
+        self._zero = np.mean(table["longitude_deg"]), np.mean(table["latitude_deg"])
+
+    def east_m(self, longitude_deg: np.ndarray) -> np.ndarray:
+        return (longitude_deg - self._zero[0]) * 111_320 * np.cos(np.radians(self._zero[1]))
+
+    def north_m(self, latitude_deg: np.ndarray) -> np.ndarray:
+        return (latitude_deg - self._zero[1]) * 111_200
+
+    def mark(self, ax: Axes, stations: Path | None) -> None:
+        """Draws the stations of a stations.csv."""
+        if stations is None:
+            return
+        places = columns(stations)
+        for name in ("longitude_deg", "latitude_deg"):
+            if places[name].dtype.kind != "f":
+                raise BadTable(stations, f"column {name} has a word")
+        east, north = self.east_m(places["longitude_deg"]), self.north_m(places["latitude_deg"])
+        ax.plot(east, north, "^", color=STATION, markersize=9, markeredgecolor="white")
+        for x0, y0, label in zip(east, north, places["station"], strict=True):
+            ax.annotate(label, (x0, y0), (6, 5), textcoords="offset points", fontsize=8)
+
+
 def site_map(source: Path, output: Path, stations: Path | None = None) -> None:
     """Maps of the horizontal and the vertical 1-sigma, a row each height."""
     table = columns(source)
-    places = columns(stations) if stations else None
-    for name in ("longitude_deg", "latitude_deg") if places else ():
-        if places[name].dtype.kind != "f":
-            raise BadTable(stations, f"column {name} has a word")
     heights = np.unique(table["above_stations_m"])
     figure, axes = plt.subplots(
         len(heights), 2, figsize=(11, 4.6 * len(heights)), squeeze=False, sharex=True, sharey=True
     )
-    middle = np.radians(np.mean(table["latitude_deg"]))
-    zero = np.mean(table["longitude_deg"]), np.mean(table["latitude_deg"])
-    metres = 111_320 * np.cos(middle), 111_200  # for the axes of a plot
+    axes_m = LocalAxes(table)
     for row, above in zip(axes, heights, strict=True):
         mask = table["above_stations_m"] == above
-        x = (table["longitude_deg"][mask] - zero[0]) * metres[0]
-        y = (table["latitude_deg"][mask] - zero[1]) * metres[1]
+        x = axes_m.east_m(table["longitude_deg"][mask])
+        y = axes_m.north_m(table["latitude_deg"][mask])
         for ax, column, name in zip(
             row, ("horizontal_m", "up_sd_m"), ("horizontal", "vertical"), strict=True
         ):
@@ -181,10 +201,5 @@ def site_map(source: Path, output: Path, stations: Path | None = None) -> None:
             ax.set(aspect="equal", title=f"{name}, {above:g} m above the stations")
             ax.set(xlabel="east, m", ylabel="north, m")
             ax.grid(False)
-            if places is not None:
-                east = (places["longitude_deg"] - zero[0]) * metres[0]
-                north = (places["latitude_deg"] - zero[1]) * metres[1]
-                ax.plot(east, north, "^", color=STATION, markersize=9, markeredgecolor="white")
-                for x0, y0, label in zip(east, north, places["station"], strict=True):
-                    ax.annotate(label, (x0, y0), (6, 5), textcoords="offset points", fontsize=8)
+            axes_m.mark(ax, stations)
     save(figure, output)
