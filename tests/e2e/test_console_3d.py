@@ -54,7 +54,7 @@ def dots(page):
     return sorted((box["x"] + x + 0.5, box["y"] + y + 0.5) for y, x in middles)
 
 
-LAYERS = ["UTM/MGRS grid", "Rings", "Trails", "Views", "Keep-outs, travel"]
+LAYERS = ["UTM/MGRS grid", "Rings", "Trails", "Views", "Keep-out regions, travel"]
 
 
 def test_layers_are_switched_off_and_on(page, paper, view):

@@ -186,7 +186,7 @@ def test_the_accuracy_of_a_plan_is_a_layer(page):
     wait(lambda: len(colours(page, ".map-canvas canvas")) > before, "colours")
     choice.select_option(label="plan.geojson, at + 100 m")
     wait(lambda: len(colours(page, ".map-canvas canvas")) > before, "another height's colours")
-    expect(map_of(page)).not_to_contain_text("No accuracy for this view")
+    expect(map_of(page)).not_to_contain_text("No accuracy is known for this view")
     shown = settled(page)
     choice.select_option(label="off")
     wait(lambda: len(colours(page, ".map-canvas canvas")) < (before + shown) / 2, "no colours")
@@ -194,7 +194,7 @@ def test_the_accuracy_of_a_plan_is_a_layer(page):
 
 def test_keep_outs_are_on_the_map(page, address):
     open_layers(page)
-    button = map_of(page).get_by_role("button", name="Keep-outs, travel")
+    button = map_of(page).get_by_role("button", name="Keep-out regions, travel")
     expect(button).to_have_attribute("aria-pressed", "true")
 
     def red():

@@ -124,7 +124,7 @@ def test_sentences_with_their_numbers_in_german(page_says):
         "gnss: 12.3 m from the survey for 6 min: set up the station again": (
             "GNSS: 12.3 m neben der Vermessung, seit 6 min: Station neu aufstellen"
         ),
-        "designate refused: that picture is too old; try again on the one of now": (
+        "designate refused: that picture is too old; try again on the current one": (
             "designate abgelehnt: dieses Bild ist zu alt; noch einmal auf dem jetzigen"
         ),
         "station alfa: bearings refused: stamped ahead of the others; check its clock": (

@@ -567,7 +567,7 @@ TEST(Console, WhatCannotBePointedAtIsRefusedInWords) {
   EXPECT_TRUE(console.turn({0.1, 0}).empty());
   const Json answer = answer_in(received(console, ana, {0.1, 0}));
   EXPECT_EQ(answer.at("why"),
-            "refused: out of the reach of its unit, or it does not know where it looks");
+            "refused: the unit cannot point there, or the station does not know where it looks");
 }
 
 }  // namespace
