@@ -17,8 +17,9 @@ inline constexpr std::int64_t kStartUs = 1'700'000'000'000'000;
 
 struct WorldConfig {
   std::vector<Eigen::Vector3d> stations_enu;  // [m]
-  std::vector<Eigen::Vector3d> aims_enu;      // where each looks, for false bearings; empty: centre
-  double rate_hz = 30.0;                      // frames of each station, evenly staggered
+  std::vector<Eigen::Vector3d> aims_enu =
+      {};                 // where each looks, for false bearings; empty: centre
+  double rate_hz = 30.0;  // frames of each station, evenly staggered
   double noise_rad = 3e-4;
   double bias_sd_rad = 0.0;      // of each station's rotation about east, north and up: its bias
   double heading_sd_rad = 0.0;   // about up, besides
