@@ -125,7 +125,7 @@ void write_terrain_folder(const std::string& path, Manifest manifest,
                           const std::vector<Covering>& coverings) {
   if (fs::exists(path)) throw std::runtime_error(path + ": exists");
   const std::string unfinished = path + ".unfinished";
-  fs::remove_all(unfinished);
+  if (fs::exists(unfinished)) throw std::runtime_error(unfinished + ": exists: remove it first");
   fs::create_directories(unfinished);
   manifest.grids.clear();
   for (const NewGrid& grid : grids) {

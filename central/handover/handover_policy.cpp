@@ -99,14 +99,15 @@ void HandoverPolicy::inherit(Known& known, const Track& track, std::int64_t now_
 
 bool HandoverPolicy::order(std::int64_t target_id, bool allow) {
   const auto known = targets_.find(target_id);
-  if (config_.mode == HandoverMode::kOff || known == targets_.end()) return false;
+  if (known == targets_.end() || (allow && config_.mode == HandoverMode::kOff)) return false;
   known->second.allowed = allow;
   return true;
 }
 
 bool HandoverPolicy::leads(const Known& known) const {
-  if (known.allowed) return *known.allowed;
+  if (known.allowed == false) return false;
   if (known.is_designated) return true;
+  if (known.allowed) return config_.mode != HandoverMode::kOff;
   return leads_by_itself(known.object_class);
 }
 

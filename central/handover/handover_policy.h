@@ -49,7 +49,8 @@ class HandoverPolicy {
   // Changes the mode. Decisions that an operator has made stay.
   void set_mode(HandoverMode mode) { config_.mode = mode; }
   HandoverMode mode() const { return config_.mode; }
-  // An operator's decision. False if there is no such target, or if the mode is off.
+  // An operator's decision. False if there is no such target, or if it is allowed while the mode is
+  // off. What was allowed before leads again when the mode is on.
   bool order(std::int64_t target_id, bool allow);
   // The target's priority when stations are allocated; 0: it leads no station. Higher for targets
   // that an operator has designated or allowed, lower for doubtful ones.

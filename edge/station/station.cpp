@@ -8,6 +8,12 @@
 #include "edge/tracker/object_at.h"
 
 namespace ols::station {
+namespace {
+
+// Beyond the error of a time stamp that is still of use.
+constexpr double kFuture_s = 0.2;
+
+}  // namespace
 
 Station::Station(const StationConfig& config, std::unique_ptr<tracker::TargetTracker> tracker)
     : config_(config),
@@ -25,6 +31,11 @@ void Station::on_angles(const mount::AngleSample& sample) { pointing_.add(sample
 void Station::on_frame(const camera::Frame& frame, double now_s) {
   if (now_s - frame.mid_exposure_s > config_.max_age_s) {
     counters_["frames_too_old"] += 1;
+    return;
+  }
+  // The mount would follow the track's extrapolation, without pictures, until that time has come.
+  if (frame.mid_exposure_s > now_s + kFuture_s) {
+    counters_["frames_in_future"] += 1;
     return;
   }
   if (!frames_.add(frame)) {

@@ -9,21 +9,25 @@
 namespace ols::offline {
 namespace {
 
-CoverageCell look_at(const Geodetic& centre, const std::vector<LandView>& views,
-                     const PlannedLand& land) {
-  CoverageCell cell;
-  cell.ground_m = land.ground_m(centre);
-  if (!cell.ground_m) return cell;
-  std::vector<double> seen_from_m;
+using Lowest = std::vector<std::optional<double>>;  // of each view, above the ground [m]
+
+Lowest lowest_of(const Geodetic& centre, double ground_m, const std::vector<LandView>& views) {
+  Lowest lowest;
   for (const LandView& view : views) {
     const auto lowest_m =
         land::lowest_visible_m(*view.map, centre.latitude_rad, centre.longitude_rad);
-    if (lowest_m) seen_from_m.push_back(std::max(0.0, *lowest_m - *cell.ground_m));
+    lowest.push_back(lowest_m ? std::optional(std::max(0.0, *lowest_m - ground_m)) : std::nullopt);
   }
-  std::ranges::sort(seen_from_m);
-  if (!seen_from_m.empty()) cell.one_m = seen_from_m[0];
-  if (seen_from_m.size() > 1) cell.two_m = seen_from_m[1];
-  return cell;
+  return lowest;
+}
+
+std::vector<PlannedStation> seeing(const std::vector<LandView>& views, const Lowest& lowest,
+                                   double height_m) {
+  std::vector<PlannedStation> stations;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    if (lowest[i] && *lowest[i] <= height_m) stations.push_back(views[i].station);
+  }
+  return stations;
 }
 
 }  // namespace
@@ -57,22 +61,28 @@ Coverage cover(const Lattice& lattice, const std::vector<double>& heights_m,
                const std::vector<LandView>& views, const PlannedLand& land,
                const std::function<PlannedTarget(const Geodetic&)>& make_target, double exposures,
                const TellCells& tell) {
-  std::vector<PlannedStation> stations;
-  for (const LandView& view : views) {
-    hide_behind(view.map, stations.emplace_back(view.station));
-  }
   Coverage coverage{lattice, heights_m, {}};
   for (std::size_t i = 0; i < lattice.size(); ++i) {
-    Geodetic centre = lattice.centre(i);
-    CoverageCell& cell = coverage.cells.emplace_back(look_at(centre, views, land));
-    for (const double height_m : heights_m) {
-      auto& error_m = cell.errors_m.emplace_back();
-      if (!cell.ground_m) continue;
-      centre.height_m = *cell.ground_m + height_m;
-      const auto precision = position_precision(stations, make_target(centre), exposures);
-      if (precision) error_m = std::sqrt(precision->covariance_ecef.trace());
-    }
     tell(i, lattice.size());
+    Geodetic centre = lattice.centre(i);
+    CoverageCell& cell = coverage.cells.emplace_back();
+    cell.errors_m.resize(heights_m.size());
+    cell.ground_m = land.ground_m(centre);
+    if (!cell.ground_m) continue;
+    const Lowest lowest = lowest_of(centre, *cell.ground_m, views);
+    std::vector<double> seen_from_m;
+    for (const auto& one : lowest) {
+      if (one) seen_from_m.push_back(*one);
+    }
+    std::ranges::sort(seen_from_m);
+    if (!seen_from_m.empty()) cell.one_m = seen_from_m[0];
+    if (seen_from_m.size() > 1) cell.two_m = seen_from_m[1];
+    for (std::size_t k = 0; k < heights_m.size(); ++k) {
+      centre.height_m = *cell.ground_m + heights_m[k];
+      const auto precision =
+          position_precision(seeing(views, lowest, heights_m[k]), make_target(centre), exposures);
+      if (precision) cell.errors_m[k] = std::sqrt(precision->covariance_ecef.trace());
+    }
   }
   return coverage;
 }

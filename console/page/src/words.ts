@@ -12,7 +12,7 @@ const WORDS = {
   history: ["History", "Verlauf"],
   stop_all: ["Stop all", "Alles halt"],
   stopping: ["stopping: ", "hält an: "],
-  stop_none: ["no station is heard; any station that is heard within 3 s will be stopped", "keine Station zu hören; jede wird angehalten, sobald sie sich meldet"],
+  stop_none: ["no station is heard; any station that is heard within 3 s will be stopped", "keine Station zu hören; jede, die sich binnen 3 s meldet, wird angehalten"],
   stop_failed: ["The console cannot be reached: use the emergency stop at the station.", "Konsole nicht erreichbar: Not-Halt an der Station benutzen."],
   stop_log_in: ["Not stopped: log in again, or use the emergency stop at the station.", "Nicht angehalten: neu anmelden, oder Not-Halt an der Station benutzen."],
   stop_unconfirmed: ["The stop is not confirmed by", "Der Halt ist nicht bestätigt von"],

@@ -35,10 +35,14 @@ double ArrivalLine::residual_s(const Least& least) const {
   return least.arrival_s - offset_s_ - rate_ * (least.device_s - reference_s_);
 }
 
+double ArrivalLine::step_limit_s() const { return std::max(kLineStep_s, kStepSigmas * sd_s_); }
+
 bool ArrivalLine::knows_rate() const { return least_.size() >= kLeastSpans; }
 
 void ArrivalLine::add(std::int64_t device_ns, double arrival_s) {
   if (!least_.empty() && arrival_s - least_.back().arrival_s > kGap_s) clear();
+  // Nothing makes a picture early: its stamp was set forward.
+  if (knows_rate() && residual_s({seconds(device_ns), arrival_s}) < -step_limit_s()) clear();
   if (least_.empty()) origin_ns_ = device_ns;
   const Least picture{seconds(device_ns), arrival_s};
   const bool begins = least_.empty() || arrival_s - span_from_s_ >= kSpan_s;
@@ -60,7 +64,7 @@ void ArrivalLine::forget_what_came_before_a_step() {
   ArrivalLine before = *this;
   before.least_.erase(before.least_.end() - kStepSpans, before.least_.end());
   before.fit();
-  const double limit_s = std::max(kLineStep_s, kStepSigmas * before.sd_s_);
+  const double limit_s = before.step_limit_s();
   const auto from = least_.end() - kStepSpans;
   const auto beyond = [&](double sign) {
     return std::all_of(from, least_.end(), [&](const Least& least) {

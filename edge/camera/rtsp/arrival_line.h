@@ -34,6 +34,7 @@ class ArrivalLine {
   };
   double seconds(std::int64_t device_ns) const;
   double residual_s(const Least& least) const;
+  double step_limit_s() const;
   void forget_what_came_before_a_step();
   void fit();
 

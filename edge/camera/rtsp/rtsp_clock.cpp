@@ -25,6 +25,7 @@ void RtspClock::restart() {
   report_ns_.reset();
   stepped_s_.reset();
   step_square_s2_ = 0.0;
+  refused_since_s_.reset();
 }
 
 std::optional<double> RtspClock::learnt_delay_s() const {
@@ -83,6 +84,7 @@ FrameTime RtspClock::stamp(const RtspStamp& picture, std::int64_t utc_minus_mono
   StampSource source = StampSource::kArrival;
   MappedTime other = time;
   refused_delay_s_.reset();
+  if (!picture.report_utc_ns) refused_since_s_.reset();
   if (picture.report_utc_ns) {
     const std::int64_t monotonic_ns = *picture.report_utc_ns - utc_minus_monotonic_ns;
     note_report(*picture.report_utc_ns - picture.device_ns, monotonic_ns - picture.device_ns,

@@ -18,10 +18,14 @@ std::size_t host_at(const std::string& url) {
 void check_url(const std::string& url) {
   const std::size_t host = host_at(url);
   if (host == 0) throw std::invalid_argument("must be rtsp://HOST/... or rtsps://HOST/...");
-  if (url.substr(host, url.find('/', host) - host).find('@') != std::string::npos) {
+  const std::string address = url.substr(host, url.find_first_of("/?#", host) - host);
+  // A password with a slash in it leaves "user:pass" as host and port.
+  const std::string port = address.substr(address.find_last_of(":]") + 1);
+  const bool has_port = address.find(':') != std::string::npos;
+  if (address.find('@') != std::string::npos ||
+      (has_port && port.find_first_not_of("0123456789") != std::string::npos)) {
     throw std::invalid_argument(
-        "must not name user and password: they belong in user and "
-        "password_file");
+        "must not name user and password: they belong in user and password_file");
   }
 }
 
@@ -31,12 +35,14 @@ void check(ConfigTable& table, const RtspConfig& c) {
   if (c.user.empty() != c.password_file.empty())
     throw table.error(c.user.empty() ? "password_file" : "user",
                       "user and password_file need each other");
+  if (c.url.starts_with("rtsps:") && c.transport == RtspTransport::kUdp)
+    throw table.error("transport", "rtsps:// needs tcp");
 }
 
 }  // namespace
 
 std::string shown_url(const std::string& url) {
-  const std::size_t path = url.find('/', host_at(url));
+  const std::size_t path = url.find_first_of("/?#", host_at(url));
   return path == std::string::npos ? url : url.substr(0, path) + "/...";
 }
 

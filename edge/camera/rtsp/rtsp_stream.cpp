@@ -168,7 +168,7 @@ bool RtspStream::Impl::choose(const GstCaps* caps) {
   const std::lock_guard lock(mutex_);
   if (codec_ != nullptr || value_of(caps, "media") != "video") return false;
   codec_ = codec_of(caps);
-  if (codec_ == nullptr) trouble_ = "codec " + printable(value_of(caps, "encoding-name"));
+  trouble_ = codec_ == nullptr ? "codec " + printable(value_of(caps, "encoding-name")) : "";
   return codec_ != nullptr;
 }
 

@@ -250,6 +250,19 @@ TEST_F(StationSafetyTest, OnlyAPoseOutsideOfItsSigmasIsAnotherCalibration) {
   EXPECT_EQ(bearings_.back().pose_revision, 3);
 }
 
+// A camera's clock was set forward: the mount would run on, without a picture, until then.
+TEST_F(StationSafetyTest, AFrameOfTheFutureIsNotUsed) {
+  designated_for(0.5);
+  const int tracked = script_.tracked;
+  camera::Frame early;
+  early.mid_exposure_s = now_ + 30.0;
+  station_.on_frame(early, now_);
+  EXPECT_EQ(script_.tracked, tracked);
+  EXPECT_EQ(counter("frames_in_future"), 1.0);
+  run_until(now_ + 0.5);
+  EXPECT_GT(script_.tracked, tracked) << "the true ones go on";
+}
+
 // The computer stood still for two seconds: what lay waiting is dropped, not worked off.
 TEST_F(StationSafetyTest, AfterAStandstillThereIsNoBacklog) {
   designated_for(0.5);

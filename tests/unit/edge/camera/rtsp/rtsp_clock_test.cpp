@@ -184,6 +184,7 @@ TEST(RtspClock, AStepOfTheStampsIsForgotten) {
       RtspStamp picture = world.picture(1000.0 + since_s);
       picture.device_ns += std::llround(1e9 * step_s);
       const FrameTime time = clock.stamp(picture, kUtcMinusMonotonic_ns);
+      EXPECT_LT(time.mid_exposure_s, picture.arrival_s) << step_s;
       if (since_s > 70.0)
         worst_s = std::max(worst_s, std::abs(time.mid_exposure_s - 1000.0 - since_s));
     }
