@@ -67,6 +67,11 @@ TEST_F(TheHandoverPolicy, ItsModeChangesAtOnceAndDecisionsStay) {
   EXPECT_TRUE(handover.order(1, false));
   handover.set_mode(HandoverMode::kPropose);
   EXPECT_EQ(state(handover), CueState::kForbidden);
+  EXPECT_TRUE(handover.order(1, true));
+  EXPECT_GT(handover.priority(track), 0.0);
+  handover.set_mode(HandoverMode::kOff);
+  EXPECT_EQ(handover.priority(track), 0.0) << "nobody is led in mode off, allowed or not";
+  EXPECT_TRUE(handover.order(1, false)) << "a dismissal counts in every mode";
   for (const auto mode : {HandoverMode::kOff, HandoverMode::kPropose, HandoverMode::kAutomatic}) {
     EXPECT_EQ(handover_mode_named(to_string(mode)), mode);
   }

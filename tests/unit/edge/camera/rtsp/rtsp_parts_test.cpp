@@ -28,11 +28,14 @@ TEST(RtspConfig, NeedsAnAddressWithoutLogin) {
        {std::pair{"", "url"}, std::pair{"url = \"http://10.0.0.5/\"", "rtsp://"},
         std::pair{"url = \"rtsp://\"", "rtsp://"},
         std::pair{"url = \"rtsp://admin:x@10.0.0.5/\"", "password_file"},
+        std::pair{"url = \"rtsp://admin:x/y@10.0.0.5/\"", "password_file"},
+        std::pair{"url = \"rtsps://h/\"\ntransport = \"udp\"", "needs tcp"},
         std::pair{"url = \"rtsp://h/\"\nuser = \"admin\"", "password_file"},
         std::pair{"url = \"rtsp://h/\"\npixel_format = \"BayerRG8\"", "Mono8 or BGR8"},
         std::pair{"url = \"rtsp://h/\"\nexposure_us = 5", "exposure_us"}}) {
     EXPECT_THAT(complaint(std::string(text) + "\n"), HasSubstr(what));
   }
+  EXPECT_EQ(shown_url("rtsp://10.0.0.5:554?user=a&password=b"), "rtsp://10.0.0.5:554/...");
   EXPECT_EQ(shown_url("rtsp://10.0.0.5:554/user=a_password=b?c"), "rtsp://10.0.0.5:554/...");
 }
 
