@@ -1,0 +1,50 @@
+// The requests to an ONVIF camera, as SOAP 1.2 texts. Pure. Source: ONVIF Core, Media and PTZ
+// Service Specifications; OASIS WS-Security UsernameToken Profile 1.0.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace ols::onvif {
+
+struct Request {
+  std::string action;  // "http://www.onvif.org/ver20/ptz/wsdl/GetStatus"
+  std::string body;    // what stands in the SOAP body
+  // GetStatus
+  std::string name() const { return action.substr(action.rfind('/') + 1); }
+};
+
+// Whom a camera shall believe: never written into a log.
+struct Credentials {
+  std::string user, password;
+};
+
+// In numbers of the camera's spaces.
+struct Vector {
+  double x = 0.0, y = 0.0;
+};
+
+Request get_system_date_and_time();
+Request get_device_information();
+Request get_capabilities();
+Request get_profiles();
+Request get_options(const std::string& configuration);
+Request get_status(const std::string& profile);
+Request stop(const std::string& profile);
+// `timeout_s`: the camera is to stop by itself after that.
+Request continuous_move(const std::string& profile, const Vector& velocity, double timeout_s);
+Request absolute_move(const std::string& profile, const Vector& position);
+
+// `nonce`: bytes that were never used before; `created_utc_s`: now, by the camera's clock.
+struct Token {
+  Credentials credentials;
+  std::string nonce;
+  std::int64_t created_utc_s = 0;
+};
+// Base64(SHA-1(nonce + created + password)).
+std::string password_digest(const std::string& nonce, const std::string& created,
+                            const std::string& password);
+std::string envelope(const Request& request);
+std::string envelope(const Request& request, const Token& token);
+
+}  // namespace ols::onvif
