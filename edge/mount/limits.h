@@ -4,9 +4,13 @@
 #include <vector>
 
 #include "edge/mount/keep_out.h"
+#include "geometry/angles.h"
 #include "geometry/kinematic_chain.h"
 
 namespace ols::mount {
+
+// The size of a count of a mount without an encoder: a station reports angles in counts.
+inline constexpr double kVirtualCount_rad = radians(1e-4);
 
 struct Limits {  // [rad]
   double pan_min_rad = -2.7, pan_max_rad = 2.7;

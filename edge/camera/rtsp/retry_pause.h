@@ -9,8 +9,6 @@ class RetryPause {
  public:
   static constexpr double kFirst_s = 0.5;
   static constexpr double kLongest_s = 30.0;
-  // Cameras lock an account after five to ten refusals, for half an hour.
-  static constexpr double kLogin_s = 900.0;
   static constexpr double kHealthy_s = 10.0;
 
   // After a stream that delivered pictures for this time.

@@ -7,7 +7,6 @@
 #include <thread>
 #include <utility>
 
-#include "base/files/small_file.h"
 #include "base/process/clocks.h"
 #include "conditions/alarms.h"
 #include "edge/camera/camera_handover.h"
@@ -15,24 +14,17 @@
 #include "edge/camera/rtsp/picture_change.h"
 #include "edge/camera/rtsp/retry_pause.h"
 #include "edge/camera/rtsp/rtsp_stream.h"
+#include "edge/device/password_file.h"
 
 namespace ols::camera {
 namespace {
 
 constexpr double kPoll_s = 0.1;         // delay until the end is noticed
 constexpr double kLongestTurn_s = 0.2;  // maximum that one turn adds to the silence
-constexpr double kFilePoll_s = 1.0;     // between two looks at a password file
-constexpr std::size_t kLongestPassword = 4096;
 
 constexpr double kRateOff = 0.15;       // share of the configured rate
 constexpr double kRateKnown_s = 5.0;    // after the first picture
 constexpr double kStampRateOff = 2e-3;  // no oscillator is so bad
-
-std::string password_of(const RtspConfig& config) {
-  if (config.password_file.empty()) return {};
-  const std::string text = read_small_file(config.password_file, kLongestPassword);
-  return text.substr(0, text.find_first_of("\r\n"));
-}
 
 std::string milliseconds(const char* format, double seconds) {
   std::array<char, 100> text{};
@@ -52,7 +44,6 @@ struct RtspCamera::Impl {
   }
 
   void run();
-  void wait_for_other_password(const std::string& refused);
   void connect(const std::string& password);
   void stream(RtspStream& stream);
   void take(RtspStream& stream, DecodedPicture picture);
@@ -80,12 +71,15 @@ void RtspCamera::Impl::run() {
   while (!handover_.ended()) {
     std::string password;
     try {
-      password = password_of(config_);
+      password = device::read_password(config_.password_file);
       connect(password);
       continue;  // ended
     } catch (const LoginRefused& error) {
       handover_.note_failure(CameraState::kFault, error.alarm);
-      wait_for_other_password(password);
+      device::wait_for_other_password(config_.password_file, password, [this](double pause_s) {
+        handover_.wait(pause_s);
+        return !handover_.ended();
+      });
       continue;
     } catch (const CameraUnfit& error) {
       handover_.note_failure(CameraState::kFault, error.alarm);
@@ -95,19 +89,6 @@ void RtspCamera::Impl::run() {
       handover_.note_failure(CameraState::kAbsent, {error.what(), {}, {}});
     }
     handover_.wait(pause_.after_stream(last_s_.value_or(0.0) - first_s_.value_or(0.0)));
-  }
-}
-
-// Another password is tried at once, the same only after a time in which no camera locks the
-// account.
-void RtspCamera::Impl::wait_for_other_password(const std::string& refused) {
-  const double until_s = clock_monotonic_s() + RetryPause::kLogin_s;
-  while (!handover_.ended() && clock_monotonic_s() < until_s) {
-    handover_.wait(kFilePoll_s);
-    try {
-      if (password_of(config_) != refused) return;
-    } catch (const std::exception&) {  // the file is being replaced
-    }
   }
 }
 

@@ -10,16 +10,12 @@
 #include <vector>
 
 #include "edge/mount/mount.h"
-#include "geometry/angles.h"
 
 namespace ols::mount {
 
 struct FixedMountConfig {
   PanTilt angles;
 };
-
-// The size of a count. A fixed mount has no encoder, but a station reports angles in counts.
-inline constexpr double kVirtualCount_rad = radians(1e-4);
 
 Limits fixed_limits(const PanTilt& angles);
 std::string fixed_words(const PanTilt& angles);  // "fixed at pan 10.00, tilt 5.00 deg"

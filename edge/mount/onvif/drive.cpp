@@ -1,0 +1,304 @@
+#include "edge/mount/onvif/drive.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "conditions/alarms.h"
+#include "geometry/angles.h"
+
+namespace ols::onvif {
+namespace {
+
+constexpr double kWindow_s = 0.6;  // over which reported positions show a motion
+constexpr double kLeastMotion_rad = radians(0.2);
+constexpr double kStopAgain_s = 0.4;    // until a stop that changed nothing is repeated
+constexpr double kBrakes_s = 0.2;       // after a stop: no motion that contradicts it
+constexpr double kComesToRest_s = 1.6;  // after a stop, with the window
+constexpr double kRested_s = 3.0;       // after a stop: where it is now it stays
+constexpr double kAfterOrder_s = 10.0;  // a motion after that has nothing to do with the last order
+constexpr double kOldPosition_s = 1.0;  // no motion is ordered on an older one
+constexpr double kAhead_s = 0.5;        // as far the ordered rate carries a position on
+constexpr double kTravel_s = 2.0;       // of motion into one direction, before it is judged
+constexpr double kContrary_s = 0.7;     // if it goes the wrong way
+constexpr double kTravel_rad = radians(3.0);
+constexpr double kTravelShare = 0.1;  // of the ordered travel that must be seen
+constexpr double kRefused_s = 10.0;   // no motion after ignored orders
+constexpr double kAlarm_s = 30.0;     // an alarm stays after its cause was last seen
+constexpr double kRateStep_rad_s = radians(0.1);
+constexpr double kRateShare = 0.05;   // a smaller change of rate waits for the lease
+constexpr double kRenew = 1.0 / 3.0;  // of the lease
+constexpr double kLastPiece_rad = radians(2.0);
+constexpr double kAbsoluteAgain_s = 5.0;  // a place that was not reached is ordered again
+
+double position_of(const AxisScale& scale, double angle_rad) {
+  return (angle_rad - scale.zero_rad) / scale.per_unit_rad;
+}
+double angle_of(const AxisScale& scale, double position) {
+  return scale.zero_rad + scale.per_unit_rad * position;
+}
+
+// The travel of an axis, as narrow as configuration and camera make it.
+void narrow(double& min_rad, double& max_rad, const AxisScale& scale, const Span& span) {
+  const auto [low, high] = std::minmax({angle_of(scale, span.min), angle_of(scale, span.max)});
+  min_rad = std::max(min_rad, low);
+  max_rad = std::min(max_rad, high);
+}
+
+double velocity_of(const AxisScale& scale, double rate_rad_s, const Span& span) {
+  return std::clamp(rate_rad_s / scale.speed_per_unit_rad, span.min, span.max);
+}
+
+double fastest(const PanTilt& rate) {
+  return std::max(std::abs(rate.pan_rad), std::abs(rate.tilt_rad));
+}
+
+bool differs(const PanTilt& a, const PanTilt& b) {
+  return distance(a, b) > std::max(kRateStep_rad_s, kRateShare * fastest(a)) ||
+         (fastest(a) == 0.0) != (fastest(b) == 0.0);
+}
+
+}  // namespace
+
+void Drive::connected(const PtzOptions& options) {
+  options_ = options;
+  limits_ = config_.limits;
+  limits_.count = {mount::kVirtualCount_rad, mount::kVirtualCount_rad};
+  if (options.absolute) {
+    narrow(limits_.pan_min_rad, limits_.pan_max_rad, config_.pan, options.absolute->x);
+    narrow(limits_.tilt_min_rad, limits_.tilt_max_rad, config_.tilt, options.absolute->y);
+  }
+  stop_wanted_ = true;
+  stops_ = 0;
+  intake_.restart();
+  seen_.clear();
+}
+
+void Drive::lost() {
+  goal_.reset();
+  seen_.clear();
+  if (motion_ != Motion::kNone) rest_.reset();  // where it went is unknown
+}
+
+void Drive::set_goal(const std::optional<mount::Goal>& goal) {
+  goal_ = emergency_ ? std::nullopt : goal;
+}
+
+void Drive::emergency_halt() {
+  emergency_ = stop_wanted_ = true;
+  stops_ = 0;
+  goal_.reset();
+  ++counters_.emergencies;
+}
+
+std::optional<double> Drive::last_position_s() const {
+  return seen_.empty() ? std::nullopt : std::optional(seen_.back().time_s);
+}
+
+double Drive::seen_motion_rad() const {
+  return std::max(kLeastMotion_rad, 4.0 * config_.positions.sd_rad);
+}
+
+bool Drive::moves_since(double time_s) const {
+  return std::ranges::any_of(seen_, [&](const Seen& seen) {
+    return seen.time_s > time_s && distance(seen.angles, seen_.back().angles) > seen_motion_rad();
+  });
+}
+
+bool Drive::stop_is_due(double now_s) const {
+  const bool again = now_s - stop_s_ >= kStopAgain_s;
+  if (stop_wanted_ && (stops_ == 0 || again)) return true;
+  return motion_ == Motion::kNone && again && moves_since(stop_s_ + kBrakes_s);
+}
+
+// Some cameras obey only one of the two.
+Order Drive::stop_order() const {
+  const bool by_velocity = stops_ % 2 == 1 && options_.continuous;
+  return {by_velocity ? Act::kVelocity : Act::kStop, {}};
+}
+
+Order Drive::next(double now_s) {
+  if (stop_is_due(now_s)) return stop_order();
+  const bool old = seen_.empty() || now_s - seen_.back().time_s > kOldPosition_s;
+  if (motion_ != Motion::kNone && old && now_s - ordered_s_ > kOldPosition_s) {
+    stop_wanted_ = true;
+    stops_ = 0;
+    return stop_order();
+  }
+  if (!stop_wanted_ && !old) {
+    const Order order = motion(now_s);
+    if (order.act != Act::kWait) return order;
+  }
+  return {now_s - asked_s_ >= config_.poll_s ? Act::kStatus : Act::kWait, {}};
+}
+
+PanTilt Drive::angles_now(double now_s) const {
+  const Seen& newest = seen_.back();
+  if (motion_ != Motion::kVelocity) return newest.angles;
+  const double ahead_s = std::clamp(now_s - newest.time_s, 0.0, kAhead_s);
+  return {newest.angles.pan_rad + rate_.pan_rad * ahead_s,
+          newest.angles.tilt_rad + rate_.tilt_rad * ahead_s};
+}
+
+// Nothing: no motion is wanted or permitted.
+std::optional<PanTilt> Drive::wanted_rate(double now_s) const {
+  if (!goal_ || now_s < refused_until_s_ || !options_.continuous) return std::nullopt;
+  mount::Goal goal = *goal_;
+  goal.rests = false;  // proportional: the answers are too late for the shortest braking
+  const PanTilt now = angles_now(now_s);
+  const auto command = ptu::servo_step(config_.servo, limits_, goal, now, now_s, rate_);
+  if (!command) return std::nullopt;
+  const auto rate = [&](double to_rad, double from_rad, double speed_rad_s, double goal_rad_s) {
+    const double way_rad = to_rad - from_rad;
+    const bool there = goal_rad_s == 0.0 && std::abs(way_rad) < config_.positions.sd_rad;
+    return there ? 0.0 : std::copysign(speed_rad_s, way_rad);
+  };
+  return PanTilt{
+      rate(command->position.pan_rad, now.pan_rad, command->speed.pan_rad, goal.rate.pan_rad),
+      rate(command->position.tilt_rad, now.tilt_rad, command->speed.tilt_rad, goal.rate.tilt_rad)};
+}
+
+// To a goal at rest, near enough to go there without a lease.
+std::optional<Order> Drive::last_piece(double now_s) const {
+  if (!goal_ || !goal_->rests || goal_->rate_only || !options_.absolute) return std::nullopt;
+  if (now_s > goal_->valid_until_s || now_s < refused_until_s_) return std::nullopt;
+  const PanTilt& to = goal_->angles;
+  const PanTilt& at = seen_.back().angles;
+  if (options_.continuous && distance(to, at) > kLastPiece_rad) return std::nullopt;
+  const mount::AngleBox travel = mount::travel(limits_);
+  if (to.pan_rad < travel.pan_min_rad || to.pan_rad > travel.pan_max_rad ||
+      to.tilt_rad < travel.tilt_min_rad || to.tilt_rad > travel.tilt_max_rad ||
+      mount::blocked(limits_.keep_out, mount::spanned(to, at)))
+    return std::nullopt;
+  const bool ordered = motion_ == Motion::kAbsolute && distance(absolute_, to) < intake_.sd_rad();
+  const bool there = distance(to, at) < 2.0 * intake_.sd_rad();
+  if (ordered ? there || now_s - ordered_s_ < kAbsoluteAgain_s : there && fastest(rate_) == 0.0)
+    return Order{};
+  return Order{Act::kAbsolute,
+               {position_of(config_.pan, to.pan_rad), position_of(config_.tilt, to.tilt_rad)}};
+}
+
+Order Drive::motion(double now_s) {
+  if (const auto order = last_piece(now_s)) return *order;
+  const auto rate = wanted_rate(now_s);
+  if (!rate || fastest(*rate) == 0.0) {
+    if (motion_ == Motion::kNone) return {};
+    stop_wanted_ = true;
+    stops_ = 0;
+    return stop_order();
+  }
+  const bool new_position = seen_.back().time_s > moved_for_s_;
+  const bool expires = now_s - ordered_s_ > kRenew * config_.lease_s;
+  const bool other = motion_ != Motion::kVelocity || differs(*rate, rate_);
+  if (!expires && !(other && new_position)) return {};
+  return {Act::kVelocity,
+          {velocity_of(config_.pan, rate->pan_rad, options_.continuous->x),
+           velocity_of(config_.tilt, rate->tilt_rad, options_.continuous->y)}};
+}
+
+void Drive::done(const Order& order, double now_s) {
+  const bool stands_for_stop =
+      order.act == Act::kVelocity && order.vector.x == 0.0 && order.vector.y == 0.0;
+  if (order.act == Act::kStop || stands_for_stop) {
+    if (stops_++ > 0) ++counters_.stops_repeated;
+    stop_s_ = now_s;
+    stop_wanted_ = false;
+    motion_ = Motion::kNone;
+    rate_ = {};
+    if (!rests_since_s_) rests_since_s_ = now_s;
+    return;
+  }
+  if (order.act != Act::kVelocity && order.act != Act::kAbsolute) return;
+  rests_since_s_.reset();
+  rest_.reset();
+  unstopped_s_.reset();
+  stops_ = 0;
+  ordered_s_ = now_s;
+  moved_for_s_ = seen_.empty() ? 0.0 : seen_.back().time_s;
+  if (order.act == Act::kVelocity) {
+    motion_ = Motion::kVelocity;
+    rate_ = {order.vector.x * config_.pan.speed_per_unit_rad,
+             order.vector.y * config_.tilt.speed_per_unit_rad};
+  } else {
+    motion_ = Motion::kAbsolute;
+    rate_ = {};
+    absolute_ = {angle_of(config_.pan, order.vector.x), angle_of(config_.tilt, order.vector.y)};
+  }
+}
+
+// A motion that was refused may be on its way all the same.
+void Drive::failed(const Order& order, double now_s) {
+  if (order.act == Act::kStop) {
+    ++stops_;
+    stop_s_ = now_s;
+  }
+  if (order.act != Act::kVelocity && order.act != Act::kAbsolute) return;
+  stop_wanted_ = true;
+  stops_ = 0;
+  refused_until_s_ = now_s + kRefused_s;
+}
+
+void Drive::take(const PtzStatus& status, double sent_s, double answered_s) {
+  asked_s_ = sent_s;
+  const PanTilt angles{angle_of(config_.pan, status.x), angle_of(config_.tilt, status.y)};
+  const double now_s = 0.5 * (sent_s + answered_s) - config_.positions.delay_s;
+  const bool goes = motion_ == Motion::kAbsolute && distance(absolute_, angles) > seen_motion_rad();
+  intake_.add(angles, sent_s, answered_s, goes ? config_.servo.max_speed_rad_s : fastest(rate_));
+  seen_.push_back({now_s, angles});
+  while (now_s - seen_.front().time_s > kWindow_s) seen_.pop_front();
+  add_travel(pan_travel_, rate_.pan_rad, angles.pan_rad, now_s);
+  add_travel(tilt_travel_, rate_.tilt_rad, angles.tilt_rad, now_s);
+  judge_rest(now_s);
+}
+
+void Drive::add_travel(Travel& travel, double rate_rad_s, double angle_rad, double now_s) {
+  const int sign = rate_rad_s > 0.0 ? 1 : rate_rad_s < 0.0 ? -1 : 0;
+  if (sign != travel.sign) travel = {now_s, 0.0, angle_rad, sign};
+  if (sign == 0 || seen_.size() < 2) return;
+  travel.ordered_rad += rate_rad_s * (now_s - seen_[seen_.size() - 2].time_s);
+  const bool contrary = (angle_rad - travel.from_rad) * travel.ordered_rad < 0.0;
+  const double least_s = contrary ? kContrary_s : kTravel_s;
+  if (now_s - travel.since_s < least_s || std::abs(travel.ordered_rad) < kTravel_rad) return;
+  judge_travel(travel, angle_rad, now_s);
+  travel = {now_s, 0.0, angle_rad, sign};
+}
+
+void Drive::judge_travel(const Travel& travel, double angle_rad, double now_s) {
+  if ((angle_rad - travel.from_rad) / travel.ordered_rad >= kTravelShare) return;
+  ++counters_.orders_ignored;
+  ignored_s_ = now_s;
+  refused_until_s_ = now_s + kRefused_s;
+  stop_wanted_ = true;
+  stops_ = 0;
+}
+
+// Without an order it stays where it came to rest.
+void Drive::judge_rest(double now_s) {
+  if (motion_ != Motion::kNone || !rests_since_s_) return;
+  const double rested_s = now_s - *rests_since_s_;
+  const bool left = rest_ && distance(seen_.back().angles, *rest_) > 2.0 * seen_motion_rad();
+  if (!left && !(moves() && rested_s > kComesToRest_s)) {
+    if (!rest_ && rested_s > kRested_s) rest_ = seen_.back().angles;
+    return;
+  }
+  const bool after_order = !rest_ && now_s - ordered_s_ < kAfterOrder_s && ordered_s_ > 0.0;
+  (after_order ? unstopped_s_ : unordered_s_) = now_s;
+  if (after_order) return;
+  if (left) ++counters_.unordered_motions;
+  if (left) rest_ = seen_.back().angles;
+  stop_wanted_ = true;
+}
+
+std::vector<Alarm> Drive::alarms(double now_s) const {
+  std::vector<Alarm> alarms;
+  const auto holds = [now_s](const std::optional<double>& seen_s) {
+    return seen_s && now_s - *seen_s < kAlarm_s;
+  };
+  if (holds(unordered_s_)) alarms.push_back(alarm::ptu_moves_unordered());
+  if (holds(unstopped_s_)) alarms.push_back(alarm::ptu_does_not_stop());
+  if (holds(ignored_s_)) alarms.push_back(alarm::ptu_ignores_orders());
+  if (emergency_)
+    alarms.push_back(stands() ? alarm::ptu_emergency_stop() : alarm::ptu_emergency_stop_moving());
+  return alarms;
+}
+
+}  // namespace ols::onvif

@@ -1,0 +1,108 @@
+#include "edge/mount/onvif/onvif_link.h"
+
+#include <sodium.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/process/clocks.h"
+#include "edge/mount/onvif/service_address.h"
+
+namespace ols::onvif {
+namespace {
+
+constexpr long kOk = 200, kUnauthorized = 401;
+constexpr std::size_t kNonce = 16;
+
+// Throws where the answer is the refusal of a request; a refused login is found by login_refused().
+bool login_refused(const HttpLink::Answer& answer, const Request& request) {
+  if (answer.status == kUnauthorized) return true;
+  if (answer.status == kOk) return false;
+  try {
+    check_done(answer.body, request.name());
+  } catch (const SoapFault& fault) {
+    return fault.not_authorized;
+  } catch (const AnswerError&) {  // no SOAP
+  }
+  return false;
+}
+
+}  // namespace
+
+OnvifLink::OnvifLink(const HttpLink::Config& http, std::string url, Credentials credentials)
+    : http_(http), url_(std::move(url)), credentials_(std::move(credentials)), ptz_url_(url_) {}
+
+HttpLink::Answer OnvifLink::post(const std::string& url, const Request& request) {
+  if (login_ != Login::kToken) {
+    return http_.post(url, request.action, envelope(request),
+                      login_ == Login::kDigest ? &credentials_ : nullptr);
+  }
+  Token token{credentials_, std::string(kNonce, '\0'), 0};
+  randombytes_buf(token.nonce.data(), kNonce);
+  const double utc_s = 1e-9 * static_cast<double>(clock_utc_ns()) + clock_ahead_s_.value_or(0.0);
+  token.created_utc_s = std::llround(utc_s);
+  return http_.post(url, request.action, envelope(request, token), nullptr);
+}
+
+// The first refusal, of a request without a password, says which login the camera wants. The
+// password is then tried once.
+OnvifLink::Exchange OnvifLink::ask(const std::string& url, const Request& request) {
+  Exchange exchange;
+  HttpLink::Answer answer;
+  const auto exchanged = [&] {
+    exchange.sent_s = clock_monotonic_s();
+    answer = post(url, request);
+    exchange.answered_s = clock_monotonic_s();
+    return !login_refused(answer, request);
+  };
+  if (!exchanged()) {
+    if (login_ == Login::kNone && !credentials_.user.empty()) {
+      login_ = answer.offers_digest ? Login::kDigest : Login::kToken;
+      if (!exchanged()) throw LoginRefused(request.name() + ": user or password refused");
+    } else if (logged_in_) {  // it has started anew, or its clock was set
+      throw HttpError(request.name() + ": the login has expired");
+    } else {
+      throw LoginRefused(request.name() + (credentials_.user.empty()
+                                               ? ": the camera wants user and password"
+                                               : ": user or password refused"));
+    }
+  }
+  logged_in_ = login_ != Login::kNone;
+  // A fault has words of its own, which the reader of the answer throws.
+  if (answer.status != kOk && answer.body.find("Fault") == std::string::npos)
+    throw AnswerError(request.name() + ": HTTP status " + std::to_string(answer.status));
+  exchange.answer = std::move(answer.body);
+  return exchange;
+}
+
+void OnvifLink::read_clock() {
+  const Exchange exchange = ask(url_, get_system_date_and_time());
+  clock_ahead_s_.reset();
+  if (const auto utc_s = date_and_time(exchange.answer)) {
+    constexpr double kHalfSecond = 0.5;  // it says whole ones
+    clock_ahead_s_ =
+        static_cast<double>(*utc_s) + kHalfSecond - 1e-9 * static_cast<double>(clock_utc_ns());
+  }
+}
+
+Learnt OnvifLink::learn(const std::string& wanted) {
+  read_clock();
+  const Services services = onvif::services(ask(url_, get_capabilities()).answer);
+  if (services.ptz.empty()) throw AnswerError("the camera has no PTZ service");
+  ptz_url_ = service_address(url_, services.ptz);
+  const auto all = profiles(ask(service_address(url_, services.media), get_profiles()).answer);
+  const auto found = std::ranges::find_if(all, [&](const Profile& profile) {
+    return wanted.empty() ? !profile.configuration.empty() : profile.token == wanted;
+  });
+  if (found == all.end() || found->configuration.empty())
+    throw AnswerError(wanted.empty() ? "the camera has no profile with PTZ"
+                                     : "the camera has no profile " + wanted + " with PTZ");
+  Learnt learnt{"", *found, options(ask_ptz(get_options(found->configuration)).answer)};
+  try {
+    learnt.device = device_information(ask(url_, get_device_information()).answer);
+  } catch (const AnswerError&) {  // only a name
+  }
+  return learnt;
+}
+
+}  // namespace ols::onvif

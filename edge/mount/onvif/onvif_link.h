@@ -1,0 +1,60 @@
+// The services of one ONVIF camera: logs in as the camera wants it, and learns what it can do.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "edge/mount/onvif/http_link.h"
+#include "edge/mount/onvif/soap_answer.h"
+#include "edge/mount/onvif/soap_request.h"
+
+namespace ols::onvif {
+
+// The camera refuses user or password.
+struct LoginRefused : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+// What was asked of a camera before anything moves.
+struct Learnt {
+  std::string device;  // maker and model; empty: it does not say
+  Profile profile;
+  PtzOptions options;
+};
+
+class OnvifLink {
+ public:
+  // `url`: of the device service.
+  OnvifLink(const HttpLink::Config& http, std::string url, Credentials credentials);
+
+  // Reads the clock, the addresses and the profile; `profile`: its token, empty: the first with
+  // PTZ. Throws HttpError, AnswerError, LoginRefused; these are what all methods throw.
+  Learnt learn(const std::string& profile);
+
+  // When the request left and its answer came, CLOCK_MONOTONIC [s].
+  struct Exchange {
+    std::string answer;
+    double sent_s = 0.0, answered_s = 0.0;
+  };
+  Exchange ask_ptz(const Request& request) { return ask(ptz_url_, request); }
+
+  HttpLink& http() { return http_; }
+  // How far the camera's clock is ahead of the station's UTC [s]; empty: it does not say.
+  std::optional<double> clock_ahead_s() const { return clock_ahead_s_; }
+
+ private:
+  enum class Login { kNone, kDigest, kToken };
+  Exchange ask(const std::string& url, const Request& request);
+  HttpLink::Answer post(const std::string& url, const Request& request);
+  void read_clock();
+
+  HttpLink http_;
+  const std::string url_;
+  const Credentials credentials_;
+  std::string ptz_url_;
+  Login login_ = Login::kNone;
+  bool logged_in_ = false;  // the camera has accepted the login on this connection
+  std::optional<double> clock_ahead_s_;
+};
+
+}  // namespace ols::onvif

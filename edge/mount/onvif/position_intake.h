@@ -1,0 +1,54 @@
+// The positions that a camera reports, as angles with their times and errors. Pure.
+//
+// An answer tells no instant: it is taken for that between question and answer. Many cameras renew
+// their position only a few times a second. A position that stays the same although the ordered
+// motion should have changed it is old, and is not used.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "edge/device/reading_queue.h"
+#include "edge/mount/angle_history.h"
+
+namespace ols::onvif {
+
+// The difference of the axis that differs more [rad].
+double distance(const PanTilt& a, const PanTilt& b);
+
+class PositionIntake {
+ public:
+  struct Config {
+    double delay_s = 0.05;     // age of a position when the camera answers
+    double delay_sd_s = 0.05;  // 1-sigma
+    double sd_rad = 1.7e-3;    // 1-sigma of a position: repeatability, 0.1 deg
+  };
+  explicit PositionIntake(const Config& config) : config_(config) {}
+
+  // `ordered_rad_s`: the fastest axis' ordered speed; 0: at rest.
+  void add(const PanTilt& angles, double sent_s, double answered_s, double ordered_rad_s);
+  void restart();
+  std::vector<mount::AngleSample> take() { return samples_.take(); }
+
+  double round_trip_s() const { return round_trip_s_; }
+  // Between two positions that differ, in motion; 0: not known yet.
+  double interval_s() const;
+  // 1-sigma of a position: the configured one, or what positions at rest scatter.
+  double sd_rad() const;
+
+ private:
+  void measure_rest(const PanTilt& angles, double now_s, double ordered_rad_s);
+
+  Config config_;
+  device::ReadingQueue<mount::AngleSample> samples_;
+  std::optional<PanTilt> last_;
+  double last_s_ = 0.0, changed_s_ = 0.0;
+  double round_trip_s_ = 0.0, poll_s_ = 0.0, old_share_ = 0.0;
+  bool moved_ = false;
+  double rests_since_s_ = 0.0;
+  PanTilt rest_mean_;
+  double rest_variance_rad2_ = 0.0;
+  int rest_count_ = 0;
+};
+
+}  // namespace ols::onvif

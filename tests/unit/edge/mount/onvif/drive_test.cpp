@@ -1,0 +1,227 @@
+#include "edge/mount/onvif/drive.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "geometry/angles.h"
+
+namespace ols::onvif {
+namespace {
+
+constexpr double kTrip_s = 0.03, kForever_s = 1e9;
+
+// A camera in simulated time: 180 and 90 degrees per unit, 50 deg/s at velocity 1. It keeps the
+// time-outs of motions unless it is told not to.
+struct Camera {
+  double x = 0.0, y = 0.0;
+  Vector velocity;
+  double until_s = 0.0;  // of the motion
+  std::optional<Vector> place;
+  bool ignores_timeout = false, ignores_stop = false, ignores_all = false, reversed = false;
+  int stops = 0, velocities = 0, places = 0;
+
+  void obey(const Order& order, double now_s) {
+    stops += order.act == Act::kStop ? 1 : 0;
+    velocities += order.act == Act::kVelocity ? 1 : 0;
+    places += order.act == Act::kAbsolute ? 1 : 0;
+    if (ignores_all || (order.act == Act::kStop && ignores_stop)) return;
+    if (order.act == Act::kStop) velocity = {}, place.reset();
+    if (order.act == Act::kAbsolute) velocity = {}, place = order.vector;
+    if (order.act == Act::kVelocity) {
+      velocity = order.vector;
+      place.reset();
+      until_s = ignores_timeout ? kForever_s : now_s + 1.0;
+    }
+  }
+  void run(double dt_s, double now_s) {
+    if (now_s > until_s) velocity = {};
+    if (place) {
+      x += std::clamp(place->x - x, -dt_s * 0.1, dt_s * 0.1);
+      y += std::clamp(place->y - y, -dt_s * 0.1, dt_s * 0.1);
+      return;
+    }
+    const double sign = reversed ? -1.0 : 1.0;
+    x += sign * velocity.x * 50.0 / 180.0 * dt_s;
+    y += sign * velocity.y * 50.0 / 90.0 * dt_s;
+  }
+};
+
+struct OnvifDrive : ::testing::Test {
+  OnvifDrive() {
+    config.pan = {0.0, radians(180.0), radians(50.0)};
+    config.tilt = {0.0, radians(90.0), radians(50.0)};
+    config.limits = {radians(-170.0), radians(170.0), radians(-80.0), radians(80.0), {}, {}};
+    options.continuous = Space{"", {-1.0, 1.0}, {-1.0, 1.0}};
+  }
+  void start() {
+    drive.emplace(config);
+    drive->connected(options);
+  }
+  // `goal_at`: the goal at an instant; nothing: none.
+  void run(double seconds, const std::function<std::optional<mount::Goal>(double)>& goal_at = {}) {
+    const double end_s = now_s + seconds;
+    while (now_s < end_s) {
+      drive->set_goal(goal_at ? goal_at(now_s) : std::nullopt);
+      const Order order = drive->next(now_s);
+      const double trip_s = order.act == Act::kWait ? 0.005 : kTrip_s;
+      const double sent_s = now_s;
+      const PtzStatus status{camera.x, camera.y, {}, {}};
+      if (order.act != Act::kStatus) camera.obey(order, now_s);
+      camera.run(trip_s, now_s);
+      now_s += trip_s;
+      if (order.act == Act::kStatus) drive->take(status, sent_s, now_s);
+      if (order.act != Act::kStatus && order.act != Act::kWait) drive->done(order, now_s);
+      for (const mount::AngleSample& sample : drive->take_samples()) newest = sample;
+    }
+  }
+  mount::Goal rest(double pan_deg, double tilt_deg) const {
+    return {now_s, {radians(pan_deg), radians(tilt_deg)}, {}, now_s + 0.5, false, true};
+  }
+  std::string alarms() const {
+    std::string text;
+    for (const Alarm& alarm : drive->alarms(now_s)) text += alarm.text + "\n";
+    return text;
+  }
+  double pan_deg() const { return 180.0 * camera.x; }
+
+  DriveConfig config;
+  PtzOptions options;
+  std::optional<Drive> drive;
+  Camera camera;
+  mount::AngleSample newest;
+  double now_s = 100.0;
+};
+
+TEST_F(OnvifDrive, StopsFirstAndOrdersNoMotionWithoutAGoal) {
+  camera.velocity = {1.0, 0.0};  // from a process before
+  camera.until_s = kForever_s;
+  start();
+  EXPECT_EQ(drive->next(now_s).act, Act::kStop);
+  run(5.0);
+  EXPECT_EQ(camera.velocities + camera.places, 0);
+  EXPECT_EQ(camera.velocity.x, 0.0);
+  EXPECT_EQ(alarms(), "");
+}
+
+TEST_F(OnvifDrive, ReachesAGoalAtRestAndStands) {
+  for (const bool absolute : {false, true}) {
+    if (absolute) options.absolute = Space{"", {-1.0, 1.0}, {-1.0, 1.0}};
+    start();
+    run(12.0, [&](double) { return rest(absolute ? 40.0 : -30.0, 20.0); });
+    EXPECT_NEAR(pan_deg(), absolute ? 40.0 : -30.0, absolute ? 0.01 : 0.15);
+    EXPECT_EQ(camera.places > 0, absolute);
+    EXPECT_TRUE(camera.velocity.x == 0.0) << camera.velocity.x;
+    EXPECT_EQ(alarms(), "");
+  }
+}
+
+TEST_F(OnvifDrive, FollowsFiveDegreesASecond) {
+  start();
+  const auto goal = [&](double t) {
+    return mount::Goal{t, {radians(5.0 * (t - 100.0)), 0.0}, {radians(5.0), 0.0}, t + 0.5};
+  };
+  run(15.0, goal);
+  EXPECT_NEAR(pan_deg(), 5.0 * (now_s - 100.0), 0.3);
+  // The reported angle, at its own time.
+  EXPECT_NEAR(degrees(newest.angles.pan_rad), 5.0 * (newest.time_s - 100.0), 0.8);
+  EXPECT_LT(camera.velocities, 15.0 * 4.0);  // a lease of 1 s is renewed three times in it
+  EXPECT_EQ(alarms(), "");
+}
+
+TEST_F(OnvifDrive, NoMotionOutlivesItsLeaseOrItsGoal) {
+  start();
+  run(3.0, [&](double) { return rest(100.0, 0.0); });
+  ASSERT_NE(camera.velocity.x, 0.0);
+  const double station_dies_s = now_s;
+  while (camera.velocity.x != 0.0) camera.run(0.01, now_s += 0.01);
+  EXPECT_LT(now_s - station_dies_s, 1.01);
+
+  camera.ignores_timeout = true;
+  run(3.0, [&](double) { return rest(100.0, 0.0); });
+  ASSERT_NE(camera.velocity.x, 0.0);
+  run(0.2);  // no goal any more
+  EXPECT_EQ(camera.velocity.x, 0.0);
+}
+
+TEST_F(OnvifDrive, ALostStopIsRepeatedInAnotherWayAndToldAtLast) {
+  camera.ignores_timeout = camera.ignores_stop = true;
+  start();
+  run(3.0, [&](double) { return rest(100.0, 0.0); });
+  run(1.0);
+  EXPECT_EQ(camera.velocity.x, 0.0);
+  EXPECT_GE(drive->counters().stops_repeated, 1u);
+  EXPECT_EQ(alarms(), "");
+
+  run(3.0, [&](double) { return rest(100.0, 0.0); });
+  camera.ignores_all = true;
+  run(2.5);
+  EXPECT_NE(alarms().find("ordered to stop, still moves"), std::string::npos) << alarms();
+}
+
+TEST_F(OnvifDrive, AMotionThatNobodyOrderedIsStoppedAndTold) {
+  start();
+  run(6.0);
+  camera.velocity = {0.3, 0.0};
+  camera.until_s = kForever_s;
+  const int before = camera.stops;
+  run(0.6);
+  EXPECT_GT(camera.stops, before);
+  EXPECT_EQ(camera.velocity.x, 0.0);
+  EXPECT_NE(alarms().find("moves without an order"), std::string::npos);
+}
+
+TEST_F(OnvifDrive, ACameraThatRebootsIntoItsHomeIsNoticed) {
+  start();
+  run(15.0, [&](double) { return rest(30.0, 0.0); });
+  run(5.0);
+  drive->lost();
+  camera.x = 0.0;
+  drive->connected(options);
+  run(2.0);
+  EXPECT_NE(alarms().find("moves without an order"), std::string::npos);
+}
+
+TEST_F(OnvifDrive, OrdersThatAreNotCarriedOutEnd) {
+  for (const bool reversed : {false, true}) {
+    camera = {};
+    (reversed ? camera.reversed : camera.ignores_all) = true;
+    start();
+    run(4.0, [&](double) { return rest(100.0, 0.0); });
+    EXPECT_NE(alarms().find("does not move as ordered"), std::string::npos);
+    EXPECT_EQ(camera.velocity.x, 0.0);
+    EXPECT_LT(std::abs(pan_deg()), 20.0);
+  }
+}
+
+TEST_F(OnvifDrive, AnEmergencyStopsAndHoldsUntilItIsCleared) {
+  start();
+  run(3.0, [&](double) { return rest(100.0, 0.0); });
+  drive->emergency_halt();
+  EXPECT_EQ(drive->next(now_s).act, Act::kStop);
+  const int before = camera.velocities;
+  run(2.0, [&](double) { return rest(100.0, 0.0); });
+  EXPECT_EQ(camera.velocities, before);
+  EXPECT_NE(alarms().find("emergency stop"), std::string::npos);
+  drive->clear_emergency();
+  run(1.0, [&](double) { return rest(100.0, 0.0); });
+  EXPECT_GT(camera.velocities, before);
+}
+
+TEST(OnvifPositions, AnOldPositionInMotionIsNotUsed) {
+  PositionIntake intake({.delay_s = 0.0, .delay_sd_s = 0.001, .sd_rad = radians(0.1)});
+  const double rate = radians(10.0);
+  double worst_s = 0.0;
+  for (int i = 0; i < 100; ++i) {  // asked ten times a second, renewed every 0.3 s
+    const double t = 0.1 * i, renewed_s = 0.3 * std::floor((t + 1e-9) / 0.3);
+    intake.add({rate * renewed_s, 0.0}, t - 0.01, t + 0.01, rate);
+    for (const mount::AngleSample& sample : intake.take())
+      worst_s = std::max(worst_s, std::abs(sample.time_s - sample.angles.pan_rad / rate));
+  }
+  EXPECT_LT(worst_s, 0.11);
+  EXPECT_NEAR(intake.interval_s(), 0.3, 0.1);
+}
+
+}  // namespace
+}  // namespace ols::onvif
