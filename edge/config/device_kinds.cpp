@@ -3,6 +3,7 @@
 #include "edge/camera/aravis/aravis_kind.h"
 #include "edge/camera/rtsp/rtsp_kind.h"
 #include "edge/mount/fixed/fixed_kind.h"
+#include "edge/mount/onvif/onvif_kind.h"
 #include "edge/ptu/ptu_kind.h"
 #include "edge/sensors/dpg2/dpg2_kind.h"
 #include "edge/sensors/gpsd/gpsd_kind.h"
@@ -23,7 +24,9 @@ const std::vector<device::KindRow<mount::MountKind>>& mount_kinds() {
   static const std::vector<device::KindRow<mount::MountKind>> kinds{
       {"flir", "A pan-tilt unit of FLIR (Directed Perception).", make_kind<ptu::PtuKind>},
       {"fixed", "The camera stands still: the station never moves it.",
-       make_kind<mount::FixedKind>}};
+       make_kind<mount::FixedKind>},
+      {"onvif", "An IP camera with pan and tilt that is steered by ONVIF.",
+       make_kind<onvif::OnvifKind>}};
   return kinds;
 }
 

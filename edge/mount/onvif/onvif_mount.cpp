@@ -57,6 +57,13 @@ std::string words_of(const Learnt& learnt, const std::optional<double>& clock_ah
   return text;
 }
 
+std::string quality_of(const PositionIntake& intake) {
+  std::array<char, 120> text{};
+  std::snprintf(text.data(), text.size(), ", answers in %.0f ms, positions +-%.2f deg",
+                1e3 * intake.round_trip_s(), degrees(intake.sd_rad()));
+  return text.data();
+}
+
 }  // namespace
 
 struct OnvifMount::Impl {
@@ -268,7 +275,7 @@ device::DeviceReport OnvifMount::report() const {
     report.alarms = {alarm::ptu_login_refused(device::kLoginPause_s / 60.0)};
     report.text = report.alarms.front().text;
   } else if (report.state == device::DeviceState::kOk) {
-    report.text = impl.words;
+    report.text = impl.words + quality_of(impl.drive.intake());
     if (now_s - report.last_good_s.value_or(0.0) > kNoAngles_s)
       report.alarms.push_back(alarm::ptu_no_angles());
   }
