@@ -31,8 +31,8 @@ struct AxisScale {
 
 struct DriveConfig {
   AxisScale pan, tilt;
-  mount::Limits limits;
-  ptu::ServoConfig servo{.gain_hz = 1.0, .max_speed_rad_s = 0.35};
+  mount::Limits limits{radians(-180.0), radians(180.0), radians(-90.0), radians(90.0), {}, {}};
+  ptu::ServoConfig servo{.gain_hz = 1.0, .max_speed_rad_s = radians(20.0)};
   PositionIntake::Config positions;
   double lease_s = 1.0;  // of a velocity
   double poll_s = 0.1;   // between two questions for the position

@@ -10,6 +10,7 @@
 
 #include "edge/device/reading_queue.h"
 #include "edge/mount/angle_history.h"
+#include "geometry/angles.h"
 
 namespace ols::onvif {
 
@@ -19,9 +20,9 @@ double distance(const PanTilt& a, const PanTilt& b);
 class PositionIntake {
  public:
   struct Config {
-    double delay_s = 0.05;     // age of a position when the camera answers
-    double delay_sd_s = 0.05;  // 1-sigma
-    double sd_rad = 1.7e-3;    // 1-sigma of a position: repeatability, 0.1 deg
+    double delay_s = 0.05;         // age of a position when the camera answers
+    double delay_sd_s = 0.05;      // 1-sigma
+    double sd_rad = radians(0.1);  // 1-sigma of a position: repeatability
   };
   explicit PositionIntake(const Config& config) : config_(config) {}
 
