@@ -19,6 +19,7 @@ constexpr double kAfterOrder_s = 10.0;  // a motion after that has nothing to do
 constexpr double kOldPosition_s = 1.0;  // no motion is ordered on an older one
 constexpr double kAhead_s = 0.5;        // as far the ordered rate carries a position on
 constexpr double kTravel_s = 2.0;       // of motion into one direction, before it is judged
+constexpr double kTurns_s = 0.5;        // of motion into one direction, before it counts
 constexpr double kContrary_s = 0.7;     // if it goes the wrong way
 constexpr double kTravel_rad = radians(3.0);
 constexpr double kTravelShare = 0.1;  // of the ordered travel that must be seen
@@ -254,16 +255,22 @@ void Drive::add_travel(Travel& travel, double rate_rad_s, double angle_rad, doub
   const int sign = rate_rad_s > 0.0 ? 1 : rate_rad_s < 0.0 ? -1 : 0;
   if (sign != travel.sign) travel = {now_s, 0.0, angle_rad, sign};
   if (sign == 0 || seen_.size() < 2) return;
+  if (now_s - travel.since_s < kTurns_s) {
+    travel.from_rad = angle_rad;
+    return;
+  }
   travel.ordered_rad += rate_rad_s * (now_s - seen_[seen_.size() - 2].time_s);
   const bool contrary = (angle_rad - travel.from_rad) * travel.ordered_rad < 0.0;
   const double least_s = contrary ? kContrary_s : kTravel_s;
   if (now_s - travel.since_s < least_s || std::abs(travel.ordered_rad) < kTravel_rad) return;
+  distrusted_ = false;
   judge_travel(travel, angle_rad, now_s);
   travel = {now_s, 0.0, angle_rad, sign};
 }
 
 void Drive::judge_travel(const Travel& travel, double angle_rad, double now_s) {
   if ((angle_rad - travel.from_rad) / travel.ordered_rad >= kTravelShare) return;
+  distrusted_ = true;
   ++counters_.orders_ignored;
   ignored_s_ = now_s;
   refused_until_s_ = now_s + kRefused_s;
@@ -295,7 +302,7 @@ std::vector<Alarm> Drive::alarms(double now_s) const {
   };
   if (holds(unordered_s_)) alarms.push_back(alarm::ptu_moves_unordered());
   if (holds(unstopped_s_)) alarms.push_back(alarm::ptu_does_not_stop());
-  if (holds(ignored_s_)) alarms.push_back(alarm::ptu_ignores_orders());
+  if (distrusted_ || holds(ignored_s_)) alarms.push_back(alarm::ptu_ignores_orders());
   if (emergency_)
     alarms.push_back(stands() ? alarm::ptu_emergency_stop() : alarm::ptu_emergency_stop_moving());
   return alarms;

@@ -62,7 +62,12 @@ class Drive {
   void failed(const Order& order, double now_s);
   void take(const PtzStatus& status, double sent_s, double answered_s);
 
-  std::vector<mount::AngleSample> take_samples() { return intake_.take(); }
+  // None while its positions do not follow the orders.
+  std::vector<mount::AngleSample> take_samples() {
+    auto samples = intake_.take();
+    if (distrusted_) samples.clear();
+    return samples;
+  }
   const mount::Limits& limits() const { return limits_; }
   bool has_position() const { return !seen_.empty(); }
   // Positions are reported, and do not change.
@@ -122,6 +127,7 @@ class Drive {
 
   std::deque<Seen> seen_;  // positions of the last second
   Travel pan_travel_, tilt_travel_;
+  bool distrusted_ = false;        // since then no position has followed an order
   double refused_until_s_ = -1e9;  // it did not do what it was ordered to
   std::optional<double> unordered_s_, unstopped_s_, ignored_s_;  // last seen
   Counters counters_;

@@ -67,7 +67,9 @@ struct OnvifDrive : ::testing::Test {
       const Order order = drive->next(now_s);
       const double trip_s = order.act == Act::kWait ? 0.005 : kTrip_s;
       const double sent_s = now_s;
-      const PtzStatus status{camera.x, camera.y, {}, {}};
+      track.push_back({now_s, camera.x});
+      while (track.size() > 1 && track[1].first <= now_s - late_s) track.pop_front();
+      const PtzStatus status{track.front().second, camera.y, {}, {}};
       if (order.act != Act::kStatus) camera.obey(order, now_s);
       camera.run(trip_s, now_s);
       now_s += trip_s;
@@ -92,6 +94,8 @@ struct OnvifDrive : ::testing::Test {
   Camera camera;
   mount::AngleSample newest;
   double now_s = 100.0;
+  double late_s = 0.0;                          // the positions that it reports
+  std::deque<std::pair<double, double>> track;  // time, x
 };
 
 TEST_F(OnvifDrive, StopsFirstAndOrdersNoMotionWithoutAGoal) {
@@ -192,7 +196,18 @@ TEST_F(OnvifDrive, OrdersThatAreNotCarriedOutEnd) {
     EXPECT_NE(alarms().find("does not move as ordered"), std::string::npos);
     EXPECT_EQ(camera.velocity.x, 0.0);
     EXPECT_LT(std::abs(pan_deg()), 20.0);
+    const double told_s = newest.time_s;
+    run(2.0);
+    EXPECT_EQ(newest.time_s, told_s);  // its positions are not believed
   }
+}
+
+TEST_F(OnvifDrive, ATurnBackWithLatePositionsIsNoDisobedience) {
+  start();
+  late_s = 0.3;
+  run(4.0, [&](double) { return rest(-150.0, 0.0); });
+  run(4.0, [&](double) { return rest(150.0, 0.0); });
+  EXPECT_EQ(alarms(), "");
 }
 
 TEST_F(OnvifDrive, AnEmergencyStopsAndHoldsUntilItIsCleared) {
