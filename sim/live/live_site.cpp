@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
 #include <stdexcept>
 
@@ -15,8 +16,10 @@
 #include "sim/camera/rtsp_server.h"
 #include "sim/gpio/gpio_socket.h"
 #include "sim/lens/lens_line.h"
+#include "sim/onvif/server.h"
 #include "sim/ptu/line.h"
 #include "sim/ptu/tap.h"
+#include "sim/scenario/onvif_camera.h"
 #include "sim/sensors/gnss_line.h"
 #include "sim/sensors/inclinometer_line.h"
 #include "sim/world/exposed_unit.h"
@@ -85,6 +88,7 @@ LiveSite::~LiveSite() = default;
 std::unique_ptr<PtuDevice> LiveSite::connect_ptu(std::size_t station, const std::string& link) {
   const StationScenario& scenario = world_.scenario().stations[station];
   if (scenario.fixed) return std::make_unique<FixedCamera>(*scenario.fixed);
+  if (scenario.onvif) return connect_onvif(station, std::filesystem::path(link).parent_path());
   const std::string& real_device = scenario.ptu_device;
   const std::uint64_t seed = derived_seed(world_.seed(), 4000 + station);
   if (real_device.empty()) return std::make_unique<PtuLine>(world_.ptu_unit_config(), seed, link);
@@ -92,6 +96,16 @@ std::unique_ptr<PtuDevice> LiveSite::connect_ptu(std::size_t station, const std:
   tap.device = real_device;
   tap.baud = world_.scenario().ptu.baud;
   return std::make_unique<PtuTap>(tap, seed, link);
+}
+
+// Its password lies in the folder of the lines.
+std::unique_ptr<PtuDevice> LiveSite::connect_onvif(std::size_t station, const std::string& folder) {
+  const StationScenario& scenario = world_.scenario().stations[station];
+  const OnvifConfig config = onvif_config(world_.scenario(), scenario);
+  const std::string file = folder + "/" + scenario.id + ".password";
+  std::ofstream(file) << config.password << "\n";
+  std::filesystem::permissions(file, std::filesystem::perms(0600));
+  return std::make_unique<OnvifServer>(config, derived_seed(world_.seed(), 7000 + station));
 }
 
 void LiveSite::connect_camera(Device& device) {

@@ -7,7 +7,20 @@
 
 namespace ols::sim {
 
+struct PtzFaults {           // of an ONVIF PTZ
+  double late_s = 0.0;       // its positions are those of this long ago
+  double step_deg = 0.0;     // its positions are whole multiples of this; 0: exact
+  bool frozen = false;       // it tells the position that it had when this began
+  bool no_position = false;  // it tells none
+  bool ignores_timeout = false, ignores_stop = false;
+  double clock_off_s = 0.0;  // its clock against UTC
+  double lost_share = 0.0;   // of requests, lost together with their connections
+  bool reboots = false;      // the edge from false to true: it goes home, and is not reachable
+  bool operator==(const PtzFaults&) const = default;
+};
+
 struct PtuFaults {
+  PtzFaults ptz;
   bool line_cut = false;      // no byte in either direction; the device node remains
   bool line_gone = false;     // the device itself is gone (an unplugged USB adapter)
   double garble_share = 0.0;  // share of replies with a wrong byte (lost, flipped or inserted)

@@ -99,6 +99,22 @@ Section ptu_section(PtuScenario& p) {
                         "Whether it homes first, for about 20 s, without answering.")}};
 }
 
+Section onvif_section(OnvifScenario& o) {
+  constexpr const char *kSpeed = "deg/s", *kAcceleration = "deg/s^2";
+  return {"onvif",
+          "The ONVIF PTZ camera of every station with mount = \"onvif\".",
+          {config::integer("port", o.port, 1, 65535, "", "TCP port of its device service."),
+           config::number("max_speed_deg_s", o.max_speed_rad_s, {1, 360},
+                          station::in_degrees(kSpeed), "Maximum speed of each axis."),
+           config::number("acceleration_deg_s2", o.acceleration_rad_s2, {1, 3600},
+                          station::in_degrees(kAcceleration), "Acceleration of each axis."),
+           config::number("command_delay_ms", o.command_delay_s, {0, 2000}, config::kMilliseconds,
+                          "From the arrival of a command to the motion."),
+           angle("repeatability_deg", o.repeatability_rad, {0, 5},
+                 "1-sigma of where a move to a position ends."),
+           config::number("boot_s", o.boot_s, {0, 600}, "s", "Duration of a reboot.")}};
+}
+
 Section inclinometer_section(InclinometerScenario& i) {
   return {"inclinometer",
           "The inclinometer of every station.",
@@ -248,6 +264,8 @@ std::vector<Row> station_rows(StationScenario& station) {
               .required(),
           config::word("camera", station.rtsp, {{"gige", false}, {"rtsp", true}},
                        "GigE Vision, or video by RTSP (live only)."),
+          config::word("mount", station.onvif, {{"ptu", false}, {"onvif", true}},
+                       "A pan-tilt unit, or that of an ONVIF PTZ camera (live only)."),
           config::text("ptu_line", station.ptu_line, "Name of the PTU's serial line.")
               .default_is("ID.ptu"),
           config::text("ptu_device", station.ptu_device,
@@ -375,6 +393,7 @@ Section scenario_section(Scenario& s, const std::string& folder) {
           {site_section(s.origin),
            camera_section(s),
            ptu_section(s.ptu),
+           onvif_section(s.onvif),
            inclinometer_section(s.inclinometer),
            gnss_section(s.gnss),
            {"detector",

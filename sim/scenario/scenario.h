@@ -91,6 +91,7 @@ struct StationScenario {
   // Where it looks while nobody wants its unit: the middle, and the field's width and height.
   std::optional<AzimuthElevation> watch;
   Eigen::Vector2d watch_size_rad = Eigen::Vector2d::Zero();
+  bool onvif = false;      // its mount is that of an ONVIF PTZ camera, no PTU; live only
   std::string ptu_device;  // of a real unit that replaces the simulated one; empty: none
 };
 
@@ -125,6 +126,15 @@ struct PtuScenario {
   int baud = 38400;
   double poll_interval_s = 0.025;
   bool home_at_power_up = true;  // about twenty seconds without answers
+};
+
+// The ONVIF PTZ cameras.
+struct OnvifScenario {
+  int port = 8080;
+  double max_speed_rad_s = radians(60.0), acceleration_rad_s2 = radians(120.0);  // of each axis
+  double command_delay_s = 0.08;             // from a command's arrival to the motion
+  double repeatability_rad = radians(0.05);  // 1-sigma of where a move to a position ends
+  double boot_s = 20.0;
 };
 
 // The inclinometer of every station.
@@ -166,6 +176,7 @@ struct Scenario {
   double exposure_s = 0.002;
   double readout_s = 0.010;
   PtuScenario ptu;
+  OnvifScenario onvif;
   InclinometerScenario inclinometer;
   GnssScenario gnss;
   GpioScenario gpio;

@@ -10,6 +10,8 @@
 #include "edge/calibration/calibration_folder.h"
 #include "edge/station/persisted_station_state.h"
 #include "sim/gpio/gpio_socket.h"
+#include "sim/onvif/ptz_scale.h"
+#include "sim/scenario/onvif_camera.h"
 #include "sim/world/calibration_round.h"
 
 namespace ols::sim {
@@ -67,8 +69,7 @@ void write_sd(std::ostream& out, const World& world, const CalibrationSd& sd) {
 void write_camera(std::ostream& out, const Scenario& s, const StationScenario& station) {
   out << "\n[camera]\n";
   if (station.rtsp) {
-    out << "kind = \"rtsp\"\nurl = "
-        << toml_text("rtsp://" + station.camera_address + ":8554/video")
+    out << "kind = \"rtsp\"\nurl = " << toml_text(stream_address(station))
         << "\ndelay_s = " << 0.5 * s.exposure_s + s.readout_s + kEncoder_s
         << "\ndelay_sd_s = " << kEncoder_s;
   } else {
@@ -79,6 +80,20 @@ void write_camera(std::ostream& out, const Scenario& s, const StationScenario& s
       << "\nframe_rate_hz = " << s.frame_rate_hz << "\n";
 }
 
+// The scales of the generic spaces, as its data sheet has them.
+void write_onvif(std::ostream& out, const OnvifConfig& c, const std::string& password_file) {
+  const PtzUnitConfig& unit = c.unit;
+  out << "kind = \"onvif\"\nurl = "
+      << toml_text("http://" + c.address + ":" + std::to_string(c.port) + "/onvif/device_service")
+      << "\nuser = " << toml_text(c.user) << "\npassword_file = " << toml_text(password_file)
+      << "\npan_gain_deg = " << degrees(angle_rad(0, 1.0, unit) - angle_rad(0, 0.0, unit))
+      << "\npan_zero_deg = " << degrees(angle_rad(0, 0.0, unit))
+      << "\npan_speed_deg_s = " << degrees(full_speed_rad_s(0, unit))
+      << "\ntilt_gain_deg = " << degrees(angle_rad(1, 1.0, unit) - angle_rad(1, 0.0, unit))
+      << "\ntilt_zero_deg = " << degrees(angle_rad(1, 0.0, unit))
+      << "\ntilt_speed_deg_s = " << degrees(full_speed_rad_s(1, unit)) << "\n";
+}
+
 void write_devices(std::ostream& out, const Scenario& s, const StationScenario& station,
                    const std::string& line_folder) {
   write_camera(out, s, station);
@@ -86,6 +101,10 @@ void write_devices(std::ostream& out, const Scenario& s, const StationScenario& 
   if (station.fixed) {
     out << "kind = \"fixed\"\npan_deg = " << degrees(station.fixed->pan_rad)
         << "\ntilt_deg = " << degrees(station.fixed->tilt_rad) << "\n";
+    return;
+  }
+  if (station.onvif) {
+    write_onvif(out, onvif_config(s, station), line_folder + "/" + station.id + ".password");
     return;
   }
   out << "device = " << toml_text(line_folder + "/" + station.ptu_line) << "\nbaud = " << s.ptu.baud

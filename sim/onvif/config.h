@@ -1,0 +1,21 @@
+// What a simulated ONVIF PTZ camera is.
+#pragma once
+
+#include <string>
+
+#include "sim/onvif/ptz_unit.h"
+
+namespace ols::sim {
+
+struct OnvifConfig {
+  std::string address = "127.0.0.1";  // of an interface
+  int port = 8080;                    // 0: any
+  std::string user = "admin", password = "ptz-camera";
+  std::string serial = "1";
+  std::string stream_uri;  // of its video
+  int width_px = 1280, height_px = 960;
+  double frame_rate_hz = 25.0;
+  PtzUnitConfig unit;
+};
+
+}  // namespace ols::sim

@@ -1,0 +1,152 @@
+// What the camera says of itself: device and media service.
+
+#include <spdlog/fmt/fmt.h>
+
+#include <chrono>
+#include <cmath>
+
+#include "sim/onvif/device.h"
+#include "sim/onvif/ptz_entities.h"
+
+namespace ols::sim {
+namespace {
+
+std::string xaddr(const OnvifConfig& c, const char* service) {
+  return fmt::format("http://{}:{}/onvif/{}", c.address, c.port, service);
+}
+
+// Throws for any token but that of the only profile.
+void check_profile(pugi::xml_node request, const char* space) {
+  if (text_of(child_of(request, space, "ProfileToken")) != ptz_entity::kProfile) {
+    throw SoapFault{
+        "Sender", {"InvalidArgVal", "NoProfile"}, "The requested profile token does not exist"};
+  }
+}
+
+std::string profile_text(const OnvifConfig& c, const char* element) {
+  return fmt::format(
+      R"(<trt:{0} token="{1}" fixed="true"><tt:Name>{1}</tt:Name>)"
+      R"(<tt:VideoSourceConfiguration token="source"><tt:Name>source</tt:Name>)"
+      R"(<tt:UseCount>1</tt:UseCount><tt:SourceToken>sensor</tt:SourceToken>)"
+      R"(<tt:Bounds x="0" y="0" width="{2}" height="{3}"/></tt:VideoSourceConfiguration>)"
+      R"(<tt:VideoEncoderConfiguration token="encoder"><tt:Name>encoder</tt:Name>)"
+      R"(<tt:UseCount>1</tt:UseCount><tt:Encoding>H264</tt:Encoding>)"
+      R"(<tt:Resolution><tt:Width>{2}</tt:Width><tt:Height>{3}</tt:Height></tt:Resolution>)"
+      R"(<tt:Quality>5</tt:Quality><tt:RateControl><tt:FrameRateLimit>{4}</tt:FrameRateLimit>)"
+      R"(<tt:EncodingInterval>1</tt:EncodingInterval><tt:BitrateLimit>8000</tt:BitrateLimit>)"
+      R"(</tt:RateControl><tt:H264><tt:GovLength>25</tt:GovLength>)"
+      R"(<tt:H264Profile>Baseline</tt:H264Profile></tt:H264>)"
+      R"(<tt:Multicast><tt:Address><tt:Type>IPv4</tt:Type>)"
+      R"(<tt:IPv4Address>0.0.0.0</tt:IPv4Address></tt:Address><tt:Port>0</tt:Port>)"
+      R"(<tt:TTL>0</tt:TTL><tt:AutoStart>false</tt:AutoStart></tt:Multicast>)"
+      R"(<tt:SessionTimeout>PT60S</tt:SessionTimeout></tt:VideoEncoderConfiguration>{5}</trt:{0}>)",
+      element, ptz_entity::kProfile, c.width_px, c.height_px, std::lround(c.frame_rate_hz),
+      ptz_entity::configuration("tt:PTZConfiguration"));
+}
+
+}  // namespace
+
+std::string OnvifDevice::date_and_time(pugi::xml_node) {
+  using namespace std::chrono;
+  const sys_time<microseconds> at{microseconds(utime_us_)};
+  const year_month_day date(floor<days>(at));
+  const hh_mm_ss time(floor<seconds>(at - floor<days>(at)));
+  return fmt::format(
+      "<tds:GetSystemDateAndTimeResponse><tds:SystemDateAndTime>"
+      "<tt:DateTimeType>NTP</tt:DateTimeType><tt:DaylightSavings>false</tt:DaylightSavings>"
+      "<tt:TimeZone><tt:TZ>UTC0</tt:TZ></tt:TimeZone><tt:UTCDateTime>"
+      "<tt:Time><tt:Hour>{}</tt:Hour><tt:Minute>{}</tt:Minute><tt:Second>{}</tt:Second></tt:Time>"
+      "<tt:Date><tt:Year>{}</tt:Year><tt:Month>{}</tt:Month><tt:Day>{}</tt:Day></tt:Date>"
+      "</tt:UTCDateTime></tds:SystemDateAndTime></tds:GetSystemDateAndTimeResponse>",
+      time.hours().count(), time.minutes().count(), time.seconds().count(), int(date.year()),
+      unsigned(date.month()), unsigned(date.day()));
+}
+
+std::string OnvifDevice::services(pugi::xml_node) {
+  std::string all;
+  for (const auto& [space, path] : {std::pair{onvif_space::kDevice, "device_service"},
+                                    {onvif_space::kMedia, "media_service"},
+                                    {onvif_space::kPtz, "ptz_service"}}) {
+    all += fmt::format(
+        "<tds:Service><tds:Namespace>{}</tds:Namespace><tds:XAddr>{}</tds:XAddr><tds:Version>"
+        "<tt:Major>2</tt:Major><tt:Minor>60</tt:Minor></tds:Version></tds:Service>",
+        space, xaddr(config_, path));
+  }
+  return fmt::format("<tds:GetServicesResponse>{}</tds:GetServicesResponse>", all);
+}
+
+std::string OnvifDevice::capabilities(pugi::xml_node) {
+  return fmt::format(
+      "<tds:GetCapabilitiesResponse><tds:Capabilities>"
+      "<tt:Device><tt:XAddr>{}</tt:XAddr></tt:Device>"
+      "<tt:Media><tt:XAddr>{}</tt:XAddr><tt:StreamingCapabilities>"
+      "<tt:RTPMulticast>false</tt:RTPMulticast><tt:RTP_TCP>true</tt:RTP_TCP>"
+      "<tt:RTP_RTSP_TCP>true</tt:RTP_RTSP_TCP></tt:StreamingCapabilities></tt:Media>"
+      "<tt:PTZ><tt:XAddr>{}</tt:XAddr></tt:PTZ>"
+      "</tds:Capabilities></tds:GetCapabilitiesResponse>",
+      xaddr(config_, "device_service"), xaddr(config_, "media_service"),
+      xaddr(config_, "ptz_service"));
+}
+
+std::string OnvifDevice::device_capabilities(pugi::xml_node) {
+  return R"(<tds:GetServiceCapabilitiesResponse><tds:Capabilities><tds:Network/>)"
+         R"(<tds:Security UsernameToken="true" HttpDigest="true" MaxUsers="1"/><tds:System/>)"
+         R"(</tds:Capabilities></tds:GetServiceCapabilitiesResponse>)";
+}
+
+std::string OnvifDevice::device_information(pugi::xml_node) {
+  return fmt::format(
+      "<tds:GetDeviceInformationResponse><tds:Manufacturer>OLS</tds:Manufacturer>"
+      "<tds:Model>Simulated PTZ</tds:Model><tds:FirmwareVersion>1.0</tds:FirmwareVersion>"
+      "<tds:SerialNumber>{}</tds:SerialNumber><tds:HardwareId>1</tds:HardwareId>"
+      "</tds:GetDeviceInformationResponse>",
+      config_.serial);
+}
+
+std::string OnvifDevice::scopes(pugi::xml_node) {
+  std::string all;
+  for (const auto& scope : ptz_entity::scopes(config_)) {
+    all += fmt::format(
+        "<tds:Scopes><tt:ScopeDef>Fixed</tt:ScopeDef><tt:ScopeItem>{}</tt:ScopeItem></tds:Scopes>",
+        scope);
+  }
+  return fmt::format("<tds:GetScopesResponse>{}</tds:GetScopesResponse>", all);
+}
+
+std::string OnvifDevice::media_capabilities(pugi::xml_node) {
+  return R"(<trt:GetServiceCapabilitiesResponse><trt:Capabilities>)"
+         R"(<trt:ProfileCapabilities MaximumNumberOfProfiles="1"/>)"
+         R"(<trt:StreamingCapabilities RTPMulticast="false" RTP_TCP="true" RTP_RTSP_TCP="true"/>)"
+         R"(</trt:Capabilities></trt:GetServiceCapabilitiesResponse>)";
+}
+
+std::string OnvifDevice::video_sources(pugi::xml_node) {
+  return fmt::format(
+      R"(<trt:GetVideoSourcesResponse><trt:VideoSources token="sensor">)"
+      "<tt:Framerate>{}</tt:Framerate><tt:Resolution><tt:Width>{}</tt:Width>"
+      "<tt:Height>{}</tt:Height></tt:Resolution></trt:VideoSources></trt:GetVideoSourcesResponse>",
+      config_.frame_rate_hz, config_.width_px, config_.height_px);
+}
+
+std::string OnvifDevice::profiles(pugi::xml_node) {
+  return fmt::format("<trt:GetProfilesResponse>{}</trt:GetProfilesResponse>",
+                     profile_text(config_, "Profiles"));
+}
+
+std::string OnvifDevice::profile(pugi::xml_node request) {
+  check_profile(request, onvif_space::kMedia);
+  return fmt::format("<trt:GetProfileResponse>{}</trt:GetProfileResponse>",
+                     profile_text(config_, "Profile"));
+}
+
+std::string OnvifDevice::stream_uri(pugi::xml_node request) {
+  check_profile(request, onvif_space::kMedia);
+  return fmt::format(
+      "<trt:GetStreamUriResponse><trt:MediaUri><tt:Uri>{}</tt:Uri>"
+      "<tt:InvalidAfterConnect>false</tt:InvalidAfterConnect>"
+      "<tt:InvalidAfterReboot>false</tt:InvalidAfterReboot><tt:Timeout>PT0S</tt:Timeout>"
+      "</trt:MediaUri></trt:GetStreamUriResponse>",
+      config_.stream_uri);
+}
+
+}  // namespace ols::sim

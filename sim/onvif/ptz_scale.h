@@ -1,0 +1,35 @@
+// A PTZ unit's angles in ONVIF's generic spaces, -1 to 1: x to the right and y upwards, over the
+// whole travel, or by the greatest speed. Pure.
+#pragma once
+
+#include <array>
+
+#include "sim/onvif/ptz_unit.h"
+
+namespace ols::sim {
+
+using PtzVector = std::array<double, 2>;  // x, y
+
+inline PtzVector generic(const PanTilt& angles, const PtzUnitConfig& unit) {
+  const auto share = [](double value, double from, double to) {
+    return 2.0 * (value - from) / (to - from) - 1.0;
+  };
+  return {share(angles.pan_rad, unit.greatest.pan_rad, unit.least.pan_rad),
+          share(angles.tilt_rad, unit.least.tilt_rad, unit.greatest.tilt_rad)};
+}
+
+// Of x (0) or y (1).
+inline double angle_rad(int axis, double value, const PtzUnitConfig& unit) {
+  const auto between = [value](double from, double to) {
+    return from + 0.5 * (value + 1.0) * (to - from);
+  };
+  return axis == 0 ? between(unit.greatest.pan_rad, unit.least.pan_rad)
+                   : between(unit.least.tilt_rad, unit.greatest.tilt_rad);
+}
+
+// Of a generic velocity of 1, along x (0) or y (1) [rad/s].
+inline double full_speed_rad_s(int axis, const PtzUnitConfig& unit) {
+  return axis == 0 ? -unit.max_speed_rad_s : unit.max_speed_rad_s;
+}
+
+}  // namespace ols::sim

@@ -1,0 +1,64 @@
+// The pan-tilt mechanics of a simulated ONVIF PTZ camera, with their faults: commands and time in,
+// angles out. It stands at its home position (0, 0) when it is switched on. Pure.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <random>
+
+#include "geometry/angles.h"
+#include "geometry/kinematic_chain.h"
+#include "sim/ptu/axis.h"
+#include "sim/scenario/faults.h"
+
+namespace ols::sim {
+
+struct PtzUnitConfig {
+  PanTilt least{radians(-170.0), radians(-30.0)}, greatest{radians(170.0), radians(90.0)};
+  double max_speed_rad_s = radians(60.0);  // of each axis
+  double acceleration_rad_s2 = radians(120.0);
+  double command_delay_s = 0.08;   // from a command's arrival to the motion
+  double repeatability_rad = 0.0;  // 1-sigma of where a move to a position ends
+  double boot_s = 20.0;            // without answers
+};
+
+class PtzUnit {
+ public:
+  enum Axis { kPan, kTilt };
+
+  PtzUnit(const PtzUnitConfig& config, std::uint64_t seed, double time_s);
+
+  // Times are of one clock and never decrease, except those of angles_at().
+  void set_faults(const PtzFaults& faults, double time_s);
+
+  // Moves at this speed for this time [s]; stops at the end of the travel.
+  void drive(Axis axis, double speed_rad_s, double lasts_s, double time_s);
+  // The target is within the travel, the speed positive.
+  void go_to(Axis axis, double target_rad, double speed_rad_s, double time_s);
+  void stop(double time_s);
+
+  bool answers(double time_s) const { return time_s >= booted_s_; }
+  bool moves(double time_s) const;
+  // What it says of its position; nullopt: nothing.
+  std::optional<PanTilt> reported(double time_s) const;
+
+  // The true shaft angles (pan left positive, tilt up positive), from fifteen seconds ago to now.
+  PanTilt angles_at(double time_s) const;
+
+  const PtzUnitConfig& config() const { return config_; }
+
+ private:
+  PtuAxis::Profile profile(double speed_rad_s) const;
+  void brake(Axis axis, double time_s);
+  void forget(double time_s);
+
+  PtzUnitConfig config_;
+  PtzFaults faults_;
+  std::array<PtuAxis, 2> axes_;
+  std::mt19937_64 random_;
+  std::optional<PanTilt> frozen_;
+  double booted_s_ = 0.0;
+};
+
+}  // namespace ols::sim

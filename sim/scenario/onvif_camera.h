@@ -1,0 +1,14 @@
+// A scenario's ONVIF PTZ camera at a station. Pure.
+#pragma once
+
+#include "sim/onvif/config.h"
+#include "sim/scenario/scenario.h"
+
+namespace ols::sim {
+
+OnvifConfig onvif_config(const Scenario& scenario, const StationScenario& station);
+
+// Of its video, or of that of any camera by RTSP.
+std::string stream_address(const StationScenario& station);
+
+}  // namespace ols::sim

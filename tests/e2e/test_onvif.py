@@ -1,0 +1,165 @@
+"""The simulated ONVIF PTZ camera, by a client that nobody here wrote (onvif-zeep, with ONVIF's WSDL files)."""
+
+import subprocess
+from datetime import timedelta
+
+import ols_msg
+import pytest
+import requests
+from conftest import BIN, ROOT, wait
+from helpers import Listener
+from ols_demo.bus import LIVE_URL
+from ols_demo.site import Site
+from onvif import ONVIFCamera, ONVIFError
+from requests.auth import HTTPDigestAuth
+
+ADDRESS, PORT, USER = "127.0.0.11", 8080, "admin"
+FULL_DEG = 170.0  # of pan, at -1 of the generic space
+
+
+@pytest.fixture(scope="module")
+def password(network, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("onvif")
+    command = [str(BIN / "ols-sim"), "--scenario", str(ROOT / "sim/scenarios/onvif.toml")]
+    command += ["--lcm-url", LIVE_URL, "--directory", str(folder / "lines")]
+    with Site(folder / "logs") as running:
+        running.start_and_wait("ols-sim", command, "ready")
+        yield (folder / "lines/alfa.password").read_text().strip()
+        running.check()
+
+
+@pytest.fixture
+def ptz(password):
+    return steered(ONVIFCamera(ADDRESS, PORT, USER, password))
+
+
+def steered(camera):
+    return camera.create_ptz_service(), camera.create_media_service().GetProfiles()[0].token
+
+
+def pan_tilt(x, y):
+    return {"PanTilt": {"x": x, "y": y}}
+
+
+def position(ptz):
+    service, profile = ptz
+    status = service.GetStatus({"ProfileToken": profile})
+    if status.MoveStatus.PanTilt != "IDLE":
+        return None
+    return status.Position.PanTilt.x, status.Position.PanTilt.y
+
+
+def rests_at(ptz, x, y, near=0.002):
+    wait(lambda: position(ptz) == pytest.approx((x, y), abs=near), f"it rests at {x}, {y}")
+
+
+def command(kind, duration_s, value=float("nan")):
+    fault = ols_msg.sim_fault_t()
+    fault.station, fault.kind, fault.duration_s, fault.value = "alfa", kind, duration_s, value
+    Listener().publish("OLS_SIM_FAULT", fault.encode())
+
+
+def test_it_tells_what_it_is(password):
+    camera = ONVIFCamera(ADDRESS, PORT, USER, password)
+    assert camera.devicemgmt.GetDeviceInformation().SerialNumber == "alfa"
+    spaces = [s.Namespace for s in camera.devicemgmt.GetServices({"IncludeCapability": False})]
+    assert "http://www.onvif.org/ver20/ptz/wsdl" in spaces
+    media = camera.create_media_service()
+    (profile,) = media.GetProfiles()
+    assert profile.VideoEncoderConfiguration.Resolution.Width == 640
+    transport = {"Stream": "RTP-Unicast", "Transport": {"Protocol": "RTSP"}}
+    uri = media.GetStreamUri({"StreamSetup": transport, "ProfileToken": profile.token})
+    assert uri.Uri == f"rtsp://{ADDRESS}:8554/video"
+    ptz = camera.create_ptz_service()
+    (node,) = ptz.GetNodes()
+    assert node.SupportedPTZSpaces.AbsolutePanTiltPositionSpace[0].XRange.Min == -1
+    (configuration,) = ptz.GetConfigurations()
+    assert configuration.NodeToken == node.token
+    assert configuration.token == profile.PTZConfiguration.token
+    options = ptz.GetConfigurationOptions({"ConfigurationToken": configuration.token})
+    assert options.PTZTimeout.Max == timedelta(seconds=60)
+    assert configuration.DefaultPTZTimeout == timedelta(seconds=5)
+
+
+def test_it_moves_as_told_and_its_picture_with_it(ptz):
+    views = []
+    listener = Listener()
+    listener.bus.lcm.subscribe(
+        "OLS_SIM_PTU_alfa", lambda _, d: views.append(ols_msg.truth_ptu_t.decode(d))
+    )
+    service, profile = ptz
+    service.AbsoluteMove({"ProfileToken": profile, "Position": pan_tilt(0.1, -0.3)})
+    rests_at(ptz, 0.1, -0.3)
+    views.clear()
+    listener.wait(lambda: views, "the truth")
+    assert views[-1].pan_rad[-1] == pytest.approx(-0.1 * FULL_DEG * 3.14159 / 180, abs=0.01)
+    service.RelativeMove({"ProfileToken": profile, "Translation": pan_tilt(-0.1, 0.1)})
+    rests_at(ptz, 0.0, -0.2)
+    short = {"ProfileToken": profile, "Velocity": pan_tilt(1, 0), "Timeout": timedelta(seconds=0.5)}
+    service.ContinuousMove(short)
+    rests_at(ptz, 0.5 * 60 / FULL_DEG, -0.2)
+    service.ContinuousMove(
+        {"ProfileToken": profile, "Velocity": pan_tilt(-0.05, 0), "Timeout": timedelta(seconds=60)}
+    )
+    service.Stop({"ProfileToken": profile, "PanTilt": True})
+    wait(lambda: position(ptz), "rest")
+    assert position(ptz)[0] > -0.9
+
+
+def test_it_refuses_strangers_and_what_it_cannot(ptz, password):
+    for wrong in ("", "wrong"):
+        with pytest.raises(ONVIFError, match="not authorized"):
+            ONVIFCamera(ADDRESS, PORT, USER, wrong).devicemgmt.GetDeviceInformation()
+    service, profile = ptz
+    with pytest.raises(ONVIFError, match="out of bounds"):
+        service.AbsoluteMove({"ProfileToken": profile, "Position": pan_tilt(1.5, 0)})
+    with pytest.raises(ONVIFError, match="ProfileToken"):
+        service.GetStatus({"ProfileToken": "other"})
+
+
+def test_it_takes_http_digest(password):
+    text = (
+        '<e:Envelope xmlns:e="http://www.w3.org/2003/05/soap-envelope"><e:Body>'
+        '<GetStatus xmlns="http://www.onvif.org/ver20/ptz/wsdl"><ProfileToken>main</ProfileToken>'
+        "</GetStatus></e:Body></e:Envelope>"
+    )
+
+    def status(client):
+        return client.post(f"http://{ADDRESS}:{PORT}/onvif/ptz_service", data=text).status_code
+
+    for secret, expected in ((password, 200), ("wrong", 401)):
+        with requests.Session() as client:
+            client.auth = HTTPDigestAuth(USER, secret)
+            assert [status(client) for _ in range(3)] == 3 * [expected]
+    assert status(requests) == 401
+
+
+def test_faults_are_commanded(password):
+    command("ptz-clock-off", 1e6, 3600.0)
+    camera = ONVIFCamera(ADDRESS, PORT, USER, password, adjust_time=True)
+    wait(lambda: offset_s(camera) > 3000, "its wrong clock")
+    with pytest.raises(ONVIFError, match="not authorized"):
+        steered(ONVIFCamera(ADDRESS, PORT, USER, password))
+    steered(ONVIFCamera(ADDRESS, PORT, USER, password, adjust_time=True))
+    command("all", 0.0)
+    wait(lambda: offset_s(camera) < 3000, "its right clock")
+    command("ptz-connection-lost", 1e6)
+    wait(lambda: not reachable(), "its connections to be lost")
+    command("all", 0.0)
+    wait(reachable, "its connections")
+
+
+def offset_s(camera):
+    ticks = camera.devicemgmt.GetSystemDateAndTime().UTCDateTime.Time
+    now = subprocess.run(
+        ["date", "-u", "+%H %M"], capture_output=True, text=True, check=True
+    ).stdout.split()
+    return ((ticks.Hour - int(now[0])) * 3600 + (ticks.Minute - int(now[1])) * 60) % 86400
+
+
+def reachable():
+    try:
+        requests.post(f"http://{ADDRESS}:{PORT}/onvif/device_service", timeout=5)
+    except requests.ConnectionError:
+        return False
+    return True
