@@ -48,6 +48,10 @@ std::optional<OnvifAnswer> OnvifDevice::answer(const OnvifRequest& request, doub
   if (!unit_.answers(time_s) || std::bernoulli_distribution(faults_.lost_share)(random_)) {
     return std::nullopt;
   }
+  // Some clients ask for the challenge of HTTP digest before they send what they want.
+  if (request.body.empty()) {
+    return OnvifAnswer{401, enveloped(not_authorized()), login_.challenge(false, time_s_)};
+  }
   pugi::xml_document message;
   if (!message.load_buffer(request.body.data(), request.body.size()) ||
       !message.document_element()) {

@@ -309,6 +309,7 @@ Section station_section(std::vector<StationScenario>& stations) {
                      c.mount_x_rad = keys->mount_zxy_rad[1];
                      c.mount_y_rad = keys->mount_zxy_rad[2];
                      if (table.has("fixed_pan_tilt_deg")) {
+                       if (s.onvif) throw table.error("mount", "of a camera that stands still");
                        s.fixed = PanTilt{keys->fixed_rad[0], keys->fixed_rad[1]};
                      }
                      if (table.has("watch_deg")) {

@@ -1,7 +1,7 @@
-"""The simulated ONVIF PTZ camera, by a client that nobody here wrote (onvif-zeep, with ONVIF's WSDL files)."""
+"""The simulated ONVIF PTZ camera, by an independent client: onvif-zeep with its WSDL files."""
 
-import subprocess
-from datetime import timedelta
+import math
+from datetime import UTC, datetime, timedelta
 
 import ols_msg
 import pytest
@@ -49,7 +49,7 @@ def position(ptz):
     return status.Position.PanTilt.x, status.Position.PanTilt.y
 
 
-def rests_at(ptz, x, y, near=0.002):
+def rests_at(ptz, x, y, near=0.006):
     wait(lambda: position(ptz) == pytest.approx((x, y), abs=near), f"it rests at {x}, {y}")
 
 
@@ -81,18 +81,18 @@ def test_it_tells_what_it_is(password):
     assert configuration.DefaultPTZTimeout == timedelta(seconds=5)
 
 
-def test_it_moves_as_told_and_its_picture_with_it(ptz):
-    views = []
+def test_it_moves_as_told(ptz):
+    truths = []
     listener = Listener()
     listener.bus.lcm.subscribe(
-        "OLS_SIM_PTU_alfa", lambda _, d: views.append(ols_msg.truth_ptu_t.decode(d))
+        "OLS_SIM_PTU_alfa", lambda _, d: truths.append(ols_msg.truth_ptu_t.decode(d))
     )
     service, profile = ptz
     service.AbsoluteMove({"ProfileToken": profile, "Position": pan_tilt(0.1, -0.3)})
     rests_at(ptz, 0.1, -0.3)
-    views.clear()
-    listener.wait(lambda: views, "the truth")
-    assert views[-1].pan_rad[-1] == pytest.approx(-0.1 * FULL_DEG * 3.14159 / 180, abs=0.01)
+    truths.clear()
+    listener.wait(lambda: truths, "the truth")
+    assert truths[-1].pan_rad[-1] == pytest.approx(math.radians(-0.1 * FULL_DEG), abs=0.01)
     service.RelativeMove({"ProfileToken": profile, "Translation": pan_tilt(-0.1, 0.1)})
     rests_at(ptz, 0.0, -0.2)
     short = {"ProfileToken": profile, "Velocity": pan_tilt(1, 0), "Timeout": timedelta(seconds=0.5)}
@@ -150,11 +150,13 @@ def test_faults_are_commanded(password):
 
 
 def offset_s(camera):
-    ticks = camera.devicemgmt.GetSystemDateAndTime().UTCDateTime.Time
-    now = subprocess.run(
-        ["date", "-u", "+%H %M"], capture_output=True, text=True, check=True
-    ).stdout.split()
-    return ((ticks.Hour - int(now[0])) * 3600 + (ticks.Minute - int(now[1])) * 60) % 86400
+    told = camera.devicemgmt.GetSystemDateAndTime().UTCDateTime
+    at = datetime(
+        *(told.Date.Year, told.Date.Month, told.Date.Day),
+        *(told.Time.Hour, told.Time.Minute, told.Time.Second),
+        tzinfo=UTC,
+    )
+    return (at - datetime.now(UTC)).total_seconds()
 
 
 def reachable():

@@ -175,6 +175,9 @@ TEST(OnvifDevice, LetsOnlyTheOwnerIn) {
   EXPECT_EQ(asked->status, 401);
   EXPECT_THAT(asked->challenge, HasSubstr("Digest realm="));
   EXPECT_THAT(asked->body, HasSubstr("ter:NotAuthorized"));
+  const auto probe = camera.device.answer({"POST", "/onvif/ptz_service", "", ""}, 100.0, now_us);
+  EXPECT_EQ(probe->status, 401);
+  EXPECT_THAT(probe->challenge, HasSubstr("nonce="));
   // RFC 7616 with this nonce is in tests/e2e/test_onvif.py.
   camera.set_fault([](PtzFaults& f) { f.clock_off_s = 3600.0; });
   EXPECT_EQ(status(security("d", now_us, "ptz-camera")), 400);

@@ -75,6 +75,24 @@ TEST(StationFiles, SayWhichCameraStandsStill) {
       << by_rtsp;
 }
 
+TEST(StationFiles, SayWhatAnOnvifCameraIs) {
+  Scenario scenario = load_scenario(std::string(OLS_SCENARIOS) + "/onvif.toml");
+  scenario.onvif.port = 81;
+  const std::string file = station_file(World(scenario, 5), 0, {"", "/tmp/lines", ""});
+  EXPECT_NE(file.find("[mount]\nkind = \"onvif\"\n"
+                      "url = \"http://127.0.0.11:81/onvif/device_service\"\nuser = \"admin\"\n"
+                      "password_file = \"/tmp/lines/alfa.password\"\n"),
+            std::string::npos)
+      << file;
+  const auto value = [&file](const std::string& key) {
+    return std::stod(file.substr(file.find(key + " = ") + key.size() + 3));
+  };
+  EXPECT_NEAR(value("pan_gain_deg"), -170.0, 1e-9);
+  EXPECT_NEAR(value("tilt_gain_deg"), 60.0, 1e-9);
+  EXPECT_NEAR(value("tilt_zero_deg"), 30.0, 1e-9);
+  EXPECT_NEAR(value("pan_speed_deg_s"), -60.0, 1e-9);
+}
+
 TEST(StationFiles, SayWhereAnIdleStationLooks) {
   Scenario scenario = load_scenario(std::string(OLS_SCENARIOS) + "/fig7.toml");
   scenario.stations[0].watch = AzimuthElevation{radians(20.0), radians(4.0)};
