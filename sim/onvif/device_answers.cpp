@@ -1,9 +1,9 @@
 // What the camera says of itself: device and media service.
 
-#include <spdlog/fmt/fmt.h>
+#include <fmt/format.h>
 
-#include <chrono>
 #include <cmath>
+#include <ctime>
 
 #include "sim/onvif/device.h"
 #include "sim/onvif/ptz_entities.h"
@@ -47,10 +47,9 @@ std::string profile_text(const OnvifConfig& c, const char* element) {
 }  // namespace
 
 std::string OnvifDevice::date_and_time(pugi::xml_node) {
-  using namespace std::chrono;
-  const sys_time<microseconds> at{microseconds(utime_us_)};
-  const year_month_day date(floor<days>(at));
-  const hh_mm_ss time(floor<seconds>(at - floor<days>(at)));
+  const std::time_t utc_s = utime_us_ / 1'000'000;
+  std::tm at{};
+  gmtime_r(&utc_s, &at);
   return fmt::format(
       "<tds:GetSystemDateAndTimeResponse><tds:SystemDateAndTime>"
       "<tt:DateTimeType>NTP</tt:DateTimeType><tt:DaylightSavings>false</tt:DaylightSavings>"
@@ -58,8 +57,7 @@ std::string OnvifDevice::date_and_time(pugi::xml_node) {
       "<tt:Time><tt:Hour>{}</tt:Hour><tt:Minute>{}</tt:Minute><tt:Second>{}</tt:Second></tt:Time>"
       "<tt:Date><tt:Year>{}</tt:Year><tt:Month>{}</tt:Month><tt:Day>{}</tt:Day></tt:Date>"
       "</tt:UTCDateTime></tds:SystemDateAndTime></tds:GetSystemDateAndTimeResponse>",
-      time.hours().count(), time.minutes().count(), time.seconds().count(), int(date.year()),
-      unsigned(date.month()), unsigned(date.day()));
+      at.tm_hour, at.tm_min, at.tm_sec, at.tm_year + 1900, at.tm_mon + 1, at.tm_mday);
 }
 
 std::string OnvifDevice::services(pugi::xml_node) {

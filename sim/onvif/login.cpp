@@ -1,15 +1,16 @@
 #include "sim/onvif/login.h"
 
-#include <openssl/evp.h>
-#include <spdlog/fmt/fmt.h>
+#include <fmt/format.h>
+#include <sodium.h>
 
 #include <algorithm>
+#include <boost/uuid/detail/md5.hpp>
+#include <boost/uuid/detail/sha1.hpp>
 #include <charconv>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <ctime>
 #include <limits>
-#include <vector>
 
 namespace ols::sim {
 namespace {
@@ -17,39 +18,42 @@ namespace {
 constexpr const char* kRealm = "onvif";
 constexpr std::size_t kMostSeen = 1000, kMostIssued = 64;
 
-std::string hashed(const EVP_MD* kind, std::string_view text) {
-  std::string digest(EVP_MAX_MD_SIZE, '\0');
-  unsigned size = 0;
-  EVP_Digest(text.data(), text.size(), reinterpret_cast<unsigned char*>(digest.data()), &size, kind,
-             nullptr);
-  digest.resize(size);
-  return digest;
+// Boost's words have the first byte uppermost.
+template <class Hash>
+std::string hashed(const std::string& text) {
+  Hash hash;
+  hash.process_bytes(text.data(), text.size());
+  typename Hash::digest_type words{};
+  hash.get_digest(words);
+  std::string bytes;
+  for (const unsigned word : words)
+    for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(word >> shift & 0xffU);
+  return bytes;
 }
 
-std::string md5_hex(std::string_view text) {
+std::string md5_hex(const std::string& text) {
   std::string hex;
-  for (const char c : hashed(EVP_md5(), text))
+  for (const char c : hashed<boost::uuids::detail::md5>(text))
     hex += fmt::format("{:02x}", static_cast<unsigned char>(c));
   return hex;
 }
 
-std::string base64(std::string_view bytes) {
-  std::string text(4 * (bytes.size() / 3 + 1) + 1, '\0');
-  const int size = EVP_EncodeBlock(reinterpret_cast<unsigned char*>(text.data()),
-                                   reinterpret_cast<const unsigned char*>(bytes.data()),
-                                   static_cast<int>(bytes.size()));
-  text.resize(static_cast<std::size_t>(size));
+std::string base64(const std::string& bytes) {
+  std::string text(sodium_base64_ENCODED_LEN(bytes.size(), sodium_base64_VARIANT_ORIGINAL), '\0');
+  sodium_bin2base64(text.data(), text.size(), reinterpret_cast<const unsigned char*>(bytes.data()),
+                    bytes.size(), sodium_base64_VARIANT_ORIGINAL);
+  text.pop_back();  // the zero at its end
   return text;
 }
 
 // Empty: not base64.
-std::string from_base64(std::string_view text) {
-  std::string bytes(3 * (text.size() / 4) + 1, '\0');
-  const int size = EVP_DecodeBlock(reinterpret_cast<unsigned char*>(bytes.data()),
-                                   reinterpret_cast<const unsigned char*>(text.data()),
-                                   static_cast<int>(text.size()));
-  const auto padding = static_cast<int>(std::ranges::count(text, '='));
-  bytes.resize(static_cast<std::size_t>(std::max(0, size - padding)));
+std::string from_base64(const std::string& text) {
+  std::string bytes(text.size(), '\0');
+  std::size_t size = 0;
+  const bool good =
+      sodium_base642bin(reinterpret_cast<unsigned char*>(bytes.data()), bytes.size(), text.data(),
+                        text.size(), nullptr, &size, nullptr, sodium_base64_VARIANT_ORIGINAL) == 0;
+  bytes.resize(good ? size : 0);
   return bytes;
 }
 
@@ -73,35 +77,32 @@ std::map<std::string, std::string> parameters_of(std::string_view text) {
 }  // namespace
 
 double utc_of(const std::string& date_time) {
-  int year = 0, month = 0, day = 0, hour = 0, minute = 0;
+  std::tm parts{};
   double second = 0.0;
-  if (std::sscanf(date_time.c_str(), "%4d-%2d-%2dT%2d:%2d:%lf", &year, &month, &day, &hour, &minute,
-                  &second) != 6) {
+  if (std::sscanf(date_time.c_str(), "%4d-%2d-%2dT%2d:%2d:%lf", &parts.tm_year, &parts.tm_mon,
+                  &parts.tm_mday, &parts.tm_hour, &parts.tm_min, &second) != 6) {
     return std::numeric_limits<double>::quiet_NaN();
   }
-  using namespace std::chrono;
-  const sys_days date = std::chrono::year(year) / month / day;
-  return static_cast<double>(date.time_since_epoch().count()) * 86400.0 + hour * 3600.0 +
-         minute * 60.0 + second;
+  parts.tm_year -= 1900;
+  parts.tm_mon -= 1;
+  return static_cast<double>(timegm(&parts)) + second;
 }
 
 std::string date_time_of(std::int64_t utime_us) {
-  using namespace std::chrono;
-  const sys_time<microseconds> at{microseconds(utime_us)};
-  const auto day = floor<days>(at);
-  const year_month_day date(day);
-  const hh_mm_ss time(floor<milliseconds>(at - day));
-  return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}.{:03}Z", int(date.year()),
-                     unsigned(date.month()), unsigned(date.day()), time.hours().count(),
-                     time.minutes().count(), time.seconds().count(), time.subseconds().count());
+  const std::time_t utc_s = utime_us / 1'000'000;
+  std::tm parts{};
+  gmtime_r(&utc_s, &parts);
+  return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}.{:03}Z", parts.tm_year + 1900,
+                     parts.tm_mon + 1, parts.tm_mday, parts.tm_hour, parts.tm_min, parts.tm_sec,
+                     utime_us / 1000 % 1000);
 }
 
 Login::Login(std::string user, std::string password, std::uint64_t seed)
     : user_(std::move(user)), password_(std::move(password)), random_(seed) {}
 
 bool Login::accepts(const UsernameToken& token, double utc_s) {
-  const std::string right =
-      base64(hashed(EVP_sha1(), from_base64(token.nonce) + token.created + password_));
+  const std::string right = base64(
+      hashed<boost::uuids::detail::sha1>(from_base64(token.nonce) + token.created + password_));
   if (token.user != user_ || token.digest != right) return false;
   if (!(std::abs(utc_of(token.created) - utc_s) <= kTokenAge_s)) return false;
   if (std::ranges::count(seen_, token.nonce) > 0) return false;

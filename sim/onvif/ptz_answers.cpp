@@ -1,6 +1,6 @@
 // The PTZ service.
 
-#include <spdlog/fmt/fmt.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 #include "sim/onvif/ptz_entities.h"
 
-#include <spdlog/fmt/fmt.h>
+#include <fmt/format.h>
 
 #include "sim/onvif/ptz_spaces.h"
 

@@ -1,6 +1,6 @@
 #include "sim/onvif/soap.h"
 
-#include <spdlog/fmt/fmt.h>
+#include <fmt/format.h>
 
 #include <charconv>
 #include <cmath>

@@ -2,10 +2,10 @@
 // tests/e2e/test_onvif.py.
 #include "sim/onvif/device.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <openssl/evp.h>
-#include <spdlog/fmt/fmt.h>
 
 #include <functional>
 
