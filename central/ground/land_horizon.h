@@ -1,0 +1,34 @@
+// What the land hides from one camera, mapped sector by sector as it is asked for: a whole map
+// takes seconds, a sector some milliseconds. Pure.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+
+#include "geometry/wgs84.h"
+#include "land/horizon_map.h"
+
+namespace ols::fusion {
+
+class LandHorizon {
+ public:
+  LandHorizon(std::shared_ptr<const land::Surface> surface, const Geodetic& camera);
+
+  // As HorizonMap::highest_before(). Nothing where no land is known in that direction, or where the
+  // surface has the camera under the ground.
+  std::optional<land::Skyline> highest_before(double azimuth_rad, double distance_m);
+  const LocalFrame& frame() const { return frame_; }
+
+  static constexpr double kReach_m = 10'000.0;
+
+ private:
+  static constexpr std::size_t kSectors = 72;
+
+  std::shared_ptr<const land::Surface> surface_;
+  LocalFrame frame_;
+  std::array<std::unique_ptr<land::HorizonMap>, kSectors> sectors_;
+  bool is_unknown_ = false;  // the camera's place on this surface is not possible
+};
+
+}  // namespace ols::fusion

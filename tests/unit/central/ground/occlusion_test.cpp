@@ -1,0 +1,96 @@
+#include "central/ground/occlusion.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "geometry/angles.h"
+#include "tests/unit/central/ground/lands.h"
+
+namespace ols::fusion {
+namespace {
+
+constexpr double kStep_s = 0.1, kAhead_s = 12.0, kLead_s = 0.5;
+constexpr double kSd_m = 2.0;  // of the target, each axis
+
+// A wall of 50 m, 20 m thick and 100 m long, 500 m east of a camera that is as high as the wall.
+double wall(double east_m, double north_m) {
+  return std::abs(east_m - 500.0) < 10.0 && std::abs(north_m) < 50.0 ? 50.0 : 0.0;
+}
+
+std::vector<Position> straight(const Land& land, const Eigen::Vector3d& from_m,
+                               const Eigen::Vector3d& v_m_s) {
+  std::vector<Position> path;
+  for (double t = 0.0; t < kAhead_s; t += kStep_s) {
+    const Eigen::Vector3d p = from_m + t * v_m_s;
+    const Eigen::Vector3d p_ecef = land.at(p.x(), p.y(), p.z());
+    path.push_back({p_ecef, enu_covariance(p_ecef, {kSd_m, kSd_m, kSd_m})});
+  }
+  return path;
+}
+
+TEST(Occlusion, EndsAboveTheCrestAndBesideTheWall) {
+  struct Case {
+    const char* what;
+    Eigen::Vector3d from_m, v_m_s;
+    double in_s, sd_s;  // in_s < 0: it does not come out; NaN: it is not hidden
+    double azimuth_rad = 0.0;
+  };
+  const double kNone = std::numeric_limits<double>::quiet_NaN();
+  // The edge is half as far as the target: the land's error (1 m) counts twice. So does the
+  // outlines', another metre.
+  const double land_sd_m = std::hypot(kSd_m, 2.0);
+  const Case cases[] = {
+      {"in front of the wall", {400.0, 0.0, 10.0}, {0.0, 10.0, 0.0}, kNone, 0.0},
+      {"above it", {1000.0, 0.0, 90.0}, {0.0, 10.0, 0.0}, kNone, 0.0},
+      {"soon, but not yet", {1000.0, -120.0, 20.0}, {0.0, 10.0, 0.0}, kNone, 0.0},
+      {"climbs", {1000.0, 0.0, 20.0}, {0.0, 0.0, 5.0}, 6.0, land_sd_m / 5.0, kPi / 2.0},
+      {"passes",
+       {1000.0, 20.0, 20.0},
+       {0.0, 10.0, 0.0},
+       (50.0 / 490.0 * 1000.0 - 20.0) / 10.0,  // the corner that is nearer
+       land_sd_m / 10.0,
+       std::atan2(490.0, 50.0)},
+      {"stays", {1000.0, 0.0, 20.0}, {0.0, 1.0, 0.0}, -1.0, 0.0},
+  };
+  const auto land = std::make_shared<const Land>(wall);
+  LandHorizon horizon(land, {kPlace.latitude_rad, kPlace.longitude_rad, 50.0});
+  for (const Case& c : cases) {
+    SCOPED_TRACE(c.what);
+    const auto found =
+        occlusion_ahead(horizon, straight(*land, c.from_m, c.v_m_s), kStep_s, kLead_s);
+    ASSERT_EQ(found.has_value(), !std::isnan(c.in_s));
+    if (!found) continue;
+    EXPECT_GT(found->hidden, 0.95);
+    ASSERT_EQ(found->exit.has_value(), c.in_s >= 0.0);
+    if (!found->exit) continue;
+    EXPECT_NEAR(found->exit->in_s, c.in_s, 0.1);
+    EXPECT_NEAR(found->exit->sd_s, c.sd_s, 0.25 * c.sd_s);
+    EXPECT_NEAR(found->exit->direction.azimuth_rad, c.azimuth_rad, 1e-3);
+    const Eigen::Matrix2d& P = found->exit->covariance;
+    EXPECT_GT(P.determinant(), 0.0);
+    EXPECT_NEAR(std::sqrt(P(0, 0)), 2e-3,
+                1e-3);  // the target's 2 m, or the edge's 1 m, 1000 m away
+  }
+}
+
+// The target is probably out: what remains is the end.
+TEST(Occlusion, IsEndingWhileItMayStillBeHidden) {
+  const auto land = std::make_shared<const Land>(wall);
+  LandHorizon horizon(land, {kPlace.latitude_rad, kPlace.longitude_rad, 50.0});
+  const auto path = straight(*land, {1000.0, 103.5, 20.0}, {0.0, 10.0, 0.0});
+  const auto found = occlusion_ahead(horizon, path, kStep_s, kLead_s);
+  ASSERT_TRUE(found && found->exit);
+  EXPECT_LT(found->hidden, 0.5);
+  EXPECT_LT(found->exit->in_s, 0.5);
+}
+
+TEST(Occlusion, IsNotOfACameraUnderTheGround) {
+  const auto land = std::make_shared<const Land>([](double, double) { return 100.0; });
+  LandHorizon horizon(land, {kPlace.latitude_rad, kPlace.longitude_rad, 50.0});
+  const auto path = straight(*land, {1000.0, 0.0, 20.0}, {0.0, 10.0, 0.0});
+  EXPECT_FALSE(occlusion_ahead(horizon, path, kStep_s, kLead_s));
+}
+
+}  // namespace
+}  // namespace ols::fusion
