@@ -222,6 +222,8 @@ std::optional<StationHeard> station_from(const BusMessage& message) {
       {"state", wire::state_name(s.state)},
       {"track_id", number_text(s.track_id)},
       {"belief", rounded(s.belief, 3)},
+      {"hidden_since_utime_us", s.hidden_since_utime},
+      {"hidden_until_utime_us", s.hidden_until_utime},
       {"devices", devices_of(s)},
       {"clock",
        {{"state", wire::clock_name(s.clock_state)}, {"error_s", rounded(s.clock_error_s, 6)}}},

@@ -49,7 +49,7 @@ struct Target {
 
 // In the order of the bus's numbers, then the word for an unknown number.
 inline constexpr std::array kStationStates{"idle",   "manual",  "tracking",  "coasting", "lost",
-                                           "slewed", "stopped", "emergency", "unknown"};
+                                           "slewed", "stopped", "emergency", "hidden",   "unknown"};
 
 struct Station {
   std::int64_t utime_us = 0;

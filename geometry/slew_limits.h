@@ -9,6 +9,9 @@ namespace ols {
 inline constexpr double kSlewRateLimit_rad_s = 1.5;  // about each axis
 inline constexpr double kSlewLead_s = 1.0;           // from "now" to the effect, either way
 
+// For how long a prediction of what the land hides may hold.
+inline constexpr double kOcclusionHolds_s = 15.0;
+
 // The largest pan and tilt, either way, as the PTU counts them. More than this is a typing error:
 // the unit would turn by whole turns.
 inline constexpr double kPointPanLimit_rad = radians(360.0);

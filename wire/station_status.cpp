@@ -31,7 +31,7 @@ double counter(const ols_msg::station_status_t& status, const std::string& name)
 
 const char* state_name(std::int8_t state) {
   return word_of_code(state, std::array{"idle", "manual", "tracking", "coasting", "lost", "slewed",
-                                        "stopped", "emergency"});
+                                        "stopped", "emergency", "hidden"});
 }
 
 bool is_stopped(std::int8_t state) {

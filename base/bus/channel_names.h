@@ -13,6 +13,7 @@ inline constexpr std::string_view kStatusChannel = "OLS_STATUS_";
 inline constexpr std::string_view kReplyChannel = "OLS_REPLY_";
 inline constexpr std::string_view kPreviewChannel = "OLS_PREVIEW_";
 inline constexpr std::string_view kSlewChannel = "OLS_SLEW_";
+inline constexpr std::string_view kOcclusionChannel = "OLS_OCCLUSION_";
 inline constexpr std::string_view kPtuChannel = "OLS_PTU_";
 inline constexpr std::string_view kLensChannel = "OLS_LENS_";
 inline constexpr std::string_view kDesignateChannel = "OLS_DESIGNATE_";

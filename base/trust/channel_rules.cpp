@@ -45,6 +45,7 @@ constexpr auto kRules = numbered(std::array{
     of_station(kPreviewChannel, kPictures_Hz),
     of_station(kFrameChannel, kFrameParts_Hz),
     command(kSlewChannel, Role::kFusion, kSite_Hz, kSlew_Hz),
+    command(kOcclusionChannel, Role::kFusion, kSite_Hz, kSlew_Hz),
     command(kPtuChannel, Role::kOperator, kHand_Hz, kJoystick_Hz),
     command(kLensChannel, Role::kOperator, kHand_Hz, kJoystick_Hz),
     command(kDesignateChannel, Role::kOperator, kHand_Hz, kClick_Hz),

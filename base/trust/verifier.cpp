@@ -123,7 +123,7 @@ std::optional<Distrust> Verifier::judge_address(Judged& judged) const {
   if (!mine) return std::nullopt;
   const std::int64_t audience = judged.message.trailer.audience;
   judged.addressed = audience == config_.boot_id && audience != 0;
-  const bool is_answered = audience == 0 && judged.channel.rule->name != kSlewChannel;
+  const bool is_answered = audience == 0 && judged.channel.rule->sender != Role::kFusion;
   if (!judged.addressed && !is_answered) return Distrust::kOtherBoot;
   return std::nullopt;
 }

@@ -209,6 +209,11 @@ void FusionProcess::publish(const FusionOutput& output) {
     bus_.send(kPaperTargetChannel, to_message(target, bus_.next_stamp(kPaperTargetChannel)));
   }
   publish(output.slews);
+  for (const OcclusionNotice& notice : output.occlusions) {
+    if (!is_present(notice.utime_us, "slews_withheld")) continue;
+    const std::string channel = std::string(kOcclusionChannel) + notice.station;
+    bus_.send_slew(channel, to_message(notice, bus_.next_stamp(channel)));
+  }
 }
 
 void FusionProcess::publish(const std::vector<Slew>& slews) {

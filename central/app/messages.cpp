@@ -297,6 +297,27 @@ ols_msg::command_reply_t to_message(const CueReply& reply, const MessageStamp& s
   return message;
 }
 
+ols_msg::occlusion_t to_message(const OcclusionNotice& notice, const MessageStamp& stamp) {
+  constexpr double kLease_s = 0.5;
+  ols_msg::occlusion_t message{};
+  stamp_message(message, notice.utime_us, stamp.boot_id, stamp.sequence);
+  message.station = notice.station;
+  message.lease_s = kLease_s;
+  message.holds_s = notice.holds_s;
+  message.target_id = notice.target_id;
+  message.hidden = notice.hidden;
+  if (!notice.exit) return message;
+  const Emergence& exit = *notice.exit;
+  message.exit_utime = notice.utime_us + std::llround(1e6 * exit.in_s);
+  message.exit_sd_s = exit.sd_s;
+  message.azimuth_rad = exit.direction.azimuth_rad;
+  message.elevation_rad = exit.direction.elevation_rad;
+  message.exit_covariance_rad2[0] = exit.covariance(0, 0);
+  message.exit_covariance_rad2[1] = exit.covariance(0, 1);
+  message.exit_covariance_rad2[2] = exit.covariance(1, 1);
+  return message;
+}
+
 ols_msg::slew_t to_message(const Slew& slew, const MessageStamp& stamp) {
   ols_msg::slew_t message;
   stamp_message(message, slew.utime_us, stamp.boot_id, stamp.sequence);

@@ -12,6 +12,7 @@
 #include "central/fusion/fusion.h"
 #include "ols_msg/command_reply_t.hpp"
 #include "ols_msg/fusion_status_t.hpp"
+#include "ols_msg/occlusion_t.hpp"
 #include "ols_msg/slew_t.hpp"
 #include "ols_msg/target_t.hpp"
 
@@ -68,6 +69,7 @@ struct MessageStamp {
 ols_msg::target_t to_message(const FusedTarget& target, const MessageStamp& stamp);
 ols_msg::command_reply_t to_message(const CueReply& reply, const MessageStamp& stamp,
                                     std::int64_t utime_us);
+ols_msg::occlusion_t to_message(const OcclusionNotice& notice, const MessageStamp& stamp);
 ols_msg::slew_t to_message(const Slew& slew, const MessageStamp& stamp);
 ols_msg::fusion_status_t to_message(const FusionHealth& health, double latency_s,
                                     const MessageStamp& stamp);

@@ -9,6 +9,7 @@
 
 #include "central/admission/bearing_check.h"
 #include "central/estimators/estimator.h"
+#include "central/fusion/occlusion_schedule.h"
 #include "central/fusion/slew_planner.h"
 #include "central/ground/above_ground.h"
 #include "central/tracking/target_appearance.h"
@@ -44,6 +45,7 @@ struct FusionOutput {
   std::vector<FusedTarget> targets;
   std::vector<FusedTarget> targets_paper;  // the paper's estimate of the same objects
   std::vector<Slew> slews;
+  std::vector<OcclusionNotice> occlusions;
 };
 
 }  // namespace ols::fusion

@@ -40,6 +40,7 @@ Fusion::Fusion(const FusionConfig& config)
       tracks_(tracks_of(config)),
       targets_(schedule_of(config)),
       slews_(config.slew, config.tracks.drop_s, config.handover.staring),
+      occlusions_(config.land.surface),
       cues_(config.cues),
       handover_(config.handover) {
   if (!make_estimator(config.estimator, config.estimators)) {
@@ -84,6 +85,7 @@ FusionOutput Fusion::add(const BearingMeasurement& measurement) {
   for (const ImageBearings& image : used) targets_.hear(image.front(), now);
   targets_.tell(now, tracks_, admission_.clocks(), pointing_, output, log_);
   output.slews = slews_at(now);
+  output.occlusions = occlusions_.plan(now, output.slews, admission_.stations(), tracks_.tracks());
   return output;
 }
 
@@ -187,6 +189,7 @@ void Fusion::forget(const std::string& station) {
   tracks_.forget_station(station);
   targets_.forget(station);
   slews_.forget(station);
+  occlusions_.forget(station);
 }
 
 void Fusion::forget_what_changed(const BearingMeasurement& measurement, const Admitted& admitted) {
@@ -220,6 +223,7 @@ void Fusion::begin_time_line() {
   images_.clear();
   targets_.clear();
   slews_.clear();
+  occlusions_.clear();
   handover_.clear();
   tracks_.clear();
   pointing_.clear();

@@ -19,6 +19,7 @@
 #include "central/estimators/estimator.h"
 #include "central/fusion/fused_target.h"
 #include "central/fusion/fusion_health.h"
+#include "central/fusion/occlusion_schedule.h"
 #include "central/fusion/slew_schedule.h"
 #include "central/fusion/target_schedule.h"
 #include "central/ground/land_use.h"
@@ -89,6 +90,7 @@ class Fusion {
   LiveTracks tracks_;
   TargetSchedule targets_;
   SlewSchedule slews_;
+  OcclusionSchedule occlusions_;
   CueRegistry cues_;
   HandoverPolicy handover_;
   FusionLog log_;

@@ -45,12 +45,19 @@ class Looks {
       const Eigen::Matrix3d P = R_enu_ecef * path[i].covariance_ecef * R_enu_ecef.transpose();
       const Eigen::LLT<Eigen::Matrix3d> root(P + 1e-9 * Eigen::Matrix3d::Identity());
       roots_[i] = {horizon.frame().to_enu(path[i].p_ecef), root.matrixL()};
+      crests_m_.push_back(crest_at(i));
     }
   }
 
   void look(int from, int to) {
     for (std::size_t i = 0; i < path_.size(); ++i) {
-      const double crest_m = crest_at(i);
+      // Beside the edge of a house the mean path has only what is behind it, not so the samples.
+      constexpr std::size_t kBeside = 20;
+      const auto from_i = i < kBeside ? 0 : i - kBeside;
+      const auto to_i = std::min(path_.size(), i + kBeside + 1);
+      const double crest_m =
+          *std::min_element(crests_m_.begin() + static_cast<std::ptrdiff_t>(from_i),
+                            crests_m_.begin() + static_cast<std::ptrdiff_t>(to_i));
       for (int k = from; k < to; ++k) looks_[i * kSamples + index(k)] = look_at(i, k, crest_m);
     }
   }
@@ -100,19 +107,18 @@ class Looks {
   std::span<const Position> path_;
   std::vector<Look> looks_;
   std::vector<Root> roots_;
+  std::vector<double> crests_m_;  // distance of the horizon below the mean path
 };
 
-// The instant at which it is hidden most surely: of what begins before `lead`, or of what is ending
-// now. Nothing if neither is the case.
+// The instant at which it is hidden most surely, of the first time that begins before `lead`. A
+// station asks only once it no longer sees the target: then what is unlikely beforehand is likely.
 std::optional<std::size_t> midst(const Looks& looks, std::size_t lead) {
-  constexpr double kEnding = 0.05;
+  constexpr double kPossible = 0.05;
   std::size_t first = 0;
-  while (first < std::min(lead, looks.size()) && looks.hidden(first) < 0.5) ++first;
-  if (first >= std::min(lead, looks.size())) {
-    return looks.hidden(0) >= kEnding ? std::optional<std::size_t>(0) : std::nullopt;
-  }
+  while (first < std::min(lead, looks.size()) && looks.hidden(first) < kPossible) ++first;
+  if (first >= std::min(lead, looks.size())) return std::nullopt;
   std::size_t most = first;
-  for (std::size_t i = first; i < looks.size() && looks.hidden(i) >= 0.5; ++i) {
+  for (std::size_t i = first; i < looks.size() && looks.hidden(i) >= kPossible; ++i) {
     if (looks.hidden(i) > looks.hidden(most)) most = i;
   }
   return most;

@@ -28,8 +28,7 @@ struct Occlusion {
   std::optional<Emergence> exit;  // empty: not within the path
 };
 
-// `path`: of the target, a position every step_s. Nothing if the target is not hidden, and does not
-// vanish within lead_s: is not more probably hidden than visible.
+// `path`: of the target, a position every step_s. Nothing if it cannot be hidden within lead_s.
 std::optional<Occlusion> occlusion_ahead(LandHorizon& horizon, std::span<const Position> path,
                                          double step_s, double lead_s);
 

@@ -22,6 +22,16 @@ bool finite(const SlewCommand& slew) {
   return true;
 }
 
+bool finite(const OcclusionCommand& command) {
+  const auto exit = command.exit.value_or(OcclusionCommand::Exit{});
+  for (const double value :
+       {command.made_s, command.holds_s, exit.time_s, exit.sd_s, exit.direction.azimuth_rad,
+        exit.direction.elevation_rad, exit.direction_sd_rad}) {
+    if (!std::isfinite(value)) return false;
+  }
+  return true;
+}
+
 bool finite(const DesignateCommand& command) {
   for (const double value : {command.frame_time_s.value_or(0.0), command.box.x, command.box.y,
                              command.box.width, command.box.height}) {
@@ -79,6 +89,25 @@ bool in_range(const SlewCommand& command, double now_s, double lease_max_s) {
          (!command.searches_line() || std::abs(command.line.norm() - 1.0) < 0.01);
 }
 
+bool in_range(const OcclusionCommand& command, double now_s) {
+  if (command.holds_s < 0.0 || command.holds_s > kOcclusionHolds_s) return false;
+  if (!command.exit) return true;
+  const auto& exit = *command.exit;
+  return std::abs(exit.time_s - now_s) <= kOcclusionHolds_s && exit.sd_s >= 0.0 &&
+         std::abs(exit.direction.azimuth_rad) <= 2.0 * kPi &&
+         std::abs(exit.direction.elevation_rad) <= kPi / 2.0 && exit.direction_sd_rad >= 0.0 &&
+         exit.direction_sd_rad <= kPi;
+}
+
+// Why the fusion may not lead the station.
+Refusal refuses_fusion(const Situation& situation) {
+  const StationMode& mode = situation.mode;
+  if (situation.config.overview) return Refusal::kOverview;
+  if (!situation.config.moves) return Refusal::kFixedMount;
+  if (mode.is(StationState::kEmergency)) return Refusal::kEmergency;
+  return Refusal::kNone;
+}
+
 }  // namespace
 
 Refusal judge(const DesignateCommand& command, const Situation& situation) {
@@ -89,9 +118,8 @@ Refusal judge(const DesignateCommand& command, const Situation& situation) {
 
 Refusal judge(const SlewCommand& command, const Situation& situation) {
   const StationMode& mode = situation.mode;
-  if (situation.config.overview) return Refusal::kOverview;
-  if (!situation.config.moves) return Refusal::kFixedMount;
-  if (mode.is(StationState::kEmergency)) return Refusal::kEmergency;
+  const Refusal refusal = refuses_fusion(situation);
+  if (refusal != Refusal::kNone) return refusal;
   if (!finite(command)) return Refusal::kNotFinite;
   if (!in_range(command, situation.now_s, situation.config.slew_lease_max_s)) {
     return Refusal::kOutOfRange;
@@ -106,6 +134,20 @@ Refusal judge(const SlewCommand& command, const Situation& situation) {
     if (!situation.pointing.aim(direction_at(command, time_s))) return Refusal::kUnreachable;
   }
   return Refusal::kNone;
+}
+
+Refusal judge(const OcclusionCommand& command, const Situation& situation) {
+  const StationMode& mode = situation.mode;
+  const Refusal refusal = refuses_fusion(situation);
+  if (refusal != Refusal::kNone) return refusal;
+  if (!finite(command)) return Refusal::kNotFinite;
+  if (!in_range(command, situation.now_s)) return Refusal::kOutOfRange;
+  if (mode.is(StationState::kManual) || mode.is(StationState::kStopped)) {
+    return Refusal::kPrecedence;
+  }
+  if (mode.has_doubtful_angles()) return Refusal::kNoReference;
+  const bool may_wait = !command.exit || situation.pointing.aim(command.exit->direction);
+  return may_wait ? Refusal::kNone : Refusal::kUnreachable;
 }
 
 Refusal judge(const PointCommand& command, const Situation& situation) {

@@ -19,6 +19,7 @@ struct Situation {
 // acceptance, and a point command needs angles that the unit reaches.
 Refusal judge(const DesignateCommand& command, const Situation& situation);
 Refusal judge(const SlewCommand& command, const Situation& situation);
+Refusal judge(const OcclusionCommand& command, const Situation& situation);
 Refusal judge(const PointCommand& command, const Situation& situation);
 Refusal judge(const RateCommand& command, const Situation& situation);
 Refusal judge(const LensCommand& command, const Situation& situation);

@@ -198,11 +198,15 @@ ols_msg::station_status_t to_message(const StationReport& report, const Sender& 
                                      const StationSettings& settings, double now_s,
                                      std::int64_t sequence) {
   const StationSnapshot& snapshot = report.snapshot;
-  ols_msg::station_status_t message;
+  ols_msg::station_status_t message{};
   stamp(message, sender, sender.utime_us(now_s), sequence);
   message.state = code(snapshot.state);
   message.track_id = snapshot.track_id;
   message.belief = snapshot.belief;
+  if (snapshot.hidden_since_s)
+    message.hidden_since_utime = sender.utime_us(*snapshot.hidden_since_s);
+  if (snapshot.hidden_until_s)
+    message.hidden_until_utime = sender.utime_us(*snapshot.hidden_until_s);
   fill_pose(snapshot, settings.station.geometry, message);
   fill_lens(snapshot, message);
   fill_pointing(report, message);
@@ -311,6 +315,23 @@ SlewCommand from_message(const ols_msg::slew_t& message, const Sender& sender, d
   command.elevation_rate_rad_s = message.elevation_rate_rad_s;
   command.direction_sd_rad = message.direction_sd_rad;
   command.line = Eigen::Vector2d(message.line);
+  return command;
+}
+
+OcclusionCommand from_message(const ols_msg::occlusion_t& message, const Sender& sender,
+                              double now_s) {
+  OcclusionCommand command;
+  command.made_s = sender.monotonic_s(message.utime);
+  command.received_s = now_s;
+  command.holds_s = message.holds_s;
+  command.sender = message.boot_id;
+  command.target_id = message.target_id;
+  if (message.exit_utime == 0) return command;
+  const double* covariance = message.exit_covariance_rad2;
+  command.exit = {sender.monotonic_s(message.exit_utime),
+                  message.exit_sd_s,
+                  {message.azimuth_rad, message.elevation_rad},
+                  std::sqrt(0.5 * (covariance[0] + covariance[2]))};
   return command;
 }
 

@@ -17,6 +17,7 @@
 #include "ols_msg/designate_t.hpp"
 #include "ols_msg/frame_part_t.hpp"
 #include "ols_msg/frame_request_t.hpp"
+#include "ols_msg/occlusion_t.hpp"
 #include "ols_msg/preview_t.hpp"
 #include "ols_msg/ptu_command_t.hpp"
 #include "ols_msg/record_t.hpp"
@@ -66,6 +67,8 @@ ols_msg::command_reply_t to_message(const Answer& answer, const Sender& sender, 
 
 DesignateCommand from_message(const ols_msg::designate_t& message, const Sender& sender);
 SlewCommand from_message(const ols_msg::slew_t& message, const Sender& sender, double now_s);
+OcclusionCommand from_message(const ols_msg::occlusion_t& message, const Sender& sender,
+                              double now_s);
 PointCommand from_message(const ols_msg::ptu_command_t& message);
 CentreCommand centre_from_message(const ols_msg::ptu_command_t& message, const Sender& sender);
 RateCommand rate_from_message(const ols_msg::ptu_command_t& message, double now_s);

@@ -51,6 +51,9 @@ StationBus::StationBus(const StationSettings& settings, std::int64_t boot_id, St
   on_command<ols_msg::slew_t>(kSlewChannel, [this](const ols_msg::slew_t& message) {
     return verdict("SLEW", station_.slew(from_message(message, sender_, now_s_), now_s_));
   });
+  on_command<ols_msg::occlusion_t>(kOcclusionChannel, [this](const ols_msg::occlusion_t& message) {
+    return verdict("OCCLUSION", station_.occlude(from_message(message, sender_, now_s_), now_s_));
+  });
   on_command<ols_msg::ptu_command_t>(
       kPtuChannel, [this](const ols_msg::ptu_command_t& message) { return command_ptu(message); });
   on_command<ols_msg::lens_command_t>(kLensChannel, [this](const ols_msg::lens_command_t& message) {
@@ -200,7 +203,8 @@ void StationBus::on_command(std::string_view channel,
                             const std::function<Verdict(const Message&)>& execute) {
   const std::string kind = message_kind(channel);
   gates_.emplace(kind, CommandGate(given_.gate, clock_utime_us()));
-  const bool is_answered = channel != kSlewChannel;  // the fusion goes by the station's state
+  const bool is_answered = channel != kSlewChannel &&
+                           channel != kOcclusionChannel;  // the fusion goes by the station's state
   const auto judge = [this, kind, execute](const BusMessage& received,
                                            const Message& message) -> Verdict {
     const auto refuse = [&](const char* why) {

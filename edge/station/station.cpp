@@ -68,16 +68,21 @@ void Station::use(const StationGeometry& geometry,
 }
 
 void Station::track(const camera::Frame& frame) {
-  const bool slewed = mode_.is(StationState::kSlewed);
-  if (slewed && believed_in_a_row_ == 0) {
-    const auto place = search_.send_tracker(frame, pointing_, slew_.command());
+  const auto led_to = this->led_to();
+  if (is_led() && believed_in_a_row_ == 0) {
+    const auto place = search_.send_tracker(frame, pointing_, led_to);
     if (place) target_.search_near(place->pixel, place->sd_px);
   }
   const auto output = target_.track(frame, pointing_);
   if (!output) return;
-  const bool there = !slewed || search_.is_where_slewed(frame, *output, pointing_, slew_.command());
+  // A hidden target may come out elsewhere; if others see it, the slew says where it is.
+  const auto is_at = [&](const std::optional<SlewCommand>& slew) {
+    return search_.is_where_slewed(frame, *output, pointing_, slew);
+  };
+  const bool there = !is_led() || is_at(led_to) || is_at(slew_.command());
   if (!there) counters_["frames_elsewhere"] += 1;
   const bool believed = output->belief >= config_.tracking_belief;
+  if (there && believed) last_belief_ = output->belief;
   judge_belief(there && believed, frame.mid_exposure_s);
   if (mode_.is(StationState::kTracking) && believed) {
     bearings_.add({.arrived_s = std::max(now_s_, frame.mid_exposure_s),
@@ -107,6 +112,7 @@ void Station::judge_belief(bool believed, double time_s) {
       break;
     case StationState::kLost:
     case StationState::kSlewed:
+    case StationState::kHidden:
       if (believed_in_a_row_ >= config_.reacquire_frames) {
         motion_.clear();
         target_.confirm();
@@ -166,16 +172,20 @@ void Station::forget_angles() {
   bearings_.clear();
   target_.forget_angles();
   slew_.clear();
+  occlusion_.clear();
   manual_.clear();
-  if (mode_.is(StationState::kTracking) || mode_.is(StationState::kCoasting)) {
+  if (mode_.is(StationState::kHidden) || mode_.is(StationState::kTracking) ||
+      mode_.is(StationState::kCoasting)) {
     enter(StationState::kLost);
   }
 }
 
 void Station::enter(StationState state) {
+  const bool was_led = is_led();
   if (!mode_.enter(state)) return;
+  if (state == StationState::kHidden) hidden_since_s_ = now_s_;
   search_.restart(state == StationState::kTracking);
-  believed_in_a_row_ = 0;
+  if (!was_led || !is_led()) believed_in_a_row_ = 0;
 }
 
 void Station::pass_time(double now_s) { now_s_ = std::max(now_s_, now_s); }
@@ -218,6 +228,13 @@ Refusal Station::slew(const SlewCommand& command, double now_s) {
     enter(StationState::kSlewed);
   }
   return count(Refusal::kNone, "slew");
+}
+
+Refusal Station::occlude(const OcclusionCommand& command, double now_s) {
+  pass_time(now_s);
+  const Refusal refusal = judge(command, situation(now_s));
+  if (refusal != Refusal::kNone) return count(refusal, "occlusion");
+  return count(occlusion_.give(command) ? Refusal::kNone : Refusal::kOvertaken, "occlusion");
 }
 
 Refusal Station::point(const PointCommand& command, double now_s) {
@@ -272,6 +289,7 @@ void Station::begin_stopped() {
 // Cancels the goal of any command, and homing that has not begun.
 void Station::give_up_unit() {
   slew_.clear();
+  occlusion_.clear();
   manual_.clear();
   actions_.home = false;
 }
@@ -364,16 +382,26 @@ std::optional<mount::Goal> Station::watch(double now_s) {
   return watch_.step(now_s, free, sees, pointing_);
 }
 
+StationState Station::without_target() const {
+  if (occlusion_.command()) return StationState::kHidden;
+  if (slew_.command()) return StationState::kSlewed;
+  return target_.exists() ? StationState::kLost : StationState::kIdle;
+}
+
+std::optional<SlewCommand> Station::led_to() const {
+  const auto exit = occlusion_.exit();
+  return mode_.is(StationState::kHidden) && exit ? exit : slew_.command();
+}
+
 void Station::expire(double now_s) {
   slew_.expire(now_s);
-  if (mode_.is(StationState::kSlewed) && !slew_.command()) {
-    enter(target_.exists() ? StationState::kLost : StationState::kIdle);
-  }
+  occlusion_.expire(now_s);
+  if (is_led() || (mode_.is(StationState::kLost) && occlusion_.command())) enter(without_target());
   const bool following = mode_.is(StationState::kTracking) || mode_.is(StationState::kCoasting);
   // Also when frames stop: without a believed frame there is no motion.
   if (following && now_s - believed_s_ > config_.coast_s) {
     motion_.clear();
-    enter(slew_.command() ? StationState::kSlewed : StationState::kLost);
+    enter(without_target());
   }
 }
 
@@ -401,6 +429,8 @@ std::optional<mount::Goal> Station::goal(double now_s) const {
     case StationState::kSlewed:
       if (target_.on_trial() && slew_.searches_line()) return std::nullopt;
       return slew_.goal(pointing_, now_s);
+    case StationState::kHidden:
+      return occlusion_.exit() ? occlusion_.goal(pointing_, now_s) : slew_.goal(pointing_, now_s);
     default:
       return std::nullopt;
   }
@@ -423,6 +453,10 @@ StationSnapshot Station::snapshot() const {
   snapshot.frame_latency_s = bearings_.frame_latency_s();
   snapshot.alarms = alarms();
   snapshot.counters = counters();
+  if (!mode_.is(StationState::kHidden)) return snapshot;
+  snapshot.belief = last_belief_;
+  snapshot.hidden_since_s = hidden_since_s_;
+  if (const auto exit = occlusion_.exit()) snapshot.hidden_until_s = exit->effect_s;
   return snapshot;
 }
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "conditions/alarm.h"
+#include "edge/command/active_occlusion.h"
 #include "edge/command/active_slew.h"
 #include "edge/command/command_judgement.h"
 #include "edge/command/manual_motion.h"
@@ -91,6 +92,9 @@ class Station {
   // Commands. A refused command changes only its counter.
   Refusal designate(const DesignateCommand& command, double now_s);
   Refusal slew(const SlewCommand& command, double now_s);
+  // The land hides the target, or no longer does. A target that is not seen is then hidden as
+  // predicted: the mount waits where it comes out.
+  Refusal occlude(const OcclusionCommand& command, double now_s);
   Refusal point(const PointCommand& command, double now_s);
   // Like point(), but to what is at a pixel.
   Refusal centre(const CentreCommand& command, double now_s);
@@ -150,6 +154,11 @@ class Station {
   void forget_angles();
   Refusal stand_at(const PanTilt& angles, const char* command, double now_s);
   bool follows_target() const { return target_.exists() && mode_.may_track(); }
+  // What a station does whose target is not seen.
+  StationState without_target() const;
+  // Where it is led meanwhile.
+  std::optional<SlewCommand> led_to() const;
+  bool is_led() const { return mode_.is(StationState::kSlewed) || mode_.is(StationState::kHidden); }
   void track(const camera::Frame& frame);
   void follow_since(double mid_exposure_s);
   void judge_belief(bool believed, double time_s);
@@ -166,13 +175,16 @@ class Station {
   FollowedTarget target_;
   SlewSearch search_;
   ActiveSlew slew_;
+  ActiveOcclusion occlusion_;
   BearingQueue bearings_;
   DetectedObjects detected_;
   AngularTrack motion_;
   ManualMotion manual_;
   Watch watch_;
   UnitActions actions_;
-  double believed_s_ = 0.0;  // mid-exposure of the last believed frame
+  double believed_s_ = 0.0;      // mid-exposure of the last believed frame
+  double last_belief_ = 0.0;     // its belief
+  double hidden_since_s_ = 0.0;  // when the present state began, while hidden
   int believed_in_a_row_ = 0;
   double now_s_ = 0.0;
   std::map<std::string, double> counters_;

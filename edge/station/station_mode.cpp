@@ -3,7 +3,7 @@
 namespace ols::station {
 
 StationMode::StationMode() {
-  for (int i = 0; i <= static_cast<int>(StationState::kEmergency); ++i) {
+  for (int i = 0; i <= static_cast<int>(StationState::kHidden); ++i) {
     counters_[std::string("seconds_") + to_string(static_cast<StationState>(i))] = 0.0;
   }
 }

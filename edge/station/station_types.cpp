@@ -11,7 +11,7 @@ namespace ols::station {
 
 const char* to_string(StationState state) {
   return word_of_code(code(state), std::array{"idle", "manual", "tracking", "coasting", "lost",
-                                              "slewed", "stopped", "emergency"});
+                                              "slewed", "stopped", "emergency", "hidden"});
 }
 
 const char* to_string(Refusal refusal) {

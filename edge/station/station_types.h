@@ -25,7 +25,8 @@ enum class StationState {
   kLost,
   kSlewed,
   kStopped,
-  kEmergency
+  kEmergency,
+  kHidden
 };
 const char* to_string(StationState state);
 
@@ -80,6 +81,21 @@ struct SlewCommand {
   bool searches_line() const { return !line.isZero(); }
 };
 AzimuthElevation direction_at(const SlewCommand& slew, double time_s);
+
+// The land hides the target: when and where it comes out, as the fusion predicts it.
+struct OcclusionCommand {
+  double made_s = 0.0;
+  double received_s = 0.0;
+  double holds_s = 0.0;     // 0: what was said before no longer holds
+  std::int64_t sender = 0;  // the boot id of the fusion
+  std::int64_t target_id = 0;
+  struct Exit {
+    double time_s = 0.0, sd_s = 0.0;
+    AzimuthElevation direction;  // at the camera centre
+    double direction_sd_rad = 0.0;
+  };
+  std::optional<Exit> exit;  // empty: not within the prediction
+};
 
 struct PointCommand {
   PanTilt angles;
@@ -143,7 +159,8 @@ struct StationSnapshot {
   std::optional<CameraIntrinsics> camera;    // at that focal length
   double focal_length_sd_px = 0.0;
   std::int64_t track_id = 0;
-  double belief = 0.0;
+  double belief = 0.0;  // of a hidden target: when it was last seen
+  std::optional<double> hidden_since_s, hidden_until_s;  // monotonic; until: if it is known
   std::optional<mount::AngleSample> angles;
   std::optional<AzimuthElevation> optical_axis;
   Eigen::Vector3d camera_ecef = Eigen::Vector3d::Zero();  // at zero pan and tilt without angles

@@ -11,6 +11,7 @@
 #include "ols_msg/fusion_status_t.hpp"
 #include "ols_msg/incident_t.hpp"
 #include "ols_msg/lens_command_t.hpp"
+#include "ols_msg/occlusion_t.hpp"
 #include "ols_msg/preview_t.hpp"
 #include "ols_msg/ptu_command_t.hpp"
 #include "ols_msg/record_t.hpp"
@@ -47,7 +48,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       decode<ols_msg::station_status_t>, decode<ols_msg::target_t>,
       decode<ols_msg::lens_command_t>,   decode<ols_msg::cue_t>,
       decode<ols_msg::cue_order_t>,      decode<ols_msg::sighting_t>,
-      decode<ols_msg::command_reply_t>,  decode<ols_msg::incident_t>};
+      decode<ols_msg::command_reply_t>,  decode<ols_msg::incident_t>,
+      decode<ols_msg::occlusion_t>};
   ols::fuzz::Input input(data, size);
   const std::size_t kind = input.byte();
   kDecoders[kind % kDecoders.size()](input.rest());

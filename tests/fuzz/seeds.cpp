@@ -13,6 +13,7 @@
 #include "ols_msg/designate_t.hpp"
 #include "ols_msg/fusion_status_t.hpp"
 #include "ols_msg/lens_command_t.hpp"
+#include "ols_msg/occlusion_t.hpp"
 #include "ols_msg/preview_t.hpp"
 #include "ols_msg/ptu_command_t.hpp"
 #include "ols_msg/record_t.hpp"
@@ -89,6 +90,15 @@ ols_msg::slew_t slew() {
   message.azimuth_rad = 1.5;
   message.elevation_rad = 0.1;
   message.direction_sd_rad = 1e-3;
+  return message;
+}
+
+ols_msg::occlusion_t occlusion() {
+  auto message = command<ols_msg::occlusion_t>();
+  message.holds_s = 4.0;
+  message.exit_utime = kUtime + 3'000'000;
+  message.azimuth_rad = 1.5;
+  message.elevation_rad = 0.1;
   return message;
 }
 
@@ -219,6 +229,8 @@ int main(int argc, char** argv) {
   for (std::size_t kind = 0; kind < all.size(); ++kind) {
     write(folder / "messages" / std::to_string(kind), static_cast<char>(kind) + all[kind]);
   }
+  constexpr char kOcclusion = 16;
+  write(folder / "messages" / "occlusion", kOcclusion + encoded(occlusion()));
   const std::string from_a = encoded(bearing("a", 0.5, 0.0));
   const std::string from_b = encoded(bearing("b", 2.0, 500.0));
   write(folder / "fusion_messages" / "two", framed('\0', from_a) + framed('\2', from_b));
@@ -241,8 +253,9 @@ int main(int argc, char** argv) {
         of_channel(0, encoded(slew())) + of_channel(1, encoded(command<ols_msg::ptu_command_t>())) +
             of_channel(4, encoded(status())) + of_channel(5, from_a));
   int kind = 0;
-  for (const auto& bytes : {encoded(slew()), encoded(command<ols_msg::ptu_command_t>()),
-                            encoded(designation()), encoded(command<ols_msg::record_t>())}) {
+  for (const auto& bytes :
+       {encoded(slew()), encoded(command<ols_msg::ptu_command_t>()), encoded(designation()),
+        encoded(command<ols_msg::record_t>()), encoded(occlusion())}) {
     write(folder / "station_commands" / std::to_string(kind),
           framed(static_cast<char>(kind), bytes));
     ++kind;

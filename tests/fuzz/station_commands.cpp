@@ -45,7 +45,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   double now_s = kNow_s;
   while (!input.empty()) {
     static constexpr const char* kChannels[] = {"OLS_SLEW_a", "OLS_PTU_a", "OLS_DESIGNATE_a",
-                                                "OLS_RECORD_a"};
+                                                "OLS_RECORD_a", "OLS_OCCLUSION_a"};
     const char* channel = kChannels[input.byte() % std::size(kChannels)];
     const std::string_view bytes = input.take(input.byte());
     now_s += 0.01;

@@ -58,6 +58,7 @@ FORMER = {
     "fusion_status_v1": "5eae55e2",
     "fusion_status_v2": "bc400360",
     "station_status_v1": "f51c5e11",
+    "station_status_v2": "f655c9c8",
     "target_v1": "7ceb0a14",
     "target_v2": "4c15fc6c",
     "video_frame_v1": "3273b474",

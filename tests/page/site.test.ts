@@ -4,6 +4,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { canGoBack, isAtWork, lostForAll, stopped } from "../../console/page/src/byhand";
 import { apply, cuesOnMap, emptySite, isTarget, silence, stationState, stretches, targetState, type Cue, type Fusion, type Station, type Target } from "../../console/page/src/site";
+import { stateText } from "../../console/page/src/statetext";
 
 const station = (id: string, state: string, more = {}) => ({ id, state, stale: false, ...more });
 const target = (second: number, more = {}) => ({ id: "7", state: "confirmed", stale: false, utime_us: second * 1e6, longitude_deg: second, latitude_deg: 1, height_m: 2, ...more });
@@ -71,4 +72,11 @@ test("a cue whose name is a number is a target of detectors, drawn as a cue only
   const fusion = { cues: [cue("tak.a", "7"), cue("7", "7"), cue("8", "")] } as Fusion;
   assert.deepEqual(cuesOnMap(fusion).map((one) => one.id), ["tak.a", "8"]);
   assert.deepEqual(cuesOnMap(null), []);
+});
+
+test("a station says for how long its target has been hidden, and when it comes out", () => {
+  const at = (more: object) => stateText(station("alfa", "hidden", more) as unknown as Station, 12e6);
+  assert.equal(at({ hidden_since_utime_us: 8e6, hidden_until_utime_us: 15e6 }), "hidden for 4 s, back 00:00:15");
+  assert.equal(at({ hidden_since_utime_us: 8e6, hidden_until_utime_us: 0 }), "hidden for 4 s");
+  assert.equal(at({ hidden_since_utime_us: 8e6, stale: true }), "silent");
 });

@@ -108,6 +108,14 @@ std::string full_status(const ols_msg::station_status_t& s, std::int64_t now_uti
       line("station    %s, boot %lld", s.station.c_str(), static_cast<long long>(s.boot_id));
   text += line("state      %s, track %lld, belief %s", state_name(s.state),
                static_cast<long long>(s.track_id), shown(s.belief, 2).c_str());
+  if (s.hidden_since_utime != 0) {
+    text += "hidden     for " + ago_s(s.hidden_since_utime) + " s";
+    if (s.hidden_until_utime != 0) {
+      const double in_s = 1e-6 * static_cast<double>(s.hidden_until_utime - now_utime_us);
+      text += ", expected back in " + shown(std::max(0.0, in_s), 0) + " s";
+    }
+    text += "\n";
+  }
   text += pose_text(s);
   text += lens_text(s);
   text += line("clock      %s, +- %.3g s; frame to bearing %s s", clock_name(s.clock_state),

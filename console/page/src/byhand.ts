@@ -2,7 +2,7 @@
 
 import type { Site, Station } from "./site";
 
-const AT_WORK = ["tracking", "coasting", "slewed"];
+const AT_WORK = ["tracking", "coasting", "slewed", "hidden"];
 
 // It follows its target, or is led to one: a hand on its picture would end that.
 export const isAtWork = (station: Station) => AT_WORK.includes(station.state);

@@ -12,7 +12,8 @@ import { drawPicture } from "./overlay";
 import { pressKey } from "./picturekeys";
 import { usePointer } from "./picturepointer";
 import { stationState } from "./site";
-import { named, t } from "./words";
+import { stateText } from "./statetext";
+import { t } from "./words";
 
 const OLD_S = 5;
 
@@ -28,7 +29,7 @@ function Caption({ link, on, isThin }: { link: Link; on: OnPicture; isThin: bool
   return (
     <figcaption>
       <b>{station.id}</b>
-      <span class={`state ${state}`}>{named("s", state)}</span>
+      <span class={`state ${state}`}>{stateText(station, link.now_us())}</span>
       {large && on.mayCommand && station.kind === "overview" && (
         <button type="button" aria-pressed={looks} onClick={() => setLooks(!looks)}>
           {t("look_here")}

@@ -26,6 +26,8 @@ export type Station = {
   state: string;
   track_id?: string; // "0": it has not followed anything yet
   belief: number | null;
+  hidden_since_utime_us?: number; // 0: its target is not hidden
+  hidden_until_utime_us?: number; // 0: not known
   latitude_deg: number | null;
   longitude_deg: number | null;
   height_m: number | null;

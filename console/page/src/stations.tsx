@@ -9,6 +9,7 @@ import { Fleet } from "./fleet";
 import { bearing, clockError, DASH, fixed, utc } from "./format";
 import { length, measures, position } from "./measures";
 import { stationState, type Station } from "./site";
+import { stateText } from "./statetext";
 import { Commands, type StationProps } from "./stationcommands";
 import { named, t, Word } from "./words";
 
@@ -127,7 +128,7 @@ export function Stations({ link, selected, onSelect, ...rest }: StationsProps) {
               <h3>
                 <button type="button" aria-expanded={isOpen} onClick={() => onSelect(isOpen ? "" : s.id)}>
                   <span class="who">{s.id}</span>
-                  <span class={`state ${state}`}>{named("s", state)}</span>
+                  <span class={`state ${state}`}>{stateText(s, link.now_us())}</span>
                   <span class="aim">
                     {bearing(s.azimuth_deg)} {fixed(s.elevation_deg, 1, "°")}
                   </span>

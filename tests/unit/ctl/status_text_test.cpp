@@ -37,6 +37,16 @@ TEST(StatusText, TheLastErrorHasItsAge) {
   EXPECT_THAT(full_status(tracking(), 12'000'000), HasSubstr("last error, 7 s ago: camera lost"));
 }
 
+TEST(StatusText, AHiddenTargetIsSaidForHowLong) {
+  ols_msg::station_status_t status = tracking();
+  status.state = ols_msg::station_status_t::STATE_HIDDEN;
+  status.hidden_since_utime = 8'000'000;
+  EXPECT_THAT(full_status(status, 12'000'000), HasSubstr("hidden     for 4 s\n"));
+  status.hidden_until_utime = 15'000'000;
+  EXPECT_THAT(full_status(status, 12'000'000),
+              HasSubstr("hidden     for 4 s, expected back in 3 s\n"));
+}
+
 TEST(StatusText, OfManyAlarmsSixteenAreShown) {
   ols_msg::station_status_t status = tracking();
   EXPECT_THAT(full_status(status, 0), HasSubstr("no alarm\n"));

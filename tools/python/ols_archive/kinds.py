@@ -42,6 +42,7 @@ KINDS = (
     Kind("target_paper", "target_t", "OLS_TARGET_PAPER", False),
     Kind("fusion_status", "fusion_status_t", "OLS_FUSION_STATUS", False),
     Kind("slew", "slew_t", "OLS_SLEW_", True),
+    Kind("occlusion", "occlusion_t", "OLS_OCCLUSION_", True),
     Kind("ptu_command", "ptu_command_t", "OLS_PTU_", True),
     Kind("lens_command", "lens_command_t", "OLS_LENS_", True),
     Kind("designate", "designate_t", "OLS_DESIGNATE_", True),

@@ -17,6 +17,7 @@ STATES = {
     ols_msg.station_status_t.STATE_SLEWED: "slewed",
     ols_msg.station_status_t.STATE_STOPPED: "stopped",
     ols_msg.station_status_t.STATE_EMERGENCY: "emergency",
+    ols_msg.station_status_t.STATE_HIDDEN: "hidden",
 }
 
 

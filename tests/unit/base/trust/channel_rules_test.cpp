@@ -34,8 +34,8 @@ TEST(ChannelRules, AStationWithATrickyNameCommandsNothing) {
 }
 
 TEST(ChannelRules, FusionAndOperatorDoNotSendForEachOther) {
-  for (const char* channel :
-       {"OLS_TARGET", "OLS_TARGET_PAPER", "OLS_FUSION_STATUS", "OLS_SLEW_alfa"}) {
+  for (const char* channel : {"OLS_TARGET", "OLS_TARGET_PAPER", "OLS_FUSION_STATUS",
+                              "OLS_SLEW_alfa", "OLS_OCCLUSION_alfa"}) {
     EXPECT_TRUE(may(Role::kFusion, "fusion", channel)) << channel;
     EXPECT_FALSE(may(Role::kOperator, "anna", channel)) << channel;
   }
@@ -77,8 +77,9 @@ TEST(ChannelRules, AnybodyPassesTheTrustListOnAndNobodyOwnsOtherChannels) {
 // What a station hears of one sender: not what a site of a thousand stations may.
 TEST(ChannelRules, EveryCommandHasALimitTowardsOneStation) {
   const std::map<std::string, double> most_hz{
-      {"OLS_SLEW_alfa", 120.0},     {"OLS_PTU_alfa", 50.0},    {"OLS_LENS_alfa", 50.0},
-      {"OLS_DESIGNATE_alfa", 20.0}, {"OLS_RECORD_alfa", 20.0}, {"OLS_FRAME_REQUEST_alfa", 20.0}};
+      {"OLS_SLEW_alfa", 120.0},        {"OLS_OCCLUSION_alfa", 120.0}, {"OLS_PTU_alfa", 50.0},
+      {"OLS_LENS_alfa", 50.0},         {"OLS_DESIGNATE_alfa", 20.0},  {"OLS_RECORD_alfa", 20.0},
+      {"OLS_FRAME_REQUEST_alfa", 20.0}};
   for (const auto& [channel, hz] : most_hz) {
     EXPECT_EQ(rule_of(channel)->rule->station_rate_hz, hz) << channel;
   }

@@ -7,6 +7,7 @@
 #include "ols_msg/cue_t.hpp"
 #include "ols_msg/frame_part_t.hpp"
 #include "ols_msg/fusion_status_t.hpp"
+#include "ols_msg/occlusion_t.hpp"
 #include "ols_msg/preview_t.hpp"
 #include "ols_msg/procedure_answer_t.hpp"
 #include "ols_msg/procedure_t.hpp"
@@ -49,6 +50,7 @@ TEST(MessageHead, IsThatOfEachType) {
   expect_head<ols_msg::frame_part_t>(HeadForm::kStationFirst);
   expect_head<ols_msg::sighting_t>(HeadForm::kStationFirst);
   expect_head<ols_msg::procedure_t>(HeadForm::kStationFirst);
+  expect_head<ols_msg::occlusion_t>(HeadForm::kBootFirst);
   expect_head<ols_msg::slew_t>(HeadForm::kBootFirst);
   expect_head<ols_msg::ptu_command_t>(HeadForm::kBootFirst);
   expect_head<ols_msg::record_t>(HeadForm::kBootFirst);

@@ -104,6 +104,29 @@ TEST_F(StationBusTest, OfABurstOfDesignationsOnlyTheNewestIsCarriedOut) {
   EXPECT_EQ(boxes.size(), 1U) << "and only once";
 }
 
+TEST_F(StationBusTest, WhatHidesTheTargetIsTakenOnceAndNotAnswered) {
+  designate(3);
+  bus->end_turn();
+  answered();
+  ols_msg::occlusion_t message{};
+  message.holds_s = 4.0;
+  message.exit_utime = kNow_us + 3'000'000;
+  message.exit_covariance_rad2[0] = message.exit_covariance_rad2[2] = 1e-6;
+  for (const std::int64_t age_us : {5'000'000, 0}) {  // a stale one first
+    message.schema_version = ols_msg::occlusion_t::SCHEMA_VERSION;
+    message.station = "a";
+    message.utime = kNow_us - age_us;
+    message.boot_id = 3;
+    message.sequence = ++sequence;
+    message.lease_s = 0.5;
+    publish("OLS_OCCLUSION_a", message);
+    station->step(kNow_s + 0.8);
+    EXPECT_EQ(station->state(), age_us > 0 ? StationState::kLost : StationState::kHidden);
+  }
+  EXPECT_NEAR(station->snapshot().hidden_until_s.value_or(0.0), kNow_s + 3.0, 1e-6);
+  EXPECT_TRUE(answered().empty());
+}
+
 TEST_F(StationBusTest, AStopDoesNotWaitForADesignationToBeFollowed) {
   designate(3);
   command(Ptu::COMMAND_STOP);

@@ -1,0 +1,54 @@
+// Tells stations when and where the target that the land hides from them comes out again. Pure.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "central/admission/station_registry.h"
+#include "central/fusion/slew_planner.h"
+#include "central/ground/land_horizon.h"
+#include "central/ground/occlusion.h"
+#include "central/tracking/track.h"
+
+namespace ols::fusion {
+
+// To one station, of the target to which it is allocated.
+struct OcclusionNotice {
+  std::string station;
+  std::int64_t utime_us = 0;  // message time at creation
+  std::int64_t target_id = 0;
+  double hidden = 0.0;  // the probability that it is hidden at that time
+  // From the creation; empty: it does not come out within the prediction.
+  std::optional<Emergence> exit{};
+  double holds_s = 0.0;  // 0: what was said before no longer holds
+};
+
+class OcclusionSchedule {
+ public:
+  // surface: null if no land is known. Then nothing is hidden.
+  explicit OcclusionSchedule(std::shared_ptr<const land::Surface> surface)
+      : surface_(std::move(surface)) {}
+
+  // For the stations of these slews.
+  std::vector<OcclusionNotice> plan(std::int64_t now_us, const std::vector<Slew>& slews,
+                                    const StationRegistry& stations,
+                                    const std::vector<Track>& tracks);
+  void forget(const std::string& station) { told_.erase(station); }
+  void clear() { told_.clear(); }
+
+ private:
+  struct Told {
+    std::unique_ptr<LandHorizon> horizon;
+    std::int64_t exit_us = 0;  // until then, what was said last is withdrawn when it is wrong
+  };
+  LandHorizon& horizon_of(Told& told, const Eigen::Vector3d& camera_ecef) const;
+
+  std::shared_ptr<const land::Surface> surface_;
+  std::map<std::string, Told> told_;
+};
+
+}  // namespace ols::fusion
