@@ -24,6 +24,7 @@ struct Fidelity {
   std::vector<std::string> not_designated = {};  // stations without a designation
   std::vector<Misdesignation> misdesignated = {};
   fusion::HandoverConfig handover{};
+  bool land_model = true;  // false: the fusion knows nothing of the land
 };
 
 }  // namespace ols::sim

@@ -4,13 +4,14 @@
 #include <cmath>
 
 #include "geometry/lens.h"
+#include "sim/world/land_model.h"
 
 namespace ols::sim {
 namespace {
 
 constexpr double kTick_s = 1e-3;
 constexpr std::int64_t kStatusTicks = 500;
-constexpr std::uint64_t kBearingTag = 8000, kSlewTag = 9000;
+constexpr std::uint64_t kBearingTag = 8000, kSlewTag = 9000, kOcclusionTag = 9500;
 
 std::int64_t utime_us(double time_s) {
   return Lockstep::kStartUtime_us + std::llround(time_s * 1e6);
@@ -20,6 +21,11 @@ double time_of(std::int64_t utime_us) {
   return 1e-6 * static_cast<double>(utime_us - Lockstep::kStartUtime_us);
 }
 
+fusion::LandUse land_of(const World& world, const Fidelity& fidelity) {
+  if (!fidelity.land_model || !world.relief()) return {};
+  return {.surface = survey(world.scenario().relief, world.site(), world.seed()).terrain()};
+}
+
 }  // namespace
 
 Lockstep::Lockstep(const World& world, const Fidelity& fidelity,
@@ -27,8 +33,9 @@ Lockstep::Lockstep(const World& world, const Fidelity& fidelity,
     : world_(world),
       bearings_(world.scenario().errors.messages, derived_seed(world.seed(), kBearingTag)),
       slews_(world.scenario().errors.messages, derived_seed(world.seed(), kSlewTag)),
+      occlusions_(world.scenario().errors.messages, derived_seed(world.seed(), kOcclusionTag)),
       newest_slew_us_(world.stations().size(), 0),
-      fusion_({.handover = fidelity.handover}) {
+      fusion_({.handover = fidelity.handover, .land = land_of(world, fidelity)}) {
   auto renderers = fidelity.pictures
                        ? make_renderers(world)
                        : std::vector<std::unique_ptr<Renderer>>(world.stations().size());
@@ -62,6 +69,7 @@ void Lockstep::run(double duration_s) {
 
 void Lockstep::advance(double time_s) {
   for (const AddressedSlew& slew : slews_.receive(time_s)) deliver(slew, time_s);
+  for (const fusion::OcclusionNotice& notice : occlusions_.receive(time_s)) deliver(notice, time_s);
   if (tick_ > 0 && tick_ % kStatusTicks == 0) {
     for (std::size_t i = 0; i < stations_.size(); ++i) know_station(i);
   }
@@ -115,6 +123,10 @@ void Lockstep::fuse(const fusion::BearingMeasurement& measurement, double time_s
       record(target, time_s, result_.paper);
   }
   send(output.slews, time_s);
+  for (const fusion::OcclusionNotice& notice : output.occlusions) {
+    result_.occlusions.push_back(notice);
+    occlusions_.send(notice, time_s);
+  }
 }
 
 void Lockstep::hear(const fusion::Cue& cue, double time_s) {
@@ -163,6 +175,20 @@ void Lockstep::deliver(const AddressedSlew& addressed, double time_s) {
   command.direction_sd_rad = slew.direction_sd_rad;
   command.line = slew.line;
   stations_[addressed.station]->slew(command, time_s);
+}
+
+void Lockstep::deliver(const fusion::OcclusionNotice& notice, double time_s) {
+  const std::size_t index = index_of(notice.station);
+  const double offset_s = world_.stations()[index].clock_offset_s;
+  station::OcclusionCommand command;
+  command.made_s = monotonic_s(time_of(notice.utime_us) - offset_s);
+  command.holds_s = notice.holds_s;
+  command.target_id = notice.target_id;
+  if (notice.exit) {
+    command.exit = {command.made_s + notice.exit->in_s, notice.exit->sd_s, notice.exit->direction,
+                    std::sqrt(notice.exit->covariance.trace() / 2.0)};
+  }
+  stations_[index]->occlude(command, time_s);
 }
 
 std::size_t Lockstep::index_of(const std::string& station) const {

@@ -39,6 +39,7 @@ struct ToldSighting {
 struct LockstepResult {
   std::vector<Fix> joint, paper;
   std::vector<fusion::Slew> slews;  // as the fusion made them
+  std::vector<fusion::OcclusionNotice> occlusions;
   std::vector<ToldSighting> sightings;
   std::vector<StationRecord> stations;
   std::map<std::string, double> counters;  // of the fusion at the end
@@ -79,12 +80,14 @@ class Lockstep {
   void send(const std::vector<fusion::Slew>& slews, double time_s);
   void record(const fusion::FusedTarget& target, double time_s, std::vector<Fix>& fixes) const;
   void deliver(const AddressedSlew& addressed, double time_s);
+  void deliver(const fusion::OcclusionNotice& notice, double time_s);
   std::size_t index_of(const std::string& station) const;
 
   const World& world_;
   std::vector<std::unique_ptr<LockstepStation>> stations_;
   Network<fusion::BearingMeasurement> bearings_;
   Network<AddressedSlew> slews_;
+  Network<fusion::OcclusionNotice> occlusions_;
   std::vector<std::int64_t> newest_slew_us_;
   fusion::Fusion fusion_;
   LockstepResult result_;

@@ -180,4 +180,9 @@ station::Refusal LockstepStation::slew(station::SlewCommand command, double time
   return station_.slew(command, command.received_s);
 }
 
+station::Refusal LockstepStation::occlude(station::OcclusionCommand command, double time_s) {
+  command.received_s = monotonic_s(time_s);
+  return station_.occlude(command, command.received_s);
+}
+
 }  // namespace ols::sim

@@ -59,6 +59,7 @@ class LockstepStation {
     return told_.desk.take(bearing, utime_us, told_.unit);
   }
   station::Refusal slew(station::SlewCommand command, double time_s);
+  station::Refusal occlude(station::OcclusionCommand command, double time_s);
   const station::Station& station() const { return station_; }
   // For a caller that gives the station orders between two advances. Times are monotonic_s() of
   // now.

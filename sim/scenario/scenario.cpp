@@ -9,6 +9,7 @@
 
 #include "edge/config/config_units.h"
 #include "sim/scenario/scenario_places.h"
+#include "sim/scenario/scenario_relief.h"
 #include "sim/scenario/scenario_trajectory.h"
 
 namespace ols::sim {
@@ -408,6 +409,7 @@ Section scenario_section(Scenario& s, const std::string& folder) {
            errors_section(s.errors),
            unit_errors_section(s.unit_errors),
            stationing_section(s.stationing),
+           relief_section(s.relief),
            station_section(s.stations),
            target_section(s, folder),
            mark_section(s.marks),

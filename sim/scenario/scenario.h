@@ -15,6 +15,7 @@
 #include "sim/world/boards.h"
 #include "sim/world/flyer.h"
 #include "sim/world/marks.h"
+#include "sim/world/relief.h"
 #include "sim/world/trajectory.h"
 #include "sim/world/unit_truth.h"
 
@@ -185,6 +186,7 @@ struct Scenario {
   UnitErrorsScenario unit_errors;
   StationingScenario stationing;
   Landscape landscape;
+  ReliefScenario relief;
   std::vector<StationScenario> stations;
   std::vector<TargetScenario> targets;
   std::vector<Mark> marks;

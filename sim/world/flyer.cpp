@@ -177,7 +177,10 @@ FlyerMatte flyer_matte(const FlyerView& view, cv::Size picture) {
 }
 
 void draw_flyer(const FlyerView& view, cv::Mat& gray) {
-  const FlyerMatte matte = flyer_matte(view, gray.size());
+  draw_flyer(flyer_matte(view, gray.size()), gray);
+}
+
+void draw_flyer(const FlyerMatte& matte, cv::Mat& gray) {
   if (matte.area.empty()) return;
   cv::Mat behind, mixed;
   gray(matte.area).convertTo(behind, CV_32F);

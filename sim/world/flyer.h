@@ -37,5 +37,6 @@ struct FlyerMatte {
 FlyerMatte flyer_matte(const FlyerView& view, cv::Size picture);
 
 void draw_flyer(const FlyerView& view, cv::Mat& gray);
+void draw_flyer(const FlyerMatte& matte, cv::Mat& gray);
 
 }  // namespace ols::sim

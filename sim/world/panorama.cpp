@@ -105,6 +105,17 @@ void Panorama::set_camera(const CameraIntrinsics& camera) {
   compute_rays();
 }
 
+void Panorama::raise(const std::function<double(double azimuth_rad)>& skyline_rad) {
+  constexpr std::size_t kColumn = 4;  // texels: some tenths of a milliradian
+  for (std::size_t u = 0; u < ridge_.size(); u += kColumn) {
+    const auto near =
+        static_cast<float>(skyline_rad(static_cast<double>(u) / texels_per_rad_) * texels_per_rad_);
+    for (std::size_t i = u; i < std::min(u + kColumn, ridge_.size()); ++i) {
+      ridge_[i] = std::max(ridge_[i], near);
+    }
+  }
+}
+
 double Panorama::ridge_rad(double azimuth_rad) const {
   const double texel = wrap_two_pi(azimuth_rad) * texels_per_rad_;
   return ridge_[static_cast<std::size_t>(texel) % ridge_.size()] / texels_per_rad_;

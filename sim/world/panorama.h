@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <functional>
 #include <opencv2/core.hpp>
 #include <vector>
 
@@ -27,6 +28,9 @@ class Panorama {
   void set_camera(const CameraIntrinsics& camera);
   // Draws the background of an image taken with this rotation (camera to east-north-up).
   void draw(const Eigen::Matrix3d& R_enu_cam, cv::Mat& gray);
+
+  // Near land stands before the ridge line where it is higher: elevations [rad] by azimuth.
+  void raise(const std::function<double(double azimuth_rad)>& skyline_rad);
 
   // Elevation of the ridge line at an azimuth.
   double ridge_rad(double azimuth_rad) const;

@@ -15,6 +15,7 @@ constexpr std::size_t kNoiseStrip = std::size_t{1} << 21;
 // Light in 16 bits, in 64ths of a gray level; maximum gain and noise still fit.
 constexpr int kLevelBits = 6, kLevel = 1 << kLevelBits;
 constexpr double kUnitGain = 16384.0, kGreatestGain = 1.4;
+constexpr double kLandSeen_m = 3000.0;
 constexpr std::uint64_t kPanoramaTag = 1000, kNoiseTag = 2000;
 
 // Axes of a level body that flies along v: x forward, y left, z up.
@@ -107,7 +108,8 @@ ViewTruth view_truth(const World& world, std::size_t station, const ExposureTrut
   if (!view) return {};
   const CameraIntrinsics camera = camera_of(truth, exposure);
   const Eigen::Vector2d& c = view->centre_px;
-  const bool inside = c.x() >= -0.5 && c.y() >= -0.5 && c.x() < camera.width_px - 0.5 &&
+  const bool hidden = world.hides(station, world.target(target, exposure.mid_s).p_ecef);
+  const bool inside = !hidden && c.x() >= -0.5 && c.y() >= -0.5 && c.x() < camera.width_px - 0.5 &&
                       c.y() < camera.height_px - 0.5;
   return {inside, c, flyer_box(*view)};
 }
@@ -130,6 +132,12 @@ Renderer::Renderer(const World& world, std::size_t station, const cv::Mat& slope
                              kPanoramaTag + station)),
       boards_(world.scenario().boards, world.stations()[station].truth.chain,
               world.stations()[station].unit.trunnion_rad) {
+  if (const Relief* relief = world.relief()) {
+    panorama_.raise([&](double azimuth_rad) {
+      const Eigen::Vector2d outward(std::sin(azimuth_rad), std::cos(azimuth_rad));
+      return std::atan(relief->highest_slope(world.camera_enu(station), outward, kLandSeen_m));
+    });
+  }
   const Errors& e = world.scenario().errors;
   const CameraIntrinsics& camera = world.stations()[station].truth.camera;
   noise_.resize(kNoiseStrip, 0);
@@ -173,7 +181,33 @@ void Renderer::draw_scene(const ExposureTruth& exposure, cv::Mat& gray) {
   boards_.draw(camera, pose, gray);
   if (world_.scenario().errors.motion_blur.on) smear(exposure, gray);
   for (std::size_t target = 0; target < world_.scenario().targets.size(); ++target) {
-    if (const auto view = flyer_view(world_, truth, target, exposure)) draw_flyer(*view, gray);
+    const auto view = flyer_view(world_, truth, target, exposure);
+    if (!view) continue;
+    FlyerMatte matte = flyer_matte(*view, gray.size());
+    if (world_.relief()) cover(exposure, world_.target(target, exposure.mid_s).p_ecef, matte);
+    draw_flyer(matte, gray);
+  }
+}
+
+void Renderer::cover(const ExposureTruth& exposure, const Eigen::Vector3d& target_ecef,
+                     FlyerMatte& matte) const {
+  const StationTruth& truth = world_.stations()[station_];
+  const CameraIntrinsics camera = camera_of(truth, exposure);
+  const Matrix3d R_enu_cam = camera_pose(truth, exposure.mid).linear();
+  const Vector3d camera_enu = world_.camera_enu(station_);
+  const double distance_m = (world_.site().to_enu(target_ecef) - camera_enu).head<2>().norm();
+  for (int x = 0; x < matte.area.width; ++x) {
+    std::optional<double> highest;  // of the whole column: the camera is nearly level
+    for (int y = 0; y < matte.area.height; ++y) {
+      const auto ray = unproject(camera, Eigen::Vector2d(matte.area.x + x, matte.area.y + y));
+      if (!ray) continue;
+      const Vector3d enu = R_enu_cam * *ray;
+      const double level = enu.head<2>().norm();
+      if (!highest) {
+        highest = world_.relief()->highest_slope(camera_enu, enu.head<2>() / level, distance_m);
+      }
+      if (enu.z() / level < *highest) matte.colour(y, x) = matte.covered(y, x) = 0.0F;
+    }
   }
 }
 

@@ -28,7 +28,7 @@ struct ExposureTruth {
 };
 
 struct ViewTruth {
-  bool visible = false;  // the target's centre is inside the image
+  bool visible = false;  // the target's centre is inside the image, and the land does not hide it
   Eigen::Vector2d centre_px = Eigen::Vector2d::Zero();
   cv::Rect2d box;
 };
@@ -57,6 +57,9 @@ class Renderer {
 
  private:
   void draw_scene(const ExposureTruth& exposure, cv::Mat& gray);
+  // Takes away what the land before a target hides of it.
+  void cover(const ExposureTruth& exposure, const Eigen::Vector3d& target_ecef,
+             FlyerMatte& matte) const;
   void draw_marks(const ExposureTruth& exposure, cv::Mat& gray) const;
   void draw_sky_light(const ExposureTruth& exposure, cv::Mat& gray) const;
   void smear(const ExposureTruth& exposure, cv::Mat& gray) const;

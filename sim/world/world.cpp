@@ -107,6 +107,14 @@ World::World(const Scenario& scenario, std::uint64_t seed)
     const double step_rad = radians(ptu_unit_config().resolution_arcsec / 3600.0);
     find_headings(scenario_, seed, step_rad, stations_);
   }
+  if (!scenario_.relief.is_flat()) relief_.emplace(scenario_.relief);
+  for (const StationTruth& station : stations_) {
+    cameras_enu_.push_back(site_.to_enu(camera_centre_ecef(station.truth, {})));
+  }
+}
+
+bool World::hides(std::size_t station, const Eigen::Vector3d& p_ecef) const {
+  return relief_ && relief_->hides(cameras_enu_.at(station), site_.to_enu(p_ecef));
 }
 
 TargetTruth World::target(std::size_t index, double time_s) const {

@@ -43,6 +43,11 @@ class World {
   std::uint64_t seed() const { return seed_; }
   const std::vector<StationTruth>& stations() const { return stations_; }
   const LocalFrame& site() const { return site_; }
+  // Null where the land is flat and hides nothing.
+  const Relief* relief() const { return relief_ ? &*relief_ : nullptr; }
+  Eigen::Vector3d camera_enu(std::size_t station) const { return cameras_enu_.at(station); }
+  // Whether the land hides a place from a station.
+  bool hides(std::size_t station, const Eigen::Vector3d& p_ecef) const;
 
   // time_s: true time since the scenario's start.
   TargetTruth target(std::size_t index, double time_s) const;
@@ -53,7 +58,9 @@ class World {
   Scenario scenario_;
   std::uint64_t seed_;
   LocalFrame site_;
+  std::optional<Relief> relief_;
   std::vector<StationTruth> stations_;
+  std::vector<Eigen::Vector3d> cameras_enu_;  // of the stations, in the site's frame
 };
 
 }  // namespace ols::sim
