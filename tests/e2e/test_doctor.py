@@ -191,7 +191,7 @@ def test_a_fixed_camera_is_a_station_that_never_moves(devices):
     assert math.degrees(status.pan_rad) == pytest.approx(0.0)
     assert math.degrees(status.tilt_rad) == pytest.approx(11.5)
     # Of the person's order alone: the fusion leaves it alone.
-    assert listener.counter("delta", "refused_fixed_mount") == 1
+    listener.wait_for_counter("delta", "refused_fixed_mount", 1)
     site.check()
 
 
