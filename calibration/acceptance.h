@@ -13,10 +13,10 @@ namespace ols::calibration {
 
 struct AcceptanceLimits {
   double rms_arcsec = 15.0, worst_arcsec = 25.0;  // systematic, per axis, over the working volume
-  double detectable_arcsec = 30.0;                // of each reference
+  double detectable_arcsec = 30.0;                // for each reference
   double without_itself_sigma = 3.0;
   double without_itself_arcsec =
-      20.0;  // max offset of a checked reference from the place that the others give it
+      20.0;  // max offset of a checked reference from the place that the other references give it
   double closing_arcsec = 12.0;
   double sweep_px = 0.35, stars_px = 0.3;  // RMS residual of a coordinate
   int sectors = 3;                         // number of 60 deg sectors of azimuth that contain a
@@ -28,7 +28,7 @@ struct Finding {
   enum class Judgement { kGood, kUnchecked, kBad };
   std::string name;  // "systematic_rms", "reference spire detectable", ...
   Judgement judgement = Judgement::kGood;
-  double value = 0.0;  // infinite: unchecked
+  double value = 0.0;  // infinite if unchecked
   double limit = 0.0;
   std::string sentence;  // for a person
 };
@@ -40,7 +40,7 @@ struct Acceptance {
   // The directions in which the references allow the calibration to be used.
   WorkingVolume volume;
   bool volume_is_cut = false;
-  bool acceptable() const;  // no finding is bad
+  bool acceptable() const;  // whether no finding is bad
 };
 
 // Judges an instrument without a setup: whether its residuals, lens and gears agree with what was

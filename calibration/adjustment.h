@@ -1,5 +1,5 @@
 // The least-squares adjustment of a network: damped normal equations (Levenberg and Marquardt) for
-// the globals, with the nuisance of each block eliminated.
+// the global parameters, with the nuisance of each block eliminated.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,11 +10,11 @@
 namespace ols::calibration {
 
 struct Fit {
-  std::vector<bool> kept;  // by group
+  std::vector<bool> kept;  // for each group
   State state;
   std::vector<BlockEquations> equations;  // of all blocks at the state, rejected groups included
-  Eigen::MatrixXd covariance;             // of the globals; 0 for a value that is known exactly
-  double misfit = 0.0;                    // of the kept groups and the priors
+  Eigen::MatrixXd covariance;  // of the global parameters; 0 for a value that is known exactly
+  double misfit = 0.0;         // of the kept groups and the priors
   bool converged = false;
 };
 
@@ -24,11 +24,12 @@ class Adjustment {
 
   const Network& network() const { return network_; }
   const std::vector<Group>& groups() const { return network_.groups; }
-  // The state at the priors, with these headings.
+  // The state at the priors, but with these headings.
   State start(const std::vector<double>& headings_rad) const;
   Fit fit(State start, const std::vector<bool>& kept) const;
-  // Predicts the covariance of a station's parameters after sighting all groups, if everything were
-  // as in the priors. Uses no pixels. Infinite if a target could not be seen.
+  // Predicts the covariance of a station's parameters after all groups have been sighted, if
+  // reality equalled the priors. Uses no pixels. The result is infinite if a target could not be
+  // seen.
   StationMatrix planned_covariance(std::size_t station) const;
   // A group's equations: the sum of its blocks' equations, over the columns of all these blocks.
   BlockEquations equations(const Fit& fit, std::size_t group) const;
@@ -49,7 +50,7 @@ class Adjustment {
   void fit_rejected(Fit& fit, const std::vector<bool>& used) const;
 
   Network network_;
-  Eigen::VectorXd scale_;  // of the globals; 0: known exactly
+  Eigen::VectorXd scale_;  // of the global parameters; 0 for a value that is known exactly
 };
 
 }  // namespace ols::calibration

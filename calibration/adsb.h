@@ -23,9 +23,9 @@ bool has_right_parity(std::span<const std::uint8_t> message);
 
 class AdsbDecoder {
  public:
-  // Takes a message of 14 bytes, and returns the position that it completes, if any. A position
-  // needs an even and an odd message within ten seconds, and the height above the ellipsoid. The
-  // aircraft broadcasts either this height or its difference from the barometric height.
+  // Takes a message of 14 bytes. Returns the position that it completes, if any. A position needs
+  // an even and an odd message within ten seconds, and the height above the ellipsoid. The aircraft
+  // broadcasts either this height or its difference from the barometric height.
   std::optional<AircraftPosition> take(std::span<const std::uint8_t> message,
                                        std::int64_t utime_us);
 

@@ -15,8 +15,8 @@
 namespace ols::calibration {
 
 struct Levels {
-  double mistaken = 1e-3;  // for the tests of all groups together
-  double misfit = 0.05;    // for the global test
+  double mistaken = 1e-3;  // significance of the tests of all groups together
+  double misfit = 0.05;    // significance of the global test
 };
 
 // The global test (overall model test) of the groups that are not rejected.
@@ -28,26 +28,27 @@ struct ModelTest {
 
 struct Calibration {
   Fit fit;
-  std::vector<GroupTest> tests;  // by group
+  std::vector<GroupTest> tests;  // for each group
   ModelTest global;
-  // [px] by observation: measured minus adjusted; nullopt for an unused observation.
+  // Measured minus adjusted [px], for each observation; nullopt for an unused observation.
   std::vector<std::optional<Eigen::Vector2d>> residuals;
   std::vector<std::string> remarks;  // sentences for a person to check
-  // The covariance of one station's parameters; includes the variance factor if the global test
+  // The covariance of one station's parameters. It includes the variance factor if the global test
   // fails.
   StationMatrix covariance(const Network& network, std::size_t station) const;
-  double scaled_by = 1.0;  // factor of the deviations
-  // False if only rectification targets or scenery were sighted, because they do not show where the
-  // stations look. Then only the instruments are a result.
+  double scaled_by = 1.0;  // factor by which the deviations were enlarged
+  // False if only rectification targets or scenery were sighted, because these do not show where
+  // the stations look. Then only the instruments' parameters are a result.
   bool headings_known = true;
 };
 
-// The observations contradict each other, and no minority of them can be named as the cause.
+// Thrown if the observations contradict each other, and no minority of them can be named as the
+// cause.
 class Contradiction : public std::invalid_argument {
   using std::invalid_argument::invalid_argument;
 };
 
-// Throws Contradiction, and std::invalid_argument if a heading stays unknown. `tell` is called
+// Throws Contradiction; throws std::invalid_argument if a heading stays unknown. `tell` is called
 // after each adjustment.
 Calibration calibrate(const Adjustment& adjustment, const Levels& levels = {},
                       const TellAdjusted& tell = {});

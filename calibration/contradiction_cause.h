@@ -9,7 +9,7 @@
 namespace ols::calibration {
 
 // One sentence for each mistake that would explain everything: two landmarks that were exchanged,
-// or a wrong sign in the station's position. Empty if there is none.
+// or a wrong sign in the station's position. Empty if no single mistake explains it.
 std::vector<std::string> causes_of_contradiction(const Problem& problem, const Levels& levels = {});
 
 }  // namespace ols::calibration

@@ -10,17 +10,17 @@
 namespace ols::calibration {
 
 struct Problem {
-  std::vector<std::string> names;  // of the stations
+  std::vector<std::string> names;  // the stations' names
   std::vector<StationPrior> stations;
   std::vector<Observation> observations;
   References references;
-  std::optional<Air> air;  // nullopt: the standard atmosphere
+  std::optional<Air> air;  // the standard atmosphere if nullopt
   EarthRotation earth;
-  double ut1_sd_s = 0.3;  // not stated: UT1 stays within a fraction of a second of UTC
+  double ut1_sd_s = 0.3;  // by default: UT1 stays within a fraction of a second of UTC
 };
 
-// The observations that are kept or rejected together: all sightings of a landmark; one sighting of
-// a star; a pass of an aircraft; a track; all scene points.
+// Observations that are kept or rejected together: all sightings of a landmark; one sighting of a
+// star; a pass of an aircraft; a track; all scene points.
 struct Group {
   Kind kind = Kind::kLandmark;
   std::string name;
@@ -29,11 +29,11 @@ struct Group {
   std::vector<std::size_t> observations;  // in the order of the blocks' sightings
   int degrees_of_freedom = 0;
   bool is_tested() const { return kind != Kind::kScene; }
-  // Whether one of its many sightings can be mistaken while the others are good.
+  // Whether single sightings of the group can be mistaken while the others are good.
   bool is_followed() const {
     return kind == Kind::kDrone || kind == Kind::kAircraft || kind == Kind::kTrack;
   }
-  // Whether it shows where a station looks, because a person has stated where its target is.
+  // Whether the group shows where a station looks, because a person has stated where its target is.
   bool is_absolute() const {
     return is_tested() && kind != Kind::kTrack && kind != Kind::kInclinometer &&
            !is_rectification_target(kind);
@@ -44,18 +44,17 @@ struct Network {
   Layout layout;
   std::vector<StationPrior> stations;
   std::vector<std::string> names;
-  std::vector<BlockPtr> blocks;  // the observations' first, then the priors
+  std::vector<BlockPtr> blocks;  // first those of observations, then those of priors
   std::vector<Group> groups;
-  std::size_t priors_from = 0;  // the first block that is a prior
+  std::size_t priors_from = 0;  // index of the first block that is a prior
 };
 
-// Throws ObservationRefused for a reference that is missing or of the wrong kind, a star without a
-// reference, a star or the sun too low, a track that only one station sees, an instant outside a
-// trajectory, and a pose at two places.
+// Throws ObservationRefused if a reference is missing or of the wrong kind, a star has no
+// reference, a star or the sun is too low, only one station sees a track, an instant is outside a
+// trajectory, or one pose is at two places.
 Network network_of(const Problem& problem);
 
-// The sightings of one station of a network, as if there were no other: the same globals, fewer
-// groups.
+// The network with the sightings of one station only: the same global parameters, fewer groups.
 Network alone(const Network& network, std::size_t station);
 
 }  // namespace ols::calibration

@@ -1,5 +1,5 @@
-// Which sighting helps most: predicts for each the systematic error that would remain, over the
-// directions in which a station works.
+// Finds the most helpful sighting: predicts for each possible one the systematic error that would
+// remain, over the directions in which a station works.
 #pragma once
 
 #include <optional>
@@ -11,33 +11,33 @@
 
 namespace ols::calibration {
 
-// One possible next step: a set of sightings that would be made together. Their reading, reference
-// and deviations matter, their pixels do not.
+// One possible next step: a set of sightings that would be made together. Their readings,
+// references and deviations matter; their pixels do not.
 struct Candidate {
   std::string name;
   std::vector<Observation> sightings;
 };
 
 struct Advice {
-  std::size_t candidate = 0;              // index
-  double rms_rad = 0.0, worst_rad = 0.0;  // predicted, per axis, after the sightings
+  std::size_t candidate = 0;              // index of the candidate
+  double rms_rad = 0.0, worst_rad = 0.0;  // predicted per axis, after the sightings
 };
 
 // Candidates, sorted by the error of `station` that would remain after each; smallest first.
 // `so_far`: the observations, possibly none. `model`: the station as far as it is known; its
-// heading must be known to some degrees. Unusable candidates (a star too low, a target behind the
-// camera) are left out.
+// heading must be known to some degrees. Candidates that cannot be used (a star too low, a target
+// behind the camera) are left out.
 std::vector<Advice> rank_sightings(const Problem& so_far, std::size_t station,
                                    const StationModel& model,
                                    const std::vector<Candidate>& candidates,
                                    const WorkingVolume& volume = {});
 
-// The systematic error that a plan's observations would leave. Their pixels do not matter.
+// The systematic error that would remain after a plan's observations. Their pixels do not matter.
 VolumePrecision planned_precision(const Problem& plan, std::size_t station,
                                   const StationModel& model, const WorkingVolume& volume = {});
 
-// The counts that bring a point or a direction onto a pixel, approached from these sides; nullopt
-// if there are none.
+// The counts that bring a point or a direction onto a pixel, for these directions of approach;
+// nullopt if there are none.
 std::optional<UnitReading> reading_towards(const StationModel& model, const HomogeneousPoint& point,
                                            const Eigen::Vector2d& pixel, int approach_pan = 1,
                                            int approach_tilt = 1);

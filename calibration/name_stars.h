@@ -15,13 +15,13 @@ class StarsUnidentified : public std::invalid_argument {
 };
 
 struct NamedStars {
-  std::vector<std::string> remarks;     // per station, what was found
+  std::vector<std::string> remarks;     // for each station, what was found
   std::vector<std::size_t> false_ones;  // indices of observations that show no star of the table
 };
 
-// Gives a reference to each star observation that has none. Every "HIP n" that is missing in the
-// references gets its place from the table. Observations of one station, reading and time are one
-// frame. False detections get no name and must be left out. Throws StarsUnidentified.
+// Gives a reference to each star observation that has none. Each missing reference "HIP n" is
+// filled in from the table. Observations with the same station, reading and time are one frame.
+// False detections get no name and must be left out. Throws StarsUnidentified.
 NamedStars name_stars(Problem& problem);
 
 }  // namespace ols::calibration

@@ -32,50 +32,52 @@ enum class Kind {
 inline bool is_rectification_target(Kind kind) {
   return kind == Kind::kLevelLine || kind == Kind::kCross || kind == Kind::kRuler;
 }
-// As in the files, for example "landmark".
+// As in files, for example "landmark".
 const char* name(Kind kind);
 std::optional<Kind> kind_of(const std::string& name);
 
-// The data of a rectification target that a person states.
+// A person's statements about a rectification target.
 struct TargetFacts {
-  Eigen::Vector2d second_px = Eigen::Vector2d::Zero();  // of a level line: another pixel of it
-  double distance_m = 0.0;                              // from the pan axis; of a cross or a ruler
-  // Of a cross: its distance to the right of the plane that contains the pan axis and is
-  // perpendicular to the tilt axis. Of a ruler: the reading at the pixel, growing upwards; all
-  // zeros are at one height.
+  Eigen::Vector2d second_px = Eigen::Vector2d::Zero();  // for a level line: another pixel of it
+  double distance_m = 0.0;  // for a cross or a ruler: distance from the pan axis
+  // For a cross: its distance to the right of the plane that contains the pan axis and is
+  // perpendicular to the tilt axis. For a ruler: the reading at the pixel, growing upwards; the
+  // zeros of all rulers are at one height.
   double offset_m = 0.0;
-  double sd = 0.0;  // of a line's level [rad]; of a cross's place or a ruler's zero [m]
+  // For a line: 1-sigma of its level [rad]; for a cross or a ruler: of its place or its zero [m].
+  double sd = 0.0;
 };
 
 struct Observation {
   Kind kind = Kind::kLandmark;
-  std::size_t station = 0;           // index
+  std::size_t station = 0;           // the station's index
   std::optional<std::int64_t> pose;  // sightings of one pose share the errors of its two angles
   std::int64_t utime_us = 0;         // UTC
   UnitReading reading;
-  bool sides_stated = true;  // whether the approach of both angles was stated; otherwise it is
-                             // taken as 1
+  // Whether the directions of approach were stated; otherwise both are taken as 1.
+  bool sides_stated = true;
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
-  double sd_px = 0.0;     // of each coordinate
-  std::string reference;  // a name; of a scene point, its number
-  // Of an inclinometer: inclination about X and Y of ORIGIN [rad], and 1-sigma of its zero.
+  double sd_px = 0.0;     // 1-sigma of each coordinate
+  std::string reference;  // a name; for a scene point, its number
+  // For an inclinometer: inclination about X and Y of ORIGIN [rad], their 1-sigma, and the 1-sigma
+  // of the zero.
   Eigen::Vector2d tilt_rad = Eigen::Vector2d::Zero();
   double tilt_sd_rad = 0.0;
   double zero_sd_rad = 0.0;
   TargetFacts target;
-  unsigned line = 0;  // of the file
+  unsigned line = 0;  // line in the file
 };
 
 // A surveyed point.
 struct FixedPoint {
   Eigen::Vector3d ecef = Eigen::Vector3d::Zero();  // [m]
-  double sd_m = 0.0;                               // of each axis
+  double sd_m = 0.0;                               // 1-sigma of each axis
 };
 
-// ICRS, at epoch 2000.0.
+// A star's place: ICRS, at epoch 2000.0.
 struct Star {
   double ra_rad = 0.0, dec_rad = 0.0;
-  double pm_ra_rad_yr = 0.0;  // times the cosine of the declination, as in catalogues
+  double pm_ra_rad_yr = 0.0;  // multiplied by the cosine of the declination, as in catalogues
   double pm_dec_rad_yr = 0.0;
   double parallax_arcsec = 0.0;
 };
@@ -87,20 +89,20 @@ struct Trajectory {
     Eigen::Vector3d ecef = Eigen::Vector3d::Zero();  // [m]
   };
   std::vector<Point> points;
-  double sd_m = 0.0;  // of each axis
+  double sd_m = 0.0;  // 1-sigma of each axis
 };
 
 using Reference = std::variant<FixedPoint, Star, Trajectory>;
 using References = std::map<std::string, Reference>;
 
-// An observation that cannot be used, by its index.
+// Thrown for an observation that cannot be used; holds its index.
 class ObservationRefused : public std::invalid_argument {
  public:
   ObservationRefused(std::size_t index, const std::string& key, const std::string& why,
                      std::optional<std::size_t> other = std::nullopt)
       : std::invalid_argument(key + ": " + why), index_(index), other_(other) {}
   std::size_t index() const { return index_; }
-  // The observation that this one contradicts.
+  // The index of the observation that this one contradicts.
   std::optional<std::size_t> other() const { return other_; }
 
  private:

@@ -1,4 +1,4 @@
-// How far an adjustment has moved a parameter from its prior.
+// The change of a parameter from its prior by an adjustment.
 #pragma once
 
 #include "calibration/calibrate.h"
@@ -6,10 +6,10 @@
 namespace ols::calibration {
 
 struct ParameterChange {
-  double by = 0.0;  // found minus known
-  // 1-sigma of `by` if prior and observations agree: the root of the decrease of the variance.
+  double by = 0.0;  // adjusted value minus prior
+  // 1-sigma of `by` if prior and observations agree: the root of the decrease in variance.
   double sd = 0.0;
-  // False: the observations say almost nothing about the parameter.
+  // False if the observations say almost nothing about the parameter.
   bool is_told = false;
   double sigmas() const;
   // Whether the change is so large that prior and observations disagree (level 0.001).

@@ -1,4 +1,4 @@
-// The parameters of an adjustment: those of geometry/station_model.h, and those of the air.
+// The parameters of an adjustment: those of geometry/station_model.h, and two for refraction.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,7 +8,7 @@
 
 namespace ols::calibration {
 
-inline constexpr int kRefraction = kModelParameters;  // coefficient k of terrestrial refraction
+inline constexpr int kRefraction = kModelParameters;  // coefficient k of the terrestrial refraction
 inline constexpr int kAir = kRefraction + 1;          // factor of the astronomical refraction
 inline constexpr int kStationParameters = kAir + 1;
 
@@ -18,12 +18,12 @@ using InstrumentVector = Eigen::Matrix<double, kInstrumentParameters, 1>;
 using InstrumentMatrix = Eigen::Matrix<double, kInstrumentParameters, kInstrumentParameters>;
 
 struct ParameterText {
-  const char* key;       // in every file, with its unit: "mount_z_deg"
-  bool is_angle;         // degrees in the file, radians here
-  double new_unit_sd;    // 1-sigma of a unit that no workshop has measured; focal: of fx
-  const char* sentence;  // its meaning
+  const char* key;       // its name in files, with the unit: "mount_z_deg"
+  bool is_angle;         // true: degrees in files, radians here
+  double new_unit_sd;    // 1-sigma in a unit that no workshop has measured; for kFocal: of fx
+  const char* sentence;  // the parameter's meaning
 };
-// In the order of Parameter.
+// The texts in the order of Parameter.
 const std::array<ParameterText, kStationParameters>& parameter_texts();
 
 // Converts from the file's unit to the internal one.

@@ -1,5 +1,5 @@
-// The results of the paper's rectification (section 4.2): three angles between camera and unit,
-// from an adjustment in which its targets are ordinary observations.
+// The results of the paper's rectification (section 4.2): three angles between camera and unit.
+// They come from an adjustment in which the rectification targets are ordinary observations.
 #pragma once
 
 #include <vector>
@@ -10,17 +10,18 @@ namespace ols::calibration {
 
 struct RectifiedAngle {
   enum class Kind {
-    kRoll,       // of the image against the horizon at the level line; right side down > 0
-    kAzimuth,    // of the image centre against the plane perpendicular to the tilt axis; right > 0
-    kElevation,  // of the image centre at the rulers, above the tilt that the unit counts
+    kRoll,  // of the image relative to the horizon, at the level line; right side down > 0
+    // Of the image centre relative to the plane perpendicular to the tilt axis; right > 0.
+    kAzimuth,
+    kElevation,  // of the image centre at the rulers, relative to the tilt that the unit counts
   };
   Kind kind = Kind::kRoll;
   double rad = 0.0, sd_rad = 0.0;
 };
-// As in the reports: "roll", "azimuth", "elevation".
+// As in reports: "roll", "azimuth", "elevation".
 const char* to_string(RectifiedAngle::Kind kind);
 
-// The angles whose targets the station has seen and the adjustment has not rejected.
+// The angles whose targets the station has sighted and the adjustment has not rejected.
 std::vector<RectifiedAngle> rectified_angles(const Problem& problem, const Adjustment& adjustment,
                                              const Calibration& found, std::size_t station);
 

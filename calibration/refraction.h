@@ -1,15 +1,15 @@
-// How the air bends a line of sight: to a place on or above the ground (terrestrial refraction),
-// and to a celestial body (astronomical refraction). Used only for the observations of a
-// calibration; bearings are sent out as observed.
+// How air bends a line of sight: to a place on or above the ground (terrestrial refraction), and to
+// a celestial body (astronomical refraction). Applied only to the observations of a calibration;
+// bearings are sent out without this correction.
 #pragma once
 
 #include <Eigen/Core>
 
 namespace ols::calibration {
 
-// The apparent lift of a point seen from the origin [m], across the line of sight, for a refraction
-// coefficient of 1: s^2 / R times the bend of the ray, at the distance s. `enu_m`: the point, east,
-// north, up.
+// The apparent lift [m] of a point seen from the origin, across the line of sight, for a refraction
+// coefficient of 1: s^2 / R times the bend of the ray, where s is the distance. `enu_m`: the point
+// (east, north, up).
 Eigen::Vector3d terrestrial_lift_m(const Eigen::Vector3d& enu_m);
 
 struct Air {
@@ -20,14 +20,14 @@ struct Air {
 // The standard atmosphere at this height.
 Air standard_air(double height_m);
 
-inline constexpr double kWavelength_um = 0.55;  // of the light that the camera sees
+inline constexpr double kWavelength_um = 0.55;  // wavelength of the light that the camera sees
 
-// A tan z + B tan^3 z of the apparent zenith distance z (ERFA's eraRefco). Wrong by arc seconds
-// below 10 degrees of elevation.
+// Refraction A tan z + B tan^3 z at the apparent zenith distance z (ERFA's eraRefco). It is wrong
+// by arc seconds below 10 degrees of elevation.
 class AstronomicalRefraction {
  public:
   explicit AstronomicalRefraction(const Air& air);
-  // By how much a body appears higher than without air [rad].
+  // How much higher a body appears than it would without air [rad].
   double lift_rad(double true_zenith_rad) const;
 
  private:

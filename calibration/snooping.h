@@ -1,4 +1,4 @@
-// The tests of an adjustment's groups, from its equations.
+// Tests the groups of an adjustment, from its equations.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,23 +10,23 @@
 
 namespace ols::calibration {
 
-// How much the misfit falls when a kept group is left out, or grows when a rejected group is added:
-// chi-square with the group's degrees of freedom.
+// How much the misfit falls when a kept group is left out, or grows when a rejected group is added.
+// It is a chi-square with the group's degrees of freedom.
 double test_statistic(const Adjustment& adjustment, const Fit& fit, std::size_t group);
 
 // The same for a part of a block: how much the misfit falls when the equations `now` are replaced
 // by `then`, over the same columns. Negative if the misfit grows.
 double replacement_statistic(const Fit& fit, const BlockEquations& now, const BlockEquations& then);
 
-// The bias of a direction (across, up) that the group's test detects at this noncentrality.
+// The bias of a direction (across, up) that the group's test can detect at this noncentrality.
 Eigen::Vector2d detectable_rad(const Adjustment& adjustment, const Fit& fit, std::size_t group,
                                double noncentrality);
 
 // The offset of a kept group's target from the place that all other groups predict, as seen from
-// the station. nullopt if no other group checks it.
+// the station. nullopt if no other group checks the target.
 struct Bias {
   Eigen::Vector2d rad = Eigen::Vector2d::Zero();  // across, up
-  double sigmas = 0.0;                            // of the worse component
+  double sigmas = 0.0;                            // of the larger component
 };
 std::optional<Bias> bias_without(const Adjustment& adjustment, const Fit& fit, std::size_t group);
 
@@ -38,36 +38,37 @@ struct GroupTest {
   bool rejected = false;
   double w = 0.0;  // root of a chi-square with the group's degrees of freedom
   double critical = 0.0;
-  // Minimal detectable bias (power 80 %) of the direction to the target: across, up. Infinite where
-  // the others do not check it.
+  // Minimal detectable bias (power 80 %) of the direction to the target: across, up. Infinite if
+  // the other groups do not check it.
   Eigen::Vector2d detectable_rad = Eigen::Vector2d::Zero();
 };
 
 std::vector<GroupTest> tests_of(const Adjustment& adjustment, const Fit& fit, double level);
 
-// The headings of the stations, and the groups that agree with the priors there.
+// A start of the adjustment: headings of the stations, and the groups that agree with the priors at
+// these headings.
 struct Start {
   State state;
   std::vector<bool> kept;
 };
-// `variance`: the variance of all observations, over the stated variance.
+// `variance`: the variance of all observations relative to the stated variance.
 Start start_at(const Adjustment& adjustment, const std::vector<double>& headings_rad, double level,
                double variance = 1.0);
-// The start at the headings on which most groups agree.
+// The start at the headings at which most groups agree.
 Start find_start(const Adjustment& adjustment, double level);
 
 struct Search {
-  double level;               // for the tests of all groups together
-  double variance = 1.0;      // variance of all observations, over the stated one
-  std::vector<bool> among{};  // for each group, whether it may be kept; empty: all may
+  double level;               // significance of the tests of all groups together
+  double variance = 1.0;      // variance of all observations relative to the stated one
+  std::vector<bool> among{};  // for each group, whether it may be kept; if empty, all may
 };
 using TellAdjusted = std::function<void()>;
 
 bool is_finite(const Fit& fit);
 
 // Data snooping. Each round takes back the rejected group that passes its test best, or rejects the
-// kept group that fails worst. The search ends at a set that was tried before. `tell` is called
-// each round.
+// kept group that fails worst. The search ends when it reaches a set that was tried before. `tell`
+// is called in each round.
 Fit snoop(const Adjustment& adjustment, const Start& start, const Search& search,
           const TellAdjusted& tell = {});
 

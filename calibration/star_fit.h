@@ -1,4 +1,4 @@
-// Fits the station's model to stars that may be false: the second, exact half of
+// Fits the station's model to stars, some of which may be false. This is the second, exact half of
 // calibration/star_identification.h.
 #pragma once
 
@@ -15,18 +15,18 @@ class StarFit {
 
   struct Result {
     double heading_rad = 0.0;
-    std::vector<StarPair> pairs;  // each detection and each star of a frame at most once
-    // The number of possible pairs: for each frame, the number of its detections or of the table's
-    // stars in its image, whichever is smaller.
+    std::vector<StarPair> pairs;  // each detection and each star of a frame occurs at most once
+    // The largest possible number of pairs. Each frame contributes the number of its detections or
+    // the number of the table's stars in its image, whichever is smaller.
     std::size_t possible = 0;
-    double rms_px = 0.0;                        // of a coordinate
-    double focal_change = 0.0, focal_sd = 0.0;  // relative; from the stars alone
+    double rms_px = 0.0;                        // of each coordinate
+    double focal_change = 0.0, focal_sd = 0.0;  // relative; determined by the stars alone
   };
-  // Starts from the pairs of a hypothesis, and finds the pairs that fit within some deviations.
+  // Starts from the pairs of a hypothesis and finds all pairs that fit to within some deviations.
   Result refined(const StarHypothesis& hypothesis) const;
 
  private:
-  // The change of the parameters that fits the pairs and the priors best.
+  // The change of the parameters that best fits the pairs and the priors.
   struct Solution {
     ModelParameters change = ModelParameters::Zero();
     double rms_px = 0.0;
@@ -36,7 +36,7 @@ class StarFit {
   Solution solve(const std::vector<StarPair>& pairs, const ModelParameters& at, double sd_px,
                  const Prior& prior) const;
   std::vector<StarPair> matched(const StationModel& model, double gate_px) const;
-  // The stars in or near a frame's image, and their positions.
+  // The stars in or near a frame's image, each with its index and its pixel.
   std::vector<std::pair<std::size_t, Eigen::Vector2d>> in_image(const StationModel& model,
                                                                 const SeenFrame& frame,
                                                                 double edge_px) const;
@@ -44,7 +44,7 @@ class StarFit {
 
   const StationPrior& station_;
   const std::vector<SeenFrame>& frames_;
-  double sd_px_;  // of a detection
+  double sd_px_;  // 1-sigma of a detection
   Prior prior_;
 };
 

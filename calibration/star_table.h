@@ -20,17 +20,18 @@ struct TableStar {
   std::int32_t magnitude_tenths = 0;
 };
 
-// The positions include proper motion up to this year, and no later motion. The motion is 0.04 arc
-// seconds a year in the median, and above 0.3 for one star in a hundred.
+// The positions include proper motion up to this year only. Proper motion is 0.04 arc seconds a
+// year in the median, and above 0.3 for one star in a hundred.
 inline constexpr double kStarTableEpoch = 2024.0;
 
-// Ascending by number.
+// The table, sorted by Hipparcos number.
 std::span<const TableStar> star_table();
 
-// At the epoch, without proper motion and parallax.
+// The star at the epoch, without proper motion and parallax.
 Star star_of(const TableStar& star);
 
-// "HIP 11767"; nullopt for another text, or a number that the table does not have.
+// Finds a star by its name, such as "HIP 11767"; nullopt for another text, or for a number that is
+// not in the table.
 std::optional<TableStar> table_star(std::string_view name);
 std::string name_of(const TableStar& star);
 

@@ -1,4 +1,4 @@
-// Votes of detections and stars for turns about the vertical: the first, rough half of
+// Lets detections and stars vote for turns about the vertical. This is the first, rough half of
 // calibration/star_identification.h.
 #pragma once
 
@@ -10,11 +10,11 @@
 
 namespace ols::calibration {
 
-// A frame's detections as they would be at heading 0, and the stars that could be among them at any
-// heading.
+// A frame's detections as they would be at heading 0, and the stars that could be among them at
+// some heading.
 struct SeenFrame {
   struct Detection {
-    std::size_t index = 0;  // in the frame
+    std::size_t index = 0;  // in the frame's detections
     Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
     AzimuthElevation at;
   };
@@ -26,18 +26,18 @@ struct SeenFrame {
   UnitReading reading;
   std::vector<Detection> detections;
   std::vector<SkyStar> sky;
-  AzimuthElevation axis;                        // of the image centre, at heading 0
+  AzimuthElevation axis;                        // direction of the image centre, at heading 0
   double across_sd_rad = 0.0, up_sd_rad = 0.0;  // from the station's parameters
 };
 
-// Indices into a frame's detections and stars.
+// A detection of a frame and a star, by their indices.
 struct StarPair {
   std::size_t frame = 0, seen = 0, star = 0;
 };
 
 struct StarHypothesis {
   double heading_rad = 0.0;
-  int votes = 0;  // over all frames
+  int votes = 0;  // sum over all frames
   std::vector<StarPair> pairs;
 };
 
@@ -47,16 +47,16 @@ class StarVotes {
             const StarConditions& conditions, std::span<const TableStar> table);
 
   const std::vector<SeenFrame>& frames() const { return frames_; }
-  // The turns with most votes, best first.
+  // The turns with the most votes, best first.
   std::vector<StarHypothesis> hypotheses() const;
 
  private:
-  // Cells of turn and lift, one row of turns after the other.
+  // Cells of turn and lift; one row of turns for each lift.
   struct Cells {
     int turns = 0, lifts = 0;
     std::vector<int> votes;
     int wrapped(int turn) const { return (turn % turns + turns) % turns; }
-    // Sum of 2 x 2 cells: related votes may be on both sides of an edge.
+    // Sum of 2 x 2 cells, because the votes for one turn may lie on both sides of a cell's edge.
     int block(int turn, int lift) const;
   };
   struct Peak {

@@ -1,8 +1,8 @@
-// The unknowns of an adjustment: of every station and every shared pose, and the nuisance of every
-// block.
+// The unknowns of an adjustment: the parameters of every station and every shared pose, and the
+// nuisance of every block.
 //
-// The globals are one vector: kStationParameters for each station, then UT1 - UTC, then pan and
-// tilt of each shared pose.
+// The global parameters form one vector: kStationParameters for each station, then UT1 - UTC, then
+// pan and tilt of each shared pose.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,14 +12,15 @@
 
 namespace ols::calibration {
 
-// A station before the adjustment.
+// What is known of a station before the adjustment.
 struct StationPrior {
   StationModel model;
   double refraction = 0.13;
   double air = 1.0;
-  // Deviations of the parameters, in their own units; 0: known exactly. The heading's is ignored.
+  // The covariance of the parameters, in their own units; 0 for a parameter that is known exactly.
+  // That of the heading is ignored.
   StationMatrix covariance = StationMatrix::Zero();
-  double pose_sd_rad = 0.0;  // of each angle of a pose; new at every pose
+  double pose_sd_rad = 0.0;  // 1-sigma of each angle of a pose; independent at every pose
 };
 
 struct StationState {
@@ -33,10 +34,10 @@ struct State {
   std::vector<StationState> stations;
   double ut1_s = 0.0;  // correction of UT1 - UTC
   std::vector<Eigen::Vector2d> poses;
-  std::vector<Eigen::VectorXd> nuisances;  // by block
+  std::vector<Eigen::VectorXd> nuisances;  // for each block
 };
 
-// The indices of a station's parameters, UT1 and a pose's angles among the globals.
+// The indices of a station's parameters, of UT1 and of a pose's angles among the global parameters.
 struct Layout {
   std::size_t stations = 0, poses = 0;
   int station(std::size_t i) const { return static_cast<int>(i) * kStationParameters; }
@@ -47,7 +48,7 @@ struct Layout {
 
 StationState station_at(const StationPrior& prior, const StationVector& change);
 
-// The station's GROUND frame, with the axes of its horizon.
+// The station's GROUND frame (east, north, up).
 inline LocalFrame frame_of(const StationState& station) {
   return LocalFrame(station.model.geometry.position);
 }

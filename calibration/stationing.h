@@ -1,11 +1,11 @@
 // Stationing (paper section 4.2): "the precise heading must be estimated visually by observing the
-// distinctive landmarks". Sightings of places with known positions give a station's heading, and
-// corrections of its tilt (inclinometer) and its camera's mounting (rectification).
+// distinctive landmarks". Sightings of places with known positions determine a station's heading.
+// They also correct its tilt (from an inclinometer) and its camera's mounting (from rectification).
 //
-// Maximum a posteriori. The heading has no prior. Tilts, mounting and position have the station's
-// stated deviations as priors. The position is a nuisance parameter: it is not changed. A turn of
-// the mounting about the vertical looks like a heading: at the horizon only the sum is observable,
-// and only the sum is needed.
+// The method is maximum a posteriori. The heading has no prior. Tilts, mounting and position have
+// the station's stated deviations as priors. The position is a nuisance parameter: it is not
+// changed. A turn of the mounting about the vertical looks like a turn of the heading. At the
+// horizon only their sum is observable, and only their sum is needed.
 //
 // The adjustment is tested by geodetic methods (W. Baarda, A Testing Procedure for Use in Geodetic
 // Networks, 1968; P. Teunissen, Testing Theory): data snooping finds mistaken landmarks
@@ -25,18 +25,20 @@
 
 namespace ols::calibration {
 
-// A landmark in a station's image. Its pixel and angles must have an error. Sightings of exactly
-// the same place belong to one landmark, and share the error of its coordinates.
+// A landmark in a station's image. The deviations of its pixel and of its angles must not be zero.
+// Sightings of exactly the same place belong to one landmark and share the error of its
+// coordinates.
 struct LandmarkSighting {
-  Eigen::Vector3d landmark_ecef = Eigen::Vector3d::Zero();  // [m] from the land register
-  double landmark_sd_m = 0.0;                               // of each axis
+  // [m] for example from the land register.
+  Eigen::Vector3d landmark_ecef = Eigen::Vector3d::Zero();
+  double landmark_sd_m = 0.0;  // 1-sigma of each axis
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
-  double pixel_sd_px = 0.0;  // of each coordinate
+  double pixel_sd_px = 0.0;  // 1-sigma of each coordinate
   PanTilt angles;            // as the PTU reports them
   double angles_sd_rad = 0.0;
 };
 
-// A sighting that cannot be used.
+// Thrown for a sighting that cannot be used.
 class LandmarkRefused : public std::invalid_argument {
  public:
   LandmarkRefused(std::size_t sighting, const std::string& field, const std::string& why)
@@ -46,7 +48,8 @@ class LandmarkRefused : public std::invalid_argument {
         field_(field),
         why_(why) {}
   std::size_t sighting() const { return sighting_; }
-  const std::string& field() const { return field_; }  // landmark, pixel, angles or deviation
+  // The faulty field: landmark, pixel, angles or deviation.
+  const std::string& field() const { return field_; }
   const std::string& why() const { return why_; }
 
  private:
@@ -60,7 +63,7 @@ struct StationingAlternative {
   double heading_rad = 0.0;
 };
 
-// Some landmarks must be mistaken, but the sightings do not show which.
+// Thrown if some landmarks must be mistaken, but the sightings do not show which.
 class LandmarksContradict : public Contradiction {
  public:
   LandmarksContradict(const std::string& why, std::vector<StationingAlternative> alternatives,
@@ -72,7 +75,7 @@ class LandmarksContradict : public Contradiction {
   const std::string& why() const { return why_; }
   // At most five, most likely first.
   const std::vector<StationingAlternative>& alternatives() const { return alternatives_; }
-  // Without alternatives: the sightings that contradict each other or the stated pose.
+  // If there are no alternatives: the sightings that contradict each other or the stated pose.
   const std::vector<std::size_t>& failing() const { return failing_; }
 
  private:
@@ -88,13 +91,13 @@ using PoseCovariance = Eigen::Matrix<double, 6, 6>;
 struct LandmarkTest {
   std::vector<std::size_t> sightings;
   bool rejected = false;
-  // The root of a chi-square with 2 degrees of freedom per sighting. The landmark is mistaken
-  // beyond the critical value.
+  // The root of a chi-square with 2 degrees of freedom per sighting. The landmark counts as
+  // mistaken if it exceeds the critical value.
   double w = 0.0;
   double critical = 0.0;
   // The minimal detectable bias (power 80 %): a shift of the landmark across and up, as seen from
-  // the station. Infinite if the others do not check it. A shift along the line of sight is not
-  // detectable.
+  // the station. Infinite if the other landmarks do not check it. A shift along the line of sight
+  // is not detectable.
   Eigen::Vector2d detectable_m = Eigen::Vector2d::Zero();
 };
 
@@ -106,13 +109,13 @@ struct HorizonSd {
 
 struct Stationing {
   // The geometry with the adjusted chain. The remaining errors are strongly correlated, and
-  // separate deviations cannot express that. In its `sd` the mounting is therefore zero, and
+  // separate deviations cannot express this. Therefore, in its `sd` the mounting is zero, and
   // heading and tilts have the smallest values that cover every line of sight within `highest_rad`
   // of the horizon.
   StationGeometry station;
   // [rad^2] Includes the variance factor if the global test rejects the stated deviations.
   PoseCovariance covariance = PoseCovariance::Zero();
-  // Each sighting's (cross-elevation, elevation) divided by its deviation.
+  // Each sighting's residual (cross-elevation, elevation) divided by its deviation.
   std::vector<Eigen::Vector2d> residuals;
   std::vector<Eigen::Vector2d> residuals_rad;
   std::vector<LandmarkTest> landmarks;
@@ -120,13 +123,15 @@ struct Stationing {
   // The w-test of each prior (tilt x, tilt y, mount z, mount x, mount y, east, north, up): standard
   // normal; 0 for a prior without a deviation.
   std::array<double, 8> stated_w{};
-  double scaled_by = 1.0;  // factor of the deviations, from the global test
-  HorizonSd best, worst;  // in the directions where the landmarks determine the tilt best and least
+  double scaled_by = 1.0;  // factor by which the deviations were enlarged after the global test
+  // In the directions in which the landmarks determine the tilt best and worst.
+  HorizonSd best, worst;
 };
 
-// Throws std::invalid_argument without sightings, and where the landmarks leave the heading unknown
-// (10 degrees). Throws LandmarkRefused for a sighting that is not finite, outside the lens model,
-// or of a landmark at the station. Throws LandmarksContradict.
+// Throws std::invalid_argument if there are no sightings, or if the landmarks leave the heading
+// unknown (10 degrees). Throws LandmarkRefused for a sighting that is not finite, is outside the
+// lens model, or shows a landmark at the station itself. Throws LandmarksContradict if the mistaken
+// landmarks are ambiguous.
 Stationing station_by_landmarks(const StationGeometry& rough,
                                 std::span<const LandmarkSighting> sightings, double highest_rad,
                                 const Levels& levels = {});

@@ -1,5 +1,5 @@
-// The systematic error that a calibration leaves: J C J' of each direction, and its size over the
-// directions in which a station works.
+// The systematic error that remains after a calibration: J C J' of a direction, and its size over
+// the directions in which a station works.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@
 namespace ols::calibration {
 
 struct SystematicDirection {
-  AzimuthElevation direction;                                 // apparent: with refraction
+  AzimuthElevation direction;                                 // apparent: includes refraction
   Eigen::Matrix2d covariance_rad2 = Eigen::Matrix2d::Zero();  // (cross-elevation, elevation)
 };
 
@@ -37,7 +37,7 @@ struct VolumePrecision {
   std::vector<VolumePoint> points;
 };
 
-// Computed on a grid, at the image centre, with alternating directions of approach.
+// Computed on a grid of directions, at the image centre, with alternating directions of approach.
 VolumePrecision volume_precision(const StationModel& model, const StationMatrix& covariance,
                                  const WorkingVolume& volume = {});
 

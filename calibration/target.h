@@ -1,4 +1,4 @@
-// The object at a pixel: where a station sees it, and on what that depends besides the station.
+// The object at a pixel: where a station sees it, and what else its place depends on.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,22 +20,24 @@ struct Sighting {
   UnitReading reading;
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
   double sd_px = 0.0;
-  std::optional<std::size_t> pose;  // shared with other sightings; nullopt: its own
-  double pose_sd_rad = 0.0;         // of each angle of its own pose
+  std::optional<std::size_t> pose;  // shared with other sightings; nullopt if it has its own pose
+  double pose_sd_rad = 0.0;         // 1-sigma of each angle, if it has its own pose
 };
 
 struct TargetView {
   HomogeneousPoint point;  // in GROUND of the station that sees it
-  // Derivatives of (x, w): by the target's nuisance, the station's refraction and air, and UT1.
+  // Derivatives of (x, w): with respect to the target's nuisance, the station's refraction and air,
+  // and UT1.
   Eigen::Matrix<double, 4, Eigen::Dynamic, 0, 4, 4> by_nuisance =
       Eigen::Matrix<double, 4, Eigen::Dynamic, 0, 4, 4>::Zero(4, 0);
   Eigen::Vector3d by_refraction = Eigen::Vector3d::Zero();
   Eigen::Vector3d by_air = Eigen::Vector3d::Zero();
   Eigen::Vector3d by_ut1 = Eigen::Vector3d::Zero();
-  // For a target on another station: derivative of x by that other station's east, north and up.
+  // If the target is on another station: derivative of x with respect to that station's east, north
+  // and up.
   Eigen::Matrix3d by_position = Eigen::Matrix3d::Zero();
-  double white_sd_m = 0.0;     // of the position; new at every sighting
-  bool moves_with_us = false;  // its place is given in the station's own frame
+  double white_sd_m = 0.0;     // 1-sigma of the position; independent at every sighting
+  bool moves_with_us = false;  // the target's place is given in the station's own frame
 };
 
 inline constexpr double kNoPrior = std::numeric_limits<double>::infinity();
@@ -44,9 +46,9 @@ class Target {
  public:
   virtual ~Target() = default;
   virtual int unknowns() const { return 0; }
-  // 1-sigma of each nuisance. A prior of infinite width has no weight.
+  // 1-sigma of each nuisance. An infinite value has no weight as a prior.
   virtual Eigen::VectorXd prior_sd() const { return Eigen::VectorXd(0); }
-  // The value at which an adjustment begins.
+  // The nuisance with which an adjustment begins.
   virtual Eigen::VectorXd initial(const State&, const std::vector<Sighting>&) const {
     return Eigen::VectorXd::Zero(unknowns());
   }
@@ -56,32 +58,33 @@ class Target {
 };
 using TargetPtr = std::shared_ptr<const Target>;
 
-// A surveyed place: its three coordinates have a constant error.
+// A surveyed place. The nuisance: the constant errors of its three coordinates.
 TargetPtr fixed_target(const FixedPoint& point);
-// A direction in ECEF, including astronomical refraction, that is sighted once.
+// A direction in ECEF, including astronomical refraction; it is sighted once.
 struct SkyDirection {
-  Eigen::Vector3d ecef = Eigen::Vector3d::UnitX();   // unit vector, apparent
-  Eigen::Vector3d by_air = Eigen::Vector3d::Zero();  // derivative by the factor of the refraction
-  Eigen::Vector3d by_ut1 = Eigen::Vector3d::Zero();  // [1/s]
+  Eigen::Vector3d ecef = Eigen::Vector3d::UnitX();  // unit vector, apparent
+  // Derivative with respect to the factor of the refraction.
+  Eigen::Vector3d by_air = Eigen::Vector3d::Zero();
+  Eigen::Vector3d by_ut1 = Eigen::Vector3d::Zero();  // [1/s] derivative with respect to UT1
   double elevation_rad = 0.0;                        // apparent
 };
 TargetPtr sky_target(const SkyDirection& direction);
-// A body whose directions share one error at all instants, `sd_rad` of each axis.
+// A celestial body whose directions share one error at all instants, with `sd_rad` for each axis.
 struct SkyPosition {
   std::size_t station = 0;
   std::int64_t utime_us = 0;
   SkyDirection direction;
 };
 TargetPtr body_target(std::vector<SkyPosition> positions, double sd_rad);
-// An unknown direction and an unknown inverse distance from GROUND.
+// A point of the scenery. The nuisance: its direction and its inverse distance from GROUND.
 TargetPtr scene_target();
-// An unknown place.
+// A target at an unknown place; the nuisance is the place.
 TargetPtr unknown_target();
-// An aircraft that broadcasts its position; nuisance: along, across, up, latency.
+// An aircraft that broadcasts its position. The nuisance: along, across, up, latency.
 TargetPtr aircraft_target(const Trajectory& trajectory);
-// A drone; nuisance: the offset of its visible centre from the antenna (east, north, up).
+// A drone. The nuisance: the offset of its visible centre from the antenna (east, north, up).
 TargetPtr drone_target(const Trajectory& trajectory);
-// The intersection of another station's axes.
+// Another station, sighted at the intersection of its axes.
 TargetPtr station_target(std::size_t station);
 
 }  // namespace ols::calibration

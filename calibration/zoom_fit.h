@@ -1,5 +1,5 @@
-// Determines the focal length of a lens at one zoom position, from pictures of still scenery at pan
-// angles that the unit has counted. The unit's counts are the measure. Pure.
+// Determines the focal length of a lens at one zoom position, from pictures of still scenery taken
+// at known pan angles. The pan angles that the unit counts are the measure. Pure.
 #pragma once
 
 #include <cstddef>
@@ -14,24 +14,25 @@ namespace ols::calibration {
 struct ZoomPair {
   std::size_t first = 0, second = 0;
   Eigen::Vector2d first_px = Eigen::Vector2d::Zero(), second_px = Eigen::Vector2d::Zero();
-  double sd_px = 0.0;  // of each coordinate of the difference
+  double sd_px = 0.0;  // 1-sigma of each coordinate of the difference
 };
 
 struct ZoomFitOptions {
-  double angle_sd_rad = 5e-5;  // 1-sigma of an angle of the unit, without the common part
+  // 1-sigma of an angle of the unit, without the error that all angles share.
+  double angle_sd_rad = 5e-5;
   double centre_sd_px = 10.0;  // prior of the principal point
   double k1_sd = 0.05;         // prior of the radial distortion
 };
 
 struct ZoomFit {
-  ZoomPoint point;      // without its position; sd 0: a pair of pictures in which nothing agrees
-  int used = 0;         // number of pairs; the others disagree
-  double rms_sd = 0.0;  // residual RMS in its own deviations: 1 is as expected
+  ZoomPoint point;      // its position is not set
+  int used = 0;         // number of pairs that agree
+  double rms_sd = 0.0;  // residual RMS over its deviation; 1 is as expected
   explicit operator bool() const { return used > 0; }
 };
 
-// `station`: as far as it is known; the focal length must be right to a tenth. `angles`: of each
-// picture.
+// `station`: as far as it is known; its focal length must be right to a tenth. `angles`: one for
+// each picture.
 ZoomFit fit_zoom(const StationGeometry& station, const std::vector<PanTilt>& angles,
                  const std::vector<ZoomPair>& pairs, const ZoomFitOptions& options = {});
 

@@ -15,7 +15,7 @@ double normal_level(double sigma);
 double chi_square_power(double limit, int degrees, double noncentrality);
 
 // The noncentrality at which the sum exceeds `limit` with probability `power` (Baarda's lambda_0);
-// 0 if the central distribution already does.
+// 0 if the sum already does so without noncentrality.
 double least_noncentrality(double limit, int degrees, double power);
 
 }  // namespace ols

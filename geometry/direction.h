@@ -18,15 +18,16 @@ struct AzimuthElevation {
 // Unit vector, east-north-up.
 Eigen::Vector3d enu_from_azimuth_elevation(const AzimuthElevation& direction);
 
-// The inverse, for any non-zero vector. At the zenith and nadir the azimuth is 0.
+// The inverse of enu_from_azimuth_elevation(), for any non-zero vector. At the zenith and nadir the
+// azimuth is 0.
 AzimuthElevation azimuth_elevation_from_enu(const Eigen::Vector3d& v_enu);
 
 // 3x2: the columns are the unit vectors of growing cross-elevation and elevation, orthogonal to the
 // direction and to each other.
 Eigen::Matrix<double, 3, 2> tangent_basis(const AzimuthElevation& direction);
 
-// 2x3: the motion of a direction on its tangent plane for a small rotation vector [rad], which is
-// in the frame of the tangent's columns.
+// 2x3: how a small rotation vector [rad] moves a direction on its tangent plane. The rotation
+// vector is in the frame in which `tangent` is given.
 Eigen::Matrix<double, 2, 3> shift_by_rotation(const Eigen::Matrix<double, 3, 2>& tangent);
 
 // Angle between two vectors [rad]; exact for tiny angles too.
@@ -35,11 +36,11 @@ double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
 // A measured line of sight: the complete geometry of one bearing.
 struct LineOfSight {
   Eigen::Vector3d origin_ecef = Eigen::Vector3d::Zero();  // [m] camera centre
-  AzimuthElevation direction;                             // in the horizon at origin_ecef
-  // [rad^2] on the tangent plane, order (cross-elevation, elevation).
-  Eigen::Matrix2d covariance_white = Eigen::Matrix2d::Zero();       // new in every frame
-  Eigen::Matrix2d covariance_systematic = Eigen::Matrix2d::Zero();  // constant
-  Eigen::Vector3d origin_sd_enu_m = Eigen::Vector3d::Zero();        // [m] constant
+  AzimuthElevation direction;                             // relative to the horizon at origin_ecef
+  // Covariances [rad^2] on the tangent plane, order (cross-elevation, elevation).
+  Eigen::Matrix2d covariance_white = Eigen::Matrix2d::Zero();       // independent in every frame
+  Eigen::Matrix2d covariance_systematic = Eigen::Matrix2d::Zero();  // the same in every frame
+  Eigen::Vector3d origin_sd_enu_m = Eigen::Vector3d::Zero();        // [m] the same in every frame
 };
 
 // Unit vector of a line of sight in ECEF.

@@ -4,11 +4,11 @@
 //   M_next = M_previous T_next RZ_next RX_next RY_next                                   (1)
 //
 // Frames are right-handed with X forward, Y left, Z up. GROUND is the local east-north-up frame of
-// the station (X east, Y north, Z up). CAMERA is the camera's centre of projection. A last fixed
-// rotation leads from the X-forward frame there to OpenCV's camera frame (x right, y down, z
-// forward). Angles are right-handed about the named axis: a positive rotation about Z turns left, a
-// positive rotation about Y turns the nose down, a positive rotation about X rolls clockwise as
-// seen from behind.
+// the station (X east, Y north, Z up). The origin of CAMERA is the centre of projection. One more
+// fixed rotation leads from CAMERA, whose X axis points forward, to OpenCV's camera frame (x right,
+// y down, z forward). Angles are right-handed about the named axis: a positive rotation about Z
+// turns left, a positive rotation about Y turns the nose down, a positive rotation about X rolls
+// clockwise as seen from behind.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -28,21 +28,23 @@ struct Link {
   double ry_rad = 0.0;
 };
 
-// All parameters of a station's geometry that calibration determines. Heading is that of the PTU's
-// zero pan direction.
+// All parameters of a station's geometry that calibration determines. The heading is the azimuth of
+// the PTU's zero pan direction.
 struct ChainParameters {
-  double heading_rad = 0.0;  // clockwise from true north, the X axis of ORIGIN
+  double heading_rad = 0.0;  // clockwise from true north to the X axis of ORIGIN
   double tilt_x_rad = 0.0;   // inclination of ORIGIN about its X axis (roll, right side down > 0)
   double tilt_y_rad = 0.0;   // inclination of ORIGIN about its Y axis (nose down > 0)
   Eigen::Vector3d ground_to_origin_m{0.0, 0.0, 1.5};  // east, north, up
-  Eigen::Vector3d origin_to_azi_m{0.0, 0.0, 0.09};    // PTU base to the intersection of its axes
-  Eigen::Vector3d azi_to_ele_m{0.0, 0.0, 0.0};        // paper: AZI and ELE share one position
-  Eigen::Vector3d ele_to_focus_m{0.0, 0.0, 0.06};     // in the frame that tilts
-  Eigen::Vector3d focus_to_camera_m{0.05, 0.0, 0.0};  // paper: further along X
-  // Error of squareness between tilt axis and pan axis, about X of AZI: a positive trunnion error
-  // turns the left end of the tilt axis up.
+  // From the PTU's base to the intersection of its axes.
+  Eigen::Vector3d origin_to_azi_m{0.0, 0.0, 0.09};
+  // In the paper, AZI and ELE are at the same position.
+  Eigen::Vector3d azi_to_ele_m{0.0, 0.0, 0.0};
+  Eigen::Vector3d ele_to_focus_m{0.0, 0.0, 0.06};     // in the frame that tilts with the camera
+  Eigen::Vector3d focus_to_camera_m{0.05, 0.0, 0.0};  // in the paper: further along X
+  // Error of squareness between tilt axis and pan axis, about X of AZI: a positive value raises the
+  // left end of the tilt axis.
   double trunnion_rad = 0.0;
-  // Mounting rotation of the camera on the manipulator (paper section 4.2), at FOCUS.
+  // Rotation of the camera relative to the unit's head (paper section 4.2), at FOCUS.
   double mount_z_rad = 0.0;
   double mount_x_rad = 0.0;
   double mount_y_rad = 0.0;
@@ -73,10 +75,10 @@ std::array<Eigen::Isometry3d, kJoints> joints(const ChainParameters& chain, cons
 // east-north-up; the translation is the camera centre [m].
 Eigen::Isometry3d enu_from_camera(const ChainParameters& chain, const PanTilt& angles);
 
-// The PTU angles that turn a unit direction of the camera frame (OpenCV axes; the optical axis is
-// z) onto a unit direction in GROUND. Of the two solutions, returns the one with the camera
-// upright: shaft tilt in -pi/2..pi/2, pan in -pi..pi. nullopt where there is no solution (around
-// the pan axis).
+// The PTU angles that turn `direction_cam`, a unit direction in the camera frame (OpenCV axes; z is
+// the optical axis), onto `direction_enu`, a unit direction in GROUND. Of the two solutions,
+// returns the one with the camera upright: shaft tilt in -pi/2..pi/2, pan in -pi..pi. nullopt where
+// there is no solution (around the pan axis).
 std::optional<PanTilt> aim(const ChainParameters& chain, const Eigen::Vector3d& direction_enu,
                            const Eigen::Vector3d& direction_cam = Eigen::Vector3d::UnitZ());
 

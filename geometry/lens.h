@@ -1,15 +1,15 @@
 // The lens: from a point in front of the camera to its pixel, and back.
 //
 // Camera frame: OpenCV's, x right, y down, z forward. Pixel (0, 0) is the centre of the top-left
-// pixel. A lens model images a direction on a plane, and the camera matrix K takes the plane to
-// pixels. With theta the angle off the optical axis:
+// pixel. A lens model maps a direction to a point on a plane, and the camera matrix K maps that
+// point to a pixel. With theta the angle off the optical axis:
 //
 //   pinhole      (x/z, y/z), distorted by k1, k2, p1, p2, k3 as in OpenCV's calib3d
 //   fisheye      radius theta (1 + k1 theta^2 + k2 theta^4 + k3 theta^6 + k4 theta^8): OpenCV's
 //   polynomial   radius theta (1 + k1 theta + k2 theta^2 + k3 theta^3 + k4 theta^4)
 //
-// Each ends where its radius stops growing: a lens does not image far directions on pixels of near
-// ones. The two radial models reach behind the camera, up to theta = 180 degrees.
+// Each model ends where its radius stops growing; beyond that, far directions would get the pixels
+// of near ones. The two radial models extend behind the camera, up to theta = 180 degrees.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,7 +20,7 @@
 namespace ols {
 
 enum class LensModel { kPinhole, kFisheye, kPolynomial };
-// In the order of LensModel, as files name them.
+// As in files, in the order of LensModel.
 inline constexpr std::array<const char*, 3> kLensModelNames{"pinhole", "fisheye", "polynomial"};
 
 struct CameraIntrinsics {
@@ -34,35 +34,35 @@ struct CameraIntrinsics {
   LensModel model = LensModel::kPinhole;
   double k1 = 0.0, k2 = 0.0, p1 = 0.0, p2 = 0.0, k3 = 0.0, k4 = 0.0;
 };
-// The same without distortion.
+// The same camera without distortion.
 CameraIntrinsics undistorted(const CameraIntrinsics& intrinsics);
-// Names of coefficients that are not zero although the model has none of that name: "p1, p2".
-// Empty: there are none.
+// Names of coefficients that are not zero although the lens model does not use them: "p1, p2".
+// Empty if there are none.
 std::string foreign_coefficients(const CameraIntrinsics& intrinsics);
 
 // K of the paper: [fx s cx; 0 fy cy; 0 0 1].
 Eigen::Matrix3d camera_matrix(const CameraIntrinsics& intrinsics);
 
-// P = K R [I | -C] (paper section 6), 3x4, of a pinhole without distortion. R takes world to camera
-// components, C is the camera centre in world coordinates [m].
+// P = K R [I | -C] (paper section 6), 3x4, for a pinhole without distortion. R takes world to
+// camera components, C is the camera centre in world coordinates [m].
 Eigen::Matrix<double, 3, 4> projection_matrix(const Eigen::Matrix3d& K, const Eigen::Matrix3d& R,
                                               const Eigen::Vector3d& C);
 
-// Back-projection X(lambda) = P+ x + lambda C (paper section 6): the unit direction of the line in
-// the world frame, from the camera centre to the front of the camera.
+// Back-projection X(lambda) = P+ x + lambda C (paper section 6): returns the unit direction of the
+// line in the world frame, pointing from the camera centre to the front.
 Eigen::Vector3d back_project(const Eigen::Matrix<double, 3, 4>& P, const Eigen::Vector2d& pixel);
 
-// The image of a point in camera coordinates [m]. nullopt where the model images nothing: behind a
-// pinhole (z <= 0), and as far off the axis as the radius does not grow any more.
+// The pixel of a point in camera coordinates [m]. nullopt where the model has no image: behind a
+// pinhole (z <= 0), and so far off the axis that the radius stops growing.
 std::optional<Eigen::Vector2d> project(const CameraIntrinsics& intrinsics,
                                        const Eigen::Vector3d& p_cam);
 
-// Unit direction in the camera frame of the ray through a pixel: Newton's method, to below 1e-9 px.
-// nullopt outside of what the model images.
+// The unit direction, in the camera frame, of the ray through a pixel; by Newton's method, to below
+// 1e-9 px. nullopt outside the model's image.
 std::optional<Eigen::Vector3d> unproject(const CameraIntrinsics& intrinsics,
                                          const Eigen::Vector2d& pixel);
 
-// 2x3 Jacobian of project() with respect to the point, at a point that it images.
+// 2x3 Jacobian of project() with respect to the point, for a point that has an image.
 Eigen::Matrix<double, 2, 3> project_jacobian(const CameraIntrinsics& intrinsics,
                                              const Eigen::Vector3d& p_cam);
 
@@ -70,8 +70,8 @@ Eigen::Matrix<double, 2, 3> project_jacobian(const CameraIntrinsics& intrinsics,
 Eigen::Matrix<double, 2, 4> project_by_coefficients(const CameraIntrinsics& intrinsics,
                                                     const Eigen::Vector3d& p_cam);
 
-// Full angle of view, horizontal and vertical [rad], through the principal point; of a pinhole
-// without distortion. At most 360 degrees.
+// Full angle of view, horizontal and vertical [rad], through the principal point. Distortion of a
+// pinhole is ignored. At most 360 degrees.
 Eigen::Vector2d field_of_view(const CameraIntrinsics& intrinsics);
 
 }  // namespace ols

@@ -1,12 +1,12 @@
 // How accurately N stations can know a position: the Cramer-Rao bound of one instant, before any
-// measurement. Exact on the ellipsoid: each station has its own horizon, and distances are
+// measurement. It is exact on the ellipsoid: each station has its own horizon, and distances are
 // unlimited.
 //
-// Each station measures the direction to the target on its tangent plane (geometry/direction.h),
-// with errors that are independent of the other stations'. Errors that are constant from frame to
-// frame are nuisance parameters of that station, with known deviations. When they are marginalised,
-// the information about the position is the sum over stations of H' R^-1 H, where R holds all
-// errors of a station. Its inverse is the bound. (H. Van Trees, Detection, Estimation, and
+// Each station measures the direction to the target on its tangent plane (geometry/direction.h).
+// Its errors are independent of those of other stations. A station's errors that are constant from
+// frame to frame are nuisance parameters with known deviations. With these marginalised, the
+// information about the position is the sum over stations of H' R^-1 H, where R is the covariance
+// of all errors of a station. Its inverse is the bound. (H. Van Trees, Detection, Estimation, and
 // Modulation Theory I, section 2.4.3: the bound with random nuisance parameters, for the linear
 // Gaussian case.)
 #pragma once
@@ -22,10 +22,10 @@
 
 namespace ols {
 
-// 2x3 [rad/m]: derivative of the direction to a point, on the tangent plane (cross-elevation,
-// elevation) of the station's horizon, by the point's ECEF position. The derivative by the
-// station's own position has the opposite sign. It neglects the turn of the horizon with the
-// station's position (below 2e-7 rad/m outside the polar regions).
+// 2x3 [rad/m]: derivative of the direction to a point with respect to the point's ECEF position.
+// The direction is on the tangent plane (cross-elevation, elevation) of the station's horizon. The
+// derivative with respect to the station's own position has the opposite sign. It neglects the
+// rotation of the horizon with the station's position (below 2e-7 rad/m outside the polar regions).
 Eigen::Matrix<double, 2, 3> bearing_jacobian(const LocalFrame& station,
                                              const Eigen::Vector3d& p_ecef);
 
@@ -33,7 +33,7 @@ Eigen::Matrix<double, 2, 3> bearing_jacobian(const LocalFrame& station,
 struct BearingPrecision {
   LocalFrame station{Geodetic{}};  // origin: the camera centre
   Eigen::Matrix2d covariance_rad2 =
-      Eigen::Matrix2d::Zero();  // all errors, (cross-elevation, elevation)
+      Eigen::Matrix2d::Zero();  // of all errors together, (cross-elevation, elevation)
 };
 
 // H' R^-1 H of one station [1/m^2], ECEF components. R must be positive definite.
@@ -51,31 +51,32 @@ std::optional<Eigen::Matrix3d> cramer_rao_bound(std::span<const BearingPrecision
 // A planned station with its optical axis on the target.
 struct PlannedStation {
   LocalFrame place{Geodetic{}};  // origin: the camera centre
-  double white_rad = 0.0;        // 1-sigma of each axis of the tangent plane, new with every frame
-  CalibrationSd calibration;     // constant; the roll about the optical axis has no effect there
-  double clock_sd_s = 0.0;       // constant; acts as the target's motion in that time
-  // Whether the land leaves a point [m, ECEF] in sight; empty: every point is.
+  double white_rad = 0.0;  // 1-sigma of each axis of the tangent plane; independent in every frame
+  // Constant errors; the roll about the optical axis has no effect on the axis.
+  CalibrationSd calibration;
+  double clock_sd_s = 0.0;  // constant error; it acts like the target's motion in that time
+  // Whether the land leaves a point [m, ECEF] in sight; if empty, every point is in sight.
   std::function<bool(const Eigen::Vector3d& p_ecef)> sees = {};
 
   bool in_sight(const Eigen::Vector3d& p_ecef) const { return !sees || sees(p_ecef); }
 };
 
-// Where an error comes from.
+// The causes of a direction's error.
 enum class ErrorSource { kWhite, kHeading, kTilt, kMounting, kPosition, kClock };
 inline constexpr std::array kErrorSources{ErrorSource::kWhite,    ErrorSource::kHeading,
                                           ErrorSource::kTilt,     ErrorSource::kMounting,
                                           ErrorSource::kPosition, ErrorSource::kClock};
 
-// A planned target.
+// A planned target, with its motion.
 struct PlannedTarget {
   Eigen::Vector3d p_ecef = Eigen::Vector3d::Zero();  // [m]
-  // [m^2/s^2] second moment E[v v'] of its velocity, ECEF. For a known velocity: v v'. For a known
-  // speed in any direction: speed^2 / 3 times the identity.
+  // [m^2/s^2] second moment E[v v'] of the target's velocity, ECEF. For a known velocity: v v'. For
+  // a known speed in any direction: speed^2 / 3 times the identity.
   Eigen::Matrix3d velocity_moment_ecef = Eigen::Matrix3d::Zero();
 };
 
-// Covariance of a station's direction [rad^2] on the tangent plane, from one source. White errors
-// are divided by the number of independent exposures.
+// Covariance of a station's direction [rad^2] on the tangent plane, caused by one source. White
+// errors are divided by the number of independent exposures.
 Eigen::Matrix2d source_covariance(const PlannedStation& station, ErrorSource source,
                                   const PlannedTarget& target, double exposures = 1.0);
 
@@ -89,7 +90,7 @@ struct PositionPrecision {
   std::array<Eigen::Matrix3d, kErrorSources.size()> parts_ecef{};
 };
 
-// Of the stations that see the target; nullopt when they do not determine its position.
+// Uses the stations that see the target; nullopt when they do not determine its position.
 std::optional<PositionPrecision> position_precision(std::span<const PlannedStation> stations,
                                                     const PlannedTarget& target,
                                                     double exposures = 1.0);

@@ -1,8 +1,9 @@
 // The paper's precision theory (section 4.1): how far an error of p pixels displaces the position
 // of a target that two cameras see. Plane geometry; lengths in metres, angles in radians.
 //
-// Every error here is a worst case, not a deviation: the pixels are off by up to p. The result is
-// the largest distance from the truth that this can cause; infinity if it is unbounded.
+// Every error here is a worst case, not a standard deviation: the pixels are off by up to p. The
+// result is the largest distance from the truth that such an error can cause; infinity if it is
+// unbounded.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,7 +12,7 @@
 
 namespace ols {
 
-// A random error of a number of pixels (the paper's p, r and f).
+// An error of a number of pixels (the paper's p, r and f).
 struct PixelError {
   double pixels = 1.0;
   double pixel_m = 3.75e-6;  // r: the horizontal size of one pixel
@@ -20,18 +21,18 @@ struct PixelError {
   double tangent() const { return pixels * pixel_m / focal_length_m; }
 };
 
-// E = p r Z^2 / (f b - p r Z), exact: two parallel cameras on a base b, a target at depth Z whose
-// disparity is p pixels too small. With p = 1 it is the depth resolution R.
+// E = p r Z^2 / (f b - p r Z), exact. Two parallel cameras have a base b, and a target at depth Z
+// has a disparity that is p pixels too small. With p = 1 it is the depth resolution R.
 double canonical_stereo_error_m(const PixelError& error, double base_m, double depth_m);
 
-// E = B tan(arctan(D / B) + arctan(p r / f)) - D: cameras that can rotate. The target is straight
-// ahead of the first camera at distance D, and only the second camera is in error. The paper prints
-// arctan(r / f), which is p = 1.
+// E = B tan(arctan(D / B) + arctan(p r / f)) - D, for cameras that can rotate. The target is
+// straight ahead of the first camera at distance D, and only the second camera is in error. The
+// paper prints arctan(r / f), which is p = 1.
 double rotating_pair_error_m(const PixelError& error, double base_m, double distance_m);
 
-// Both cameras in error by up to angle_rad, in the plane of the cameras and the target: the largest
-// distance from the target at which the two rays can meet. These points fill the intersection of
-// two wedges. It is convex, so the farthest point is a corner.
+// For errors of up to angle_rad in both cameras, in the plane of the cameras and the target: the
+// largest distance from the target at which the two rays can meet. The possible intersections fill
+// the overlap of two wedges. It is convex, so the farthest point is a corner.
 double pair_error_m(const Eigen::Vector3d& first, const Eigen::Vector3d& second,
                     const Eigen::Vector3d& target, double angle_rad);
 
@@ -46,11 +47,12 @@ struct Baseline {
 // between t and the baseline, 0..1. It is also 0 for a target at the baseline's centre.
 double normal_component(const Baseline& baseline, const Eigen::Vector3d& target);
 
-// i = argmax t_i . n_i; of equal values, the first. Throws std::invalid_argument without pairs.
+// Returns i = argmax t_i . n_i; of equal values, the first. Throws std::invalid_argument without
+// pairs.
 std::size_t best_baseline(std::span<const Baseline> baselines, const Eigen::Vector3d& target);
 
-// The target of a row of the paper's Table 1, in the plane (x along the base, y across it), with
-// the base's centre as origin. The paper does not say from where it measures the distance, nor on
+// The target of a row of the paper's Table 1, in the plane (x along the base, y across it),
+// relative to the base's centre. The paper says neither from where it measures the distance, nor on
 // which side of the base's normal the target is. side 0: the distance is from the centre of the
 // base. Otherwise the distance is from the first camera (at x = -base/2), and the target is on that
 // camera's side (-1) or on the other (+1). alpha_rad: the angle at the base's centre, from its

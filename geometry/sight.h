@@ -1,4 +1,4 @@
-// Sight: pixel + PTU angles -> line of sight with its covariance, and the inverse.
+// Computes the line of sight and its covariance from a pixel and the PTU angles, and the inverse.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,18 +11,18 @@
 
 namespace ols {
 
-// Calibration errors, 1-sigma; systematic: constant from frame to frame.
+// Calibration errors, 1-sigma. They are systematic: the same in every frame.
 struct CalibrationSd {
   double heading_rad = 0.0;
-  double tilt_rad = 0.0;        // of each of the two axes of ORIGIN
-  double mount_rad = 0.0;       // of the camera, about each axis across the optical axis
+  double tilt_rad = 0.0;        // for each of the two axes of ORIGIN
+  double mount_rad = 0.0;       // of the camera, about each axis perpendicular to the optical axis
   double mount_roll_rad = 0.0;  // about the optical axis
-  double position_m = 0.0;      // of the station, each of east, north, up
+  double position_m = 0.0;      // of the station, for each of east, north, up
 };
 
 // A station's calibrated geometry.
 struct StationGeometry {
-  Geodetic position;  // of GROUND
+  Geodetic position;  // the origin of GROUND
   ChainParameters chain;
   CameraIntrinsics camera;
   CalibrationSd sd;
@@ -31,8 +31,9 @@ struct StationGeometry {
 // One measured pixel with the PTU angles at its exposure.
 struct PixelSight {
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
-  Eigen::Matrix2d covariance_px2 = Eigen::Matrix2d::Zero();             // white
-  Eigen::Matrix2d covariance_systematic_px2 = Eigen::Matrix2d::Zero();  // constant (designation)
+  Eigen::Matrix2d covariance_px2 = Eigen::Matrix2d::Zero();  // white
+  // The same in every frame (from the designation)
+  Eigen::Matrix2d covariance_systematic_px2 = Eigen::Matrix2d::Zero();
   PanTilt angles;
   Eigen::Matrix2d angles_covariance_rad2 = Eigen::Matrix2d::Zero();  // white, (pan, tilt)
 };
@@ -47,27 +48,29 @@ struct View {
   double distance_m = 0.0;  // from the camera centre
 };
 
-// The inverse at given PTU angles: the pixel of a point; nullopt when it is behind the camera.
+// The inverse of sight() at given PTU angles: the pixel of a point; nullopt when the point is
+// behind the camera.
 std::optional<View> view(const StationGeometry& station, const PanTilt& angles,
                          const Eigen::Vector3d& p_ecef);
 
-// The inverse with free PTU angles: the angles that put the point on the given pixel (default:
-// where the optical axis meets the image). The lever arms of the chain are included. nullopt when
-// no pan and tilt reach the point.
+// The inverse of sight() with free PTU angles: the angles that put the point on the given pixel
+// (default: where the optical axis meets the image). The lever arms of the chain are included.
+// nullopt when no pan and tilt reach the point.
 std::optional<PanTilt> aim_at(const StationGeometry& station, const Eigen::Vector3d& p_ecef,
                               const std::optional<Eigen::Vector2d>& pixel = std::nullopt);
 
-// PTU angles for a direction at infinity in the horizon at the camera centre.
+// The PTU angles that point the optical axis in a direction at infinity, relative to the horizon at
+// the camera centre.
 std::optional<PanTilt> aim_along(const StationGeometry& station, const AzimuthElevation& direction);
 
-// Where the optical axis points, in the horizon at the camera centre.
+// The direction of the optical axis, relative to the horizon at the camera centre.
 AzimuthElevation optical_axis(const StationGeometry& station, const PanTilt& angles);
 
 // Camera centre in ECEF [m].
 Eigen::Vector3d camera_centre_ecef(const StationGeometry& station, const PanTilt& angles);
 
-// Homography K R_2 R_1^T K^-1: takes pixels of a frame exposed at PTU angles `from` to pixels of a
-// frame exposed at `to`. For points at infinity, without distortion.
+// Homography K R_2 R_1^T K^-1: maps pixels of a frame exposed at PTU angles `from` to pixels of a
+// frame exposed at `to`. It holds for points at infinity, without distortion.
 Eigen::Matrix3d rotation_homography(const StationGeometry& station, const PanTilt& from,
                                     const PanTilt& to);
 

@@ -1,5 +1,5 @@
-// The limits within which a station accepts slews and operators' angles. The fusion and ols-ctl
-// keep to them.
+// The limits within which a station accepts slews, and angles from operators. The fusion and
+// ols-ctl keep to them.
 #pragma once
 
 #include "geometry/angles.h"
@@ -7,7 +7,8 @@
 namespace ols {
 
 inline constexpr double kSlewRateLimit_rad_s = 1.5;  // about each axis
-inline constexpr double kSlewLead_s = 1.0;           // from "now" to the effect, either way
+// Largest time between the present and the effect of a slew, in either direction.
+inline constexpr double kSlewLead_s = 1.0;
 
 // For how long a prediction of what the land hides may hold.
 inline constexpr double kOcclusionHolds_s = 15.0;
@@ -17,7 +18,7 @@ inline constexpr double kOcclusionHolds_s = 15.0;
 inline constexpr double kPointPanLimit_rad = radians(360.0);
 inline constexpr double kPointTiltLimit_rad = radians(180.0);
 
-// Pan and tilt rates by hand: the limit about each axis, and how long one command keeps the unit
+// For joystick commands: the largest rate about each axis, and how long one command keeps the unit
 // moving.
 inline constexpr double kRateLimit_rad_s = 1.5;
 inline constexpr double kRateLease_s = 0.3;

@@ -1,4 +1,4 @@
-// A station whose parameters come from an adjustment: sight with the full covariance of the
+// A station whose parameters come from an adjustment: sight() with the full covariance of the
 // parameters, and its inverse. docs/calibration.md.
 #pragma once
 
@@ -14,37 +14,39 @@ using ModelCovariance = Eigen::Matrix<double, kModelParameters, kModelParameters
 struct StationCalibration {
   StationModel model;
   ModelCovariance covariance = ModelCovariance::Zero();  // in the order of Parameter
-  double angle_sd_rad = 0.0;  // of each angle of a pose; new at every pose
+  double angle_sd_rad = 0.0;  // 1-sigma of each angle of a pose; independent at every pose
 };
 
 // One measured pixel, with the unit's readings at its exposure.
 struct CountedSight {
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
-  Eigen::Matrix2d covariance_px2 = Eigen::Matrix2d::Zero();             // white
-  Eigen::Matrix2d covariance_systematic_px2 = Eigen::Matrix2d::Zero();  // constant (designation)
-  // `approach` may be 0 (unknown): the backlash is then part of the systematic covariance.
+  Eigen::Matrix2d covariance_px2 = Eigen::Matrix2d::Zero();  // white
+  // The same in every frame (from the designation)
+  Eigen::Matrix2d covariance_systematic_px2 = Eigen::Matrix2d::Zero();
+  // If `approach` is 0 (unknown), the backlash is part of the systematic covariance.
   UnitReading reading;
   Eigen::Matrix2d angles_covariance_rad2 = Eigen::Matrix2d::Zero();  // white, (pan, tilt)
 };
 
-// J C J' on the tangent plane (cross-elevation, elevation) [rad^2]: the errors of all parameters,
-// in the direction of a pixel. nullopt when the pixel cannot be unprojected.
+// J C J' on the tangent plane (cross-elevation, elevation) [rad^2]: the covariance of a pixel's
+// direction that the errors of all parameters cause. nullopt when the pixel cannot be unprojected.
 std::optional<Eigen::Matrix2d> systematic_covariance(const StationCalibration& calibration,
                                                      const UnitReading& reading,
                                                      const Eigen::Vector2d& pixel);
 
-// As sight() of geometry/sight.h. The systematic covariance is J C J' plus the designation's.
+// Like sight() of geometry/sight.h. The systematic covariance is J C J' plus that of the
+// designation.
 std::optional<LineOfSight> sight(const StationCalibration& calibration,
                                  const CountedSight& measurement);
 
-// The counts at which a shaft stands at this angle [rad]. approach: the direction of the last
-// motion (1, -1; 0: the middle of the backlash). Newton on shaft_angle(), whose derivative is 1
-// within some thousandths.
+// The counts at which a shaft has this angle [rad]. `approach`: direction of the last motion (1,
+// -1; 0: the middle of the backlash). Solved by Newton's method on shaft_angle(), whose derivative
+// differs from 1 by some thousandths.
 double counts_for_shaft(const AxisModel& axis, int sign, double zero_rad, double shaft_rad,
                         int approach);
 
 // The inverse of corrected_angles() for a unit at rest: the counts at which a unit with these
-// errors points to where an ideal unit points at these angles.
+// errors points where an ideal unit points at these angles.
 struct UnitCounts {
   double pan = 0.0, tilt = 0.0;
 };

@@ -1,16 +1,16 @@
-// A real station: eq. (1) with the errors of a pan-tilt unit's gears, bearings and clock. With all
-// errors zero it is geometry/kinematic_chain.h.
+// The model of a real station: eq. (1) with the errors of a pan-tilt unit's gears, bearings and
+// clock. If all errors are zero, it is the chain of geometry/kinematic_chain.h.
 //
-// The shaft of an axis stands at
+// The angle theta of an axis' shaft satisfies
 //
 //   theta = s q n + zero + sum_k (A_k cos k theta + B_k sin k theta)
 //           + W_c cos(m theta) + W_s sin(m theta) + b d / 2
 //
-// n: counts at the exposure. q: one turn over the counts of a turn (exact: the resolution that a
-// unit prints is rounded). s: the axis' sign. k = 1, 2: eccentricity of the worm wheel and of the
-// axis. m: teeth of the worm wheel, one turn of the worm each. b: backlash. d = 1 or -1: sign of
-// the last motion in counts. The angles on the right are s q n + zero. The worm wheel closes on
-// itself, so there is no error of scale.
+// n: counts at the exposure. q: 2 pi over the counts of a turn (exact: the resolution that a unit
+// prints is rounded). s: the axis' sign. k = 1, 2: eccentricity of the worm wheel and of the axis.
+// m: number of teeth of the worm wheel; the worm makes one turn for each. b: backlash. d = 1 or -1:
+// sign of the last motion in counts. The harmonic terms use s q n + zero in place of theta. The
+// worm wheel is a closed circle, so there is no error of scale.
 #pragma once
 
 #include <Eigen/Core>
@@ -28,7 +28,7 @@ struct AxisModel {
   double backlash_rad = 0.0;  // of the shaft, between the two directions of approach
 };
 
-// The unit's reading of one axis, at a frame's stamp.
+// The unit's reading of one axis, at the time stamp of a frame.
 struct AxisReading {
   double counts = 0.0;
   double counts_per_s = 0.0;
@@ -41,7 +41,7 @@ struct UnitReading {
 // All parameters that an adjustment can change, in their order in every vector and covariance.
 // Angles in radians, lengths in metres.
 enum Parameter : int {
-  // of the instrument
+  // Parameters of the instrument:
   kFocal,   // fx [px]
   kAspect,  // fy / fx
   kCx,
@@ -67,11 +67,11 @@ enum Parameter : int {
   kExposureOffset,  // [s]
   kK3,
   kK4,
-  // of the setup
+  // Parameters of the setup:
   kHeading,
   kTiltX,
   kTiltY,
-  kEast,  // of GROUND
+  kEast,  // position of GROUND
   kNorth,
   kUp,
   kModelParameters
@@ -82,10 +82,10 @@ using ModelParameters = Eigen::Matrix<double, kModelParameters, 1>;
 struct StationModel {
   StationGeometry geometry;
   AxisModel pan, tilt;
-  double exposure_offset_s = 0.0;  // exposure minus the stamp of the counts
+  double exposure_offset_s = 0.0;  // time of the exposure minus time of the counts
 };
 
-// An angle of a shaft, with its derivatives.
+// The angle of a shaft, with its derivative.
 struct ShaftAngle {
   double rad = 0.0;          // with all errors
   double nominal_rad = 0.0;  // s q n + zero
@@ -94,12 +94,12 @@ struct ShaftAngle {
 ShaftAngle shaft_angle(const AxisModel& axis, int sign, double zero_rad, const AxisReading& reading,
                        double exposure_offset_s);
 
-// The angles that an ideal unit would report with its shafts at the same angles, for sight(),
+// The angles that an ideal unit would report if its shafts had the same angles. They serve sight(),
 // view() and the chain.
 PanTilt corrected_angles(const StationModel& model, const UnitReading& reading);
 
-// The model with its parameters changed by this much. Tilts and heading then refer to the horizon
-// at the new position.
+// The model with `by` added to its parameters. Tilts and heading then refer to the horizon at the
+// changed position.
 StationModel changed(const StationModel& model, const ModelParameters& by);
 
 }  // namespace ols

@@ -1,9 +1,9 @@
 // Universal Transverse Mercator, the coordinates of land registers and surveyors. By GeographicLib
 // (C. Karney).
 //
-// Grid north is not true north: a grid bearing plus the convergence is the true azimuth. Grid
-// distances are the scale times true ones. Heights in land registers are usually above mean sea
-// level; here they are ellipsoidal, as everywhere.
+// Grid north is not true north: a grid bearing plus the convergence is the true azimuth. A grid
+// distance is the true distance times the scale. Heights in land registers are usually above mean
+// sea level; here they are ellipsoidal, as everywhere.
 #pragma once
 
 #include "geometry/wgs84.h"
@@ -19,16 +19,16 @@ struct Utm {
 
 struct UtmPoint {
   Utm position;
-  double convergence_rad = 0.0;  // of grid north, clockwise from true north
+  double convergence_rad = 0.0;  // direction of grid north, clockwise from true north
   double scale = 1.0;            // grid distance over true distance on the ellipsoid
 };
 
-// Throws std::invalid_argument with the reason for a zone that does not exist or coordinates
+// Throws std::invalid_argument with the reason if the zone does not exist or the coordinates are
 // outside it.
 Geodetic geodetic_from_utm(const Utm& position, double height_m);
 
-// In the standard zone of the place. Throws std::invalid_argument near the poles, which have no
-// zone.
+// Uses the standard zone of the place. Throws std::invalid_argument near the poles, where there is
+// no zone.
 UtmPoint utm_from_geodetic(const Geodetic& position);
 
 }  // namespace ols

@@ -1,5 +1,5 @@
-// Geographic positions (WGS84, ellipsoidal height), Earth-centred Earth-fixed and local frames. By
-// GeographicLib (C. Karney), with our names and Eigen's types.
+// Geographic positions (WGS84, ellipsoidal height), Earth-centred Earth-fixed and local frames.
+// Computed by GeographicLib (C. Karney).
 #pragma once
 
 #include <Eigen/Core>
@@ -15,7 +15,7 @@ struct Geodetic {
 // Earth-centred Earth-fixed position [m].
 Eigen::Vector3d ecef_from_geodetic(const Geodetic& position);
 
-// The inverse; accurate to nanometres far beyond the atmosphere.
+// The inverse of ecef_from_geodetic(); accurate to nanometres far beyond the atmosphere.
 Geodetic geodetic_from_ecef(const Eigen::Vector3d& p_ecef);
 
 // Rotation that takes east-north-up components at this latitude and longitude to ECEF components.

@@ -1,4 +1,4 @@
-// Buildings and woods: where they stand, and which of them a place is under.
+// Buildings and woods: where they stand, and which of them cover a place.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,18 +10,19 @@ namespace ols::land {
 
 enum class CoveringKind { kBuilding, kWood };
 
-// Polygons of (longitude, latitude) [rad], outlines and holes alike: a place is inside if it is
-// within an odd number of rings. A ring's last corner is joined to its first.
+// Polygons of (longitude, latitude) [rad], outlines and holes alike: a place is inside if an odd
+// number of rings contain it. A ring's last corner is joined to its first.
 struct Covering {
   CoveringKind kind = CoveringKind::kBuilding;
   std::vector<std::vector<Eigen::Vector2d>> rings;
-  double height_m = 0.0;  // above the ground; of a building, above the lowest ground at its corners
-  double sd_m = 0.0;      // 1-sigma of it
+  // Above the ground; for a building, above the lowest ground at its corners.
+  double height_m = 0.0;
+  double sd_m = 0.0;  // 1-sigma of height_m
 };
 
-// Finds coverings by place in a lattice of cells. Each cell has the edges that cross it, and for
-// each polygon whether the cell's centre is inside: a look-up does not depend on how long outlines
-// are.
+// Finds coverings by place in a lattice of cells. Each cell stores the edges that cross it, and for
+// each polygon whether the cell's centre is inside. A look-up therefore takes the same time however
+// long the outlines are.
 class CoveringIndex {
  public:
   explicit CoveringIndex(const std::vector<Covering>& coverings);
@@ -40,7 +41,7 @@ class CoveringIndex {
   struct Edge {
     Eigen::Vector2d from, to;
   };
-  struct Part {  // of one covering in one cell
+  struct Part {  // the part of one covering that is in one cell
     std::uint32_t cell, covering;
     std::uint32_t first_edge, edges;
     bool centre_inside;
@@ -55,8 +56,8 @@ class CoveringIndex {
 
   Eigen::Vector2d south_west_{0.0, 0.0}, step_{1.0, 1.0}, per_step_{1.0, 1.0};
   std::size_t columns_ = 0, rows_ = 0;
-  std::vector<Part> parts_;            // by cell
-  std::vector<std::uint32_t> begins_;  // of each cell in parts_, and the end
+  std::vector<Part> parts_;            // sorted by cell
+  std::vector<std::uint32_t> begins_;  // index into parts_ of each cell's first part, then the end
   std::vector<Edge> edges_;
 };
 

@@ -1,5 +1,5 @@
 // The height of the geoid (sea level) above the WGS84 ellipsoid, from a grid file that PROJ reads.
-// Without one, no height above sea level is ever written.
+// Without a geoid, no height above sea level is ever written.
 #pragma once
 
 #include <memory>

@@ -1,13 +1,14 @@
-// What the land hides from a camera: for each azimuth a staircase of (elevation, distance), the
-// highest elevation of the land up to that distance.
+// The part of the world that the land hides from a camera: for each azimuth a staircase of
+// (elevation, distance), the highest elevation of the land up to that distance.
 //
 // Angles are apparent: in the east-north-up frame at the camera (geometry/direction.h), lifted by
-// terrestrial refraction, k d^2 / 2R. Points come from the surface's latitude, longitude and height
-// by exact WGS84 geometry. `distance_m` is horizontal in that frame; ranges are straight lines.
+// terrestrial refraction, k d^2 / 2R. Points are converted from the surface's latitude, longitude
+// and height by exact WGS84 geometry. `distance_m` is horizontal in that frame; a range is measured
+// along a straight line.
 //
-// The land is sampled in cells as long as the columns are apart, and not shorter than
-// `least_cell_m`; crests are refined within a cell. The staircase keeps distances to a quarter of a
-// cell.
+// The land is sampled in cells. A cell is as long as the distance between neighbouring columns, and
+// at least `least_cell_m`; crests are refined within a cell. The staircase keeps distances to
+// within a quarter of a cell.
 #pragma once
 
 #include <Eigen/Core>
@@ -26,53 +27,54 @@
 namespace ols::land {
 
 struct HorizonMapConfig {
-  int columns = 7200;         // of azimuth: 0.05 degrees
-  double reach_m = 30'000.0;  // horizontal
+  int columns = 7200;         // number of azimuths: 0.05 degrees each
+  double reach_m = 30'000.0;  // horizontal distance
   double least_cell_m = 1.0;
-  // Only these azimuths are looked at, as far as a mount turns; elsewhere no land is known.
+  // Only azimuths in this sector are computed (the range in which a mount turns); elsewhere the
+  // land is unknown.
   double from_azimuth_rad = 0.0;
   double sector_rad = 2.0 * kPi;  // clockwise
   double refraction_k = kRefraction;
   double refraction_k_sd = kRefractionSd;
 };
 
-// A highest elevation.
+// The highest elevation of the land along an azimuth.
 struct Skyline {
   double elevation_rad = 0.0;
-  double elevation_sd_rad = 0.0;  // the surface's and refraction's, 1-sigma
-  double distance_m = 0.0;        // of that crest, in the nearer of the two columns beside
+  double elevation_sd_rad = 0.0;  // 1-sigma, from the surface and the refraction
+  double distance_m = 0.0;        // of that crest, in the nearer of the two neighbouring columns
 };
 
 // Where a line of sight first meets the land.
 struct GroundHit {
   double range_m = 0.0;
-  double elevation_sd_rad = 0.0;  // of the land there, 1-sigma
-  // How the land rises with range there [rad/m]; 0 on a crest. The range's 1-sigma is that of the
-  // elevations, land's and sight's, over this.
+  double elevation_sd_rad = 0.0;  // 1-sigma of the land there
+  // How much the land's elevation grows with range there [rad/m]; 0 on a crest. The range's 1-sigma
+  // is the combined 1-sigma of the land's and the sight's elevation, divided by this.
   double rise_rad_per_m = 0.0;
 };
 
 class HorizonMap {
  public:
-  // `camera`: the camera's centre. Throws std::invalid_argument where the surface does not know the
+  // `camera`: the camera's centre. Throws std::invalid_argument if the surface does not know the
   // ground at the camera, or has it above the camera by more than three of its sigmas.
   HorizonMap(const Surface& surface, const Geodetic& camera, const HorizonMapConfig& config = {});
 
-  // Nothing where no land is known in that direction.
+  // nullopt if the land in that direction is unknown.
   std::optional<Skyline> skyline(double azimuth_rad) const;
-  // Nothing above the skyline.
+  // nullopt if the sight passes above the skyline.
   std::optional<GroundHit> ground(const AzimuthElevation& sight) const;
-  // The same of the land nearer than this.
+  // Like skyline(), but only for land nearer than `distance_m`.
   std::optional<Skyline> highest_before(double azimuth_rad, double distance_m) const;
-  // The probability that the land does not hide a point: `covariance_ecef` [m^2] of the point,
-  // sigma of the land. Land that is not known hides nothing.
+  // The probability that the land does not hide a point. `covariance_ecef` [m^2] is the point's;
+  // the land's sigma is included. Unknown land hides nothing.
   double visible_probability(const Eigen::Vector3d& p_ecef,
                              const Eigen::Matrix3d& covariance_ecef) const;
 
-  // Beyond, the surface has a gap or ends [m, horizontal]; reach_m where it has none.
+  // The horizontal distance at which the surface has a gap or ends [m]; reach_m if it has neither.
   double known_to_m(double azimuth_rad) const;
-  // By so much the surface was lowered at the camera, because it had the camera less than
-  // kLeastAboveGround_m above the ground: within its error [m].
+  // How far the surface was lowered at the camera [m]. It is lowered if it has the camera less than
+  // kLeastAboveGround_m above the ground, within its own error.
   double lowered_m() const { return lowered_m_; }
   const Geodetic& camera() const { return frame_.origin(); }
   const HorizonMapConfig& config() const { return config_; }
@@ -81,7 +83,7 @@ class HorizonMap {
   static constexpr double kLeastAboveGround_m = 1.0;
 
  private:
-  struct Columns;  // the two beside an azimuth
+  struct Columns;  // the two columns next to an azimuth
 
   Columns beside(double azimuth_rad) const;
   void march_all(const Surface& surface, bool covered);
@@ -92,9 +94,9 @@ class HorizonMap {
   LocalFrame frame_;
   HorizonMapConfig config_;
   double lowered_m_ = 0.0;
-  std::vector<Step> steps_;          // of all columns, each ascending in both
-  std::vector<std::size_t> begins_;  // of each column in steps_, and the end
-  std::vector<float> known_to_m_;    // of each column
+  std::vector<Step> steps_;  // of all columns; within a column, elevation and distance both ascend
+  std::vector<std::size_t> begins_;  // index into steps_ of each column's first step, then the end
+  std::vector<float> known_to_m_;    // by column
 };
 
 }  // namespace ols::land

@@ -1,4 +1,4 @@
-// From which height on a place is in sight.
+// The lowest height at which a place is in sight.
 #pragma once
 
 #include <optional>
@@ -7,9 +7,9 @@
 
 namespace ols::land {
 
-// The height above the WGS84 ellipsoid [m] from which on the land does not hide what is above this
-// place from the map's camera. In sight of the camera down to the ground, it is the surface's own
-// height, to a fraction of the map's cells. Nothing where the land in between is not known.
+// The lowest height above the WGS84 ellipsoid [m] at which a point at this latitude and longitude
+// is visible from the map's camera. If the ground there is itself visible, this is the surface's
+// height, to within a fraction of the map's cells. nullopt if land in between is unknown.
 std::optional<double> lowest_visible_m(const HorizonMap& map, double latitude_rad,
                                        double longitude_rad);
 

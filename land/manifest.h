@@ -1,4 +1,4 @@
-// What a folder of `ols-land import` says of itself: land.json and coverings.json (docs/land.md).
+// The description in a folder of `ols-land import`: land.json and coverings.json (docs/land.md).
 #pragma once
 
 #include <cstdint>
@@ -11,13 +11,13 @@
 namespace ols::land {
 
 struct Source {
-  std::string file, kind;  // kind: elevation, buildings or woods
+  std::string file, kind;  // kind: "elevation", "buildings" or "woods"
   std::string licence;     // as the user of `ols-land import` stated it
-  std::string heights;     // what they were above: a geoid's grid, "ellipsoid" or "ground"
-  double sd_m = 0.0;       // 1-sigma of a height as stated
+  std::string heights;     // the reference of the heights: a geoid's grid, "ellipsoid" or "ground"
+  double sd_m = 0.0;       // 1-sigma of a height, as stated
 };
 
-struct GridFile {  // float, little-endian; as HeightGrid
+struct GridFile {  // little-endian floats, in the order of HeightGrid
   std::string file, sha256;
   double north_deg = 0.0, west_deg = 0.0, step_latitude_deg = 0.0, step_longitude_deg = 0.0;
   int rows = 0, columns = 0;
@@ -25,7 +25,8 @@ struct GridFile {  // float, little-endian; as HeightGrid
 };
 
 struct Manifest {
-  double latitude_deg = 0.0, longitude_deg = 0.0, radius_km = 0.0;  // of the site
+  // The centre and the radius of the site.
+  double latitude_deg = 0.0, longitude_deg = 0.0, radius_km = 0.0;
   std::vector<Source> sources;
   std::vector<GridFile> grids;
   std::string coverings_sha256;
@@ -36,7 +37,7 @@ inline constexpr int kFormatVersion = 1;
 
 std::string to_text(const Manifest& manifest);
 std::string to_text(const std::vector<Covering>& coverings);
-// Throw std::invalid_argument naming what is wrong.
+// Both throw std::invalid_argument with the reason.
 Manifest parse_manifest(std::string_view text);
 std::vector<Covering> parse_coverings(std::string_view text);
 

@@ -3,12 +3,12 @@
 
 namespace ols::land {
 
-// Light bends towards the earth: over d metres it falls below a straight line by this share of what
-// the earth's curvature makes, d^2 / 2 R. In daylight over land about 0.13, with a 1-sigma of 0.1:
-// 0.3 m at 6 km.
+// Light bends towards the earth: over d metres it falls below a straight line by refraction_k d^2 /
+// 2 R. (The earth's surface falls by d^2 / 2 R.) Over land in daylight refraction_k is about 0.13,
+// with a 1-sigma of 0.1, which is 0.3 m at 6 km.
 inline constexpr double kRefraction = 0.13, kRefractionSd = 0.1;
 
-// What that adds to the tangent of an elevation.
+// The amount that refraction adds to the tangent of an elevation.
 inline double refraction_slope(double refraction_k, double distance_m) {
   constexpr double kEarth_m = 6'371'000.0;
   return refraction_k * distance_m / (2.0 * kEarth_m);

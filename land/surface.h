@@ -7,16 +7,17 @@ namespace ols::land {
 
 struct SurfaceHeight {
   double height_m = 0.0;  // above the WGS84 ellipsoid
-  double sd_m = 0.0;      // 1-sigma of it
+  double sd_m = 0.0;      // 1-sigma of height_m
 };
 
-// What stands where. Implementations are immutable after they were made; any thread may ask.
+// The height of the land at a place. Implementations do not change after construction, so any
+// thread may ask.
 class Surface {
  public:
   virtual ~Surface() = default;
-  // The bare ground; nothing where no model knows it.
+  // The bare ground; nullopt if no model knows it.
   virtual std::optional<SurfaceHeight> ground(double latitude_rad, double longitude_rad) const = 0;
-  // The top of what stands there: the ground, or a roof, or the tree-tops.
+  // The top of whatever stands at the place: the ground, a roof or the tree-tops.
   virtual std::optional<SurfaceHeight> top(double latitude_rad, double longitude_rad) const = 0;
 };
 

@@ -1,4 +1,4 @@
-// The land of elevation models, buildings and woods.
+// The land according to elevation models, buildings and woods.
 #pragma once
 
 #include <memory>
@@ -11,21 +11,23 @@
 
 namespace ols::land {
 
-// Heights at the crossings of a lattice of latitude and longitude.
+// Heights at the nodes of a grid of latitude and longitude.
 struct HeightGrid {
-  double north_rad = 0.0, west_rad = 0.0;                    // of the first height
-  double step_latitude_rad = 0.0, step_longitude_rad = 0.0;  // both positive: south and east
-  int rows = 0, columns = 0;                                 // at least 2 each
-  double sd_m = 0.0;                                         // 1-sigma of a height
-  // Row by row from the north, each from the west [m, above the WGS84 ellipsoid]; NaN: not known.
+  double north_rad = 0.0, west_rad = 0.0;  // position of the first height
+  // Both positive: towards south and east.
+  double step_latitude_rad = 0.0, step_longitude_rad = 0.0;
+  int rows = 0, columns = 0;  // at least 2 each
+  double sd_m = 0.0;          // 1-sigma of a height
+  // Row by row from the north, each from the west [m, above the WGS84 ellipsoid]; NaN: unknown.
   std::span<const float> heights_m;
 };
 
-// Bilinear within a grid, where all four heights around are known. Where several grids know a
-// place, the first does. A building's roof is level, tree-tops follow the ground.
+// Heights are interpolated bilinearly within a grid, if all four neighbouring heights are known.
+// Where several grids know a place, the first one counts. A building's roof is level, tree-tops
+// follow the ground.
 class Terrain : public Surface {
  public:
-  // `memory` lives as long as the grids' heights do.
+  // `memory` owns the memory of the grids' heights.
   Terrain(const std::vector<HeightGrid>& grids, std::vector<Covering> coverings,
           std::shared_ptr<const void> memory);
 
@@ -44,7 +46,7 @@ class Terrain : public Surface {
   std::shared_ptr<const void> memory_;
   std::vector<Placed> grids_;
   std::vector<Covering> coverings_;
-  std::vector<SurfaceHeight> bases_;  // of buildings: the lowest ground at their corners
+  std::vector<SurfaceHeight> bases_;  // for a building: the lowest ground at its corners
   CoveringIndex index_;
 };
 

@@ -1,5 +1,5 @@
 // The folder of `ols-land import` on disk: land.json, coverings.json and one file of heights for
-// each grid. Grids are mapped, not read; their sums are checked once.
+// each grid. Grids are memory-mapped, not read; their checksums are verified once.
 #pragma once
 
 #include <memory>
@@ -13,27 +13,28 @@ namespace ols::land {
 
 struct TerrainFolder {
   Manifest manifest;
-  std::string version;  // the first digits of the manifest's SHA-256: it changes with any content
+  // The first digits of the manifest's SHA-256, so that it changes with any content.
+  std::string version;
   std::shared_ptr<const Terrain> terrain;
 };
 
-// Throws std::runtime_error naming the file and what is wrong: one is missing, damaged, of another
-// length or of another version.
+// Throws std::runtime_error naming the file and the reason: a file is missing, damaged, of the
+// wrong length or of another version.
 TerrainFolder read_terrain_folder(const std::string& path);
 
-// One grid to write: `file` and `sha256` of `form` are filled in.
+// One grid to write; write_terrain_folder() sets `file` and `sha256` of `form`.
 struct NewGrid {
   GridFile form;
-  std::vector<float> heights_m;  // as in HeightGrid
+  std::vector<float> heights_m;  // in the order of HeightGrid
 };
 
-// Makes the folder, which must not exist; it appears whole or not at all. Throws
+// Creates the folder, which must not exist; it appears completely or not at all. Throws
 // std::runtime_error.
 void write_terrain_folder(const std::string& path, Manifest manifest,
                           const std::vector<NewGrid>& grids,
                           const std::vector<Covering>& coverings);
 
-// The grid as the surface reads it.
+// Converts a stored grid to the form that the surface reads.
 HeightGrid height_grid(const GridFile& form, std::span<const float> heights_m);
 
 }  // namespace ols::land

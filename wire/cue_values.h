@@ -1,5 +1,5 @@
-// The valid values of a cue from outside. Checked where the cue is read, and again by the fusion
-// when it arrives over the bus. Pure.
+// The valid values of a cue from outside. They are checked where the cue is read, and again by the
+// fusion when the cue arrives over the bus. Pure.
 #pragma once
 
 #include <array>
@@ -24,8 +24,8 @@ enum class CueFault {
 };
 CueFault fault_of(const CueValues& cue);
 
-// The number of the target that an order names in place of a cue; nullopt: it names a cue. The name
-// of a cue (INPUT.NAME) is never a number alone.
+// The number of the target that an order names in place of a cue; nullopt if the order names a cue.
+// The name of a cue (INPUT.NAME) is never a number alone.
 std::optional<std::int64_t> target_named(const std::string& name);
 
 }  // namespace ols

@@ -1,4 +1,4 @@
-// Reads the fusion's status, in one way for all programs.
+// Reads the fusion's status; all programs use this function.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,8 @@
 
 namespace ols::wire {
 
-// nullopt if it is not a fusion's status. Its texts are made safe for a terminal.
+// Returns nullopt if the message is not a fusion's status. The texts in it are made safe for a
+// terminal.
 std::optional<ols_msg::fusion_status_t> heard_fusion_status(const BusMessage& message);
 
 // "waiting", "searched", "found", "forbidden".

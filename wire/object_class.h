@@ -1,4 +1,4 @@
-// What an object is, in words.
+// The class of an object, in words.
 #pragma once
 
 #include <cstdint>

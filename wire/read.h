@@ -1,5 +1,5 @@
-// Reads a message of the bus. Only here is it decided whether bytes are a whole message of this
-// schema, on the channel of its station. The users judge the values.
+// Reads a message of the bus. Only this file decides whether bytes are a whole message of this
+// schema, on the channel of its station. The callers judge the values.
 #pragma once
 
 #include <concepts>
@@ -16,8 +16,8 @@ namespace ols::wire {
 
 enum class Unread { kMalformed, kSchema, kOtherStation };
 
-// `channel`: the prefix of a station's channel (kStatusChannel), to which the message's own station
-// is added; or a channel of the site.
+// `channel` is either the prefix of a station's channel (kStatusChannel), to which the message's
+// own station is appended, or a channel of the site.
 template <class Message>
 std::variant<Message, Unread> read(std::string_view channel, std::string_view on, const void* data,
                                    int bytes) {
@@ -35,10 +35,10 @@ std::variant<Message, Unread> read(std::string_view channel, std::string_view on
   return message;
 }
 
-// The same; nothing if it cannot be read.
+// As above; nullopt if the message cannot be read.
 template <class Message>
 std::optional<Message> read(std::string_view channel, const BusMessage& message) {
-  // Most messages are of other channels, and decoding them all would cost too much.
+  // Checked first: most messages are on other channels, and decoding them all would cost too much.
   if (!message.channel.starts_with(channel)) return std::nullopt;
   auto found = read<Message>(channel, message.channel, message.payload.data(),
                              static_cast<int>(message.payload.size()));

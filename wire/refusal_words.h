@@ -1,4 +1,4 @@
-// The words for a person about a refusal. Pure.
+// Explains a refusal in words for a person. Pure.
 #pragma once
 
 #include "conditions/refusal.h"
@@ -6,7 +6,7 @@
 
 namespace ols::wire {
 
-// "refused: that picture is too old; ..". For a reply that refuses.
+// For example "refused: that picture is too old; ..". `reply` must be a refusal.
 Outcome refusal_in_words(const Reply& reply);
 
 }  // namespace ols::wire

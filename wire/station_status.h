@@ -1,4 +1,4 @@
-// Reads a station's status, in one way for all programs.
+// Reads a station's status; all programs use these functions.
 #pragma once
 
 #include <cstddef>
@@ -14,8 +14,8 @@ namespace ols::wire {
 // Limits the memory that forged statuses with invented names can use.
 inline constexpr std::size_t kMostStationsHeard = 2000;
 
-// nullopt if it is not a status or not from the station of its channel. Its texts are made safe for
-// a terminal (base/text/plain_text.h).
+// Returns nullopt if the message is not a status, or not from the station of its channel. The texts
+// in it are made safe for a terminal (base/text/plain_text.h).
 std::optional<ols_msg::station_status_t> heard_status(const BusMessage& message);
 
 // The value of a counter in a status; 0 if it is missing.
@@ -27,9 +27,9 @@ bool is_stopped(std::int8_t state);
 const char* device_name(std::int8_t device);
 // The state of a device by its name; "-" when the station has no such device.
 const char* device_state(const ols_msg::station_status_t& status, const std::string& name);
-// The version of the station's program, cut to a line; "-" if it does not say it.
+// The version of the station's program, cut to one line; "-" if the status does not state it.
 std::string software(const ols_msg::station_status_t& status);
-// "surveyed", "sensor", "unknown": where a pose comes from.
+// Where a pose comes from: "surveyed", "sensor", "unknown".
 const char* source_name(std::int8_t source);
 // "synchronised", "unsynchronised", "unknown".
 const char* clock_name(std::int8_t state);

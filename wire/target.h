@@ -1,4 +1,4 @@
-// Reads a target, in one way for all programs.
+// Reads a target; all programs use these functions.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,21 +11,21 @@
 
 namespace ols::wire {
 
-// A target of the site's estimator; nothing if the message is not one. Its texts are made safe for
-// a terminal.
+// A target of the site's estimator; nullopt if the message is not one. The texts in it are made
+// safe for a terminal.
 std::optional<ols_msg::target_t> heard_target(const BusMessage& message);
 
-// Whether there is an object, at a place on or near the earth.
+// Whether the target is an object with a position on or near the earth.
 bool has_position(const ols_msg::target_t& target);
-// [m/s] east, north, up at the target; NaN where it is not estimated.
+// The velocity [m/s]: east, north, up at the target; NaN if it is not estimated.
 Eigen::Vector3d velocity_enu(const ols_msg::target_t& target);
 
-// A latitude, a longitude and a height that can be drawn; [deg] WGS84, [m].
+// Whether latitude, longitude [deg, WGS84] and height [m] are a place that can be drawn.
 bool is_place(double latitude_deg, double longitude_deg, double height_m);
 
 // "tentative", "confirmed", "coasted", "dropped".
 const char* track_name(std::int8_t state);
-// "ok", "too-few-rays", ..
+// For example "ok", "too-few-rays".
 const char* solution_name(std::int8_t solution);
 
 }  // namespace ols::wire

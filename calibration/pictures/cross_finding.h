@@ -1,6 +1,6 @@
-// Finds the crosses of a rectification target: upright, dark arms on a light board, one alone or
-// two side by side. The search is by normalised correlation with a drawn cross of the size that
-// their distance gives. The position is the intersection of the two arms' middle lines. Pure.
+// Finds the crosses of a rectification target: upright, with dark arms on a light board; one alone,
+// or two side by side. The search correlates the picture with a drawn cross of the expected size
+// (normalised correlation). The position is the intersection of the two arms' middle lines. Pure.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,7 +12,7 @@ namespace ols::calibration {
 struct CrossSize {
   double arm_px = 0.0;    // from the centre to the end of an arm
   double width_px = 0.0;  // width of an arm
-  double apart_px = 0.0;  // distance of the two crosses; 0: only one
+  double apart_px = 0.0;  // distance between the two crosses; 0 if there is only one
 };
 
 struct Crosses {
@@ -24,11 +24,11 @@ struct Crosses {
     kBlurred,  // position worse than a third of a pixel
   };
   Refusal refusal = Refusal::kNone;
-  double scale = 1.0;  // size over the expected one
+  double scale = 1.0;  // found size over expected size
   Eigen::Vector2d left_px =
-      Eigen::Vector2d::Zero();  // if there is only one cross: the same as the right one
+      Eigen::Vector2d::Zero();  // equal to the right one if there is only one cross
   Eigen::Vector2d right_px = Eigen::Vector2d::Zero();
-  double sd_px = 0.0;  // 1-sigma of each coordinate of the right one
+  double sd_px = 0.0;  // 1-sigma of each coordinate of the right cross
   explicit operator bool() const { return refusal == Refusal::kNone; }
 };
 const char* to_string(Crosses::Refusal refusal);

@@ -5,14 +5,14 @@
 
 namespace ols::calibration {
 
-// 1-sigma [gray] of the noise from pixel to pixel: J. Immerkaer, Fast Noise Variance Estimation,
-// Computer Vision and Image Understanding 64 (1996), with the median instead of the mean, so that
-// edges do not count. A fine texture makes it too large.
+// The 1-sigma [gray] of the noise from pixel to pixel, after J. Immerkaer, Fast Noise Variance
+// Estimation, Computer Vision and Image Understanding 64 (1996), with the median instead of the
+// mean, so that edges do not count. A fine texture makes it too large.
 double noise_of(const cv::Mat& gray);
 
 struct Gradients {
-  cv::Mat x, y;     // float, [gray/px], of the smoothed picture
-  double sd = 0.0;  // 1-sigma of each, from noise and from rounding to whole gray levels
+  cv::Mat x, y;     // float [gray/px], of the smoothed picture
+  double sd = 0.0;  // 1-sigma of x and of y, from noise and from rounding to whole gray levels
 };
 // `smoothing_px`: 1-sigma of the Gaussian applied first.
 Gradients gradients_of(const cv::Mat& gray, double smoothing_px);

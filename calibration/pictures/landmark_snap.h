@@ -1,9 +1,9 @@
 // Finds the exact position of a landmark at which a person has pointed roughly. Pure.
 //
 // It is Foerstner's point (W. Foerstner, E. Guelch, A Fast Operator for Detection and Precise
-// Location of Distinct Points, Corners and Centres of Circular Features, 1987). At this point
-// either the surrounding edges intersect (the tip of a spire, the corner of a roof), or their
-// normals do (a ball, a lamp); the better fit is taken.
+// Location of Distinct Points, Corners and Centres of Circular Features, 1987). There, either the
+// surrounding edges intersect (the tip of a spire, the corner of a roof) or their normals do (a
+// ball, a lamp); the better fit is taken.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,19 +17,19 @@ struct Snap {
     kOutside,      // too near to the edge of the picture
     kNoStructure,  // no structure above the noise
     kEdge,         // only an edge: the position along it is unknown
-    kFar,          // the structure is further away than the person can have meant
+    kFar,          // the structure is too far away to be what the person meant
   };
   enum class Shape { kCorner, kCentre };
   Refusal refusal = Refusal::kNone;
   Shape shape = Shape::kCorner;
   Eigen::Vector2d centre_px = Eigen::Vector2d::Zero();
-  double sd_px = 0.0;  // 1-sigma of the worse coordinate
+  double sd_px = 0.0;  // 1-sigma of the less exact coordinate
   explicit operator bool() const { return refusal == Refusal::kNone; }
 };
 const char* to_string(Snap::Refusal refusal);
 
-// `radius_px`: the max distance of the structure from the given point, and the max size of the
-// structure.
+// `radius_px`: the largest distance of the structure from the given point, and the largest size of
+// the structure.
 Snap snap_to_structure(const cv::Mat& gray, const Eigen::Vector2d& pointed_px, double radius_px);
 
 }  // namespace ols::calibration

@@ -1,8 +1,9 @@
 // Finds the parallel, nearly level lines of a rectification target, each to a fraction of a pixel.
 // Pure.
 //
-// A Radon transform sums the gradient along all nearly level lines, and finds them through noise
-// and gaps. Each edge is then fitted to its centroids, column by column. Hidden parts are left out.
+// A Radon transform sums the gradient along all nearly level lines. It finds lines through noise
+// and gaps. Column by column, the centroid of each edge is computed, and a line is fitted to the
+// centroids. Hidden parts are left out.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,25 +12,25 @@
 
 namespace ols::calibration {
 
-// One edge, by two points. They are one radius of gyration to either side of its middle, so that
-// their errors across the line are independent, and a line that the lens bends evenly passes
-// through both.
+// One edge, represented by two points. They lie one radius of gyration to the left and right of the
+// edge's middle. Their errors across the line are therefore independent, and if the lens bends the
+// line evenly, it still passes through both.
 struct LevelEdge {
   Eigen::Vector2d left_px = Eigen::Vector2d::Zero(), right_px = Eigen::Vector2d::Zero();
-  double sd_px = 0.0;  // across the line, of each point
+  double sd_px = 0.0;  // 1-sigma of each point, across the line
 };
 
 struct LevelLines {
   enum class Refusal {
     kNone,
     kNothing,  // no line stands out
-    kShort,    // none longer than a quarter of the picture's width
-    kSteep,    // rolled by more than eight degrees
-    kBlurred,  // edges wider than forty pixels
+    kShort,    // no line is longer than a quarter of the picture's width
+    kSteep,    // the lines are rolled by more than eight degrees
+    kBlurred,  // the edges are wider than forty pixels
   };
   Refusal refusal = Refusal::kNone;
   std::vector<LevelEdge> edges;  // from top to bottom
-  double slope = 0.0;            // mean of the edges; positive down to the right
+  double slope = 0.0;            // mean over the edges; positive if they fall to the right
   explicit operator bool() const { return refusal == Refusal::kNone; }
 };
 const char* to_string(LevelLines::Refusal refusal);

@@ -1,4 +1,4 @@
-// Fits a straight line through points, although some points belong to something else. Pure.
+// Fits a straight line through points of which some belong to something else. Pure.
 #pragma once
 
 #include <cstddef>
@@ -15,12 +15,12 @@ struct LinePoints {
 struct FittedLine {
   double offset = 0.0, slope = 0.0, middle = 0.0;
   double gyration_px = 0.0;  // root mean square of x - middle
-  double rms_px = 0.0;       // of the used points
+  double rms_px = 0.0;       // root mean square distance of the used points from the line
   std::size_t columns = 0;   // number of used points
 };
 
-// Least squares, beginning at `start`. Points further off than three deviations (estimated from the
-// median of the distances) are left out. nullopt if fewer than eight points are left.
+// Least squares, starting from `start`. Points further off than three deviations (estimated from
+// the median of the distances) are left out. nullopt if fewer than eight points remain.
 std::optional<FittedLine> fit_line(const LinePoints& points, const FittedLine& start);
 
 }  // namespace ols::calibration

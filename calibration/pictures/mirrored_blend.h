@@ -1,6 +1,6 @@
-// The paper's picture for rotating a camera about its optical axis (section 4.2): the blend of a
-// picture and its mirror image. Level lines continue without a break. If the camera is rolled, they
-// cross their mirror images in the middle column. Pure.
+// The paper's picture for rolling a camera about its optical axis (section 4.2): the blend of a
+// picture with its mirror image. If the camera is not rolled, level lines continue without a break.
+// If it is rolled, they cross their mirror images in the middle column. Pure.
 #pragma once
 
 #include <opencv2/core.hpp>

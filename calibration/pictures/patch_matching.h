@@ -12,11 +12,12 @@
 namespace ols::calibration {
 
 struct Patch {
-  cv::Mat pixels;  // float, smoothed; square with an odd side: the middle is the point
+  // Float, smoothed; square with an odd side, so that the point is the middle pixel.
+  cv::Mat pixels;
 };
 
-// The patch around a point; nullopt if it does not fit into the picture. `turn` converts the
-// patch's coordinates to those of the searched picture; it is not the identity if that picture
+// Cuts the patch around a point; nullopt if it does not fit into the picture. `turn` maps the
+// patch's coordinates to those of the searched picture. It is not the identity if that picture
 // shows the surroundings turned or sheared.
 std::optional<Patch> cut_patch(const cv::Mat& gray, const Eigen::Vector2d& centre_px, int half_px,
                                const Eigen::Matrix2d& turn = Eigen::Matrix2d::Identity());
@@ -24,15 +25,15 @@ std::optional<Patch> cut_patch(const cv::Mat& gray, const Eigen::Vector2d& centr
 struct PatchMatch {
   enum class Refusal {
     kNone,
-    kOutside,      // of the picture
-    kNoStructure,  // the patch is a plain surface, or an edge along which it slides
-    kNotFound,     // nothing similar
-    kAmbiguous,    // two places are nearly alike
+    kOutside,      // the point is outside the picture
+    kNoStructure,  // the patch is a uniform surface, or an edge along which it could slide
+    kNotFound,     // no similar place
+    kAmbiguous,    // two places are almost equally similar
   };
   Refusal refusal = Refusal::kNone;
   Eigen::Vector2d centre_px = Eigen::Vector2d::Zero();
-  double sd_px = 0.0;        // 1-sigma of the worse coordinate
-  double correlation = 0.0;  // 0..1, at the found place
+  double sd_px = 0.0;        // 1-sigma of the less exact coordinate
+  double correlation = 0.0;  // 0..1, at the position found
   explicit operator bool() const { return refusal == Refusal::kNone; }
 };
 const char* to_string(PatchMatch::Refusal refusal);

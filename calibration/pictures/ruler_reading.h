@@ -1,5 +1,5 @@
 // Reads a rectification target's ruler: black and white bars of equal height on a vertical board.
-// One black bar of three times the height is the zero. Pure.
+// One black bar, three times as high, marks the zero. Pure.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,27 +11,28 @@ namespace ols::calibration {
 struct RulerReading {
   enum class Refusal {
     kNone,
-    kNothing,  // no bars
-    kScale,    // the bars' height does not match the distance
+    kNothing,  // no bars found
+    kScale,    // the height of the bars does not match the distance
     kNoZero,   // the zero is hidden or outside the picture
-    kShort,    // the ruler does not reach the wanted row
+    kShort,    // the ruler does not reach the requested row
     kUneven,   // the bars are not even: half hidden, blurred, or no ruler
   };
   Refusal refusal = Refusal::kNone;
-  double scale = 1.0;    // height of a bar over the expected one
-  double x_px = 0.0;     // column of the ruler
-  double bars = 0.0;     // the reading at the wanted row, from the zero's middle, in units of a
-                         // bar's height
-  double sd_px = 0.0;    // 1-sigma of the reading's position
-  double zero_px = 0.0;  // row of the zero's middle
+  double scale = 1.0;  // found height of a bar over the expected height
+  double x_px = 0.0;   // column of the ruler
+  // The reading at the requested row, counted from the zero's middle, in units of a bar's height.
+  double bars = 0.0;
+  double sd_px = 0.0;    // 1-sigma of the reading, as a distance in the picture
+  double zero_px = 0.0;  // row of the middle of the zero
   explicit operator bool() const { return refusal == Refusal::kNone; }
 };
 const char* to_string(RulerReading::Refusal refusal);
 
-// A point on a ruler whose bars have this height; nullopt if there is none.
+// Finds a point on a ruler whose bars have this height; nullopt if there is no ruler.
 std::optional<Eigen::Vector2d> find_ruler(const cv::Mat& gray, double bar_px);
 
-// Reads the ruler at `at_px`, at this row. `bar_px`: expected height of a bar.
+// Reads the ruler that contains the point `at_px`, at the row `row_px`. `bar_px`: expected height
+// of a bar.
 RulerReading read_ruler(const cv::Mat& gray, const Eigen::Vector2d& at_px, double bar_px,
                         double row_px);
 

@@ -1,9 +1,9 @@
 // Finds points of the scenery again in the overlapping pictures of a sweep. Pure.
 //
-// The chain predicts the position of a point in another picture to some tens of pixels. First the
-// offset that all points of a pair of pictures share is found; then each point to a fraction of a
-// pixel, by least-squares matching. Points that move against the others (cars, branches, clouds)
-// are left out.
+// The chain predicts where a point appears in another picture, to within some tens of pixels. First
+// the offset that all points of a pair of pictures share is found. Then each point is located to a
+// fraction of a pixel, by least-squares matching. Points that move relative to the others (cars,
+// branches, clouds) are left out.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,23 +18,23 @@
 namespace ols::calibration {
 
 struct SceneTrackOptions {
-  double reach_px = 40.0;     // max error of the chain from picture to picture
-  int points_a_picture = 40;  // max number
+  double reach_px = 40.0;     // largest error of the chain's prediction from picture to picture
+  int points_a_picture = 40;  // largest number of points in a picture
   int patch_half_px = 9;
-  double agree_px = 1.0;  // max distance of a point from the common motion of its pair
+  double agree_px = 1.0;  // largest deviation of a point from the common motion of its pair
 };
 
 struct SceneSighting {
-  int track = 0;            // running number
-  std::size_t picture = 0;  // in the order of add()
+  int track = 0;            // number of the point
+  std::size_t picture = 0;  // index, in the order of add()
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
   double sd_px = 0.0;
 };
 
 struct ScenePair {
   std::size_t first = 0, second = 0;
-  int matched = 0, moved = 0;                           // points that agree, and that do not
-  Eigen::Vector2d offset_px = Eigen::Vector2d::Zero();  // found minus predicted, the median
+  int matched = 0, moved = 0;  // numbers of points that follow the common motion, and that do not
+  Eigen::Vector2d offset_px = Eigen::Vector2d::Zero();  // median of found minus predicted position
 };
 
 class SceneTracks {
@@ -42,13 +42,13 @@ class SceneTracks {
   explicit SceneTracks(const StationGeometry& geometry, const SceneTrackOptions& options = {})
       : geometry_(geometry), options_(options) {}
 
-  // Adds a picture with the angles at its exposure.
+  // Adds a picture with the PTU's angles at its exposure.
   void add(const cv::Mat& gray, const PanTilt& angles);
 
-  // Tracks seen in at least two pictures, sorted by picture.
+  // Points seen in at least two pictures, sorted by picture.
   std::vector<SceneSighting> sightings() const;
   const std::vector<ScenePair>& pairs() const { return pairs_; }
-  // Number of pairs in which more points have moved than stayed: the scene is not still.
+  // Number of pairs in which more points moved than stayed, because the scene is not still.
   int moving_pairs() const;
 
  private:

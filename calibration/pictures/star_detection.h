@@ -1,6 +1,6 @@
-// Finds stars in a picture of the night sky: above the background, centred, each with its
-// deviation. Hot pixels, streaks (aircraft, satellites) and lit surfaces are refused and counted.
-// Pure.
+// Finds stars in a picture of the night sky: their centres, their brightness above the background,
+// and their deviations. Hot pixels, streaks (aircraft, satellites) and lit surfaces are rejected
+// and counted. Pure.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,7 +11,7 @@ namespace ols::calibration {
 
 struct DetectedStar {
   Eigen::Vector2d centre_px = Eigen::Vector2d::Zero();
-  double sd_px = 0.0;  // 1-sigma of the worse coordinate
+  double sd_px = 0.0;  // 1-sigma of the less exact coordinate
   double flux = 0.0;   // [gray px] above the background
   bool saturated = false;
 };
@@ -19,16 +19,16 @@ struct DetectedStar {
 struct StarField {
   std::vector<DetectedStar> stars;  // brightest first
   int hot_pixels = 0, streaks = 0, surfaces = 0;
-  double noise = 0.0;  // [gray] of a pixel
+  double noise = 0.0;  // [gray] 1-sigma of a pixel
 };
 
 struct StarDetectionOptions {
   double threshold = 5.0;  // in units of the noise of the smoothed picture
-  double widest_px = 4.0;  // max 1-sigma of a star's image: a larger one is a surface
-  double longest = 2.0;    // max length over width: a longer one is a streak
+  double widest_px = 4.0;  // largest 1-sigma of a star's image; anything larger is a surface
+  double longest = 2.0;    // largest ratio of length to width; anything longer is a streak
 };
 
-// 8-bit or 16-bit gray.
+// `gray`: 8-bit or 16-bit.
 StarField detect_stars(const cv::Mat& gray, const StarDetectionOptions& options = {});
 
 }  // namespace ols::calibration

@@ -1,4 +1,5 @@
-// Finds the sun's centre in a picture through a filter, by a circle fitted to its limb. Pure.
+// Finds the sun's centre in a picture taken through a filter, by fitting a circle to the sun's
+// limb. Pure.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,8 +10,8 @@ namespace ols::calibration {
 struct SunDisc {
   enum class Refusal {
     kNone,
-    kNoDisc,     // nothing bright on dark, or several discs
-    kAtTheEdge,  // at the edge of the picture
+    kNoDisc,     // nothing bright in front of something dark, or several discs
+    kAtTheEdge,  // the disc is at the edge of the picture
     kOtherSize,  // not the sun, or another focal length
     kNotRound,   // clouds, or too long an exposure
   };
@@ -22,10 +23,10 @@ struct SunDisc {
 };
 const char* to_string(SunDisc::Refusal refusal);
 
-// `focal_px` gives the expected radius, within 3 % (the sun's distance changes it by 1.7 %).
+// `focal_px` gives the expected radius to within 3 % (the sun's distance changes it by 1.7 %).
 SunDisc find_sun(const cv::Mat& gray, double focal_px);
 
-// Neither sky nor scenery is visible: a solar filter is on the lens.
+// Whether neither sky nor scenery is visible, which means that a solar filter is on the lens.
 bool is_black(const cv::Mat& gray);
 
 }  // namespace ols::calibration

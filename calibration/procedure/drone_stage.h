@@ -1,7 +1,7 @@
-// Calibration with an RTK drone. The drone hovers at one point after the other; a person says when
-// it hovers. The unit looks there and takes a picture. When the drone's recorded positions extend
-// beyond the picture's time, the drone is found in the picture. The next point is the most helpful
-// one. Pure.
+// Calibration with a drone that records its positions by RTK. The drone hovers at one point after
+// the other, and a person says when it hovers. The unit then looks there and takes a picture. Once
+// the drone's recorded positions extend beyond the picture's time, the drone is found in the
+// picture. The next point is the one that helps most. Pure.
 #pragma once
 
 #include <functional>
@@ -16,16 +16,16 @@
 namespace ols::calibration {
 
 struct DroneOptions {
-  std::string name;  // as in the references
+  std::string name;  // its name in the references
   int points = 40;
 };
 
 class DroneStage : public Stage {
  public:
-  // The drone's positions known so far; empty: none yet.
+  // Returns the drone's positions known so far; empty if there are none yet.
   using Positions = std::function<Trajectory()>;
-  // `now`: [us] UTC. `adviser`: says where the drone is to fly next; may be empty. `may_go`:
-  // whether the unit's travel and keep-out regions allow a direction.
+  // `now`: [us] UTC. `adviser`: chooses the point to which the drone flies next; may be empty.
+  // `may_go`: whether the unit's travel limits and keep-out regions allow a direction.
   DroneStage(const StationModel& model, DroneOptions options, Positions positions,
              SunKeepOut::UtcNow now, MayGo may_go, Adviser adviser = nullptr);
 
@@ -38,7 +38,7 @@ class DroneStage : public Stage {
 
  private:
   void ask(const std::string& trouble);
-  // `now_us`: the time of the answer, also when the procedure is resumed later.
+  // `now_us`: the time of the answer. It stays the same if the procedure is resumed later.
   void sight(std::int64_t now_us);
   void judge();
   void confirm(const Taken& picture, const Eigen::Vector2d& pixel, double sd_px);
@@ -52,18 +52,18 @@ class DroneStage : public Stage {
   MayGo may_go_;
   Adviser adviser_;
   bool done_ = false;
-  Question question_;             // where to fly
-  std::optional<Shot> shot_;      // to be taken
-  std::optional<Taken> picture_;  // until the positions reach beyond it
-  PanTilt turned_;                // by the person, for this point
+  Question question_;             // asks for the drone to be flown to the next point
+  std::optional<Shot> shot_;      // the picture to be taken next
+  std::optional<Taken> picture_;  // kept until the positions extend beyond its time
+  PanTilt turned_;                // how far the person has turned the unit, for this point
   PointingDialog dialog_;
   // Offset of the last sighting from the chain's prediction; nullopt before the first.
   std::optional<Eigen::Vector2d> beside_px_;
   std::vector<Observation> observations_;
 };
 
-// The position at an instant: on the straight line between two points; up to `beyond_us` after the
-// last point, at that point.
+// The position at an instant, on the straight line between two recorded points. Up to `beyond_us`
+// after the last point, returns that point.
 std::optional<Eigen::Vector3d> position_at(const Trajectory& trajectory, std::int64_t utime_us,
                                            std::int64_t beyond_us);
 

@@ -1,5 +1,6 @@
-// A whole procedure: its stages in order, then a person's decision about the result. The caller
-// carries out the orders, adjusts when the stages are complete, and stores the result. Pure.
+// A whole procedure: runs its stages in order, then asks a person what to do with the result. The
+// caller carries out the orders, runs the adjustment when the stages are complete, and stores the
+// result. Pure.
 #pragma once
 
 #include <algorithm>
@@ -15,10 +16,10 @@ namespace ols::calibration {
 
 // The result of an adjustment, as shown to a person.
 struct AdjustedResult {
-  bool failed = false;  // no result: contradictions, or no heading
-  bool good = false;    // it is within the limits for acceptance
+  bool failed = false;  // there is no result: contradictions, or no heading
+  bool good = false;    // the result is within the limits for acceptance
   std::string text;     // one screen
-  std::string worst;    // the reference to be sighted again; empty: none
+  std::string worst;    // the reference that should be sighted again; empty if none
 };
 
 enum class Outcome { kRunning, kAccepted, kKeptOld, kAborted };
@@ -26,10 +27,10 @@ enum class Outcome { kRunning, kAccepted, kKeptOld, kAborted };
 class FieldProcedure {
  public:
   using Redo = std::function<void(const std::string& reference)>;
-  // `redo`: sights one reference again, in the last stage.
+  // `redo`: has the last stage sight one reference again.
   FieldProcedure(std::vector<std::unique_ptr<Stage>> stages, Redo redo);
 
-  // nullopt if the stages are complete and adjusted() must be called, or if the procedure has
+  // nullopt if the stages are complete and adjusted() must be called next, or if the procedure has
   // ended.
   std::optional<Order> next();
   void taken(const Taken& picture) { stage().taken(picture); }

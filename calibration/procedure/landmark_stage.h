@@ -1,7 +1,7 @@
-// Sighting landmarks with a person. The person points at the first. The unit then drives to each of
-// the others, the most helpful first. A crosshair snaps to the landmark, and the person confirms. A
-// second round runs automatically, with the other direction of approach. At the end the unit
-// returns to the first landmark, as a check. Pure.
+// The stage in which landmarks are sighted together with a person. The person points at the first
+// landmark. The unit then turns to each of the others, the most helpful one first. A crosshair
+// snaps to the landmark, and the person confirms. A second round runs automatically, with the other
+// direction of approach. At the end the unit returns to the first landmark, as a check. Pure.
 #pragma once
 
 #include <string>
@@ -19,10 +19,10 @@ using Landmark = Place;
 
 class LandmarkStage : public Stage {
  public:
-  // `model`: the station as far as it is known. Its heading may be anything, because the first
-  // sighting determines it. `rounds`: number of sightings of each landmark. Landmarks that the unit
-  // cannot look at are left out, with a remark. `adviser`: chooses the order after the first
-  // landmark; null: the given order.
+  // `model`: the station as far as it is known. The heading in it may have any value, because the
+  // first sighting determines it. `rounds`: number of sightings of each landmark. Landmarks at
+  // which the unit cannot look are left out, with a remark. `adviser`: chooses the order after the
+  // first landmark; if null, the given order is used.
   LandmarkStage(const StationModel& model, std::vector<Landmark> landmarks, int rounds,
                 Adviser adviser = nullptr);
 
@@ -33,9 +33,10 @@ class LandmarkStage : public Stage {
   std::vector<Observation> observations() const override;
   double progress() const override;
 
-  // How far the first landmark appeared to have moved at the end [rad]; nullopt before the end.
+  // How far the first landmark appears to have moved at the end [rad]; nullopt before the end.
   std::optional<double> closing_rad() const { return closing_rad_; }
-  // Sights this landmark again, with the person. Its old sightings hold until the person confirms.
+  // Sights this landmark again, together with the person. Its old sightings count until the person
+  // confirms the new one.
   void redo(const std::string& name);
   const StationModel& model() const { return model_; }
 
@@ -56,7 +57,7 @@ class LandmarkStage : public Stage {
   struct Visit {
     std::size_t entry = 0;
     int approach = 1;
-    bool by_person = true;  // false: found again by its patch
+    bool by_person = true;  // false if it is found again by its patch
     bool closing = false;
   };
 
@@ -76,10 +77,10 @@ class LandmarkStage : public Stage {
   std::vector<Entry> entries_;
   std::vector<Visit> visits_;
   std::size_t at_ = 0;
-  PanTilt turned_;         // by the person, in this visit
-  PointingDialog dialog_;  // of this visit
+  PanTilt turned_;         // how far the person has turned the unit, in this visit
+  PointingDialog dialog_;  // for this visit
   Adviser adviser_;
-  std::string advice_;  // of this visit
+  std::string advice_;  // for this visit
   std::optional<double> closing_rad_;
 };
 

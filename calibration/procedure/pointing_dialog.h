@@ -1,5 +1,5 @@
-// A person shows where something is in a picture: the person points at it, a crosshair snaps to it,
-// and the person confirms. The person may turn the unit first. Pure.
+// Asks a person to show where something is in a picture: the person points at it, a crosshair snaps
+// to it, and the person confirms. The person may turn the unit first. Pure.
 #pragma once
 
 #include <optional>
@@ -15,8 +15,8 @@ class PointingDialog {
 
   // Asks for `what` in this picture, without a crosshair.
   void begin(const std::string& what, const Taken& picture);
-  // Puts the crosshair on the structure near this pixel, or says why there is none. `as_is`: puts
-  // it on the pixel itself.
+  // Puts the crosshair on the structure near this pixel, or says why there is none. If `as_is`, it
+  // puts the crosshair on the pixel itself.
   void place(const Eigen::Vector2d& near_px, double radius_px, bool as_is = false);
   Event answered(const Answer& answer);
   void end() { question_.reset(); }
@@ -24,7 +24,7 @@ class PointingDialog {
   // The current question; nullopt before begin() and after end().
   const std::optional<Order>& question() const { return question_; }
   bool has_crosshair() const { return question_ && question_->question.crosshair_px.has_value(); }
-  // The position of the crosshair.
+  // The picture, and the position of the crosshair in it.
   const Taken& picture() const { return picture_; }
   Eigen::Vector2d pixel() const { return *question_->question.crosshair_px; }
   double sd_px() const { return question_->question.crosshair_sd_px; }

@@ -1,4 +1,4 @@
-// The conditions for beginning a calibration, and warnings for the person. Pure.
+// The conditions under which a calibration may begin, and warnings for the person. Pure.
 #pragma once
 
 #include <optional>
@@ -9,13 +9,13 @@
 
 namespace ols::calibration {
 
-// What the check needs, from a station's status.
+// What the check needs to know from a station's status.
 struct StationFacts {
   bool camera_works = false, unit_works = false;
-  bool moves = true;          // false: a fixed mount
+  bool moves = true;          // false for a fixed mount
   bool limits_known = false;  // the unit is homed and has reported its travel
   bool stopped = false, emergency = false;
-  bool held_by_hand = false;  // under manual operation, by anyone
+  bool held_by_hand = false;  // an operator controls the unit manually
   bool follows_target = false;
   double status_gap_s = 0.0;  // interval between two statuses
   bool has_position = false, has_tilt = false;
@@ -27,21 +27,22 @@ struct StationFacts {
 };
 
 struct Wanted {
-  double status_gap_s = 0.0;                    // max interval, so that a stop is noticed in time
-  bool absolute_time = false;                   // stars, the sun, aircraft, drones
-  bool sun_kept_out = false;                    // the sun is up, and must not come into the picture
+  // Largest interval between statuses at which a stop is still noticed in time.
+  double status_gap_s = 0.0;
+  bool absolute_time = false;                   // needed for stars, the sun, aircraft and drones
+  bool sun_kept_out = false;                    // the sun is up, and must stay out of the picture
   int image_width_px = 0, image_height_px = 0;  // as configured
 };
 
 struct Precondition {
   bool met = false;
-  bool needed = true;    // false: only a warning
-  std::string sentence;  // for a person: the state, and what to do
+  bool needed = true;    // false if it is only a warning
+  std::string sentence;  // for a person: the state, and what to do about it
 };
 
-// The conditions, in the order in which a person corrects them.
+// The conditions, in the order in which a person should meet them.
 std::vector<Precondition> preconditions(const StationFacts& facts, const Wanted& wanted);
-// Why a calibration cannot begin; empty: it can.
+// The first needed condition that is not met, as a sentence; empty if the calibration can begin.
 std::string first_hindrance(const std::vector<Precondition>& all);
 
 }  // namespace ols::calibration

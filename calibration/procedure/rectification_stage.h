@@ -1,7 +1,7 @@
-// One rectification target with a person. A live picture shows the measured value until the target
-// is in place and the person confirms. Then pictures with both directions of approach follow; each
-// is read separately. If the target's place depends on where the unit points, the unit does not
-// turn. Pure.
+// The stage in which one rectification target is measured together with a person. A live picture
+// shows the measured value until the target is in place and the person confirms. Then pictures are
+// taken with both directions of approach; each is read separately. If the target's place depends on
+// where the unit points, the unit does not turn meanwhile. Pure.
 #pragma once
 
 #include <string>
@@ -13,8 +13,8 @@ namespace ols::calibration {
 
 class RectificationStage : public Stage {
  public:
-  // `start`: where the unit looks first. `rounds`: number of pictures for each direction of
-  // approach.
+  // `start`: the direction in which the unit looks first. `rounds`: number of pictures for each
+  // direction of approach.
   RectificationStage(TargetReaderPtr reader, const PanTilt& start, int rounds);
 
   std::optional<Order> next() override;
@@ -39,12 +39,12 @@ class RectificationStage : public Stage {
   PanTilt angles_;
   int rounds_;
   State state_ = State::kPuttingUp;
-  std::optional<Taken> picture_;  // the newest, while the target is put up
+  std::optional<Taken> picture_;  // the newest picture, while the person sets up the target
   std::optional<Eigen::Vector2d> pointed_;
   std::optional<TargetReading> reading_;  // of that picture
   std::optional<Order> question_;
   int taken_ = 0, read_ = 0;
-  std::string number_;  // from the last picture that was read
+  std::string number_;  // the measured value, from the last picture that could be read
   std::vector<Observation> observations_;
 };
 

@@ -1,5 +1,5 @@
-// Which place a person should sight next: predicts for each the systematic error over the working
-// volume, with all observations so far. Pure.
+// Finds the place that a person should sight next: predicts for each place the systematic error
+// over the working volume, given all observations so far. Pure.
 #pragma once
 
 #include <functional>
@@ -15,15 +15,16 @@ namespace ols::calibration {
 struct Place {
   std::string name;
   Eigen::Vector3d ecef = Eigen::Vector3d::Zero();  // [m]
-  double sd_m = 0.0;                               // of each axis
+  double sd_m = 0.0;                               // 1-sigma of each axis
 };
 
-// RMS per axis of the systematic error that would remain after sighting this place.
+// The RMS per axis of the systematic error that would remain after sighting this place.
 struct Foretold {
   std::string name;
   double rms_rad = 0.0;
 };
-// "mast would leave 21.3″ (gable 24.0″, barn 25.1″)". Empty without predictions.
+// For example "mast would leave 21.3″ (gable 24.0″, barn 25.1″)". Empty if there are no
+// predictions.
 std::string in_words(const std::vector<Foretold>& ranked);
 
 // The places, sorted by the error that would remain, smallest first. Places without a prediction
@@ -34,9 +35,9 @@ using Adviser =
 class SightingPlanner {
  public:
   using Observed = std::function<std::vector<Observation>()>;
-  // `problem`: the station's prior, air and references; its observations do not count. `observed`:
-  // the observations so far. `times`: number of sightings of a place, with alternating directions
-  // of approach.
+  // `problem`: the station's prior, the air and the references; its observations are ignored.
+  // `observed`: the observations so far. `times`: number of sightings of a place, with alternating
+  // directions of approach.
   SightingPlanner(Problem problem, Observed observed, int times)
       : problem_(std::move(problem)), observed_(std::move(observed)), times_(times) {}
 
@@ -49,7 +50,7 @@ class SightingPlanner {
   Observed observed_;
   int times_;
   std::size_t unnamed_ = 0;           // number of unnamed stars in the last call
-  std::vector<Observation> named_{};  // these stars with their names
+  std::vector<Observation> named_{};  // the same stars, with their names
 };
 
 }  // namespace ols::calibration

@@ -1,5 +1,5 @@
-// Takes pictures of the night sky all around, and finds the stars in them. They have no names: the
-// adjustment identifies them. Pure.
+// Takes pictures of the night sky all around, and finds the stars in them. The stars have no names
+// yet; the adjustment identifies them. Pure.
 #pragma once
 
 #include <numbers>
@@ -11,14 +11,14 @@ namespace ols::calibration {
 struct StarPlanOptions {
   int pictures = 24;
   double pan_min_rad = -2.6, pan_max_rad = 2.6;
-  double lowest_rad = 0.21;  // 12 degrees: below 10, refraction is not known well enough
+  double lowest_rad = 0.21;  // 12 degrees; below 10, refraction is not known well enough
   double highest_rad = 0.5;
-  double worm_turn_rad = 2.0 * std::numbers::pi / 70.0;  // one turn of the worm, of pan and tilt
+  // One turn of the worm, for pan and for tilt.
+  double worm_turn_rad = 2.0 * std::numbers::pi / 70.0;
 };
 
-// Plans pictures all around, alternately low and high, with all directions of approach, and over
-// all phases of the worms. Throws std::invalid_argument if the unit does not reach the lowest
-// elevation.
+// Plans pictures all around, alternately low and high, with all directions of approach, and at all
+// phases of the worms. Throws std::invalid_argument if the unit cannot reach the lowest elevation.
 std::vector<Shot> plan_stars(const StarPlanOptions& options);
 
 class StarStage : public Stage {

@@ -1,7 +1,7 @@
 // The region around the sun into which the unit must not point without a filter on the lens. Pure.
 //
-// It relies on the heading. The margin covers a compass error of some degrees, but not a heading
-// that was never stated.
+// It depends on the heading. The margin covers a compass error of some degrees, but not an unknown
+// heading.
 #pragma once
 
 #include <cstdint>
@@ -15,21 +15,23 @@ namespace ols::calibration {
 
 class SunKeepOut {
  public:
-  static constexpr double kRadius_deg = 8.0;  // half a picture's diagonal, and a compass error
+  static constexpr double kRadius_deg = 8.0;  // half a picture's diagonal plus a compass error
 
   using UtcNow = std::function<std::int64_t()>;  // [us]
   SunKeepOut(const StationModel& model, UtcNow now) : model_(model), now_(std::move(now)) {}
 
-  // Why the unit must not look there now (reported angles), in words; empty: it may. `doubt_rad`:
-  // how far the tripod may have turned, in addition to a compass error.
+  // Why the unit must not look in this direction now (angles as reported), in words; empty if it
+  // may. `doubt_rad`: how far the tripod may have turned; added to the compass error.
   std::string hindrance(const PanTilt& angles, double doubt_rad = 0.0) const;
-  // Whether part of the sun may be visible, because it is not far below the horizon.
+  // Whether part of the sun may be visible; this is so even if the sun is a little below the
+  // horizon.
   bool is_up() const;
-  // A filter is on the lens: a person has said so, and a picture beside the sun has confirmed it.
+  // Suspends the region: a person has said that a filter is on the lens, and a picture beside the
+  // sun has confirmed it.
   void lift() { lifted_ = true; }
   void restore() { lifted_ = false; }
 
-  // Direction of the sun now, with refraction, from GROUND: east, north, up.
+  // Direction from GROUND to the sun now, with refraction: east, north, up.
   Eigen::Vector3d sun_enu() const;
   std::int64_t now_utime_us() const { return now_(); }
 

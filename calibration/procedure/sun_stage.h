@@ -1,6 +1,6 @@
-// Sights the sun through a filter. A person puts the filter on, and a picture beside the sun
-// confirms it. Only then does the unit look at the sun, with both directions of approach and at
-// several places of the picture. Pure.
+// The stage in which the sun is sighted through a filter. A person puts the filter on, and a
+// picture beside the sun confirms it. Only then does the unit look at the sun, with both directions
+// of approach, and with the sun at several places in the picture. Pure.
 #pragma once
 
 #include <memory>
@@ -10,20 +10,20 @@
 
 namespace ols::calibration {
 
-// Whether the unit can be sent to these reported angles.
+// Whether the unit can be sent to these angles (as the unit reports them).
 using MayGo = std::function<bool(const PanTilt&)>;
 
 class SunStage : public Stage {
  public:
-  // `keep_out`: suspended while the filter is on. `may_go`: whether travel and keep-out regions
-  // allow a direction.
+  // `keep_out`: is suspended while the filter is on. `may_go`: whether travel limits and keep-out
+  // regions allow a direction.
   SunStage(const StationModel& model, std::shared_ptr<SunKeepOut> keep_out, MayGo may_go);
 
   std::optional<Order> next() override;
   void taken(const Taken& picture) override;
   void not_taken(const std::string& why) override;
   void answered(const Answer& answer) override;
-  // Notes that the filter may have been taken off.
+  // The filter may have been taken off meanwhile.
   void resumed() override;
   std::vector<Observation> observations() const override { return observations_; }
   double progress() const override;
@@ -44,9 +44,9 @@ class SunStage : public Stage {
   MayGo may_go_;
   Step step_ = Step::kAskFilter;
   Question question_;
-  bool filter_is_on_ = false;  // the person's last statement
-  PanTilt turned_;             // by the person
-  std::size_t at_ = 0;         // sighting
+  bool filter_is_on_ = false;  // according to the person
+  PanTilt turned_;             // how far the person has turned the unit
+  std::size_t at_ = 0;         // index of the sighting
   std::vector<Observation> observations_;
 };
 

@@ -1,5 +1,5 @@
-// The automatic sweep: takes pictures all around, and finds the points of the scenery in them.
-// Pure.
+// The stage of the automatic sweep: takes pictures all around, and finds points of the scenery in
+// them. Pure.
 #pragma once
 
 #include <deque>
@@ -11,7 +11,7 @@ namespace ols::calibration {
 
 class SweepStage : public Stage {
  public:
-  // `geometry`: the station's, as far as it is known.
+  // `geometry`: the station's geometry, as far as it is known.
   SweepStage(const StationGeometry& geometry, std::vector<Shot> shots);
 
   std::optional<Order> next() override;
@@ -29,8 +29,8 @@ class SweepStage : public Stage {
   std::size_t at_ = 0;
   int missed_ = 0;
   SceneTracks tracks_;
-  std::deque<Taken> waiting_;  // pictures whose points are still to be found
-  std::vector<Taken> taken_;   // without their pictures
+  std::deque<Taken> waiting_;  // pictures in which the points have not been found yet
+  std::vector<Taken> taken_;   // without their pixels
 };
 
 }  // namespace ols::calibration

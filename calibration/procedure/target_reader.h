@@ -1,5 +1,5 @@
-// The paper's rectification targets as a person sets them up, and the evaluation of a picture of
-// each: what to show, the measured value, observations. Pure.
+// Reads pictures of the paper's rectification targets as a person sets them up. Yields what to
+// show, the measured value, and observations. Pure.
 #pragma once
 
 #include <memory>
@@ -12,23 +12,24 @@
 
 namespace ols::calibration {
 
-// Level, parallel lines, dark on light.
+// A board with level, parallel lines, dark on light.
 struct LevelBoard {
   double level_sd_rad = 30.0 * EIGEN_PI / 648000.0;
 };
-// A cross straight ahead of the unit's axes, and another one to the right of it, at the camera's
-// offset from the axes. If the camera is directly above the axes, there is only one.
+// One cross straight ahead of the unit's axes, and another one to the right of it, at a distance
+// equal to the camera's offset from the axes. If the camera is directly above the axes, there is
+// only one cross.
 struct CrossBoard {
   double distance_m = 0.0;  // from the pan axis
   double apart_m = 0.0;
-  double arm_m = 0.12, width_m = 0.03;  // from the centre to the end of an arm; its width
-  double sd_m = 0.003;                  // of the left cross, against where the unit points
+  double arm_m = 0.12, width_m = 0.03;  // length of an arm from the cross's centre; width of an arm
+  double sd_m = 0.003;  // 1-sigma of the left cross's place relative to where the unit points
 };
 // Two rulers at two distances, side by side in the picture, with their zeros at the same height.
 struct RulerPair {
   double near_m = 0.0, far_m = 0.0;  // from the pan axis
   double bar_m = 0.05;               // height of a bar
-  double sd_m = 0.001;               // of each zero's height
+  double sd_m = 0.001;               // 1-sigma of each zero's height
 };
 struct RectificationTargets {
   std::optional<LevelBoard> level;
@@ -37,23 +38,23 @@ struct RectificationTargets {
 };
 
 struct TargetReading {
-  std::string trouble;  // why the target cannot be read, as a sentence; empty: it is read
+  std::string trouble;  // why the target cannot be read, as a sentence; empty if it was read
   std::string number;   // the measured value in words
   cv::Mat shown;
   std::optional<Eigen::Vector2d> crosshair_px;
   double crosshair_sd_px = 0.0;
-  std::vector<Observation> observations;  // none if there is trouble
+  std::vector<Observation> observations;  // empty if there is trouble
 };
 
 class TargetReader {
  public:
   virtual ~TargetReader() = default;
-  virtual std::string name() const = 0;         // "level line"
+  virtual std::string name() const = 0;         // for example "level line"
   virtual std::string instruction() const = 0;  // what a person has to set up, and where
   // Whether the target's place depends on where the unit points. If so, the unit must not turn
-  // until all pictures are taken.
+  // before all pictures are taken.
   virtual bool holds_unit() const { return false; }
-  // `pointed`: where a person says the target, or a part of it, is.
+  // `pointed`: where the target, or a part of it, is according to a person.
   virtual TargetReading read(const Taken& picture,
                              const std::optional<Eigen::Vector2d>& pointed) const = 0;
 };
@@ -62,7 +63,7 @@ using TargetReaderPtr = std::unique_ptr<const TargetReader>;
 TargetReaderPtr level_line_reader(const LevelBoard& board);
 TargetReaderPtr cross_reader(const StationModel& model, const CrossBoard& board);
 TargetReaderPtr ruler_reader(const StationModel& model, const RulerPair& rulers);
-// In the paper's order.
+// The readers of all targets that are set, in the paper's order.
 std::vector<TargetReaderPtr> target_readers(const StationModel& model,
                                             const RectificationTargets& targets);
 

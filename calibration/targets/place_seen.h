@@ -1,4 +1,4 @@
-// A point in ECEF as a station sees it: in GROUND, lifted by terrestrial refraction.
+// How a station sees a point in ECEF: in GROUND, lifted by terrestrial refraction.
 #pragma once
 
 #include "calibration/target.h"

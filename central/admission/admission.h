@@ -16,14 +16,14 @@ namespace ols::fusion {
 
 struct AdmissionConfig {
   double min_belief = 0.5;              // bearings with a lower belief are not used
-  double stale_s = 1.0;                 // max age before "now"
-  double future_s = 0.5;                // max lead over "now"
-  double flood_hz = 1000.0;             // max rate of bearings of one station
-  std::vector<std::string> stations{};  // only these are admitted; empty: all are
-  // At this number of stations, a new one replaces the station that is silent longest, but never
-  // one that still delivers.
+  double stale_s = 1.0;                 // largest age relative to "now"
+  double future_s = 0.5;                // largest lead over "now"
+  double flood_hz = 1000.0;             // largest rate of bearings from one station
+  std::vector<std::string> stations{};  // only these stations are admitted; if empty, all are
+  // When this number of stations is reached, a new one replaces the station that has been silent
+  // longest, but never one that still delivers.
   int max_stations = 1024;
-  // A station that is silent for longer does not count in the median "now".
+  // A station that has been silent for longer does not count in the median "now".
   double silence_s = Activity::kDeliversS;
   ClockMonitorConfig clocks{};
 };
@@ -34,7 +34,7 @@ struct Admitted {
   KnownStation* station = nullptr;       // the sender of an admitted bearing
   std::optional<std::string> evicted{};  // the station that was replaced
   bool recalibrated = false;             // the station has a new calibration_id
-  bool restarted = false;                // its process numbers its tracks from the start again
+  bool restarted = false;  // the station's process numbers its tracks from the start again
 };
 
 class Admission {
@@ -46,13 +46,13 @@ class Admission {
   std::optional<std::string> know_station(const std::string& station, const StationTraits& traits,
                                           FusionLog& log);
   void allow_slews(const std::string& station, bool allowed);
-  // The station sees this target. If its detector sees several targets, the one that it saw first
-  // counts, until that one is out of sight.
+  // Notes that the station sees this target. If its detector sees several targets, the first of
+  // them counts until it is out of sight.
   void note_target(const BearingMeasurement& measurement, std::int64_t target_id);
-  // Message time was reset: forgets every judgement that was based on the old time.
+  // Called when message time was reset: forgets every judgement that was based on the old time.
   void begin_time_line();
 
-  // More than future_s ahead of "now".
+  // Whether the instant is more than future_s ahead of "now".
   bool is_future(std::int64_t utime_us) const;
   const MessageTime& time() const { return time_; }
   const ClockMonitor& clocks() const { return clocks_; }

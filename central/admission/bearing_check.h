@@ -1,4 +1,4 @@
-// Checks of a bearing that need nothing but the bearing itself. Pure.
+// Checks that need only the bearing itself. Pure.
 #pragma once
 
 #include <string_view>
@@ -12,16 +12,17 @@ enum class BearingRefusal {
   kNone,
   kNotFinite,
   kOutOfRange,
-  kCovariance,  // out of range, white part ill-conditioned, or systematic part not semidefinite
-  kUnknown,     // a station that is not of this site
+  // Covariance out of range, white part ill-conditioned, or systematic part not semidefinite.
+  kCovariance,
+  kUnknown,  // the station does not belong to this site
   kStale,
   kFuture,
   kDuplicate,
   kQuarantine,  // the station's clock or pose is not credible
   kTooMany,     // more stations than max_stations
-  kFlood,       // more bearings of one station than flood_hz allows
+  kFlood,       // more bearings from one station than flood_hz allows
   kLowBelief,
-  kCount,  // not a reason: the number of reasons
+  kCount,  // the number of reasons; not itself a reason
 };
 const char* to_string(BearingRefusal refusal);
 // Tells a person what is wrong and where to look.

@@ -14,20 +14,20 @@ namespace ols::fusion {
 // The values are those of station_status_t.
 enum class CalibrationState { kNone, kInUse, kRefused, kDoubted };
 
-// As the station states it.
+// A station's calibration, as the station states it.
 struct StatedCalibration {
   CalibrationState state = CalibrationState::kNone;
-  std::int64_t observed_utime_us = 0;  // of its last observation; 0: not stated
+  std::int64_t observed_utime_us = 0;  // time of its last observation; 0 if not stated
   double sd_rad = std::numeric_limits<double>::quiet_NaN();  // 1-sigma of a direction, each axis
 };
 
 // The filter's estimate of a station's bias (cross-elevation, elevation), and the sigma that the
-// station stated; NaN where the bias is not observable.
+// station states; NaN where the bias is not observable.
 struct FoundBias {
   Eigen::Vector2d bias_rad, stated_sd_rad;
 };
 
-// The alarm for a station that works with a calibration; empty: none. It is raised when
+// The alarm for a station that works with a calibration; empty if there is none. It is raised when
 // the stated sigma explains the bias with a probability below 1 in 16 000.
 Alarm calibration_alarm(const std::string& station, const StatedCalibration& stated,
                         const FoundBias& found);

@@ -2,15 +2,15 @@
 // stamps compared with the others'. Pure.
 //
 // The fusion does not use the bearings of a quarantined station, and does not count the station in
-// its "now". The others continue without it. A smaller clock error only inflates the station's
-// covariance along the target's motion.
+// its "now". The others continue without it. A clock error below the limit only inflates the
+// station's covariance along the target's motion.
 //
 // A station is quarantined for either of two reasons:
-//  - It states an error beyond error_limit_s while most others state less. (If no station has a
-//    better clock, none is quarantined: the covariances contain the errors.)
+//  - It states an error beyond error_limit_s while most others state less. - (If no station has a
+//    better clock, none is quarantined: the covariances account for the errors.)
 //  - Its stamps differ by more than offset_limit_s from the median of all stations' newest stamps.
-//    This needs three stations: with two, nobody can tell which one is wrong. Late messages look
-//    like a slow clock, so only the offset common to all stamps of the last second counts.
+//    - This needs three stations: with two, nobody can tell which clock is wrong. Late messages
+//    look like a slow clock, so only the offset common to all stamps of the last second counts.
 //
 // The quarantine ends when neither reason has held for release_s; tighter limits apply then.
 #pragma once
@@ -27,11 +27,11 @@
 namespace ols::fusion {
 
 struct ClockMonitorConfig {
-  double error_limit_s = 0.1;    // stated 1-sigma
-  double offset_limit_s = 0.4;   // from the median
-  double usual_offset_s = 0.15;  // explained by frame phases and network delays
+  double error_limit_s = 0.1;    // 1-sigma as stated by the station
+  double offset_limit_s = 0.4;   // offset from the median
+  double usual_offset_s = 0.15;  // offset that frame phases and network delays explain
   double release_s = 3.0;
-  int stamps = 15;  // per station, for the comparison
+  int stamps = 15;  // number of stamps per station that are compared
 };
 
 class ClockMonitor {
@@ -40,11 +40,12 @@ class ClockMonitor {
 
   // Takes a bearing; `time` must have taken its stamp already.
   void hear(const BearingMeasurement& measurement, const MessageTime& time);
-  // Why a station is quarantined; empty when it is not.
+  // Why a station is quarantined; empty if it is not.
   const Alarm& quarantine(const std::string& station) const;
-  // What is added to the 1-sigma of its stamps because they are offset from the others'.
+  // The amount added to the 1-sigma of a station's stamps because they are offset from the others'.
   double added_sd_s(const std::string& station) const;
-  // The recent offset of its stamps from the median: 0 within usual_offset_s, NaN before the first.
+  // The recent offset of a station's stamps from the median: 0 within usual_offset_s, NaN before
+  // the first stamp.
   double offset_s(const std::string& station) const;
   void forget(const std::string& station) { stations_.erase(station); }
   void clear() { stations_.clear(); }

@@ -10,15 +10,15 @@
 
 namespace ols::fusion {
 
-// The bearings of one station with one stamp, in order of arrival.
+// The bearings of one station with one time stamp, in order of arrival.
 using ImageBearings = std::vector<BearingMeasurement>;
 
 class ImageAssembly {
  public:
-  // Takes a bearing; returns the images that are complete with it, oldest first. An image is
-  // complete when as many bearings have come as they state. (A bearing that states no number is an
-  // image of its own.) If some are missing, the image counts as complete when its station's next
-  // image begins, or when it is older than `now` by kWaitS.
+  // Takes a bearing. Returns the images that are complete with it, oldest first. An image is
+  // complete when the number of bearings that they state has arrived. (A bearing that states no
+  // number is an image by itself.) If some are missing, the image counts as complete when its
+  // station's next image begins, or when it is older than `now` by kWaitS.
   std::vector<ImageBearings> add(const BearingMeasurement& measurement, std::int64_t now_us);
   void forget(const std::string& station) { open_.erase(station); }
   void clear() { open_.clear(); }
@@ -26,7 +26,7 @@ class ImageAssembly {
  private:
   static constexpr double kWaitS = 0.05;
 
-  std::map<std::string, ImageBearings> open_;  // none is empty
+  std::map<std::string, ImageBearings> open_;  // by station; no image is empty
 };
 
 }  // namespace ols::fusion

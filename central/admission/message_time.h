@@ -13,24 +13,26 @@ namespace ols::fusion {
 
 class MessageTime {
  public:
-  // A station counts as delivering until the others' stamps have advanced by silence_s since its
-  // last message.
+  // A station counts as delivering until the stamps of the others have advanced by silence_s since
+  // its last message.
   explicit MessageTime(double silence_s = Activity::kDeliversS) : silence_s_(silence_s) {}
 
-  // Takes every message's stamp, in order of arrival. Returns true when the station's clock has
-  // stepped back: three stamps in a row are more than a second older than its newest.
+  // Takes every message's stamp, in order of arrival. Returns true if the station's clock has
+  // stepped back: three stamps in a row are more than a second older than its newest one.
   bool hear(const std::string& station, std::int64_t utime_us);
-  // The median of the newest stamps of the delivering stations; 0 before the first. For an even
-  // number it is the lower of the two middle stamps: a target is then seldom due before most
-  // stations' bearings have come. Untrusted stations count only while no station is trusted. With
-  // more than kMany stations it is recomputed only after a share of them has sent.
+  // The median of the newest stamps of the delivering stations; 0 before the first stamp. For an
+  // even number of stations it is the lower of the two middle stamps, so that a target is seldom
+  // due before most stations' bearings have arrived. Untrusted stations count only while no station
+  // is trusted. With more than kMany stations it is recomputed only after a share of them has sent
+  // a message.
   std::int64_t now_us() const { return now_us_; }
   // The same median over all stations, trusted or not.
   std::int64_t middle_us() const { return middle_us_; }
   void trust(const std::string& station, bool trusted);
-  // The station's newest stamp, 0 before the first.
+  // The station's newest stamp; 0 before the first.
   std::int64_t newest_us(const std::string& station) const;
-  // How far the others' stamps have advanced since the station's last message; 0 before the first.
+  // How far the stamps of the others have advanced since the station's last message; 0 before the
+  // first.
   double silent_s(const std::string& station) const;
   // The delivering stations, and their number.
   std::vector<std::string> delivering() const;
@@ -43,8 +45,8 @@ class MessageTime {
   struct Station {
     std::int64_t newest_us = 0;
     bool trusted = true;
-    int older = 0;            // stamps in a row far before the newest
-    double progress_s = 0.0;  // by its own clock, steps clipped
+    int older = 0;            // number of consecutive stamps far before the newest
+    double progress_s = 0.0;  // by its own clock, with steps clipped
     double heard_s = 0.0;     // elapsed_s_ at its last message
   };
   static constexpr std::size_t kMany = 32;
@@ -54,7 +56,7 @@ class MessageTime {
   double elapsed_s_ = 0.0;
   std::int64_t now_us_ = 0, middle_us_ = 0;
   std::size_t delivering_ = 0;
-  std::size_t heard_ = 0;  // messages since the last computation of the medians
+  std::size_t heard_ = 0;  // number of messages since the medians were last computed
   std::map<std::string, Station> stations_;
 };
 

@@ -1,12 +1,12 @@
-// Finds stations whose bearings agree with no target, for example because the heading is some
+// Finds stations whose bearings agree with no target, for example because their heading is some
 // degrees off. Pure.
 //
 // One unexplained bearing proves nothing. The pose is taken as wrong if, for seconds, hardly any
-// bearing is explained and all miss the nearest target by the same angle. The station is then
-// quarantined: it raises an alarm and initiates no tracks, because its rays would intersect the
-// others' in ghosts. Its explained bearings are still used. The quarantine ends when most of its
-// bearings are explained. It also lapses while there is no target: the station may have been
-// corrected, and may be needed to initiate a target.
+// bearing is explained and all of them miss the nearest target by the same angle. The station is
+// then quarantined: it raises an alarm, and initiates no tracks, because its rays would intersect
+// those of other stations in ghosts. Its explained bearings are still used. The quarantine ends
+// when most of its bearings are explained. It also lapses while there is no target: the station may
+// have been corrected, and may be needed to initiate a target.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,25 +20,25 @@
 namespace ols::fusion {
 
 struct PointingConfig {
-  double memory_s = 3.0;          // time constant of the averages
-  int least_bearings = 30;        // min number for a judgement
-  double explained_share = 0.1;   // max share of explained bearings for a quarantine
-  double released_share = 0.5;    // min share of explained bearings to end it
-  double least_off_rad = 0.0035;  // 0.2 deg; the filter estimates smaller errors as biases
-  double most_off_rad = 0.5;      // beyond it, the station follows another object
-  double spread = 0.25;           // max RMS about the mean angle, over that angle
-  double lapse_s = 5.0;           // without a target for this long, all is forgotten
+  double memory_s = 3.0;         // time constant of the averages
+  int least_bearings = 30;       // smallest number of bearings for a judgement
+  double explained_share = 0.1;  // largest share of explained bearings at which a quarantine begins
+  double released_share = 0.5;   // smallest share of explained bearings at which it ends
+  double least_off_rad = 0.0035;  // 0.2 deg; the filter estimates smaller offsets as biases
+  double most_off_rad = 0.5;      // at a larger offset, the station follows another object
+  double spread = 0.25;           // largest RMS about the mean offset, relative to that offset
+  double lapse_s = 5.0;           // after this time without a target, everything is forgotten
 };
 
 class PointingMonitor {
  public:
   explicit PointingMonitor(const PointingConfig& config = {}) : config_(config) {}
 
-  // off_rad: the offset from the nearest confirmed target (cross-elevation, elevation); nullopt
-  // without a target.
+  // off_rad: the bearing's offset from the nearest confirmed target (cross-elevation, elevation);
+  // nullopt if there is no target.
   void hear(const std::string& station, std::int64_t utime_us, bool explained,
             const std::optional<Eigen::Vector2d>& off_rad);
-  // Why a station is quarantined; empty when it is not.
+  // Why a station is quarantined; empty if it is not.
   const Alarm& quarantine(const std::string& station) const;
   void forget(const std::string& station) { stations_.erase(station); }
   void clear() { stations_.clear(); }
@@ -46,8 +46,8 @@ class PointingMonitor {
  private:
   struct Station {
     std::int64_t first_us = 0, newest_us = 0;
-    double bearings = 0.0, explained = 0.0;  // decaying
-    double judged = 0.0;                     // unexplained ones that are near a target
+    double bearings = 0.0, explained = 0.0;  // counts that decay with time
+    double judged = 0.0;                     // unexplained bearings near a target
     Eigen::Vector2d sum = Eigen::Vector2d::Zero();
     double squared = 0.0;
     Alarm quarantine;

@@ -10,15 +10,15 @@ namespace ols::fusion {
 
 class RecentExposures {
  public:
-  // Whether it is a duplicate: the same exposure, and the same object or the same direction.
+  // Whether a bearing is a duplicate: the same exposure, and the same object or the same direction.
   bool has(const BearingMeasurement& measurement) const;
-  // Advances the time to this bearing, and forgets exposures that are more than a second older than
-  // the newest. Call it for refused bearings, too: otherwise a flood would lock its station out
+  // Advances the time to this bearing, and forgets exposures more than a second older than the
+  // newest. Call it for refused bearings, too; otherwise a flood would lock its station out
   // permanently.
   void go_on_to(std::int64_t utime_us);
   void add(const BearingMeasurement& measurement);
   void clear() { exposures_.clear(); }
-  // Whether the last second has more bearings than this rate allows.
+  // Whether the last second contains more bearings than this rate allows.
   bool is_flood(double flood_hz) const;
   double rate_hz() const { return rate_hz_; }
 

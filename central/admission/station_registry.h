@@ -1,5 +1,5 @@
-// The stations that the fusion knows: which ones belong to the site, and which one is replaced when
-// there are too many. Pure.
+// The stations that the fusion knows: which of them belong to the site, and which one is replaced
+// when there are too many. Pure.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,30 +20,30 @@ namespace ols::fusion {
 struct StationTraits {
   Eigen::Vector3d camera_ecef = Eigen::Vector3d::Zero();
   Eigen::Vector3d camera_sd_enu_m = Eigen::Vector3d::Zero();
-  double latency_s = 0.05;                 // mid-exposure to bearing
-  double field_of_view_rad = 0.05;         // the narrower of the two
-  std::optional<AzimuthElevation> axis{};  // the last direction that it reported
-  bool commandable = true;                 // not under operator control, and not stopped
+  double latency_s = 0.05;                 // from mid-exposure to the bearing's arrival
+  double field_of_view_rad = 0.05;         // the narrower of width and height
+  std::optional<AzimuthElevation> axis{};  // the last direction that the station reported
+  bool commandable = true;                 // not stopped, and not under operator control
   StatedCalibration calibration{};
 };
 
 struct KnownStation {
   StationTraits traits;
   RecentExposures exposures;
-  std::int64_t bearings = 0;  // admitted
-  bool delivered = false;     // it has sent a bearing, even if a refused one
-  std::int64_t heard = 0;     // number of its last message, among all messages
+  std::int64_t bearings = 0;  // number of admitted bearings
+  bool delivered = false;     // the station has sent a bearing, even if it was refused
+  std::int64_t heard = 0;     // number of its last message, counted over all stations
   std::int64_t calibration_id = 0;
   std::int64_t boot_id = 0;
-  int untimely = 0;            // bearings in a row that were too old or from the future
-  std::int64_t target_id = 0;  // the last target that it saw
+  int untimely = 0;  // number of consecutive bearings that were too old or from the future
+  std::int64_t target_id = 0;  // the last target that the station saw
   Activity saw_target;
 
   void set_position(const LineOfSight& sight) {
     traits.camera_ecef = sight.origin_ecef;
     traits.camera_sd_enu_m = sight.origin_sd_enu_m;
   }
-  // The target that it follows, or followed until a moment ago; 0: none.
+  // The target that the station follows, or followed until a moment ago; 0 if there is none.
   std::int64_t follows(std::int64_t now_us) const {
     return saw_target.age_s(now_us) < Activity::kFollowsS ? target_id : 0;
   }
@@ -51,18 +51,19 @@ struct KnownStation {
 
 class StationRegistry {
  public:
-  // names: the stations of the site; empty: all. most: the largest number of stations. Beyond it a
-  // new station replaces the one that has been silent longest, but never one that still delivers.
+  // names: the stations of the site; if empty, all stations belong to it. most: the largest number
+  // of stations. When it is reached, a new station replaces the one that has been silent longest,
+  // but never one that still delivers.
   StationRegistry(const std::vector<std::string>& names, int most) : names_(names), most_(most) {}
 
   bool belongs(const std::string& station) const;
   struct Place {
-    KnownStation* station = nullptr;       // null: too many stations
+    KnownStation* station = nullptr;       // null if there are too many stations
     std::optional<std::string> evicted{};  // the station that was replaced
   };
-  // For a station that sends a bearing.
+  // Finds or adds a station that sends a bearing.
   Place for_bearing(const std::string& station, const MessageTime& time);
-  // For a station known only by its status.
+  // Finds or adds a station known only by its status.
   Place for_status(const std::string& station, const MessageTime& time);
   std::map<std::string, KnownStation>& all() { return stations_; }
   const std::map<std::string, KnownStation>& all() const { return stations_; }

@@ -1,7 +1,7 @@
-// Finds stations that follow an object under their own track id while no target explains it,
-// although there is a target. Either no other station has seen the object, or the operator
-// designated the wrong one. Bearings cannot distinguish the two: the bearing-only track continues,
-// and an alarm asks a person to check. Pure.
+// Finds stations that follow an object under their own track id although no target explains it,
+// while there is a target. Either no other station has seen the object, or the operator has
+// designated the wrong one. Bearings cannot distinguish the two cases. The bearing-only track
+// therefore continues, and an alarm asks a person to check. Pure.
 #pragma once
 
 #include <cstdint>
@@ -13,18 +13,18 @@
 namespace ols::fusion {
 
 struct UnassociatedConfig {
-  double alarm_s = 10.0;  // without a bearing that a target explains
+  double alarm_s = 10.0;  // alarm after this time without a bearing that a target explains
 };
 
 class UnassociatedMonitor {
  public:
   explicit UnassociatedMonitor(const UnassociatedConfig& config = {}) : config_(config) {}
 
-  // Takes a bearing that no existing target explains; times are those of the station's stamps.
+  // Takes a bearing that no existing target explains. Times are the station's stamps.
   void unexplained(const std::string& station, std::int64_t utime_us);
   // Takes a bearing that a target explains, or that cannot be compared because there is no target.
   void explained(const std::string& station) { stations_.erase(station); }
-  // The alarm for a station; empty: none. now_us: the fusion's time.
+  // The alarm for a station; empty if there is none. now_us: the fusion's time.
   Alarm alarm(const std::string& station, std::int64_t now_us) const;
   void forget(const std::string& station) { stations_.erase(station); }
   void clear() { stations_.clear(); }

@@ -1,4 +1,4 @@
-// The fusion's connections: the bus, and the bus for slews. Reconnects by itself. Numbers the
+// The fusion's connections: to the bus, and to the bus for slews. Reconnects by itself. Numbers the
 // messages of each channel, and counts those that could not be sent.
 #pragma once
 
@@ -23,15 +23,16 @@ class FusionBus {
   struct Urls {
     std::string bus, slews;  // may be equal
   };
-  // subscribe: called on each new connection. trust: null if nothing is signed or verified.
+  // subscribe: called on each new connection. trust: null if messages are neither signed nor
+  // verified.
   FusionBus(Urls urls, std::int64_t boot_id, std::shared_ptr<trust::BusTrust> trust,
             Subscribe subscribe);
 
-  // Waits up to this long for a network.
+  // Waits for a network, at most this long.
   void connect(double wait_s);
-  // Handles the messages that have arrived; waits briefly for the first.
+  // Handles the messages that have arrived; waits briefly for the first one.
   void handle();
-  // Closes a connection that cannot send or receives nothing; connect() opens it again.
+  // Closes a connection that cannot send or does not receive; connect() opens it again.
   void end_if_broken();
   template <class Message>
   void send(std::string_view channel, const Message& message) {
@@ -59,10 +60,10 @@ class FusionBus {
   std::shared_ptr<trust::BusTrust> trust_;
   Subscribe subscribe_;
   BusConnector connector_;
-  std::unique_ptr<LcmBus> bus_;       // null: no network
-  std::unique_ptr<LcmBus> slew_bus_;  // null: slews use bus_
+  std::unique_ptr<LcmBus> bus_;       // null while there is no network
+  std::unique_ptr<LcmBus> slew_bus_;  // null if slews use bus_
   BusMonitor monitor_;
-  std::string trouble_;  // of the network
+  std::string trouble_;  // the network's trouble, as text
   bool send_failed_ = false;
   std::int64_t not_sent_ = 0;
   std::map<std::string, std::int64_t, std::less<>> sequences_;

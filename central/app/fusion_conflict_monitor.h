@@ -14,11 +14,11 @@ class FusionConflictMonitor {
   explicit FusionConflictMonitor(std::int64_t own_boot_id) : own_boot_id_(own_boot_id) {}
 
   // Takes a fusion status, possibly our own. now_s: the host's monotonic clock. Returns true if it
-  // is another fusion's.
+  // is from another fusion.
   bool hear(std::int64_t boot_id, double now_s);
-  // The alarm, while another fusion was heard within the last seconds; empty otherwise.
+  // The alarm while another fusion was heard within the last seconds; otherwise empty.
   Alarm alarm(double now_s) const;
-  // True once, when such a conflict begins.
+  // True once, when another fusion is first heard.
   bool take_event();
 
  private:

@@ -1,5 +1,5 @@
-// The fusion on the bus: bearings and station statuses in; targets, slews and its own status out.
-// Counts every refused message. Reconnects by itself.
+// The fusion on the bus: receives bearings and station statuses; sends targets, slews and its own
+// status. Counts every refused message. Reconnects by itself.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ namespace ols::fusion {
 
 struct FusionProcessOptions {
   std::string slew_url;  // the LCM URL for slews
-  bool replay = false;   // a replay: message time need not be the present
+  bool replay = false;   // in a replay, message time may differ from the present
   std::int64_t boot_id = 0;
 };
 
@@ -27,7 +27,8 @@ class FusionProcess {
  public:
   FusionProcess(const FusionSettings& settings, const FusionProcessOptions& options);
 
-  // Handles the messages that have arrived (waits briefly for the first) and publishes the results.
+  // Handles the messages that have arrived (waits briefly for the first one) and publishes the
+  // results.
   void turn();
   // One status line for a person.
   std::string in_one_line() const;
@@ -39,7 +40,7 @@ class FusionProcess {
   void on_fusion_status(const BusMessage& message);
   void on_cue(const BusMessage& message);
   void on_cue_order(const BusMessage& message);
-  // Why the order is refused, in words for the sender; empty: it is accepted.
+  // Why the order is refused, in words for the sender; empty if it is accepted.
   std::string obey(const CueOrder& order);
   std::int64_t present_us() const;
   void refuse(MessageRefusal refusal, const std::string& channel);
@@ -53,10 +54,10 @@ class FusionProcess {
   struct Errors {
     std::string last{}, told{}, of_fusion{};
 
-    // An error since the last status.
+    // Returns the error that is new since the last status.
     const std::string& newest(const std::string& of_fusion_now);
   };
-  // From a target's epoch to its publication.
+  // The time from a target's epoch to its publication.
   struct Latency {
     std::deque<double> lately_s{};
 
@@ -74,10 +75,11 @@ class FusionProcess {
   Errors errors_;
   AlarmJournal alarms_;
   Latency latency_;
-  std::map<std::int64_t, std::int64_t> cue_orders_;  // last sequence, by the sender's boot
-  std::int64_t cue_message_us_ = 0;                  // the newest cue's time
-  double waited_s_ = 0.0;               // how long the current bearing waited before its processing
-  std::int64_t status_message_us_ = 0;  // "now" of the last status
+  // The last sequence number, by the sender's boot id.
+  std::map<std::int64_t, std::int64_t> cue_orders_;
+  std::int64_t cue_message_us_ = 0;  // time of the newest cue
+  double waited_s_ = 0.0;            // how long the current bearing waited before it was processed
+  std::int64_t status_message_us_ = 0;  // "now" at the last status
   double status_s_ = 0.0;               // this host's monotonic clock at the last status
 };
 

@@ -1,5 +1,5 @@
 // Translates between the fusion's types and LCM messages. Decides only whether a message is valid
-// for its channel.
+// on its channel.
 #pragma once
 
 #include <cstdint>
@@ -18,17 +18,18 @@
 
 namespace ols::fusion {
 
-// Why a datagram is not a valid message of its channel; to_string() names the counter. kNoPosition
-// is no fault: the station does not know its position yet.
+// Why a datagram is not a valid message on its channel; to_string() names the counter. kNoPosition
+// is no fault: it means that the station does not know its position yet.
 enum class MessageRefusal { kMalformed, kSchema, kOtherStation, kOutOfRange, kNoPosition };
 const char* to_string(MessageRefusal refusal);
 
-// Never throws, with any bytes. check() in central/admission/bearing_check.h judges the values.
+// Never throws, whatever the bytes are. check() in central/admission/bearing_check.h judges the
+// values.
 std::variant<BearingMeasurement, MessageRefusal> measurement_from(const std::string& channel,
                                                                   const void* data, int bytes);
 
-// The contents of a station's status. Until the first bearing, the station's position serves as the
-// camera centre.
+// The contents of a station's status that matter to the fusion. Until the first bearing, the
+// station's position serves as the camera centre.
 struct StationPlace {
   std::string station;
   StationTraits traits;
@@ -40,11 +41,11 @@ std::variant<StationPlace, MessageRefusal> station_place_from(const std::string&
 // The boot id of the fusion that sent the status.
 std::variant<std::int64_t, MessageRefusal> fusion_boot_from(const void* data, int bytes);
 
-// An operator's decision on a cue or target, or on all that detectors find.
+// An operator's decision on a cue or target, or on everything that detectors find.
 struct CueOrder {
   std::string cue;
   bool allow = false;
-  std::optional<HandoverMode> handover{};  // instead of a decision on `cue`
+  std::optional<HandoverMode> handover{};  // if set, it replaces a decision on `cue`
   std::int64_t utime_us = 0;
   double lease_s = 0.0;
   std::int64_t boot_id = 0, sequence = 0;
@@ -53,14 +54,14 @@ struct CueOrder {
 std::variant<Cue, MessageRefusal> cue_from(const void* data, int bytes);
 std::variant<CueOrder, MessageRefusal> cue_order_from(const void* data, int bytes);
 
-// The answer to an order. `reason`: why it is refused, as wire/refusal_words.h explains; empty: it
-// is accepted.
+// The answer to an order. `reason`: why the order is refused (explained by wire/refusal_words.h);
+// empty if it is accepted.
 struct CueReply {
-  std::int64_t boot_id = 0, sequence = 0;  // of the order
+  std::int64_t boot_id = 0, sequence = 0;  // id of the order
   std::string reason{};
 };
 
-// The sender, and the message's sequence number on its channel in this boot.
+// The sender's boot id, and the message's sequence number on its channel in this boot.
 struct MessageStamp {
   std::int64_t boot_id = 0;
   std::int64_t sequence = 0;

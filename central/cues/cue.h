@@ -14,24 +14,25 @@ namespace ols::fusion {
 struct Cue {
   std::string id, label;
   std::int64_t utime_us = 0;  // creation time of its message
-  std::int64_t state_us = 0;  // the instant of the position and velocity
+  std::int64_t state_us = 0;  // the instant at which position and velocity hold
   Geodetic place;
   double horizontal_sd_m = 0.0, vertical_sd_m = 0.0;
   Eigen::Vector3d velocity_enu_m_s = Eigen::Vector3d::Zero();
-  double velocity_sd_m_s = 0.0;  // of each axis
+  double velocity_sd_m_s = 0.0;  // 1-sigma of each axis
 };
 
-// Which cues stations are led to: none, those that an operator has allowed, or all that no operator
-// has forbidden.
+// The cues to which stations are led: none, those that an operator has allowed, or all that no
+// operator has forbidden.
 enum class CueAllowance { kNever, kAsk, kAll };
 
 struct CueConfig {
   CueAllowance allow = CueAllowance::kAsk;
-  double range_m = 20e3;              // max distance from the nearest station
-  double max_age_s = 10.0;            // since its source measured the position
-  double most_sd_m = 2000.0;          // a less certain cue is not searched
-  double acceleration_sd_m_s2 = 3.0;  // growth of its uncertainty
-  int most = 32;                      // at the same time
+  double range_m = 20e3;      // largest distance from the nearest station
+  double max_age_s = 10.0;    // largest time since the source measured the position
+  double most_sd_m = 2000.0;  // stations do not search for a less certain cue
+  // 1-sigma of the assumed acceleration, by which the uncertainty grows.
+  double acceleration_sd_m_s2 = 3.0;
+  int most = 32;  // largest number of cues at the same time
 };
 
 // A cue to which stations are to be led, with its state at one instant.

@@ -1,4 +1,4 @@
-// Whether stations of this site can be led to a cue. Pure.
+// Decides whether stations of this site can be led to a cue. Pure.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@ namespace ols::fusion {
 
 inline constexpr std::int64_t kGreatestUtime = 4'000'000'000'000'000;  // the year 2096
 
-// Why a cue was not taken; to_string() names its counter.
+// Why a cue was refused; to_string() names its counter.
 enum class CueRefusal {
   kNone,
   kNotFinite,
@@ -21,7 +21,7 @@ enum class CueRefusal {
   kVague,
   kOutOfArea,
   kTooMany,
-  kCount,  // not a reason: the number of reasons
+  kCount,  // the number of reasons; not itself a reason
 };
 const char* to_string(CueRefusal refusal);
 

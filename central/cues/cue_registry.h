@@ -19,13 +19,13 @@ enum class CueState { kWaiting, kSearched, kFound, kForbidden };
 struct CueHealth {
   std::string id, label;
   CueState state = CueState::kWaiting;
-  std::int64_t target_id = 0;  // the target found there; 0: none
-  double age_s = 0.0;          // since its source measured the position
-  Geodetic place;              // now
+  std::int64_t target_id = 0;  // the target found there; 0 if none
+  double age_s = 0.0;          // time since the source measured the position
+  Geodetic place;              // position now
   double horizontal_sd_m = 0.0, vertical_sd_m = 0.0;
 };
 
-// Whether the target is where the cue is, within the 99.9 % region of both uncertainties.
+// Whether the target is at the cue's position, within the 99.9 % region of both uncertainties.
 bool is_there(const CueAim& aim, const Track& track, std::int64_t now_us);
 
 // The report on one cue.
@@ -37,23 +37,24 @@ class CueRegistry {
 
   // present_us: the host's UTC; in a replay, the message's time.
   CueRefusal take(const Cue& cue, std::int64_t present_us, const StationRegistry& stations);
-  // An operator's decision. False if there is no such cue, or if the configuration lets no operator
-  // decide.
+  // An operator's decision. Returns false if there is no such cue, or if the configuration does not
+  // leave the decision to operators.
   bool order(const std::string& id, bool allow);
   // Removes cues that their sources no longer send.
   void end_silent(std::int64_t present_us);
-  // Finds the target of each cue; at a limited rate.
+  // Finds the target at each cue; works at a limited rate.
   void settle(std::int64_t now_us, const std::vector<Track>& tracks);
 
-  // The cues to which stations are to be led: allowed cues at which no target was found.
+  // The cues to which stations are to be led: those that are allowed and have no target yet.
   std::vector<CueAim> aims(std::int64_t now_us) const;
-  std::vector<CueHealth> health(std::int64_t now_us) const;  // in the order of ids
+  std::vector<CueHealth> health(std::int64_t now_us) const;  // sorted by id
   bool empty() const { return cues_.empty(); }
 
  private:
   struct Live {
     Cue cue;
-    std::int64_t heard_us = 0;    // in the time of `present_us`
+    // Time at which it was last received, on the time scale of `present_us`
+    std::int64_t heard_us = 0;
     std::optional<bool> allowed;  // the operator's decision
     std::int64_t target_id = 0;
   };

@@ -1,8 +1,10 @@
-// One target's position at an instant, by one of several estimators. They share one interface and
-// are chosen by name: filter         the track's own filter (track_filter.h): over time, with
-// velocity least-squares  the joint maximum likelihood of all rays at the instant (least_squares.h)
-// paper          the OLS paper's (paper_triangulation.h), its parts switched by PaperConfig For all
-// of them, the tracks decide beforehand which bearings belong to the target (track_manager.h).
+// Estimates one target's position at an instant, with one of several estimators. They share one
+// interface and are chosen by name:
+//  - filter: the track's own filter (track_filter.h), over time, with velocity;
+//  - least-squares: the joint maximum likelihood of all rays at the instant (least_squares.h);
+//  - paper: the estimator of the OLS paper (paper_triangulation.h); PaperConfig switches its parts.
+// For all of them, the tracks decide beforehand which bearings belong to the target
+// (track_manager.h).
 #pragma once
 
 #include <cstddef>
@@ -35,20 +37,20 @@ struct ContributingStation {
 
 struct Located {
   Estimate estimate;
-  std::vector<ContributingStation> stations;  // in the order of their ids
+  std::vector<ContributingStation> stations;  // sorted by id
 };
 
-// Number of instants without a position, by reason.
+// Number of instants without a position, for each reason.
 using Unlocated = std::map<Solution, std::size_t>;
 
-// The data of one target. Only the filter estimator needs the filter.
+// The data of one target. Only the "filter" estimator needs the filter.
 struct TrackView {
   const StationBearings& bearings;
   const BiasModel& errors;
   const TrackFilter* filter = nullptr;
 };
 
-// One object serves one target and may keep state from earlier instants.
+// One estimator serves one target, and may keep state from earlier instants.
 class Estimator {
  public:
   virtual ~Estimator() = default;
@@ -59,19 +61,19 @@ class Estimator {
 
 inline constexpr const char* kEstimators[] = {"filter", "least-squares", "paper"};
 
-// Whether the estimator predicts the target's motion. Then an instant after a station's last
+// Whether the estimator predicts the target's motion. If so, an instant after a station's last
 // bearing costs little accuracy. Other estimators have to extrapolate that station's bearings.
 inline bool predicts(std::string_view name) { return name == "filter"; }
 
-// Null for an unknown name.
+// Returns null for an unknown name.
 std::unique_ptr<Estimator> make_estimator(std::string_view name, const EstimatorConfig& config);
 
-// The stations whose bearings the filter used recently, in the order of their ids.
+// The stations whose bearings the filter used recently, sorted by id.
 std::vector<ContributingStation> contributing(const TrackFilter& filter, std::int64_t epoch_us);
 
-// Makes an estimate from a filter's state. judge_position() checks the geometry first. The
-// covariance includes the systematic part. Crossing angle and residual are those of the stations
-// whose bearings were used shortly before state.utime_us.
+// Makes an estimate from a filter's state, after judge_position() has checked the geometry. The
+// covariance includes the systematic part. Crossing angle and residual are computed from the
+// stations whose bearings were used shortly before state.utime_us.
 Estimate estimate_of(const TrackFilter& filter, const KinematicState& state,
                      const SystematicPart& systematic);
 

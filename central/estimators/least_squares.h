@@ -3,7 +3,7 @@
 // Minimises sum_i r_i^T R_i^-1 r_i over the position in ECEF. r_i is the predicted direction on the
 // measured ray's tangent plane (gnomonic). R_i is its white covariance plus the systematic one:
 // calibration, clock error along the motion, and station position error as seen from the target.
-// Directions are exact at each camera centre, so the result holds from metres to hundreds of
+// Directions are exact at each camera centre, so the result is valid from metres to hundreds of
 // kilometres.
 #pragma once
 
@@ -14,22 +14,22 @@
 namespace ols::fusion {
 
 struct LeastSquaresConfig {
-  // Rays are consistent up to this chi^2, given as a normal deviate: 3.1 is a probability of 0.999.
+  // Rays are consistent up to this limit of chi^2, given as a normal deviate: 3.1 corresponds to a
+  // probability of 0.999.
   double gate_sigma = 3.1;
-  double huber_sigma = 2.0;     // without a consistent subset, rays beyond this are down-weighted
-  double range_sd_limit = 0.3;  // max 1-sigma over range; beyond: "parallel rays"
+  double huber_sigma = 2.0;  // if no consistent subset exists, rays beyond this are down-weighted
+  double range_sd_limit = 0.3;  // largest 1-sigma relative to the range; beyond it: "parallel rays"
   double max_range_m = 500e3;
   int max_iterations = 30;
 };
 
-// Rays are rejected only if the remaining rays are a majority and agree: one of three or four is
-// rejected, or two of five or six. Otherwise (always for two rays that miss each other) all rays
-// are kept with robust weights, and the covariance is multiplied by chi^2 over its degrees of
-// freedom.
+// Rays are rejected only if the remaining rays are a majority and agree: one of three or four can
+// be rejected, or two of five or six. Otherwise (always if two rays miss each other) all rays are
+// kept with robust weights, and the covariance is multiplied by chi^2 over its degrees of freedom.
 Estimate least_squares(const std::vector<Ray>& rays, const LeastSquaresConfig& config = {});
 
-// Computes the velocity from the angular rates of the used rays together. Sets the velocity and its
-// covariance, or NaN where the rates do not determine them.
+// Computes the velocity from the angular rates of all used rays together. Sets the velocity and its
+// covariance; NaN if the rates do not determine them.
 void estimate_velocity(const std::vector<Ray>& rays, Estimate& estimate);
 
 }  // namespace ols::fusion

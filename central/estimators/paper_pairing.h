@@ -1,5 +1,5 @@
-// How the paper's estimator combines pairs of views, and the first derivatives of its position by
-// the directions of the views. Lengths in metres, ECEF components.
+// The combination of pairs of views in the paper's estimator, and the first derivatives of its
+// position with respect to the views' directions. Lengths in metres, ECEF components.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,24 +16,25 @@ struct PaperBase {
   std::size_t first = 0, second = 0;  // indices of the views
   Eigen::Vector3d point;              // t_i
   Baseline baseline;
-  double share = 0.0;  // weight in the position; the shares sum to 1
+  double share = 0.0;  // weight in the position; all shares sum to 1
 };
 
 struct PaperPairing {
   Solution solution = Solution::kTooFewRays;
   Eigen::Vector3d position_ecef = nan_vector();
   std::vector<PaperBase> bases{};
-  // d position / d centroid of the pairs' points. (The weights depend on that centroid.)
+  // Derivative of the position with respect to the centroid of the pairs' points. (The weights
+  // depend on that centroid.)
   Eigen::Matrix3d by_centroid = Eigen::Matrix3d::Zero();
 };
 
-// All pairs of views, combined according to config.pairs. If no pair intersects: the reason of the
-// last pair.
+// All pairs of views, combined according to config.pairs. If no pair intersects, `solution` is the
+// reason of the last pair.
 PaperPairing pair_views(const std::vector<PaperView>& views, const PaperConfig& config);
 
-// d position / d direction of each view, for a change across the direction. In closed form: a
-// difference quotient would evaluate all pairs four times for every view. The choice of
-// `best-baseline` is held fixed.
+// The derivative of the position with respect to the direction of each view, for a change
+// perpendicular to the direction. It has a closed form: a difference quotient would evaluate all
+// pairs four times for every view. The choice of `best-baseline` is held fixed.
 std::vector<Eigen::Matrix3d> derivatives_by_direction(const std::vector<PaperView>& views,
                                                       const PaperPairing& pairing,
                                                       const PaperConfig& config);

@@ -1,5 +1,5 @@
 // Triangulation as in section 6 of the OLS paper: the mid-plane intersection of two views,
-// Algorithm 1 for N views, the choice of the best baseline (section 4.1), and the moving average.
+// Algorithm 1 for N views, the choice of the best baseline (section 4.1), and a moving average.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,8 +13,8 @@ namespace ols::fusion {
 
 // How the pairs of stations are combined.
 enum class PaperPairs {
-  kAlgorithm1,    // all pairs, weighted
-  kCentroid,      // all pairs, equally weighted: Algorithm 1 without its lines 5 to 8
+  kAlgorithm1,    // all pairs, with the paper's weights
+  kCentroid,      // all pairs, with equal weights: Algorithm 1 without its lines 5 to 8
   kBestBaseline,  // section 4.1: the pair with the largest t_i . n_i
 };
 
@@ -22,10 +22,11 @@ enum class PaperPairs {
 struct PaperConfig {
   PaperPairs pairs = PaperPairs::kAlgorithm1;
   bool by_belief = true;           // false: both views turn by half of the angle
-  int moving_average = 10;         // number h of averaged estimates; 1: no averaging
-  double min_crossing_rad = 1e-4;  // below it, u' and v' count as parallel
+  int moving_average = 10;         // number h of averaged estimates; 1 for no averaging
+  double min_crossing_rad = 1e-4;  // below this angle, u' and v' count as parallel
   double max_range_m = 500e3;
-  int max_stations = 0;  // per target, the first in the order of ids; 0: all
+  // Largest number of stations per target, taken in the order of their ids; 0: all.
+  int max_stations = 0;
 };
 
 // One view: camera centre M, direction, and the tracker's belief b.
@@ -46,7 +47,7 @@ struct PaperPoint {
 PaperPoint paper_two_view(const PaperView& first, const PaperView& second,
                           const PaperConfig& config = {});
 
-// Combines all pairs of stations whose rays intersect, according to config.pairs.
+// Combines all pairs of stations whose rays intersect, as config.pairs says.
 //  - Algorithm 1: the weighted centroid of all pairs' estimates, with weights w_i ~ exp(n_i .
 //    unit(T' - bc_i)). bc_i is the baseline's centre and n_i its normal towards T'. The paper
 //    prints the exponent with the vector T' - bc_i itself, which overflows at a few hundred metres.
@@ -55,19 +56,19 @@ PaperPoint paper_two_view(const PaperView& first, const PaperView& second,
 //    to the target.
 PaperPoint paper_n_view(const std::vector<PaperView>& views, const PaperConfig& config = {});
 
-// The same from rays, without the moving average, and with a first-order covariance
-// (paper_pairing.h), which the paper does not give. The cost grows with the square of the number of
-// rays: about 2 ms for 100.
+// The paper's position from rays, without the moving average. Its first-order covariance
+// (paper_pairing.h) is not in the paper. The cost grows with the square of the number of rays:
+// about 2 ms for 100.
 Estimate paper_estimate(const std::vector<Ray>& rays, const PaperConfig& config = {});
 
 // The paper's smoothing: the mean of the last h estimates (h = 10). It lags behind a moving target
 // by half the time that the estimates span. The lag (the newest estimate minus the mean) is added
-// to the covariance. Each estimate uses the bearings of a window (AlignmentConfig::window_s). Where
-// two windows overlap, their noise is correlated, and the mean does not reduce that part.
+// to the covariance. Each estimate uses the bearings of one window (AlignmentConfig::window_s).
+// Where two windows overlap, their noise is correlated, and the mean does not reduce that part.
 class MovingAverage {
  public:
   MovingAverage(int h, double window_s) : h_(h), window_s_(window_s) {}
-  // Takes an estimate that has a solution, and returns the average. Call it in order of time.
+  // Takes an estimate that has a solution. Returns the average. Call it in order of time.
   Estimate add(const Estimate& estimate, std::int64_t utime_us);
   void reset() { estimates_.clear(); }
 

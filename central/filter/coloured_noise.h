@@ -14,8 +14,8 @@ namespace ols::fusion {
 
 class ColouredNoise {
  public:
-  // Reports to `evidence` how far the middle one of three bearings is from the line between its
-  // neighbours. Returns the factor by which the bearing's stated variance is to be multiplied.
+  // Reports to `evidence` how far the middle one of the last three bearings is from the line
+  // between its neighbours. Returns the factor by which to multiply the bearing's stated variance.
   double observe(const BearingMeasurement& measurement, const RayFrame& frame, BiasModel& evidence);
 
  private:

@@ -1,8 +1,8 @@
-// The loops over a covariance's columns in which a filter spends most of its time. P is n x n,
-// column-major; only its lower triangle is touched. Pure.
+// The loops over a covariance's columns in which a filter spends most of its time. P is an n x n
+// matrix, column-major; only its lower triangle is used. Pure.
 //
 // They are compiled twice: a processor with AVX takes twice as many elements at once. Each element
-// is computed separately, by the same operations in the same order, so both versions give the same
+// is computed by itself, with the same operations in the same order, so both versions give the same
 // bits.
 #pragma once
 
@@ -13,11 +13,11 @@
 
 namespace ols::fusion::columns {
 
-// Computes P - g0 g0^T - g1 g1^T in the first columns.
+// Computes P - g0 g0^T - g1 g1^T for the first columns.
 void subtract_square(const double* g0, const double* g1, Eigen::Index columns, Eigen::Index n,
                      double* P);
 
-// Multiplies whole columns (position, velocity and acceleration on one axis) by f^T.
+// Multiplies whole columns (position, velocity and acceleration of one axis) by f^T.
 struct AxisColumns {
   double *position, *velocity, *acceleration;
 };
@@ -26,9 +26,9 @@ void propagate(const Eigen::Matrix3d& f, Eigen::Index n, const AxisColumns& colu
 // Multiplies each row and each column by its own factor.
 void scale(const double* factors, Eigen::Index n, double* P);
 
-// One part of a mixture. `covariance`: a column of the part's covariance, from the diagonal on.
-// `off`: the offset of the part's mean from the mixture's mean. `weighted_off`: the part's weight
-// times the first element of that offset.
+// One component of a mixture. `covariance`: a column of the component's covariance, from the
+// diagonal on. `off`: the offset of the component's mean from the mixture's mean. `weighted_off`:
+// the component's weight times the first element of that offset.
 struct Part {
   const double *covariance, *off;
   double weight, weighted_off;

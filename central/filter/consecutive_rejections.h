@@ -1,5 +1,5 @@
-// Counts consecutive rejected bearings. Many of them show a manoeuvre that no motion model allows.
-// Pure.
+// Counts consecutive rejected bearings. Many of them indicate a manoeuvre that no motion model
+// allows. Pure.
 #pragma once
 
 #include <string>
@@ -8,10 +8,11 @@ namespace ols::fusion {
 
 class ConsecutiveRejections {
  public:
-  // A bearing was used: restarts the count.
+  // Takes note of a used bearing: the count starts again.
   void clear();
-  // One more bearing of this station was rejected. Returns true, and restarts the count, when kMany
-  // are reached from two or more stations: the covariance must then be inflated.
+  // Takes note of a rejected bearing of this station. Returns true if at least kMany bearings were
+  // rejected in a row, from two or more stations. The caller must then inflate the covariance and
+  // call clear().
   bool add(const std::string& station);
 
   static constexpr int kMany = 6;

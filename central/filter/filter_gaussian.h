@@ -14,16 +14,17 @@
 
 namespace ols::fusion {
 
-inline constexpr int kFilterStations = 12;  // with states of their own
-// Of a station: its rotation about east, north and up, its clock's offset, the elevation error that
-// is fixed in its camera, and where relevant the error of its position (east, north, up).
+inline constexpr int kFilterStations = 12;  // largest number of stations with states of their own
+// States of a station: its rotation about east, north and up, its clock's offset, the elevation
+// error that is fixed in its camera, and, where relevant, the error of its position (east, north,
+// up).
 inline constexpr int kPoseStates = 5, kPlaceStates = 3;
 inline constexpr int kClockState = 3, kCameraState = 4;
 inline constexpr int kStationStates = kPoseStates + kPlaceStates;
 inline constexpr int kFilterStates = 9 + kStationStates * kFilterStations;
 
 using FilterVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kFilterStates, 1>;
-// On the heap, because filters are copied and kept by the thousand. A matrix takes 70 kB with the
+// On the heap, because thousands of filters are copied and kept. A matrix takes 70 kB with the
 // maximum number of states, and a tenth of that with a few stations.
 using FilterMatrix = Eigen::MatrixXd;
 using FilterMatrix2 = Eigen::Matrix<double, Eigen::Dynamic, 2, 0, kFilterStates, 2>;
@@ -33,19 +34,20 @@ struct FilterGaussian {
   FilterMatrix covariance;  // lower triangle
 };
 
-// Of the target alone.
+// The target's states alone.
 struct TargetGaussian {
   Vector9 mean;
   Matrix9 covariance;  // lower triangle
 };
 
-// A square block on the diagonal, with both triangles.
+// A square block on the diagonal of P, with both triangles filled.
 template <int K>
 Eigen::Matrix<double, K, K> whole_block(const FilterMatrix& P, Eigen::Index first) {
   return P.block<K, K>(first, first).template selfadjointView<Eigen::Lower>();
 }
 
-// Adds P H^T. H (2 x states) has these columns from `first` on and is zero elsewhere.
+// Adds P H^T to `result`. H (2 x states) consists of the given columns from `first` on, and is zero
+// elsewhere.
 template <int K>
 void add_product(const FilterMatrix& P, Eigen::Index first, const Eigen::Matrix<double, 2, K>& H,
                  FilterMatrix2& result) {
@@ -56,7 +58,7 @@ void add_product(const FilterMatrix& P, Eigen::Index first, const Eigen::Matrix<
   result.bottomRows(below) += P.block(first + K, first, below, K).lazyProduct(Ht);
 }
 
-// Computes Computes P - G G^T in the first columns; the others stay as they are.
+// Computes P - G G^T for the first columns; the others stay as they are.
 void subtract_square(const FilterMatrix2& G, Eigen::Index columns, FilterMatrix& P);
 
 void propagate(const Transition& motion, FilterGaussian& state);
@@ -65,10 +67,11 @@ void propagate(const Transition& motion, TargetGaussian& state);
 // Multiplies each state by its own factor.
 void scale(const FilterVector& factors, FilterGaussian& state);
 
-// Inserts zero states before the given one, or at the end.
+// Inserts `more` zero states before the given one, or at the end.
 void insert_states(Eigen::Index before, Eigen::Index more, FilterGaussian& state);
 
-// Mean and covariance of a mixture of up to kMotions with these weights; both triangles.
+// Mean and covariance of a mixture of up to kMotions components with these weights; both triangles
+// are filled.
 FilterGaussian mixture(std::span<const FilterGaussian> parts, std::span<const double> weights);
 // Mean and covariance of the target alone.
 TargetGaussian target_mixture(std::span<const FilterGaussian> parts,
@@ -76,8 +79,8 @@ TargetGaussian target_mixture(std::span<const FilterGaussian> parts,
 TargetGaussian target_mixture(std::span<const TargetGaussian> parts,
                               std::span<const double> weights);
 
-// Replaces each part by a mixture of all parts, with its own weights (Blom and Bar-Shalom's
-// interaction).
+// Replaces each component by a mixture of all components, with its own weights (the interaction of
+// Blom and Bar-Shalom).
 using MixtureWeights = std::array<double, kMotions>;
 void interact(const std::array<MixtureWeights, kMotions>& weights, std::span<FilterGaussian> parts);
 

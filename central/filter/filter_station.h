@@ -1,4 +1,4 @@
-// What a target's filter remembers of a contributing station. Pure.
+// What a target's filter remembers about a station that contributes to it. Pure.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,23 +15,24 @@ namespace ols::fusion {
 struct FilterStation {
   std::string station;
   LineOfSight sight;                                         // its last bearing
-  Eigen::Matrix3d R_ecef_enu = Eigen::Matrix3d::Identity();  // at the origin of `sight`
+  Eigen::Matrix3d R_ecef_enu = Eigen::Matrix3d::Identity();  // axes at the origin of `sight`
   Activity last_used, last_offered;
-  int used = 0;                                   // bearings
-  int rejected = 0;                               // consecutively, since the last used one
-  std::int64_t calibration_id = 0, track_id = 0;  // a new id means a new bias
-  double weight = 0.0;                            // of the last bearing; 0: rejected
-  double clock_sd_s = 0.0;                        // as learnt
+  int used = 0;      // number of bearings
+  int rejected = 0;  // number of consecutive rejections since the last used bearing
+  // If one of these ids changes, the bias is a new one.
+  std::int64_t calibration_id = 0, track_id = 0;
+  double weight = 0.0;      // of the last bearing; 0 if it was rejected
+  double clock_sd_s = 0.0;  // as learnt from the bearings
   double stated_clock_sd_s = 0.0;
-  double mean_nis = 2.0;  // recent mean of the used bearings; 2 is ideal
+  double mean_nis = 2.0;  // recent mean over the used bearings; 2 is ideal
   ColouredNoise noise{};
 
-  // Notes that one of its bearings was used, with this weight.
+  // Takes note of a bearing that was used, with its weight.
   void note_use(const BearingMeasurement& measurement, double nis, double used_weight);
 };
 
 // Whether the stations' residuals can distinguish this station's errors from the target's motion.
-// For declared errors this always holds. For undeclared errors it holds only if two other stations
+// For declared errors this is always so. For undeclared errors it is so only if two other stations
 // deliver: the residuals of two stations have one dimension, but their biases and clocks have six.
 bool is_redundant(const std::vector<FilterStation>& stations, const FilterStation& entry);
 

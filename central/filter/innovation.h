@@ -1,4 +1,5 @@
-// The measurement model: each motion model's prediction of a bearing, and the innovation. Pure.
+// The measurement model: the prediction of a bearing by each motion model, and the innovation.
+// Pure.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,39 +17,40 @@ namespace ols::fusion {
 
 // How a station's own states move its bearing on the tangent plane.
 struct StationPart {
-  Eigen::Index first = 0;  // of the station's states
+  Eigen::Index first = 0;  // index of the first of the station's states
   bool has_place = false;
   Eigen::Matrix<double, 2, 3> by_rotation;
   Eigen::Matrix3d R_ecef_enu;
 };
 
-// One model's prediction compared with one bearing: H = [J, ahead J, curved J] for the target, and
-// the columns for the station's pose and position.
+// One model's prediction compared with one bearing: H consists of [J, ahead J, curved J] for the
+// target, and of the columns for the station's pose and position.
 struct ModelInnovation {
   double depth_m = 0.0;
   Eigen::Vector2d residual = Eigen::Vector2d::Zero();
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  // of the residual, without noise
   Eigen::Matrix<double, 2, 3> J = Eigen::Matrix<double, 2, 3>::Zero();
   double ahead_s = 0.0, curved_s2 = 0.0;
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // couples the clock error into the bearing
+  // Velocity, through which a clock error acts on the bearing.
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
   Eigen::Matrix<double, 2, kPoseStates> by_pose;
   Eigen::Matrix<double, 2, kPlaceStates> by_place;
 
-  // P H^T, the covariance of the whole state with the residual.
+  // P H^T, the covariance between the whole state and the residual.
   FilterMatrix2 cross(const FilterMatrix& P, const std::optional<StationPart>& part) const;
 };
 
 struct Innovation {
   std::array<ModelInnovation, kMotions> models;
   RayFrame frame;
-  std::optional<StationPart> part;  // nullopt: the filter has no states of the station
-  // The smallest squared normalised residual (NIS, 2 degrees of freedom) of the models; infinite
-  // behind the camera.
+  std::optional<StationPart> part;  // nullopt if the filter has no states for the station
+  // The smallest squared normalised residual (NIS, 2 degrees of freedom) among the models; infinite
+  // if the target is behind the camera.
   double nis = std::numeric_limits<double>::infinity();
-  std::int64_t state = 0;  // version of the filter's state for which it was computed
+  std::int64_t state = 0;  // version of the filter's state to which this belongs
 };
 
-// about: the motion about which to linearise; nullopt: the current estimate.
+// about: the motion about which to linearise; nullopt for the current estimate.
 ModelInnovation innovation_of(const InteractingModels& models, std::size_t which,
                               const BearingMeasurement& measurement, const RayFrame& frame,
                               const StationPart* station,
@@ -56,11 +58,12 @@ ModelInnovation innovation_of(const InteractingModels& models, std::size_t which
 
 struct JudgedInnovation {
   double nis = std::numeric_limits<double>::infinity();
-  // The noise variance that the bearing shows, over the assumed variance.
+  // The noise variance that the bearing shows, relative to the assumed variance.
   double noise = 1.0;
 };
 
-// Compares with this white noise and number of models; nullopt behind the camera.
+// Judges the bearing with this white noise and number of models; nullopt if the target is behind
+// the camera.
 std::optional<JudgedInnovation> judge(const Innovation& seen, std::size_t models,
                                       const Eigen::Matrix2d& white, double gate_nis);
 

@@ -1,4 +1,4 @@
-// A Gaussian mixture of motion models over one state (IMM: Blom and Bar-Shalom, 1988). Pure.
+// A Gaussian mixture of motion models on one state (IMM: Blom and Bar-Shalom, 1988). Pure.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,7 +18,7 @@ struct KinematicState {
   Matrix9 covariance = Matrix9::Zero();
 };
 
-// The state at another instant, extrapolated with velocity and acceleration.
+// The position at another instant, extrapolated with velocity and acceleration.
 Eigen::Vector3d position_at(const KinematicState& state, std::int64_t utime_us);
 
 // Initial position and motion of a target, with large variances.
@@ -46,14 +46,14 @@ class InteractingModels {
   void predict(std::int64_t utime_us);
   // Mixes the models after dt_s.
   void interact(double dt_s);
-  // Updates each model after a measurement.
+  // Updates the models' probabilities after a measurement.
   void weigh(std::span<const double> log_likelihood);
   // Inflates the covariance along these directions, by the acceleration that is possible at this
-  // velocity, acting for this time.
+  // velocity if it acts for this time.
   void inflate(double time_s, const Eigen::Matrix3d& along, const Eigen::Vector3d& v_ecef);
 
-  // Mixed over the models: the kinematics at the state's own instant, at another instant, and the
-  // whole state.
+  // Mixtures over the models: the kinematics at the state's own instant, the kinematics at another
+  // instant, and the whole state.
   KinematicState kinematics() const;
   KinematicState at(std::int64_t utime_us) const;
   FilterGaussian mixed() const;

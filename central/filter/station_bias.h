@@ -1,5 +1,5 @@
-// Reads the stations' states of a filter: each station's bias, and the systematic part of the
-// position's covariance. Pure.
+// Extracts from a filter's state each station's bias, and the systematic part of the position's
+// covariance. Pure.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,8 +15,8 @@ inline Eigen::Index states_of(const BiasPrior& prior) {
   return prior.position_states ? kStationStates : kPoseStates;
 }
 
-// The systematic part of the position's covariance at the state's own instant. Its empirical part
-// comes from biases that no station declares and only the residuals show.
+// The systematic part of the position's covariance at the state's own instant. The empirical part
+// comes from biases that no station declares and only residuals show.
 struct SystematicPart {
   Eigen::Matrix3d all_m2 = Eigen::Matrix3d::Zero();
   Eigen::Matrix3d empirical_m2 = Eigen::Matrix3d::Zero();
@@ -35,7 +35,8 @@ struct StationBias {
   double clock_prior_sd_s = 0.0;
 };
 
-// Mixed over the models: a station's states, which begin at `first`, projected to its last bearing.
+// A station's bias, mixed over the models and projected to its last bearing. `first`: index of the
+// station's first state.
 StationBias station_bias(const InteractingModels& models, Eigen::Index first,
                          const BiasPrior& prior, const LineOfSight& sight, double range_m);
 

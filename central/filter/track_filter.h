@@ -3,18 +3,19 @@
 //
 // State: position, velocity, acceleration (ECEF components). For each contributing station: the
 // rotation error of its pose (about its east, north, up), its clock's offset and, where relevant,
-// the error of its position. These are constant while the tripod stands; the bias on the tangent
-// plane changes with the direction. They are Gauss-Markov processes with the prior of BiasModel.
-// Observable ones are estimated, the others only considered (Schmidt). The position's covariance
-// contains both kinds, so averaging does not remove them.
+// the error of its position. The rotation and the position error are constant while the tripod
+// stands; the bias on the tangent plane changes with the direction. All are Gauss-Markov processes
+// with the prior of BiasModel. Observable errors are estimated; the others are only considered
+// (Schmidt). The position's covariance contains both kinds, so averaging does not remove them.
 //
-// A newer bearing propagates the state. A late bearing is compared with the target's position at
-// the bearing's own instant, extrapolated by velocity and acceleration. A far outlier is rejected,
-// a near one down-weighted. Consecutive rejections of two stations, or of one station where only
-// two deliver, show a manoeuvre that no motion model allows. The covariance is then inflated.
+// A newer bearing propagates the state to its own instant. A late bearing is compared with the
+// target's position at the bearing's own instant, extrapolated by velocity and acceleration. A far
+// outlier is rejected, a near one down-weighted. Consecutive rejections from two stations, or from
+// one station if only two deliver, indicate a manoeuvre that no motion model allows. The covariance
+// is then inflated.
 //
-// Data flow one way. The filter reads the priors of the stations' errors, and returns what a
-// bearing shows of these errors. The owner of the priors learns from that.
+// Data flow in one direction. The filter reads the priors of the stations' errors, and returns what
+// a bearing shows about these errors. The owner of the priors learns from what is returned.
 #pragma once
 
 #include <Eigen/Core>
@@ -44,67 +45,67 @@ struct FilterConfig {
                                 // down-weighted
   double gate_nis = 25.0;       // squared normalised residual beyond which a bearing is rejected
   double mixing_s = 0.05;       // interval at which models are mixed and biases propagated
-  double range_sd_limit = 0.3;  // max 1-sigma of a position, over range
+  double range_sd_limit = 0.3;  // largest 1-sigma of a position, relative to the range
   double max_range_m = 500e3;
-  // Assumed pose and clock error of a station that declares none [rad]. Decides whether two rays
+  // Assumed pose and clock error of a station that declares none [rad]. It decides whether two rays
   // cross widely enough to determine a range.
   double undeclared_sd_rad = 1e-3;
-  // For two stations alone: the largest squared correction, normalised by the stated bias and
-  // noise. Beyond it they are an inconsistent pair.
+  // If only two stations deliver: the largest squared correction, normalised by stated bias and
+  // noise. Beyond it the two are an inconsistent pair.
   double two_stations_nis = 25.0;
   // A station's position error gets states of its own when it makes up at least this share of the
   // stated bias's variance.
   double place_share = 0.005;
-  // Variance of the error common to all stations, over the empirical part of the systematic
-  // variance. It moves the target, and no residual shows it.
+  // Variance of the error common to all stations, relative to the empirical part of the systematic
+  // variance. Such an error moves the target, and no residual shows it.
   double common_mode = 1.0;
 };
 
-// What became of a bearing.
+// The fate of a bearing.
 enum class BearingUse { kUsed, kRejected, kBehindCamera, kTooLate };
 
-// The result of an update. `evidence`: what the bearing shows of the stations' errors, on top of
+// The result of an update. `evidence`: what the bearing shows about the stations' errors, on top of
 // the given priors.
 struct FilterUpdate {
   BearingUse use = BearingUse::kTooLate;
-  double nis = std::numeric_limits<double>::infinity();  // infinite if the bearing was not compared
+  double nis = std::numeric_limits<double>::infinity();  // infinite if no comparison was made
   BiasModel evidence;
 };
 
 class TrackFilter {
  public:
-  // start: the initial state, from the first bearings. Throws std::invalid_argument without motion
-  // models.
+  // start: the initial state, from the first bearings. Throws std::invalid_argument if there are no
+  // motion models.
   TrackFilter(const FilterConfig& config, std::int64_t utime_us, const FilterStart& start);
 
   Innovation innovation(const BearingMeasurement& measurement, const BiasModel& priors) const;
-  // `known`: the bearing's innovation() with the same priors, if available. It is used for a late
-  // bearing only. A newer bearing moves the state to its instant, with mixing and fading biases,
-  // and is compared there, because the extrapolation of innovation() is good enough for a gate, not
-  // for a gain.
+  // `known`: the bearing's innovation() with the same priors, if available. It is used only for a
+  // late bearing. A newer bearing moves the state to its own instant, with mixing and fading
+  // biases, and is compared there: the extrapolation in innovation() is good enough for a gate, but
+  // not for a gain.
   [[nodiscard]] FilterUpdate update(const BearingMeasurement& measurement, const BiasModel& priors,
                                     const Innovation* known = nullptr);
-  // Propagates the state without a bearing; returns what this shows of the biases.
+  // Propagates the state without a bearing. Returns what this shows about the biases.
   [[nodiscard]] BiasModel advance(std::int64_t utime_us, const BiasModel& priors) {
     BiasModel evidence = BiasModel::evidence_on(priors);
     predict(utime_us, evidence);
     refresh();
     return evidence;
   }
-  // Linearises the bearings' equations about this motion instead of the current estimate. This
-  // serves repeated runs over the same bearings while the estimate is vague.
+  // Linearises the bearings' equations about this motion instead of the current estimate. This is
+  // for repeated runs over the same bearings while the estimate is vague.
   void linearise_about(const KinematicState& motion) { about_ = motion; }
   void linearise_about_itself() { about_.reset(); }
 
   std::int64_t utime_us() const { return models_.utime_us(); }
-  // Mixed over the models, at any instant.
+  // The kinematics at any instant, mixed over the models.
   KinematicState at(std::int64_t utime_us) const { return models_.at(utime_us); }
   SystematicPart systematic() const { return systematic_part(mixed().covariance, priors_); }
-  // at() the state's own instant, precomputed.
+  // The kinematics at the state's own instant; precomputed.
   const KinematicState& summary() const { return summary_; }
   Eigen::Vector3d position() const { return summary_.mean.head<3>(); }
   Eigen::Vector3d velocity() const { return summary_.mean.segment<3>(3); }
-  // The stations with states of their own, in the order of priors().
+  // The stations that have states of their own, in the order of priors().
   const std::vector<FilterStation>& stations() const { return stations_; }
   // All contributing stations: those with states, then those without.
   template <class Visitor>
@@ -112,8 +113,8 @@ class TrackFilter {
     for (const FilterStation& station : stations_) visit(station);
     for (const auto& [name, station] : without_states_) visit(station);
   }
-  const std::vector<BiasPrior>& priors() const { return priors_; }  // of each station
-  // How many other stations had a bearing used since this station's last.
+  const std::vector<BiasPrior>& priors() const { return priors_; }  // for each station
+  // How many other stations have had a bearing used since this station's last used one.
   std::ptrdiff_t agreed_since(const FilterStation& station) const {
     std::ptrdiff_t count = 0;
     each_station([&](const FilterStation& other) {
@@ -142,7 +143,7 @@ class TrackFilter {
   void add_position_states(int station);
   int station_of(const BearingMeasurement& measurement, const BiasModel& priors);
   Innovation compare(const BearingMeasurement& measurement, int station) const;
-  // along: the bearing's direction if biases may be estimated from it; otherwise null.
+  // along: the bearing's direction if biases may be estimated from it; null otherwise.
   void correct(const Innovation& seen, const Eigen::Matrix2d& noise, const Eigen::Vector3d* along);
   void take_without_states(const BearingMeasurement& measurement, FilterUpdate& update);
   void take(const BearingMeasurement& measurement, const Innovation* known, FilterUpdate& update);
@@ -160,7 +161,7 @@ class TrackFilter {
   FilterConfig config_;
   InteractingModels models_;
   std::int64_t mixed_us_;   // when the models were last mixed
-  std::int64_t state_ = 1;  // version of the state; an innovation belongs to one
+  std::int64_t state_ = 1;  // version of the state; each innovation belongs to one
   std::vector<FilterStation> stations_;
   std::vector<BiasPrior> priors_;
   std::map<std::string, FilterStation> without_states_;  // by name

@@ -1,6 +1,7 @@
-// Bearing-only tracks: lines of sight to objects that a station follows and no track explains. A
-// tracklet is no bearing-only track: nobody has designated its object, and it may be anything. But
-// if the site's hand-over is automatic, stations are led along the lines of tracklets, too. Pure.
+// Bearing-only tracks: lines of sight to objects that a station follows and no target explains. A
+// tracklet is not a bearing-only track: nobody has designated its object, which may be anything.
+// But if the site's hand-over is automatic, stations are led along the lines of tracklets, too.
+// Pure.
 #pragma once
 
 #include <cstdint>
@@ -15,17 +16,17 @@
 
 namespace ols::fusion {
 
-// A short-lived view of the current state.
+// The object is a short-lived view of the current state.
 class BearingLines {
  public:
   BearingLines(const TrackManager& tracks, const PointingMonitor& pointing,
                const AlignmentConfig& config, bool with_tracklets = false)
       : tracks_(tracks), pointing_(pointing), config_(config), with_tracklets_(with_tracklets) {}
 
-  // Stations that have recently sent an unassociated bearing.
+  // Stations that have recently sent an unassociated bearing and are not quarantined.
   std::vector<std::string> stations(std::int64_t epoch_us) const;
-  // The newest bearing of each local track that no target takes, smallest ids first (most trackers
-  // assign ids in ascending order). If tracklets are left out: the first four.
+  // The newest bearing of each local track that no target takes, smallest track ids first (most
+  // trackers assign ids in ascending order). Without tracklets, only the first four.
   std::vector<const BearingMeasurement*> of(const std::string& station,
                                             std::int64_t epoch_us) const;
   // The newest bearing of one of stations().

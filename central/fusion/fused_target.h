@@ -1,4 +1,4 @@
-// The fusion's output: targets, and lines of sight where there is no position.
+// The fusion's output: targets, and lines of sight for objects without a position.
 #pragma once
 
 #include <Eigen/Core>
@@ -26,24 +26,25 @@ struct BearingOnly {
 };
 
 struct FusedTarget {
-  std::int64_t utime_us = 0;   // the epoch
-  std::int64_t target_id = 0;  // 0: no object yet. A target keeps the id of its bearing-only track
+  std::int64_t utime_us = 0;  // the epoch
+  // 0 if there is no object yet. A target keeps the id of its bearing-only track.
+  std::int64_t target_id = 0;
   TrackState state = TrackState::kTentative;
   std::string estimator;  // name of the estimator
   Estimate estimate;
-  std::vector<ContributingStation> stations;  // in the order of their ids
-  std::optional<BearingOnly> bearing_only;    // instead of a position
+  std::vector<ContributingStation> stations;  // sorted by id
+  std::optional<BearingOnly> bearing_only;    // used instead of a position
   Appearance appearance;
-  std::optional<HeightAboveGround> above_ground;  // where position and ground are known
+  std::optional<HeightAboveGround> above_ground;  // set if position and ground are known
 };
 
 struct FusionOutput {
   BearingRefusal refusal = BearingRefusal::kNone;  // the fate of the bearing
-  // All confirmed objects of one epoch, then the bearing-only tracks (kBearingOnly), each in the
-  // order of ids. If there is none: one target that states why. With many objects this is only a
-  // part of the epoch; the rest follows with the next bearings.
+  // All confirmed objects of one epoch, then the bearing-only tracks (kBearingOnly), each group
+  // sorted by id. If there are none: one target that states the reason. With many objects this is
+  // only a part of the epoch; the rest follows with the next bearings.
   std::vector<FusedTarget> targets;
-  std::vector<FusedTarget> targets_paper;  // the paper's estimate of the same objects
+  std::vector<FusedTarget> targets_paper;  // the paper's estimates of the same objects
   std::vector<Slew> slews;
   std::vector<OcclusionNotice> occlusions;
 };

@@ -1,11 +1,11 @@
-// The fusion: bearings in, targets and slews out. Pure: its time is that of the messages, so the
-// same bearings in the same order give the same targets to the last digit. It never waits for a
-// slow station: targets are computed once a period has passed and most stations that are due have
-// delivered (epoch_rule.h). With many targets or stations, the work of a period is spread over
-// several bearings.
+// The fusion: takes bearings, and returns targets and slews. Pure: its time is that of the
+// messages, so the same bearings in the same order give the same targets to the last digit. It
+// never waits for a slow station: targets are computed once a period has passed and enough of the
+// due stations have delivered (epoch_rule.h). With many targets or stations, the work of a period
+// is spread over several bearings.
 //
 // Admission decides which bearings are used. The tracks decide to which target each bearing
-// belongs. The schedules decide what is published when.
+// belongs. The schedules decide what is published, and when.
 #pragma once
 
 #include <cstdint>
@@ -28,9 +28,10 @@
 namespace ols::fusion {
 
 struct FusionConfig {
-  std::string estimator = "filter";  // of the targets; a name of make_estimator()
-  double rate_hz = 15.0;             // max targets per second, of each object
-  int paper_targets = 8;             // max number of targets with a paper estimate too; 0: none
+  std::string estimator = "filter";  // name of the targets' estimator, for make_estimator()
+  double rate_hz = 15.0;             // largest number of targets per second, for each object
+  // Largest number of targets for which the paper's estimate is also computed; 0 for none.
+  int paper_targets = 8;
   AdmissionConfig admission{};
   EstimatorConfig estimators{};
   TrackManagerConfig tracks{};
@@ -49,18 +50,18 @@ class Fusion {
 
   // Takes a station's status, so that the station can be slewed before its first bearing.
   void know_station(const std::string& station, const StationTraits& traits);
-  // The same for a station without a position: notes only whether it may be slewed.
+  // Notes only whether a station may be slewed; for stations without a position.
   void allow_slews(const std::string& station, bool allowed);
-  // Processes one bearing, in order of arrival.
+  // Processes one bearing. Call it in order of arrival.
   FusionOutput add(const BearingMeasurement& measurement);
 
-  // Takes a target reported from outside. It may cause slews, nothing else. present_us: this host's
-  // UTC; in a replay, the message's time.
+  // Takes a target reported from outside. It may cause slews, but nothing else. present_us: this
+  // host's UTC; in a replay, the message's time.
   std::vector<Slew> add(const Cue& cue, std::int64_t present_us);
-  // An operator's decision on a cue, or on a target by its number (target_named()). False if there
-  // is no such cue or target, or if the site uses neither cues nor hand-over.
+  // Takes an operator's decision on a cue, or on a target by its number (target_named()). Returns
+  // false if there is no such cue or target, or if the site uses neither cues nor hand-over.
   bool allow_cue(const std::string& id, bool allow);
-  // Which targets of detections lead stations from now on.
+  // Chooses which targets found by detectors lead stations from now on.
   void set_handover(HandoverMode mode) { handover_.set_mode(mode); }
   HandoverMode handover() const { return handover_.mode(); }
   void end_silent_cues(std::int64_t present_us) { cues_.end_silent(present_us); }
@@ -71,7 +72,8 @@ class Fusion {
   const LiveTracks& tracks() const { return tracks_; }
 
  private:
-  // The fate of an admitted bearing. A bearing that waits for the others of its image has none yet.
+  // Returns the fate of an admitted bearing. The fate of a bearing that waits for the others of its
+  // image is not known yet.
   BearingRefusal take(const BearingMeasurement& measurement, std::vector<ImageBearings>& used);
   std::vector<BearingRefusal> associate(const ImageBearings& image);
   void note_unassociated(const BearingMeasurement& measurement, const Association& result);

@@ -18,7 +18,7 @@
 
 namespace ols::fusion {
 
-// The filter's estimate of a station's bias and clock; NaN where they are not observable.
+// The filter's estimate of a station's bias and clock; NaN if they are not observable.
 struct StationBiasReport {
   Eigen::Vector2d bias_rad = nan_vector().head<2>();  // cross-elevation, elevation
   Eigen::Vector2d bias_sd_rad = nan_vector().head<2>();
@@ -30,23 +30,23 @@ struct StationBiasReport {
 
 struct StationHealth {
   std::string station;
-  std::int64_t bearings = 0;  // admitted
+  std::int64_t bearings = 0;  // number of admitted bearings
   double rate_hz = 0.0;
   double age_s = 0.0;           // "now" minus its newest stamp
-  double residual = 0.0;        // recent, RMS normalised; NaN if none
-  double clock_offset_s = 0.0;  // of its stamps from the median; NaN if none
-  Alarm quarantine{};           // why its bearings are not used; empty: they are
+  double residual = 0.0;        // recent RMS of the normalised residuals; NaN if there are none
+  double clock_offset_s = 0.0;  // offset of its stamps from the median; NaN if there are none
+  Alarm quarantine{};           // why its bearings are not used; empty if they are used
   StationBiasReport finding{};
   StatedCalibration calibration{};
 };
 
 struct FusionHealth {
   std::int64_t now_us = 0;
-  std::vector<StationHealth> stations;     // in the order of their ids
+  std::vector<StationHealth> stations;     // sorted by id
   std::map<std::string, double> counters;  // they only increase
   std::vector<Alarm> alarms;               // current ones
   std::string last_error;
-  std::vector<CueHealth> cues{};  // in the order of their ids
+  std::vector<CueHealth> cues{};  // sorted by id
   HandoverMode handover = HandoverMode::kOff;
 };
 

@@ -1,4 +1,4 @@
-// When the next periodic output is due.
+// Whether the next periodic output is due.
 #pragma once
 
 #include <cstdint>
@@ -6,8 +6,8 @@
 
 namespace ols::fusion {
 
-// The tolerance is a tenth of the period, so that frames of the same rate do not miss every other
-// period.
+// There is a tolerance of a tenth of the period, so that frames at the same rate do not miss every
+// other period.
 inline bool is_due(const std::optional<std::int64_t>& last_us, std::int64_t now_us,
                    double rate_hz) {
   return !last_us || static_cast<double>(now_us - *last_us) >= 0.9e6 / rate_hz;

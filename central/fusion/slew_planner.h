@@ -1,18 +1,19 @@
-// Decides where each station is to point at the time when it can act. Pure.
+// Decides where each station is to point at the instant when it can act. Pure.
 //
 //  - A station is led to the predicted position of the target to which it is allocated
 //    (station_allocation.h). While it does not see that target, and the direction is less certain
 //    than the field of view, the station searches along a spiral over the uncertainty, from the
 //    inside outwards.
-//  - If no position is known but one station sees a target, the others search along that station's
-//    ray (line_search.h).
-//  - An allowed cue from outside (central/cues/) is one more place for stations that see nothing. A
-//    station that would otherwise join a crowded target goes to the cue instead.
-//  - A station that cannot be commanded (operator control, or stopped) gets no slew: the operator
-//    has precedence over the fusion. The station itself refuses slews then, too.
+//  - If no position is known but one station sees an object, the others search along that
+//    station's ray (line_search.h).
+//  - An allowed cue from outside (central/cues/) is an additional place for stations that see
+//    nothing. A station that would otherwise join a crowded target goes to the cue instead.
+//  - A station that cannot be commanded (it is stopped, or under operator control) gets no slew,
+//    because the operator has precedence over the fusion. - In these cases the station itself
+//    refuses slews, too.
 //
 // Commanded rates stay within the rate limit. A new direction may be anywhere: the station turns to
-// it at its own maximum rate. Every slew carries its lease.
+// it at its own maximum rate. Every slew contains its lease.
 #pragma once
 
 #include <Eigen/Core>
@@ -36,68 +37,72 @@ namespace ols::fusion {
 
 struct SlewConfig {
   double rate_hz = 10.0;
-  double act_s = 0.1;         // from the command to its effect: transport, servo cycle
-  double lease_s = 0.5;       // without a newer command for this long, the station halts
-  double coast_s = 2.0;       // a target is predicted for this long after its last bearings
-  double view_share = 0.5;    // step of a search, over the field of view
-  double dwell_s = 0.4;       // time at each step
-  double search_sigma = 2.5;  // radius of the spiral
-  LineSearchConfig line{};    // a search along a ray
+  double act_s = 0.1;         // time from the command to its effect: transport, servo cycle
+  double lease_s = 0.5;       // the station halts after this time without a newer command
+  double coast_s = 2.0;       // a target is predicted for this long after its last bearing
+  double view_share = 0.5;    // step of a search, relative to the field of view
+  double dwell_s = 0.4;       // time at each point
+  double search_sigma = 2.5;  // radius of the spiral, in sigmas
+  LineSearchConfig line{};    // for a search along a ray
 };
 
 struct Slew {
   std::string station;
   std::int64_t utime_us = 0;         // message time at creation
-  std::int64_t effect_utime_us = 0;  // the time for which the direction holds
-  std::int64_t target_id = 0;        // 0: none; search along a ray
-  AzimuthElevation direction;        // in the horizon at the camera centre
+  std::int64_t effect_utime_us = 0;  // the instant for which the direction holds
+  std::int64_t target_id = 0;        // 0 in a search along a ray
+  AzimuthElevation direction;        // relative to the horizon at the camera centre
   double azimuth_rate_rad_s = 0.0;
   double elevation_rate_rad_s = 0.0;
   double direction_sd_rad = 0.0;
-  Eigen::Vector2d line = Eigen::Vector2d::Zero();  // in a search: direction of the ray there
+  // In a search along a ray: direction of the ray there.
+  Eigen::Vector2d line = Eigen::Vector2d::Zero();
   double lease_s = 0.0;
 };
 
-// The direction from a station's camera to a predicted state. Its uncertainty follows from those of
-// both positions. The caller sets station, times and target.
+// The slew that points a station's camera at a predicted state. Its uncertainty follows from the
+// uncertainties of both positions. The caller sets station, times and target.
 Slew slew_to(const KinematicState& target, const StationTraits& station, const SlewConfig& config);
 
-// The k-th point (k >= 0) of a search, on an Archimedean spiral from the centre outwards. Each
-// point is about one unit from the point before and from the inner turn, and covers a unit area.
+// The k-th point (k >= 0) of a search, on an Archimedean spiral from the centre outwards, in units
+// of a step. Each point is about one unit from the point before and from the inner turn, and covers
+// a unit area.
 Eigen::Vector2d spiral_point(int k);
 
 struct SlewStation {
   std::string station;
   StationTraits traits;
-  std::int64_t follows = 0;  // the target that it sees; 0: none
-  bool stares = false;       // it is never led
+  std::int64_t follows = 0;  // the target that it sees; 0 if none
+  bool stares = false;       // the station is never led
   bool is_led() const { return traits.commandable && !stares; }
 };
 
-// What is common to all stations at one instant.
+// The data that all stations share at one instant.
 struct SlewRound {
   std::int64_t now_us = 0;
-  std::map<std::int64_t, int> seen_by{};      // number of stations that see each target
-  std::map<std::int64_t, double> priority{};  // of each target; absent: 1; 0: it leads no station
-  Allocation allocation{};                    // of the stations to the targets
-  std::set<std::string> bearing_only_stations{};  // stations with a bearing-only track
-  std::optional<CueRay> ray{};                    // the ray that is searched
-  LinePrior prior{};                              // where on it the target is expected
-  std::map<std::string, LineShare> shares{};      // of the stations that search along it
-  std::vector<CueAim> cues{};                     // cues to which stations may be led
-  std::string cue_on_ray{};                       // the id of the cue that the ray passes
-  std::map<std::string, int> led_to{};            // number of stations led to each cue
+  std::map<std::int64_t, int> seen_by{};  // number of stations that see each target
+  // Priority of each target; 1 if absent; a target with 0 leads no station.
+  std::map<std::int64_t, double> priority{};
+  Allocation allocation{};                        // of the stations to the targets
+  std::set<std::string> bearing_only_stations{};  // stations that have a bearing-only track
+  std::optional<CueRay> ray{};                    // the ray along which stations search
+  LinePrior prior{};                              // where on the ray the target is expected
+  std::map<std::string, LineShare> shares{};  // shares of the stations that search along the ray
+  std::vector<CueAim> cues{};                 // cues to which stations may be led
+  std::string cue_on_ray{};                   // id of the cue near which the ray passes
+  std::map<std::string, int> led_to{};        // number of stations led to each cue
 };
 
 class SlewPlanner {
  public:
   explicit SlewPlanner(const SlewConfig& config = {}) : config_(config) {}
 
-  // Decides for the round which target each station has. Among `tracks`, confirmed tracks count,
+  // Decides, for the round, to which target each station is led. Of `tracks`, confirmed ones count,
   // and coasting ones for coast_s.
   void allocate(SlewRound& round, std::span<const SlewStation> stations,
                 const std::vector<Track>& tracks) const;
-  // Plans for all or some stations, and counts in the round how many are sent to each target.
+  // Plans for all or some of the stations, and counts in the round how many are sent to each
+  // target.
   std::vector<Slew> plan(SlewRound& round, std::span<const SlewStation> stations,
                          const std::vector<Track>& tracks);
   void forget(const std::string& station) { searches_.erase(station); }
@@ -105,11 +110,11 @@ class SlewPlanner {
 
  private:
   struct Search {
-    std::int64_t target_id = 0;  // the target to which it is led
+    std::int64_t target_id = 0;  // the target to which the station is led
     std::string ray;             // or the station whose ray it searches, or the cue
     std::int64_t begun_us = 0;
-    std::optional<LineSweep> sweep{};  // along that ray
-    std::optional<double> turn_s{};    // time for its unit to reach a cue
+    std::optional<LineSweep> sweep{};  // sweep along that ray
+    std::optional<double> turn_s{};    // time that its unit needs to reach a cue
     std::string cue{};                 // the id of that cue
     double searched_s(std::int64_t now_us) const;
   };
@@ -117,7 +122,7 @@ class SlewPlanner {
                                        const std::vector<Track>& tracks) const;
   const Track* target_for(SlewRound& round, const SlewStation& station,
                           const std::vector<const Track*>& targets);
-  // Null: no cue for this station.
+  // Returns null if there is no cue for this station.
   const CueAim* cue_for(const SlewRound& round, const SlewStation& station, const Track* target);
   void count_searches(SlewRound& round);
   std::int64_t effect_of(const StationTraits& station, std::int64_t now_us) const;
@@ -128,7 +133,7 @@ class SlewPlanner {
   bool is_wide(const CueAim& cue, const SlewStation& station, std::int64_t now_us) const;
   std::optional<Slew> slew_of(SlewRound& round, const SlewStation& station,
                               const std::vector<const Track*>& targets);
-  // Turns the slew to the current point of its search.
+  // Moves the slew's direction to the current point of its search.
   void search_around(Slew& slew, const SlewStation& station, double searched_s) const;
   Search& search_of(const std::string& station, std::int64_t target_id, const std::string& ray,
                     std::int64_t now_us);

@@ -1,5 +1,5 @@
-// The rounds of slews. Each bearing triggers the slews of a part of the stations, so that no
-// bearing is delayed by the slews of a thousand stations. Pure.
+// Plans slews in rounds over all stations. Each bearing triggers the slews of a part of the
+// stations, so that the slews of a thousand stations delay no bearing. Pure.
 #pragma once
 
 #include <cstdint>
@@ -19,22 +19,22 @@ namespace ols::fusion {
 
 class SlewSchedule {
  public:
-  // give_up_s: a round that has not ended after this time is abandoned.
-  // staring: stations that are never led.
+  // give_up_s: a round that has not ended after this time is abandoned. staring: stations that are
+  // never led.
   SlewSchedule(const SlewConfig& config, double give_up_s, std::vector<std::string> staring = {})
       : config_(config), give_up_s_(give_up_s), staring_(std::move(staring)), planner_(config) {}
 
-  // The slews that are due with one bearing or cue, at the time "now".
+  // The slews that are due with one bearing or cue, at the time now_us.
   std::vector<Slew> plan(std::int64_t now_us, const StationRegistry& stations,
                          const BearingLines& lines, const std::vector<Track>& tracks,
                          const CueRegistry& cues, const HandoverPolicy& handover);
-  // Whether a round is unfinished: its next part is due at once.
+  // Whether a round is unfinished; then its next part is due at once.
   bool is_in_round() const { return next_.has_value(); }
   void forget(const std::string& station) {
     planner_.forget(station);
     forget_tracklets(station);
   }
-  // The station has restarted the numbering of its tracklets.
+  // Forgets a station's tracklets, because it has restarted their numbering.
   void forget_tracklets(const std::string& station) {
     std::erase_if(tracklets_, [&](const auto& known) { return known.first.first == station; });
   }
@@ -46,10 +46,12 @@ class SlewSchedule {
              const HandoverPolicy& handover);
   SlewStation station_of(const std::string& name, const KnownStation& station,
                          std::int64_t now_us) const;
-  using TrackletName = std::pair<std::string, std::int64_t>;  // a station and its own id
+  // A station, and its own id of the tracklet.
+  using TrackletName = std::pair<std::string, std::int64_t>;
   struct Tracklet {
     std::int64_t noted_us = 0, seen_us = 0;
-    std::optional<std::int64_t> searched_us{};  // since when stations are led along its line
+    // The time since which stations are led along its line.
+    std::optional<std::int64_t> searched_us{};
   };
   const BearingMeasurement* line_of(const std::string& station,
                                     const std::vector<const BearingMeasurement*>& own);
@@ -64,9 +66,9 @@ class SlewSchedule {
   SlewPlanner planner_;
   SlewRound round_;
   std::string cued_by_;                         // the station whose ray the others search along
-  std::map<TrackletName, Tracklet> tracklets_;  // that no target has taken
-  std::optional<std::int64_t> begun_us_;        // the last round
-  std::optional<std::string> next_;  // the next station of the round; nullopt: it is over
+  std::map<TrackletName, Tracklet> tracklets_;  // tracklets that no target has taken
+  std::optional<std::int64_t> begun_us_;        // start of the last round
+  std::optional<std::string> next_;  // the next station of the round; nullopt if the round is over
 };
 
 }  // namespace ols::fusion

@@ -1,5 +1,5 @@
-// The order in which an epoch is published: targets, then bearing-only tracks, then the paper's
-// estimates. Each bearing triggers a part, so that no bearing is delayed by many targets. Pure.
+// Determines the order in which an epoch is published: targets, then bearing-only tracks, then the
+// paper's estimates. Each bearing triggers a part, so that many targets delay no bearing. Pure.
 #pragma once
 
 #include <cstdint>
@@ -21,10 +21,11 @@
 namespace ols::fusion {
 
 struct TargetScheduleConfig {
-  std::string estimator = "filter";  // a name of make_estimator()
-  double rate_hz = 15.0;             // max epochs per second
-  int paper_targets = 8;             // max number of targets with a paper estimate too; 0: none
-  double give_up_s = 2.0;            // older pending outputs are discarded
+  std::string estimator = "filter";  // a name for make_estimator()
+  double rate_hz = 15.0;             // largest number of epochs per second
+  // Largest number of targets for which the paper's estimate is also computed; 0 for none.
+  int paper_targets = 8;
+  double give_up_s = 2.0;  // older pending outputs are discarded
   EstimatorConfig estimators{};
   LandUse land{};
 };
@@ -33,9 +34,9 @@ class TargetSchedule {
  public:
   explicit TargetSchedule(const TargetScheduleConfig& config) : config_(config) {}
 
-  // Takes an admitted bearing, at the time "now".
+  // Takes an admitted bearing, at the time now_us.
   void hear(const BearingMeasurement& measurement, std::int64_t now_us);
-  // Adds the outputs that are due with one bearing, at the time "now".
+  // Adds the outputs that are due with one bearing, at the time now_us.
   void tell(std::int64_t now_us, TrackManager& tracks, const ClockMonitor& clocks,
             const PointingMonitor& pointing, FusionOutput& output, FusionLog& log);
   void forget(const std::string& station) { rule_.forget(station); }
@@ -46,10 +47,10 @@ class TargetSchedule {
  private:
   struct Epoch {
     std::optional<std::int64_t> utime_us{};
-    std::int64_t paper_us = 0;           // of the paper's estimates
-    std::deque<std::int64_t> targets{};  // the ids that are still to be published
+    std::int64_t paper_us = 0;           // epoch of the paper's estimates
+    std::deque<std::int64_t> targets{};  // ids that are still to be published
     bool bearing_only_reported = true;
-    std::deque<std::int64_t> papers{};  // the same for the paper's estimates
+    std::deque<std::int64_t> papers{};  // ids whose paper estimates are still to be published
 
     bool is_over() const { return bearing_only_reported && papers.empty(); }
   };

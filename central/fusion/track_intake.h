@@ -1,5 +1,5 @@
-// Associates the bearings of an image with their tracks, and reports their pointing errors to the
-// monitor. Used live and offline. Pure.
+// Associates the bearings of an image with tracks, and reports the station's pointing errors to the
+// monitor. Used both live and offline. Pure.
 #pragma once
 
 #include <span>
@@ -12,12 +12,12 @@ namespace ols::fusion {
 
 struct Associated {
   Association result;
-  bool explained = false;    // by a track
+  bool explained = false;    // a track explains the bearing
   bool quarantined = false;  // the station's pose is not credible
-  bool newly_so = false;     // since this bearing
+  bool newly_so = false;     // the quarantine began with this bearing
 };
 
-// The bearings of one image of a station; their fates in the same order.
+// Takes the bearings of one image of a station. Returns their fates in the same order.
 std::vector<Associated> associate(std::span<const BearingMeasurement> image, TrackManager& tracks,
                                   PointingMonitor& pointing);
 

@@ -1,13 +1,14 @@
-// Where a line of sight to an object on the ground ends: a position from one station. Pure.
+// The position of an object on the ground, from a single line of sight: where the line meets the
+// ground. Pure.
 //
-// The position along the line is a mixture: each range r is as probable as the height h(r) by which
-// the line passes above the middle of an object there explains it,
+// The position along the line is a mixture over ranges. The probability of a range r depends on the
+// height h(r) by which the line passes above the middle of an object that stands there,
 //
 //   p(r) ~ r / s(r) * exp(-h(r)^2 / 2 s(r)^2) * p(seen | r),   s^2 = s_ground^2 + (r s_elevation)^2
 //
-// with every range equally probable beforehand. A plane under a steep line makes of it the Gaussian
-// with s / tan(grazing angle); a grazing line and one that meets several slopes give what they
-// give. Published are mean and covariance of the mixture.
+// where all ranges have the same prior probability. If the ground is a plane and the line is steep,
+// the mixture is a Gaussian with s / tan(grazing angle). A grazing line, or a line that meets
+// several slopes, gives other shapes. The mean and the covariance of the mixture are published.
 #pragma once
 
 #include <optional>
@@ -19,19 +20,19 @@ namespace ols::fusion {
 
 struct GroundPointConfig {
   double max_range_m = 20e3;
-  double range_sd_limit = 0.3;  // max 1-sigma along the line, over range
+  double range_sd_limit = 0.3;  // largest 1-sigma along the line, relative to the range
 };
 
-// All in ECEF components.
+// All vectors and matrices are in ECEF components.
 struct GroundPoint {
-  Eigen::Vector3d p_ecef;                 // [m] of the object's middle
+  Eigen::Vector3d p_ecef;                 // [m] the object's middle
   Eigen::Matrix3d covariance_ecef;        // [m^2]
   Eigen::Matrix3d covariance_white_ecef;  // [m^2] the part that averaging reduces
   double range_m = 0.0;
 };
 
-// Nothing if the line does not end in known ground by more than 3 sigmas, or if the mixture is too
-// long to be a position.
+// nullopt if the line does not end in known ground by more than 3 sigmas, or if the mixture is too
+// long to serve as a position.
 std::optional<GroundPoint> ground_point(const land::Surface& surface, const LineOfSight& sight,
                                         const GroundPointConfig& config = {});
 

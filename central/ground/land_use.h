@@ -1,4 +1,4 @@
-// What the fusion knows of the land.
+// The fusion's knowledge of the land.
 #pragma once
 
 #include <algorithm>
@@ -11,9 +11,9 @@
 namespace ols::fusion {
 
 struct LandUse {
-  std::shared_ptr<const land::Surface> surface{};  // null: no land is known
-  // Stations whose designated objects stand on the ground, as the site has declared. No line of
-  // sight shows that by itself: a drone before a hillside looks the same.
+  std::shared_ptr<const land::Surface> surface{};  // null if no land is known
+  // Stations whose designated objects stand on the ground, according to the site's configuration. A
+  // line of sight alone does not show this: a drone in front of a hillside looks the same.
   std::vector<std::string> on_ground{};
 
   bool stands(const std::string& station) const {

@@ -1,15 +1,16 @@
-// Which targets lead stations. A target that an operator has designated in a picture always does.
-// If only detectors have found it, the site's policy and the operator decide: it is proposed,
-// allowed or dismissed. Pure.
+// Decides which targets lead stations. A target that an operator has designated in a picture always
+// leads. For a target that only detectors have found, the site's policy and the operator decide: it
+// is proposed, allowed or dismissed. Pure.
 //
-//  - off: targets of detections lead no station. propose: each waits for an operator. automatic:
-//    each leads at once if its class is one of `classes`; the others wait for an operator.
-//  - An operator's decision counts at once, for designated targets too, and until the target loses
-//    its number.
-//  - If a target is lost, its decision passes to the first new target that appears where the lost
-//    one must be by then.
-//  - A lost target that led stations is looked for where it must be by then, with growing
-//    uncertainty, until it is found or seek_s are over.
+//  - off: targets found by detectors lead no station. propose: each waits for an operator.
+//    automatic: each leads at once if its class is one of `classes`; the others wait for an
+//    operator.
+//  - An operator's decision takes effect at once, for designated targets too, and lasts until the
+//    target loses its number.
+//  - If a target is lost, the decision on it passes to the first new target that appears at its
+//    predicted position.
+//  - A lost target that led stations is searched for at its predicted position, with growing
+//    uncertainty, until it is found or seek_s have passed.
 #pragma once
 
 #include <cstdint>
@@ -31,35 +32,36 @@ std::optional<HandoverMode> handover_mode_named(std::string_view name);
 
 struct HandoverConfig {
   HandoverMode mode = HandoverMode::kOff;
-  // Classes whose objects lead without an operator's decision, in mode kAutomatic.
+  // Classes whose objects lead stations without an operator's decision, in mode kAutomatic.
   std::vector<ObjectClass> classes{ObjectClass::kUnknown, ObjectClass::kDrone, ObjectClass::kBird,
                                    ObjectClass::kAircraft, ObjectClass::kOther};
   std::vector<std::string> staring{};  // stations that are never led
-  double seek_s = 10.0;                // how long a lost target is looked for
+  double seek_s = 10.0;                // how long a lost target is searched for
   double remember_s = 10.0;            // how long the decision on a lost target is kept
-  double acceleration_sd_m_s2 = 3.0;   // growth of a lost target's uncertainty
+  // 1-sigma of the assumed acceleration, by which a lost target's uncertainty grows.
+  double acceleration_sd_m_s2 = 3.0;
 };
 
 class HandoverPolicy {
  public:
   explicit HandoverPolicy(const HandoverConfig& config) : config_(config) {}
 
-  // Takes note of the present targets, at a limited rate.
+  // Takes note of the present targets; works at a limited rate.
   void settle(std::int64_t now_us, const std::vector<Track>& tracks);
-  // Changes the mode. Decisions that an operator has made stay.
+  // Changes the mode. Operators' decisions remain in force.
   void set_mode(HandoverMode mode) { config_.mode = mode; }
   HandoverMode mode() const { return config_.mode; }
   // An operator's decision. False if there is no such target, or if it is allowed while the mode is
   // off. What was allowed before leads again when the mode is on.
   bool order(std::int64_t target_id, bool allow);
-  // The target's priority when stations are allocated; 0: it leads no station. Higher for targets
-  // that an operator has designated or allowed, lower for doubtful ones.
+  // The target's priority when stations are allocated; 0 if it leads no station. The priority is
+  // higher for targets that an operator has designated or allowed, and lower for doubtful ones.
   double priority(const Track& track) const;
-  // Lost targets, as places to look at.
+  // Lost targets, as places at which stations are to look.
   std::vector<CueAim> lost(std::int64_t now_us) const;
-  // Targets that were found by detection or that an operator has judged, each under its number, in
-  // the states of a cue: waiting (proposed), found (it leads stations), searched (lost, looked
-  // for), forbidden (dismissed). None if the mode is off.
+  // Targets that were found by detectors or judged by an operator, each under its number. The
+  // states are those of a cue: waiting (proposed), found (it leads stations), searched (lost and
+  // being searched for), forbidden (dismissed). Empty if the mode is off.
   std::vector<CueHealth> health(std::int64_t now_us) const;
   // Whether an object of this class leads stations without an operator's decision.
   bool leads_by_itself(ObjectClass object_class) const;
@@ -72,9 +74,11 @@ class HandoverPolicy {
   struct Known {
     CueAim last;  // its last state
     ObjectClass object_class = ObjectClass::kUnknown;
-    bool is_designated = false;  // a tracker followed it before the fusion led a station there
-    bool has_led = false;        // a tracker that appears on it is no longer proof of an operator
-    bool is_live = false;        // there is a track of it
+    bool is_designated = false;  // a tracker followed it before the fusion led a station to it
+    // Once it has led stations, a tracker that follows it does not prove that an operator
+    // designated it.
+    bool has_led = false;
+    bool is_live = false;           // there is a track of this target
     std::optional<bool> allowed{};  // the operator's decision
   };
   void note(const Track& track, std::int64_t now_us);
@@ -85,7 +89,7 @@ class HandoverPolicy {
   CueState state_of(const Known& known) const;
 
   HandoverConfig config_;
-  std::map<std::int64_t, Known> targets_;  // by their numbers
+  std::map<std::int64_t, Known> targets_;  // by target number
   std::optional<std::int64_t> settled_us_;
 };
 

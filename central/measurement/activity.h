@@ -1,4 +1,4 @@
-// How long a station counts after its last bearing; each purpose has its own window.
+// How long a station counts after its last bearing. Each purpose has its own window.
 #pragma once
 
 #include <algorithm>
@@ -9,15 +9,15 @@
 namespace ols::fusion {
 
 struct Activity {
-  // The windows. Some are defaults of configured values.
-  static constexpr double kDeliversS = 0.3;     // counts for "now", and as seeing a target
-  static constexpr double kContributesS = 0.5;  // contributes to the published position
-  static constexpr double kFollowsS = 1.0;      // has its target, and its states in a full filter
-  static constexpr double kSupportsS = 2.0;     // supports a track
+  // The windows. Some of them are defaults of configured values.
+  static constexpr double kDeliversS = 0.3;  // the station counts for "now", and as seeing a target
+  static constexpr double kContributesS = 0.5;  // it contributes to the published position
+  static constexpr double kFollowsS = 1.0;   // it keeps its target, and its states in a full filter
+  static constexpr double kSupportsS = 2.0;  // it supports a track
   static constexpr double kTeachesS =
-      30.0;  // what was learnt from it about the others' errors may still hold
+      30.0;  // what it taught about the others' errors may still hold
 
-  std::int64_t last_us = 0;  // the newest bearing; 0: none
+  std::int64_t last_us = 0;  // time of the newest bearing; 0 if there is none
 
   void note(std::int64_t utime_us) { last_us = std::max(last_us, utime_us); }
   double age_s(std::int64_t now_us) const { return seconds(now_us - last_us); }

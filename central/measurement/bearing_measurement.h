@@ -1,4 +1,4 @@
-// The fusion's input: one bearing of one station.
+// The fusion's input: one bearing from one station.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,29 +13,32 @@ namespace ols::fusion {
 // How a station states that its UTC is synchronised.
 enum class StationClock { kUnknown, kSynchronised, kUnsynchronised };
 
-// What the station has seen of the object itself. Zero or empty: unknown.
+// What the station has seen of the object itself, besides its direction. Zero or empty if unknown.
 struct Sighted {
-  Eigen::Vector2d rate_rad_s = Eigen::Vector2d::Zero();  // tangent plane, as the bearing's noise
-  Eigen::Matrix2d rate_covariance = Eigen::Matrix2d::Zero();  // [rad^2/s^2] zero: rate unknown
-  double size_rad = 0.0, size_sd_rad = 0.0;                   // largest extent
-  double signal = 0.0;                                        // signal-to-noise ratio in one image
-  std::vector<double> class_probability{};                    // in the order of target_t's CLASS_*
+  // On the tangent plane, with the bearing's noise.
+  Eigen::Vector2d rate_rad_s = Eigen::Vector2d::Zero();
+  // [rad^2/s^2] zero if the rate is unknown.
+  Eigen::Matrix2d rate_covariance = Eigen::Matrix2d::Zero();
+  double size_rad = 0.0, size_sd_rad = 0.0;  // largest extent
+  double signal = 0.0;                       // signal-to-noise ratio in one image
+  std::vector<double> class_probability{};   // in the order of target_t's CLASS_*
 
   bool has_rate() const { return rate_covariance.trace() > 0.0; }
 };
 
 struct BearingMeasurement {
   std::string station;
-  std::int64_t utime_us = 0;  // UTC since 1970 at mid-exposure, by the station's clock
+  std::int64_t utime_us = 0;  // UTC since 1970 at mid-exposure, according to the station's clock
   LineOfSight sight;
   double belief = 1.0;
   double clock_sd_s = 0.0;  // 1-sigma of utime_us, systematic
   StationClock clock = StationClock::kUnknown;
-  std::int64_t boot_id = 0;   // of the station's process: each numbers its track_ids from the start
-  std::int64_t track_id = 0;  // identifies one followed object of that station
-  std::int64_t calibration_id = 0;  // a new id: new systematic errors
-  bool is_tracklet = false;         // of a detector; nobody has designated its object
-  int image_bearings = 0;           // that the station sends of this image; 0: unknown
+  // Boot id of the station's process; each process numbers its track_ids from the start.
+  std::int64_t boot_id = 0;
+  std::int64_t track_id = 0;        // identifies one followed object of that station
+  std::int64_t calibration_id = 0;  // a new id means new systematic errors
+  bool is_tracklet = false;         // from a detector; nobody has designated the object
+  int image_bearings = 0;  // number of bearings that the station sends for this image; 0 if unknown
   Sighted sighted{};
 };
 

@@ -1,5 +1,5 @@
-// Caches the east-north-up axes at a station's place. A station seldom moves, and the axes cost as
-// much as ten directions. Pure.
+// Caches the east-north-up axes at a station's position. A station seldom moves, and computing the
+// axes costs as much as ten directions. Pure.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,7 +20,8 @@ class PlaceAxes {
   }
 
  private:
-  Eigen::Vector3d place_ecef_ = nan_vector();  // of R_ecef_enu_; NaN: none yet
+  // The position to which R_ecef_enu_ belongs; NaN before the first.
+  Eigen::Vector3d place_ecef_ = nan_vector();
   Eigen::Matrix3d R_ecef_enu_ = nan_matrix();
 };
 

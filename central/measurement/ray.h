@@ -1,4 +1,4 @@
-// A line of sight at an epoch, the input of the estimators, and their result.
+// A line of sight at an epoch (the input of the estimators), and their result.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,10 +17,12 @@ struct Ray {
   // Angular rate of the direction on the tangent plane (cross-elevation, elevation).
   Eigen::Vector2d rate_rad_s = Eigen::Vector2d::Zero();
   Eigen::Matrix2d rate_covariance = Eigen::Matrix2d::Zero();  // [rad^2/s^2] white
-  double bearing_variance_rad2 = 0.0;  // white, of one bearing before alignment, mean of both axes
-  double clock_sd_s = 0.0;             // systematic
+  // White variance of one bearing before alignment, mean of both axes.
+  double bearing_variance_rad2 = 0.0;
+  double clock_sd_s = 0.0;  // systematic
   double belief = 1.0;
-  double age_s = 0.0;  // epoch minus the newest bearing of the station (< 0: newer)
+  // Epoch minus time of the station's newest bearing (< 0: the bearing is newer)
+  double age_s = 0.0;
 };
 
 // Direction and tangent plane (cross-elevation, elevation) of a line of sight, in ECEF components.
@@ -29,42 +31,42 @@ struct RayFrame {
   Eigen::Matrix<double, 3, 2> tangent;
 };
 RayFrame ray_frame(const LineOfSight& sight);
-// The same with the axes at its origin given: R_ecef_enu(sight.origin_ecef).
+// As above, with the axes at the sight's origin already known: R_ecef_enu(sight.origin_ecef).
 RayFrame ray_frame(const LineOfSight& sight, const Eigen::Matrix3d& R_ecef_enu);
 
 // The stated systematic error of a line of sight, on its tangent plane [rad^2]: calibration, and
 // the station's position error as seen from a target at range_m.
 Eigen::Matrix2d stated_covariance(const LineOfSight& sight, double range_m);
 
-// The systematic part of a ray's direction error: stated_covariance(), and the clock error along
-// the motion.
+// The systematic part of a ray's direction error: stated_covariance(), and the effect of the clock
+// error along the motion.
 Eigen::Matrix2d systematic_covariance(const Ray& ray, double range_m);
 
-// Why there is no position. The values are those of target_t.
+// Why there is no position (kOk: there is one). The values are those of target_t.
 enum class Solution {
   kOk,
   kTooFewRays,
-  kParallelRays,  // also: stations at one place, or range undetermined with these covariances
+  kParallelRays,  // also: stations at one place, or range not determined with these covariances
   kBehindCamera,
   kTooFar,
   kNotConverged,
-  kBearingOnly,  // one station alone: a direction, no position
-  kRaysMiss,     // rays do not intersect, or not for long enough to be one object
+  kBearingOnly,  // only one station: a direction, no position
+  kRaysMiss,     // rays do not intersect, or not for long enough to belong to one object
   kAmbiguous,    // two stations see objects that may be paired in several ways
 };
 const char* to_string(Solution solution);
 
 // The fate of one ray.
 struct RayUse {
-  bool used = false;    // false: rejected as an outlier
-  double weight = 0.0;  // 0..1, robust weight
+  bool used = false;    // false if rejected as an outlier
+  double weight = 0.0;  // 0..1, the robust weight
   // For judging stations over many epochs: the squared normalised residual of both components, and
-  // its expectation if all covariances are true.
+  // its expected value if all covariances are right.
   double squared = 0.0;
   double expected = 0.0;
-  // The same by component (cross-elevation, elevation): the residual; the variance by which it was
-  // weighted; the share of that variance that appears in a residual (0..1). A rejected ray can have
-  // a share above 1, because the position's own error adds to its residual.
+  // The same for each component (cross-elevation, elevation): the residual; the variance by which
+  // it was weighted; and the share of that variance that appears in a residual (0..1). A rejected
+  // ray can have a share above 1, because the position's own error adds to its residual.
   Eigen::Vector2d residual_rad = Eigen::Vector2d::Zero();
   Eigen::Vector2d variance_rad2 = Eigen::Vector2d::Zero();
   Eigen::Vector2d redundancy = Eigen::Vector2d::Zero();
@@ -77,7 +79,7 @@ inline Eigen::Matrix3d nan_matrix() {
   return Eigen::Matrix3d::Constant(std::numeric_limits<double>::quiet_NaN());
 }
 
-// A located target. All in ECEF components; NaN where undetermined.
+// A located target. All vectors and matrices are in ECEF components; NaN if undetermined.
 struct Estimate {
   Solution solution = Solution::kTooFewRays;
   Eigen::Vector3d position_ecef = nan_vector();             // [m]
@@ -92,7 +94,7 @@ struct Estimate {
 
 // Largest angle between any two of these directions, folded to 0..pi/2; 0 for fewer than two.
 double crossing_angle(const std::vector<Eigen::Vector3d>& directions);
-// The same for the used rays.
+// As above, for the used rays.
 double crossing_angle(const std::vector<Ray>& rays, const std::vector<RayUse>& use);
 
 }  // namespace ols::fusion

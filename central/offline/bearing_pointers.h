@@ -1,4 +1,5 @@
-// Pointers to the bearings of a recording: each is in memory once, and is read in several orders.
+// Pointers to the bearings of a recording: each bearing is in memory once, and is read in several
+// orders.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,5 @@
-// Separates the objects of a recording that does not name them, by running the live tracks'
-// association (central/tracking/live_tracks.h) and reading its result afterwards. Pure.
+// Separates the objects of a recording that does not name them. It runs the live tracks'
+// association (central/tracking/live_tracks.h) and reads its result afterwards. Pure.
 #pragma once
 
 #include <cstddef>
@@ -16,14 +16,15 @@ namespace ols::fusion {
 bool shows_several_objects(const MutableBearings& measurements);
 
 struct SeparatedBearings {
-  std::map<std::int64_t, MutableBearings> objects{};  // by the tracks' identities
+  std::map<std::int64_t, MutableBearings> objects{};  // by the identity of the track
   std::size_t low_belief = 0;
-  std::size_t duplicate = 0;    // same station, stamp and direction
-  std::size_t unexplained = 0;  // explained by no track, or by two tracks about equally well
+  std::size_t duplicate = 0;  // same station, stamp and direction
+  // No track explains the bearing, or two tracks explain it about equally well.
+  std::size_t unexplained = 0;
 };
 
-// A track's bearings include those from which it was initiated, and those of merged duplicates.
-// `tell` is called for every bearing.
+// A track's bearings include those that initiated it, and those of merged duplicates. `tell` is
+// called after every bearing.
 SeparatedBearings separate_objects(const MutableBearings& measurements, const FusionConfig& config,
                                    const std::function<void()>& tell);
 

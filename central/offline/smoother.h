@@ -1,10 +1,10 @@
-// The filter on a recording, with the bearings before and after each instant (fixed-interval
+// Runs the filter on a recording with the bearings before and after each instant (fixed-interval
 // smoothing).
 //
 // Two filters run forwards and backwards in time (Fraser and Potter, 1969). At each instant the
 // forward state (from the bearings up to it) is combined with the backward prediction (from the
-// bearings after it). Both use the biases of the more certain filter. An earlier run learns the
-// undeclared errors of the stations. A station that pointed away from the target in that run takes
+// bearings after it). Both use the biases of the more certain filter. An earlier run has learnt the
+// undeclared errors of the stations. A station that pointed beside the target in that run takes
 // part in no track initiation.
 #pragma once
 
@@ -26,25 +26,25 @@ struct Smoothed {
   Located located;
 };
 
-// What the first run has shown of the stations.
+// What the first run has shown about the stations.
 struct KnownStations {
   BiasModel errors{};
   std::set<std::string> beside{};
 };
 
 struct SmootherOutput {
-  std::function<void(Smoothed)> take{};  // in order of time; where there is no position, with the
-                                         // reason
-  // Called for every bearing that a filter has processed, by the workers.
+  // Called in order of time; if there is no position, it gets the reason.
+  std::function<void(Smoothed)> take{};
+  // Called after every bearing that a filter has processed, on the workers' threads.
   std::function<void()> tell{};
   Workers workers{};
 };
-// How often each bearing is processed, for this number of instants.
+// How many times each bearing is processed for this number of instants.
 std::size_t smoother_runs(std::size_t epochs);
 
-// One object's bearings and the instants, both in order of time. The backward filter is stored at
-// the ends of blocks, and run again within each block: memory grows with the root of the number of
-// instants.
+// `bearings`: those of one object. Bearings and epochs are both in order of time. The backward
+// filter is stored at the ends of blocks and run again within each block, so memory grows with the
+// root of the number of instants.
 void smooth(const BearingPointers& bearings, const std::vector<std::int64_t>& epochs,
             const TrackManagerConfig& config, const KnownStations& known,
             const SmootherOutput& output);

@@ -1,4 +1,4 @@
-// Whether a track that two stations support can be where it is. Pure.
+// Decides whether a track that only two stations support can be where it is. Pure.
 #pragma once
 
 #include "central/tracking/track.h"

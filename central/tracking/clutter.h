@@ -1,5 +1,5 @@
-// Estimates how often tracklets of different objects agree by chance, as if two stations saw one
-// object. The estimate rests on the clutter: tracklets that became no target. Pure.
+// Estimates how often tracklets of different objects agree by chance, as if two stations saw the
+// same object. The estimate rests on the clutter: tracklets that became no target. Pure.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,9 +15,9 @@ namespace ols::fusion {
 
 class Clutter {
  public:
-  // Takes a tracklet's bearing. unclaimed: no target takes it. undecided: it may become a target's;
-  // if the tracklet ends like this, it was clutter. claimed: a target takes it; the tracklet is no
-  // clutter.
+  // Take a tracklet's bearing. unclaimed: no target takes it. undecided: a target may still take
+  // it; if the tracklet ends like this, it was clutter. claimed: a target takes it, so the tracklet
+  // is not clutter.
   void unclaimed(const BearingMeasurement& measurement) { note(measurement, false); }
   void undecided(const BearingMeasurement& measurement) { note(measurement, true); }
   void claimed(const BearingMeasurement& measurement);
@@ -25,9 +25,9 @@ class Clutter {
   // agree for agreed_s.
   double pairs_a_day(const std::string& a, const std::string& b, double agreed_s) const;
   int pairs_of_stations() const;
-  // The expected number per day of such pairs that are published as targets, for the whole site,
-  // where no third station looks. Those count that agree for agreed_s, at most most_of_a_pair for
-  // each pair of stations.
+  // The expected number per day of such pairs that are published as targets, for the whole site, if
+  // no third station looks there. It counts the pairs that agree for agreed_s, but at most
+  // most_of_a_pair for each pair of stations.
   double published_a_day(double agreed_s, double most_of_a_pair) const;
 
  private:
@@ -39,15 +39,15 @@ class Clutter {
   };
   struct Station {
     std::int64_t since_us = 0, now_us = 0;
-    double variance = 0.0;                  // of a bearing, on one axis [rad^2]
-    std::map<std::int64_t, Tracklet> open;  // by the station's id
+    double variance = 0.0;                  // variance of a bearing, on one axis [rad^2]
+    std::map<std::int64_t, Tracklet> open;  // by the station's own id
     std::deque<Tracklet> ended;
   };
   // The density of a station's clutter.
   struct Density {
     double born_per_s = 0.0, life_s = 0.0, present = 0.0;
-    double height_rad = 0.0;     // of the region in which it appears
-    double rate_variance = 0.0;  // of one axis
+    double height_rad = 0.0;     // height of the region in which it appears
+    double rate_variance = 0.0;  // variance of the rate, on one axis
   };
   static Density density_of(const Station& station);
   void note(const BearingMeasurement& measurement, bool is_undecided);

@@ -1,4 +1,4 @@
-// How probable it is that a target made of tracklets exists. A ghost is missing in images that
+// The probability that a target made of tracklets exists. A ghost is missing from images that
 // should show it. Pure.
 #pragma once
 
@@ -16,11 +16,12 @@ namespace ols::fusion {
 // real objects.
 class Existence {
  public:
-  // Sets the probability to 0.5. Until then the target counts as certain; a target without
-  // tracklets always does.
+  // Starts judging, with a probability of 0.5. Until then the target counts as certain; a target
+  // not made of tracklets always does.
   void begin() { is_judged_ = true; }
   void seen();
-  // visible: the probability that nothing hid it. Where it is hidden, a miss shows nothing.
+  // visible: the probability that nothing hid the target. If the target is hidden, a miss proves
+  // nothing.
   void missed(double visible = 1.0);
   bool is_judged() const { return is_judged_; }
   double probability() const;
@@ -30,14 +31,14 @@ class Existence {
   double log_odds_ = 0.0;
 };
 
-// Where the stations' cameras look, according to their statuses.
+// The directions in which the stations' cameras look, according to their statuses.
 class StationViews {
  public:
   // view_rad: the narrower field of view.
   void know(const std::string& station, const AzimuthElevation& axis, double view_rad,
             std::int64_t utime_us);
-  // Whether the place is well inside the image of this bearing. False unless the camera has just
-  // stood still.
+  // Whether the position is well inside the image of this bearing. False unless the camera has
+  // recently stood still.
   bool shows(const BearingMeasurement& in_image, const Eigen::Vector3d& p_ecef) const;
   void forget(const std::string& station) { views_.erase(station); }
 
@@ -46,7 +47,7 @@ class StationViews {
     AzimuthElevation axis;
     double view_rad = 0.0;
     std::int64_t utime_us = 0;
-    bool is_steady = false;  // since the status before
+    bool is_steady = false;  // the axis has not moved since the previous status
   };
   std::map<std::string, View> views_;
 };

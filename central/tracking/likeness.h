@@ -1,4 +1,4 @@
-// Whether the states of an old and a new track belong to the same object. Pure.
+// Decides whether the states of an old and a new track belong to the same object. Pure.
 #pragma once
 
 #include "central/filter/interacting_models.h"
@@ -9,7 +9,8 @@ namespace ols::fusion {
 // Whether their positions at one instant differ by less than both covariances allow.
 bool is_same_place(const KinematicState& a, const KinematicState& b);
 
-// The same for position and velocity, at the instant of the first state.
+// Whether position and velocity agree to within both covariances, at the instant of the first
+// track's state.
 bool are_duplicates(const TrackFilter& track, const TrackFilter& other);
 
 }  // namespace ols::fusion

@@ -1,24 +1,27 @@
 // Live tracks of several targets, and the association of bearings with them. Pure.
 //
 // The rules (details in docs/fusion.md):
-//  - The bearings of one image are assigned to the confirmed tracks, with the least sum of
-//    residuals. The remaining bearings are assigned to the tentative tracks in the same way. A
-//    track takes one bearing per exposure of a station.
-//  - If two confirmed tracks fit a bearing about equally well (they cross in that station's view),
-//    it is ambiguous and updates neither track. The other stations distinguish the tracks.
+//  - The bearings of one image are assigned to the confirmed tracks such that the sum of
+//    residuals is least. The remaining bearings are assigned to the tentative tracks in the same
+//    way. A track takes one bearing per exposure of a station.
+//  - If two confirmed tracks fit a bearing about equally well (they cross in that station's
+//    view), the bearing is ambiguous and updates neither track. - The other stations tell the two
+//    tracks apart.
 //  - Unassociated bearings are kept for track initiation (track_initiation.h).
-//  - tentative -> confirmed: three stations have given two bearings each, or two stations five each
-//    over confirm_s; the track explains most of their bearings; and it has a position.
-//  - A track of tracklets is not confirmed while it may be a ghost. The images of detectors show
-//    whether it exists (existence.h). Two stations alone may pair their objects in several ways, or
-//    agree by chance (clutter.h). A tracklet belongs to one target only.
+//  - tentative -> confirmed: three stations have given two bearings each, or two stations have
+//    given five each over confirm_s; the track explains most of their bearings; and it has a
+//    position.
+//  - A track made of tracklets is not confirmed while it may be a ghost. - Images from detectors
+//    show whether it exists (existence.h). Two stations alone may pair their objects in several
+//    ways, or agree by chance (clutter.h). A tracklet belongs to one target only.
 //  - tentative -> deleted: no two stations have seen it for tentative_delete_s, or it is a
 //    duplicate.
-//  - coasting -> deleted: no two stations have seen it for drop_s; or for coast_s, if one station
-//    has too many consecutive rejections while no two other stations agree.
+//  - coasting -> deleted: no two stations have seen it for drop_s. The time is coast_s if one
+//    station has too many consecutive rejections while no two other stations agree.
 //  - two confirmed tracks -> one: they have been duplicates for a second (duplicate_tracks.h).
-//  - A track confirmed at the predicted position of a deleted one takes over its identity.
-//    Otherwise it takes over the identity of the bearing-only track of one of its stations.
+//  - A track that is confirmed at the predicted position of a deleted one takes over its
+//    identity. Otherwise it takes over the identity of the bearing-only track of one of its
+//    stations.
 #pragma once
 
 #include <cstdint>
@@ -42,8 +45,8 @@ class LiveTracks : public TrackManager {
 
   using TrackManager::add;
   std::vector<Association> add(std::span<const BearingMeasurement> image, bool may_begin) override;
-  // Where a station's camera looks; view_rad: the narrower field of view. A detector's image that
-  // should show a target, and does not, counts against the target's existence.
+  // Notes where a station's camera looks; view_rad: the narrower field of view. If a detector's
+  // image should show a target and does not, this counts against the target's existence.
   void know_view(const std::string& station, const AzimuthElevation& axis, double view_rad,
                  std::int64_t utime_us) {
     views_.know(station, axis, view_rad, utime_us);
@@ -53,10 +56,11 @@ class LiveTracks : public TrackManager {
   double predicted_ghosts_a_day() const {
     return clutter_.published_a_day(config_.confirm_s, most_of_a_pair());
   }
-  // Message time was reset: forgets everything, but does not assign used identities again.
+  // Called when message time was reset: forgets everything, but never assigns used identities
+  // again.
   void clear();
-  // The duplicates merged since the last call (the newest 64), in the order of merging: pairs of
-  // identities, the one that stays first.
+  // The duplicates merged since the last call (at most the newest 64), in the order of merging:
+  // pairs of identities; the one that remains comes first.
   Merged take_merged() { return std::exchange(merged_, {}); }
 
  private:
@@ -65,7 +69,7 @@ class LiveTracks : public TrackManager {
     Innovation seen;
   };
   std::vector<Candidate> candidates(const BearingMeasurement& measurement, bool confirmed) const;
-  // Gives the bearings without a fate to confirmed or to tentative tracks.
+  // Assigns the bearings that have no fate yet to confirmed or to tentative tracks.
   void give(std::span<const BearingMeasurement> image, bool confirmed,
             std::vector<std::optional<Association>>& fates);
   Association give_up(const BearingMeasurement& measurement, bool may_begin);

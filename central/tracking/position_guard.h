@@ -1,4 +1,5 @@
-// Whether a position may be published: range, crossing angle, rejections, inconsistent pair. Pure.
+// Decides whether a position may be published, by range, crossing angle, rejections and the
+// consistency of a pair. Pure.
 #pragma once
 
 #include <cstdint>
@@ -7,15 +8,15 @@
 
 namespace ols::fusion {
 
-// Two stations alone have nothing that checks their residual: any cause of a miss (two objects, a
-// wrong heading) is estimated as bias. Returns whether that bias exceeds the errors that they
-// state.
+// If only two stations deliver, nothing checks their residual: any cause of a miss (two objects, a
+// wrong heading) is estimated as bias. Returns whether that bias exceeds the errors that the
+// stations state.
 bool is_inconsistent_pair(const TrackFilter& filter);
 
-// The largest number of consecutive rejections of a delivering station, if no two other stations
+// The largest number of consecutive rejections of a delivering station, unless two other stations
 // have agreed since that station's last used bearing. Either the station follows another object, or
-// the target has made an unforeseen manoeuvre; the bearings cannot distinguish the two. From
-// kMaxConsecutiveRejections on there is therefore no position.
+// the target has made an unforeseen manoeuvre; the bearings cannot distinguish the two. At this
+// number of rejections and above, there is therefore no position.
 int consecutive_rejections(const TrackFilter& filter, std::int64_t now_us);
 inline constexpr int kMaxConsecutiveRejections = 6;
 
@@ -25,7 +26,7 @@ bool has_range(const TrackFilter& filter, const KinematicState& state, double sh
 // kOk if a filter's state is good enough for a position, otherwise the reason.
 Solution judge_position(const TrackFilter& filter, const KinematicState& state);
 
-// Number of stations with a bearing that the filter used less than within_s before its own time.
+// Number of stations with a bearing that the filter used within the last within_s of its own time.
 int stations_lately(const TrackFilter& filter, double within_s);
 
 }  // namespace ols::fusion

@@ -1,4 +1,4 @@
-// Where rays of different stations intersect: the hypotheses for track initiation. Pure.
+// The points where rays of different stations intersect: the hypotheses for track initiation. Pure.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,17 +13,17 @@
 namespace ols::fusion {
 
 struct MeetingConfig {
-  double pair_s = 0.1;         // max time between the two rays
-  double rate_sd_rad_s = 0.5;  // possible angular rate of a target, 1-sigma
-  double miss_sigma = 4.0;     // max distance of two rays
+  double pair_s = 0.1;         // largest time between the two rays
+  double rate_sd_rad_s = 0.5;  // 1-sigma of a target's possible angular rate
+  double miss_sigma = 4.0;     // largest distance between two rays
 };
 
 struct RayMeeting {
   Eigen::Vector3d p_ecef;
   double range_m = 0.0;
   std::string first, second;  // the stations whose rays intersect
-  double miss = 0.0;          // distance of the rays over its maximum
-  int support = 0;            // other stations with a bearing in that direction
+  double miss = 0.0;          // distance of the rays, relative to the largest allowed
+  int support = 0;            // number of other stations with a bearing in that direction
 };
 
 class RayMeetings {
@@ -31,20 +31,20 @@ class RayMeetings {
   RayMeetings(const MeetingConfig& config, double max_range_m)
       : config_(config), max_range_m_(max_range_m) {}
 
-  // Where a ray intersects rays of other stations, best supported first. failure: why it does not
-  // intersect the last of the rays that it misses.
+  // The points where a ray intersects rays of other stations, best supported first. failure: why it
+  // does not intersect the last of the rays that it misses.
   std::vector<RayMeeting> of(const BearingMeasurement& measurement,
                              const UnassociatedBearings& bearings, const BiasModel& errors,
                              Solution& failure) const;
-  // Whether the two bearings may be of one object.
+  // Whether two bearings may belong to one object.
   bool may_meet(const BearingMeasurement& a, const BearingMeasurement& b,
                 const BiasModel& errors) const;
-  // Generous bound of a target's angular motion in this time.
+  // A generous bound of a target's angular motion in this time.
   double moved_rad(double dt_s) const;
   const MeetingConfig& config() const { return config_; }
 
  private:
-  // A ray, with the data for a quick check.
+  // A ray with the data for a quick check.
   struct LookedAt {
     const BearingMeasurement& measurement;
     const BearingSummary& look;

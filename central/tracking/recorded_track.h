@@ -1,12 +1,14 @@
-// The one track of a recording of one object: every bearing is offered to it. Pure.
+// The only track of a recording of one object: every bearing is offered to it. Pure.
 //
-//  - Two rays begin it, on trial. It is confirmed once it has a position. The trial ends when the
-//    same bearings give an initiation as live tracks require it. If a bearing does not fit before
-//    that, the track is undone, with all that was learnt from it. For a second afterwards, only
-//    such an initiation begins a track.
-//  - If most bearings of at least two stations, and of at least half of all stations, are rejected,
-//    an initiation on which more stations agree replaces the track under the same identity.
-//  - coasting -> deleted: no two stations have seen it for drop_s. Two rays then begin it again.
+//  - Two rays begin the track, on trial. It is confirmed once it has a position. - The trial ends
+//    when the same bearings give an initiation that live tracks would accept. - If a bearing does
+//    not fit before that, the track is undone, together with everything learnt from it. - For a
+//    second after that, only such an initiation can begin a track.
+//  - If most bearings of at least two stations, and of at least half of all stations, are
+//    rejected, the track is replaced by an initiation on which more stations agree. It keeps its
+//    identity.
+//  - coasting -> deleted: no two stations have seen it for drop_s. - Then two rays can begin it
+//    again.
 #pragma once
 
 #include <cstdint>
@@ -26,9 +28,9 @@ class RecordedTrack : public TrackManager {
 
   using TrackManager::add;
   std::vector<Association> add(std::span<const BearingMeasurement> image, bool may_begin) override;
-  // Whether an initiation of several stations has confirmed the track.
+  // Whether an initiation from several stations has confirmed the track.
   bool is_initiated() const { return proved_; }
-  // The confirmed track; null: none.
+  // The confirmed track; null if there is none.
   const Track* located() const;
 
  private:
@@ -51,7 +53,7 @@ class RecordedTrack : public TrackManager {
 
   std::map<std::string, Explains> explains_;
   bool proved_ = false;
-  BiasModel errors_before_;                    // before the track on trial
+  BiasModel errors_before_;                    // as they were before the track on trial
   std::optional<std::int64_t> taken_back_us_;  // when a track was last undone
 };
 

@@ -1,4 +1,4 @@
-// What a target is, from what the stations' detectors saw of it. Pure.
+// What a target is, according to the stations' detectors. Pure.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,20 +8,20 @@
 
 namespace ols::fusion {
 
-// What the object is and how well it is seen; 0: unknown.
+// What the object is, and how well it is seen; 0 if unknown.
 struct Appearance {
-  ObjectClass object_class = ObjectClass::kUnknown;  // the most probable one
-  double class_probability = 0.0;                    // 0..1 of this class
+  ObjectClass object_class = ObjectClass::kUnknown;  // the most probable class
+  double class_probability = 0.0;                    // 0..1, probability of this class
   double size_m = 0.0, size_sd_m = 0.0;              // largest extent, and its 1-sigma
-  double signal = 0.0;  // signal-to-noise ratio in one picture, of the station that sees it best
+  double signal = 0.0;  // signal-to-noise ratio in one picture, for the station that sees it best
 };
 
 // Uses the newest bearing of each station, for a target at this position: the weighted mean of the
-// sizes, and the greatest signal. The class is that of the track's life; where stations state
-// classes of their images, that of all these together.
+// sizes, and the largest signal. The class is that of the track's whole life, unless stations state
+// classes for their images: then it follows from all of these.
 Appearance appearance_of(const Track& track, const Eigen::Vector3d& p_ecef);
 
-// Takes a look at what the track is, at most five times a second.
+// Lets the track's classifier take a look, at most five times a second.
 void look_at_class(Track& track);
 
 }  // namespace ols::fusion

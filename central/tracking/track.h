@@ -18,7 +18,7 @@ namespace ols::fusion {
 enum class TrackState { kTentative, kConfirmed, kCoasting, kDeleted };
 
 using StationBearings =
-    std::map<std::string, std::vector<BearingMeasurement>>;  // each in order of time
+    std::map<std::string, std::vector<BearingMeasurement>>;  // each station's in order of time
 
 struct Track {
   explicit Track(TrackFilter start) : filter(std::move(start)) {}
@@ -27,20 +27,20 @@ struct Track {
   std::int64_t id = 0;  // 0 until it is confirmed
   TrackState state = TrackState::kTentative;
   std::int64_t initiated_us = 0;
-  std::map<std::string, int> hits;       // bearings used, by station
-  int misses = 0;                        // rejected bearings
+  std::map<std::string, int> hits;       // number of used bearings, by station
+  int misses = 0;                        // number of rejected bearings
   std::int64_t last_two_station_us = 0;  // when two stations last saw it
-  StationBearings bearings;              // of the last second
+  StationBearings bearings;              // those of the last second
   Existence existence;
   ClassPosterior classes;
   std::map<std::int64_t, Eigen::Vector3d>
-      velocities;  // [m/s] ECEF, at its looks of the last second
+      velocities;  // [m/s] ECEF, at the looks of the last second
 
-  // Whether it already has a bearing of this exposure of the station.
+  // Whether the track already has a bearing from this exposure of the station.
   bool has_taken(const BearingMeasurement& measurement) const;
 };
 
-// Confirmed or coasting.
+// Whether the track is confirmed or coasting.
 bool is_established(const Track& track);
 
 }  // namespace ols::fusion

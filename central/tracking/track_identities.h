@@ -1,5 +1,5 @@
-// The identity of an object: while it is a track, and while it is a bearing-only track before and
-// after that. Pure.
+// The identity of an object: while it is a track, and before and after that, while it is a
+// bearing-only track. Pure.
 #pragma once
 
 #include <cstdint>
@@ -15,29 +15,30 @@ namespace ols::fusion {
 
 class TrackIdentities {
  public:
-  // same_place: a track takes over the identity of a deleted one only at its predicted position.
+  // same_place: a track takes over the identity of a deleted one only at that one's predicted
+  // position.
   explicit TrackIdentities(bool same_place) : same_place_(same_place) {}
 
   // Assigns an identity to a confirmed track: that of a deleted track, that of the oldest
   // bearing-only track of its stations, or a new one.
   void confirm(Track& track, const std::vector<Track>& tracks);
-  // Binds the station's local track to the track.
+  // Notes that the bearing's local track belongs to `track`.
   void follow(const BearingMeasurement& measurement, const Track& track);
-  // The confirmed track of this local track; null: none.
+  // The confirmed track to which this local track belongs; null if there is none.
   Track* follower(const BearingMeasurement& measurement, std::vector<Track>& tracks) const;
   // Whether a track has taken a bearing of this local track within the last within_s.
   bool takes(const BearingMeasurement& newest, std::int64_t now_us, double within_s,
              const std::vector<Track>& tracks) const;
-  // The identity of a bearing-only track. 0 for the first new_after_s, and for a bearing without a
-  // local track id. `told`: the identities already published at the same instant; each belongs to
-  // one object.
+  // Returns the identity of a bearing-only track. It is 0 for the first new_after_s, and for a
+  // bearing without a local track id. `told`: the identities already published at the same instant;
+  // none is used twice.
   std::int64_t identify(const BearingMeasurement& newest, double new_after_s,
                         std::set<std::int64_t>& told, const std::vector<Track>& tracks);
   void merge(std::int64_t older, std::int64_t younger) { local_.rename(younger, older); }
-  // A confirmed track ended; it may be reacquired.
+  // Keeps a confirmed track that ended, because it may be reacquired.
   void keep_deleted(const Track& track) { deleted_.push_back(track); }
   void forget_deleted(std::int64_t now_us, double after_s);
-  // The station's local track ids have new meanings from now on.
+  // Called when the station's local track ids have new meanings.
   void forget(const std::string& station) { local_.forget(station); }
   // Forgets everything except which identities are in use.
   void clear();

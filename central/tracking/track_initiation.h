@@ -1,16 +1,16 @@
-// Track initiation, from unassociated bearings and the intersections of rays of different stations.
+// Initiates tracks from unassociated bearings and the intersections of rays of different stations.
 // Pure.
 //
-// Rays of different objects intersect too (ghosts). A hypothesis must therefore explain the recent
+// Rays to different objects intersect too (ghosts). A hypothesis must therefore explain the recent
 // bearings of its stations, not only the two rays from which it was made: the filter is run over
-// these bearings. If three stations agree, the hypothesis is accepted at once. If only two agree,
-// they must do so for longer, until the true objects have taken their own bearings. The filter
-// takes the two stations of the hypothesis first. A third station that is wrong, or follows another
-// object, is then outside the gate and does no harm. Two stations alone begin no track below or
-// behind the ground (behind_land.h).
+// these bearings. If three stations agree, the hypothesis is accepted at once. If only two stations
+// agree, they must agree for longer, so that the true objects can take their own bearings first.
+// The filter takes the two stations of the hypothesis first. A third station that is wrong, or that
+// follows another object, is then outside the gate and does no harm. Two stations alone initiate no
+// track that is below the ground or hidden by it (behind_land.h).
 //
-// The cost of a search grows with the number of stations with such bearings. If there are many,
-// they take turns, so that the cost per bearing does not grow.
+// The cost of a search grows with the number of stations that have unassociated bearings. If there
+// are many such stations, they take turns, so that the cost per bearing does not grow.
 #pragma once
 
 #include <cmath>
@@ -33,14 +33,14 @@ namespace ols::fusion {
 struct InitiationConfig {
   double pool_s = 0.6;  // how long unassociated bearings are kept
   MeetingConfig meeting{};
-  double explained = 0.6;        // min share of the stations' frames that a hypothesis must explain
+  double explained = 0.6;  // smallest share of the stations' frames that a hypothesis must explain
   double two_stations_s = 0.35;  // required duration of agreement if only two stations agree
   int least_bearings = 6;
-  int pool_of_a_station = 64;                   // max number of kept bearings per station
-  std::shared_ptr<const land::Surface> land{};  // null: none is known
+  int pool_of_a_station = 64;                   // largest number of bearings kept per station
+  std::shared_ptr<const land::Surface> land{};  // null if no land is known
 };
 
-// A new track, and what its bearings show of the stations' errors.
+// A new track, and what its bearings show about the stations' errors.
 struct TrackStart {
   Track track;
   BiasModel evidence;
@@ -54,9 +54,9 @@ class TrackInitiation {
         meetings_(config.meeting, filter.max_range_m),
         pool_(config.pool_s, config.pool_of_a_station) {}
 
-  // Takes an unassociated bearing. Returns a new track, whose bearings leave the pool. The track
-  // may contain this bearing or, if many stations wait for a search, belong to another one.
-  // accept_two_rays: two rays suffice for now; they stay in the pool, for a better track.
+  // Takes an unassociated bearing. Returns a new track, if any; its bearings leave the pool. The
+  // track may contain this bearing or, if many stations wait for a search, belong to another one.
+  // accept_two_rays: for now two rays suffice; they stay in the pool for a better track.
   std::optional<TrackStart> add(const BearingMeasurement& measurement, const BiasModel& errors,
                                 bool accept_two_rays);
   // Keeps a bearing without a search.
@@ -65,7 +65,7 @@ class TrackInitiation {
   void give(const Track& track, const BiasModel& errors);
   void forget(const std::string& station) { pool_.forget(station); }
   void clear() { *this = TrackInitiation(config_, filter_); }
-  // Whether two bearings of about one time may be of one object.
+  // Whether two bearings of about the same time may belong to one object.
   bool may_meet(const BearingMeasurement& a, const BearingMeasurement& b,
                 const BiasModel& errors) const {
     const double apart_s = std::abs(seconds(a.utime_us - b.utime_us));
@@ -76,20 +76,21 @@ class TrackInitiation {
   // ray give no position. kRaysMiss: rays intersect, but the bearings of their stations do not
   // agree. kTooFewRays: the bearings agree but more are needed, or there was no other ray.
   Solution why_no_track() const { return failure_; }
-  // Why there is no track: from the stations with unassociated bearings at this instant. If there
-  // are several, the last failure.
+  // Why there is no track, judged by the stations with unassociated bearings at this instant. If
+  // there are several such stations, the last failure.
   Solution why_none(std::int64_t now_us) const;
 
  private:
-  // A candidate track, and what the run over its bearings has shown of the stations.
+  // A candidate track, and what the run over its bearings has shown about the stations.
   struct Hypothesis {
     TrackStart start;
-    int bearings = 0;      // explained bearings of the agreeing stations
-    double span_s = 0.0;   // of those bearings
+    int bearings = 0;      // number of explained bearings of the agreeing stations
+    double span_s = 0.0;   // time span of those bearings
     bool settled = false;  // the iteration has converged
-    double misfit = 0.0;   // mean squared normalised residual of their frames; NaN without any
+    // Mean squared normalised residual over their frames; NaN if there are none.
+    double misfit = 0.0;
   };
-  enum class Needed { kTwoRays, kHalf, kAll };  // share of two_stations_s
+  enum class Needed { kTwoRays, kHalf, kAll };  // share of two_stations_s that is required
   std::optional<TrackStart> search(const BearingMeasurement& measurement, const BiasModel& errors,
                                    bool accept_two_rays);
   std::optional<BearingMeasurement> next_station_to_search(const BearingMeasurement& measurement);
@@ -109,10 +110,10 @@ class TrackInitiation {
   RayMeetings meetings_;
   UnassociatedBearings pool_;
   Solution failure_ = Solution::kTooFewRays;
-  // Stations that wait for a search, and the budget saved for the next one.
+  // Stations that wait for a search, and the effort saved up for the next one.
   std::deque<std::string> waiting_;
   std::size_t saved_ = 0;
-  std::minstd_rand any_;  // same sequence in every run
+  std::minstd_rand any_;  // gives the same sequence in every run
 };
 
 }  // namespace ols::fusion

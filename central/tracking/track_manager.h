@@ -1,12 +1,14 @@
-// The life cycle of tracks (docs/fusion.md, "The life of a track"). Live tracks (live_tracks.h) and
-// the one track of a recording (recorded_track.h) share it; they define the criteria for
-// confirmation and loss. Pure.
+// The life cycle of tracks (docs/fusion.md, "The life of a track"). It is shared by live tracks
+// (live_tracks.h) and the one track of a recording (recorded_track.h), which define the criteria
+// for confirmation and loss. Pure.
 //
-//  - tentative -> confirmed: it meets the criteria, and is no duplicate of a confirmed track.
+//  - tentative -> confirmed: the track meets the criteria, and is no duplicate of a confirmed
+//    track.
 //  - confirmed -> coasting: no two stations have seen it for coast_s. coasting -> confirmed: two
 //    stations see it again.
-//  - any -> deleted: an inconsistent pair. Only two stations see it, and their rays intersect only
-//    if their biases are larger than stated; or below or behind the ground (behind_land.h).
+//  - any -> deleted: the track is an inconsistent pair. - Only two stations see it, and their
+//    rays intersect only if their biases are larger than stated, or intersect below the ground or
+//    where it hides them (behind_land.h).
 #pragma once
 
 #include <cstdint>
@@ -26,18 +28,19 @@
 namespace ols::fusion {
 
 struct TrackManagerConfig {
-  int max_tracks = 256;  // tentative ones included
+  int max_tracks = 256;  // including tentative tracks
   int confirm_stations = 3;
-  int confirm_hits = 2;       // of each of them
-  int confirm_pair_hits = 5;  // of each of two, if only two see it
+  int confirm_hits = 2;  // required bearings of each of these stations
+  // Required bearings of each of two stations, if only two see the target.
+  int confirm_pair_hits = 5;
   double confirm_s = 0.7;
-  double chance_pairs_a_day = 1.0;  // max expected number of ghosts of two stations
+  double chance_pairs_a_day = 1.0;  // largest expected number of ghosts from two stations
   double tentative_delete_s = 0.4;
   double coast_s = 0.5;
   double drop_s = Activity::kSupportsS;
   double remember_s = 5.0;     // how long the identity of a deleted track is kept
-  double ambiguous_nis = 9.0;  // min difference of two tracks' normalised residuals
-  double memory_s = 1.0;       // of the bearings kept for the estimators without memory
+  double ambiguous_nis = 9.0;  // smallest difference between two tracks' normalised residuals
+  double memory_s = 1.0;       // how long bearings are kept for the estimators without memory
   InitiationConfig initiation{};
   FilterConfig filter{};
   BiasModelConfig errors{};
@@ -48,44 +51,44 @@ struct TrackManagerConfig {
 struct Association {
   enum class Kind { kTrack, kAmbiguous, kUnexplained, kRejected };
   Kind kind = Kind::kUnexplained;
-  std::int64_t track_id = 0;  // 0: none, or a tentative one
+  std::int64_t track_id = 0;  // 0 for no track, or a tentative one
 };
 
 class TrackManager {
  public:
   virtual ~TrackManager() = default;
 
-  // Takes the bearings of one image, each of a different object; returns their fates in the same
+  // Takes the bearings of one image, each of a different object. Returns their fates in the same
   // order. may_begin: whether they may take part in track initiation.
   virtual std::vector<Association> add(std::span<const BearingMeasurement> image,
                                        bool may_begin) = 0;
   Association add(const BearingMeasurement& measurement, bool may_begin = true) {
     return add(std::span(&measurement, 1), may_begin).front();
   }
-  // Changes the tracks' states, by the fusion's time.
+  // Updates the tracks' states to the fusion's time.
   void advance(std::int64_t now_us);
   void forget_station(const std::string& station);
-  // A station has a new calibration: forgets what is known of its errors.
+  // Called when a station has a new calibration: forgets what is known about its errors.
   void forget_errors(const std::string& station) { errors_.forget(station); }
-  // The station's local track ids have new meanings from now on.
+  // Called when the station's local track ids have new meanings.
   void forget_followed(const std::string& station) { identities_.forget(station); }
 
   const std::vector<Track>& tracks() const { return tracks_; }
   const BiasModel& errors() const { return errors_; }
-  // Adopts what was learnt in another run.
+  // Adopts the errors that another run has learnt.
   void set_errors(const BiasModel& errors) { errors_ = errors; }
   const UnassociatedBearings& unassociated() const { return initiation_.pool(); }
   // Why the last bearing began no track, and why there is no track at this instant.
   Solution why_no_track_began() const { return initiation_.why_no_track(); }
   Solution why_none(std::int64_t now_us) const { return initiation_.why_none(now_us); }
-  // Whether the objects that two stations see can be paired in several ways, so that no target is
-  // published.
+  // Whether no target is published because the objects that two stations see can be paired in
+  // several ways.
   virtual bool is_ambiguous() const { return false; }
-  // The identity of a local track (the bearing's track_id) that no track explains. It is the
-  // identity of the target to which it belonged; a target that it becomes takes it over. 0 for the
-  // first confirm_s, in which ordinary targets are initiated, and for a bearing without a local
-  // track id. `told`: the identities already published at the same instant; each belongs to one
-  // object.
+  // Returns the identity of a local track (the bearing's track_id) that no track explains. If it
+  // belonged to a target, it keeps that target's identity; if it becomes a target, the target takes
+  // over its identity. It is 0 for the first confirm_s, in which ordinary targets are initiated,
+  // and for a bearing without a local track id. `told`: the identities already published at the
+  // same instant; none is used twice.
   std::int64_t identify(const BearingMeasurement& newest, std::set<std::int64_t>& told);
   // Whether a track has taken a bearing of this local track within the last within_s.
   bool takes(const BearingMeasurement& newest, std::int64_t now_us, double within_s) const;
@@ -95,8 +98,8 @@ class TrackManager {
                  unexplained = 0;
   };
   const Counts& counts() const { return counts_; }
-  // Predicted minus measured (cross-elevation, elevation), for the confirmed track nearest to the
-  // bearing.
+  // Predicted minus measured direction (cross-elevation, elevation), for the confirmed track
+  // nearest to the bearing.
   std::optional<Eigen::Vector2d> off_nearest(const BearingMeasurement& measurement) const;
 
  protected:
@@ -104,11 +107,11 @@ class TrackManager {
   TrackManager(const TrackManager&) = default;
   TrackManager& operator=(const TrackManager&) = default;
 
-  // Whether a tentative track with a position meets the criteria.
+  // Whether a tentative track that has a position meets the criteria.
   virtual bool is_worth_confirming(const Track& track) const = 0;
   virtual void on_confirmed(const Track&) {}
   // Whether a track that no two stations have seen for unseen_s is lost. is_lost() judges
-  // established tracks, once unseen_s exceeds coast_s.
+  // established tracks whose unseen_s exceeds coast_s.
   virtual bool is_tentative_lost(double unseen_s) const = 0;
   virtual bool is_lost(const Track& track, double unseen_s, std::int64_t now_us) const = 0;
   // Called before the deleted tracks are removed.
@@ -120,14 +123,14 @@ class TrackManager {
   void replace(Track& track, Track by);
   // Confirms a tentative track that meets the criteria.
   void consider(Track& track);
-  // Message time was reset: forgets all but the identities in use.
+  // Called when message time was reset: forgets everything except which identities are in use.
   void clear_tracks();
 
   TrackManagerConfig config_;
   TrackInitiation initiation_;
   BiasModel errors_;
   std::vector<Track> tracks_;
-  std::vector<TrackGlance> glances_;  // of each track
+  std::vector<TrackGlance> glances_;  // for each track
   TrackIdentities identities_;
   Counts counts_;
 

@@ -19,20 +19,20 @@ struct BearingSummary {
   std::int64_t utime_us = 0;
   Eigen::Vector3d origin_ecef = Eigen::Vector3d::Zero();
   Eigen::Vector3d direction_ecef = Eigen::Vector3d::UnitX();
-  double spread_rad = 0.0;  // generous bound of the angle off its target
+  double spread_rad = 0.0;  // generous bound of the angle between the bearing and its target
   double clock_sd_s = 0.0;
   std::int64_t track_id = 0;
   bool is_tracklet = false;
 
-  // Whether it points at this position, within spread_rad and a margin.
+  // Whether the bearing points at this position, within spread_rad and a margin.
   bool is_near(const Eigen::Vector3d& p_ecef, double more_rad) const;
 };
-// R_ecef_enu: the axes at its origin, R_ecef_enu(measurement.sight.origin_ecef).
+// R_ecef_enu: the axes at the bearing's origin, R_ecef_enu(measurement.sight.origin_ecef).
 BearingSummary summarise(const BearingMeasurement& measurement, const Eigen::Matrix3d& R_ecef_enu);
 
 class UnassociatedBearings {
  public:
-  // One station's bearings and their summaries: in order of time, of equal length.
+  // One station's bearings and their summaries, both in order of time and of the same length.
   struct Station {
     std::deque<BearingMeasurement> bearings;
     std::vector<BearingSummary> looks;
@@ -45,7 +45,7 @@ class UnassociatedBearings {
     PlaceAxes axes_;
   };
 
-  // A bearing is kept until its station has a bearing that is newer by span_s, or more than `most`
+  // A bearing is kept until its station has a bearing newer by span_s, or more than `most` newer
   // bearings.
   UnassociatedBearings(double span_s, int most)
       : span_s_(span_s), most_(static_cast<std::size_t>(most)) {}
@@ -54,7 +54,7 @@ class UnassociatedBearings {
   void erase_if(const std::string& station,
                 const std::function<bool(const BearingMeasurement&)>& condition);
   void forget(const std::string& station) { stations_.erase(station); }
-  // No entry is empty.
+  // By station; no entry is empty.
   const std::map<std::string, Station>& stations() const { return stations_; }
 
  private:

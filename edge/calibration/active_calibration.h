@@ -1,5 +1,5 @@
-// The calibration that a station works with, or why the configured one is not used. Without a
-// usable calibration, a station works with its configuration's own values.
+// The calibration that a station works with, or the reason why the configured one is not used.
+// Without a usable calibration, a station works with the values in its own configuration.
 #pragma once
 
 #include <cstdint>
@@ -17,32 +17,33 @@ namespace ols::station {
 
 class ActiveCalibration {
  public:
-  // Reads the configured folder, if there is one. Never throws, whatever it contains.
+  // Reads the configured folder, if there is one. Never throws, whatever the folder contains.
   explicit ActiveCalibration(const StationSettings& configured);
 
-  // The settings that the station uses; always the same object.
+  // The settings that the station uses; always a reference to the same object.
   const StationSettings& settings() const { return settings_; }
-  // True if the calibration belongs to other devices and was dropped just now: settings() has
-  // changed. Serial numbers are known only once the devices are open.
+  // True if the calibration was dropped just now because it belongs to other devices; settings()
+  // has changed. Serial numbers are known only once the devices are open.
   bool refuses(const std::vector<device::DeviceReport>& devices);
-  // The same for the size of a count [rad] that the unit reports; 0: not known yet. A unit in
-  // another step mode has other errors than the calibrated ones. The calibration stays dropped
-  // until a restart or another calibration.
+  // As above, for the size of a count [rad] that the unit reports; 0 if it is not known yet. A unit
+  // in another step mode has other errors than those that were calibrated. The calibration stays
+  // dropped until a restart or another calibration.
   bool refuses(const PanTilt& count_rad);
 
-  // Why these files do not belong to the open devices, or to counts of this size; empty: they may.
+  // Why these files do not belong to the open devices, or to counts of this size; empty if they
+  // may.
   static std::string conflict(const CalibrationFiles& files,
                               const std::vector<device::DeviceReport>& devices,
                               const PanTilt& count_rad);
-  // One alarm for each device whose serial number is not the configured one. Needed because a new
-  // instrument gets the configured serial numbers.
+  // One alarm for each device whose serial number differs from the configured one. This is needed
+  // because a new instrument gets the configured serial numbers.
   static std::vector<Alarm> other_devices(const InstrumentSerials& configured,
                                           const std::vector<device::DeviceReport>& devices);
-  // Works with these files from now on: settings() changes.
+  // Uses these files from now on; settings() changes.
   void adopt(const CalibrationFiles& files);
 
   CalibrationStatus status() const;
-  // Why the calibration is not used, and what to do; empty: nothing to report.
+  // Why the calibration is not used, and what to do; empty if there is nothing to report.
   std::vector<Alarm> alarms() const;
 
  private:

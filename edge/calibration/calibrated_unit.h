@@ -1,5 +1,5 @@
-// A pan-tilt unit with a calibration: converts between the angles that it reports and ideal angles.
-// Pure.
+// A pan-tilt unit with a calibration: converts between the angles that the unit reports and ideal
+// angles. Pure.
 #pragma once
 
 #include "edge/mount/angle_history.h"
@@ -13,16 +13,17 @@ class CalibratedUnit {
   explicit CalibratedUnit(const StationCalibration& calibration);
 
   const StationCalibration& calibration() const { return calibration_; }
-  // Adds variances to the calibration's heading and tilts, because the station was knocked.
+  // Adds variances to the heading and the tilts of the calibration, because the station was
+  // knocked.
   void doubt_setup(double heading_variance_rad2, double tilt_variance_rad2);
 
-  // The size of a count [rad] as the unit reports it, rounded. It is used only to convert reported
-  // angles to counts, because a count is an exact fraction of a turn.
+  // The size of a count [rad] as the unit reports it, which is rounded. It is used only to convert
+  // reported angles to counts. The exact size is a fraction of a turn.
   void set_count(const PanTilt& count_rad);
-  // Whether a turn has as many counts as in the calibration: the step mode is the same.
+  // Whether a turn has as many counts as in the calibration, so that the step mode is the same.
   bool fits() const { return fits_; }
 
-  // In time order.
+  // Call in order of time.
   void add(const mount::AngleSample& sample) { approach_.add(sample.time_s, sample.angles); }
   void forget_angles() { approach_.clear(); }
 
@@ -30,15 +31,15 @@ class CalibratedUnit {
   PanTilt corrected(const UnitReading& reading) const {
     return corrected_angles(calibration_.model, reading);
   }
-  // The reported angles at which the unit, coming straight from `here`, stands at ideal angles.
-  // `corrected` also says in which turn pan is: the unit approaches angles that are a whole turn
-  // apart from different sides.
+  // The angles that the unit reports when it has come straight from `here` and points where an
+  // ideal unit points at `corrected`. `corrected` also tells the turn of the pan axis: angles that
+  // are a whole turn apart are approached from different sides.
   PanTilt reported(const PanTilt& corrected, const PanTilt& here) const;
 
  private:
   StationCalibration calibration_;
-  Eigen::Vector2d doubt_rad2_ = Eigen::Vector2d::Zero();  // added to its covariance: heading, each
-                                                          // tilt
+  // Added to the calibration's variances: heading, each tilt.
+  Eigen::Vector2d doubt_rad2_ = Eigen::Vector2d::Zero();
   PanTilt count_rad_;
   bool fits_ = true;
   mount::ApproachHistory approach_;

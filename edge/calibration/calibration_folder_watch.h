@@ -1,5 +1,5 @@
-// Notices a calibration that was accepted while the station runs: the configured folder is then a
-// link to another folder. Reads that folder in its own thread.
+// Notices that a new calibration was accepted while the station runs: the configured folder is then
+// a link to another folder. Reads that folder in its own thread.
 #pragma once
 
 #include <future>
@@ -14,14 +14,14 @@ namespace ols::station {
 
 class CalibrationFolderWatch {
  public:
-  // `configured`: the settings as in the configuration file. The folder's present content counts as
-  // read.
+  // `configured`: the settings as in the configuration file. The folder's content at construction
+  // counts as already read.
   explicit CalibrationFolderWatch(const StationSettings& configured);
 
-  // Call in every turn. Looks at the folder once a second.
+  // Call in every turn. Checks the folder once a second.
   void look(double now_s);
-  // A calibration that was read completely, of this station and its serial numbers; null: none
-  // waits.
+  // A calibration that was read completely and belongs to this station and its serial numbers; null
+  // if none is waiting.
   const CalibrationFiles* waiting() const { return files_.get(); }
   void forget() { files_.reset(); }
   // Marks the calibration as unusable until another one is accepted.
@@ -29,11 +29,11 @@ class CalibrationFolderWatch {
   Alarm alarm() const;
 
  private:
-  using Read = std::unique_ptr<CalibrationFiles>;  // or an exception
+  using Read = std::unique_ptr<CalibrationFiles>;  // the future may hold an exception instead
   void take_read();
 
   StationSettings configured_;
-  std::string seen_;  // which folder, and its time of writing
+  std::string seen_;  // the folder and its time of writing
   std::string refused_;
   std::future<Read> reading_;
   Read files_;

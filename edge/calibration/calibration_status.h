@@ -8,16 +8,17 @@ namespace ols::station {
 // The values are those of station_status_t.
 enum class CalibrationState {
   kNone,     // no calibration: heading, mounting and deviations are those of the configuration
-  kInUse,    // the bearings' systematic part is from an adjustment
-  kRefused,  // configured, but not used: an alarm says why
-  kDoubted,  // in use, but its reference views have moved; the deviations include that
+  kInUse,    // the systematic part of the bearings comes from an adjustment
+  kRefused,  // configured, but not used; an alarm says why
+  kDoubted,  // in use, but its reference views have moved; the deviations take this into account
 };
 
 struct CalibrationStatus {
   CalibrationState state = CalibrationState::kNone;
   std::int64_t id = 0;
-  std::int64_t observed_utime_us = 0;  // of its last observation; 0: not stated
-  double rms_rad = 0.0;                // of a direction, per axis, including the doubt; 0: none
+  std::int64_t observed_utime_us = 0;  // time of its last observation; 0 if not stated
+  // 1-sigma of a direction, per axis, including the doubt; 0 if there is no calibration.
+  double rms_rad = 0.0;
 };
 
 }  // namespace ols::station

@@ -14,21 +14,22 @@ class CheckRecord {
   // Call in every turn.
   void note(double now_s);
   void note_judged();
-  // A round whose pictures were not recognised: night, fog, another scene.
+  // Notes a round whose pictures were not recognised: night, fog, another scene.
   void note_unrecognised() { reason_ = "its reference views are not recognised"; }
-  // The sun made the round leave out so many views that it decided nothing.
+  // Notes that the round left out so many views because of the sun that it decided nothing.
   void note_sun() { reason_ = "the sun stands in its reference views"; }
-  // The unit did not reach a view in time, in this number of consecutive rounds.
+  // Notes that the unit did not reach a view in time, in this number of consecutive rounds.
   void note_late(int rounds);
-  // The travel and the keep-out regions leave too few views to decide anything.
+  // Notes that travel limits and keep-out regions leave too few views to decide anything.
   void note_too_few() { too_few_ = true; }
 
-  // The alarm; empty: none. A night without a check raises no alarm, a day does.
+  // The alarm; empty if there is none. A night without a check raises no alarm; a day without a
+  // check does.
   Alarm alarm() const;
 
  private:
   double now_s_ = 0.0;
-  std::optional<double> judged_s_;  // the last judgement, or the start
+  std::optional<double> judged_s_;  // time of the last judgement, or of the start
   const char* reason_ = "it was never idle long enough";
   int late_ = 0;
   bool too_few_ = false;

@@ -1,4 +1,4 @@
-// covariance.csv: the covariance of an instrument's parameters, beside its instrument.toml.
+// covariance.csv, next to instrument.toml: the covariance of an instrument's parameters.
 #pragma once
 
 #include <string>
@@ -7,11 +7,12 @@
 
 namespace ols::calibration {
 
-// The instrument's part of a covariance, in internal units. Throws CsvError "FILE:LINE: key: what"
-// unless every parameter has one row and one column, and the matrix is a covariance: symmetric,
-// with positive definite correlations. A variance of 0: the value is known exactly.
+// Reads the instrument's part of a covariance, in internal units. Throws CsvError "FILE:LINE: key:
+// what" unless every parameter has one row and one column, and the matrix is a covariance:
+// symmetric, with positive definite correlations. A variance of 0 means that the value is known
+// exactly.
 InstrumentMatrix read_covariance(const std::string& path);
-// The same for all parameters of a station.
+// As above, for all parameters of a station.
 StationMatrix read_station_covariance(const std::string& path);
 
 }  // namespace ols::calibration

@@ -1,4 +1,4 @@
-// Compares views of the scenery with the views stored at the calibration, to find whether the
+// Compares views of the scenery with the pictures stored at the calibration. It finds whether the
 // tripod has turned, an axis has lost steps, or something else has moved. Pure.
 #pragma once
 
@@ -10,40 +10,41 @@
 
 namespace ols::station {
 
-// The turn of the camera's direction against the stored picture, in one reference view.
+// How far the camera's direction has turned since the stored picture, in one reference view.
 struct ViewOffset {
-  PanTilt shafts;                       // of the view
+  PanTilt shafts;                       // the unit's angles in this view
   double left_rad = 0.0, up_rad = 0.0;  // on the tangent plane
-  double sd_rad = 0.0;                  // of each component
+  double sd_rad = 0.0;                  // 1-sigma of each component
 };
 
 enum class DriftCause {
-  kNone,       // nothing beyond the views' own deviations
-  kTripod,     // all views turned as one body
-  kScene,      // one view differs, the others do not
-  kLostSteps,  // an axis is off its counts by a multiple of a motor step
-  kUnclear,    // the views agree on nothing
+  kNone,       // no change beyond the views' own deviations
+  kTripod,     // all views have turned as one body
+  kScene,      // one view differs; the others do not
+  kLostSteps,  // an axis deviates from its counts by a multiple of a motor step
+  kUnclear,    // the views contradict each other
 };
 
 struct DriftFinding {
   DriftCause cause = DriftCause::kNone;
-  // The turn of the tripod that explains the views best, except for kUnclear. For kLostSteps it is
-  // at least as large as the lost steps: heading for the pan axis, tilt for the tilt axis.
-  double heading_rad = 0.0;  // clockwise, as a heading
-  double tilt_rad = 0.0;     // of the vertical, in any direction
+  // The turn of the tripod that best explains the views; not valid for kUnclear. For kLostSteps it
+  // is at least as large as the lost steps (pan axis: heading; tilt axis: tilt).
+  double heading_rad = 0.0;  // clockwise, like a heading
+  double tilt_rad = 0.0;     // tilt of the vertical, in any direction
   double heading_sd_rad = 0.0, tilt_sd_rad = 0.0;
-  std::size_t view = 0;  // kScene: the view
-  bool pan = false;  // kLostSteps: the axis, and how many steps its shaft is ahead of the counts
+  std::size_t view = 0;  // for kScene: the view that differs
+  // For kLostSteps: the axis, and the number of steps by which its shaft is ahead of the counts.
+  bool pan = false;
   int steps = 0;
 };
 
-// The unit of lost steps: a full step of the motor, at the shaft.
+// The unit of lost steps: the angle of the shaft for one full step of the motor.
 struct MotorSteps {
   double pan_rad = 0.0, tilt_rad = 0.0;
 };
 MotorSteps motor_steps(const StationModel& model);
 
-// Needs three or four views in different directions; fewer give kUnclear.
+// Needs at least three views in different directions; with fewer, the cause is kUnclear.
 DriftFinding find_drift(const std::vector<ViewOffset>& views, const MotorSteps& steps);
 
 }  // namespace ols::station

@@ -1,5 +1,5 @@
-// A station's drift, from check to check. A finding counts once a second check confirms it. It is
-// never used as a correction. Pure.
+// Follows a station's drift from check to check. A finding counts only after a second check
+// confirms it. A finding never corrects angles. Pure.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ class DriftWatch {
     double amber_rad = 20.0 * 3.14159265358979323846 / 648000.0;
     double red_rad = 40.0 * 3.14159265358979323846 / 648000.0;
   };
-  // `calibration_id`: of the calibration of the stored views.
+  // `calibration_id`: of the calibration at which the views were stored.
   DriftWatch(const Config& config, std::int64_t calibration_id)
       : config_(config), calibration_id_(calibration_id) {}
 
@@ -27,18 +27,18 @@ class DriftWatch {
   bool add(const DriftFinding& finding);
 
   DriftLevel level() const { return level_; }
-  // The views agreed on nothing: the turn is unknown.
+  // Whether the views contradicted each other, so that the turn is unknown.
   bool is_unclear() const { return finding_.cause == DriftCause::kUnclear; }
-  // The 1-sigma that bearings must add; zero without an alarm.
+  // The 1-sigma that bearings must add; zero if there is no alarm.
   double heading_doubt_rad() const;
   double tilt_doubt_rad() const;
-  // Incremented at each change of the doubt.
+  // A number that is incremented at each change of the doubt.
   int revision() const { return revision_; }
-  // The finding in words, and what to do; empty: none.
+  // The finding in words, and what to do; empty if there is none.
   Alarm alarm() const;
 
-  // One line for a file. restore() loads it if it is of the same calibration, and returns false for
-  // a line that it cannot read.
+  // One line for a file. restore() loads it if it belongs to the same calibration, and returns
+  // false for a line that it cannot read.
   std::string to_text() const;
   bool restore(const std::string& text);
 
@@ -51,9 +51,9 @@ class DriftWatch {
   Config config_;
   std::int64_t calibration_id_;
   DriftLevel level_ = DriftLevel::kNone;
-  DriftFinding finding_;  // the finding of level_
+  DriftFinding finding_;  // the finding that led to level_
   bool suspected_ = false;
-  int quiet_ = 0;  // consecutive checks without a finding
+  int quiet_ = 0;  // number of consecutive checks without a finding
   int revision_ = 0;
 };
 

@@ -9,8 +9,8 @@
 
 namespace ols::calibration {
 
-// Constants of the lens model and of the unit with which the values were found. No adjustment
-// changes them.
+// The constants of the lens model and of the unit for which the values were found. An adjustment
+// does not change them.
 struct FixedValues {
   LensModel model = LensModel::kPinhole;
   double skew = 0.0, p1 = 0.0, p2 = 0.0;
@@ -21,33 +21,35 @@ struct FixedValues {
 struct Instrument {
   station::InstrumentSerials serials;
   FixedValues fixed;
-  AxisModel pan, tilt;  // their counts and teeth; their errors are among the values
-  double angle_sd_rad = 5.0 * EIGEN_PI / 648000.0;  // of each angle of a pose, new with every pose
-  std::string covariance_file;                      // beside this file; empty: there is only [sd]
+  AxisModel pan, tilt;  // their counts and teeth; their errors are in `values`
+  // 1-sigma of each angle of a pose, independent at every pose.
+  double angle_sd_rad = 5.0 * EIGEN_PI / 648000.0;
+  std::string covariance_file;  // file next to this one; if empty, only [sd] is given
   InstrumentVector values = InstrumentVector::Zero();
   InstrumentMatrix covariance = InstrumentMatrix::Zero();
 };
 
-// A new unit, from a station's configuration. Deviations are those of calibration/parameters.h; the
-// mounting's are at least those of [calibration.sd].
+// Makes an instrument for a new unit, from a station's configuration. Its deviations are those of
+// calibration/parameters.h; those of the mounting are at least those of [calibration.sd].
 Instrument new_instrument(const station::StationSettings& settings);
 
-// Missing keys keep the values of `fallback`. Throws ConfigError or CsvError, naming file, line and
-// key.
+// Keys that are missing keep the values of `fallback`. Throws ConfigError or CsvError, naming file,
+// line and key.
 Instrument read_instrument(const std::string& path, const Instrument& fallback);
 
 // Throws std::invalid_argument, naming file and key, if a serial number contains a quote, a
-// backslash or a control character, because a file cannot hold those.
+// backslash or a control character, because a file cannot store these.
 void check_plain(const station::InstrumentSerials& serials, const std::string& path);
 
 // Throws std::invalid_argument, naming the part, if serial numbers differ.
 void check_serials(const station::InstrumentSerials& configured,
                    const station::InstrumentSerials& calibrated, const std::string& path);
-// The parts whose serial number only one side states, so that they were not compared; empty: none.
+// The parts whose serial number only one side states, so that they could not be compared; empty if
+// there are none.
 std::string uncompared_serials(const station::InstrumentSerials& configured,
                                const station::InstrumentSerials& calibrated);
 
-// The station's model with this instrument.
+// The model of a station with this instrument.
 StationModel with_instrument(const StationGeometry& geometry, const Instrument& instrument);
 
 std::string instrument_text(const Instrument& instrument);

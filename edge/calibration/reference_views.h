@@ -1,5 +1,6 @@
 // The stored pictures of a calibrated station's reference views, and the results of checks against
-// them. Files and pictures have their own thread: a turn of the control loop never waits.
+// them. Files and pictures are handled in other threads, so that a turn of the control loop never
+// waits for them.
 #pragma once
 
 #include <cstdint>
@@ -24,38 +25,40 @@ class ReferenceViews {
  public:
   struct Config {
     std::string
-        folder;  // of the persisted state; empty: pictures and findings end with the process
+        // Folder of the persisted state; if empty, pictures and findings end with the process.
+        folder;
     std::string station;
     std::int64_t calibration_id = 0;
     ViewTour::Config tour;
     DriftWatch::Config drift;
     // Whether the sun is too near to these reported angles, if the tripod may have turned by this
-    // angle [rad] since its calibration. Empty: the sun is ignored.
+    // angle [rad] since the calibration. If empty, the sun is ignored.
     std::function<bool(const PanTilt&, double)> sun;
   };
   ReferenceViews(const Config& config, const StationCalibration& calibration);
-  ReferenceViews(const ReferenceViews&) = delete;  // its tour asks it for the sun
+  ReferenceViews(const ReferenceViews&) = delete;  // its tour holds a reference to it
 
-  // Sets the unit's travel, once it is known. Starts to read the stored pictures.
+  // Sets the unit's travel limits, once they are known. This starts the reading of the stored
+  // pictures.
   void set_limits(const mount::Limits& limits);
   void request() { tour_.request(); }
   std::optional<mount::Goal> step(const ViewTour::Situation& situation);
   void see(const camera::Frame& frame);
 
-  // Whether the stored pictures are read; call in every turn.
+  // Whether the stored pictures have been read. Call in every turn.
   bool loaded();
   const DriftWatch& watch() const { return watch_; }
   bool stored() const { return stored_ == views(); }
   std::uint64_t checks() const { return tally_.checks; }
-  // Number of views in which the stored picture was not recognised: night, fog, another scene.
+  // Number of times that a view was not recognised: night, fog, another scene.
   std::uint64_t unrecognised() const { return tally_.unrecognised; }
-  // Number of views that rounds have left out because of the sun.
+  // Number of times that a round left out a view because of the sun.
   std::uint64_t left_out() const { return tally_.left_out; }
   std::vector<Alarm> alarms() const;
 
  private:
-  // The result of a picture: its offset from the stored picture; or, if none is stored, whether
-  // this one can be stored.
+  // The result for a picture: its offset from the stored picture or, if none is stored, the picture
+  // to be stored.
   struct Seen {
     std::optional<ViewOffset> offset;
     cv::Mat picture;
@@ -80,8 +83,8 @@ class ReferenceViews {
   ViewTour tour_;
   DriftWatch watch_;
   BackgroundFile file_;
-  std::vector<cv::Mat> pictures_;              // by view; empty: none stored yet
-  std::future<std::vector<cv::Mat>> loading_;  // the same pictures, while they are read from files
+  std::vector<cv::Mat> pictures_;              // for each view; empty if none is stored yet
+  std::future<std::vector<cv::Mat>> loading_;  // the same pictures, while they are being read
   std::size_t stored_ = 0;
   CheckRecord record_;
   std::vector<Look> looks_;

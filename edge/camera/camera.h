@@ -1,6 +1,6 @@
-// What a station needs of its camera.
+// What a station needs from its camera.
 //
-// The camera may be absent, vanish and come back at any time. next() then has no frame, and the
+// The camera may be absent, vanish and come back at any time. Then next() returns no frame, and the
 // report says why. Every method may be called from any thread, and none throws.
 #pragma once
 
@@ -18,13 +18,13 @@ class Camera {
   Camera(const Camera&) = delete;
   Camera& operator=(const Camera&) = delete;
 
-  // The newest frame that was not taken yet; waits up to timeout_s for a frame.
+  // The newest frame that was not taken yet; waits up to timeout_s for one.
   virtual std::optional<Frame> next(double timeout_s) = 0;
-  // The target's box, for automatic exposure; empty: no target.
+  // Sets the target's box, for automatic exposure; nullopt if there is no target.
   virtual void set_region(const std::optional<cv::Rect2d>& target_box) = 0;
-  // Starts one exposure. Has an effect only with the software trigger.
+  // Starts one exposure. This has an effect only in trigger mode kSoftware.
   virtual void trigger() = 0;
-  // Named "camera" for every kind.
+  // The report's name is "camera" for every kind.
   virtual device::DeviceReport report() const = 0;
 };
 

@@ -1,4 +1,4 @@
-// What a station knows of its camera before the first frame. Pure.
+// What a station knows about its camera before the first frame. Pure.
 #pragma once
 
 #include <string>
@@ -10,10 +10,10 @@ namespace ols::camera {
 
 // What triggers an exposure.
 enum class TriggerMode {
-  kFixedRate,  // its own timer, at frame_rate_hz
-  kFreeRun,    // itself, as fast as it can
+  kFixedRate,  // the camera's own timer, at frame_rate_hz
+  kFreeRun,    // the camera itself, as fast as it can
   kSoftware,   // Camera::trigger()
-  kLine1,      // a pulse on one of its lines
+  kLine1,      // a pulse on one of the camera's lines
   kLine2,
   kLine3,
   kLine4,
@@ -22,15 +22,15 @@ enum class TriggerMode {
 struct CameraConfig {
   int width_px = 1280;
   int height_px = 960;
-  std::string pixel_format = "Mono8";  // or Bayer{RG,GR,GB,BG}8, RGB8, BGR8
-  double frame_rate_hz = 15.0;         // with a trigger: the maximum expected
+  std::string pixel_format = "Mono8";  // Mono8, Bayer{RG,GR,GB,BG}8, RGB8 or BGR8
+  double frame_rate_hz = 15.0;         // with a trigger: the maximum to be expected
   TriggerMode trigger = TriggerMode::kFixedRate;
 };
 
-// Whether the camera itself sets the pace.
+// Whether the camera itself determines the time of an exposure.
 bool is_timed(TriggerMode trigger);
 
-// The keys that every kind has: size, format and rate.
+// The configuration keys that every kind has: size, format and rate.
 std::vector<config::Row> picture_rows(CameraConfig& config);
 
 }  // namespace ols::camera

@@ -1,4 +1,4 @@
-// Why a camera cannot be used.
+// Errors that say why a camera cannot be used.
 #pragma once
 
 #include <stdexcept>
@@ -14,7 +14,7 @@ struct CameraError : std::runtime_error {
 struct CameraAbsent : CameraError {
   using CameraError::CameraError;
 };
-// Found, but it does not accept the configuration.
+// The camera was found, but does not accept the configuration.
 struct CameraUnfit : CameraError {
   using CameraError::CameraError;
 };

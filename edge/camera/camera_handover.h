@@ -16,16 +16,16 @@ namespace ols::camera {
 
 class CameraHandover {
  public:
-  // For the callers; documented in Camera.
+  // For the callers; see Camera.
   std::optional<Frame> next(double timeout_s);
   void set_region(const std::optional<cv::Rect2d>& target_box);
   void ask_trigger();
   CameraFacts facts() const;
 
-  // Ends the camera's thread.
+  // Makes the camera's thread end.
   void end();
   bool ended() const;
-  // Returns after this time, or when the thread is to end.
+  // Returns after this time, or as soon as the thread is to end.
   void wait(double duration_s);
 
   // For the camera's thread.
@@ -36,18 +36,19 @@ class CameraHandover {
     const std::lock_guard lock(mutex_);
     change(facts_);
   }
-  // Takes a good frame; `lost` frames before it are missing. The frame has no pixels if a newer one
-  // is already waiting.
+  // Takes a complete frame as configured; `lost`: number of frames missing before it. The frame may
+  // have no pixels if a newer one is already waiting.
   void publish(Frame frame, std::uint64_t lost, const FrameStatistics& statistics);
   void note_incomplete(std::uint64_t lost, const FrameStatistics& statistics);
-  // Notes a complete frame that is not as configured.
+  // Notes a complete frame that differs from the configuration.
   void note_refused(const std::string& why, std::uint64_t lost, const FrameStatistics& statistics);
   // Notes that the camera is lost, or cannot be opened.
   void note_failure(CameraState state, const Alarm& failure);
 
  private:
-  void note_trouble(const std::string& what);                                   // the lock is held
-  void note_statistics(std::uint64_t lost, const FrameStatistics& statistics);  // likewise
+  void note_trouble(const std::string& what);  // the caller holds the lock
+  // The caller holds the lock.
+  void note_statistics(std::uint64_t lost, const FrameStatistics& statistics);
 
   mutable std::mutex mutex_;
   std::condition_variable changed_;

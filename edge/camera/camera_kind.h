@@ -1,4 +1,4 @@
-// A kind of camera: its keys in [camera], and how it is opened.
+// A kind of camera: its keys in [camera], and the way to open it.
 #pragma once
 
 #include <memory>
@@ -13,11 +13,11 @@ namespace ols::camera {
 class CameraKind {
  public:
   virtual ~CameraKind() = default;
-  virtual config::Section section() = 0;  // refers to this object
+  virtual config::Section section() = 0;  // the section refers to this object
   virtual const CameraConfig& config() const = 0;
-  virtual std::string address() const = 0;  // what it looks for, in words
-  // Starts to look for the camera and returns at once. `keep_raw`: also keeps its raw images, for a
-  // recorder and the tracker's colours.
+  virtual std::string address() const = 0;  // in words: the camera for which it looks
+  // Starts to look for the camera and returns at once. `keep_raw`: the camera also keeps its raw
+  // images, for a recorder and for the tracker's colours.
   virtual std::unique_ptr<Camera> open(bool keep_raw) const = 0;
 };
 

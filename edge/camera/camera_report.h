@@ -1,4 +1,4 @@
-// The camera's state in the terms of the status message. Pure.
+// The camera's state in the words of the status message. Pure.
 #pragma once
 
 #include <cstdint>
@@ -17,49 +17,51 @@
 namespace ols::camera {
 
 enum class CameraState {
-  kAbsent,     // not found yet, or lost; retried
-  kStarting,   // opened, no frame yet
+  kAbsent,     // not found yet, or lost; the station tries again
+  kStarting,   // opened, but no frame yet
   kStreaming,  // frames arrive
-  kFault,      // found, but its frames or settings are not as configured; retried
+  // Found, but its frames or settings differ from the configuration; the station tries again.
+  kFault,
 };
 
-struct CameraCounters {                 // only rise
-  std::uint64_t frames_captured = 0;    // complete and of the configured size and format
-  std::uint64_t frames_lost = 0;        // missing in the camera's numbering
-  std::uint64_t frames_incomplete = 0;  // packets missing
-  std::uint64_t frames_late = 0;        // captured, but replaced by a newer one before next()
-  std::uint64_t frames_refused = 0;     // wrong size or format
-  std::uint64_t reconnects = 0;  // how often it was opened again after it had streamed or failed
+struct CameraCounters {                 // they only increase
+  std::uint64_t frames_captured = 0;    // complete frames with the configured size and format
+  std::uint64_t frames_lost = 0;        // frames missing in the camera's numbering
+  std::uint64_t frames_incomplete = 0;  // frames with missing packets
+  std::uint64_t frames_late = 0;  // captured frames that were replaced by a newer one before next()
+  std::uint64_t frames_refused = 0;  // frames of wrong size or format
+  // Number of times that the camera was opened again after it had streamed or failed.
+  std::uint64_t reconnects = 0;
 };
 
-// The state known to the camera's thread.
+// The camera's state as its thread knows it.
 struct CameraFacts {
   CameraState state = CameraState::kAbsent;
   CameraCounters counters;
-  std::string last_error;    // the last error as text; empty: none yet
-  std::uint64_t errors = 0;  // errors so far
+  std::string last_error;    // the last error as text; empty if there was none
+  std::uint64_t errors = 0;  // number of errors so far
 
-  std::string identity;                // "AVT GT1290C 1234"; empty before the first opening
-  std::string serial;                  // as the camera says it
-  Alarm fault;                         // empty: no fault
+  std::string identity;  // for example "AVT GT1290C 1234"; empty before the camera is opened
+  std::string serial;    // as the camera states it
+  Alarm fault;           // empty if there is no fault
   std::optional<double> last_frame_s;  // CLOCK_MONOTONIC of the last complete frame's arrival
-  std::optional<double> opened_s;      // of the last opening
-  double frame_rate_hz = 0.0;          // recent
-  double incomplete_share = 0.0;       // recent
+  std::optional<double> opened_s;      // CLOCK_MONOTONIC when the camera was last opened
+  double frame_rate_hz = 0.0;          // recent value
+  double incomplete_share = 0.0;       // recent value
   ExposureSetting exposure;
   double missing_light = 1.0;  // AutoExposure::missing_factor()
   std::optional<double> temperature_degC;
   StampSource stamp_source = StampSource::kCamera;
   double stamp_sd_s = 0.0;
-  std::optional<PtpState> ptp;  // if configured
+  std::optional<PtpState> ptp;  // set if PTP is configured
   std::optional<double> ptp_disagreement_s;
-  // What only this kind of camera has to say.
+  // Data that only this kind of camera reports.
   std::vector<Alarm> kind_alarms;
   std::map<std::string, double> kind_readings;
   std::map<std::string, std::uint64_t> kind_counters;
 };
 
-// If packets are missing in a larger share of the recent frames, the camera is faulty.
+// If a larger share of the recent frames lacks packets, the camera is faulty.
 inline constexpr double kManyIncomplete = 0.02;
 
 device::DeviceReport make_camera_report(const CameraConfig& config, const CameraFacts& facts,

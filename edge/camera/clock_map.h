@@ -1,10 +1,10 @@
-// The camera's clock against the station's CLOCK_MONOTONIC: a fitted line with its uncertainty.
-// Pure.
+// Relates the camera's clock to the station's CLOCK_MONOTONIC, by a fitted line with its
+// uncertainty. Pure.
 //
-// There are two sources. A *latch* reads the camera's clock between two readings of the station's
-// clock: the true instant lies in between, whatever the network delay. The *arrival* of a frame
-// gives only a bound: no frame arrives before its stamp plus a delay that is roughly known. The
-// earliest of many arrivals is the tightest bound.
+// There are two sources of data. A *latch* reads the camera's clock between two readings of the
+// station's clock. The true instant lies between these, whatever the network delay is. The
+// *arrival* of a frame gives only a bound: no frame arrives before its stamp plus a roughly known
+// delay. The earliest of many arrivals is the tightest bound.
 #pragma once
 
 #include <cstdint>
@@ -15,8 +15,8 @@ namespace ols::camera {
 
 struct LatchSample {
   std::int64_t device_ns = 0;  // the camera's clock
-  double before_s = 0.0;       // the station's, before the request of the latch
-  double after_s = 0.0;        // and after its answer
+  double before_s = 0.0;       // the station's clock before the latch was requested
+  double after_s = 0.0;        // the station's clock after the answer
 };
 
 struct MappedTime {
@@ -27,38 +27,39 @@ struct MappedTime {
 class ClockMap {
  public:
   struct Config {
-    int window = 64;                 // latches kept
-    double rate_sd = 1e-4;           // 1-sigma of the rate error of a camera's oscillator
+    int window = 64;                 // number of latches kept
+    double rate_sd = 1e-4;           // 1-sigma of the rate error of the camera's oscillator
     double rate_wander = 1e-6;       // possible change of the rate over the window
-    double device_sd_s = 20e-6;      // of a single stamp or latch in the camera
-    double arrival_window_s = 10.0;  // arrivals kept
+    double device_sd_s = 20e-6;      // 1-sigma of a single stamp or latch in the camera
+    double arrival_window_s = 10.0;  // how long arrivals are kept
   };
   explicit ClockMap(const Config& config) : config_(config) {}
 
-  // False: refused, not a valid interval. A sample far off the line is held back. If the next
-  // sample agrees with it, the camera's clock was stepped, and the fit restarts.
+  // Returns false if the sample is refused because it is not a valid interval. A sample far from
+  // the line is held back. If the next sample agrees with it, the camera's clock has been stepped,
+  // and the fit restarts.
   bool add_latch(const LatchSample& sample);
   void add_arrival(std::int64_t device_ns, double arrival_s);
   void clear();
 
-  // The time from the latches; empty without latches.
+  // The time according to the latches; nullopt without latches.
   std::optional<MappedTime> from_latches(std::int64_t device_ns) const;
 
-  // The time from the arrivals: the earliest possible arrival of a frame with this stamp, minus
-  // `delay_s`. sd_s covers the fit to the earliest arrivals, but not an error of the delay. Empty
-  // without arrivals.
+  // The time according to the arrivals: the earliest possible arrival of a frame with this stamp,
+  // minus `delay_s`. sd_s covers the fit to the earliest arrivals, but not an error of the delay.
+  // nullopt without arrivals.
   std::optional<MappedTime> from_arrivals(std::int64_t device_ns, double delay_s) const;
 
   int latches() const { return static_cast<int>(latches_.size()); }
-  double rate_error() const { return fit_.rate; }  // of the camera's clock: > 0 when it is slow
+  double rate_error() const { return fit_.rate; }  // of the camera's clock; > 0 if it is slow
 
  private:
-  struct Fit {  // monotonic = origin + t + offset + rate * t, t since the newest latch
+  struct Fit {  // monotonic = origin + t + offset + rate * t, with t measured from the newest latch
     double offset = 0.0, rate = 0.0;
     double var_offset = 0.0, var_rate = 0.0, covariance = 0.0;
     double systematic_sd_s = 0.0;
   };
-  double seconds(std::int64_t device_ns) const;  // since the newest latch
+  double seconds(std::int64_t device_ns) const;  // time since the newest latch
   bool far_off(const LatchSample& sample) const;
   void refit();
 

@@ -1,9 +1,10 @@
-// The exposure time of a frame when the exposure changes during streaming. Pure.
+// Determines the exposure time of a frame if the exposure changes during streaming. Pure.
 //
 // The camera does not report the setting of a frame (the chunk data of a GT1290C cannot be switched
-// while it streams). A frame that began before the change was requested has the old exposure. A
-// frame that began more than a frame period after the change was granted has the new exposure. In
-// between it may be either, because the camera may already have set up its next exposure.
+// on while it streams). A frame that began before the change was requested has the old exposure. A
+// frame that began more than a frame period after the change was granted has the new exposure. For
+// frames in between, both are possible, because the camera may already have set up its next
+// exposure.
 #pragma once
 
 #include <deque>
@@ -12,16 +13,16 @@ namespace ols::camera {
 
 struct ExposureUsed {
   double exposure_s = 0.0;
-  double sd_s = 0.0;  // 1-sigma; 0: known exactly
+  double sd_s = 0.0;  // 1-sigma; 0 if known exactly
 };
 
 class ExposureLog {
  public:
-  // `first_s`: the initial exposure.
+  // `first_s`: the exposure at the start.
   ExposureLog(double first_s, double frame_period_s)
       : first_s_(first_s), frame_period_s_(frame_period_s) {}
 
-  // A new exposure was requested and granted at these instants (CLOCK_MONOTONIC).
+  // Notes that a new exposure was requested and granted at these instants (CLOCK_MONOTONIC).
   void change(double asked_s, double granted_s, double exposure_s);
 
   double newest_s() const { return changes_.empty() ? first_s_ : changes_.back().exposure_s; }

@@ -11,19 +11,19 @@ enum class StampSource { kCamera, kArrival };
 
 struct Frame {
   cv::Mat gray;                 // 8-bit, one channel
-  double mid_exposure_s = 0.0;  // station's monotonic clock
+  double mid_exposure_s = 0.0;  // on the station's monotonic clock
   double stamp_sd_s = 0.0;      // 1-sigma of mid_exposure_s
   StampSource stamp_source = StampSource::kCamera;
-  // Rolling shutter: mid_exposure_s is that of the first row, the last row's is so much later. 0:
-  // all rows at once.
+  // For a rolling shutter: mid_exposure_s is that of the first row, and that of the last row is
+  // later by this time. 0 if all rows are exposed at once.
   double row_readout_s = 0.0;
   std::uint64_t number = 0;  // the camera's frame counter, unwrapped
-  // The raw image of the camera; empty where `gray` is identical, or where nobody needs it.
+  // The camera's raw image; empty if `gray` is identical to it, or if nobody needs it.
   cv::Mat raw;
-  std::string pixel_format = "Mono8";  // GenICam's name of the camera's format
+  std::string pixel_format = "Mono8";  // GenICam's name of the raw image's format
 };
 
-// Mid-exposure of the row at this height, from the top [px].
+// Mid-exposure of the row at this distance from the top [px].
 inline double row_time_s(const Frame& frame, double y_px) {
   if (frame.row_readout_s == 0.0) return frame.mid_exposure_s;
   return frame.mid_exposure_s + frame.row_readout_s * y_px / frame.gray.rows;

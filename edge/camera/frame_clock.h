@@ -1,4 +1,4 @@
-// The exposure time of a frame on the station's monotonic clock. Pure.
+// Computes the exposure time of a frame on the station's monotonic clock. Pure.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,8 @@
 
 namespace ols::camera {
 
-// The instant of the exposure that the camera's time stamp refers to; differs by model.
+// The instant of the exposure to which the camera's time stamp refers; it depends on the camera
+// model.
 enum class StampAt { kExposureStart, kExposureEnd };
 
 struct FrameTime {
@@ -19,18 +20,18 @@ struct FrameTime {
   StampSource source = StampSource::kCamera;
 };
 
-// Converts TAI, the time of a PTP slave, to the station's monotonic clock, by the station's UTC and
-// the leap seconds.
+// Converts TAI (the time of a PTP slave) to the station's monotonic clock, by means of the
+// station's UTC and the leap seconds.
 struct TaiReference {
   std::int64_t monotonic_minus_tai_ns = 0;
-  double sd_s = 0.0;  // 1-sigma, of the station's UTC and of the master combined
+  double sd_s = 0.0;  // 1-sigma of the station's UTC and of the master together
 };
 
 class FrameClock {
  public:
   struct Config {
     StampAt stamp_at = StampAt::kExposureStart;
-    double readout_s = 0.010;  // end of exposure to arrival
+    double readout_s = 0.010;  // from the end of the exposure to the arrival
     double readout_sd_s = 0.010;
     ClockMap::Config map;
   };
@@ -39,14 +40,14 @@ class FrameClock {
   ClockMap& map() { return map_; }
 
   // Call with a reference while the camera's clock is TAI and the station's UTC can be trusted,
-  // otherwise with nothing. The reference is a second source, beside the latches. While the two
-  // sources agree, the more accurate one is used; otherwise the latches are used.
+  // otherwise with nullopt. The reference is a second source besides the latches. While the two
+  // sources agree, the more accurate one is used. If they disagree, the latches are used.
   void set_tai(const std::optional<TaiReference>& reference) { tai_ = reference; }
-  // PTP minus latches [s], if their uncertainties do not explain the difference.
+  // PTP minus latches [s]; set only if their uncertainties do not explain the difference.
   std::optional<double> tai_disagreement_s() const { return tai_disagreement_s_; }
 
-  // `device_ns`: the camera's own stamp, empty if it has none. `arrival_s`: of the frame's first
-  // packet.
+  // `device_ns`: the camera's own stamp; nullopt if it has none. `arrival_s`: arrival of the
+  // frame's first packet.
   FrameTime stamp(std::optional<std::int64_t> device_ns, double arrival_s,
                   const ExposureLog& exposures);
 

@@ -1,4 +1,4 @@
-// The camera's frame numbers, unwrapped, and the number of missing frames. Pure.
+// Unwraps the camera's frame numbers, and counts missing frames. Pure.
 #pragma once
 
 #include <cstdint>
@@ -9,14 +9,15 @@ class FrameNumbers {
  public:
   struct Step {
     std::uint64_t number = 0;  // never decreases
-    std::uint64_t lost = 0;    // frames missing since the previous one
+    std::uint64_t lost = 0;    // number of frames missing since the previous one
   };
 
-  // The number of a frame: 16 bits from 1 to 65535 (GigE Vision 1.x; 0 is skipped), or 64 bits. A
-  // number that does not increase means that the camera restarted.
+  // Takes the number of a frame: 16 bits from 1 to 65535 (GigE Vision 1.x; 0 is skipped), or 64
+  // bits. A number that does not increase means that the camera has restarted.
   Step next(std::uint64_t id);
 
-  // The camera was reopened: its next number does not count as a loss.
+  // Notes that the camera was reopened, so that a gap before its next number does not count as a
+  // loss.
   void restart() { running_ = false; }
 
  private:

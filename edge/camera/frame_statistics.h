@@ -10,8 +10,9 @@ class FrameStatistics {
  public:
   void add(double arrival_s, bool complete);
 
-  double rate_hz() const;           // of complete frames; 0 before the second
-  double incomplete_share() const;  // 0 without frames
+  double rate_hz() const;  // rate of complete frames; 0 before the second one
+  // Share of frames with missing packets; 0 if there are no frames.
+  double incomplete_share() const;
 
  private:
   struct Mark {

@@ -1,4 +1,4 @@
-// Converts the bytes of the camera's frame to the tracker's gray image. Pure.
+// Converts the bytes of a camera's frame to the tracker's gray image. Pure.
 #pragma once
 
 #include <cstddef>
@@ -22,7 +22,7 @@ enum class PixelFormat : std::uint32_t {
 };
 // "Mono8", "BayerRG8", "RGB8", ...
 std::optional<PixelFormat> pixel_format(std::string_view genicam_name);
-// The name of a code; an unsupported code in hexadecimal digits.
+// The name for a code; for an unsupported code, its hexadecimal digits.
 std::string pixel_format_name(std::uint32_t code);
 
 struct RawPicture {
@@ -44,12 +44,12 @@ const char* to_string(PictureRefusal refusal);
 
 PictureRefusal check(const RawPicture& raw, const PictureFormat& expected);
 
-// The gray image, in its own memory, because the camera's buffer is reused. `raw` must have passed
-// check().
+// Returns the gray image, in memory of its own, because the camera's buffer is reused. `raw` must
+// have passed check().
 cv::Mat to_gray(const RawPicture& raw);
 
-// A copy of the raw image: a mosaic, or three channels in the camera's order; empty where the gray
-// image is identical.
+// Returns a copy of the raw image: a mosaic, or three channels in the camera's order. Empty if the
+// gray image is identical to it.
 cv::Mat raw_beside_gray(const RawPicture& raw);
 
 }  // namespace ols::camera

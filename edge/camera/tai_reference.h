@@ -1,4 +1,4 @@
-// The station's UTC from the kernel, for a camera whose clock is TAI through PTP.
+// Reads the station's UTC from the kernel, for a camera whose clock runs on TAI through PTP.
 #pragma once
 
 #include <optional>
@@ -7,8 +7,8 @@
 
 namespace ols::camera {
 
-// Empty while the kernel reports that its clock is not synchronised. `tai_minus_utc_s` is used
-// where the kernel does not know the leap seconds; `ptp_sd_s` is the master's 1-sigma.
+// Returns nullopt while the kernel reports that its clock is not synchronised. `tai_minus_utc_s` is
+// used if the kernel does not know the leap seconds; `ptp_sd_s` is the master's 1-sigma.
 std::optional<TaiReference> read_tai_reference(int tai_minus_utc_s, double ptp_sd_s);
 
 }  // namespace ols::camera

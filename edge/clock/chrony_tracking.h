@@ -8,19 +8,19 @@
 namespace ols::clock {
 
 struct ChronyTracking {
-  std::string reference;  // name or address: "PPS", "192.168.1.1"; empty: none yet
+  std::string reference;  // name or address: "PPS", "192.168.1.1"; empty if there is none yet
   bool synchronised = false;
   double measured_utc_s = 0.0;  // "Ref time"
-  double offset_s = 0.0;        // system clock minus NTP time: > 0 is fast
+  double offset_s = 0.0;        // system clock minus NTP time; > 0 if the system clock is fast
   double root_delay_s = 0.0, root_dispersion_s = 0.0;
-  int leap_s = 0;  // announced: +1 inserted, -1 deleted
+  int leap_s = 0;  // announced leap second: +1 inserted, -1 deleted
 
   // 1-sigma. chrony's manual states the bound |offset| + root dispersion + root delay / 2. This
   // bound is taken as the half-width of a uniform distribution.
   double error_s() const;
 };
 
-// nullopt for any other line (without chronyd: "506 Cannot talk to daemon").
+// nullopt if the line has another form (without chronyd: "506 Cannot talk to daemon").
 std::optional<ChronyTracking> parse_chrony_tracking(std::string_view line);
 
 }  // namespace ols::clock

@@ -10,8 +10,8 @@ struct ClockPair {
   std::int64_t utime_us = 0;
 };
 
-// Reads again if the process was interrupted between the two readings, which would look like a
-// step.
+// Reads again if the process was interrupted between the two readings, because that would look like
+// a step of the clock.
 ClockPair read_clock_pair();
 
 }  // namespace ols::clock

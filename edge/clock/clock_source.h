@@ -1,5 +1,5 @@
-// Queries kernel and chrony about the clock in its own thread, because chronyd may answer slowly or
-// not at all. Neither chronyc nor chronyd is required.
+// Queries kernel and chrony about the clock. It uses its own thread, because chronyd may answer
+// slowly or not at all. Neither chronyc nor chronyd is required.
 #pragma once
 
 #include <memory>
@@ -19,7 +19,7 @@ class ClockSource {
   ClockSource(const ClockSource&) = delete;
   ClockSource& operator=(const ClockSource&) = delete;
 
-  std::optional<ClockReading> take();  // since the last call
+  std::optional<ClockReading> take();  // the newest reading since the last call
 
  private:
   struct Impl;

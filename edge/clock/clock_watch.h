@@ -1,18 +1,21 @@
-// The accuracy of the station's UTC. Pure: edge/clock/clock_source.h reads kernel and chrony.
+// Judges the accuracy of the station's UTC. Pure: edge/clock/clock_source.h reads kernel and
+// chrony.
 //
-//  - synchronised: a time service states so. The error is the service's own estimate.
-//  - unsynchronised: a time service has run since boot, but is not (or no longer) synchronised, or
-//    has been silent for a while. The error grows from the last good one by the drift of a
-//    free-running clock. Also: the clock was stepped, and no service has confirmed the new time.
-//  - unknown: no trace of a time service since boot. The clock was set by hand, accurately or not.
-//    The error is that assumed by the configuration; the fusion compares stations.
+//  - synchronised: a time service states that it is. The error is the service's own estimate.
+//  - unsynchronised: a time service has run since boot, but is not synchronised (any more), or
+//    has been silent for a while. - The error grows from its last good value, by the drift of a
+//    free-running clock. - The same state holds after a step of the clock that no service has
+//    confirmed.
+//  - unknown: there is no trace of a time service since boot. - A person has set the clock,
+//    accurately or not. - The error is the one assumed in the configuration; the fusion compares
+//    the stations' clocks.
 //
-// A step is a jump of CLOCK_REALTIME against CLOCK_MONOTONIC. Slewing by the service (slow) and an
-// announced leap second are not steps. A suspend looks like a step and is treated as one: the time
-// after it comes from the battery clock. A step is confirmed when the service has measured since
-// then and is synchronised. Without any service the clock is distrusted for `distrust_s`; then its
-// state is unknown again, because the station cannot decide whether the old or the new time was
-// right.
+// A step is a jump of CLOCK_REALTIME relative to CLOCK_MONOTONIC. Slewing by a service (which is
+// slow) and an announced leap second are not steps. A suspend looks like a step and is treated as
+// one, because the time after it comes from the battery clock. A step is confirmed when the service
+// has measured since then and states that it is synchronised. Without any service, the clock is
+// distrusted for `distrust_s` after a step. Then its state is unknown again, because the station
+// cannot decide whether the old or the new time was right.
 #pragma once
 
 #include <cstdint>
@@ -29,35 +32,36 @@ enum class ClockState { kUnknown, kSynchronised, kUnsynchronised };
 // The state of the kernel (ntp_adjtime) and of chrony at one instant.
 struct ClockReading {
   double monotonic_s = 0.0;
-  std::int64_t utime_us = 0;  // the same instant by CLOCK_REALTIME
-  bool service = false;       // a time service disciplines the clock, or did since boot
+  std::int64_t utime_us = 0;  // CLOCK_REALTIME at the same instant
+  bool service = false;       // a time service disciplines the clock, or has done so since boot
   bool synchronised = false;
   std::optional<double> estimated_error_s;  // 1-sigma, stated by the service
-  std::optional<double> offset_s;           // chrony: system clock minus NTP time
-  std::string source;                       // "chrony: PPS", "kernel"; empty: none
+  std::optional<double> offset_s;           // from chrony: system clock minus NTP time
+  std::string source;                       // "chrony: PPS", "kernel"; empty if there is none
   // UTC of the service's last measurement. A change means a new measurement.
   std::optional<double> measured_utc_s;
-  int leap_s = 0;                      // announced for the end of this day: +1, -1
+  int leap_s = 0;                      // leap second announced for the end of this day: +1, -1
   std::optional<int> tai_minus_utc_s;  // as the kernel states it
 };
 
 struct ClockQuality {
   ClockState state = ClockState::kUnknown;
   double error_s = 0.0;     // 1-sigma of UTC
-  std::uint64_t steps = 0;  // of CLOCK_REALTIME against CLOCK_MONOTONIC
+  std::uint64_t steps = 0;  // number of steps of CLOCK_REALTIME relative to CLOCK_MONOTONIC
   double last_step_s = 0.0;
   std::string text;                    // for people
-  Alarm alarm;                         // a current condition; empty: none
-  std::optional<double> offset_s;      // of the last reading
-  std::optional<int> tai_minus_utc_s;  // of the last reading
+  Alarm alarm;                         // a condition that holds now; empty if there is none
+  std::optional<double> offset_s;      // from the last reading
+  std::optional<int> tai_minus_utc_s;  // from the last reading
 };
 
 class ClockWatch {
  public:
   struct Config {
-    double assumed_sd_s = 1e-3;  // of a clock of unknown quality
-    double distrust_s = 60.0;    // after a step that no service confirms
-    double drift_per_s = 2e-5;   // of a free-running clock: growth of the error
+    double assumed_sd_s = 1e-3;  // 1-sigma of a clock of unknown quality
+    // How long the clock is distrusted after a step that no service confirms.
+    double distrust_s = 60.0;
+    double drift_per_s = 2e-5;  // growth of the error of a free-running clock
   };
   explicit ClockWatch(const Config& config) : config_(config) {}
 
@@ -71,9 +75,10 @@ class ClockWatch {
 
  private:
   struct Step {
-    double time_s;                         // time of the last unconfirmed step
-    double sum_s;                          // sum of all unconfirmed steps
-    std::optional<double> measured_utc_s;  // the service's last measurement before the first
+    double time_s;  // time of the last unconfirmed step
+    double sum_s;   // sum of all unconfirmed steps
+    // The service's last measurement before the first of these steps.
+    std::optional<double> measured_utc_s;
   };
   // The last reading of a synchronised service.
   struct Good {
@@ -90,7 +95,7 @@ class ClockWatch {
   double tick_s_ = 0.0;
   std::optional<ClockReading> reading_;
   std::optional<Good> good_;
-  std::optional<Step> step_;  // unconfirmed steps
+  std::optional<Step> step_;  // set while there are unconfirmed steps
   double last_step_s_ = 0.0;
   std::uint64_t steps_ = 0;
 };

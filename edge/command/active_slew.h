@@ -1,4 +1,4 @@
-// The station's latest slew, until its lease ends. Pure.
+// The latest slew for this station, until its lease ends. Pure.
 #pragma once
 
 #include <optional>
@@ -16,12 +16,12 @@ class ActiveSlew {
   void clear() { command_.reset(); }
   void expire(double now_s);
 
-  // nullopt: no slew is active.
+  // nullopt if no slew is active.
   const std::optional<SlewCommand>& command() const { return command_; }
-  // A search along a line continues even after the station has found something. The station only
-  // pauses to look at it.
+  // Whether the slew is a search along a line. Such a search continues even after the station has
+  // found something; the station only pauses to look at it.
   bool searches_line() const { return command_ && command_->searches_line(); }
-  // nullopt: no slew is active, or the unit cannot point there.
+  // nullopt if no slew is active, or if the unit cannot point there.
   std::optional<mount::Goal> goal(const PointingModel& pointing, double now_s) const;
   // Whether more than one fusion slews this station.
   bool has_several_senders(double now_s) const { return senders_.are_several(now_s); }

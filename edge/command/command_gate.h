@@ -1,12 +1,12 @@
 // Accepts each command once, and only while it is fresh. Pure.
 //
-// The bus may be without signatures (base/trust/), and LCM has no replay protection. The gate
-// remembers each command by its sender's boot id, its sequence and its stamp, for longer than it
-// can stay fresh. A command is fresh while its stamp, by the station's UTC, is not older than its
-// lease plus a margin for the difference of the two clocks. Sequences are never compared, and
-// stamps of one sender never block another sender, because without signatures anybody may use any
-// name. If the station's clock is set back by more than a lease, forgotten commands may pass again,
-// as after a restart.
+// The bus may run without signatures (base/trust/), and LCM has no protection against replayed
+// messages. The gate therefore remembers each command by its sender's boot id, its sequence number
+// and its stamp, for longer than the command can stay fresh. A command is fresh as long as its
+// stamp, by the station's UTC, is not older than its lease plus a margin for the difference between
+// the two clocks. Sequence numbers are never compared, and the stamps of one sender never block
+// another: without signatures, anybody may use any name. If the station's clock is set back by more
+// than a lease, forgotten commands may pass again, as they may after a restart.
 #pragma once
 
 #include <cstddef>
@@ -32,14 +32,14 @@ const char* to_string(GateRefusal refusal);
 class CommandGate {
  public:
   struct Config {
-    double clock_margin_s = 0.5;  // max difference of the two clocks
+    double clock_margin_s = 0.5;  // largest difference between the two clocks
     double lease_max_s = 10.0;
-    // Number of commands that are remembered, however old they are, because setting the clock back
-    // would make them fresh again. It corresponds to four minutes of slews.
+    // Number of commands that are remembered however old they are, because they would become fresh
+    // again if the clock were set back. It corresponds to four minutes of slews.
     std::size_t kept = 4096;
-    // Max number of remembered commands. Forged commands with the latest stamp block others only if
-    // more than this number arrive within the margin: 130 000 a second, more than a station can
-    // read.
+    // Largest number of remembered commands. Forged commands with the latest stamp block others
+    // only if more than this number arrive within the margin. That is 130 000 a second, more than a
+    // station can read.
     std::size_t most = 65536;
   };
   // Commands stamped before `began_utime_us` are refused as replayed: the previous process may have
@@ -47,7 +47,7 @@ class CommandGate {
   CommandGate(const Config& config, std::int64_t began_utime_us)
       : config_(config), began_utime_us_(began_utime_us) {}
 
-  // nullopt: the command may pass, and is now remembered.
+  // Returns nullopt if the command may pass; it is then remembered.
   std::optional<GateRefusal> admit(const CommandStamp& stamp, std::int64_t now_utime_us);
 
   std::size_t remembered() const { return passed_.size(); }
@@ -63,9 +63,9 @@ class CommandGate {
   Config config_;
   std::int64_t began_utime_us_;
   std::int64_t latest_utime_us_ =
-      std::numeric_limits<std::int64_t>::min();  // "now" of the last call
+      std::numeric_limits<std::int64_t>::min();  // the time at the last call
   std::set<Passed> passed_;
-  // The latest stamp of the accepted commands that were forgotten.
+  // The latest stamp among the forgotten commands.
   std::optional<std::int64_t> forgotten_utime_us_;
 };
 

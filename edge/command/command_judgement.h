@@ -1,4 +1,4 @@
-// Why a command must not be carried out in the present situation. Pure.
+// Decides why a command must not be carried out in the present situation. Pure.
 #pragma once
 
 #include "edge/frames/pointing_model.h"
@@ -12,22 +12,22 @@ struct Situation {
   const StationConfig& config;
   const StationMode& mode;
   const PointingModel& pointing;
-  double now_s = 0.0;  // station's monotonic clock
+  double now_s = 0.0;  // on the station's monotonic clock
 };
 
-// kNone: permitted. This is not all: a designation also needs its frame and the tracker's
-// acceptance, and a point command needs angles that the unit reaches.
+// Returns kNone if the command is permitted. More conditions follow later: a designation needs its
+// frame and the tracker's acceptance, and a point command needs angles that the unit can reach.
 Refusal judge(const DesignateCommand& command, const Situation& situation);
 Refusal judge(const SlewCommand& command, const Situation& situation);
 Refusal judge(const OcclusionCommand& command, const Situation& situation);
 Refusal judge(const PointCommand& command, const Situation& situation);
 Refusal judge(const RateCommand& command, const Situation& situation);
 Refusal judge(const LensCommand& command, const Situation& situation);
-// The same for a command by which an operator moves the unit.
+// For any command with which an operator moves the unit.
 Refusal judge_motion(const Situation& situation);
 Refusal judge_home(const Situation& situation);
 Refusal judge_reference_ok(const Situation& situation);
-Refusal judge_rearm(const Situation& situation);  // by a person at the station
+Refusal judge_rearm(const Situation& situation);  // for a person at the station
 Refusal judge_rearm_over_bus(const Situation& situation);
 
 }  // namespace ols::station

@@ -1,6 +1,6 @@
-// The operator's commands of one turn of the control loop. Only the newest designation of a turn is
-// carried out, because the tracker must process all frames since its image. A stop never waits for
-// a designation. Pure.
+// Collects the operator's commands of one turn of the control loop. Only the newest designation of
+// a turn is carried out, because the tracker must process all frames since its image. A stop never
+// waits for a designation. Pure.
 #pragma once
 
 #include <atomic>
@@ -13,12 +13,12 @@
 
 namespace ols::station {
 
-// Identifies a command: its sender's start, and the command's number since then.
+// Identifies a command by its sender's boot id and its sequence number.
 struct CommandId {
   std::int64_t boot_id = 0, sequence = 0;
 };
 
-// What became of a designation.
+// The result of a designation.
 struct Decision {
   CommandId command;
   Refusal refusal = Refusal::kNone;
@@ -26,16 +26,17 @@ struct Decision {
 
 class CommandTurn {
  public:
-  // The station must outlive it.
+  // `station` must outlive this object.
   explicit CommandTurn(Station& station) : station_(station) {}
 
-  // Takes a stop, from any thread; does not wait. end() carries it out.
+  // Notes a stop. May be called from any thread; does not wait. end() carries the stop out.
   void stop() { stop_ = true; }
 
-  // Takes a designation. It is carried out at the end of the turn, or before another command.
+  // Takes a designation. The designation is carried out at the end of the turn, or before another
+  // command.
   void designate(const DesignateCommand& command, const CommandId& id);
-  // Call before another operator command. Carries out the pending designation, unless one was
-  // already carried out in this turn. So there are at most two per turn.
+  // Call before any other operator command. Carries out the pending designation, unless one was
+  // already carried out in this turn. There are therefore at most two per turn.
   void before_other_command(double now_s);
   // Call after the turn's last command.
   void end(double now_s);
@@ -43,7 +44,7 @@ class CommandTurn {
   // The results of all designations since the last call.
   std::vector<Decision> take_decisions() { return std::exchange(decisions_, {}); }
 
-  // Designations dropped because of a newer one or a stop.
+  // Number of designations dropped because of a newer one or a stop.
   std::uint64_t superseded() const { return superseded_; }
 
  private:
@@ -54,7 +55,7 @@ class CommandTurn {
   std::atomic<bool> stop_ = false;
   std::optional<std::pair<DesignateCommand, CommandId>> designation_;
   std::vector<Decision> decisions_;
-  bool designated_ = false;  // in this turn
+  bool designated_ = false;  // a designation was carried out in this turn
   std::uint64_t superseded_ = 0;
 };
 

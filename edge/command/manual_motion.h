@@ -1,5 +1,5 @@
-// The motion that the operator commands: angles at which the unit is to stand, or rates while their
-// lease lasts. Pure.
+// The motion that an operator commands: angles that the unit is to reach, or rates for their lease.
+// Pure.
 #pragma once
 
 #include <optional>
@@ -15,12 +15,12 @@ class ManualMotion {
   void turn(const RateCommand& command);
   void clear();
 
-  // Whether a later rate of the same sender is already in force, because this one was overtaken on
-  // its way.
+  // Whether this rate was overtaken on its way: a later rate from the same sender is already in
+  // force.
   bool overtakes(const RateCommand& command, double now_s) const;
 
-  // nullopt: halt. A halted unit still moves for v/a while it brakes. The halt therefore comes
-  // early, after the share kInForce of the lease.
+  // nullopt: the unit is to halt. A halted unit still moves for a time v/a while it brakes. The
+  // halt therefore comes early, after the share kInForce of the lease.
   std::optional<mount::Goal> goal(double now_s) const;
 
   static constexpr double kInForce = 0.8;

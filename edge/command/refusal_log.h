@@ -1,5 +1,5 @@
-// The messages refused before or by the station: their number, the text of the last one, and an
-// alarm when commands are repeatedly refused as not fresh. Pure.
+// Records the messages that were refused, before or by the station: their number, the text of the
+// last refusal, and an alarm if commands are repeatedly refused because they are not fresh. Pure.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ class RefusalLog {
  public:
   // Notes an action that the station did not carry out, as text.
   void note(const std::string& what);
-  // Notes a message that was refused before it reached the station. `kind`: "SLEW".
+  // Notes a message that was refused before it reached the station. `kind`: for example "SLEW".
   void refuse(const std::string& kind, const std::string& why);
   void refuse_at_gate(const std::string& kind, const std::string& why, double now_s);
 

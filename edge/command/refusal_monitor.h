@@ -1,5 +1,5 @@
-// Raises an alarm when commands are repeatedly refused before they reach the station, because a
-// legitimate sender may be locked out and should learn why. Pure.
+// Raises an alarm if commands are repeatedly refused before they reach the station: a legitimate
+// sender may be locked out and should learn why. Pure.
 #pragma once
 
 #include <array>
@@ -16,10 +16,11 @@ namespace ols::station {
 
 class RefusalMonitor {
  public:
-  // One command of this kind ("slews") was refused. Kinds and reasons come from short fixed lists.
+  // Notes that a command of this kind ("slews") was refused. Kinds and reasons must come from short
+  // fixed lists.
   void note(const std::string& kind, const std::string& why, double now_s);
-  // "commands: 12 slews refused in 10 s: this command was taken before": of each kind and reason
-  // with three or more.
+  // One alarm for each kind and reason with three or more refusals: "commands: 12 slews refused in
+  // 10 s: this command was taken before".
   std::vector<Alarm> alarms(double now_s) const;
 
  private:

@@ -1,5 +1,5 @@
-// Where and how a slewed station searches for its target: with the template of an earlier track, or
-// for any object that behaves as the slew predicts. Pure.
+// Decides where and how a slewed station searches for its target: with the template of an earlier
+// track, or for any object that moves as the slew predicts. Pure.
 #pragma once
 
 #include <deque>
@@ -26,59 +26,60 @@ class SlewSearch {
   explicit SlewSearch(const StationConfig& config)
       : config_(config), acquisition_(config.acquisition) {}
 
-  // Call when the station enters another state. `found`: it now tracks.
+  // Call when the station enters another state. `found`: the station now tracks something.
   void restart(bool found);
-  // Call with each frame in which the station is slewed.
+  // Call with each frame while the station is slewed.
   void note_in_view(const camera::Frame& frame, const PointingModel& pointing, const Slew& slew);
 
   struct Place {
     Eigen::Vector2d pixel;
     double sd_px = 0.0;
   };
-  // Where the tracker is to search for its target. nullopt: the tracker was sent a moment ago, or
-  // the PTU has not arrived yet.
+  // The place where the tracker is to search for its target. nullopt if the tracker was sent a
+  // moment ago, or the unit has not arrived yet.
   std::optional<Place> send_tracker(const camera::Frame& frame, const PointingModel& pointing,
                                     const Slew& slew);
-  // Whether a tracker's output is near the slew's place. A similar object elsewhere is not the
-  // object that the other stations see.
+  // Whether a tracker's output is near the place to which the station is slewed. A similar object
+  // elsewhere is not the object that the other stations see.
   bool is_where_slewed(const camera::Frame& frame, const tracker::TrackerOutput& output,
                        const PointingModel& pointing, const Slew& slew) const;
 
-  // Whether the station may acquire any object at the slew's place. A station without a target may.
-  // A station with a target may if it has not seen its target there for own_target_s, because the
-  // designation may have been wrong.
+  // Whether the station may acquire any object at the slew's place. A station without a target may
+  // do so. A station with a target may do so if it has not seen the target there for own_target_s,
+  // because the designation may have been wrong.
   bool looks_for_anything(const FollowedTarget& target) const;
   struct Acquired {
-    const camera::Frame* frame;  // one of those that were given
-    cv::Rect2d box;              // of the object in it
-    bool by_tracklet = false;    // the detector has found it
+    const camera::Frame* frame;  // one of the frames passed to acquire()
+    cv::Rect2d box;              // box of the object in that frame
+    bool by_tracklet = false;    // found by the detector
   };
-  // The object that behaves as the slew predicts. If exactly one confirmed object of the detector
-  // does, it is that object; otherwise an object found in these frames (oldest first).
+  // Finds the object that behaves as the slew predicts. If exactly one confirmed object of the
+  // detector does, it is returned; otherwise an object found in these frames (oldest first).
   std::optional<Acquired> acquire(const std::deque<camera::Frame>& frames,
                                   const std::optional<detector::Found>& found,
                                   const PointingModel& pointing, const Slew& slew);
-  // begin_trial: the trial of an acquired target begins. end_trial: the trial has failed, and the
-  // own target is searched for again.
+  // begin_trial: the trial of an acquired target begins. end_trial: the trial has failed; the
+  // station searches for its own target again.
   void begin_trial(const Acquired& target);
   void end_trial(double time_s);
 
-  // The alarm about a slew to a place that is known well enough to be in the image; empty: none.
+  // The alarm if the slew's place is known well enough to be in the image, but nothing is acquired;
+  // otherwise empty.
   Alarm unacquired_alarm(const Slew& slew) const;
   const std::map<std::string, double>& counters() const { return counters_; }
 
  private:
   static constexpr double kNever = -std::numeric_limits<double>::infinity();
-  // For how long the slew's place has been in the image, according to the frames.
+  // How long the slew's place has been in the image, according to the frames.
   struct InView {
     double from_s = 0.0, to_s = kNever;
-    double own_from_s = kNever;  // since when the own target has been searched for
+    double own_from_s = kNever;  // time since which the own target is being searched for
   };
-  struct Expected {  // the slew's target in a frame
+  struct Expected {  // where the slew's target is expected in a frame
     Eigen::Vector2d pixel;
     PanTilt angles;
-    // In a search along a line: the line's direction, a unit vector. `pixel` is then the point of
-    // the line that is nearest to the middle.
+    // In a search along a line: the line's direction, a unit vector. In that case `pixel` is the
+    // point of the line nearest to the image's middle.
     Eigen::Vector2d line = Eigen::Vector2d::Zero();
   };
   static std::optional<Expected> expected(const camera::Frame& frame, const PointingModel& pointing,
@@ -98,7 +99,7 @@ class SlewSearch {
   const StationConfig config_;
   tracker::Acquisition acquisition_;
   InView in_view_;
-  double searched_s_ = 0.0;  // when the tracker was last sent to search
+  double searched_s_ = 0.0;  // time when the tracker was last sent to search
   std::map<std::string, double> counters_;
 };
 

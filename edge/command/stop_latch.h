@@ -1,5 +1,5 @@
-// Passes the emergency stop from the thread that sees its edges to the control loop. A press that
-// is shorter than a turn of the loop is not missed.
+// Passes the emergency stop from the thread that sees the line's edges to the control loop. It
+// catches even a press that is shorter than a turn of the loop.
 #pragma once
 
 #include <atomic>
@@ -9,10 +9,10 @@ namespace ols::station {
 
 class StopLatch {
  public:
-  // With a stop configured, its state is unknown until its first level arrives.
+  // If a stop is configured, its state is unknown until the first level arrives.
   explicit StopLatch(bool has_stop) : known_(!has_stop) {}
 
-  // From the thread that sees the edges, before it halts the unit.
+  // Called by the thread that sees the edges, before it halts the unit.
   void set(bool pressed) {
     if (pressed) ++presses_;
     if (pressed) rearm_ = false;  // a re-arming before the press does not count
@@ -21,14 +21,14 @@ class StopLatch {
   }
   bool known() const { return known_; }
   bool pressed() const { return pressed_; }
-  // True if it was pressed since the last call, however briefly.
+  // True if the stop was pressed since the last call, however briefly.
   bool take_press() {
     const std::uint64_t presses = presses_;
     const bool news = presses != seen_;
     seen_ = presses;
     return news;
   }
-  // A person at the station re-arms it. Call from the same thread.
+  // Notes that a person at the station re-arms it. Call from the same thread as set().
   void rearm() { rearm_ = true; }
   bool take_rearm() { return rearm_.exchange(false); }
 
@@ -37,7 +37,7 @@ class StopLatch {
   std::atomic<bool> pressed_ = false;
   std::atomic<bool> rearm_ = false;
   std::atomic<std::uint64_t> presses_ = 0;
-  std::uint64_t seen_ = 0;  // by the control loop
+  std::uint64_t seen_ = 0;  // used by the control loop only
 };
 
 }  // namespace ols::station

@@ -1,7 +1,7 @@
-// Where a station looks while nobody wants its unit. It stands at the middle of its field of
-// regard; if the field is larger than the picture, it steps through it, picture beside picture, and
-// stays at each for a while. Where its detector sees an object it stays longer, so that other
-// stations can be led along its line of sight. Pure.
+// Decides where a station looks while nobody else uses its unit. The station looks at the middle of
+// its field of regard. If the field is larger than the picture, it steps through the field picture
+// by picture, and stays at each for a while. Where its detector sees an object, it stays longer, so
+// that other stations can be led along its line of sight. Pure.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,19 +14,19 @@
 
 namespace ols::station {
 
-// The middles of the pictures that cover the field, row by row, there and back. Neighbours overlap
-// by a tenth. `view_rad`: width and height of the picture.
+// The centres of the pictures that cover the field, row by row, to and fro. Neighbouring pictures
+// overlap by a tenth. `view_rad`: width and height of the picture.
 std::vector<AzimuthElevation> pictures_of(const WatchConfig& config,
                                           const Eigen::Vector2d& view_rad);
 
 class Watch {
  public:
-  static constexpr double kLongest_s = 10.0;  // at a picture, whatever is seen there
+  static constexpr double kLongest_s = 10.0;  // largest time at one picture, whatever is seen there
 
   explicit Watch(const WatchConfig& config) : config_(config) {}
 
-  // Call in every turn. `free`: nobody else wants the unit. `sees`: the detector sees an object
-  // now. Returns the unit's goal; nullopt: the station watches nothing, or cannot look there.
+  // Call in every turn. `free`: nobody else uses the unit. `sees`: the detector sees an object now.
+  // Returns the unit's goal; nullopt if the station is not watching, or cannot look there.
   std::optional<mount::Goal> step(double now_s, bool free, bool sees,
                                   const PointingModel& pointing);
 

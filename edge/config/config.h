@@ -24,33 +24,37 @@ struct Section;
 }
 namespace ols::station {
 
-// Serial numbers of the parts of an instrument; empty: not stated.
+// Serial numbers of the parts of an instrument; empty if not stated.
 struct InstrumentSerials {
   std::string camera, lens, ptu;
 };
 
-// A station's share of its site's settings.
+// How a station uses its site's settings.
 struct SiteChoice {
-  std::string file;              // the station's own configuration; empty: none was read
-  std::int64_t number = 0;       // of the settings in use; 0: none
-  std::vector<std::string> own;  // the site's keys to which the station's file gives other values
+  std::string file;         // the station's own configuration file; empty if none was read
+  std::int64_t number = 0;  // number of the site's settings in use; 0 if there are none
+  // Keys of the site's settings for which the station's file gives other values.
+  std::vector<std::string> own;
 };
 
 struct StationSettings {
-  std::string id;  // letters, digits, - and _; at most 32, because it is part of the channel names
+  // Letters, digits, - and _; at most 32 characters, because it is part of channel names.
+  std::string id;
   std::string lcm_url = "udpm://239.255.76.67:7667?ttl=0";
-  std::string state_folder;  // of the persisted state; empty: nothing is persisted
+  std::string state_folder;  // folder for the persisted state; if empty, nothing is persisted
   std::int64_t calibration_id = 0;
-  double view_check_s = 600.0;     // idle time between two checks of the reference views; 0: none
-  std::string calibration_folder;  // of `ols-calibrate adjust`; empty: none
+  // Idle time between two checks of the reference views; 0 for no checks.
+  double view_check_s = 600.0;
+  // Folder written by `ols-calibrate adjust`; empty if there is none.
+  std::string calibration_folder;
   InstrumentSerials serials;
   std::uint64_t tracker_seed = 1;
   double status_interval_s = 0.5;
-  double preview_interval_s = 1.0;  // 0: none
+  double preview_interval_s = 1.0;  // 0 for no previews
   StationConfig station;
   sensors::PoseEstimator::Config pose;
   ChosenCamera camera{camera_kinds()};
-  bool keep_raw = false;  // the camera's raw images, too
+  bool keep_raw = false;  // also keep the camera's raw images
   ChosenMount mount{mount_kinds()};
   lens::LensMotorConfig lens;
   ChosenInclinometer inclinometer{inclinometer_kinds()};
@@ -64,21 +68,22 @@ struct StationSettings {
   CommandGate::Config gate;
   trust::TrustConfig trust;
   SiteChoice site;
-  std::string software;  // version of this program, for the status
+  std::string software;  // version of this program, for the status message
 };
 
-config::Section station_section(StationSettings& settings);  // the whole file
+config::Section station_section(StationSettings& settings);  // describes the whole file
 // Throws ConfigError ("file:line: key: what").
 StationSettings load_station_settings(const std::string& path);
-// The same, with the site's settings as defaults for keys that are missing in the file.
+// As above, with the site's settings as defaults for keys that are missing in the file.
 StationSettings load_station_settings(const std::string& path, const trust::SiteSettings& site);
-// The keys of [station] in a site's settings: those that are the same on all stations.
+// The keys of [station] that a site's settings may contain: those that are the same on all
+// stations.
 config::Section site_section(StationSettings& settings);
 
-// Checks whether the station with this configuration file can use the site's settings.
+// Returns a check whether the station with this configuration file can use a site's settings.
 trust::SettingsCheck site_check(const std::string& path);
 
-// The configuration for --check-config, one line per subject.
+// The text of --check-config, one line per subject.
 std::vector<std::string> describe(const StationSettings& settings);
 
 }  // namespace ols::station

@@ -1,5 +1,5 @@
-// What a configuration file writes differently from the field: degrees for radians, names for lens
-// models.
+// Units and words that a configuration file uses in place of the internal values: degrees for
+// radians, names for lens models.
 #pragma once
 
 #include "base/config/config_section.h"

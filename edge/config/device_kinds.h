@@ -15,7 +15,7 @@ using ChosenMount = device::ChosenKind<mount::MountKind>;
 using ChosenGnss = device::ChosenKind<sensors::GnssKind>;
 using ChosenInclinometer = device::ChosenKind<sensors::InclinometerKind>;
 
-// The first one is the default.
+// In each table, the first kind is the default.
 const std::vector<device::KindRow<camera::CameraKind>>& camera_kinds();
 const std::vector<device::KindRow<mount::MountKind>>& mount_kinds();
 const std::vector<device::KindRow<sensors::GnssKind>>& gnss_kinds();

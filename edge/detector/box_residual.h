@@ -1,4 +1,4 @@
-// The matched filter of a spot of a few pixels before smooth surroundings.
+// A matched filter for a spot of a few pixels in front of smooth surroundings.
 #pragma once
 
 #include <array>
@@ -10,21 +10,21 @@ namespace ols::detector {
 
 class BoxResidual {
  public:
-  static constexpr int kUnits = 64;  // of a grey level
+  static constexpr int kUnits = 64;  // units per grey level
 
-  // The mean of 3x3 pixels minus that of the 13x13 pixels around them without the inner 7x7:
-  // magnitude in 1/64 of a grey level, CV_16S; each mean is rounded down. `gray`: 8-bit, one
-  // channel; beyond its edges the nearest pixel counts.
+  // Computes the magnitude of a difference: the mean of 3x3 pixels minus the mean of the 13x13
+  // pixels around them without the inner 7x7. It is in 1/64 of a grey level, CV_16S; each mean is
+  // rounded down. `gray`: 8-bit, one channel. Beyond its edges, the nearest pixel counts.
   void measure(const cv::Mat& gray);
   const cv::Mat& image() const { return residual_; }
 
  private:
-  static constexpr int kReach = 6;  // [px] of the outer box from its centre
-  // Of the boxes of 3, 7 and 13 pixels.
+  static constexpr int kReach = 6;  // [px] from the centre of the outer box to its edge
+  // Sides of the boxes [px].
   static constexpr std::array<int, 3> kSides{3, 7, 13};
   struct Row {
     std::vector<std::uint16_t> columns;       // sums over the box's rows
-    std::vector<std::uint16_t> pairs, fours;  // of neighbouring columns
+    std::vector<std::uint16_t> pairs, fours;  // sums over two and four neighbouring columns
   };
   void start(int width);
   void advance(int y);

@@ -1,4 +1,4 @@
-// How often each part of the image shows something that is not a target.
+// Learns how often each part of the image shows something that is not a target.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,7 +8,7 @@
 
 namespace ols::detector {
 
-// Counts detections and tentative tracklets in each tile of the image, and forgets them over half a
+// Counts detections and tentative tracklets in each tile of the image. The counts fade over half a
 // minute. Confirmed objects do not count, so that an object does not raise its own threshold.
 class ClutterMap {
  public:
@@ -18,22 +18,22 @@ class ClutterMap {
   void add_detection(const Eigen::Vector2d& pixel);
   void add_start(const Eigen::Vector2d& pixel);
 
-  // [1/px^2] Expected unexplained detections in an image.
+  // Expected number of unexplained detections in an image [1/px^2].
   double density(const Eigen::Vector2d& pixel) const;
-  // [1/h] Tracklets that begin in the tile.
+  // Number of tracklets per hour that begin in the tile.
   double starts_an_hour(const Eigen::Vector2d& pixel) const;
   static constexpr int kColumns = 8;
   static constexpr int kRows = 6;
 
  private:
   struct Tile {
-    double detections, starts;  // forgotten sums
+    double detections, starts;  // fading sums
   };
   std::size_t tile(const Eigen::Vector2d& pixel) const;
 
   cv::Size image_;
   std::vector<Tile> tiles_;
-  double images_, seconds_;  // forgotten sums
+  double images_, seconds_;  // fading sums
 };
 
 }  // namespace ols::detector

@@ -1,4 +1,5 @@
-// Finds what flies or moves in a camera's images, without a designation. Pure: no clock, no files.
+// Finds objects that fly or move in a camera's images, without a designation. Pure: no clock, no
+// files.
 #pragma once
 
 #include <Eigen/Core>
@@ -25,10 +26,10 @@ class Detector {
 
   struct Result {
     std::vector<Detection> detections;  // of this image alone
-    bool suspended = false;             // everything changed at once: no movers are looked for
+    bool suspended = false;  // everything changed at once, so movers are not searched for
   };
-  // `gray`: 8-bit, one channel, always of the same size. `predicted`: the mount's motion, which
-  // maps the previous image's pixels to this image's. The image corrects it.
+  // `gray`: 8-bit, one channel, always of the same size. `predicted`: the mount's motion. It maps
+  // the previous image's pixels to this image's. The images themselves refine it.
   Result advance(const cv::Mat& gray, double time_s,
                  const std::optional<Eigen::Matrix3d>& predicted);
 

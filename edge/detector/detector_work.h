@@ -1,4 +1,4 @@
-// What a station's detector is given, and what it gives back.
+// The input and the output of a station's detector.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,19 +11,20 @@
 namespace ols::detector {
 
 struct Picture {
-  cv::Mat gray;                 // 8-bit, one channel; not modified
-  double mid_exposure_s = 0.0;  // any epoch
-  // The mount's motion, which maps the previous picture's pixels to this picture's; empty: unknown.
+  cv::Mat gray;                 // 8-bit, one channel; it is not modified
+  double mid_exposure_s = 0.0;  // on any time scale
+  // The mount's motion, which maps the previous picture's pixels to this picture's; nullopt if
+  // unknown.
   std::optional<Eigen::Matrix3d> motion;
 };
 
 struct Found {
   double mid_exposure_s = 0.0;
-  std::vector<Tracklet> confirmed;  // including objects that this picture does not show
-  bool suspended = false;           // everything changed at once: no movers were looked for
+  std::vector<Tracklet> confirmed;  // includes objects that this picture does not show
+  bool suspended = false;           // everything changed at once, so movers were not searched for
 };
 
-// Looks at one picture after another, all of the size of the first.
+// Looks at one picture after another. All must have the size of the first.
 class PictureDetector {
  public:
   explicit PictureDetector(const DetectorConfig& config) : config_(config) {}

@@ -11,19 +11,20 @@
 namespace ols::detector {
 
 struct MoverConfig {
-  double threshold_sd = 6.0;        // of the difference, in the tile's own standard deviations
+  double threshold_sd = 6.0;        // minimum difference, in standard deviations of the tile
   double least_levels = 10.0;       // [grey levels] minimum difference
-  double least_area_px = 8.0;       // of the reduced image
-  double most_side_fraction = 0.6;  // of the image's side
-  std::size_t most = 30;            // maximum number, largest first
+  double least_area_px = 8.0;       // in the reduced image
+  double most_side_fraction = 0.6;  // largest side, relative to the image's side
+  std::size_t most = 30;            // maximum number of detections, largest first
 };
 
 class MoverFinder {
  public:
   explicit MoverFinder(const MoverConfig& config) : config_(config) {}
 
-  // `motion`: previous to present image, pixels of the reduced frame; empty: unknown, begins anew.
-  // Empty if the whole image changed at once (exposure, a cloud's edge, a cut).
+  // `motion` maps pixels of the previous reduced frame to the present one. If it is unknown
+  // (nullopt), the search begins anew. Returns nullopt if the whole image changed at once
+  // (exposure, a cloud's edge, a cut).
   std::optional<std::vector<Detection>> find(const tracker::ReducedFrame& frame, double time_s,
                                              const std::optional<Eigen::Matrix3d>& motion);
 

@@ -7,24 +7,25 @@
 
 namespace ols::detector {
 
-// The median of three images of the last second, each aligned with the present image. A moving
-// object covers a place in only one of them. It is available after a moment, also while the camera
-// moves.
+// It is the median of three images of the last second, each aligned with the present image. A
+// moving object covers a given place in only one of them. It is available after a moment, even
+// while the camera moves.
 class SceneBackground {
  public:
   void clear() { kept_.clear(); }
-  // The camera turned: `motion` maps the previous image's pixels to the present image's.
+  // Notes that the camera has turned: `motion` maps the previous image's pixels to the present
+  // image's.
   void advance(const Eigen::Matrix3d& motion);
-  // Whether there are three images, the oldest of which is at least `kLeastAge_s` old.
+  // Whether there are three images, of which the oldest has at least the age `kLeastAge_s`.
   bool ready(double time_s) const;
-  // The darkest and the brightest level within a pixel of each place.
+  // For each place, the darkest and the brightest level within one pixel.
   struct Range {
     cv::Mat low, high;
   };
-  // Places that an earlier image does not show are 0 in `seen`.
+  // In `seen`, places that an earlier image does not show are 0.
   struct Scene {
-    Range usual;  // of the median
-    Range ever;   // of all three images
+    Range usual;  // range of the median
+    Range ever;   // range over all three images
     cv::Mat seen;
   };
   Scene scene(double time_s) const;

@@ -1,5 +1,5 @@
-// Finds compact spots of either polarity before smooth surroundings in a single image: a target
-// before the sky, however slowly it moves.
+// Finds compact bright or dark spots in front of smooth surroundings in a single image: a target
+// against the sky, however slowly it moves.
 #pragma once
 
 #include <algorithm>
@@ -15,18 +15,16 @@
 namespace ols::detector {
 
 struct SpotConfig {
-  double threshold_sd = 5.0;  // of the peak, in standard deviations of the ring around it
+  double threshold_sd = 5.0;  // minimum peak, in standard deviations of the ring around it
   double least_levels = 2.0;  // [grey levels] minimum peak
-  double most_clutter =
-      0.5;         // maximum of the ring's deviations (95 % quantile), as a share of the peak
-  int levels = 5;  // of the pyramid: each finds spots of twice the size
-  std::size_t most = 60;  // maximum number, strongest first
+  double most_clutter = 0.5;  // largest deviation in the ring (95 % quantile), relative to the peak
+  int levels = 5;             // number of pyramid levels; each finds spots of twice the size
+  std::size_t most = 60;      // maximum number, strongest first
 };
 
-// The ring's own spread sets the threshold of each place (order-statistic constant false alarm
-// rate): a branch, a text or the edge of a cloud has similar things around it, a target does not. A
-// bright target does not raise the threshold of its neighbour, because the order statistics ignore
-// it.
+// The spread within the ring sets the threshold of each place (order-statistic constant false alarm
+// rate): a branch, a text or the edge of a cloud has similar things around it, a target has not. A
+// bright target does not raise the threshold of its neighbour, because order statistics ignore it.
 class SpotFinder {
  public:
   explicit SpotFinder(const SpotConfig& config)
@@ -44,9 +42,9 @@ class SpotFinder {
   bool exceeds_surroundings(const cv::Point& at);
 
   SpotConfig config_;
-  std::vector<cv::Mat> reduced_;  // levels of the pyramid but the image itself
-  BoxResidual residual_;          // of the level that is searched
-  TileMedians usual_;             // of the residual
+  std::vector<cv::Mat> reduced_;  // all levels of the pyramid except the image itself
+  BoxResidual residual_;          // of the level that is being searched
+  TileMedians usual_;             // medians of the residual
   std::vector<cv::Point> peaks_;  // of one tile
 };
 

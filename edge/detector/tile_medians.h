@@ -1,4 +1,4 @@
-// The usual value of an image by tile, measured where it is asked for.
+// The median of an image in each tile, computed only where it is needed.
 #pragma once
 
 #include <cstddef>
@@ -11,13 +11,13 @@ namespace ols::detector {
 
 class TileMedians {
  public:
-  // `values`: CV_16S; must not change while questions are asked.
+  // `values`: CV_16S; must not change while this object is in use.
   void begin(const cv::Mat& values);
   int columns() const { return columns_; }
   int rows() const { return rows_; }
   cv::Rect tile(int column, int row) const;  // [px]
   std::int16_t median(int column, int row);
-  // The largest of the medians of the tile at a pixel and of its neighbours.
+  // The largest median among the tile at a pixel and its neighbours.
   std::int16_t largest_nearby(const cv::Point& pixel);
 
  private:

@@ -1,4 +1,4 @@
-// A possible object: its motion in the image, and the evidence for it.
+// A possible object: its motion in the image, and the evidence for its existence.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,25 +8,30 @@
 
 namespace ols::detector {
 
-// Constant velocity, full-frame pixels and seconds. The two axes share one covariance.
+// The model is constant velocity, in full-frame pixels and seconds. The two axes share one
+// covariance.
 class Tracklet {
  public:
   Tracklet(long id, const Detection& detection, double image_width_px);
 
-  // Predicts to the next image; `motion` maps the previous image's pixels to that image's.
+  // Predicts the state for the next image; `motion` maps pixels of the previous image to that
+  // image.
   void predict(const Eigen::Matrix3d& motion, double interval_s);
   void update(const Detection& detection);
-  // The object was found again away from its prediction: position and velocity begin anew.
+  // Notes that the object was found again away from its prediction: position and velocity begin
+  // anew.
   void leap(const Detection& detection, double image_width_px);
   void miss() { seen_ = false; }
 
-  // Whether it has the same polarity and about the same size.
+  // Whether the detection has the same polarity and about the same size.
   bool resembles(const Detection& detection) const;
-  // Squared distance in standard deviations, and the density of that deviation [1/px^2].
+  // Squared distance to the detection in standard deviations, and the probability density of that
+  // deviation [1/px^2].
   double distance(const Detection& detection) const;
   double density(const Detection& detection) const;
 
-  // The sequential test: log likelihood ratio of an object against clutter.
+  // The sequential test: adds to the log likelihood ratio of object against clutter, which may grow
+  // to `most`.
   void weigh(double log_ratio, double most);
   double log_ratio() const { return log_ratio_; }
   void confirm();
@@ -37,27 +42,27 @@ class Tracklet {
   long id() const { return id_; }
   const Eigen::Vector2d& pixel() const { return pixel_; }
   const Eigen::Vector2d& velocity_px_s() const { return velocity_px_s_; }
-  double velocity_sd_px_s() const { return std::sqrt(covariance_(1, 1)); }  // each axis
+  double velocity_sd_px_s() const { return std::sqrt(covariance_(1, 1)); }  // for each axis
   // The newest detection: its pixel, and its standard deviation on each axis.
   const Eigen::Vector2d& measured_pixel() const { return measured_pixel_; }
   double measured_sd_px() const { return measured_sd_px_; }
   const Eigen::Vector2d& size_px() const { return size_px_; }
   double signal_to_noise() const { return signal_to_noise_; }
-  bool seen() const { return seen_; }  // in the newest image
+  bool seen() const { return seen_; }  // whether the newest image shows it
   double unseen_s() const { return unseen_s_; }
   double age_s() const { return age_s_; }
   bool mostly_clear() const { return clear_ > 0.7 * detections_; }
-  // Its distance from where it began, and the length of its path from there; both without the
+  // The distance from where it began, and the length of its path from there; both without the
   // camera's motion.
   double way_px() const { return (pixel_ - origin_).norm(); }
   double path_px() const { return path_px_ + (pixel_ - mark_).norm(); }
   // scene_shift_px: how far the scene has moved in the image since the tracklet began. reach_px:
-  // the largest distance in the image from where it began.
+  // the largest distance in the image from where the tracklet began.
   double scene_shift_px() const { return (origin_ - first_pixel_).norm(); }
   double reach_px() const { return reach_px_; }
   // Whether it has not moved relative to the scene in the last seconds.
   bool rests() const { return rests_; }
-  // The camera's motion was unknown, so its own motion until now means nothing.
+  // Forgets its motion so far, because the camera's motion was unknown.
   void forget_way();
 
  private:
@@ -68,15 +73,16 @@ class Tracklet {
 
   long id_;
   Eigen::Vector2d pixel_, velocity_px_s_ = Eigen::Vector2d::Zero(), size_px_;
-  // Where it began, where it was a moment ago, and a second ago; all move with the scene.
+  // Where it began, where it was a moment ago, and where it was a second ago; all three move with
+  // the scene.
   Eigen::Vector2d origin_, mark_, rest_;
-  Eigen::Vector2d first_pixel_;  // where it began in the image
+  Eigen::Vector2d first_pixel_;  // place in the image where it began
   Eigen::Vector2d measured_pixel_;
   double measured_sd_px_;
   double reach_px_ = 0.0;
-  double marked_s_ = 0.0, rested_s_ = 0.0;  // for how long these are kept
-  double path_px_ = 0.0;                    // up to the mark
-  Eigen::Matrix2d covariance_;              // of position and velocity, each axis
+  double marked_s_ = 0.0, rested_s_ = 0.0;  // how long mark_ and rest_ have been kept
+  double path_px_ = 0.0;                    // length up to the mark
+  Eigen::Matrix2d covariance_;              // of position and velocity, on each axis
   double acceleration_px_s2_;               // standard deviation
   double signal_to_noise_;
   bool brighter_;

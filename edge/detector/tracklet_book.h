@@ -1,4 +1,4 @@
-// The tracklets of one camera: assignment, and confirmation by a sequential test.
+// The tracklets of one camera. Assigns detections to them, and confirms them by a sequential test.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,21 +12,23 @@
 namespace ols::detector {
 
 struct TrackletConfig {
-  double false_an_hour = 1.0;  // confirmed tracklets of clutter, for the whole camera
-  double detected = 0.8;       // probability that an object is detected in an image
-  // Clutter repeats itself in successive images, so one detection counts at most this much.
-  double most_log_ratio = 1.5;         // of a spot before clear sky
-  double most_ground_log_ratio = 0.7;  // of anything else
+  // Allowed number of confirmed tracklets of clutter per hour, for the whole camera.
+  double false_an_hour = 1.0;
+  double detected = 0.8;  // probability that an object is detected in an image
+  // Clutter repeats itself in successive images, so one detection adds at most this much to the log
+  // ratio.
+  double most_log_ratio = 1.5;         // for a spot in front of clear sky
+  double most_ground_log_ratio = 0.7;  // for anything else
   double least_directness =
-      0.7;               // of what moves in front of the ground: distance over length of the path
-  double coast_s = 0.4;  // an object that is not seen remains this long
+      0.7;  // for objects in front of the ground: smallest distance over length of the path
+  double coast_s = 0.4;  // how long an object remains while it is not seen
 };
 
 class TrackletBook {
  public:
   TrackletBook(const TrackletConfig& config, const cv::Size& image);
 
-  // `motion` maps the previous image's pixels to the present one's; empty: unknown.
+  // `motion` maps pixels of the previous image to the present one; nullopt if unknown.
   void advance(const std::vector<Detection>& detections,
                const std::optional<Eigen::Matrix3d>& motion, double interval_s);
   const std::vector<Tracklet>& tracklets() const { return tracklets_; }
@@ -36,7 +38,7 @@ class TrackletBook {
   void leap(const std::vector<Detection>& detections, std::vector<bool>& taken);
   void weigh_hit(Tracklet& tracklet, const Detection& detection);
   void weigh_miss(Tracklet& tracklet);
-  // The threshold of the sequential test in this tile [log].
+  // The threshold of the sequential test in the tracklet's tile [log].
   double needed(const Tracklet& tracklet) const;
   void judge(Tracklet& tracklet) const;
   bool belongs_to_scene_or_camera(const Tracklet& tracklet) const;

@@ -1,4 +1,5 @@
-// A device that has several kinds. `kind` in its section of the configuration chooses one. Pure.
+// A device for which there are several kinds. The key `kind` in its configuration section chooses
+// one. Pure.
 #pragma once
 
 #include <cstddef>
@@ -10,12 +11,12 @@
 
 namespace ols::device {
 
-// A row of the table of a device's kinds. `Kind` has what all kinds have in common, and a function
-// `section()` that binds a kind's keys to itself.
+// A row in the table of a device's kinds. `Kind` has what all kinds have in common, and a function
+// `section()` that binds the keys of a kind to itself.
 template <class Kind>
 struct KindRow {
-  const char* name;      // as `kind` says it
-  const char* sentence;  // what it is
+  const char* name;      // the value of the key `kind`
+  const char* sentence;  // what the kind is
   std::shared_ptr<Kind> (*make)();
 };
 
@@ -24,11 +25,11 @@ std::shared_ptr<Kind> make_kind() {
   return std::make_shared<Made>();
 }
 
-// Copies share what was read.
+// Copies share the values that were read.
 template <class Kind>
 class ChosenKind {
  public:
-  // At first the first kind is chosen, with its defaults.
+  // Initially the first kind is chosen, with its defaults.
   explicit ChosenKind(const std::vector<KindRow<Kind>>& table) {
     for (const KindRow<Kind>& row : table) kinds_.push_back({row, row.make()});
   }
@@ -36,13 +37,13 @@ class ChosenKind {
   const char* name() const { return kinds_.at(chosen_).row.name; }
   Kind& operator*() const { return *kinds_.at(chosen_).kind; }
   Kind* operator->() const { return &**this; }
-  // Null if another kind is chosen.
+  // The chosen kind as `Made`; null if another kind is chosen.
   template <class Made>
   Made* as() const {
     return dynamic_cast<Made*>(&**this);
   }
 
-  // The section; reading it chooses the kind.
+  // The configuration section; reading it chooses the kind.
   config::Section section(std::string name, std::string sentence) {
     config::Section section{std::move(name), std::move(sentence)};
     section.choose = [this](std::size_t chosen) { chosen_ = chosen; };

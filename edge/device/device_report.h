@@ -17,23 +17,25 @@ enum class DeviceState {
   kAbsent,    // configured, but not found
   kStarting,  // found, not usable yet
   kOk,
-  kFault,  // found, but faulty
+  kFault,  // found, but not working properly
 };
 const char* to_string(DeviceState state);
 
 struct DeviceReport {
   std::string name;  // "camera", "ptu", "gnss", "inclinometer", "gpio", "recorder", "video"
   DeviceState state = DeviceState::kAbsent;
-  std::string text;                   // what the device is, or what is wrong with it
-  std::string serial;                 // as the device itself says; empty: it does not, or not yet
+  std::string text;    // what the device is, or what is wrong with it
+  std::string serial;  // as the device itself states it; empty if it does not, or not yet
   std::optional<double> last_good_s;  // CLOCK_MONOTONIC of the last good datum
 
-  std::string last_error;    // the last error as text; empty: none yet
-  std::uint64_t errors = 0;  // so far; a new error may have the text of an old one
+  std::string last_error;    // the last error as text; empty if there was none
+  std::uint64_t errors = 0;  // number of errors so far; two errors may have the same text
 
-  std::vector<Alarm> alarms;               // conditions that hold now
-  std::map<std::string, double> readings;  // may fall; the name ends with the unit: ptu_supply_V
-  std::map<std::string, std::uint64_t> counters;  // only rise; the name begins with the device
+  std::vector<Alarm> alarms;  // conditions that hold now
+  // These may decrease; the name ends with the unit: ptu_supply_V.
+  std::map<std::string, double> readings;
+  // These only increase; the name begins with the device.
+  std::map<std::string, std::uint64_t> counters;
 };
 
 }  // namespace ols::device

@@ -1,5 +1,6 @@
-// The thread of one device: opens it, serves it, reopens it after a failure with growing pauses,
-// counts and reports. Errors of the device end here; nothing throws after construction.
+// The thread of one device. It opens the device, serves it, reopens it after a failure with growing
+// pauses, counts errors and reports. Errors of the device do not leave this class; nothing throws
+// after construction.
 #pragma once
 
 #include <condition_variable>
@@ -18,24 +19,26 @@ namespace ols::device {
 class DeviceThread {
  public:
   struct Config {
-    std::string name;            // of the device in its report: "gnss"
-    std::string opening;         // the report's text until the first attempt to open has ended
-    double first_pause_s = 0.2;  // before the device is reopened; doubles with each failure
+    std::string name;     // name of the device in its report: "gnss"
+    std::string opening;  // text of the report until the first attempt to open has ended
+    // Pause before the device is reopened; it doubles with each failure.
+    double first_pause_s = 0.2;
     double max_pause_s = 5.0;
-    // Makes an alarm of a failure; null: the owner does.
+    // Makes an alarm from a failure; if null, the owner makes it.
     Alarm (*alarm)(const std::string& failure) = nullptr;
   };
-  // Opens the device, calls opened() and serves the device until the stop is requested. Throws
-  // std::exception when the device fails. A session that returns is started again at once.
+  // Opens the device, calls opened(), and serves the device until a stop is requested. Throws
+  // std::exception when the device fails. If it returns, it is called again at once.
   using Session = std::function<void(const std::stop_token&)>;
 
   struct Link {
     bool is_open = false;
     std::uint64_t openings = 0;
-    std::uint64_t failures = 0;  // to open, and of an open device
+    // Number of failures to open the device, and of failures of the open device.
+    std::uint64_t failures = 0;
     double first_opened_s = 0.0;
-    std::string failure;  // the latest
-    std::string fault;    // of the open device, current
+    std::string failure;  // the latest failure
+    std::string fault;    // current fault of the open device
   };
 
   explicit DeviceThread(const Config& config);
@@ -43,18 +46,19 @@ class DeviceThread {
   DeviceThread(const DeviceThread&) = delete;
   DeviceThread& operator=(const DeviceThread&) = delete;
 
-  // Call once; not at all if the device is not configured.
+  // Call once; do not call if the device is not configured.
   void start(Session session);
 
-  // For the session: the device is open; the device works, so that the next pause is short again.
+  // Called by the session. opened(): the device is open. works(): the device works, so that the
+  // next pause is short again.
   void opened();
   void works();
-  // The fault of an open device, counted when it begins; empty: no fault.
+  // Sets the fault of an open device (counted when it begins); empty if there is no fault.
   void set_fault(const std::string& fault);
 
   Link link() const;
-  // Name and errors; and state, text and alarms as far as they do not depend on the device's data.
-  // kOk: the device is open and has no fault.
+  // Contains name and errors, and those parts of state, text and alarms that do not depend on the
+  // device's data. kOk means that the device is open and has no fault.
   DeviceReport report() const;
 
  private:
@@ -69,7 +73,7 @@ class DeviceThread {
   Link link_;
   std::uint64_t errors_ = 0;
   std::string last_error_;
-  std::jthread thread_;  // last: it uses the rest
+  std::jthread thread_;  // last member, because it uses the others
 };
 
 }  // namespace ols::device

@@ -1,5 +1,6 @@
-// What a device's thread has read, for a caller that takes it now and then. Bounded: if the caller
-// never takes, only the newest remain. Not thread-safe; the owner holds a lock. Pure.
+// Readings of a device's thread, for a caller that takes them now and then. It is bounded: if the
+// caller never takes any, only the newest remain. It is not thread-safe; the owner must hold a
+// lock. Pure.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +20,7 @@ class ReadingQueue {
     readings_.push_back(reading);
   }
 
-  // What has come since the last call, oldest first.
+  // The readings since the last call, oldest first.
   std::vector<Reading> take() { return std::exchange(readings_, {}); }
 
  private:

@@ -1,5 +1,5 @@
-// The outputs that contain the unit's counts: sightings, and requested frames, from the request to
-// the parts that fit into datagrams.
+// Makes the outputs that contain the unit's counts: sightings and requested frames. It handles a
+// frame from its request to the parts that fit into datagrams.
 #pragma once
 
 #include <cstdint>
@@ -18,22 +18,24 @@ namespace ols::station {
 
 struct FramePart {
   std::shared_ptr<const EncodedFrame> frame;
-  std::int64_t utime_us = 0;  // mid-exposure; the same in all parts, to join them
+  // Mid-exposure; it is the same in all parts, so that they can be joined.
+  std::int64_t utime_us = 0;
   std::size_t part = 0, parts = 0;
   std::size_t first_byte = 0, bytes = 0;
 };
 
 class FrameDesk {
  public:
-  static constexpr std::size_t kPart_bytes = 60000;  // leaves space for the header, below 65 000
+  // Below 65 000, which leaves space for the header.
+  static constexpr std::size_t kPart_bytes = 60000;
 
   explicit FrameDesk(const mount::AngleHistory::Config& history) : service_(history) {}
 
   FrameService& service() { return service_; }
-  // Passes on completed frames; never waits.
+  // Passes completed frames on to the encoder; never waits.
   void look(const clock::ClockPair& now);
   std::optional<FramePart> next();
-  // In time order. Returns the sightings to be published now.
+  // Call in order of time. Returns the sightings that are to be published now.
   std::vector<Sighting> sightings(const Bearing& bearing, std::int64_t utime_us) {
     return sightings_.take(bearing, utime_us, service_);
   }
@@ -42,7 +44,7 @@ class FrameDesk {
   FrameService service_;
   FramePost post_;
   SightingDesk sightings_;
-  std::deque<FramePart> parts_;  // of one frame
+  std::deque<FramePart> parts_;  // parts of one frame
 };
 
 }  // namespace ols::station

@@ -23,11 +23,12 @@ struct EncodedFrame {
 class FramePost {
  public:
   FramePost();
-  ~FramePost() = default;  // waits for the current frame
+  ~FramePost() = default;  // waits for the frame that is being encoded
   FramePost(const FramePost&) = delete;
   FramePost& operator=(const FramePost&) = delete;
 
-  // False: too many are waiting. The frame is dropped, and must be requested again.
+  // Returns false if too many frames are waiting. The frame is then dropped and must be requested
+  // again.
   bool put(RequestedFrame frame);
   std::optional<EncodedFrame> take();
 
@@ -39,7 +40,7 @@ class FramePost {
   std::condition_variable encoded_;
   std::deque<RequestedFrame> waiting_;
   std::deque<EncodedFrame> done_;
-  std::jthread thread_;  // last: it uses the others
+  std::jthread thread_;  // last member, because it uses the others
 };
 
 }  // namespace ols::station

@@ -1,6 +1,6 @@
-// Chooses the bearings that are published together with their raw pixel and counts: the last one
-// before and the first one after each whole second of UTC. The sightings of several stations can
-// then be interpolated to the same instants. Pure.
+// Chooses the bearings that are published together with their raw pixel and encoder counts: the
+// last one before and the first one after each whole second of UTC. The sightings of several
+// stations can then be interpolated to the same instants. Pure.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ struct Sighting {
 
 class SightingDesk {
  public:
-  // Takes bearings in time order. Returns the sightings to be published now.
+  // Takes bearings in time order. Returns the sightings that are to be published now.
   std::vector<Sighting> take(const Bearing& bearing, std::int64_t utime_us,
                              const FrameService& unit);
 

@@ -1,6 +1,6 @@
-// The station's GPIO, between the control loop and the owner of its lines (Gpio, whose thread waits
-// for their edges). Decides about the status LED, the inputs of emergency stop and re-arming, and
-// the optional camera trigger.
+// The station's GPIO: connects the control loop to the owner of the lines (Gpio, whose thread waits
+// for edges). Decides about the status LED, the inputs for emergency stop and re-arming, and the
+// optional camera trigger.
 //
 // The emergency stop in software only assists a hardware stop that cuts the power of the motors
 // (docs/field-guide.md).
@@ -27,26 +27,27 @@ class GpioHandover {
   using OnStop = std::function<void(bool pressed)>;
   using OnRearm = std::function<void()>;
 
-  // `on_stop` is called by turn() and failed() at every edge of the emergency stop, and once for
-  // its first level. With a stop_line, missing or unreadable lines count as pressed. `on_rearm` is
-  // called each time the button was held while the stop is not pressed.
+  // `on_stop` is called from turn() and failed(): at every edge of the emergency stop, and once for
+  // its first level. If a stop_line is configured, missing or unreadable lines count as pressed.
+  // `on_rearm` is called each time the button has been held while the stop is not pressed.
   GpioHandover(const GpioConfig& config, OnStop on_stop, OnRearm on_rearm);
   virtual ~GpioHandover() = default;
   GpioHandover(const GpioHandover&) = delete;
   GpioHandover& operator=(const GpioHandover&) = delete;
 
-  // Call from any thread; none of these waits for the device.
+  // May be called from any thread; none of these waits for the device.
   void show(LedPattern pattern);
-  void trigger();  // a pulse on trigger_line
-  // True also while the first level is unknown. False without a stop_line.
+  void trigger();  // sends a pulse on trigger_line
+  // True also while the first level is not known. False without a stop_line.
   bool stop_pressed() const;
   device::DeviceReport report() const;
 
-  // For the owner of the lines, in one thread. The lines were opened, or have failed.
+  // The functions below are for the owner of the lines, all from one thread. Note that the lines
+  // were opened, or have failed.
   void opened();
   void failed(const std::string& what);
-  // Call at each edge, at each wake(), and at the instant that it returns [s, CLOCK_MONOTONIC].
-  // Throws as GpioLines does.
+  // Call at each edge, at each wake(), and at the instant that the last call returned [s,
+  // CLOCK_MONOTONIC]. Throws what GpioLines throws.
   double turn(GpioLines& lines);
   void leave(GpioLines& lines) const;
 
@@ -66,14 +67,14 @@ class GpioHandover {
   const GpioConfig config_;
   const OnStop on_stop_;
   const OnRearm on_rearm_;
-  // Of turn()'s thread.
+  // Used only by turn()'s thread:
   StopInput stop_;
   RearmInput rearm_;
   double refresh_s_ = 0.0;
   std::optional<bool> lit_;          // as written to the line
-  double trigger_end_s_ = kNever_s;  // a pulse is on the line until then
+  double trigger_end_s_ = kNever_s;  // end of the pulse that is on the line
 
-  mutable std::mutex mutex_;  // of everything below
+  mutable std::mutex mutex_;  // guards everything below
   GpioFacts facts_;
   LedPattern pattern_ = LedPattern::kOff;
   double pattern_began_s_ = 0.0;

@@ -1,7 +1,7 @@
-// GPIO lines: a few watched inputs and a few outputs. There are two implementations: libgpiod
-// (gpio_lines_libgpiod.cpp, the only file that depends on its version), and a Unix socket
-// (gpio_lines_socket.cpp) to another process that serves the lines. The socket is for a remote I/O
-// box, a machine without a gpiochip, and tests.
+// GPIO lines: a few monitored inputs and a few outputs. There are two implementations. One uses
+// libgpiod (gpio_lines_libgpiod.cpp, the only file that depends on its version). The other one uses
+// a Unix socket (gpio_lines_socket.cpp) to another process that serves the lines. The socket is for
+// a remote I/O box, for a machine without a gpiochip, and for tests.
 //
 // The socket's protocol is text, one message per line. The server sends the level of each input on
 // connect, at every change, and on request:
@@ -26,7 +26,7 @@ struct LineInput {
 
 struct LineUse {
   std::vector<LineInput> inputs;
-  std::vector<int> outputs;  // low at first
+  std::vector<int> outputs;  // initially low
 };
 
 struct LineLevel {
@@ -35,8 +35,8 @@ struct LineLevel {
   double time_s = 0.0;  // CLOCK_MONOTONIC of the edge, or of the reading
 };
 
-// For one thread. All functions throw std::system_error, naming chip and line, if the lines have
-// vanished or cannot be read.
+// To be used by one thread only. All functions throw std::system_error, naming chip and line, if
+// the lines have vanished or cannot be read.
 class GpioLines {
  public:
   virtual ~GpioLines() = default;
@@ -44,17 +44,17 @@ class GpioLines {
   GpioLines(const GpioLines&) = delete;
   GpioLines& operator=(const GpioLines&) = delete;
 
-  // The descriptors to poll for reading.
+  // The file descriptors to poll for reading.
   virtual std::vector<int> fds() const = 0;
-  // New levels of the inputs, oldest first for each. Never waits.
+  // New levels of the inputs; for each input, oldest first. Never waits.
   virtual std::vector<LineLevel> receive() = 0;
-  // Requests the level of each input, which receive() then returns. Detects lost edges and dead
+  // Requests the level of each input; receive() then returns it. This detects lost edges and dead
   // lines.
   virtual void refresh() = 0;
   virtual void write(int line, bool high) = 0;
 };
 
-// `chip` as in GpioConfig. Throws std::system_error.
+// `chip`: as in GpioConfig. Throws std::system_error.
 std::unique_ptr<GpioLines> open_gpio_lines(const std::string& chip, const LineUse& use);
 
 // The two implementations.

@@ -10,17 +10,17 @@
 
 namespace ols::gpio {
 
-// The state known to the GPIO's thread.
+// The GPIO's state as its thread knows it.
 struct GpioFacts {
   bool open = false;
-  bool readable = false;          // a level was read since the lines were opened
-  std::optional<bool> pressed{};  // the emergency stop, as in the last callback
+  bool readable = false;          // a level has been read since the lines were opened
+  std::optional<bool> pressed{};  // the emergency stop's state at the last callback
   std::optional<double> last_good_s{};
   std::string error{};
   std::uint64_t failures = 0, presses = 0, rearms = 0, triggers = 0;
 };
 
-// True also while the first level is unknown. False without a stop_line.
+// True also while the first level is not known. False if there is no stop_line.
 bool stop_pressed(const GpioConfig& config, const GpioFacts& facts);
 
 device::DeviceReport make_gpio_report(const GpioConfig& config, const GpioFacts& facts);

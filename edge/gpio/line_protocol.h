@@ -18,11 +18,11 @@ class LineProtocol {
     bool operator==(const Level&) const = default;
   };
 
-  // The lines of interest; levels of other lines are ignored.
+  // `inputs`: the lines of interest; levels of other lines are ignored.
   explicit LineProtocol(std::vector<int> inputs) : inputs_(std::move(inputs)) {}
 
-  // The levels that these bytes complete, oldest first. nullopt if a message is not a level: end
-  // the connection, and do not use this object any more.
+  // Returns the levels that these bytes complete, oldest first. nullopt if a message is not a
+  // level: then end the connection and do not use this object any more.
   std::optional<std::vector<Level>> receive(std::string_view bytes);
 
  private:

@@ -6,8 +6,8 @@
 
 namespace ols::gpio {
 
-// The emergency stop's line, which must be configured. Biased towards "pressed", so that a broken
-// wire reads as an open contact.
+// The line of the emergency stop, which must be configured. It is biased towards "pressed", so that
+// a broken wire reads as an open contact.
 LineInput stop_input_line(const GpioConfig& config);
 // All configured lines.
 LineUse line_use(const GpioConfig& config);

@@ -1,5 +1,6 @@
-// The button that re-arms a station after an emergency stop. It must be seen open, and then be held
-// for a while, so that a stuck button, a broken wire or a brief touch does not re-arm. Pure.
+// The button that re-arms a station after an emergency stop. It must be seen open and then be held
+// for a while, so that a stuck button, a broken wire or a brief touch does not re-arm the station.
+// Pure.
 #pragma once
 
 #include <optional>
@@ -12,17 +13,18 @@ class RearmInput {
 
   // Takes a level of the line with the time of its edge, in order of time.
   void level(bool closed, double time_s);
-  // The line cannot be read, or the stop was pressed: the time held so far is void.
+  // Notes that the line cannot be read, or that the stop was pressed: the time held so far does not
+  // count.
   void interrupted();
-  // True once each time the button was held long enough.
+  // True once each time the button has been held long enough.
   bool take(double now_s);
-  // The instant at which take() becomes true without another edge; nullopt: it does not.
+  // The instant at which take() becomes true if no further edge comes; nullopt if it does not.
   std::optional<double> due_s() const;
 
  private:
   double hold_s_;
   bool seen_open_ = false;          // since the start, an interruption, or the last re-arming
-  std::optional<double> closed_s_;  // since when the button is held
+  std::optional<double> closed_s_;  // time since which the button is held
 };
 
 }  // namespace ols::gpio

@@ -1,4 +1,4 @@
-// The emergency stop's input. A press counts at once, a release only when it is stable. A line that
+// The emergency stop's input. A press counts at once, a release only once it is stable. A line that
 // cannot be read counts as pressed. Pure.
 #pragma once
 
@@ -8,24 +8,24 @@ namespace ols::gpio {
 
 class StopInput {
  public:
-  // A release counts after the line was quiet for `release_s`.
+  // A release counts after the line has been quiet for `release_s`.
   explicit StopInput(double release_s) : release_s_(release_s) {}
 
   // Takes a level of the line with the time of its edge, in order of time.
   void level(bool pressed, double time_s);
-  // The line cannot be read: it counts as pressed until a stable release.
+  // Notes that the line cannot be read: it counts as pressed until a stable release.
   void lost();
 
   // nullopt while unknown: before the first level, and while the first level is a release that is
   // not stable yet.
   std::optional<bool> pressed(double now_s) const;
-  // The instant at which pressed() becomes false without another edge; nullopt: it does not.
+  // The instant at which pressed() becomes false if no further edge comes; nullopt if it does not.
   std::optional<double> due_s() const;
 
  private:
   double release_s_;
-  bool was_pressed_ = false;          // at any time; a lost line counts
-  std::optional<double> released_s_;  // since when the line has been quietly released
+  bool was_pressed_ = false;          // it was pressed at some time; a lost line counts
+  std::optional<double> released_s_;  // time since which the line has been released without an edge
 };
 
 }  // namespace ols::gpio

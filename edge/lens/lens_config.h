@@ -12,13 +12,13 @@ struct Section;
 namespace ols::lens {
 
 struct LensMotorConfig {
-  std::string device;  // serial device; empty: no motorised lens
+  std::string device;  // serial device; empty if there is no motorised lens
   int baud = 9600;
   double poll_interval_s = 0.05;
-  double position_sd = 0.001;     // of a zoom position, slack included
-  std::vector<ZoomPoint> points;  // of the calibration, ascending by position
+  double position_sd = 0.001;     // 1-sigma of a zoom position, including mechanical slack
+  std::vector<ZoomPoint> points;  // calibrated points, ascending by position
 };
 
-config::Section lens_motor_section(LensMotorConfig& config);  // [lens_motor]
+config::Section lens_motor_section(LensMotorConfig& config);  // the section [lens_motor]
 
 }  // namespace ols::lens

@@ -1,5 +1,6 @@
-// Drives a lens over VISCA: one request at a time, orders before questions. Pure: bytes and time
-// in, bytes and zoom samples out. edge/lens/lens_motor.* connects it to a serial port.
+// Drives a lens with the VISCA protocol: one request at a time, orders before questions. Pure:
+// bytes and time in, bytes and zoom samples out. edge/lens/lens_motor.* connects it to a serial
+// port.
 #pragma once
 
 #include <deque>
@@ -17,27 +18,29 @@ class LensDriver {
  public:
   explicit LensDriver(double poll_interval_s) : poll_interval_s_(poll_interval_s) {}
 
-  // Takes bytes that had arrived at this instant of the monotonic clock.
+  // Takes bytes that had arrived by this instant of the monotonic clock.
   void receive(std::string_view bytes, double time_s);
-  // Advances time, and returns the bytes to write, often none. Call every few milliseconds.
+  // Advances time. Returns the bytes to write, which are often none. Call every few milliseconds.
   std::string step(double time_s);
 
-  // The newest order for an axis replaces the previous order. A rate ends at its time, even if its
-  // sender is lost; the axis then stays where it is.
+  // The newest order for an axis replaces the previous one. A rate ends at its own time, even if
+  // its sender is lost; the axis then stops where it is.
   void order(const LensOrder& order);
 
-  // The port was reopened: asks everything again, and forgets the orders.
+  // Notes that the port was reopened: asks for everything again, and forgets the orders.
   void restart();
-  // True once after the lens left several consecutive requests unanswered: open the port again.
+  // True once after the lens has left several consecutive requests unanswered; the caller must open
+  // the port again.
   bool take_link_loss();
 
   std::vector<ZoomSample> take_samples();
   const LensState& state() const { return state_; }
   LensCounters counters() const;
 
-  static constexpr double kReply_s = 0.3;  // an acknowledgement takes at most one picture's time
+  // An acknowledgement takes at most the time of one picture.
+  static constexpr double kReply_s = 0.3;
   static constexpr int kSilent = 8;
-  static constexpr double kIrisStep_s = 0.15;  // between two iris steps at the highest rate
+  static constexpr double kIrisStep_s = 0.15;  // time between two iris steps at the highest rate
 
  private:
   enum class Question { kSetup, kVersion, kPosition, kOrder };
@@ -50,8 +53,8 @@ class LensDriver {
   struct Pending {
     AxisOrder order;
     bool sent = false;
-    double step_s = 0.0;  // when the next step of the iris is due
-    int refusals = 0;     // of the order to stop
+    double step_s = 0.0;  // time at which the next step of the iris is due
+    int refusals = 0;     // number of times that the order to stop was refused
   };
 
   static bool is_stand(const std::optional<Pending>& pending);

@@ -1,5 +1,5 @@
-// The motorised lens, between the control loop and the owner of its line (LensMotor, on a serial
-// line). Holds the driver. Nothing throws.
+// The motorised lens: connects the control loop to the owner of the line (LensMotor, on a serial
+// line). It holds the driver. Nothing throws.
 #pragma once
 
 #include <mutex>
@@ -22,29 +22,30 @@ class LensHandover {
   LensHandover(const LensHandover&) = delete;
   LensHandover& operator=(const LensHandover&) = delete;
 
-  // From any thread; does not wait.
+  // May be called from any thread; does not wait.
   void order(const LensOrder& order);
-  // Samples since the last call, oldest first.
+  // The samples since the last call, oldest first.
   std::vector<ZoomSample> take_samples();
   ByAxis<std::optional<double>> positions() const;
   device::DeviceReport report() const;
 
-  // For the owner of the line. One turn takes what has arrived; it returns what to send, whether
-  // the lens has reported its zoom, and whether to reopen the line.
+  // The functions below are for the owner of the line. A turn takes the bytes that have arrived. It
+  // returns the bytes to send, whether the lens has reported its zoom, and whether the line must be
+  // reopened.
   struct Turn {
     std::string request;
     bool works = false;
     bool link_lost = false;
   };
   Turn turn(const std::string& arrived);
-  // The line was reopened: it may be another lens.
+  // Notes that the line was reopened; the lens may be another one.
   void restart();
 
  private:
-  // What is known of the line, without the lens.
+  // The report on the line alone, without the lens.
   virtual device::DeviceReport line() const = 0;
 
-  mutable std::mutex mutex_;  // of everything below
+  mutable std::mutex mutex_;  // guards everything below
   LensDriver driver_;
   device::ReadingQueue<ZoomSample> samples_;
 };

@@ -1,5 +1,5 @@
-// The motorised lens on its serial line, in real time. A thread opens the port, and reopens it
-// after a failure.
+// The motorised lens on its serial line, driven in real time. A thread opens the port and reopens
+// it after a failure.
 #pragma once
 
 #include <memory>

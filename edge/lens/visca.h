@@ -1,6 +1,6 @@
-// Sony's VISCA, the part that moves a lens (sources: docs/overview.md). Packets have 3 to 16 bytes
-// and end with FF. Packets to device 1 begin with 81, packets from it with 90. A command is
-// answered twice: by an acknowledgement at once, and by a completion at its end. An inquiry is
+// Sony's VISCA protocol: the part that moves a lens (sources: docs/overview.md). Packets have 3 to
+// 16 bytes and end with FF. Packets to device 1 begin with 81, packets from it with 90. A command
+// is answered twice: at once by an acknowledgement, and at its end by a completion. An inquiry is
 // answered once, by its value. Pure.
 #pragma once
 
@@ -14,11 +14,12 @@
 
 namespace ols::lens::visca {
 
-// The position 1 on the wire.
-inline constexpr int kZoomLongest = 0x4000;  // optical; beyond is digital
+// The values on the wire for the ends of the travel.
+// End of the optical zoom; larger values are digital zoom.
+inline constexpr int kZoomLongest = 0x4000;
 inline constexpr int kFocusFar = 0x1000, kFocusNear = 0xf000;
 inline constexpr int kIrisOpen = 0x11;
-inline constexpr int kFastest = 7;  // of eight speeds, from 0
+inline constexpr int kFastest = 7;  // the largest of eight speeds, which start at 0
 
 std::string clear_interface();
 std::string ask_version();
@@ -30,21 +31,21 @@ std::string ask_position(Axis axis);
 std::string go_to(Axis axis, double position);
 // Zoom and focus move at the nearest of eight speeds. The iris moves by one step.
 std::string go_on(Axis axis, double rate);
-// Empty for the iris, which stops after each step.
+// Empty for the iris, because it stops after each step.
 std::string stand(Axis axis);
 
 enum class ReplyKind { kAcknowledged, kCompleted, kValue, kError };
 struct Reply {
   ReplyKind kind = ReplyKind::kError;
-  std::string data;  // of a value, without head and end
-  std::string text;  // of an error, in words
+  std::string data;  // content of a value, without head and end
+  std::string text;  // an error in words
 };
-// A whole packet with its end. nullopt: not from device 1, or of unknown form.
+// Takes a whole packet with its end. nullopt if it is not from device 1, or has an unknown form.
 std::optional<Reply> reply(std::string_view packet);
 
-// The share of the travel in an answer to ask_position(); nullopt: of another form.
+// The share of the travel in an answer to ask_position(); nullopt if the answer has another form.
 std::optional<double> position_in(Axis axis, std::string_view data);
-// "vendor 0020, model 0466, ROM 0105".
+// For example "vendor 0020, model 0466, ROM 0105".
 std::optional<std::string> version_in(std::string_view data);
 
 // Cuts the received bytes into packets. An overlong packet counts as garbled.

@@ -1,4 +1,4 @@
-// The camera behind a zoom lens at any recent instant, from the lens's reported zoom and a
+// The camera behind a zoom lens at any recent instant, from the zoom that the lens reports and a
 // calibration. Pure.
 #pragma once
 
@@ -12,19 +12,19 @@ namespace ols::lens {
 
 class ZoomLens {
  public:
-  // `position_sd`: 1-sigma of a reported position, slack included.
+  // `position_sd`: 1-sigma of a reported position, including mechanical slack.
   ZoomLens(const ZoomTable& table, double position_sd) : table_(table), position_sd_(position_sd) {}
 
-  // In order of time; a sample out of order is dropped.
+  // Call in order of time; a sample out of order is dropped.
   void add(const ZoomSample& sample);
 
-  // nullopt: no report near that time. While the zoom moves, the deviation grows with its speed and
-  // with the distance in time from a sample.
+  // nullopt if there is no report near that time. While the zoom moves, the deviation grows with
+  // its speed and with the time from the nearest sample.
   std::optional<ZoomPoint> at(double time_s) const;
   std::optional<ZoomPoint> newest() const;
 
   static constexpr double kMemory_s = 3.0;
-  static constexpr double kSilent_s = 1.0;  // validity of the newest position
+  static constexpr double kSilent_s = 1.0;  // how long the newest position remains valid
 
  private:
   ZoomTable table_;

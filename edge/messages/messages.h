@@ -1,4 +1,4 @@
-// Converts between the station's types and LCM messages. Decides nothing.
+// Converts between the station's types and LCM messages. Makes no decisions.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +27,7 @@
 
 namespace ols::station {
 
-// The sender, the present conversion from monotonic time to UTC, and its quality.
+// The sender, the present difference between UTC and monotonic time, and its quality.
 struct Sender {
   std::string station;
   std::int64_t boot_id = 0;
@@ -55,12 +55,12 @@ ols_msg::preview_t to_message(const video::PreviewPicture& picture, const camera
 ols_msg::frame_part_t to_message(const FramePart& part, const Sender& sender,
                                  std::int64_t sequence);
 
-// The answer to a command. `reason`: why it is refused (the name of the counter); empty: it is
-// carried out.
+// The answer to a command. `reason`: why the command is refused (the name of the counter); empty if
+// it is carried out.
 struct Answer {
   CommandId command;
   std::string reason{}, detail{};
-  StationState state = StationState::kIdle;  // after it
+  StationState state = StationState::kIdle;  // the state after the command
 };
 ols_msg::command_reply_t to_message(const Answer& answer, const Sender& sender, double now_s,
                                     std::int64_t sequence);
@@ -72,7 +72,7 @@ OcclusionCommand from_message(const ols_msg::occlusion_t& message, const Sender&
 PointCommand from_message(const ols_msg::ptu_command_t& message);
 CentreCommand centre_from_message(const ols_msg::ptu_command_t& message, const Sender& sender);
 RateCommand rate_from_message(const ols_msg::ptu_command_t& message, double now_s);
-// nullopt if its times are not finite, negative, or too large.
+// nullopt if the message's times are not finite, negative, or too large.
 std::optional<recorder::RecordCommand> from_message(const ols_msg::record_t& message,
                                                     const Sender& sender, double now_s);
 

@@ -1,4 +1,4 @@
-// Writes the borders of the region where a unit may point into a station's status.
+// Writes the borders of the region in which a unit can point into a station's status.
 #pragma once
 
 #include <vector>
@@ -11,7 +11,7 @@ namespace ols::station {
 
 void fill_borders(const std::vector<Border>& borders, ols_msg::station_status_t& message);
 
-// For a unit that stands as in its station's pose.
+// As above, for a unit that stands as the station's pose says.
 void fill_borders(ChainParameters chain, const StationReport& report,
                   ols_msg::station_status_t& message);
 

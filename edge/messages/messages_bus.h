@@ -1,7 +1,6 @@
 // A station on the bus: receives commands and answers them, sends bearings, status and previews.
-// Decodes, checks the addressee and the freshness of a command, and counts what it refuses; decides
-// nothing else. The
-// station also runs without a network: the bus retries the connection every second.
+// Decodes commands, checks addressee and freshness, and counts what it refuses. It makes no other
+// decisions. The station also runs without a network; the bus retries the connection every second.
 #pragma once
 
 #include <cstdint>
@@ -28,44 +27,45 @@
 
 namespace ols::station {
 
-// The places of the station's key and of its persisted state.
+// The files with the station's key and with its persisted state.
 trust::Environment trust_environment(const StationSettings& settings);
 
 class StationBus {
  public:
-  // Empty: accepted; otherwise the reason for the refusal.
+  // Returns empty if the request is accepted, otherwise the reason for the refusal.
   using Record = std::function<std::string(const recorder::RecordCommand&)>;
   using FrameWanted = std::function<std::string(const FrameRequest&)>;
 
-  // The references must outlive the bus.
+  // The referenced objects must outlive the bus.
   StationBus(const StationSettings& settings, std::int64_t boot_id, Station& station,
              CommandTurn& turn, Record recorder, FrameWanted frame_wanted = {});
 
-  // The present clocks, until the next call.
+  // Sets the clocks that are used until the next call.
   void set_time(const clock::ClockPair& now, const clock::ClockQuality& quality);
 
   // Connects; waits at most this long.
   void connect(double wait_s);
-  // Passes the waiting commands to the station. Without a connection, starts an attempt without
-  // waiting for it.
+  // Passes the waiting commands to the station. Without a connection, it starts an attempt to
+  // connect, but does not wait for it.
   void receive();
   void take(const BusMessage& message);
-  // True if the message is a stop; end_turn() carries it out. Call from any thread.
+  // True if the message is a stop; end_turn() carries the stop out. May be called from any thread.
   bool take_stop(const BusMessage& message);
-  // Call after the datagrams of a turn.
+  // Call after the messages of a turn.
   void end_turn();
   // The answers to the commands since the last call; receive() sends them.
   std::vector<Answer> take_answers() { return std::exchange(answers_, {}); }
 
-  // Why there is no connection; empty: connected.
+  // Why there is no connection; empty if there is one.
   const std::string& trouble() const { return trouble_; }
   // The last refused command as text, and the number of refused commands.
   const std::string& last_refusal() const { return refused_.last(); }
   std::uint64_t refusals() const { return refused_.number(); }
-  // Conditions of the bus for a person: commands that are repeatedly refused as not fresh, invalid
-  // datagrams, newer settings of the site.
+  // Alarms about the bus, for a person: commands repeatedly refused because they are not fresh,
+  // invalid datagrams, newer settings of the site.
   std::vector<Alarm> alarms() const;
-  // Messages refused before they reached the station, and messages not sent. Part of each status.
+  // Counts messages that were refused before they reached the station, and messages that could not
+  // be sent. They are part of each status.
   std::map<std::string, double> counters() const;
 
   void send(const Bearing& bearing);
@@ -75,10 +75,10 @@ class StationBus {
   void send_preview(const camera::Frame& frame, const std::optional<cv::Rect2d>& box);
 
  private:
-  // The result of a command. `reason`: why it was refused (the name of the counter).
+  // The result of a command. `reason`: why the command was refused (the name of the counter).
   struct Verdict {
     std::string reason{}, detail{};
-    bool is_open = false;  // decided at the turn's end
+    bool is_open = false;  // to be decided at the end of the turn
   };
 
   template <class Message>
@@ -101,8 +101,8 @@ class StationBus {
   const StationSettings& settings_;
   Station& station_;
   CommandTurn& turn_;
-  // Fixed at construction: the bus's thread reads it while the control loop may replace the
-  // settings.
+  // These are fixed at construction, because the bus's thread reads them while the control loop may
+  // replace the settings.
   struct Given {
     CommandGate::Config gate;
     Record record;
@@ -122,13 +122,15 @@ class StationBus {
   std::map<std::string, double> counters_;
   std::map<std::string, std::int64_t> sequences_;
   std::vector<Answer> answers_;
-  // Several people each repeat a stop 50 times a second.
+  // Limits of the answers sent. Several people may each repeat a stop 50 times a second.
   static constexpr double kAccepted_Hz = 300.0, kRefused_Hz = 50.0;
   trust::RateLimit accepted_sent_{kAccepted_Hz}, refused_sent_{kRefused_Hz};
-  // Stops to be answered: the last of each sender. Shared with the bus's thread.
-  static constexpr std::size_t kMostStoppers = 16;  // forged ones bring any number
+  // Stops that are to be answered: the last one from each sender. They are shared with the bus's
+  // thread.
+  // Forged stops may come from any number of senders.
+  static constexpr std::size_t kMostStoppers = 16;
   std::mutex stops_mutex_;
-  std::map<std::int64_t, std::int64_t> stops_;  // sender's boot -> sequence
+  std::map<std::int64_t, std::int64_t> stops_;  // sender's boot id -> sequence number
 };
 
 }  // namespace ols::station

@@ -1,4 +1,4 @@
-// The PTU's angles over time, interpolated at an exposure instant. Pure.
+// The PTU's angles over time, interpolated at the instant of an exposure. Pure.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,47 +10,51 @@
 namespace ols::mount {
 
 struct AngleSample {
-  double time_s = 0.0;     // station's monotonic clock: estimate of when the unit read its counters
+  // Station's monotonic clock: estimated instant at which the unit read its counters.
+  double time_s = 0.0;
   double time_sd_s = 0.0;  // 1-sigma of that estimate (white)
   PanTilt angles;
-  // Set if tilt and pan were read at different instants: the 1-sigma of the tilt's instant, and how
-  // much later it was.
+  // Set if tilt and pan were read at different instants: 1-sigma of the instant of the tilt
+  // reading, and how much later than the pan reading it was.
   std::optional<double> tilt_time_sd_s = {};
   double tilt_delay_s = 0.0;
-  PanTilt doubt = {};  // [rad] 1-sigma of further errors of each angle
+  PanTilt doubt = {};  // [rad] 1-sigma of other errors of each angle
   // Share of the variance of one encoder step that remains after averaging several readings.
   PanTilt step_share = {1.0, 1.0};
-  // [rad/s^2] approximate commanded acceleration since the previous sample.
+  // [rad/s^2] approximate acceleration that was commanded since the previous sample.
   PanTilt acceleration = {};
 };
 
 struct AngleAt {
   PanTilt angles;
-  PanTilt rate;                // [rad/s]
-  Eigen::Matrix2d covariance;  // [rad^2] (pan, tilt): encoder step, time jitter, acceleration
-  bool interpolated = false;   // false: the instant lies after the newest sample
+  PanTilt rate;  // [rad/s]
+  // [rad^2] (pan, tilt): from encoder step, time jitter and acceleration.
+  Eigen::Matrix2d covariance;
+  bool interpolated = false;  // false if the instant is after the newest sample
 };
 
 class AngleHistory {
  public:
   struct Config {
-    double span_s = 5.0;                // kept
-    double max_gap_s = 0.25;            // no interpolation across more than this
-    double max_extrapolation_s = 0.15;  // no answer further than this after the newest sample
-    double step_rad = 5.61e-5;          // one encoder step: 11.5714 arc seconds
-    // Accelerations. Between two samples the first value is expected; more is expected where the
-    // unit was commanded to accelerate, or where the neighbouring samples show that it did. After
-    // the newest sample the unit may have begun to accelerate by up to the second value.
+    double span_s = 5.0;      // how long samples are kept
+    double max_gap_s = 0.25;  // longest gap across which angles are interpolated
+    // Longest time after the newest sample for which there is an answer.
+    double max_extrapolation_s = 0.15;
+    double step_rad = 5.61e-5;  // one encoder step: 11.5714 arc seconds
+    // The accelerations that are assumed. Between two samples the first value is assumed. More is
+    // assumed if the unit was commanded to accelerate, or if the neighbouring samples show that it
+    // did. After the newest sample, the unit may have begun to accelerate by up to the second
+    // value.
     double acceleration_sd_rad_s2 = 0.04;
     double acceleration_max_rad_s2 = 1.0;
   };
   explicit AngleHistory(const Config& config) : config_(config) {}
 
-  // Add samples in time order; a sample out of order is rejected.
+  // Add samples in order of time; a sample out of order is rejected.
   bool add(const AngleSample& sample);
   void clear() { samples_.clear(); }
 
-  // The angles at an instant [s]; nothing if the samples do not cover it.
+  // The angles at an instant [s]; nullopt if the samples do not cover it.
   std::optional<AngleAt> at(double time_s) const;
   std::optional<AngleSample> newest() const;
 
@@ -68,10 +72,10 @@ class AngleHistory {
   using KnotOf = Knot (*)(const AngleSample&);
 
   std::optional<AxisAt> axis_at(double time_s, KnotOf knot) const;
-  // Variance of the measured angle at a knot passed at this rate.
+  // Variance of the measured angle at a knot that the axis passes at this rate.
   double knot_variance(const Knot& knot, double rate_rad_s) const;
   // Square of the acceleration to expect between samples_[b-1] and samples_[b]: the commanded
-  // acceleration, or what the neighbouring samples show beyond their noise.
+  // acceleration, or the one that neighbouring samples show beyond their noise.
   double bend2(std::size_t b, KnotOf knot) const;
   double bend2_at(std::size_t middle, KnotOf knot) const;
 

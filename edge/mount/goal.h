@@ -1,4 +1,4 @@
-// What a mount is to do: angles to reach, or rates.
+// The goal of a mount: angles to reach, or rates.
 #pragma once
 
 #include "geometry/kinematic_chain.h"
@@ -7,12 +7,12 @@ namespace ols::mount {
 
 // Angles to reach at an instant, and their rates.
 struct Goal {
-  double time_s = 0.0;  // station's monotonic clock
+  double time_s = 0.0;  // on the station's monotonic clock
   PanTilt angles;
-  PanTilt rate;                // [rad/s] feed-forward; 0 for a fixed goal
-  double valid_until_s = 0.0;  // the mount halts after this
-  bool rate_only = false;      // only the rates are wanted, from wherever the mount is
-  bool rests = false;          // a fixed goal: the mount comes to rest there
+  PanTilt rate;                // [rad/s] feed-forward; 0 if the goal is fixed
+  double valid_until_s = 0.0;  // the mount halts after this time
+  bool rate_only = false;      // only the rates are commanded, from wherever the mount is
+  bool rests = false;          // for a fixed goal: the mount comes to rest there
 };
 
 }  // namespace ols::mount

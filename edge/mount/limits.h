@@ -1,4 +1,4 @@
-// Where a mount can point, in its own angles. Pure.
+// The range in which a mount can point, in its own angles. Pure.
 #pragma once
 
 #include <vector>
@@ -15,8 +15,8 @@ inline constexpr double kVirtualCount_rad = radians(1e-4);
 struct Limits {  // [rad]
   double pan_min_rad = -2.7, pan_max_rad = 2.7;
   double tilt_min_rad = -0.8, tilt_max_rad = 0.5;
-  std::vector<KeepOut> keep_out = {};  // never entered, never swept across
-  // The size of a count of each axis; 0: not known yet.
+  std::vector<KeepOut> keep_out = {};  // regions that the mount never enters or crosses
+  // The size of a count on each axis; 0 if it is not known yet.
   PanTilt count = {};
 };
 
@@ -25,8 +25,8 @@ AngleBox travel(const Limits& limits);
 enum class Reach { kDirect, kLongWayRound, kUnreachable };
 
 // Whether the mount can point there. Pan angles that differ by 2 pi are the same direction. Sets
-// `angles` to the one that is reachable by the shortest path from `now`. kLongWayRound: a turn in
-// the other direction, or around a keep-out region.
+// `angles` to those that are reached by the shortest path from `now`. kLongWayRound: the path turns
+// in the other direction, or goes around a keep-out region.
 Reach reach(const Limits& limits, const PanTilt& now, PanTilt& angles);
 
 }  // namespace ols::mount

@@ -1,4 +1,4 @@
-// How far a mount's angles can be trusted, and a doubt that is persisted over a restart of the
+// How far a mount's angles can be trusted, and the doubt that persists over a restart of the
 // process. Pure.
 #pragma once
 
@@ -10,23 +10,26 @@
 namespace ols::mount {
 
 enum class Reference {
-  kUnknown,  // no usable mount
-  kMissing,  // the mount must be homed, or it is homing
-  kDoubted,  // no samples, and goals are ignored, until it is homed or its reference confirmed
+  kUnknown,  // there is no usable mount
+  kMissing,  // the mount must be homed, or is homing
+  // There are no samples and goals are ignored, until the mount is homed or its reference is
+  // confirmed.
+  kDoubted,
   kTrusted,
 };
 
-// A doubted reference is trusted again after a complete homing, or after an operator's reference-ok
-// where that is accepted. A trusted reference has no such struct.
+// The reason why a reference is doubted. It is trusted again after a complete homing, or after an
+// operator's reference-ok if that is accepted. A trusted reference has no ReferenceDoubt.
 struct ReferenceDoubt {
-  bool homing_broken_off = false;  // or still under way; a homing is not repeated automatically
-  // Some units do not know their step size until they are homed: reference-ok is not accepted.
+  // A homing was interrupted or is still under way; it is not repeated automatically.
+  bool homing_broken_off = false;
+  // The unit does not know its step size until it is homed, so reference-ok is not accepted.
   bool gears_lost = false;
 
   bool operator==(const ReferenceDoubt&) const = default;
 };
 
-// All possible words of the persisted form, which is a single word. The first stands for a trusted
+// All words of the persisted form, which is a single word. The first word stands for a trusted
 // reference.
 const std::vector<std::string>& doubt_words();
 std::string to_word(const std::optional<ReferenceDoubt>& doubt);

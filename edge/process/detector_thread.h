@@ -1,5 +1,5 @@
-// Runs the detector in its own thread, behind the control loop, because an image takes tens of
-// milliseconds.
+// Runs the detector in its own thread, with lower priority than the control loop, because an image
+// takes tens of milliseconds.
 #pragma once
 
 #include <condition_variable>
@@ -15,15 +15,15 @@ namespace ols::station {
 class DetectorThread {
  public:
   explicit DetectorThread(const detector::DetectorConfig& config);
-  ~DetectorThread() = default;  // waits for the current picture
+  ~DetectorThread() = default;  // waits for the picture that is being processed
   DetectorThread(const DetectorThread&) = delete;
   DetectorThread& operator=(const DetectorThread&) = delete;
 
-  // Never waits. Give one picture at a time: the next one after take() has returned the result of
-  // the last.
+  // Never waits. Give one picture at a time: the next one only after take() has returned the result
+  // of the last.
   void give(detector::Picture picture);
   std::optional<detector::Found> take();
-  double picture_s() const { return picture_s_; }  // how long a picture takes, smoothed
+  double picture_s() const { return picture_s_; }  // time that a picture takes, smoothed
 
  private:
   void work(const std::stop_token& stop);
@@ -33,10 +33,10 @@ class DetectorThread {
   std::condition_variable_any arrived_;
   std::condition_variable found_;
   std::optional<detector::Picture> picture_;
-  bool works_ = false;  // a picture is there, or is looked at
+  bool works_ = false;  // a picture is waiting or being processed
   std::optional<detector::Found> result_;
   double taken_s_ = 0.0, picture_s_ = 0.0;
-  std::jthread thread_;  // last: it uses the others
+  std::jthread thread_;  // last member, because it uses the others
 };
 
 }  // namespace ols::station

@@ -24,15 +24,17 @@ namespace ols::station {
 using OpenGpio = std::function<std::unique_ptr<gpio::GpioHandover>(gpio::GpioHandover::OnStop,
                                                                    gpio::GpioHandover::OnRearm)>;
 
-// Makes the devices that the configuration chooses. A simulation makes its own instead.
+// The devices that the configuration chooses. A simulation provides its own instead.
 struct ChosenDevices {
-  // Null if not configured. `open_gpio` calls back from a thread of its own.
+  // Pointers are null for devices that are not configured. The device made by `open_gpio` calls
+  // back from its own thread.
   OpenGpio open_gpio;
   std::unique_ptr<lens::LensHandover> lens;
   std::unique_ptr<sensors::Inclinometer> inclinometer;
   std::unique_ptr<sensors::Gnss> gnss;
   std::unique_ptr<camera::Camera> camera;
-  // Destroyed first: its destructor halts the mount, and other destructors may block.
+  // Last member, so that it is destroyed first: its destructor halts the mount, and other
+  // destructors may block.
   std::unique_ptr<mount::Mount> mount;
 };
 using OpenDevices = std::function<ChosenDevices(const StationSettings&)>;
@@ -54,13 +56,14 @@ class DeviceSet {
   StopLatch& stop() { return stop_; }
   const StopLatch& stop() const { return stop_; }
 
-  // The sensor readings since the last call.
+  // Passes the sensors' readings since the last call to `estimator`.
   void feed(sensors::PoseEstimator& estimator);
-  // Permits the mount to move after an emergency stop, unless the stop was pressed again meanwhile.
-  // Also at the start: with a stop configured, the mount is halted until the stop's level is known.
+  // Permits the mount to move after an emergency stop, unless the stop has been pressed again. Also
+  // needed at the start: if a stop is configured, the mount is halted until the stop's level is
+  // known.
   void rearm();
 
-  // All configured devices, camera and mount first.
+  // Reports of all configured devices; camera and mount come first.
   std::vector<device::DeviceReport> reports() const;
 
  private:
@@ -69,7 +72,7 @@ class DeviceSet {
   StopLatch stop_;
   std::optional<recorder::Recorder> recorder_;
   std::optional<video::VideoServer> video_;
-  // The GPIO thread uses the mount and is destroyed first.
+  // gpio_ is declared last and destroyed first, because its thread uses the mount.
   ChosenDevices chosen_;
   std::unique_ptr<gpio::GpioHandover> gpio_;
 };

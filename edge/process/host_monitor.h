@@ -1,5 +1,6 @@
-// The station's computer: processor temperature, free disk space, slow turns of the control loop.
-// Reads in its own thread, because a network disk that hangs must not block the loop.
+// Monitors the station's computer: processor temperature, free disk space, slow turns of the
+// control loop. It reads in its own thread, because a network disk that hangs must not block the
+// loop.
 #pragma once
 
 #include <cstddef>
@@ -17,11 +18,11 @@ namespace ols::station {
 
 struct HostConfig {
   std::string thermal_folder = "/sys/class/thermal";
-  std::string disk_folder = "/";  // the file system to be watched
+  std::string disk_folder = "/";  // a folder on the file system to be monitored
   double cpu_alarm_degC = 85.0;
   double disk_alarm_bytes = 5e8;
-  double interval_s = 2.0;  // between two readings
-  double silence_s = 10.0;  // alarm after this time without a reading
+  double interval_s = 2.0;  // time between two readings
+  double silence_s = 10.0;  // an alarm is raised after this time without a reading
 };
 
 struct HostReport {
@@ -40,31 +41,31 @@ HostReport report_on(const HostReading& reading, const HostConfig& config);
 class HostMonitor {
  public:
   using Reader = std::function<HostReading()>;
-  // Starts to read periodically. Everything that `reader` refers to must live until the program
+  // Starts to read periodically. Everything to which `reader` refers must live until the program
   // ends.
   explicit HostMonitor(const HostConfig& config)
       : HostMonitor(config, [c = config] { return read_host(c); }) {}
   HostMonitor(const HostConfig& config, Reader reader);
-  ~HostMonitor();  // does not wait for a reading
+  ~HostMonitor();  // does not wait for a reading that is under way
   HostMonitor(const HostMonitor&) = delete;
   HostMonitor& operator=(const HostMonitor&) = delete;
 
-  // Duration of a turn, without the `waited_s` in which it waited for a frame.
+  // Notes the duration of a turn, not counting `waited_s` in which it waited for a frame.
   void note_turn(double seconds, double waited_s = 0.0);
   // The newest reading; never waits. `now_s`: CLOCK_MONOTONIC.
   HostReport look(double now_s);
   std::uint64_t slow_turns() const { return slow_turns_; }
 
  private:
-  struct Shared;                              // with the thread
-  static constexpr std::size_t kKept = 1000;  // turns, of some ten seconds
+  struct Shared;                              // shared with the thread
+  static constexpr std::size_t kKept = 1000;  // number of turns, which take some ten seconds
 
   double turn_p99_s() const;
 
   HostConfig config_;
   std::shared_ptr<Shared> shared_;
-  double slowest_s_ = 0.0;       // since the last report
-  std::vector<double> turns_s_;  // the last turns; the oldest is at turns_ % kKept
+  double slowest_s_ = 0.0;       // slowest turn since the last report
+  std::vector<double> turns_s_;  // the last turns; the oldest one is at turns_ % kKept
   std::uint64_t turns_ = 0;
   std::uint64_t slow_turns_ = 0;
 };

@@ -1,4 +1,4 @@
-// The station's pose from survey and sensors. After a restart it is the persisted pose, until the
+// The station's pose from survey and sensors. After a restart it is the persisted pose until the
 // sensors report (file: pose_store.h).
 #pragma once
 
@@ -16,11 +16,11 @@ namespace ols::station {
 
 class KeptPose {
  public:
-  // Restores the persisted pose, for the sensors that the station still has.
+  // Restores the persisted pose, but only for sensors that the station still has.
   KeptPose(const StationSettings& settings, double now_s);
 
   sensors::StationPose pose(double now_s) const { return estimator_.pose(now_s); }
-  // Call in every turn. Returns the pose when one is due. Does not wait for the disk.
+  // Call in every turn. Returns the pose if one is due. Does not wait for the disk.
   std::optional<sensors::StationPose> look(DeviceSet& devices, double now_s);
   std::vector<Alarm> alarms(double now_s) const;
 

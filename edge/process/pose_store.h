@@ -1,5 +1,5 @@
 // Persists the sensors' pose in a file, so that a station has a position even if it restarts while
-// the receiver has no fix.
+// its receiver has no fix.
 #pragma once
 
 #include <string>
@@ -12,20 +12,21 @@ namespace ols::station {
 
 class PoseStore {
  public:
-  // Reads `file`; empty: nothing is persisted. trouble() reports a file that is damaged or cannot
-  // be read.
+  // Reads `file`; if it is empty, nothing is persisted. trouble() reports a file that is damaged or
+  // cannot be read.
   explicit PoseStore(const std::string& file);
 
-  // The pose found at the start.
+  // The pose that was found at the start.
   const sensors::PersistedPose& found() const { return found_; }
-  // Writes soon, without waiting for the disk. A missing part keeps its persisted value.
+  // Writes the pose soon, without waiting for the disk. Parts that are missing keep their persisted
+  // value.
   void keep(sensors::PersistedPose pose);
-  // Empty: no trouble.
+  // Empty if there is no trouble.
   Alarm trouble() const;
 
  private:
   sensors::PersistedPose found_;
-  Alarm refused_;  // cleared when a pose is saved
+  Alarm refused_;  // cleared when a pose has been saved
   BackgroundFile file_;
 };
 

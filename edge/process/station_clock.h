@@ -1,4 +1,4 @@
-// The clocks of a station's process, read at one instant, and the quality of its UTC.
+// The clocks of a station's process, read at the same instant, and the quality of its UTC.
 #pragma once
 
 #include <cstdint>
@@ -10,9 +10,9 @@
 
 namespace ols::station {
 
-// What a service has said about the clock since the last call.
+// Returns what a time service has said about the clock since the last call.
 using TimeService = std::function<std::optional<clock::ClockReading>()>;
-// Kernel and chrony of this host, asked every few seconds.
+// Kernel and chrony of this host, queried every few seconds.
 TimeService host_time_service();
 
 class StationClock {
@@ -23,7 +23,7 @@ class StationClock {
   // Call in every turn, before anything is published.
   clock::ClockPair look();
   clock::ClockQuality quality(double now_s) const { return watch_.quality(now_s); }
-  // By the clocks of the last look().
+  // Converts with the clocks of the last look().
   std::int64_t utime_us(double monotonic_s) const;
 
  private:

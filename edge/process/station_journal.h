@@ -1,4 +1,5 @@
-// Tells the journal what began or ended at a station, and reports its newest fault. Pure.
+// Writes to the journal what began or ended at a station, and reports the station's newest fault.
+// Pure.
 #pragma once
 
 #include <cstdint>
@@ -21,11 +22,11 @@ class StationJournal {
 
   struct Bus {
     std::string url;
-    std::string trouble;  // empty: connected
+    std::string trouble;  // empty if connected
     std::string last_refusal;
     std::uint64_t refusals = 0;
   };
-  // Sets the report's last error, and removes the alarms of devices that are only starting.
+  // Sets the report's last error, and removes alarms of devices that are only starting.
   void note(const clock::ClockPair& now, const Bus& bus, StationReport& report);
 
  private:
@@ -35,7 +36,7 @@ class StationJournal {
 
   FaultLog troubles_;
   JournalRateLimit limit_;
-  std::optional<double> begun_s_;  // of the first note
+  std::optional<double> begun_s_;  // time of the first note
   const std::string station_;
   const Write write_;
 };

@@ -28,17 +28,17 @@ struct Outside {
 
 class StationProcess {
  public:
-  // Does not need a network or devices: retries those that are absent.
+  // Needs neither a network nor devices; it keeps trying to reach those that are absent.
   StationProcess(const StationSettings& configured, std::int64_t boot_id,
                  Outside outside = {open_chosen_devices, host_time_service()});
 
-  // Runs until `ends` returns true; notifies systemd. Ready after the first turn, whatever devices
-  // are present.
+  // Runs until `ends` returns true. Notifies systemd. It is ready after the first turn, whichever
+  // devices are present.
   void run(const std::function<bool()>& ends);
 
-  // One turn of the control loop: commands, angles, the newest frame, bearings, the mount's goal,
-  // and at intervals a status and a preview. Takes a few milliseconds, or as long as the tracker
-  // needs for a frame.
+  // One turn of the control loop: commands, angles, the newest frame, bearings and the mount's
+  // goal; at intervals, also a status and a preview. It takes a few milliseconds, or as long as the
+  // tracker needs for a frame.
   void turn();
 
  private:
@@ -47,7 +47,7 @@ class StationProcess {
   void heed_emergency_stop(double now_s);
   void heed_rearming(double now_s);
   void receive_commands();
-  double take_frame();  // how long it waited for one [s]
+  double take_frame();  // returns how long it waited for a frame [s]
   void show_frame(const camera::Frame& frame);
   void detect(double now_s);
   void take_zoom();
@@ -67,12 +67,12 @@ class StationProcess {
 
   const StationSettings& settings() const { return calibration_.settings(); }
 
-  // The monotonic instants of the next periodic actions.
+  // The monotonic times at which periodic actions are next due.
   struct Due {
     double trigger_s = 0.0, status_s = 0.0, preview_s = 0.0;
   };
 
-  CalibrationSupervisor calibration_;  // holds the settings, too
+  CalibrationSupervisor calibration_;  // also holds the settings
   ServiceNotifier service_;
   StationClock clock_;
   std::optional<KeptPose> pose_;  // always set; replaced when the calibration changes
@@ -83,10 +83,10 @@ class StationProcess {
   PersistedStationState persisted_;
   StationJournal journal_;
   DeviceSet devices_;
-  std::optional<DetectorThread> detector_;  // null: not enabled
+  std::optional<DetectorThread> detector_;  // empty if not enabled
   FrameDesk frames_;
   std::optional<camera::Frame> newest_;
-  bool halted_ = false;  // the mount refuses to move until it is re-armed
+  bool halted_ = false;  // the mount refuses to move until the station is re-armed
   Due due_;
 };
 

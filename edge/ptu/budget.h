@@ -1,6 +1,6 @@
-// How long a poll takes on a serial line at a baud rate. Pure.
+// Computes how long a poll takes on a serial line at a baud rate. Pure.
 //
-// One cycle in motion, with both positions asked for twice (edge/ptu/poll_cycle.h):
+// One cycle in motion, in which both positions are requested twice (edge/ptu/poll_cycle.h):
 //
 //    PP PS18700 TS18700 TP PP-49467 TP TP-14622 PP        out, 49 bytes
 //   * -49467  *  *  * -14622  *  * -14622  *  * -49467    in, 50 bytes; the last two positions, 20
@@ -12,16 +12,17 @@
 //   38400     20 ms                                      14 ms
 //   115200    8 ms                                       6 ms
 //
-// One request is under way at a time, so that replies can be matched and a position's instant is
-// known; the period is poll_interval_s or the time on the line, whichever is longer. Only commands
-// that changed are sent. 25 ms need 38400 baud. With one reading of each position, 9600 baud would
-// carry 21 cycles a second instead of 13; but a wrong digit would go unnoticed.
+// Only one request is under way at a time, so that replies can be matched and the instant of a
+// position is known. The period is poll_interval_s or the time on the line, whichever is longer.
+// Only commands that changed are sent. A period of 25 ms needs 38400 baud. If each position were
+// read once, 9600 baud would allow 21 cycles a second instead of 13, but a wrong digit would go
+// unnoticed.
 #pragma once
 
 namespace ols::ptu {
 
-double byte_time_s(int baud);      // start bit, eight, stop bit
-double longest_cycle_s(int baud);  // in motion
-double resting_cycle_s(int baud);  // nothing to command
+double byte_time_s(int baud);      // one start bit, eight bits, one stop bit
+double longest_cycle_s(int baud);  // cycle in motion
+double resting_cycle_s(int baud);  // cycle with nothing to command
 
 }  // namespace ols::ptu

@@ -1,4 +1,4 @@
-// Why a unit's step counter may not match the position of its head any more. Pure.
+// The reason why a unit's step counter may no longer match the position of its head. Pure.
 #pragma once
 
 #include <string>
@@ -8,9 +8,9 @@
 namespace ols::ptu {
 
 enum class PtuDoubtCause { kPowerCycle, kLimitHit, kHomingInterrupted, kBeforeStart };
-// What is wrong and what to do about it.
+// The alarm: what is wrong, and what to do about it.
 Alarm alarm_of(PtuDoubtCause cause);
-// The reason of its alarm.
+// The reason as text, as in the alarm.
 std::string describe(PtuDoubtCause cause);
 
 }  // namespace ols::ptu

@@ -1,6 +1,6 @@
-// The PTU driver as a pure state machine: bytes and time in, bytes and angle samples out. The
-// serial port and the clock are at the edge (edge/ptu/ptu_thread.*); the lockstep simulation drives
-// the same class from simulated time.
+// The PTU driver as a pure state machine: takes bytes and time, returns bytes and angle samples.
+// The serial port and the clock are outside (edge/ptu/ptu_thread.*); the lockstep simulation drives
+// the same class with simulated time.
 #pragma once
 
 #include <algorithm>
@@ -22,84 +22,85 @@ namespace ols::ptu {
 class PtuDriver {
  public:
   explicit PtuDriver(const PtuConfig& config) : config_(config), baud_(config.baud) {}
-  PtuDriver(const PtuDriver&) = delete;  // its phases refer to it
+  PtuDriver(const PtuDriver&) = delete;  // its phases hold references to it
   PtuDriver& operator=(const PtuDriver&) = delete;
 
-  // Takes bytes, with an instant [s, monotonic] by which all of them had arrived: the moment after
+  // Takes bytes, and an instant [s, monotonic] by which all of them had arrived: the moment after
   // the read.
   void receive(std::string_view bytes, double time_s);
 
-  // Advances time: returns bytes to write now (may be empty). Call at least every few milliseconds.
+  // Advances time. Returns bytes to be written now (possibly none). Call at least every few
+  // milliseconds.
   std::string step(double time_s);
 
-  // Baud rate at which step()'s bytes are to be written. Changes while the driver searches for the
-  // unit and when it sets another rate.
+  // Baud rate at which the bytes from step() are to be written. It changes while the driver
+  // searches for the unit, and when the driver sets another rate.
   int line_baud() const;
 
-  // Sets the goal; nothing: halt. It takes effect with the next poll, and is dropped in an
-  // emergency and whenever the unit or its reference is lost.
+  // Sets the goal; nullopt means halt. It takes effect with the next poll. It is dropped in an
+  // emergency, and whenever the unit or its reference is lost.
   void set_goal(const std::optional<mount::Goal>& goal);
 
-  // Halts the unit: sends halts until it is seen to stand. Sends no other motion command before
-  // clear_emergency(). Returns the bytes to write at once. Before writing them, drop all bytes that
-  // are not on the line yet.
+  // Halts the unit: sends halts until the unit is seen to stand still. Sends no other motion
+  // command before clear_emergency(). Returns the bytes to write at once. Before writing them, the
+  // caller must drop all bytes that are not on the line yet.
   std::string emergency_halt(double time_s);
   void clear_emergency() { emergency_ = false; }
   bool in_emergency() const { return emergency_; }
 
-  // Halts the unit, waits until it stands and homes it: R sweeps the whole travel. Ignored in an
-  // emergency, and abandoned when the unit does not answer.
+  // Halts the unit, waits until it stands still, and homes it: the command R sweeps the whole
+  // travel. Ignored in an emergency. Abandoned if the unit does not answer.
   void home(double time_s);
-  // Abandons homing. If the unit is already homing, it is sent a halt, which some units ignore.
+  // Abandons homing. If the unit is already homing, a halt is sent, which some units ignore.
   void stop_homing(double time_s);
-  // Whether PtuRehome::kWhenUnreferenced applies now. home() is always possible.
+  // Sets whether PtuRehome::kWhenUnreferenced is in effect now. home() is always possible.
   void allow_rehoming(bool allowed) { rehoming_allowed_ = allowed; }
-  // An operator confirms the reference: the unit was homed by hand, or checked.
+  // An operator confirms the reference, after homing the unit manually or checking it.
   void reference_ok();
-  // Restores the doubt that an earlier process persisted.
+  // Restores the doubt that an earlier process saved.
   void restore_doubt(const std::optional<mount::ReferenceDoubt>& doubt);
 
   // Starts the unit again, for example because the port was reopened.
   void restart(double time_s);
 
-  // True once after the unit stopped answering: the port should be reopened.
+  // True once after the unit stopped answering; the caller should reopen the port.
   bool take_link_loss() { return std::exchange(link_lost_, false); }
 
-  // Angle samples since the last call.
+  // The angle samples since the last call.
   std::vector<mount::AngleSample> take_samples();
 
   PtuState state() const;
   const PtuCounters& counters() const { return counters_; }
-  const mount::Limits& limits() const;  // those in force; meaningful once ready
-  std::string firmware() const;         // answer to V; empty until ready
-  std::string last_error() const;       // empty: no error so far
+  const mount::Limits& limits() const;  // the limits in force; meaningful only once ready
+  std::string firmware() const;         // the unit's answer to V; empty until ready
+  std::string last_error() const;       // empty if there was no error
   std::optional<PtuEnvironment> environment() const;
   std::optional<double> last_good_s() const;  // time of the newest angle sample
   bool not_referenced() const;                // the unit must be homed
   bool homing() const;                        // from home() until the unit is ready again
   mount::Reference reference() const;
   std::optional<PtuDoubtCause> doubt() const { return reference_.cause(); }
-  // The doubt for the next process, if this process ends now.
+  // The doubt for the next process, if this process ended now.
   std::optional<mount::ReferenceDoubt> doubt_to_persist() const;
   std::optional<PtuLoweredSpeed> lowered_speed() const;
-  bool standing() const;  // seen not to move
+  bool standing() const;  // the unit was seen to stand still
 
  private:
   // Each phase owns the data that exist only in that phase.
   struct NotStarted {};
   struct Homing {
-    std::optional<double> ordered_s = {};  // when R was sent
+    std::optional<double> ordered_s = {};  // time at which R was sent
   };
-  struct Paused {  // after a fault, before the next start
+  struct Paused {  // after a fault, until the next start
     double since_s, until_s;
-    bool answered;  // the unit had answered at this baud rate
+    bool answered;  // the unit has answered at this baud rate
     std::optional<int> listening_baud = {};
   };
-  // The furthest phase that the unit has reached since the start.
+  // The furthest phase that the driver has reached since the start.
   enum class Progress { kNone, kFaulted, kReady };
 
-  // The longest time that bytes may have waited before they were read: the longer of the last two
-  // pauses between calls.
+  // The longest time for which bytes may have waited before they were read: the longer one of the
+  // last two pauses between calls.
   struct ReadDelay {
     void note_call(double time_s) {
       const double pause_s = std::max(0.0, time_s - called_s);
@@ -118,7 +119,8 @@ class PtuDriver {
   void take(Homing& phase, const PtuReply& reply, double time_s);
   void take(const PtuReply& reply, double time_s);
 
-  // Changes of the phase. Afterwards the object of the previous phase is gone.
+  // Functions that change the phase. After a change, the object of the previous phase no longer
+  // exists.
   void start(PtuStarting::Purpose purpose, double time_s);
   void fault(double time_s, std::string reason);
   bool home_if(bool wanted);
@@ -137,7 +139,7 @@ class PtuDriver {
   const PtuSteadyState* ready() const { return std::get_if<PtuSteadyState>(&phase_); }
 
   const PtuConfig config_;
-  int baud_;  // that is tried or in use
+  int baud_;  // the rate that is being tried or in use
   PtuReplyParser parser_;
   PtuLimitHits hits_noted_;
   ReadDelay read_delay_;
@@ -145,14 +147,14 @@ class PtuDriver {
   ReferenceWatch reference_;
   Progress progress_ = Progress::kNone;
   std::string error_;
-  std::string urgent_;  // sent ahead of anything else
+  std::string urgent_;  // bytes to send before anything else
   bool emergency_ = false;
   bool link_lost_ = false;
   bool rehoming_allowed_ = true;
   double next_pause_s_ = kFirstPause_s;
   std::variant<NotStarted, PtuStarting, Homing, PtuSteadyState, Paused> phase_;
 
-  static constexpr double kFirstPause_s = 0.25;  // after a fault; doubles
+  static constexpr double kFirstPause_s = 0.25;  // after a fault; doubles with each further fault
 };
 
 }  // namespace ols::ptu

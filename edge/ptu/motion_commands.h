@@ -1,4 +1,4 @@
-// Turns goals into the commands of a cycle: the servo's output in counts, if it has changed, and
+// Turns goals into the commands of a cycle: the servo's output in counts (if it has changed), and
 // halts. Pure.
 #pragma once
 
@@ -11,31 +11,32 @@
 
 namespace ols::ptu {
 
-// Why no axis position satisfies both configuration and unit; empty if there is one.
+// Why no position of an axis satisfies both the configuration and the unit; empty if there is one.
 std::string limits_conflict(const mount::Limits& configured, const PtuFacts& facts);
 
 class MotionCommands {
  public:
-  // Uses the narrower bounds of configuration and unit. Call only without a limits_conflict().
+  // Uses the narrower bounds of the configuration and the unit. Call it only if there is no
+  // limits_conflict().
   MotionCommands(const PtuConfig& config, const PtuFacts& facts);
 
-  // The unit's angles and rates, as far as they are known.
+  // The unit's angles and rates, as far as known.
   struct Now {
     PanTilt angles;
     PanTilt rate_rad_s;
-    bool standing = false;  // it was seen to stand
+    bool standing = false;  // the unit was seen to stand still
   };
 
-  // What to send at `time_s`.
+  // The commands to send at `time_s`.
   PtuRequest next(const std::optional<mount::Goal>& goal, const Now& now, double time_s);
-  // Halts, repeatedly until the unit is stationary.
+  // Commands that halt the unit; they are repeated until it stands still.
   PtuRequest halt(const Now& now, double time_s);
   PtuRequest halt_again(const Now& now, double time_s);
 
-  // The unit may not have received the last commands.
+  // Call if the unit may not have received the last commands.
   void send_all_again();
 
-  // The change of the axes' speeds by the last commands.
+  // The change of the axes' speeds that the last commands cause.
   const PanTilt& speed_change_rad_s() const { return change_; }
 
   const mount::Limits& limits() const { return limits_; }
@@ -60,8 +61,8 @@ class MotionCommands {
   std::optional<PtuLoweredSpeed> lowered_;
   mount::Limits limits_;
   Axis pan_, tilt_;
-  double braking_s_ = 0.0;    // from full speed
-  double refreshed_s_ = 0.0;  // when everything was sent
+  double braking_s_ = 0.0;    // time for braking from full speed
+  double refreshed_s_ = 0.0;  // time at which everything was last sent
   std::optional<double> halted_s_;
   PanTilt change_;
 };

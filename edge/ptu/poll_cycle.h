@@ -1,13 +1,13 @@
-// One poll of a ready unit: its queries, the missing replies, and when the unit read its positions.
-// Pure.
+// One poll of a ready unit: sends its queries, counts missing replies, and dates the positions that
+// the unit read. Pure.
 //
-// Replies carry no checksum, so each position is asked for twice in a cycle:
+// Replies have no checksum, so each position is requested twice in a cycle:
 //
 //   PP <commands> TP <commands> TP <commands> PP <questions>
 //
-// A wrong digit then shows as a contradiction. The order is chosen so that replies do not confirm
-// each other if one is missing and the rest shift. The commands are between the queries. Their
-// short replies keep the line free for the position that follows, so that its instant is known
+// A wrong digit then appears as a contradiction. The order is chosen so that replies cannot confirm
+// each other if one is missing and the others shift. The commands stand between the queries. Their
+// short replies leave the line free for the position that follows, so that its instant is known
 // well.
 #pragma once
 
@@ -20,40 +20,43 @@
 
 namespace ols::ptu {
 
-using PtuReadings = std::array<PtuReading, 2>;  // of one axis, in order of time
+using PtuReadings = std::array<PtuReading, 2>;  // those of one axis, in order of time
 
 class PollCycle {
  public:
-  // `commands` are answered without a value, `questions` with a text. `usual_latency_s`: an average
+  // `commands` are answered without a value, `questions` with text. `usual_latency_s`: an average
   // of latency_s().
   PollCycle(const PtuRequest& commands, const PtuRequest& questions, double sent_s, double byte_s,
             double usual_latency_s);
 
   const std::string& bytes() const { return request_.bytes(); }
-  // When the last byte of the request is on the line.
+  // The instant at which the last byte of the request is on the line.
   double sent_out_s() const;
-  // When all replies will have arrived, if the unit takes no longer than `slack_s` for them.
+  // The instant by which all replies will have arrived, if the unit takes no longer than `slack_s`
+  // for them.
   double due_s(double slack_s) const;
 
-  // `late_s`: the reply's bytes may have waited up to this long before they were read.
+  // `late_s`: the longest time for which the reply's bytes may have waited before they were read.
   void take(const PtuReply& reply, double late_s);
   bool complete() const { return taken_ == slots_.size(); }
 
-  // The reply to a position query is missing or unusable: the cycle gives no positions.
+  // Whether the reply to a position query is missing or unusable; then the cycle gives no
+  // positions.
   bool spoilt() const { return spoilt_; }
-  // The reply to a command is missing, so the unit may not have accepted it.
+  // Whether the reply to a command is missing; then the unit may not have accepted the command.
   bool command_lost() const { return command_lost_; }
-  const std::vector<std::string>& refusals() const { return refusals_; }  // texts of `! text`
-  // Echo or verbose replies are on: the unit has forgotten its modes.
+  // Texts of `! text` replies.
+  const std::vector<std::string>& refusals() const { return refusals_; }
+  // Whether echo or verbose replies are on, so that the unit must have forgotten its modes.
   bool modes_forgotten() const { return modes_forgotten_; }
 
-  // The time from the end of the first query to the start of its reply. No other reply delays this
-  // one.
+  // The time from the end of the first query to the start of its reply. No other reply can delay
+  // this one.
   double latency_s() const { return latency_s_; }
 
   const PtuReadings& pan() const { return pan_.readings; }
   const PtuReadings& tilt() const { return tilt_.readings; }
-  const std::vector<PtuReply>& answers() const { return answers_; }  // to the questions
+  const std::vector<PtuReply>& answers() const { return answers_; }  // answers to the questions
 
  private:
   enum class Slot { kPan, kTilt, kCommand, kQuestion };

@@ -1,5 +1,5 @@
-// The exchange with a ready unit. One poll cycle is under way at a time. The next one goes out when
-// it is due and the line is quiet. Pure.
+// The exchange of requests and replies with a ready unit. One poll cycle is under way at a time.
+// The next cycle is sent when it is due and the line is quiet. Pure.
 #pragma once
 
 #include <optional>
@@ -16,23 +16,24 @@ class Polling {
 
   bool under_way() const { return cycle_.has_value(); }
   bool due(double time_s) const;
-  // Begins a cycle: the bytes to write.
+  // Begins a cycle. Returns the bytes to write.
   const std::string& send(const PtuRequest& commands, const PtuRequest& questions, double time_s);
 
   void bytes_came(double time_s) { last_byte_s_ = time_s; }
   void line_was_garbled() { garbled_ = true; }
-  // No bytes since then.
+  // Whether no bytes have come for this long.
   bool silent_for(double duration_s, double time_s) const;
 
-  // Takes a reply of the cycle under way. Returns the cycle once it is complete and usable.
+  // Takes a reply that belongs to the cycle under way. Returns the cycle once it is complete and
+  // usable.
   std::optional<PollCycle> take(const PtuReply& reply, double late_s);
-  // Takes a reply while no cycle is under way: the next cycle then waits for a quiet line.
+  // Takes a reply while no cycle is under way; the next cycle then waits for a quiet line.
   void unexpected_reply();
 
   enum class Failure { kGarbled, kRepliesMissing };
   // Abandons a cycle that can no longer be completed.
   std::optional<Failure> watch(double time_s);
-  // Abandons the cycle under way, because other bytes were written.
+  // Abandons the cycle under way because other bytes were written.
   void abandon(double time_s);
 
  private:
@@ -40,10 +41,10 @@ class Polling {
 
   const double interval_s_, byte_s_;
   std::optional<PollCycle> cycle_;
-  bool garbled_ = false;    // in the cycle that is under way
+  bool garbled_ = false;    // the line was garbled in the cycle that is under way
   double latency_s_ = 0.0;  // running average of PollCycle::latency_s()
   double next_s_;
-  double quiet_s_ = 0.0;  // silence before the next cycle
+  double quiet_s_ = 0.0;  // required silence before the next cycle
   double last_byte_s_;
 };
 

@@ -1,9 +1,10 @@
-// Checks reported positions: replies carry no checksum, so a wrong digit gives a plausible number.
+// Checks reported positions. Replies have no checksum, so a wrong digit gives a plausible number.
 // Pure.
 //
-// Each position is read twice in a cycle. The two must differ by the motion between their instants;
-// an impossible pair is rejected. An accepted pair is averaged. The standard deviation of the
-// average grows with the difference of the two, so that it covers an error that was not detected.
+// Each position is read twice in a cycle. The two readings must differ by the motion between their
+// instants; an impossible pair is rejected. The readings of an accepted pair are averaged. The
+// standard deviation of the average grows with the difference between the two, so that it covers an
+// error that was not detected.
 #pragma once
 
 #include <optional>
@@ -16,40 +17,41 @@ namespace ols::ptu {
 
 class PositionCheck {
  public:
-  // The pan's first reading is the first of the cycle, so nothing delays it; the errors of the
-  // tilt's two instants are correlated by the unit's work before them.
+  // The first reading of pan is the first in the cycle, so nothing delays it. The errors of the two
+  // instants of tilt are correlated, because the same work of the unit precedes both.
   explicit PositionCheck(const PtuFacts& facts) : pan_{facts.pan, 0.0}, tilt_{facts.tilt, 0.5} {}
 
   enum class Verdict {
-    kFirst,     // nothing to compare it with yet
-    kBelieved,  // sample() is it
+    kFirst,     // there is nothing to compare it with yet
+    kBelieved,  // accepted; sample() returns it
     kRefused,
-    kLate,  // the replies were read too late to date them: this host was busy
+    kLate,  // the replies were read too late to be dated, because this host was busy
   };
-  // `commanded_rad_s2`: the approximate commanded acceleration.
+  // `commanded_rad_s2`: approximate acceleration that was commanded.
   Verdict take(const PtuReadings& pan, const PtuReadings& tilt, const PanTilt& commanded_rad_s2);
   const mount::AngleSample& sample() const { return sample_; }
 
-  // The rate over the last two accepted pairs; 0 when not known.
+  // The rate over the last two accepted pairs; 0 if it is not known.
   PanTilt rate_rad_s() const;
-  // Whether both axes were seen not to move.
+  // Whether both axes were seen to stand still.
   bool standing() const;
 
  private:
   struct Merged {
-    double time_s = 0.0, half_s = 0.0;  // of the mean; half of the interval that its instant is in
+    // Time of the mean; half of the interval that contains its instant.
+    double time_s = 0.0, half_s = 0.0;
     double time_sd_s = 0.0;
     double counts = 0.0;
     double doubt_counts = 0.0;
-    double step_share = 1.0;  // mount::AngleSample::step_share
+    double step_share = 1.0;  // as mount::AngleSample::step_share
   };
   struct Axis {
     PtuAxisFacts facts;
-    double correlation;  // of the errors of both instants
+    double correlation;  // between the errors of both instants
     std::optional<Merged> last = {};
     double rate_counts_s = 0.0;
     bool rate_known = false;
-    double gap_s = 0.0;  // over which the rate was seen
+    double gap_s = 0.0;  // time over which the rate was measured
   };
   static Merged middle(const PtuReadings& readings);
   static bool reachable(const Axis& axis, const Merged& now);

@@ -8,6 +8,6 @@ struct Section;
 }
 namespace ols::ptu {
 
-config::Section ptu_section(PtuConfig& config);  // of [mount]
+config::Section ptu_section(PtuConfig& config);  // the section [mount]
 
 }  // namespace ols::ptu

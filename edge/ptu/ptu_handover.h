@@ -1,5 +1,5 @@
-// A FLIR unit as a mount, between the control loop and the owner of its line (PtuThread, on a
-// serial line). Holds the driver. All times are CLOCK_MONOTONIC in seconds.
+// A FLIR unit as a mount: connects the control loop to the owner of the line (PtuThread, on a
+// serial line). It holds the driver. All times are CLOCK_MONOTONIC in seconds.
 #pragma once
 
 #include <atomic>
@@ -24,12 +24,12 @@ class PtuHandover : public mount::Mount {
   std::vector<mount::AngleSample> take_samples() override;
   std::optional<mount::Limits> limits() const override;
 
-  // Discards the output queue and sends H first; halts are repeated until the unit was seen to
-  // stand.
+  // Discards the output queue and sends H first. Halts are repeated until the unit was seen to
+  // stand still.
   void emergency_halt() override;
   void clear_emergency() override;
 
-  // As in PtuDriver.
+  // As in PtuDriver:
   mount::Reference reference() const override;
   void home() override;
   void stop_homing() override;
@@ -42,28 +42,29 @@ class PtuHandover : public mount::Mount {
   PtuStatus status() const;
   device::DeviceReport report() const override;
 
-  // For the owner of the line. One turn takes what has arrived, and returns what to send, at which
-  // rate, and whether to open the line again.
+  // The functions below are for the owner of the line. A turn takes the bytes that have arrived. It
+  // returns the bytes to send, the baud rate for them, and whether the line must be reopened.
   struct Turn {
     std::string request;
     int baud = 0;
     bool link_lost = false;
   };
   Turn turn(const std::string& arrived);
-  // The halt to send before anything else; nothing: no emergency has begun since the last call.
+  // The halt that must be sent before anything else; nullopt if no emergency has begun since the
+  // last call.
   std::optional<std::string> take_halt();
   int line_baud() const;
-  // The line was lost: it may be another unit now.
+  // Notes that the line was lost; the unit may be another one now.
   void restart();
 
  private:
   virtual device::DeviceThread::Link link() const = 0;
-  virtual void wake() {}  // an emergency: there is something to send
+  virtual void wake() {}  // called in an emergency, when there is something to send
 
   const PtuConfig config_;
   std::atomic<bool> emergency_ = false;
-  std::atomic<bool> halt_wanted_ = false;  // not on the line yet
-  mutable std::mutex mutex_;               // of everything below
+  std::atomic<bool> halt_wanted_ = false;  // a halt is not on the line yet
+  mutable std::mutex mutex_;               // guards everything below
   PtuDriver driver_;
   std::uint64_t reopens_ = 0;
 };

@@ -1,4 +1,4 @@
-// A PTU's state, as a device report. Pure.
+// Makes a device report from a PTU's state. Pure.
 #pragma once
 
 #include "edge/device/device_report.h"

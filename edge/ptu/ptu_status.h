@@ -1,4 +1,4 @@
-// The state of a PTU at one moment. Pure.
+// The state of a PTU at one instant. Pure.
 #pragma once
 
 #include <cstdint>
@@ -13,22 +13,24 @@ struct PtuStatus {
   PtuState state = PtuState::kStarting;
   struct Port {
     bool open = false;
-    std::uint64_t failures = 0;  // opens that failed and ports that vanished; only goes up
-    std::uint64_t reopens = 0;   // because the unit did not answer; only goes up
+    // Number of failed attempts to open it, and of ports that vanished; only increases.
+    std::uint64_t failures = 0;
+    // Number of times that it was reopened because the unit did not answer; only increases.
+    std::uint64_t reopens = 0;
   } port;
-  bool emergency = false;       // nothing moves until clear_emergency()
-  bool standing = false;        // seen not to move
-  bool not_referenced = false;  // must be homed
+  bool emergency = false;       // if true, nothing moves before clear_emergency()
+  bool standing = false;        // the unit was seen to stand still
+  bool not_referenced = false;  // the unit must be homed
   bool homing = false;
   std::optional<PtuDoubtCause> doubt;
   std::optional<PtuLoweredSpeed> lowered_speed;
   int line_baud = 0;
-  std::optional<double> last_good_s;  // CLOCK_MONOTONIC of the last angle
+  std::optional<double> last_good_s;  // CLOCK_MONOTONIC of the last angle sample
   std::optional<PtuEnvironment> environment;
   PtuCounters counters;
-  mount::Limits limits;    // meaningful once ready
+  mount::Limits limits;    // meaningful only once ready
   std::string firmware;    // the unit's answer to V; empty until ready
-  std::string last_error;  // of the port or of the unit; empty: no error so far
+  std::string last_error;  // error of the port or of the unit; empty if there was none
 };
 
 }  // namespace ols::ptu

@@ -1,5 +1,5 @@
-// The thread that owns one PTU's serial port, in real time. It opens the port, moves bytes and
-// steps the driver. If the port vanishes, it reopens it with growing pauses.
+// The thread that owns a PTU's serial port, in real time. It opens the port, moves bytes and steps
+// the driver. If the port vanishes, the thread reopens it with growing pauses.
 #pragma once
 
 #include <memory>

@@ -1,11 +1,12 @@
-// The servo: the PTU follows a moving goal smoothly, and stops when commands stop. Pure.
+// The servo: makes the PTU follow a moving goal smoothly, and stop when commands stop. Pure.
 //
-// A D46 in velocity mode continues to move when its host fails, so it is commanded only by
-// *positions*: in every cycle the goal a short look-ahead in the future, at the speed that arrives
-// there in time. While commands arrive, the unit never reaches the commanded position and moves
-// smoothly; when they stop, it brakes and stops after at most the look-ahead (or 1/gain, if longer)
-// plus its braking time. For a goal at which the unit is to rest, the goal itself is commanded as
-// soon as it is within reach, and the unit brakes on its own ramp.
+// A D46 in velocity mode would continue to move if its host failed, so it is commanded by
+// *positions* only. In every cycle, the command is the position of the goal a short look-ahead in
+// the future, with the speed that reaches it in time. While commands arrive, the unit never reaches
+// the commanded position and therefore moves smoothly. When they stop, it brakes and stops after at
+// most the look-ahead (or 1/gain, if longer) plus its braking time. If the unit is to rest at the
+// goal, the goal itself is commanded as soon as it is within reach, and the unit brakes on its own
+// ramp.
 #pragma once
 
 #include <optional>
@@ -20,34 +21,35 @@ struct ServoConfig {
   double gain_hz = 3.0;          // proportional gain on the position error
   double look_ahead_s = 0.3;     // the commanded position is this far ahead
   double max_speed_rad_s = 1.0;  // about 57 deg/s
-  double min_speed_rad_s = 0.0;  // of the unit (PL, TL); set by the driver
+  double min_speed_rad_s = 0.0;  // minimum speed of the unit (PL, TL); set by the driver
   double max_acceleration_rad_s2 = 1.0;
-  double goal_timeout_s = 0.5;  // a goal older than this is stale: halt
+  double goal_timeout_s = 0.5;  // an older goal is stale, and the unit halts
 };
 
-// Target position and speed of each axis.
+// Position and speed to command, for each axis.
 struct ServoCommand {
   PanTilt position;  // [rad]
-  PanTilt speed;     // [rad/s] magnitudes
+  PanTilt speed;     // [rad/s] magnitude
 };
 
-// The command of one cycle from the goal and the current angles and rates. Nothing: halt (no goal,
-// stale goal, contradictory limits). A goal of rates alone ends at the limits and at the regions'
-// borders. A goal behind a keep-out region is approached around it, corner by corner; a goal inside
-// a region is approached up to its border.
+// Computes the command of one cycle from the goal and the present angles and rates. nullopt means
+// halt (no goal, stale goal, contradictory limits). For a goal of rates alone, the motion ends at
+// the limits and at the borders of keep-out regions. A goal behind a keep-out region is approached
+// around it, corner by corner. A goal inside a region is approached up to the border.
 std::optional<ServoCommand> servo_step(const ServoConfig& config, const mount::Limits& limits,
                                        const std::optional<mount::Goal>& goal, const PanTilt& now,
                                        double time_s, const PanTilt& now_rate = {});
 
-// The longest time for which the unit moves on if its host fails while it moves at this speed.
+// The longest time for which the unit continues to move if its host fails while it moves at this
+// speed.
 double runs_on_s(const ServoConfig& config, double speed_rad_s);
 
-// The limit of runs_on_s() at kRunsOnSpeed_rad_s, or at the maximum speed if that is lower.
+// The largest allowed runs_on_s(), at kRunsOnSpeed_rad_s or, if lower, at the maximum speed.
 constexpr double kRunsOnAtMost_s = 1.0;
 constexpr double kRunsOnSpeed_rad_s = 0.349066;  // 20 deg/s
 bool runs_on_too_long(const ServoConfig& config);
-// The configured maximum speed, or a lower speed at which the unit does not run on for too long; 0
-// if there is no such speed.
+// The configured maximum speed or, if the unit would run on for too long, a lower speed; 0 if there
+// is no such speed.
 double max_safe_speed_rad_s(const ServoConfig& config);
 
 }  // namespace ols::ptu

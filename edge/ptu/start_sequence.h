@@ -1,7 +1,7 @@
-// The queries and settings before the driver may move a PTU: one command at a time. Pure.
+// The queries and settings that precede any motion of a PTU, one command at a time. Pure.
 //
-// There is no checksum, so everything that decides the meaning of a count or the permitted travel
-// is queried until two answers in a row agree.
+// Replies have no checksum. Everything that determines the meaning of a count or the permitted
+// travel is therefore queried until two successive answers agree.
 #pragma once
 
 #include <array>
@@ -28,10 +28,10 @@ struct PtuFacts {
 };
 
 struct PtuStartOptions {
-  double acceleration_rad_s2 = 1.0;  // of both axes; a unit that refuses keeps its own
-  int change_baud_to = 0;            // 0: stays as it is
-  // The letter of the mode; 0: unchanged.
-  char step_mode = 0;   // E-series: H, Q, E (half, quarter, eighth) or A (automatic)
+  double acceleration_rad_s2 = 1.0;  // for both axes; a unit that refuses it keeps its own value
+  int change_baud_to = 0;            // 0 leaves it unchanged
+  // Letters of modes; 0 leaves the mode unchanged.
+  char step_mode = 0;   // E-series: H, Q, E (half, quarter, eighth step) or A (automatic)
   char hold_power = 0;  // R, L, O: regular, low, off
   char move_power = 0;  // H, R, L: high, regular, low
 };
@@ -39,22 +39,22 @@ struct PtuStartOptions {
 class PtuStartSequence {
  public:
   explicit PtuStartSequence(const PtuStartOptions& options);
-  PtuStartSequence(const PtuStartSequence&) = delete;  // its steps refer to it
+  PtuStartSequence(const PtuStartSequence&) = delete;  // its steps hold references to it
   PtuStartSequence& operator=(const PtuStartSequence&) = delete;
 
   bool done() const { return next_ == steps_.size(); }
   PtuRequest request() const { return steps_.at(next_).request(); }
-  // Setting an acceleration and waiting for the end of a motion take long.
+  // Setting an acceleration and waiting for the end of a motion take longer.
   double timeout_s(double normal_s) const;
   bool slow() const { return steps_.at(next_).slow; }
-  // The answer just processed was the last one at the old baud rate.
+  // Whether the answer just processed was the last one at the old baud rate.
   bool changed_baud() const { return changed_baud_; }
 
-  // The answer to request(). False: without it the unit cannot be driven.
+  // Takes the answer to request(). Returns false if the unit cannot be driven without it.
   bool take(const PtuReply& reply);
-  // Why it cannot, after take() gave false for `reply`.
+  // Why the unit cannot be driven, after take() returned false for `reply`.
   std::string refusal(const PtuReply& reply) const;
-  // Because the unit has no reference: it must be homed.
+  // Whether that is because the unit has no reference and must be homed.
   bool not_referenced() const { return not_referenced_; }
 
   const PtuFacts& facts() const { return facts_; }
@@ -64,9 +64,9 @@ class PtuStartSequence {
     std::function<PtuRequest()> request;
     std::function<bool(const PtuReply&)> take;
     bool slow = false;
-    bool twice = false;         // until two answers agree
-    std::string without = {};   // the consequence of an unusable reply
-    bool changes_baud = false;  // when it is accepted
+    bool twice = false;         // ask until two answers agree
+    std::string without = {};   // what is impossible if the reply is unusable
+    bool changes_baud = false;  // changes the baud rate when it is accepted
   };
   void add(std::string_view command, bool slow = false);
   void require(std::string_view command, std::function<bool(const PtuReply&)> take,
@@ -82,12 +82,12 @@ class PtuStartSequence {
   PtuFacts facts_;
   std::vector<Step> steps_;
   std::size_t next_ = 0;
-  std::string previous_;  // answer to the same question
-  int asked_ = 0;         // number of times
+  std::string previous_;  // previous answer to the same question
+  int asked_ = 0;         // how often the question was asked
   bool changed_baud_ = false, not_referenced_ = false;
 };
 
-// The answer to C says that speeds are bounds of position moves.
+// Whether the answer to C says that speeds are bounds of position moves.
 bool says_independent(const PtuReply& reply);
 
 }  // namespace ols::ptu

@@ -1,4 +1,4 @@
-// The phase of PtuDriver in which a unit is started: waits until the line is quiet, then sends the
+// The phase of PtuDriver in which a unit is started. Waits until the line is quiet, then sends the
 // start sequence, one command at a time. Pure.
 #pragma once
 
@@ -12,17 +12,17 @@ namespace ols::ptu {
 
 class PtuStarting {
  public:
-  // What happens once the unit has answered everything.
+  // What is to happen once the unit has answered everything.
   enum class Purpose { kDrive, kHome, kDriveAfterHoming };
 
-  // `counters` outlives this.
+  // `counters` must outlive this object.
   PtuStarting(const PtuStartOptions& options, double reply_timeout_s, Purpose purpose,
               double time_s, PtuCounters& counters);
 
   enum class Event {
     kNone,
-    kLineDropped,   // the line is quiet, or must become quiet: drop an incomplete reply
-    kLineNotQuiet,  // for longer than a PTU would send
+    kLineDropped,   // the line is quiet, or must become quiet; the caller drops an incomplete reply
+    kLineNotQuiet,  // the line has not been quiet for longer than a PTU would send
     kNoReply,
     kComplete,  // the unit has answered everything
   };
@@ -38,9 +38,10 @@ class PtuStarting {
   void bytes_came(double time_s);
 
   bool waits_for_reply() const { return !flush_ && asked_s_; }
-  // The reply to the pending command. False: the unit cannot be driven; see refusal().
+  // Takes the reply to the pending command. Returns false if the unit cannot be driven; see
+  // refusal().
   bool take(const PtuReply& reply);
-  bool answered() const { return answered_; }  // anything, at this baud rate
+  bool answered() const { return answered_; }  // the unit has answered something at this baud rate
   std::string refusal(const PtuReply& reply) const { return sequence_.refusal(reply); }
   bool not_referenced() const { return sequence_.not_referenced(); }
   bool changed_baud() const { return sequence_.changed_baud(); }

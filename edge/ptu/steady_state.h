@@ -1,4 +1,4 @@
-// The phase of PtuDriver in which a unit is ready: polls its position, moves it to its goal,
+// The phase of PtuDriver in which a unit is ready. Polls its position, moves it to its goal,
 // detects faults, and corrects those that need no restart. Pure.
 #pragma once
 
@@ -18,35 +18,36 @@ namespace ols::ptu {
 
 class PtuSteadyState {
  public:
-  // There must be no limits_conflict(). `config` and `counters` outlive this.
+  // There must not be a limits_conflict(). `config` and `counters` must outlive this object.
   PtuSteadyState(const PtuConfig& config, const PtuFacts& facts, double byte_s, double time_s,
                  PtuCounters& counters);
 
-  // This many limit hits in one reply come from homing (`!T!T!P!P*`; some may be lost).
+  // If one reply contains this many limit hits, they come from homing (`!T!T!P!P*`; some may be
+  // lost).
   static constexpr int kHomingHits = 3;
 
-  // Why the unit cannot be driven any longer without a restart.
+  // Why the unit can no longer be driven without a restart.
   struct Trouble {
     enum class Kind {
       kNoReply,
-      kNotItself,      // it answers, but not as it should
-      kRestarted,      // it lost power, or homed
+      kNotItself,      // it answers, but not as expected
+      kRestarted,      // it has lost power, or has homed
       kNotReferenced,  // it must be homed
     };
     Kind kind;
     std::string reason;
   };
 
-  // Bytes to write now. Nothing moves in an emergency.
+  // Returns the bytes to be written now. Nothing moves in an emergency.
   std::string step(bool emergency, double time_s);
-  // The goal of the unit from now on; nothing: halt.
+  // Sets the goal from now on; nullopt means halt.
   void set_goal(const std::optional<mount::Goal>& goal) { goal_ = goal; }
-  // `late_s`: the reply's bytes may have waited up to this long before they were read.
+  // `late_s`: the longest time for which the reply's bytes may have waited before they were read.
   void take(const PtuReply& reply, double time_s, double late_s);
   void bytes_came(double time_s) { polling_.bytes_came(time_s); }
   void line_was_garbled() { polling_.line_was_garbled(); }
   void unit_restarted();
-  // The cycle under way was dropped: does not wait for its replies.
+  // Notes that the cycle under way was dropped, so that its replies are not expected.
   void abandon(double time_s);
 
   const std::optional<Trouble>& trouble() const { return trouble_; }
@@ -56,7 +57,7 @@ class PtuSteadyState {
   const std::optional<PtuEnvironment>& environment() const { return environment_.newest; }
   std::optional<double> last_good_s() const { return angles_.last_good_s(); }
   bool standing() const { return angles_.standing(); }
-  // Empty as long as errors on the line are rare, or were a single short disturbance.
+  // Empty as long as errors on the line are rare, or were one short disturbance.
   std::string last_error() const {
     return corrected_.times >= kManyCorrected ? error_ : std::string();
   }
@@ -65,16 +66,16 @@ class PtuSteadyState {
  private:
   struct Environment {
     double next_s;
-    bool asked = false;  // in the cycle that is under way
+    bool asked = false;  // a query is part of the cycle that is under way
     std::optional<PtuEnvironment> newest = {};
   };
-  static constexpr int kManyCorrected = 10;  // disturbances within kCorrected_s
+  static constexpr int kManyCorrected = 10;  // number of disturbances within kCorrected_s
   static constexpr double kCorrected_s = 60.0;
   static constexpr double kDisturbed_s = 1.0;
   struct Corrected {
     int times = 0;
     double since_s = 0.0;
-    double last_s = -1e9;  // the beginning of the newest disturbance
+    double last_s = -1e9;  // start of the newest disturbance
   };
   struct BoundsRefused {
     int times = 0;
@@ -103,7 +104,7 @@ class PtuSteadyState {
   Environment environment_;
   BoundsRefused bounds_refused_;
   Corrected corrected_;
-  std::optional<double> waiting_since_s_;  // for plausible positions
+  std::optional<double> waiting_since_s_;  // time since which it waits for plausible positions
   std::optional<Trouble> trouble_;
   std::string error_;
 };

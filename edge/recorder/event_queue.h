@@ -1,5 +1,5 @@
-// The recorder's memory: the frames of the last seconds, and the current events with their frames
-// that wait to be written. Pure; not thread-safe.
+// The recorder's memory: the frames of the last few seconds, and the current events with their
+// frames that are still to be written. Pure; not thread-safe.
 #pragma once
 
 #include <cstdint>
@@ -20,12 +20,12 @@ struct RecordedEvent {
   std::int64_t utime_us = 0;
   double start_s = 0.0, end_s = 0.0;
   std::deque<RecordedFrame> waiting;
-  double expected_bytes = 0.0;  // still to be written
-  bool closed = false;          // no more frames belong to it
-  std::uint64_t written = 0;    // frames
-  std::string unfinished;       // why finishing failed; all frames are on disk
-  double retry_s = 0.0;         // when finishing is retried
-  std::string name;             // this and the following are used by the writing thread only
+  double expected_bytes = 0.0;  // estimated bytes still to be written
+  bool closed = false;          // no more frames will be added
+  std::uint64_t written = 0;    // number of frames written
+  std::string unfinished;       // why the event could not be finished; its frames are all on disk
+  double retry_s = 0.0;         // time of the next attempt to finish it
+  std::string name;             // this member and the next one are used only by the writing thread
   std::optional<EventFolder> folder;
 };
 
@@ -34,31 +34,32 @@ class EventQueue {
   explicit EventQueue(const RecorderConfig& config)
       : config_(config), memory_(config.memory_s, config.memory_max_bytes) {}
 
-  // Returns the number of frames dropped because too many are waiting.
+  // Returns the number of frames that were dropped because too many are waiting.
   int add(const RecordedFrame& frame);
-  // Why the command is refused, regardless of the disk; empty: accepted.
+  // Why the command is refused, regardless of the disk; empty if it is accepted.
   std::string refusal(const RecordCommand& command, double now_s) const;
   // Returns the number of buffered frames that were dropped.
   int begin(const RecordCommand& command, std::int64_t event_utime_us);
-  // Maximum disk space of the command's frames, estimated from those in memory.
+  // Largest disk space that the command's frames may need, estimated from those in memory.
   double expected_bytes(const RecordCommand& command) const;
   double still_to_write() const;
 
-  // Ends the events whose last frame must have arrived.
+  // Closes the events whose last frame must have arrived.
   void close(double now_s);
-  // Retries the unfinished events at once.
+  // Tries at once to finish the unfinished events.
   void retry_all();
   struct Job {
     RecordedEvent* event = nullptr;      // valid until remove()
-    std::optional<RecordedFrame> frame;  // nullopt: the event is to be finished
+    std::optional<RecordedFrame> frame;  // nullopt if the event is to be finished
   };
   std::optional<Job> next(double now_s);
   void remove(const RecordedEvent& event);
 
   bool work_waits() const;
   bool empty() const { return events_.empty(); }
-  std::set<std::string> names() const;  // an empty name: nothing written yet
-  // Why an event could not be finished; empty: no such event.
+  // Names of events; empty for an event of which nothing is written yet.
+  std::set<std::string> names() const;
+  // Why an event could not be finished; empty if there is no such event.
   std::string unfinished() const;
 
  private:

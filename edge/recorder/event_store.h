@@ -1,8 +1,9 @@
-// The folder of all events: its size, the disk's free space, and which event may be removed.
+// The folder of all events: its size, the free space on the disk, and the choice of the event that
+// may be removed.
 //
-// Any program on the bus can request recordings, so new recordings must not displace old ones
-// freely. In each `protect_s` at most one event is removed, and only one that is older than
-// `protect_s`: the oldest of the label that occupies most space.
+// Any program on the bus can request recordings, so new recordings must not displace old ones at
+// will. In each interval of `protect_s` at most one event is removed, and only one older than
+// `protect_s`: the oldest one with the label that takes most space.
 #pragma once
 
 #include <cstdint>
@@ -14,10 +15,10 @@
 
 namespace ols::recorder {
 
-// "20260301T120000.250Z": sorts by time.
+// For example "20260301T120000.250Z"; such names sort by time.
 std::string utc_name(std::int64_t utime_us);
 
-// The disk has no space for the data.
+// Thrown if the disk has no space for the data.
 class DiskFull : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -34,19 +35,19 @@ class EventStore {
 
   explicit EventStore(Config config) : config_(std::move(config)) {}
 
-  // Checks the disk: creates a missing folder, and counts events and free space. Throws
-  // std::system_error if it is no folder, or not writable.
+  // Checks the disk: creates the folder if it is missing, and measures events and free space.
+  // Throws std::system_error if it is not a folder, or cannot be written.
   void survey();
-  // The same, for a disk that has failed before: also writes a test file.
+  // As survey(), for a disk that has failed before: also writes a test file.
   void try_writing();
 
-  // An unused name.
+  // A name that is not in use.
   std::string free_name(std::int64_t utime_us, const std::string& label) const;
-  // If `bytes` more do not fit into the quota, removes an event that may be removed, but none in
-  // `open`, whose frames are still arriving. Throws DiskFull if the bytes still do not fit, or
-  // would use the disk's reserve. Ages are by UTC.
+  // If `bytes` more do not fit into the quota, removes an event that may be removed. It never
+  // removes one in `open`, because its frames are still arriving. Throws DiskFull if the bytes
+  // still do not fit, or would use the reserve of the disk. Ages are by UTC.
   void make_room(double bytes, const Names& open, std::int64_t now_utime_us);
-  // The free space in the quota, including events that may be removed.
+  // The free space in the quota, including that of events that may be removed.
   double room_bytes(const Names& open, std::int64_t now_utime_us) const;
   void add(const std::string& name, double bytes) { events_[name] += bytes; }
   void finished(const std::string& name);
@@ -66,7 +67,7 @@ class EventStore {
   Events::const_iterator removable(const Names& open, std::int64_t now_utime_us) const;
 
   Config config_;
-  Events events_;  // by folder name, including partial ones
+  Events events_;  // bytes by folder name, including partial folders
   double free_bytes_ = 0.0;
   std::uint64_t removed_ = 0;
 };

@@ -1,4 +1,4 @@
-// The frames of the last seconds, limited in bytes. Pure.
+// The frames of the last few seconds; the memory is limited. Pure.
 #pragma once
 
 #include <cstddef>
@@ -12,9 +12,9 @@ namespace ols::recorder {
 
 struct RecordedFrame {
   cv::Mat picture;                     // the camera's raw image
-  std::string pixel_format = "Mono8";  // GenICam's name
+  std::string pixel_format = "Mono8";  // GenICam's name of the picture's format
   std::int64_t utime_us = 0;           // mid-exposure
-  double mid_exposure_s = 0.0;         // station's monotonic clock
+  double mid_exposure_s = 0.0;         // on the station's monotonic clock
   double sd_s = 0.0;                   // 1-sigma of mid_exposure_s
   std::uint64_t number = 0;
 };
@@ -26,7 +26,7 @@ class FrameMemory {
   FrameMemory(double span_s, double most_bytes) : span_s_(span_s), most_bytes_(most_bytes) {}
 
   void add(const RecordedFrame& frame);
-  // Oldest first, both ends included.
+  // The frames between two instants (both included), oldest first.
   std::vector<RecordedFrame> between(double from_s, double to_s) const;
   const std::deque<RecordedFrame>& frames() const { return frames_; }
   std::size_t bytes() const { return bytes_; }

@@ -1,4 +1,4 @@
-// Formats numbers for alarms. Pure.
+// Formats numbers for the texts of alarms. Pure.
 #pragma once
 
 #include <string>

@@ -1,10 +1,10 @@
-// Estimates a constant from repeated measurements: a tripod's position or tilt. Pure.
+// Estimates a constant from repeated measurements, such as a tripod's position or tilt. Pure.
 //
-// Readings are averaged with weights 1/sd^2. Their errors are assumed fully correlated (multipath
-// and a sensor's zero last for hours). The sd of the average is therefore the weighted mean of the
-// readings' sds, and does not shrink with their number. A reading that is inconsistent with the
-// average is rejected. Rejected readings that agree with each other are averaged separately. The
-// second average replaces the first only if the configuration allows it.
+// Readings are averaged with weights 1/sd^2. Their errors are assumed to be fully correlated,
+// because multipath and a sensor's zero error last for hours. The sd of the average is therefore
+// the weighted mean of the readings' sds; it does not shrink with their number. A reading that is
+// inconsistent with the average is rejected. Rejected readings that agree with each other are
+// averaged separately. The second average replaces the first only if the configuration allows it.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,24 +20,25 @@ class ConstantEstimator {
   using Vector = Eigen::Matrix<double, N, 1>;
 
   struct Config {
-    double gate_sigma = 5.0;          // on each axis
-    double memory_s = 3600.0;         // time in which the weight of a reading decays by e
-    int settle_readings = 3;          // number of agreeing readings before there is an estimate
-    double accept_move_s = 0.0;       // a new value is adopted after holding this long; 0: never
-    double replace_resumed_s = 60.0;  // the same for a resumed value that no reading has confirmed
+    double gate_sigma = 5.0;     // limit for the deviation of a reading, on each axis
+    double memory_s = 3600.0;    // time in which a reading's weight decays by a factor of e
+    int settle_readings = 3;     // number of agreeing readings that are needed for a first estimate
+    double accept_move_s = 0.0;  // a new value is adopted after it has held for this long; 0: never
+    // The same for replacing a resumed value that no reading has confirmed.
+    double replace_resumed_s = 60.0;
   };
   struct Estimate {
     Vector value = Vector::Zero();
     Vector sd = Vector::Zero();
   };
 
-  // `survey`: a value from elsewhere, which the readings never change.
+  // `survey`: a known value, which readings never change.
   ConstantEstimator(const Config& config, const std::optional<Estimate>& survey)
       : config_(config), survey_(survey) {}
 
-  // Resumes the value from before a restart. It holds until readings confirm it, or agree on
-  // another value for replace_resumed_s. Call before the first reading. Has no effect with a
-  // survey.
+  // Resumes the value that was known before a restart. It holds until readings confirm it, or agree
+  // on another value for replace_resumed_s. Call it before the first reading. It has no effect if
+  // there is a survey.
   void resume(double time_s, const Estimate& known) {
     if (survey_) return;
     average_ = {};
@@ -48,7 +49,7 @@ class ConstantEstimator {
   // Whether the value is a resumed one that no reading has confirmed yet.
   bool resumed() const { return resumed_; }
 
-  // Adds a reading: in time order, finite, sd > 0.
+  // Adds a reading. Readings must be in order of time and finite, with sd > 0.
   void add(double time_s, const Vector& value, const Vector& sd) {
     if (!first_s_) first_s_ = time_s;
     const std::optional<Estimate> kept = estimate();
@@ -79,10 +80,12 @@ class ConstantEstimator {
   // The time of the last consistent reading or, if there was none, of the first reading; nullopt
   // before any reading.
   std::optional<double> supported_until_s() const { return support_s_ ? support_s_ : first_s_; }
-  // Since when every reading has been inconsistent.
+  // The time since which every reading has been inconsistent; nullopt if the last one was
+  // consistent.
   std::optional<double> disagrees_since_s() const { return disagrees_since_s_; }
-  const Vector& distance() const { return distance_; }  // of the last inconsistent reading
-  // How far the value moved when a new value was adopted.
+  // Deviation of the last inconsistent reading.
+  const Vector& distance() const { return distance_; }
+  // How far the value moved when a new value was adopted; nullopt if none was.
   std::optional<double> moved() const { return moved_; }
 
  private:
@@ -111,7 +114,7 @@ class ConstantEstimator {
     return ((value - kept.value).cwiseAbs().array() <= gate.array()).all();
   }
 
-  // Adds to the average of the readings that are not (yet) accepted.
+  // Adds a reading to the average of those that are not (yet) accepted.
   void gather(double time_s, const Vector& value, const Vector& sd) {
     if (candidate_.count > 0 && !agrees(candidate_.estimate(), value, sd)) candidate_ = {};
     candidate_.add(time_s, value, sd, config_.memory_s);

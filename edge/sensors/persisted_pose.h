@@ -1,4 +1,4 @@
-// The pose from the sensors, as persisted over a restart, and its text in a file. Pure.
+// The pose from the sensors as it is saved over a restart, and its text in a file. Pure.
 //
 //   ols-pose 1
 //   position LATITUDE_deg LONGITUDE_deg HEIGHT_m SD_EAST_m SD_NORTH_m SD_UP_m UTIME_us
@@ -23,7 +23,7 @@ struct PersistedPose {
   struct Position {
     Geodetic ground;
     Eigen::Vector3d sd_enu_m = Eigen::Vector3d::Zero();
-    std::int64_t utime_us = 0;  // when it was measured
+    std::int64_t utime_us = 0;  // time of the measurement
   };
   struct Tilt {
     Eigen::Vector2d tilt_rad = Eigen::Vector2d::Zero();  // x, y
@@ -36,7 +36,7 @@ struct PersistedPose {
 
 std::string to_text(const PersistedPose& pose);
 
-// The pose in the text, or an error that names the line.
+// Returns the pose in the text, or an error that names the line.
 std::variant<PersistedPose, std::string> persisted_pose_from(std::string_view text);
 
 }  // namespace ols::sensors

@@ -1,4 +1,4 @@
-// The settings of the pose estimator from the sensors' configurations. Pure.
+// Derives the settings of the pose estimator from the sensors' configurations. Pure.
 #pragma once
 
 #include "edge/sensors/gnss.h"
@@ -7,7 +7,7 @@
 
 namespace ols::sensors {
 
-// Sets everything except the settings of [pose].
+// Sets everything except the settings that belong to [pose].
 void set_sensors(PoseEstimator::Config& estimator, const InclinometerConfig& inclinometer,
                  const GnssConfig& gnss);
 

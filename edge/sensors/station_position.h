@@ -1,4 +1,4 @@
-// The position of a station: which GNSS fixes are used, and their average. Pure.
+// The position of a station: chooses the GNSS fixes that are used, and averages them. Pure.
 #pragma once
 
 #include <optional>
@@ -17,7 +17,7 @@ class StationPosition {
   explicit StationPosition(const PoseEstimator::Config& config);
   // `age_s`: time since its measurement.
   void resume(const PersistedPose::Position& known, double now_s, double age_s);
-  // Whether it was measured, or confirmed by a sensor, since the start.
+  // Whether the position was measured, or confirmed by a sensor, since the start.
   bool is_from_sensor() const;
   void add(const GnssReading& reading);
   void fill(StationPose& pose, double now_s) const;
@@ -29,11 +29,11 @@ class StationPosition {
   Alarm disagreement(double now_s) const;
 
   PoseEstimator::Config config_;
-  std::optional<LocalFrame> frame_;            // of the survey, otherwise of the first antenna
-                                               // position
-  std::optional<ConstantEstimator<3>> place_;  // of the antenna, east-north-up in frame_ [m]
+  // Origin: the survey or, if there is none, the first antenna position.
+  std::optional<LocalFrame> frame_;
+  std::optional<ConstantEstimator<3>> place_;  // antenna position, east-north-up in frame_ [m]
   std::optional<GnssReading> last_;
-  double known_s_ = 0.0;  // when the resumed position was measured
+  double known_s_ = 0.0;  // time at which the resumed position was measured
 };
 
 }  // namespace ols::sensors

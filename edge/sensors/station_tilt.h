@@ -1,4 +1,4 @@
-// The tilt of a station, as a part of the pose estimator. Pure.
+// The tilt of a station; a part of the pose estimator. Pure.
 #pragma once
 
 #include <optional>
@@ -17,7 +17,7 @@ class StationTilt {
   explicit StationTilt(const PoseEstimator::Config& config);
   // `age_s`: time since its measurement.
   void resume(const PersistedPose::Tilt& known, double now_s, double age_s);
-  // Whether it was measured, or confirmed by a sensor, since the start.
+  // Whether the tilt was measured, or confirmed by a sensor, since the start.
   bool is_from_sensor() const;
   void add(const TiltReading& reading);
   void fill(StationPose& pose, double now_s) const;
@@ -31,8 +31,8 @@ class StationTilt {
   PoseEstimator::Config config_;
   ConstantEstimator<2> tilt_;  // x, y [rad]
   std::optional<TiltReading> last_;
-  double changed_s_ = 0.0;  // last change of a digit
-  double known_s_ = 0.0;    // when the resumed tilt was measured
+  double changed_s_ = 0.0;  // time of the last change of a digit
+  double known_s_ = 0.0;    // time at which the resumed tilt was measured
 };
 
 }  // namespace ols::sensors

@@ -1,5 +1,5 @@
-// A raw serial device, 8N1 or 8E1, without handshake. Plain termios, because libserialport refuses
-// devices that are not in sysfs, such as pseudo terminals.
+// A raw serial device with 8N1 or 8E1 and without handshake. It uses plain termios, because
+// libserialport refuses devices that are not in sysfs, such as pseudo terminals.
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@ enum class Parity { kNone, kEven };
 class SerialPort {
  public:
   // Opens and locks the device, and clears its buffers. `wakeup` may be null. Throws
-  // std::system_error with the device's name: missing, no permission, not a terminal, in use,
+  // std::system_error with the device's name: missing, no permission, not a terminal, in use, or
   // unknown rate.
   SerialPort(const std::string& device, int baud, Parity parity = Parity::kNone,
              const Wakeup* wakeup = nullptr);
@@ -22,22 +22,22 @@ class SerialPort {
   SerialPort(const SerialPort&) = delete;
   SerialPort& operator=(const SerialPort&) = delete;
 
-  // Waits for bytes at most `timeout_s` or until woken up, and returns them. Throws if the device
+  // Waits for bytes at most `timeout_s` or until woken up. Returns the bytes. Throws if the device
   // has vanished.
   std::string read(double timeout_s);
 
-  // Writes all bytes; drops the rest if woken up. Throws if the device has vanished, or accepts
+  // Writes all bytes; if woken up, drops the rest. Throws if the device has vanished or accepts
   // nothing for 0.2 s.
   void write(std::string_view bytes);
 
-  // Drops the bytes that are not on the line yet, and writes these. Does not wait. False if the
-  // device does not accept them now.
+  // Drops the bytes that are not on the line yet, and writes `bytes`. It does not wait. Returns
+  // false if the device does not accept them now.
   bool write_first(std::string_view bytes);
 
-  // Changes the rate once all written bytes are on the line. Throws std::system_error.
+  // Changes the baud rate once all written bytes are on the line. Throws std::system_error.
   void set_baud(int baud);
 
-  // Waits until all written bytes are on the line; false on timeout.
+  // Waits until all written bytes are on the line; returns false on timeout.
   bool drain(double timeout_s);
 
  private:

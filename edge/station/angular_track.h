@@ -1,5 +1,6 @@
-// The target's motion as seen by one station, in PTU angles: a constant-velocity Kalman filter for
-// each axis. It gives the servo its feed-forward and carries the station through short gaps. Pure.
+// The target's motion as one station sees it, in PTU angles: a constant-velocity Kalman filter for
+// each axis. It provides the servo's feed-forward, and predicts the target through short gaps.
+// Pure.
 #pragma once
 
 #include <Eigen/Core>
@@ -30,7 +31,7 @@ class AngularTrack {
   void update(double time_s, const PanTilt& angles, double sd_rad);
   void clear() { state_.reset(); }
 
-  // The state of the last update; nullopt before the first.
+  // The state at the last update; nullopt before the first.
   std::optional<State> state() const { return state_; }
 
   // The state extrapolated to an instant.

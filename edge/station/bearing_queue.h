@@ -1,4 +1,4 @@
-// Pixels of the followed target and of detected objects that wait for the PTU angles of their
+// Pixels of the followed target and of detected objects that wait for the PTU angles at their
 // exposure, and the bearings computed from them. Pure.
 #pragma once
 
@@ -15,13 +15,13 @@
 
 namespace ols::station {
 
-// What the detector says of an object besides its pixel.
+// What the detector says about an object besides its pixel.
 struct DetectedPixel {
   Eigen::Vector2d velocity_px_s = Eigen::Vector2d::Zero();  // relative to the scene
-  double velocity_sd_px_s = 0.0;                            // each axis
+  double velocity_sd_px_s = 0.0;                            // 1-sigma, each axis
   double size_px = 0.0, size_sd_px = 0.0;                   // largest extent
-  double signal = 0.0;                                      // to noise
-  int image_bearings = 0;                                   // as Bearing has it
+  double signal = 0.0;                                      // signal-to-noise ratio
+  int image_bearings = 0;                                   // as in DetectedObject
 };
 
 struct PixelMeasurement {
@@ -34,13 +34,14 @@ struct PixelMeasurement {
   double belief = 0.0;
   std::int64_t track_id = 0;
   double designation_sd_px = 0.0;
-  std::optional<DetectedPixel> detected{};  // empty: of the followed target
+  std::optional<DetectedPixel> detected{};  // nullopt for the followed target
 };
 
 struct MadeBearing {
   Bearing bearing;
-  PanTilt reported;     // of the unit at the exposure
-  bool to_send = true;  // false: no position, or too old; used only to follow the target
+  PanTilt reported;  // the unit's angles at the exposure
+  // False: there is no position, or the bearing is too old; it is used only to follow the target.
+  bool to_send = true;
 };
 
 class BearingQueue {
@@ -51,10 +52,10 @@ class BearingQueue {
   void add(const PixelMeasurement& pixel) { waiting_.push_back(pixel); }
   void clear() { waiting_.clear(); }
 
-  // The pixels whose angles are known, and those that have waited long enough.
+  // The bearings of pixels whose angles are known, or that have waited long enough.
   std::vector<MadeBearing> take(const PointingModel& pointing, double now_s);
 
-  // The time from mid-exposure to bearing for the followed target, smoothed.
+  // The time from mid-exposure to the bearing of the followed target, smoothed.
   double frame_latency_s() const { return frame_latency_s_; }
   const std::map<std::string, double>& counters() const { return counters_; }
 

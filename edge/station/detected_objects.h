@@ -1,4 +1,5 @@
-// What the detector of a station looks at, and what becomes of the objects that it finds. Pure.
+// Chooses the pictures that a station's detector looks at, and handles the objects that it finds.
+// Pure.
 #pragma once
 
 #include <cstdint>
@@ -16,30 +17,31 @@
 
 namespace ols::station {
 
-// Gives one picture at a time. When the result of a picture has come, it gives the newest picture;
-// pictures that were due in between are dropped and counted.
+// It passes one picture at a time to the detector. When the result of a picture has arrived, the
+// newest picture follows; pictures that were due in between are dropped and counted.
 class DetectedObjects {
  public:
   explicit DetectedObjects(const StationConfig& config)
       : config_(config.detection), angle_wait_s_(config.angle_wait_s) {}
 
-  // Takes a frame, while the mount is sure of its angles. `followed`: the box of the station's own
-  // target in the frame, if the frame gives a bearing of that target.
+  // Takes a frame. Call it only while the mount's angles are trusted. `followed`: the box of the
+  // station's own target, if the frame gives a bearing of that target.
   void on_frame(const camera::Frame& frame, const std::optional<cv::Rect2d>& followed,
                 double now_s);
-  // The picture to be looked at now, and the mount's motion, from its angles before and after the
-  // exposure. Empty: no picture is due, or the angles have not come yet.
+  // The next picture for the detector, with the mount's motion. The motion needs the mount's angles
+  // before and after the exposure. nullopt if no picture is due, or if those angles have not
+  // arrived yet.
   std::optional<detector::Picture> take(const PointingModel& pointing, double now_s);
   // Takes the result of the last picture. Returns the pixels that become bearings: those of the
-  // likeliest confirmed objects in the picture, without the followed target. `new_track_id` gives
+  // likeliest confirmed objects in the picture, except the followed target. `new_track_id` returns
   // an id that no other object of this station has.
   std::vector<PixelMeasurement> on_found(detector::Found found,
                                          const std::function<std::int64_t()>& new_track_id,
                                          double now_s);
-  // From now on, angles are not comparable with earlier ones.
+  // Call when angles from now on are not comparable with earlier ones.
   void forget_angles();
 
-  // The newest result; empty before the first, and while angles are forgotten.
+  // The newest result; nullopt before the first one and after forget_angles().
   const std::optional<detector::Found>& newest() const { return newest_; }
   const std::map<std::string, double>& counters() const { return counters_; }
 
@@ -48,18 +50,18 @@ class DetectedObjects {
     camera::Frame frame;
     std::optional<cv::Rect2d> followed;
     double arrived_s = 0.0;
-    bool forgotten = false;  // its angles
+    bool forgotten = false;  // its angles were forgotten
   };
   std::int64_t track_id(long tracklet, const std::function<std::int64_t()>& new_track_id);
   PixelMeasurement measured(const detector::Tracklet& tracklet, const Look& look) const;
 
   DetectionConfig config_;
   double angle_wait_s_;
-  double due_s_ = 0.0;                   // the first frame with a later mid-exposure is due
-  std::optional<Look> waiting_, looks_;  // the next picture, the one being looked at
-  std::optional<double> looked_s_;       // mid-exposure of the last picture given
+  double due_s_ = 0.0;  // the first frame with a later mid-exposure is due for the detector
+  std::optional<Look> waiting_, looks_;  // the next picture; the picture being looked at
+  std::optional<double> looked_s_;       // mid-exposure of the last picture passed on
   std::optional<detector::Found> newest_;
-  std::map<long, std::int64_t> track_ids_;  // by the detector's id
+  std::map<long, std::int64_t> track_ids_;  // by the detector's own id
   std::map<std::string, double> counters_;
 };
 

@@ -1,5 +1,5 @@
-// The newest fault of a station and its time. They stay after the fault's alarm has ended. Also
-// collects entries, good and bad, for the journal. Pure.
+// The newest fault of a station, with its time. Both remain after the fault's alarm has ended. Also
+// collects journal entries about good and bad changes. Pure.
 #pragma once
 
 #include <cstdint>
@@ -16,12 +16,13 @@ namespace ols::station {
 
 class FaultLog {
  public:
-  // `what`: the present error of a source. `number`: how many errors it has had; a new number marks
-  // a new error with the same text. A text that is repeated within a minute (a device that is
-  // absent, retried each second) is one fault, so that it does not hide others.
+  // `what`: the current error of a source. `number`: number of errors of the source so far; a new
+  // number marks a new error even if the text is the same. A text that is repeated within a minute
+  // (from an absent device that is retried each second) counts as one fault, so that it does not
+  // hide others.
   void note(const std::string& source, const std::string& what, std::uint64_t number,
             std::int64_t utime_us);
-  // The same for the result of an operator's action. Each one is a new fault.
+  // As note(), for the result of an operator's action. Each one is a new fault.
   void note_event(const std::string& source, const std::string& what, std::uint64_t number,
                   std::int64_t utime_us);
   // Notes an error that does not count, because the device is only starting.
@@ -29,36 +30,36 @@ class FaultLog {
                  std::int64_t utime_us) {
     noted_[source] = {what, number, utime_us};
   }
-  // The present alarms. A new alarm is a fault. A changed number ("silent for 5 s") does not make
-  // an alarm new.
+  // Takes the present alarms. A new alarm is a fault. A changed number ("silent for 5 s") does not
+  // make an alarm new.
   void note_alarms(const std::vector<Alarm>& alarms, std::int64_t utime_us);
 
-  // The state of a source that always has a state. A changed state makes an entry; changed
-  // `details` do not.
+  // The state of a source that always has one. A change of state makes an entry; a change of
+  // `details` does not.
   struct State {
     std::string name, details;
     bool bad = false;
-    event::Id id{};  // of its beginning
+    event::Id id{};  // the event that begins this state
   };
   void note_state(const std::string& source, const State& state);
 
-  // The entries since the last call (what began and what ended), in order.
+  // The entries since the last call (conditions that began or ended), in order.
   std::vector<News> take_event() { return std::exchange(news_, {}); }
 
-  const std::string& text() const { return text_; }  // empty: no fault yet
+  const std::string& text() const { return text_; }  // empty if there was no fault
   std::int64_t utime_us() const { return utime_us_; }
 
  private:
   struct Noted {
     std::string what;
     std::uint64_t number = 0;
-    std::int64_t utime_us = 0;  // when it was last reported
+    std::int64_t utime_us = 0;  // time of its last report
   };
   void set(const std::string& source, JournalEvent event, std::int64_t utime_us);
 
   std::map<std::string, Noted> noted_;
   AlarmChanges alarms_;
-  std::map<std::string, std::string> states_;  // by source
+  std::map<std::string, std::string> states_;  // for each source
   std::vector<News> news_;
   std::string text_;
   std::int64_t utime_us_ = 0;

@@ -1,6 +1,6 @@
-// The target that the station's tracker follows: designated by the operator, or acquired along a
-// slew. An acquired one is on trial until the tracker believes in it. During a trial the station's
-// own target is set aside.
+// The target that the station's tracker follows: either the operator designated it, or it was
+// acquired along a slew. An acquired target is on trial until the tracker believes in it. During a
+// trial the station's own target is set aside.
 #pragma once
 
 #include <cstdint>
@@ -21,43 +21,44 @@ class FollowedTarget {
   FollowedTarget(const StationConfig& config, std::unique_ptr<tracker::TargetTracker> tracker)
       : config_(config), tracker_(std::move(tracker)) {}
 
-  // Starts with the box. If the tracker refuses it, nothing changes.
+  // Starts to follow the object in the box. If the tracker refuses it, nothing changes.
   std::optional<tracker::TrackerError> designate(const camera::Frame& frame, const cv::Rect2d& box);
-  // The same for a trial; the own target is set aside.
+  // Starts a trial with the object in the box; the own target is set aside.
   bool try_found(const camera::Frame& frame, const cv::Rect2d& box);
-  // The trial succeeded: its target becomes the own target.
+  // Ends a trial with success: its target becomes the own target.
   void confirm();
   enum class Dropped { kNothing, kBackToOwn, kNothingLeft };
-  // Ends a trial that takes too long.
+  // Ends a trial that takes too long. Returns what happened.
   Dropped drop_unproven(double time_s);
 
-  // nullopt: the tracker refused the frame. The predicted motion comes from the PTU's angles.
+  // nullopt if the tracker refused the frame. The predicted motion is computed from the PTU's
+  // angles.
   std::optional<tracker::TrackerOutput> track(const camera::Frame& frame,
                                               const PointingModel& pointing);
   void search_near(const Eigen::Vector2d& pixel, double sd_px) {
     tracker_->search_near(pixel, sd_px);
   }
-  // From now on, PTU angles are not comparable with earlier ones.
+  // Call when PTU angles from now on are not comparable with earlier ones.
   void forget_angles();
 
   bool exists() const { return kind_ != Kind::kNone; }
   bool on_trial() const { return kind_ == Kind::kUnproven; }
   std::int64_t track_id() const { return track_id_; }
-  // A new id, for another object of this station: no two objects share an id.
+  // A new id for another object of this station; no two objects share an id.
   std::int64_t new_track_id() { return ++last_track_id_; }
-  double centring_sd_px() const;  // of the box on the target
+  double centring_sd_px() const;  // 1-sigma of the box's centre on the target
   const std::optional<tracker::TrackerOutput>& last_output() const { return last_output_; }
-  // The result for exactly this frame; null: the tracker has not had this frame.
+  // The tracker's result for exactly this frame; null if it has not processed this frame.
   const tracker::TrackerOutput* output_of(double mid_exposure_s) const {
     return last_output_ && tracked_s_ == mid_exposure_s ? &*last_output_ : nullptr;
   }
-  // Whether the image motion has contradicted the PTU's angles in consecutive frames.
+  // Whether the image's motion has contradicted the PTU's angles in several consecutive frames.
   bool motion_disagrees() const { return disagreeing_in_a_row_ >= config_.disagreeing_frames; }
   const std::map<std::string, double>& counters() const { return counters_; }
 
  private:
   enum class Kind { kNone, kDesignated, kUnproven, kAcquired };
-  struct Own {  // set aside
+  struct Own {  // the station's own target, while set aside
     Kind kind = Kind::kNone;
     std::int64_t track_id = 0;
     std::optional<double> tracked_s;
@@ -69,7 +70,7 @@ class FollowedTarget {
   std::unique_ptr<tracker::TargetTracker> tracker_;
   Kind kind_ = Kind::kNone;
   std::int64_t track_id_ = 0, last_track_id_ = 0;
-  std::optional<double> tracked_s_;  // mid-exposure of the last frame tracked
+  std::optional<double> tracked_s_;  // mid-exposure of the last tracked frame
   double found_s_ = 0.0;             // mid-exposure of the frame in which the trial began
   std::optional<Own> own_;
   std::optional<tracker::TrackerOutput> last_output_;

@@ -1,6 +1,7 @@
 // The decisions of a station, without devices, clocks or messages. They concern designation,
-// tracking, coasting, loss, slews, manual control, stop and emergency. Times are the station's
-// monotonic clock [s]. One instance for each station, called from one thread.
+// tracking, coasting, loss, slews, manual control, stops and emergencies. Times are on the
+// station's monotonic clock [s]. There is one instance for each station; it is called from one
+// thread.
 #pragma once
 
 #include <map>
@@ -34,100 +35,100 @@
 
 namespace ols::station {
 
-// Commands to the PTU in addition to its goal, and to the lens.
+// Commands to the PTU besides its goal, and commands to the lens.
 struct UnitActions {
-  bool stop = false;  // stops what the PTU does on its own: homing
+  bool stop = false;  // stops what the PTU does on its own, which is homing
   bool home = false;
-  bool reference_ok = false;  // a person confirms it
-  lens::LensOrder lens;       // to the lens' motors
+  bool reference_ok = false;  // a person confirms the reference
+  lens::LensOrder lens;       // for the motors of the lens
 };
 
 struct StationOutput {
-  std::vector<Bearing> bearings;     // bearings whose PTU angles are known
-  std::optional<mount::Goal> goal;   // of the PTU; empty: halt,
-  std::optional<mount::Goal> watch;  // or look here, if nothing else wants the unit either
+  std::vector<Bearing> bearings;     // those whose PTU angles are known
+  std::optional<mount::Goal> goal;   // the PTU's goal; nullopt means halt,
+  std::optional<mount::Goal> watch;  // or look here, if nothing else uses the unit either
 };
 
 class Station {
  public:
   Station(const StationConfig& config, std::unique_ptr<tracker::TargetTracker> tracker);
 
-  // Inputs. Samples and frames each come in time order.
+  // Inputs. Samples must be in order of time, and so must frames.
   void on_angles(const mount::AngleSample& sample);
   void on_frame(const camera::Frame& frame) { on_frame(frame, now_s_); }
-  // For a motorised lens: each zoom position that it reports, and the present positions of all
+  // For a motorised lens: each zoom position that it reports, and the present positions of all its
   // axes.
   void on_zoom(const lens::ZoomSample& sample) { pointing_.add(sample); }
   void set_lens(const lens::ByAxis<std::optional<double>>& positions) {
     pointing_.set_lens(positions);
   }
-  // A frame older than max_age_s at now_s is dropped: the tracker gets no backlog.
+  // A frame that is older than max_age_s at now_s is dropped, so that the tracker has no backlog.
   void on_frame(const camera::Frame& frame, double now_s);
-  // For the detector, if there is one. Gives the picture to be looked at now, one at a time; then
-  // takes what was found in it. Pictures are given in every state, while the mount is sure of its
-  // angles.
+  // For the detector, if there is one: picture_to_search() returns the picture that the detector is
+  // to process, one at a time; on_found() then takes what was found in it. Pictures are provided in
+  // every state, as long as the mount's angles are trusted.
   std::optional<detector::Picture> picture_to_search(double now_s) {
     return detected_.take(pointing_, now_s);
   }
   void on_found(detector::Found found);
-  // The PTU's travel, once it is known.
+  // Sets the PTU's travel limits, once they are known.
   void set_limits(const mount::Limits& limits) { pointing_.set_limits(limits); }
-  // Changes the geometry while the station runs, with or without a calibration. What was measured
+  // Changes the geometry while the station runs, with or without a calibration. Everything measured
   // with the previous geometry is forgotten.
   void use(const StationGeometry& geometry, const std::optional<StationCalibration>& calibration);
-  // The reference views have moved by this much: bearings include it in their errors from now on.
+  // Call if the reference views have moved by this much; bearings then include it in their errors.
   void doubt_setup(double heading_sd_rad, double tilt_sd_rad) {
     pointing_.doubt_setup(heading_sd_rad, tilt_sd_rad);
   }
-  // Whether the PTU's reference is valid. In doubt, the station neither points nor follows slews,
-  // and discards its angles; it keeps its target, and slews lead back to it later.
+  // Sets whether the PTU's reference is valid. While it is in doubt, the station neither points nor
+  // follows slews, and discards angles. It keeps its target, and slews lead back to it later.
   void set_reference(mount::Reference reference);
-  // Before the first call the pose is that of the configured geometry. Without a position the
+  // Before the first call, the pose is that of the configured geometry. Without a position the
   // station makes no bearings.
   void set_pose(const sensors::StationPose& pose) { pointing_.set_pose(pose); }
-  // The level of the emergency stop; call it also when the level is unchanged. Once pressed,
-  // nothing moves until the stop is released, rearm() was accepted and a new command has arrived.
+  // Takes the level of the emergency stop; call it even if the level is unchanged. After a press,
+  // nothing moves until the stop is released, rearm() was accepted, and a new command has arrived.
   void emergency_stop(bool pressed, double now_s);
 
-  // Commands. A refused command changes only its counter.
+  // Commands. A refused command changes nothing but its counter.
   Refusal designate(const DesignateCommand& command, double now_s);
   Refusal slew(const SlewCommand& command, double now_s);
   // The land hides the target, or no longer does. A target that is not seen is then hidden as
   // predicted: the mount waits where it comes out.
   Refusal occlude(const OcclusionCommand& command, double now_s);
   Refusal point(const PointCommand& command, double now_s);
-  // Like point(), but to what is at a pixel.
+  // Like point(), but points at what is at a pixel.
   Refusal centre(const CentreCommand& command, double now_s);
   // Moves the lens, at any time, even during a stop.
   Refusal lens(const LensCommand& command, double now_s);
   // Turns the unit for the command's lease; rates of zero halt it.
   Refusal rate(const RateCommand& command, double now_s);
-  // Also ends homing (see UnitActions). For kStopHold_s only re-arming is accepted: a command sent
-  // before the stop, or crossing it on the wire, must not undo it.
+  // It also ends homing (see UnitActions). For kStopHold_s only re-arming is accepted afterwards: a
+  // command that was sent before the stop, or crossed it on the wire, must not undo it.
   void stop(double now_s);
-  // For a station that was stopped when it ended: like stop(), but the operator may continue at
-  // once.
+  // For a station that was stopped when its previous process ended: like stop(), but the operator
+  // may continue at once.
   void begin_stopped();
   static constexpr double kStopHold_s = StationMode::kStopHold_s;
   Refusal release(double now_s);
-  // Re-arms after an emergency stop, by a person at the station. Leads to kStopped, from where the
-  // operator continues.
+  // Re-arms after an emergency stop, on behalf of a person at the station. The state becomes
+  // kStopped, from which the operator can continue.
   Refusal rearm(double now_s);
-  // The same over the bus, where any program can send it. Refused unless the configuration permits
-  // it.
+  // Re-arms on a command from the bus, which any program can send. It is refused unless the
+  // configuration permits it.
   Refusal rearm_over_bus(double now_s);
   // Homes the unit.
   Refusal home(double now_s);
   // A person confirms the unit's reference.
   Refusal reference_ok(double now_s);
-  // The commands to the PTU that are due, each once. Call this right after the commands and before
-  // step(), so that a stop does not wait for the tracker.
+  // The commands to the PTU and the lens that are due; each is returned once. Call it right after
+  // the commands and before step(), so that a stop does not wait for the tracker.
   UnitActions take_actions() { return std::exchange(actions_, {}); }
 
-  // Advances time: leases and coasting end, state times grow.
+  // Advances time: leases and coasting end, and times in states are counted.
   StationOutput step(double now_s);
 
-  // The PTU's goal; empty: halt.
+  // The PTU's goal; nullopt means halt.
   std::optional<mount::Goal> goal(double now_s) const;
 
   StationState state() const { return mode_.state(); }
@@ -135,8 +136,8 @@ class Station {
   std::optional<PanTilt> reported_angles() const { return pointing_.reported_angles(); }
   std::optional<cv::Rect2d> target_box() const;  // in the newest frame
   StationSnapshot snapshot() const;
-  // The newest frame for a viewer, without its utime. Empty if the newest frame has another
-  // mid-exposure, because the frame was refused.
+  // The newest frame for a viewer, without its utime. nullopt if the newest frame has another
+  // mid-exposure, because this frame was refused.
   std::optional<video::VideoFrame> video_frame(double mid_exposure_s) const;
 
  private:
@@ -144,7 +145,7 @@ class Station {
     return {config_, mode_, pointing_, target_, follows_target(), now_s_};
   }
   Situation situation(double now_s) const { return {config_, mode_, pointing_, now_s}; }
-  // Counts the result of a command.
+  // Counts a command's result, and returns it.
   Refusal count(Refusal refusal, const char* command);
   void pass_time(double now_s);
   void expire(double now_s);

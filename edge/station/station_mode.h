@@ -17,23 +17,23 @@ class StationMode {
 
   StationState state() const { return state_; }
   bool is(StationState state) const { return state_ == state; }
-  // Returns false if it is already in this state.
+  // Enters a state. Returns false if it is already the present one.
   bool enter(StationState state);
-  // The states in which a target, if there is one, is tracked.
+  // Whether a target, if there is one, is tracked in the present state.
   bool may_track() const;
   // Adds elapsed time to the present state.
   void count_seconds(double seconds);
 
-  // The emergency stop's level.
+  // Sets the emergency stop's level.
   void set_pressed(bool pressed) { pressed_ = pressed; }
   bool is_pressed() const { return pressed_; }
-  // For kStopHold_s after a stop only re-arming is accepted.
+  // For this long after a stop only re-arming is accepted.
   static constexpr double kStopHold_s = 1.0;
   void note_stop(double now_s) { stopped_s_ = now_s; }
-  // Why operator commands are refused at present: an emergency, or a stop a moment ago.
+  // Why operators' commands are refused at present: an emergency, or a stop a moment ago.
   Refusal refuses_operator(double now_s) const;
 
-  // Whether the PTU's reference is valid.
+  // Sets whether the PTU's reference is valid.
   void set_reference(mount::Reference reference) { reference_ = reference; }
   mount::Reference reference() const { return reference_; }
   bool has_doubtful_angles() const;
@@ -43,7 +43,7 @@ class StationMode {
  private:
   StationState state_ = StationState::kIdle;
   bool pressed_ = false;
-  std::optional<double> stopped_s_;  // by the last stop
+  std::optional<double> stopped_s_;  // time of the last stop
   mount::Reference reference_ = mount::Reference::kUnknown;
   std::map<std::string, double> counters_;
 };

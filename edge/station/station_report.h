@@ -1,4 +1,4 @@
-// The content of a station's status. Pure.
+// The content of a station's status message. Pure.
 #pragma once
 
 #include <cstdint>
@@ -20,12 +20,12 @@ struct StationReport {
   bool limits_known = false;
   CalibrationStatus calibration;
   std::vector<device::DeviceReport> devices;
-  // In addition to those of the devices.
+  // Alarms in addition to those of the devices.
   std::vector<Alarm> alarms;
   std::map<std::string, double> readings;
   std::map<std::string, double> counters;
 
-  std::string last_error;  // empty: none yet
+  std::string last_error;  // empty if there was none
   std::int64_t last_error_utime_us = 0;
 };
 

@@ -1,4 +1,4 @@
-// What a station says of itself. Pure.
+// The data from which a station describes itself. Pure.
 #pragma once
 
 #include "edge/camera/frame.h"
@@ -16,11 +16,11 @@ struct StationParts {
   const StationMode& mode;
   const PointingModel& pointing;
   const FollowedTarget& target;
-  bool follows = false;  // the target, in the present mode
+  bool follows = false;  // the station follows the target in its present mode
   double now_s = 0.0;
 };
 
-// Everything except the box, the latency, the alarms and the counters.
+// Fills everything except the box, the latency, the alarms and the counters.
 StationSnapshot snapshot_of(const StationParts& parts);
 
 // A frame for a viewer, without its utime.

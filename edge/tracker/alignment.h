@@ -1,4 +1,4 @@
-// Maps an earlier image onto the present one, so that the two can be subtracted.
+// Aligns an earlier image with the present one, so that the two can be subtracted.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,12 +8,12 @@
 
 namespace ols::tracker {
 
-// The reduced pixels that an area of the full frame touches, within the image.
+// The pixels of the reduced frame that an area of the full frame touches, limited to the image.
 cv::Rect reduced_area(const ReducedFrame& frame, const cv::Rect2d& area);
 
 // The earlier image as the camera would see it now. Where it shows nothing, the present image is
-// copied. `now`: a part of the present image with its corner at `origin`. `to_present`: maps the
-// earlier image's pixels to those of the whole present one.
+// copied. `now`: a part of the present image, with its corner at `origin`. `to_present`: maps the
+// earlier image's pixels to those of the whole present image.
 cv::Mat brought_to_present(const cv::Mat& earlier, const Eigen::Matrix3d& to_present,
                            const cv::Mat& now, const cv::Point& origin);
 

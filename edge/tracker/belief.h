@@ -5,23 +5,26 @@
 
 namespace ols::tracker {
 
-constexpr double kBelieved = 0.5;  // above it the tracker counts as on target
+constexpr double kBelieved = 0.5;  // above this value the tracker counts as being on the target
 
-// The evidence of one frame: the best candidate's similarity (eq. (5), 0..1), compared with what
-// the background reaches by chance; its correlation and contrast with the target's first image.
+// The evidence in one frame: the similarity of the best candidate (eq. (5), 0..1), and the
+// similarity that background reaches by chance; the candidate's correlation and contrast with the
+// target's first image.
 struct FrameEvidence {
   double similarity = 0.0;
   double background_similarity = 0.0;
   double correlation = 0.0;
   double contrast = 1.0;
-  // LearntAppearance::recognised(), if the target is followed by it.
+  // LearntAppearance::recognised(), if the target is followed by its learnt appearance.
   std::optional<double> recognised = {};
   double standing_out = 1.0;  // contrast with its surroundings, relative to the target's usual one
-  double foreground = 1.0;    // share of the target's foreground that is foreground here too,
-  bool by_subtraction = false;  // compared with an earlier image, not with a grey level
+  // Share of the target's foreground that is foreground in this frame, too.
+  double foreground = 1.0;
+  // Foreground found by comparison with an earlier image, not with a grey level.
+  bool by_subtraction = false;
 };
 
-// The target's recent values. A sudden, much lower value means another object.
+// The target's recent values. A sudden, much lower value means that this is another object.
 struct Typical {
   double correlation = 1.0;
   double correlation_variance = 0.0025;
@@ -30,8 +33,8 @@ struct Typical {
 
 double frame_belief(const FrameEvidence& evidence, const Typical& typical);
 
-// Smoothed over time, so that one poor frame does not lose the target. Without the target it falls
-// below 0.5 within a third of a second.
+// The belief is smoothed over time, so that one poor frame does not lose the target. If the target
+// has gone, it falls below 0.5 within a third of a second.
 class Belief {
  public:
   void start() {
@@ -41,12 +44,12 @@ class Belief {
   void doubt() { value_ = value_ < kDoubt ? value_ : kDoubt; }
   void update(const FrameEvidence& evidence, double interval_s);
   double value() const { return value_; }
-  // Whether the target's recent values make this evidence plausible. Stricter than similarity. For
-  // a target whose position is no evidence.
+  // Whether the evidence is plausible, given the target's recent values. This is stricter than
+  // similarity. It is meant for a target whose position is no evidence.
   bool usual(const FrameEvidence& evidence) const;
-  // The belief from this evidence alone; does not change the belief.
+  // The belief that follows from this evidence alone; it does not change the object.
   double in_frame(const FrameEvidence& evidence) const { return frame_belief(evidence, typical_); }
-  double of_frame() const { return of_frame_; }  // the newest frame alone
+  double of_frame() const { return of_frame_; }  // from the newest frame alone
 
  private:
   static constexpr double kDoubt = 0.2;

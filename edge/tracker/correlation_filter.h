@@ -1,6 +1,6 @@
 // A discriminative model of the target: a filter whose response is high at the target and zero
-// around it. Spatially and temporally regularised: F. Li, C. Tian, W. Zuo, L. Zhang, M.-H. Yang,
-// "Learning spatial-temporal regularized correlation filters for visual tracking", CVPR 2018.
+// around it. It is spatially and temporally regularised: F. Li, C. Tian, W. Zuo, L. Zhang, M.-H.
+// Yang, "Learning spatial-temporal regularized correlation filters for visual tracking", CVPR 2018.
 #pragma once
 
 #include "edge/tracker/feature_map.h"
@@ -8,20 +8,21 @@
 
 namespace ols::tracker {
 
-// The filter's response in a window of a frame, one value per shift of the target by a cell.
+// The filter's response in a window of a frame: one value for each shift of the target by a cell.
 struct Response {
   struct Peak {
-    Eigen::Vector2d pixel = Eigen::Vector2d::Zero();  // full frame, interpolated between cells
+    // In the full frame, interpolated between cells.
+    Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
     double value = 0.0;
   };
 
   FeatureWindow window;
   Map values{};
 
-  // At a pixel of the full frame; bilinear, 0 outside the window.
+  // The response at a pixel of the full frame; bilinear, 0 outside the window.
   double at(const Eigen::Vector2d& pixel) const;
   Peak peak() const;
-  // The response there minus the mean of the response elsewhere, over its standard deviation
+  // The response at a pixel minus the mean of the response elsewhere, over its standard deviation
   // (peak-to-sidelobe ratio: D. S. Bolme et al., "Visual object tracking using adaptive correlation
   // filters", CVPR 2010).
   double prominence(const Eigen::Vector2d& pixel) const;
@@ -29,23 +30,24 @@ struct Response {
 
 class CorrelationFilter {
  public:
-  // Learns the box of this frame alone.
+  // Learns from the box in this frame alone.
   CorrelationFilter(const TrackerInput& frame, const Eigen::Vector2d& pixel,
                     const Eigen::Vector2d& size_px);
 
-  // In the window around `pixel`, four boxes wide. `size_px`: the target's present size.
+  // Returns the response in the window around `pixel`, which is four boxes wide. `size_px`: the
+  // target's present size.
   Response respond(const TrackerInput& frame, const Eigen::Vector2d& pixel,
                    const Eigen::Vector2d& size_px) const;
-  // Learns that the target is there and nowhere else in its window. The filter changes as little as
-  // this allows, so it hardly drifts.
+  // Learns that the target is at `pixel`, and nowhere else in its window. The filter changes no
+  // more than this requires, so it hardly drifts.
   void learn(const TrackerInput& frame, const Eigen::Vector2d& pixel,
              const Eigen::Vector2d& size_px);
 
  private:
   void fit(const Spectra& features, double inertia);
 
-  Map support_{};    // 1 in the box, where the filter may differ from zero
-  Spectrum wanted_;  // wanted response: a narrow peak without a shift
+  Map support_{};    // 1 inside the box, where the filter may differ from zero
+  Spectrum wanted_;  // the desired response: a narrow peak at zero shift
   Spectra filter_{};
 };
 

@@ -1,6 +1,6 @@
-// The largest changes between adjacent frames: the paper's answer to a sky without features, where
-// no homography is found. If there is a homography, the previous frame is aligned first. The
-// differences then show a target whose motion the model did not predict.
+// Finds the largest changes between adjacent frames. This is the paper's answer to a sky without
+// features, for which no homography is found. If there is a homography, the previous frame is
+// aligned first. The differences then show a target that moves otherwise than predicted.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,9 +11,9 @@
 
 namespace ols::tracker {
 
-// Up to `most` maxima of the frame difference inside `area` of the frame, smoothed over the
-// target's size, strongest first, at least one target apart. `homography` maps the previous frame's
-// pixels to this one's. All in full-frame pixels.
+// Returns up to `most` maxima of the frame difference inside `area`, smoothed over the target's
+// size, strongest first, at least one target apart. `homography` maps the previous frame's pixels
+// to those of this frame. All positions are in full-frame pixels.
 std::vector<Eigen::Vector2d> difference_candidates(const ReducedFrame& previous,
                                                    const ReducedFrame& current,
                                                    const std::optional<Eigen::Matrix3d>& homography,

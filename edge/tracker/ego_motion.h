@@ -1,4 +1,4 @@
-// The camera's own motion: a homography between adjacent frames by KLT and RANSAC.
+// Estimates the camera's own motion: a homography between adjacent frames, by KLT and RANSAC.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,25 +11,25 @@
 
 namespace ols::tracker {
 
-// A frame, reduced once for all parts that process the whole image.
+// A frame that is reduced once for all parts of the tracker that process the whole image.
 struct ReducedFrame {
   cv::Mat image;
   double reduction = 1.0;  // full-frame pixels per reduced pixel
 
-  Eigen::Matrix3d to_full() const;  // reduced pixels to full-frame pixels
+  Eigen::Matrix3d to_full() const;  // maps reduced pixels to full-frame pixels
 };
 
 ReducedFrame reduce_frame(const cv::Mat& gray, int most_width_px);
 
-// The same corners in the previous frame and in this one, reduced pixels.
+// The same corners in the previous frame and in this one, in reduced pixels.
 struct CornerMatches {
   std::vector<cv::Point2f> previous;
   std::vector<cv::Point2f> current;
 };
 
 enum class HomographyFit {
-  kRansac,        // only RANSAC's result
-  kLeastSquares,  // of the corners that agree with one homography
+  kRansac,        // RANSAC's result alone
+  kLeastSquares,  // least squares over the corners that agree with one homography
 };
 
 class EgoMotionEstimator {
@@ -37,14 +37,16 @@ class EgoMotionEstimator {
   EgoMotionEstimator(const TrackerConfig& config, HomographyFit fit) : config_(config), fit_(fit) {}
 
   struct Estimate {
-    std::optional<Eigen::Matrix3d> homography;  // full-frame pixels, previous to this frame
-    bool featureless = false;                   // too few corners for a motion: blank sky
+    // Maps full-frame pixels of the previous frame to this one.
+    std::optional<Eigen::Matrix3d> homography;
+    bool featureless = false;  // too few corners to determine a motion, as in a blank sky
   };
 
-  // The first frame: no motion yet.
+  // Takes the first frame, for which there is no motion.
   void start(const ReducedFrame& frame);
-  // `predicted`: the start of the flow search, and the prior where the corners do not determine the
-  // estimate. Corners inside `target_box` of the previous frame do not belong to the scene.
+  // `predicted`: start of the flow search, and prior of the estimate if the corners do not
+  // determine it. Corners inside `target_box` (of the previous frame) are not taken as parts of the
+  // scene.
   Estimate step(const ReducedFrame& frame, const cv::Rect2d& target_box,
                 const std::optional<Eigen::Matrix3d>& predicted);
 
@@ -52,9 +54,9 @@ class EgoMotionEstimator {
   void provide_corners(const cv::Rect2d& target_box);
   std::vector<cv::Point2f> detect_corners(const cv::Rect2d& target);
   CornerMatches follow(const Eigen::Matrix3d& guess) const;
-  // The corners that one homography explains, with that homography.
+  // The corners that fit one homography, and that homography.
   struct Agreement {
-    CornerMatches corners;  // empty: too few to trust
+    CornerMatches corners;  // empty if there are too few to be trusted
     Eigen::Matrix3d homography = Eigen::Matrix3d::Identity();
   };
   Agreement agreeing(const CornerMatches& matches, const Eigen::Matrix3d& guess) const;
@@ -64,22 +66,23 @@ class EgoMotionEstimator {
   ReducedFrame previous_;
   ImagePyramid previous_pyramid_;
   ImagePyramid pyramid_;
-  std::vector<cv::Point2f> corners_;  // in the previous frame, reduced pixels
-  std::size_t detected_ = 0;          // number of corners when they were detected,
-  int followed_ = 0;                  // this many frames ago
-  Eigen::Matrix3d last_ = Eigen::Matrix3d::Identity();  // reduced pixels
-  int corner_threshold_ = 15;                           // of FAST [grey levels]
+  std::vector<cv::Point2f> corners_;                    // in the previous frame, reduced pixels
+  std::size_t detected_ = 0;                            // number of corners when they were detected
+  int followed_ = 0;                                    // number of frames since then
+  Eigen::Matrix3d last_ = Eigen::Matrix3d::Identity();  // last homography, in reduced pixels
+  int corner_threshold_ = 15;                           // threshold of FAST [grey levels]
 };
 
-// A small camera rotation: finite, no mirror image, little change of scale, most of the image kept.
+// Whether a homography can be a small camera rotation: finite, no mirror image, little change of
+// scale, most of the image remains visible.
 bool plausible_homography(const Eigen::Matrix3d& homography, const cv::Size& image);
 
-// An accumulated homography that can be inverted: finite, not nearly singular.
+// Whether an accumulated homography can be inverted: finite, not nearly singular.
 bool aligns(const Eigen::Matrix3d& homography);
 
-// The homography that maps `previous` to `current`, by least squares. The prior pulls the
-// correction of `guess` towards a pure shift, because corners on a strip of ground determine little
-// about the motion of the sky above it.
+// The homography that maps `previous` to `current`, by least squares. A prior pulls the correction
+// of `guess` towards a pure shift, because corners on a strip of ground say little about the motion
+// of the sky above it.
 Eigen::Matrix3d fit_homography(const std::vector<cv::Point2f>& previous,
                                const std::vector<cv::Point2f>& current,
                                const Eigen::Matrix3d& guess, const cv::Size& image);

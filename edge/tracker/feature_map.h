@@ -1,5 +1,5 @@
-// The features of the correlation filter, per cell: histograms of oriented gradients, grey levels
-// and colours.
+// The features of the correlation filter, for each cell: histograms of oriented gradients, grey
+// level and colours.
 #pragma once
 
 #include "edge/tracker/particle.h"
@@ -16,17 +16,17 @@ struct FeatureWindow {
   double cell_px = 1.0;                             // side of a cell
 };
 
-// For each cell: histograms of 12 signed and 6 unsigned orientations relative to the gradients of
-// the neighbouring cells (P. F. Felzenszwalb et al., "Object detection with discriminatively
-// trained part-based models", PAMI 32(9), 2010), these gradients, the grey level, red against
-// green, yellow against blue. All are small, and tapered towards the window's edge. Outside the
-// image its border is continued. Colours are zero without a colour image.
+// The features of each cell: histograms of 12 signed and 6 unsigned orientations, relative to the
+// gradients of the neighbouring cells (P. F. Felzenszwalb et al., "Object detection with
+// discriminatively trained part-based models", PAMI 32(9), 2010); these gradients; the grey level;
+// red against green; yellow against blue. All values are small, and tapered towards the window's
+// edge. Outside the image, its border is continued. Colours are zero if there is no colour image.
 FeatureMap extract_features(const TrackerInput& frame, const FeatureWindow& window);
 
-inline constexpr int kCellSide = 4;       // [px] of a resampled image
+inline constexpr int kCellSide = 4;       // [px] in the resampled image
 inline constexpr int kShapeChannels = 6;  // the unsigned orientations
-// Only the unsigned orientations, cell by cell: kShapeChannels for each of side x side cells of an
-// 8-bit image that has a border of one more pixel.
+// Adds only the unsigned orientations, cell by cell: kShapeChannels for each of side x side cells.
+// The 8-bit image must have a border of one additional pixel.
 void add_shape(const cv::Mat& sampled, int side, float* features);
 
 }  // namespace ols::tracker

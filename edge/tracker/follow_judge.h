@@ -1,30 +1,31 @@
-// Judges whether the object followed by its learnt appearance is the target. The filter's response
-// alone cannot decide: a filter that has learnt the wrong object finds that object.
+// Judges whether the object that is followed by its learnt appearance is still the target. The
+// filter's response alone cannot decide this, because a filter that has learnt the wrong object
+// finds that object.
 #pragma once
 
 #include <optional>
 
 namespace ols::tracker {
 
-// The evidence of one followed frame.
+// The evidence in one frame in which an object is followed.
 struct FollowEvidence {
-  // Response at the target over the deviation of the response elsewhere in the window. A filter
-  // that has drifted onto the background responds everywhere.
+  // Response at the target, relative to the deviation of the response elsewhere in the window. If
+  // the filter has drifted onto the background, it responds everywhere.
   double prominence = 0.0;
-  // background_change(); nullopt without an image of the background there.
+  // Result of background_change(); nullopt if there is no image of the background at that place.
   std::optional<double> change = {};
 };
 
-// Natural logarithm of the odds that the object is the target. `own`: the target's prominence when
-// it was designated.
+// The natural logarithm of the odds that the object is the target. `own`: the target's prominence
+// when it was designated.
 double follow_log_odds(const FollowEvidence& evidence, double own);
 
-// The probability over time.
+// The probability, smoothed over time, that the followed object is the target.
 class FollowJudge {
  public:
   void start() { *this = {}; }
   void update(const FollowEvidence& evidence, double interval_s);
-  // The object was dropped: the time in doubt restarts at zero for the next one.
+  // Call when the object was dropped: the time in doubt restarts at zero for the next object.
   void start_search() { doubted_s_ = 0.0; }
   // The logarithm of the odds that an object found elsewhere is the target, from this evidence
   // alone.
@@ -33,7 +34,7 @@ class FollowJudge {
   bool sure() const;
   bool believes() const;
   bool doubts() const;
-  // Whether there was doubt, and no belief since then: the tracker may follow an object that
+  // Whether there was doubt, and no belief since; then the tracker may be following an object that
   // covered the target.
   bool wary() const { return wary_; }
   // Whether the doubt has lasted so long that the followed object is probably not the target.
@@ -44,8 +45,8 @@ class FollowJudge {
 
   double value_ = 1.0;
   bool wary_ = false;
-  double doubted_s_ = 0.0;  // uninterrupted
-  double named_s_ = 0.0;    // time since the designation, up to the limit in use
+  double doubted_s_ = 0.0;  // time in doubt without interruption
+  double named_s_ = 0.0;    // time since the designation, up to the limit that is used
   double log_own_ = 0.0;    // mean logarithm of the prominence over that time
 };
 

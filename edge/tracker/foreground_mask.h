@@ -1,4 +1,5 @@
-// Foreground masks: differences from an earlier, aligned image in which the target was elsewhere.
+// Makes foreground masks: differences from an earlier, aligned image in which the target was
+// elsewhere.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,19 +17,19 @@ class ReferenceFrames {
   explicit ReferenceFrames(double interval_s) : interval_s_(interval_s) {}
 
   void clear() { references_.clear(); }
-  // The camera has moved: maps the previous frame's pixels to this frame's.
+  // Notes the camera's motion: `homography` maps the previous frame's pixels to this frame's.
   void advance(const Eigen::Matrix3d& homography);
   // Keeps a copy of this frame if the newest copy is old enough.
   void offer(const cv::Mat& gray, double time_s, const cv::Rect2d& target_box);
 
-  // The newest frame whose target does not overlap `target_box` of the present frame.
+  // An earlier frame.
   struct Reference {
     cv::Mat gray;
     Eigen::Matrix3d to_present = Eigen::Matrix3d::Identity();
-    cv::Rect2d target_box;  // in the reference
+    cv::Rect2d target_box;  // the target's box in that frame
     double time_s = 0.0;
   };
-  // The newest copy of at least this age; empty: none.
+  // The newest frame that is not newer than time_s; null if there is none.
   const Reference* older_than(double time_s) const;
   const Reference* without_overlap(const cv::Rect2d& target_box) const;
 
@@ -37,13 +38,13 @@ class ReferenceFrames {
   std::deque<Reference> references_;
 };
 
-// If no earlier image shows the background alone: |frame - `level`|, with the grey level around the
-// target. Equivalent in front of a sky.
+// Used if no earlier image shows the background alone: |frame - `level`|, where `level` is the grey
+// level around the target. In front of a sky it is equivalent.
 FrameView foreground_mask(const cv::Mat& frame, double level, const cv::Rect& area,
                           const Template& target);
 
-// |frame - reference| inside `area` of the frame, 0..255 for a foreground of 0..1. `noise` grey
-// levels count as 0, half of `contrast` as 1.
+// Computes |frame - reference| inside `area` of the frame; 0..255 stands for a foreground of 0..1.
+// A difference of `noise` grey levels counts as 0, and half of `contrast` as 1.
 FrameView foreground_mask(const cv::Mat& frame, const ReferenceFrames::Reference& reference,
                           const cv::Rect& area, const Template& target);
 

@@ -7,7 +7,7 @@
 
 namespace ols::tracker {
 
-// For an even number, the upper of the two. `values` must not be empty.
+// For an even number, it is the upper one of the two middle values. `values` must not be empty.
 template <typename Number>
 Number median(std::vector<Number> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);

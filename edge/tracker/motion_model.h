@@ -1,4 +1,4 @@
-// The motion model, eq. (2)-(4), with the ego-motion of the camera.
+// The motion model, eq. (2)-(4), including the ego-motion of the camera.
 #pragma once
 
 #include <optional>
@@ -12,49 +12,49 @@ namespace ols::tracker {
 
 // The camera's motion between two frames.
 struct CameraMotion {
-  // Maps the previous frame's pixels to this frame's; empty: unknown.
+  // Maps the previous frame's pixels to this frame's; nullopt if unknown.
   std::optional<Eigen::Matrix3d> homography;
   double interval_s = 0.0;
 };
 
-// Limits the interval. After a longer gap the target may be anywhere; two exposures are never
-// closer than the lower limit.
+// The interval between two frames, limited to a usable range. After a longer gap the target may be
+// anywhere; two exposures are never closer than the lower limit.
 double usable_interval_s(double from_s, double to_s);
 
 // Limits the particle's position to within a frame's size of the frame, its velocity to ten frame
-// widths a second, and its size to the frame's. So pixels cannot overflow, whatever clock,
-// homography or hint says.
+// widths a second, and its size to that of the frame. Pixels therefore cannot overflow, whatever
+// clock, homography or hint says.
 Particle bounded(const Particle& particle, const cv::Size& frame);
 
-// Particles have velocities relative to the scene. Without a homography the camera is assumed to
-// keep turning. When the homography is known again, the difference is added to the velocities, so
-// that the particles' motion in the image stays continuous.
+// The particles' velocities are relative to the scene. Without a homography the camera is assumed
+// to keep turning. When the homography is known again, the difference is added to the velocities,
+// so that the particles move continuously in the image.
 class MotionModel {
  public:
   explicit MotionModel(const TrackerConfig& config) : config_(config) {}
 
-  // Accounts for the camera's motion at `pixel` (of the previous frame) in the steps below. Returns
-  // the change of the velocities relative to the scene [px/s].
+  // Takes the camera's motion into account at `pixel` (of the previous frame), for the functions
+  // below. Returns the change of the velocities relative to the scene [px/s].
   Eigen::Vector2d begin_frame(const CameraMotion& motion, const Eigen::Vector2d& pixel);
 
   // The particle's prediction without noise.
   Particle advance(const Particle& particle) const;
-  // The noise of eq. (2)-(4), for a particle already advanced to this frame.
+  // Adds the noise of eq. (2)-(4) to a particle that is already advanced to this frame.
   Particle disturbed(const Particle& particle, Random& random) const;
 
   const std::optional<Eigen::Matrix3d>& homography() const { return motion_.homography; }
   double interval_s() const { return motion_.interval_s; }
-  // The present position of the scene at this pixel of the previous frame.
+  // Where the part of the scene at this pixel of the previous frame is now.
   Eigen::Vector2d still(const Eigen::Vector2d& pixel) const;
-  // The velocity of an object that is stationary in the image.
+  // The velocity, relative to the scene, of an object that is stationary in the image.
   Eigen::Vector2d image_fixed_velocity() const { return -camera_rate_px_s_; }
-  // Standard deviation of the noise of eq. (2) for a box of this size.
+  // Standard deviation of the position noise of eq. (2) for a box of this size.
   double position_sd(const Eigen::Vector2d& size_px) const;
 
  private:
   TrackerConfig config_;
   CameraMotion motion_;
-  Eigen::Vector2d camera_rate_px_s_ = Eigen::Vector2d::Zero();  // of the scene in the image
+  Eigen::Vector2d camera_rate_px_s_ = Eigen::Vector2d::Zero();  // motion of the scene in the image
   bool rate_known_ = false;
 };
 

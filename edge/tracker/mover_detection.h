@@ -1,5 +1,5 @@
-// Detects small objects that move relative to the scene, anywhere in the image: the candidates for
-// a lost target. Pure and deterministic.
+// Detects small objects that move relative to the scene, anywhere in the image. They are candidates
+// for a lost target. Pure and deterministic.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,26 +11,27 @@
 namespace ols::tracker {
 
 struct MoverCandidate {
-  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();  // its centroid, full-frame pixels
+  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();  // its centroid, in full-frame pixels
   Eigen::Matrix2d covariance_px2 = Eigen::Matrix2d::Identity();
-  cv::Rect2d box;         // [px] full frame
-  double strength = 0.0;  // of its difference, in standard deviations of the image's own
+  cv::Rect2d box;  // [px] in the full frame
+  // Of its difference, in standard deviations of the image's own differences.
+  double strength = 0.0;
 };
 
 struct MoverSearch {
-  cv::Rect2d area;              // [px] of the full frame, to search
+  cv::Rect2d area;              // [px] area of the full frame to be searched
   double threshold_sd = 5.0;    // in standard deviations of the difference
   double least_levels = 4.0;    // [grey levels] minimum difference
-  double most_side_px = 150.0;  // larger objects are no distant targets
+  double most_side_px = 150.0;  // larger objects are not distant targets
   int most = 8;                 // maximum number, strongest first
 };
 
-// Finds differences from an earlier image of the same scene. The covariance covers the position of
-// an object that has moved by three pixels or more; if it has moved less, perhaps only slivers
-// differ. `to_present` maps the earlier image's pixels (full frame) to those of `current`. Edges
-// that are off by a pixel are ignored. The mover's earlier position is not distinguished from its
-// present one: use two earlier images, or its appearance. Empty images, different sizes and
-// homographies that are not finite give no movers.
+// Finds movers by their difference from an earlier image of the same scene. The covariance holds
+// for an object that has moved by three pixels or more; if it has moved less, perhaps only slivers
+// of it differ. `to_present` maps the earlier image's pixels (full frame) to those of `current`.
+// Edges that are misaligned by a pixel are ignored. The mover's earlier position looks like its
+// present one; use two earlier images, or the mover's appearance, to distinguish them. Empty
+// images, different sizes, and homographies that are not finite give no movers.
 std::vector<MoverCandidate> detect_movers(const cv::Mat& earlier, const Eigen::Matrix3d& to_present,
                                           const ReducedFrame& current, const MoverSearch& search);
 

@@ -8,7 +8,7 @@
 
 namespace ols::tracker {
 
-// exp(M) for a mask's 0, 1/255 ... 1: the weights of eq. (5).
+// exp(M) for a mask value M of 0, 1/255 ... 1: the weights of eq. (5).
 template <typename Number>
 const std::array<Number, 256>& exponentials() {
   static const std::array<Number, 256> table = [] {
@@ -23,14 +23,15 @@ const std::array<Number, 256>& exponentials() {
 
 struct Similarity {
   double similarity = 0.0;   // eq. (5), 0..1
-  double correlation = 0.0;  // of the grey values with the first or the learnt image, -1..1
-  double contrast = 0.0;     // deviation of the grey values, relative to the template's
+  double correlation = 0.0;  // between the grey values and the first or the learnt image, -1..1
+  double contrast = 0.0;     // deviation of the grey values, relative to that of the template
 };
 
-// Eq. (5) divided by its maximum for this template, so 0..1. Each patch's intensities are relative
-// to their mean, in units of their deviation, unless that is far below the template's. A faint
-// target is therefore distinguished from the sky like a strong one, exposure and gradients of the
-// sky do not matter, and noise is not amplified into a target. An empty mask counts as all zero.
+// Eq. (5) divided by its maximum for this template, so that it is 0..1. The intensities of each
+// patch are taken relative to their mean, in units of their deviation, unless that is far below the
+// template's. A faint target is therefore distinguished from the sky like a strong one. Exposure
+// and gradients of the sky do not matter, and noise is not amplified into a target. An empty mask
+// counts as zero everywhere.
 class Objective {
  public:
   explicit Objective(const Template& target);
@@ -43,19 +44,20 @@ class Objective {
   Similarity operator()(const Patch& gray, const MaskPatch& candidate_mask) const;
 
  private:
-  // Similarity of an inverted patch. A warm target in front of a warming sky turns from bright to
-  // dark, but this is rare.
+  // Factor for the similarity of an inverted patch. A warm target in front of a warming sky does
+  // change from bright to dark, but rarely.
   static constexpr float kInverted = 0.9F;
   static constexpr Patch ones() {
     Patch patch{};
     for (float& value : patch) value = 1.0F;
     return patch;
   }
-  static constexpr float kUnit = 2.0F;  // deviations that give a difference of 1 in eq. (5)
+  // Number of deviations that give a difference of 1 in eq. (5)
+  static constexpr float kUnit = 2.0F;
 
   Patch template_{};        // normalised
-  Patch learnt_{};          // likewise: its recent appearance
-  float deviation_ = 1.0F;  // of the template [grey levels]
+  Patch learnt_{};          // normalised; its recent appearance
+  float deviation_ = 1.0F;  // deviation of the template [grey levels]
   float least_deviation_ = 1.0F;
   Patch exponential_ = ones();  // exp(M_t)
   double greatest_ = kPatchArea;

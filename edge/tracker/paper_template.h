@@ -1,4 +1,4 @@
-// The paper's template and its foreground mask, each made once. Comments quote the paper.
+// The paper's template and its foreground mask; each is made once. Some comments quote the paper.
 #pragma once
 
 #include <optional>
@@ -9,35 +9,36 @@
 namespace ols::tracker {
 
 // Eq. (5): the sum over the patch of exp(min(Mt, Mc)) * (1 - |It - Ic|)^2, with intensities and
-// masks in 0..1. Between 0 and kPatchArea * e.
+// masks in 0..1. It is between 0 and kPatchArea * e.
 double paper_objective(const Patch& template_gray, const MaskPatch& template_mask,
                        const Patch& candidate_gray, const MaskPatch& candidate_mask);
 
-// The whole frame: the paper's patches are sampled from the image itself.
+// The whole frame as a view, because the paper's patches are sampled from the image itself.
 inline FrameView whole(const cv::Mat& gray) { return {gray, {0, 0}, 1}; }
 
 class PaperTemplate {
  public:
   PaperTemplate(const TrackerInput& frame, const cv::Rect2d& box);
 
-  // The newest frame's ego-motion.
+  // Takes the newest frame's ego-motion.
   void follow(const SceneMotion& scene);
-  // Makes the mask as soon as a frame shows the template's background. `target`: the present
-  // position.
+  // Makes the mask as soon as a frame shows the background behind the template. `target`: the
+  // target's present position.
   void estimate_mask(const cv::Mat& gray, double time_s, const Particle& target);
 
   const Template& appearance() const { return appearance_; }
-  // Eq. (5) of a candidate.
+  // Eq. (5) for a candidate.
   double objective(const Patch& gray, const MaskPatch& mask) const {
     return paper_objective(appearance_.gray, mask_.value_or(MaskPatch{}), gray, mask);
   }
   double greatest_objective() const;
 
  private:
-  // The template's frame, or the first one after its alignment was lost, until the mask is made.
+  // The template's frame or, if its alignment was lost, the first one after that; used until the
+  // mask is made.
   ReferenceFrames::Reference first_;
   Template appearance_;
-  std::optional<MaskPatch> mask_;  // Mt
+  std::optional<MaskPatch> mask_;  // M_t
 };
 
 }  // namespace ols::tracker

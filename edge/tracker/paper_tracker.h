@@ -1,4 +1,4 @@
-// Only the paper's section 5: mode = "paper". Comments quote the paper.
+// The paper's section 5 alone: mode = "paper". Some comments quote the paper.
 #pragma once
 
 #include <optional>
@@ -15,11 +15,12 @@ class PaperTracker {
   PaperTracker(const TrackerConfig& config, std::uint64_t seed, const TrackerInput& frame,
                const cv::Rect2d& box);
   TrackerOutput step(const TrackerInput& frame, StageTimer& timer);
-  // From the image, previous frame's pixels to the newest one's; empty without texture.
+  // Measured in the image: maps the previous frame's pixels to the newest one's; nullopt without
+  // texture.
   const std::optional<Eigen::Matrix3d>& image_homography() const {
     return scene_motion_.image_homography();
   }
-  // In the paper the operator designates the target again. Here the particles move to the given
+  // In the paper, the operator designates the target again. Here the particles move to the given
   // place.
   void search_near(const Eigen::Vector2d& pixel, double sd_px);
 
@@ -38,7 +39,7 @@ class PaperTracker {
   SceneMotion scene_motion_;
   PaperTemplate template_;
   ParticleFilter filter_;
-  double greatest_objective_ = 0.0;  // eq. (5) of the best particle
+  double greatest_objective_ = 0.0;  // value of eq. (5) for the best particle
   Particle last_;
   bool placed_ = false;  // the particles are already advanced to the coming frame
 };

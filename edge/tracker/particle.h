@@ -1,4 +1,4 @@
-// The filter's state (x, y, vx, vy, h, w) and shared plane geometry.
+// The filter's state (x, y, vx, vy, h, w), and shared plane geometry.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,12 +9,14 @@
 namespace ols::tracker {
 
 struct Particle {
-  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();          // centre; (0, 0) is a pixel's centre
-  Eigen::Vector2d velocity_px_s = Eigen::Vector2d::Zero();  // relative to the scene, not the image
-  Eigen::Vector2d size_px = Eigen::Vector2d::Zero();        // width, height
+  // Centre of the box; (0, 0) is the centre of a pixel.
+  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
+  // Relative to the scene, not to the image.
+  Eigen::Vector2d velocity_px_s = Eigen::Vector2d::Zero();
+  Eigen::Vector2d size_px = Eigen::Vector2d::Zero();  // width, height
 };
 
-// A box's corner is on pixel edges, the state's position on pixel centres.
+// The corners of a box are on pixel edges, the state's positions on pixel centres.
 inline cv::Rect2d box_of(const Eigen::Vector2d& pixel, const Eigen::Vector2d& size_px) {
   return {pixel.x() + 0.5 - size_px.x() / 2.0, pixel.y() + 0.5 - size_px.y() / 2.0, size_px.x(),
           size_px.y()};

@@ -1,4 +1,4 @@
-// The bootstrap particle filter's bookkeeping: weights, maximum a posteriori, resampling.
+// The bookkeeping of the bootstrap particle filter: weights, maximum a posteriori, resampling.
 #pragma once
 
 #include <utility>
@@ -13,28 +13,29 @@ class ParticleFilter {
   std::vector<Particle>& particles() { return particles_; }
   const std::vector<Particle>& particles() const { return particles_; }
 
-  // Advances every particle to this frame, without noise.
+  // Moves every particle to this frame, without noise.
   void advance(const MotionModel& motion);
-  // Adds the motion model's noise to particles already advanced to this frame, and remembers their
-  // predictions without it.
+  // Adds the motion model's noise to particles that are already at this frame. Remembers their
+  // predictions without noise.
   void disturb(const MotionModel& motion, Random& random);
-  // Restarts around a target that was found otherwise; the next disturb() spreads the particles.
+  // Restarts around a target that was found in another way; the next disturb() spreads the
+  // particles.
   void restart(const Particle& target);
-  // A new target is either stationary relative to the scene, or was followed by the camera and is
-  // stationary in the image.
+  // Sets initial velocities: a new target either rests relative to the scene, or rests in the image
+  // because the camera followed it.
   void guess_velocities(const MotionModel& motion, double sd_px_s, Random& random);
-  // An approaching target grows faster than the particles' noise, so some particles get its usual
-  // size.
+  // Gives some particles the target's usual size, because an approaching target grows faster than
+  // the particles' noise allows.
   void propose_size(const Eigen::Vector2d& present_px, const Eigen::Vector2d& usual_px);
-  // Adds this standard deviation to the prediction's uncertainty beyond that of its particles.
+  // Adds this standard deviation to the prediction's uncertainty, beyond that of its particles.
   void widen_prediction(double sd_px) {
     predicted_covariance_px2_ += sd_px * sd_px * Eigen::Matrix2d::Identity();
   }
 
-  // Moves every second particle by this additional step.
+  // Moves every second particle by this step.
   void move_half(const Eigen::Vector2d& step_px);
 
-  // Weights from each particle's log-likelihood; all equal if none is finite.
+  // Computes the weights from each particle's log-likelihood; they are equal if none is finite.
   template <typename LogLikelihood>
   void weigh(const LogLikelihood& log_likelihood_of) {
     log_likelihood_.clear();
@@ -48,23 +49,23 @@ class ParticleFilter {
   void set_weights(std::vector<double> weights) { weights_ = std::move(weights); }
   const std::vector<double>& weights() const { return weights_; }
 
-  // Index of the maximum a posteriori: likelihood times the predicted density at the particle. The
-  // density distinguishes the target from a similar object elsewhere.
+  // Index of the maximum a posteriori: the maximum of the likelihood times the predicted density at
+  // the particle. The density distinguishes the target from a similar object elsewhere.
   std::size_t maximum_a_posteriori() const;
 
   Eigen::Vector2d mean_size_px() const;
   Eigen::Vector2d mean_velocity_px_s() const;
-  // Of the particles' positions about `pixel`.
+  // Covariance of the particles' positions about `pixel`.
   Eigen::Matrix2d covariance_about(const Eigen::Vector2d& pixel) const;
 
-  // Systematic resampling.
+  // Resamples systematically.
   void resample(Random& random);
 
  private:
   void weigh_by_log_likelihood();
 
   std::vector<Particle> particles_;
-  std::vector<Particle> resampled_;  // reused: no allocation in steady state
+  std::vector<Particle> resampled_;  // kept to avoid allocations
   std::vector<double> log_likelihood_;
   std::vector<double> weights_;
   Eigen::Vector2d predicted_mean_px_ = Eigen::Vector2d::Zero();

@@ -1,4 +1,4 @@
-// Sampling of normalised 24x24 patches, and the template made of one.
+// Samples normalised 24x24 patches, and makes a template from one.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@ namespace ols::tracker {
 inline constexpr int kPatchSide = 24;
 inline constexpr int kPatchArea = kPatchSide * kPatchSide;
 using Patch = std::array<float, kPatchArea>;             // grey values 0..255
-using MaskPatch = std::array<std::uint8_t, kPatchArea>;  // foreground, 255 is certain
+using MaskPatch = std::array<std::uint8_t, kPatchArea>;  // foreground; 255 is certain
 
 // A part of a frame. It is reduced if the target is much larger than a patch, so that patches are
 // sampled without aliasing. Positions are in full-frame pixels.
@@ -27,37 +27,38 @@ struct FrameView {
 
 // The reduction factor for a target of this size.
 int reduction_for(const Eigen::Vector2d& size_px);
-// The part of `frame` inside `area`; shares the frame's memory if not reduced.
+// The part of `frame` inside `area`; it shares the frame's memory if it is not reduced.
 FrameView make_view(const cv::Mat& frame, const cv::Rect& area, int reduction);
 
-// The part of the view inside `area` of the full frame, smoothed by one pixel of a patch for this
-// target size. Small changes of the target's shape, and half a pixel between particles, then matter
-// little.
+// The part of the view inside `area` of the full frame, smoothed by one pixel of a patch for a
+// target of this size. Small changes of the target's shape, and half a pixel between particles,
+// then have little effect.
 FrameView smoothed(const FrameView& view, const cv::Rect& area, const Eigen::Vector2d& size_px);
 
-// Interpolated grey value, with the border continued outside; image coordinates.
+// The interpolated grey value, in image coordinates; the border is continued outside.
 float bilinear(const cv::Mat& image, double x, double y);
 
-// I of eq. (5): the box resampled to 24x24. Bilinear.
+// I in eq. (5): the box resampled to 24x24. The interpolation is bilinear.
 Patch sample_patch(const FrameView& view, const Eigen::Vector2d& pixel,
                    const Eigen::Vector2d& size_px);
-// The same for a foreground mask. Nearest neighbour; outside the mask there is no foreground.
+// The same box of a foreground mask. Takes the nearest neighbour; outside the mask there is no
+// foreground.
 MaskPatch sample_mask(const FrameView& mask, const Eigen::Vector2d& pixel,
                       const Eigen::Vector2d& size_px);
 
-// The target's appearance, made once at initialisation.
+// The target's appearance, made once at the start.
 struct Template {
   Patch gray{};
-  float contrast = 1.0F;  // [grey levels] of the target against its surroundings
+  float contrast = 1.0F;  // [grey levels] of the target relative to its surroundings
   float noise = 1.0F;     // [grey levels] standard deviation of the surroundings
-  bool empty = false;     // only noise: any patch of sky is as similar
+  bool empty = false;     // it contains only noise, so that any patch of sky is as similar
 };
 
 // Standard deviation of the noise [grey levels], from the residuals of a plane in 3x3 pixels. The
 // median is used, so that edges do not count.
 double pixel_noise(const cv::Mat& image);
 
-// Median grey level around a box.
+// The median grey level around a box.
 float level_around(const FrameView& view, const Eigen::Vector2d& pixel,
                    const Eigen::Vector2d& size_px);
 

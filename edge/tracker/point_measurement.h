@@ -1,4 +1,4 @@
-// The designated point in a frame that shows the target, with its covariance.
+// Measures the designated point in a frame that shows the target, with its covariance.
 #pragma once
 
 #include <optional>
@@ -7,7 +7,8 @@
 
 namespace ols::tracker {
 
-inline constexpr double kSamePattern = 0.5;  // correlation; below it the position is not measured
+// If the correlation is lower, the position is not measured.
+inline constexpr double kSamePattern = 0.5;
 
 struct MeasuredPoint {
   Eigen::Vector2d pixel;
@@ -16,18 +17,18 @@ struct MeasuredPoint {
 
 class PointMeasurement {
  public:
-  // `placed`: the fit of the box with the filter's size. `place`: the point's position, in sizes
-  // from the centre. Tracking uses the size on which the particles agree, because smeared images do
-  // not mislead it. The output uses the size that this image shows.
+  // `placed`: the fit of a box with the filter's size. `place`: the point's position relative to
+  // the box's centre, in sizes of the box. Tracking uses the size on which the particles agree,
+  // because blurred images do not mislead it. The output uses the size that this image shows.
   MeasuredPoint measure(const TargetModel& target, const Scene& scene,
                         const RefinedPosition& placed, const Eigen::Vector2d& filter_size_px,
                         const Eigen::Vector2d& place, double interval_s);
-  // The newest frame does not show the target.
+  // Call if the newest frame does not show the target.
   void miss() { size_px_.reset(); }
-  // Another target, or a new start.
+  // Call for another target, or a new start.
   void restart();
-  // Size from the first image, measured in the newest frame. The box also follows the learnt
-  // appearance.
+  // The size in the newest frame, measured relative to the first image; nullopt if it was not
+  // measured. The output's box also follows the learnt appearance.
   const std::optional<Eigen::Vector2d>& size_px() const { return size_px_; }
 
  private:
@@ -35,7 +36,7 @@ class PointMeasurement {
 
   std::optional<Eigen::Vector2d> size_px_;
   int shared_noise_count_ = 0;
-  double shared_noise_ = 1.0;  // recent value of RefinedPosition's
+  double shared_noise_ = 1.0;  // recent value of RefinedPosition::shared_noise
 };
 
 }  // namespace ols::tracker

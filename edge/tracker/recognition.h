@@ -1,5 +1,5 @@
-// The target's learnt appearance, the judgement whether the followed object is still the target,
-// and the return to the target if it is not.
+// Learns the target's appearance, judges whether the followed object is still the target, and
+// returns to the target if it is not.
 #pragma once
 
 #include "edge/tracker/follow_judge.h"
@@ -11,7 +11,7 @@ namespace ols::tracker {
 
 class Recognition {
  public:
-  // The target is in this box of `frame`.
+  // Starts with the target in this box of `frame`.
   Recognition(const TrackerInput& frame, const Eigen::Vector2d& pixel,
               const Eigen::Vector2d& size_px)
       : appearance_(frame, pixel, size_px) {}
@@ -19,22 +19,24 @@ class Recognition {
   LearntAppearance& appearance() { return appearance_; }
   // Probability that the followed object is the target.
   double belief() const { return judge_.value(); }
-  // True: nothing is learnt, because the followed object may be another one.
+  // If true, nothing is learnt, because the followed object may be another one.
   bool doubts() const { return judge_.wary(); }
 
-  // A caller states where the target is: earlier doubts and memories belong to another place.
+  // Call if a caller states where the target is: earlier doubts and memories then belong to another
+  // place.
   void restart();
   // Advances the memories to the next frame.
   void advance(const MotionModel& motion, const cv::Size& frame) { sure_.advance(motion, frame); }
-  // Judges `followed` in this frame, which must have been searched last.
+  // Judges `followed` in this frame. The frame must be the one that was searched last.
   void judge(const TrackerInput& frame, const ReferenceFrames& references, const Particle& followed,
              double interval_s);
-  // Remembers the followed object if it is surely the target.
+  // Stores the followed object if it is surely the target.
   void remember(const Particle& followed, double time_s);
-  // In doubt: returns to the appearance that was learnt while the object surely was the target.
-  // With it the target must be found here, where it was then, or where it would be if it had
-  // continued. After long doubt a weaker response is enough. Also searches in ever wider rings; a
-  // candidate found there must itself be judged to be the target.
+  // In doubt, returns to the appearance that was learnt while the object surely was the target.
+  // With that appearance, the target must be found at one of three places: here, where it was then,
+  // or where it would be if it had continued. After long doubt, a weaker response is enough. It
+  // also searches in ever wider rings. A candidate found there must itself be judged to be the
+  // target.
   std::optional<Particle> return_to_sure(const TrackerInput& frame,
                                          const ReferenceFrames& references,
                                          const Particle& followed);

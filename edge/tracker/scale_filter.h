@@ -1,5 +1,5 @@
-// Measures how much the target has grown or shrunk, even if its appearance has changed: a
-// one-dimensional correlation filter over images of the box at neighbouring sizes. M. Danelljan, G.
+// Measures how much the target has grown or shrunk, even if its appearance has changed. It is a
+// one-dimensional correlation filter over images of the box at neighbouring sizes: M. Danelljan, G.
 // Hager, F. S. Khan, M. Felsberg, "Discriminative scale space tracking", PAMI 39(8), 2017.
 #pragma once
 
@@ -13,25 +13,25 @@ namespace ols::tracker {
 class ScaleFilter {
  public:
   static constexpr int kSizes = 17;
-  static constexpr double kStep = 1.03;  // from one size to the next
+  static constexpr double kStep = 1.03;  // ratio of neighbouring sizes
   static constexpr int kFrequencies = kSizes / 2 + 1;
   using Samples = Eigen::MatrixXf;   // one feature per row, one size per column
   using Spectra = Eigen::MatrixXcf;  // one feature per row, one frequency per column
 
-  // The box at the neighbouring sizes. nullopt: too few pixels to show a size, or a border of the
-  // box with hardly any structure.
+  // The spectra of the box at the neighbouring sizes. nullopt if there are too few pixels to show a
+  // size, or if the border of the box has hardly any structure.
   static std::optional<Spectra> look_at(const cv::Mat& gray, const Eigen::Vector2d& pixel,
                                         const Eigen::Vector2d& size_px);
-  // Natural logarithm of the target's size over that of the box in `seen`; 0 before anything was
-  // learnt.
+  // The natural logarithm of the target's size over the size of the box in `seen`; 0 before
+  // anything is learnt.
   double growth(const Spectra& seen) const;
-  // The target is in `seen`, larger than the box by this growth.
+  // Learns the target in `seen`, whose size differs from that of the box by this growth.
   void learn(const Spectra& seen, double growth, double interval_s);
   bool empty() const { return energy_.size() == 0; }
 
  private:
   Spectra numerator_;
-  Eigen::VectorXf energy_;  // of each frequency
+  Eigen::VectorXf energy_;  // for each frequency
 };
 
 }  // namespace ols::tracker

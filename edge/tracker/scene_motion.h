@@ -1,4 +1,5 @@
-// The camera's motion relative to the scene from frame to frame, and earlier images aligned by it.
+// The camera's motion relative to the scene from frame to frame, and earlier images that are
+// aligned by it.
 #pragma once
 
 #include <limits>
@@ -16,8 +17,8 @@ class SceneMotion {
   SceneMotion(const TrackerConfig& config, HomographyFit fit, const TrackerInput& frame,
               const cv::Rect2d& target_box);
 
-  // Adds the next frame; the target was in `target_box` of the previous one. The predicted
-  // ego-motion is used if the image does not show it.
+  // Adds the next frame. `target_box`: where the target was in the previous frame. The predicted
+  // ego-motion is used if the image does not show any.
   EgoMotion advance(const TrackerInput& frame, const cv::Rect2d& target_box, StageTimer& timer);
   // Keeps the newest frame, in which the target is in `target_box`, for later alignment.
   void remember(const cv::Mat& gray, const cv::Rect2d& target_box) {
@@ -29,23 +30,24 @@ class SceneMotion {
   const cv::Size& frame_size() const { return frame_size_; }
   const ReducedFrame& previous() const { return previous_; }
   const ReducedFrame& present() const { return present_; }
-  // Previous frame's pixels to the newest one's; empty: unknown.
+  // Maps the previous frame's pixels to the newest one's; nullopt if unknown.
   const std::optional<Eigen::Matrix3d>& homography() const { return homography_; }
-  // From the image alone; empty without texture.
+  // The same, measured from the image alone; nullopt without texture.
   const std::optional<Eigen::Matrix3d>& image_homography() const { return image_homography_; }
   const ReferenceFrames& references() const { return references_; }
 
-  // When the alignment with earlier frames was lost: a new scene begins there.
+  // When the alignment with earlier frames was last lost; a new scene begins there.
   double unaligned_since_s() const { return unaligned_since_s_; }
   bool alignment_lost() const { return unaligned_since_s_ == time_s_; }  // in the newest frame
-  // The ego-motion was known up to the previous frame and is not now: perhaps a cut.
+  // True if the ego-motion was known up to the previous frame and is unknown now; the cause may be
+  // a cut.
   bool may_be_cut() const { return may_be_cut_; }
-  // There is no aligned image from a moment ago.
+  // True if there is no aligned image from a moment ago.
   bool unknown_a_moment_ago() const { return a_moment_ago() == nullptr; }
   const ReferenceFrames::Reference* a_moment_ago() const;
 
  private:
-  int width_px_;  // of the reduced frames, maximum
+  int width_px_;  // maximum width of the reduced frames
   EgoMotionEstimator estimator_;
   ReducedFrame previous_;
   ReducedFrame present_;

@@ -1,4 +1,4 @@
-// Fourier transforms of small square real maps, two at a time, and their correlation.
+// Fourier transforms of small square real maps (two at a time), and their correlation.
 #pragma once
 
 #include <array>
@@ -10,21 +10,22 @@ inline constexpr int kMapArea = kMapSide * kMapSide;
 inline constexpr int kHalf = kMapSide / 2 + 1;  // a real map's spectrum is symmetric
 inline constexpr int kSpectrumSize = kMapSide * kHalf;
 
-using Map = std::array<float, kMapArea>;  // row by row, like a spectrum
+using Map = std::array<float, kMapArea>;  // row by row, as in a spectrum
 
-// Real and imaginary parts are separate, so that the compiler vectorises sums over them.
+// Real and imaginary parts are stored separately, so that the compiler can vectorise sums over
+// them.
 struct Spectrum {
   std::array<float, kSpectrumSize> re{};
   std::array<float, kSpectrumSize> im{};
 };
 
-// One for each channel of the features.
-inline constexpr int kChannels = 22;  // even: transformed in pairs
+// One spectrum for each channel of the features.
+inline constexpr int kChannels = 22;  // even, because they are transformed in pairs
 using Spectra = std::array<Spectrum, kChannels>;
 
 // The unnormalised transforms of two maps.
 void transform(const Map& a, const Map& b, Spectrum& to_a, Spectrum& to_b);
-// The inverse: transform() and then transform_back() give the original maps.
+// The inverse: transform() followed by transform_back() gives the original maps.
 void transform_back(const Spectrum& a, const Spectrum& b, Map& to_a, Map& to_b);
 // The sum over all channels of conj(a) b.
 Spectrum correlation(const Spectra& a, const Spectra& b);

@@ -1,4 +1,5 @@
-// Processing time by stage. The tracker is pure and reads no clock, but accepts one.
+// Measures the tracker's processing time by stage. The tracker is pure and reads no clock itself; a
+// caller may provide one.
 #pragma once
 
 #include <array>
@@ -28,10 +29,10 @@ struct StageTimes {
   double of(Stage stage) const { return seconds[static_cast<std::size_t>(stage)]; }
 };
 
-// Monotonic, in seconds.
+// A monotonic clock, in seconds.
 using StageClock = std::function<double()>;
 
-// Adds the time since the last lap to a stage; without a clock does nothing.
+// Adds the time since the last lap to a stage; does nothing without a clock.
 class StageTimer {
  public:
   void set_clock(StageClock clock) { clock_ = std::move(clock); }

@@ -1,5 +1,5 @@
-// The target's state when it was last followed with certainty. The tracker returns to this state
-// when it notices that it follows something else, whose appearance it has learnt meanwhile.
+// Stores the target's state when it was last followed with certainty. The tracker returns to this
+// state when it notices that it follows another object, whose appearance it has meanwhile learnt.
 #pragma once
 
 #include <optional>
@@ -13,18 +13,18 @@ class SureMemory {
  public:
   struct State {
     LearntAppearance appearance;
-    // Where the target would be in the newest frame, if it had continued, and if it had stopped in
-    // the scene.
+    // Where the target would be in the newest frame if it had continued, and if it had stopped
+    // relative to the scene.
     Particle moving, still;
-    Eigen::Vector2d seen_px;  // its position in the image: a camera follows its target
+    Eigen::Vector2d seen_px;  // its position in the image, because a camera follows its target
     double time_s = 0.0;
   };
 
   void clear() { newer_.reset(), older_.reset(); }
-  // Stores a state every half second. Doubt comes later than the mistake, so the newest state is
-  // not trusted.
+  // Takes a state; one is stored every half second. Doubt comes later than the mistake, so the
+  // newest state is not trusted.
   void offer(const LearntAppearance& appearance, const Particle& target, double time_s);
-  // Advances to the next frame.
+  // Advances the stored states to the next frame.
   void advance(const MotionModel& motion, const cv::Size& frame);
   const State* recall() const;
 

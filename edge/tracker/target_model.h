@@ -1,4 +1,4 @@
-// The target's appearance, and the evaluation of particles by it.
+// The target's appearance, and the evaluation of particles with it.
 #pragma once
 
 #include <optional>
@@ -14,13 +14,14 @@
 
 namespace ols::tracker {
 
-// One frame, prepared for the objective function.
+// A frame that is prepared for the objective function.
 struct Scene {
-  FrameView whole;                   // the original frame
-  FrameView view;                    // reduced to the target's size
-  FrameView smooth;                  // sampled for the candidates
-  FrameView mask;                    // foreground
-  bool mask_by_subtraction = false;  // from an earlier image, not from the surroundings' grey level
+  FrameView whole;   // the original frame
+  FrameView view;    // reduced according to the target's size
+  FrameView smooth;  // candidates are sampled from this one
+  FrameView mask;    // the foreground
+  // The mask comes from an earlier image, not from the grey level of the surroundings.
+  bool mask_by_subtraction = false;
   double background_similarity = 0.0;  // TargetModel::background_similarity() of this frame
   LocalContrast contrast;
   cv::Size frame;
@@ -30,26 +31,27 @@ class TargetModel {
  public:
   TargetModel(const TrackerConfig& config, const cv::Mat& gray, const cv::Rect2d& box);
 
-  // `particles`: the places to evaluate. `expected`: the target's expected place.
+  // `particles`: the places that will be evaluated. `expected`: the place where the target is
+  // expected.
   Scene make_scene(const cv::Mat& gray, const std::vector<Particle>& particles,
                    const cv::Rect2d& expected, const ReferenceFrames& references) const;
 
   Similarity likeness(const Scene& scene, const Eigen::Vector2d& pixel,
                       const Eigen::Vector2d& size_px) const;
-  // A high quantile of the similarity of boxes around `box` that are not the target.
+  // A high quantile of the similarity of boxes around `box`, which do not contain the target.
   double background_similarity(const Scene& scene, const cv::Rect2d& box) const;
-  // The contrast of a place with its surroundings, relative to the target's usual one.
+  // The contrast of a place with its surroundings, relative to the target's usual contrast.
   double standing_out(const Scene& scene, const Eigen::Vector2d& pixel,
                       const Eigen::Vector2d& size_px) const;
-  // Share of the target's foreground that is foreground here.
+  // Share of the target's foreground that is foreground at this place.
   double foreground(const Scene& scene, const Eigen::Vector2d& pixel,
                     const Eigen::Vector2d& size_px) const;
-  // A log-likelihood from the similarity compared with the background's, the correlation, the
-  // contrast, and the prior of the size.
+  // A log-likelihood from four parts: the similarity relative to the background's, the correlation,
+  // the contrast, and the prior of the size.
   double log_likelihood(const Similarity& likeness, double background, double standing_out,
                         const Eigen::Vector2d& size_px) const;
 
-  // The evidence of the scene for a candidate.
+  // The evidence for a candidate in the scene.
   FrameEvidence evidence(const Scene& scene, const Particle& candidate) const;
 
   // Learns the target's present appearance and contrast with this weight.
@@ -59,26 +61,26 @@ class TargetModel {
   // Learns the target's present size, from a sharp image.
   void learn_size(const Eigen::Vector2d& size_px, double share);
 
-  // The size of the visible target: the size of `target` if it was `measured` by the first image;
-  // otherwise the last size, grown as its present appearance has grown.
+  // The size of the visible target. If the first image gives a `measured` size, it is the size of
+  // `target`; otherwise it is the last size, grown as the present appearance has grown.
   Eigen::Vector2d follow_size(const cv::Mat& gray, const Particle& target,
                               const std::optional<Eigen::Vector2d>& measured, double interval_s);
-  // What was followed since the target had this size was another object.
+  // Call if the object followed since the target had this size was another one.
   void restart_size(const Eigen::Vector2d& size_px);
 
-  // Learns M_t, once: the candidate's foreground while it is certainly the target.
+  // Learns M_t once: the candidate's foreground, while the candidate is certainly the target.
   void learn_mask(const Scene& scene, const Eigen::Vector2d& pixel, const Eigen::Vector2d& size_px);
 
-  // The best fit of a box of this size, from a start within about a third of the target.
+  // The best fit of a box of this size. The start must be within about a third of the target.
   std::optional<RefinedPosition> place(const Scene& scene, const Eigen::Vector2d& start,
                                        const Eigen::Vector2d& size_px) const {
     return refiner_.refine(scene.view, start, size_px);
   }
-  // From that fit, the sub-pixel position and size in full resolution.
+  // Refines that fit: sub-pixel position and size at full resolution.
   std::optional<RefinedPosition> measure(const Scene& scene, const RefinedPosition& placed,
                                          const Eigen::Vector2d& likely_size_px) const;
   const Eigen::Vector2d& usual_size_px() const { return usual_size_px_; }
-  // Nothing was conspicuous in the first box: there is nothing to recognise.
+  // Whether nothing was conspicuous in the first box, so that there is nothing to recognise.
   bool empty() const { return template_.empty; }
 
  private:
@@ -93,11 +95,12 @@ class TargetModel {
   Template template_;
   Objective objective_;
   PositionRefiner refiner_;
-  std::optional<PositionRefiner> fine_refiner_;  // of a reduced target, in the original frame
-  MaskPatch mask_{};                             // M_t
+  // For a target whose view is reduced: works in the original frame.
+  std::optional<PositionRefiner> fine_refiner_;
+  MaskPatch mask_{};  // M_t
   bool mask_learnt_ = false;
-  double contrast_ = 0.0;         // [grey levels] recent, against its surroundings
-  double contrast_weight_ = 0.0;  // 0..1, how far this exceeds noise
+  double contrast_ = 0.0;         // [grey levels] recent value, relative to its surroundings
+  double contrast_weight_ = 0.0;  // 0..1, how far contrast_ exceeds noise
 };
 
 }  // namespace ols::tracker

@@ -1,5 +1,5 @@
-// Measures the pixel of one target, frame by frame: the visual tracker or a substitute (the Monte
-// Carlo simulation draws the pixel instead of rendering an image).
+// Measures the pixel of one target, frame by frame. This is done by the visual tracker or a
+// substitute (the Monte Carlo simulation draws the pixel instead of rendering an image).
 #pragma once
 
 #include <Eigen/Core>
@@ -11,13 +11,13 @@
 namespace ols::tracker {
 
 struct TrackerInput {
-  cv::Mat gray;       // 8-bit, one channel, full resolution; not modified, not kept by reference
-  double time_s = 0;  // of the exposure, any epoch; must increase from frame to frame
-  // Maps pixels of the previous frame to this one's (static scene at infinity), from the PTU
-  // angles. nullopt: unknown. An impossible one (mirror image, zoom, most of the image gone) is not
-  // used: see the output's `ego_motion`.
+  cv::Mat gray;       // 8-bit, one channel, full resolution; neither modified nor kept by reference
+  double time_s = 0;  // of the exposure, on any time scale; must increase from frame to frame
+  // Maps pixels of the previous frame to this one (for a static scene at infinity), computed from
+  // the PTU's angles. nullopt if unknown. An impossible homography (mirror image, zoom, most of the
+  // image gone) is not used: see `ego_motion` of the output.
   std::optional<Eigen::Matrix3d> predicted_homography;
-  // The same picture in colour, if there is one: it helps to recognise the target.
+  // The same picture in colour, if there is one; it helps to recognise the target.
   ColourPicture colour = {};
 };
 
@@ -25,31 +25,32 @@ enum class EgoMotion { kNone, kImage, kPredicted };  // source of this frame's h
 
 struct TrackerOutput {
   cv::Rect2d box;  // [px] in the full frame: top-left corner, width, height
-  // [px] The point of the target at the centre of the designated box; (0, 0) is the centre of the
-  // top-left pixel.
+  // [px] The point of the target that was at the centre of the designated box; (0, 0) is the centre
+  // of the top-left pixel.
   Eigen::Vector2d pixel;
-  Eigen::Matrix2d covariance_px2;  // of `pixel`, white part
+  Eigen::Matrix2d covariance_px2;  // white part of the covariance of `pixel`
   double belief = 0.0;             // 0..1
   EgoMotion ego_motion = EgoMotion::kNone;
-  // [px] Distance at the target between two predictions of the scene: by the predicted homography,
-  // and by the image's own. At most the image diagonal. nullopt: only one of the two exists. A
-  // large value means wrong angles or times. A prediction that was not used is compared, too.
+  // [px] Difference, at the target, between two predictions of the scene: the one by the predicted
+  // homography, and the one by the image's own motion. At most the image diagonal. nullopt if only
+  // one of the two exists. A large value means that angles or times are wrong. A prediction that
+  // was not used is compared as well.
   std::optional<double> prediction_error_px;
-  bool prediction_dropped = false;  // there was one, but it is impossible
+  bool prediction_dropped = false;  // there was a predicted homography, but it is impossible
 };
 
 enum class TrackerError {
   kNotInitialised,
   kEmptyFrame,
   kFrameFormat,  // not 8-bit single-channel
-  kFrameSize,    // differs from the frame of its initialisation
+  kFrameSize,    // differs from that of the first frame
   kTime,         // not later than the previous frame, or not finite
-  kHomography,   // the predicted one is not finite
-  kBox,          // initial box outside the image, empty or not finite
+  kHomography,   // the predicted homography is not finite
+  kBox,          // the initial box is outside the image, empty or not finite
 };
 const char* to_string(TrackerError error);
 
-// An output, or the reason why there is none; a refused frame does not change the tracker.
+// An output, or the reason why there is none. A refused frame does not change the tracker.
 struct TrackerResult {
   std::optional<TrackerOutput> output;
   std::optional<TrackerError> error;
@@ -62,12 +63,13 @@ class TargetTracker {
   virtual std::optional<TrackerError> initialise(const TrackerInput& frame,
                                                  const cv::Rect2d& box) = 0;
   virtual TrackerResult track(const TrackerInput& frame) = 0;
-  // The target may be near this pixel of the next frame: a station is slewed to its lost target.
-  // Ignored if not finite; limited to within a frame's size of the frame.
+  // Tells the tracker that the target may be near this pixel of the next frame, because a station
+  // is slewed to its lost target. It is ignored if it is not finite, and limited to within a
+  // frame's size of the frame.
   virtual void search_near(const Eigen::Vector2d& pixel, double sd_px) = 0;
-  // Sets the target aside, replacing an earlier one; initialise() then starts another.
+  // Sets the target aside (replacing one set aside earlier); initialise() then starts another one.
   virtual void set_aside() = 0;
-  // Continues with the target set aside; once.
+  // Continues with the target that was set aside; possible once.
   virtual void take_back() = 0;
 };
 

@@ -1,7 +1,8 @@
-// The visual tracker (paper section 5): images in, one pixel measurement out.
+// The visual tracker (paper section 5): takes images, and returns one pixel measurement for each.
 //
-// Independent of PTU counts, LCM, files and clocks: the inputs are an image, its time and, if
-// known, the predicted ego-motion. Deterministic: the same seed and images give the same output.
+// It does not depend on PTU counts, LCM, files or clocks. Its inputs are an image, its time and, if
+// known, the predicted ego-motion. It is deterministic: the same seed and images give the same
+// output.
 #pragma once
 
 #include <cstdint>
@@ -22,16 +23,16 @@ class Tracker final : public TargetTracker {
   Tracker& operator=(Tracker&&) noexcept;
 
   std::optional<TrackerError> initialise(const TrackerInput& frame, const cv::Rect2d& box) override;
-  // One step: ego-motion, prediction (2)-(4), weighting (5), MAP, resampling.
+  // Performs one step: ego-motion, prediction (2)-(4), weighting (5), MAP, resampling.
   TrackerResult track(const TrackerInput& frame) override;
-  // Moves the particles there, keeps the template.
+  // Moves the particles to the pixel; keeps the template.
   void search_near(const Eigen::Vector2d& pixel, double sd_px) override;
   void set_aside() override;
   void take_back() override;
 
   bool initialised() const { return followed_ != nullptr; }
 
-  // Without a clock no times are measured. stage_times() are those of the newest frame.
+  // Without a clock, no times are measured. stage_times() returns those of the newest frame.
   void set_stage_clock(StageClock clock) { timer_.set_clock(std::move(clock)); }
   const StageTimes& stage_times() const { return timer_.times(); }
 

@@ -1,5 +1,5 @@
-// The tracker with a target: one step of the paper's section 5 per frame. tracker.h checks the
-// input.
+// The tracker while it has a target: one step of the paper's section 5 for each frame. tracker.h
+// checks the input.
 #pragma once
 
 #include <optional>
@@ -23,7 +23,8 @@ class TrackerCore {
 
   TrackerOutput step(const TrackerInput& frame, StageTimer& timer);
   void search_near(const Eigen::Vector2d& pixel, double sd_px);
-  // From the image, previous frame's pixels to the newest one's; empty without texture.
+  // Measured in the image: maps the previous frame's pixels to the newest one's; nullopt without
+  // texture.
   const std::optional<Eigen::Matrix3d>& image_homography() const {
     return scene_motion_.image_homography();
   }
@@ -62,13 +63,14 @@ class TrackerCore {
   ParticleFilter filter_;
   TargetModel target_;
   Recognition recognition_;
-  Belief belief_;  // decides whether the target is searched for
+  Belief belief_;  // decides whether the target must be searched for
   Designation designation_;
   PointMeasurement measurement_;
-  Particle last_;  // best estimate in the newest frame
+  Particle last_;  // the best estimate in the newest frame
   Reacquisition reacquisition_;
   Velocity velocity_ = Velocity::kUnknown;
-  // The step from the image's prediction of the target to the mount's, if the two disagree.
+  // The step from the image's prediction of the target to the mount's prediction, if the two
+  // disagree.
   std::optional<Eigen::Vector2d> other_step_px_;
   bool placed_ = false;  // particles and last_ are already advanced to the coming frame
 };

@@ -1,6 +1,6 @@
-// One viewer's pictures as a stream of H.264, for thin links. Each access unit refers to the one
-// before it, so all of them must reach the viewer, in order. The caller decides which pictures
-// become units, and must send each. Pure: the same pictures give the same bytes.
+// Encodes one viewer's pictures as an H.264 stream, for slow links. Each access unit refers to the
+// previous one, so all of them must reach the viewer, in order. The caller decides which pictures
+// are encoded, and must send each unit. Pure: the same pictures give the same bytes.
 #pragma once
 
 #include <cstdint>
@@ -17,8 +17,8 @@ class H264Encoder {
   H264Encoder() = default;
 
   // Encodes the next picture (8-bit, one channel, even sides) as an access unit (Annex B).
-  // `quality`: as for JPEG. It is a key frame if `key_frame` is set, if it is the first, or if size
-  // or quality have changed. Empty: the encoder cannot.
+  // `quality`: on the scale of JPEG. The unit is a key frame if `key_frame` is set, if it is the
+  // first one, or if size or quality have changed. Returns empty if the encoder fails.
   std::vector<std::uint8_t> encode(const cv::Mat& gray, int quality, bool key_frame,
                                    std::int64_t utime_us);
 

@@ -1,4 +1,4 @@
-// The messages of a station's video socket. Cuts, scales and compresses a picture as requested.
+// The messages of a station's video socket. Crops, scales and compresses a picture as requested.
 #pragma once
 
 #include <cstdint>
@@ -14,11 +14,11 @@ namespace ols::video {
 // A request has no variable part; a longer message is not a request.
 inline constexpr std::uint32_t kLargestRequest_bytes = 256;
 
-// nullopt if it is no request, or out of range.
+// nullopt if it is not a request, or out of range.
 std::optional<VideoRequest> decode_request(std::span<const std::uint8_t> bytes);
 
-// The answer to a request. Cutting, scaling and compressing take milliseconds. `stream`: of the
-// requesting viewer, for H.264. Empty: the picture cannot be coded.
+// Makes the answer to a request. Cropping, scaling and compressing take milliseconds. `stream`: the
+// encoder of the requesting viewer, for H.264. Returns empty if the picture cannot be coded.
 std::vector<std::uint8_t> encode_frame(const VideoFrame& frame, std::int64_t sequence,
                                        const VideoSender& sender, const VideoRequest& request,
                                        H264Encoder& stream);

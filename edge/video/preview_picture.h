@@ -1,4 +1,4 @@
-// A frame, reduced to fit into a datagram.
+// A frame that is reduced to fit into a datagram.
 #pragma once
 
 #include <cstdint>
@@ -9,11 +9,11 @@
 namespace ols::video {
 
 struct PreviewPicture {
-  double scale = 1.0;  // of the frame, at most 1
+  double scale = 1.0;  // size relative to the frame, at most 1
   std::vector<std::uint8_t> jpeg;
 };
 
-// The largest of some widths that fits; nullopt: none fits.
+// Chooses the largest of some widths that fits; nullopt if none fits.
 std::optional<PreviewPicture> preview_picture(const cv::Mat& gray);
 
 }  // namespace ols::video

@@ -1,6 +1,6 @@
-// Serves a station's pictures to permitted viewers, over TCP (docs/video.md). The answer to each
-// request is the newest frame that the viewer has not had. Nothing queues, however slow a viewer or
-// its network is, and nothing is compressed without a request. A thread of its own serves; the
+// Serves a station's pictures to permitted viewers, over TCP (docs/video.md). Each request is
+// answered with the newest frame that the viewer has not had yet. Nothing queues, however slow a
+// viewer or its network is, and nothing is compressed without a request. It has its own thread; the
 // control loop only leaves a reference to its frame.
 #pragma once
 
@@ -17,31 +17,31 @@ struct Section;
 namespace ols::video {
 
 struct VideoConfig {
-  // IP address and port, "10.0.0.11:7790", "[fd00::11]:7790"; empty: no video. Viewers find it in
-  // the station's status.
+  // IP address and port, "10.0.0.11:7790" or "[fd00::11]:7790"; if empty, there is no video.
+  // Viewers learn it from the station's status.
   std::string address;
-  // Networks of the viewers, "10.0.0.0/24"; other connections are refused.
+  // The viewers' networks, such as "10.0.0.0/24"; connections from elsewhere are refused.
   std::vector<std::string> allow = {"127.0.0.0/8", "::1/128"};
 };
 
-config::Section video_section(VideoConfig& config);  // [video]
+config::Section video_section(VideoConfig& config);  // the section [video]
 
 class VideoServer {
  public:
-  // Further viewers are refused.
+  // More viewers than this are refused.
   static constexpr int kMaxViewers = 8;
 
-  // Throws std::invalid_argument for a bad address or network. An address that the computer does
-  // not have (yet) is retried and reported.
+  // Throws std::invalid_argument for a bad address or network. If the computer does not have the
+  // address (yet), this is reported and retried.
   VideoServer(const VideoConfig& config, VideoSender sender);
   ~VideoServer();
   VideoServer(const VideoServer&) = delete;
   VideoServer& operator=(const VideoServer&) = delete;
 
-  // Call from any thread; none of these waits.
-  // Whether anybody is connected; otherwise frames need not be offered.
+  // These functions may be called from any thread; none of them waits. Whether anybody is
+  // connected; if not, frames need not be offered.
   bool has_viewers() const;
-  // In time order.
+  // Call in order of time.
   void offer(VideoFrame frame);
   // The report's text is the listening address.
   device::DeviceReport report() const;

@@ -1,4 +1,4 @@
-// One viewer of a station's video. Used only by the video server's thread.
+// The connection of one viewer of a station's video. It is used only by the video server's thread.
 #pragma once
 
 #include <array>
@@ -21,28 +21,28 @@ class VideoSession : public std::enable_shared_from_this<VideoSession> {
   using Bytes = std::shared_ptr<const std::vector<std::uint8_t>>;
   enum class End {
     kGone,       // closed by the viewer, or the connection is lost
-    kIdle,       // made no request
-    kStalled,    // read nothing
-    kMalformed,  // sent an invalid request
-    kUncoded,    // requested a picture that cannot be coded
+    kIdle,       // the viewer made no request
+    kStalled,    // the viewer read nothing
+    kMalformed,  // the viewer sent an invalid request
+    kUncoded,    // the viewer requested a picture that cannot be coded
   };
   struct Callbacks {
-    // A request has come: answer() it, now or later.
+    // Called for a request, which must be answered with answer(), now or later.
     std::function<void(VideoSession&)> asked;
-    // Nothing is called after this.
+    // No callback is called after this one.
     std::function<void(VideoSession&, End)> ended;
   };
 
   VideoSession(boost::asio::ip::tcp::socket socket, Callbacks callbacks);
 
   void begin() { read_request(); }
-  // The request that waits for an answer; nullopt: none.
+  // The request that waits for an answer; nullopt if there is none.
   const std::optional<VideoRequest>& request() const { return request_; }
   void answer(const Bytes& message);
-  // The number of the last frame sent to it; -1: none yet.
+  // The number of the last frame sent to the viewer; -1 if none was sent.
   std::int64_t had() const { return had_; }
   void note_had(std::int64_t frame) { had_ = frame; }
-  // The encoder of this connection: every unit that it makes must be sent here, and nowhere else.
+  // The encoder of this connection. Every unit that it makes must be sent on this connection only.
   H264Encoder& stream() { return stream_; }
   void close(End end);
 
@@ -59,7 +59,7 @@ class VideoSession : public std::enable_shared_from_this<VideoSession> {
   LengthPrefix prefix_{};
   std::array<std::uint8_t, kLargestRequest_bytes> body_{};
   std::optional<VideoRequest> request_;
-  Bytes sent_;  // being sent
+  Bytes sent_;  // the message that is being sent
   H264Encoder stream_;
   std::int64_t had_ = -1;
   bool ended_ = false;

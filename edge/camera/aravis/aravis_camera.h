@@ -1,4 +1,4 @@
-// A GigE Vision camera through Aravis, kept open by its own thread.
+// A GigE Vision camera, used through Aravis and kept open by its own thread.
 #pragma once
 
 #include <memory>
@@ -25,7 +25,7 @@ class AravisCamera : public Camera {
 
   CameraState state() const;
   CameraCounters counters() const;
-  std::string last_error() const;  // the last error as text; empty: none yet
+  std::string last_error() const;  // the last error as text; empty if there was none
 
  private:
   struct Impl;

@@ -13,47 +13,51 @@ namespace ols::camera {
 struct AravisConfig : CameraConfig {
   std::string device;  // Aravis id (vendor-serial, user name, MAC) or IPv4 address
 
-  std::string trigger_activation = "rising-edge";  // of a line; or falling-edge, any-edge
-  double trigger_delay_us = 0.0;                   // from the trigger to the exposure
+  // For a line as trigger: rising-edge, falling-edge or any-edge.
+  std::string trigger_activation = "rising-edge";
+  double trigger_delay_us = 0.0;  // from the trigger to the exposure
 
   double exposure_us = 5000.0;
   double gain_dB = 0.0;
-  // Automatic exposure starts from the two values above, and stays within the limits below and the
-  // camera's own. The maximum exposure is set by motion blur.
+  // If true, automatic exposure starts from the two values above, and stays within the limits below
+  // and those of the camera. The maximum exposure is set to limit motion blur.
   bool auto_exposure = false;
   ExposureLimits limits{
       .exposure_min_us = 50.0, .exposure_max_us = 5000.0, .gain_min_dB = 0.0, .gain_max_dB = 24.0};
   AutoExposureConfig auto_levels;
 
   StampAt stamp_at = StampAt::kExposureStart;
-  // Time from the end of the exposure to the arrival of the frame's first packet. Used only while
-  // the camera's clock cannot be read; the mid-exposure time then depends on it.
+  // Time from the end of the exposure to the arrival of the frame's first packet. It is used only
+  // while the camera's clock cannot be read; then the mid-exposure time depends on it.
   double readout_s = 0.010;
   double readout_sd_s = 0.010;
 
-  std::string ptp = "off";   // or slave, auto: the camera's clock follows a PTP master
-  int tai_minus_utc_s = 37;  // leap seconds, where the kernel does not know them
-  double ptp_sd_s = 1e-5;    // 1-sigma of the master and the path to it
+  // "off", "slave" or "auto": whether the camera's clock follows a PTP master.
+  std::string ptp = "off";
+  int tai_minus_utc_s = 37;  // leap seconds, used if the kernel does not know them
+  double ptp_sd_s = 1e-5;    // 1-sigma of the master's time and of the path to it
 
   // If no frame comes for this time plus two frame periods, the camera is closed and reopened.
   double no_frame_timeout_s = 1.0;
-  double retry_s = 0.5;  // between attempts to open
+  double retry_s = 0.5;  // pause between attempts to open the camera
 
-  int packet_size = 0;  // [byte] IP packet of the stream; 0: as large as the path allows
-  // Receives packets through the kernel's ring buffer, which needs CAP_NET_RAW. Without the ring
-  // buffer the station needs no capability; it still loses no packets if they are paced, or if the
+  // [byte] size of the stream's IP packets; 0 for the largest that the path allows.
+  int packet_size = 0;
+  // If true, receives packets through the kernel's ring buffer, which needs CAP_NET_RAW. Otherwise
+  // the station needs no capability. It still loses no packets if they are paced, or if the
   // socket's buffer is large.
   bool packet_socket = false;
   int socket_buffer = 8 << 20;  // [byte] requested; the kernel grants up to net.core.rmem_max
-  // The pause between two packets. -1: automatic: no pause if the socket's buffer holds some
-  // frames; otherwise the packets of a frame are spread over packet_spread of the frame period.
+  // The pause between two packets. If -1, it is chosen automatically: no pause if the socket's
+  // buffer holds some frames; otherwise the packets of a frame are spread over packet_spread of the
+  // frame period.
   double packet_delay_us = -1.0;
   double packet_spread = 0.6;
-  bool packet_resend = true;  // request lost packets again where the camera can
+  bool packet_resend = true;  // request lost packets again, if the camera can repeat them
 
   bool keep_raw = false;  // also keep the camera's raw image
 };
 
-config::Section aravis_section(AravisConfig& config);  // of [camera]
+config::Section aravis_section(AravisConfig& config);  // the section [camera]
 
 }  // namespace ols::camera

@@ -26,25 +26,25 @@ struct Unref {
 template <typename T>
 using Owned = std::unique_ptr<T, Unref>;
 
-// One buffer of the stream; its destructor returns it.
+// One buffer of the stream. It is valid only within receive()'s `use`.
 struct ReceivedFrame {
   std::uint64_t id = 0;  // the camera's frame number
   bool complete = false;
-  bool overtaken = false;                 // a newer one is already waiting
-  RawPicture picture;                     // valid as long as the buffer
-  std::optional<std::int64_t> device_ns;  // the camera's own stamp
-  double arrival_s = 0.0;                 // CLOCK_MONOTONIC of its first packet
+  bool overtaken = false;                 // a newer frame is already waiting
+  RawPicture picture;                     // valid as long as the buffer is
+  std::optional<std::int64_t> device_ns;  // the camera's own time stamp
+  double arrival_s = 0.0;                 // CLOCK_MONOTONIC at the arrival of its first packet
 };
 
 class AravisDevice {
  public:
-  // Opens, configures and starts. Throws CameraAbsent, CameraUnfit.
+  // Opens and configures the camera, and starts its stream. Throws CameraAbsent or CameraUnfit.
   explicit AravisDevice(const AravisConfig& config);
   ~AravisDevice();
   AravisDevice(const AravisDevice&) = delete;
   AravisDevice& operator=(const AravisDevice&) = delete;
 
-  // Waits for the next buffer and calls use(ReceivedFrame); false: none came in time.
+  // Waits for the next buffer and calls use(ReceivedFrame). Returns false if none came in time.
   template <typename Use>
   bool receive(double timeout_s, Use use) {
     ArvBuffer* buffer = pop(timeout_s);
@@ -54,27 +54,27 @@ class AravisDevice {
     return true;
   }
 
-  std::string identity() const;  // "AVT GT1290C 1234"
-  std::string serial() const;    // empty: it does not say
+  std::string identity() const;  // for example "AVT GT1290C 1234"
+  std::string serial() const;    // empty if the camera does not state it
 
-  // Latches the camera's clock; empty: the camera cannot.
+  // Latches the camera's clock; nullopt if the camera cannot do so.
   std::optional<LatchSample> latch();
   // Whether the camera still answers.
   bool answers();
   void trigger();  // by software
 
-  // The camera's present exposure and gain, and their limits.
+  // The camera's current exposure and gain, and their limits.
   const ExposureSetting& exposure() const { return exposure_; }
   const ExposureLimits& limits() const { return limits_; }
-  // Throws CameraUnfit.
+  // Throws CameraUnfit if the camera refuses the setting.
   void set_exposure(const ExposureSetting& setting);
 
-  std::optional<double> temperature_degC() const;  // empty: the camera does not report it
+  std::optional<double> temperature_degC() const;  // nullopt if the camera does not report it
   std::optional<PtpState> ptp() const;
 
   bool control_lost() const { return control_lost_; }
-  // The camera is lost: sends it no more requests. The destructor may still take seconds, because
-  // Aravis tells the camera about the disconnection five times, 0.5 s apart.
+  // Notes that the camera is lost, and sends it no more requests. The destructor may still take
+  // seconds, because Aravis tells the camera about the disconnection five times, 0.5 s apart.
   void give_up() { gone_ = true; }
 
  private:
@@ -96,7 +96,7 @@ class AravisDevice {
   bool gone_ = false;
   ExposureSetting exposure_;
   ExposureLimits limits_;
-  std::uint64_t tick_hz_ = 0;  // 0: the camera's clock is not available
+  std::uint64_t tick_hz_ = 0;  // 0 if the camera's clock is not available
   bool latch_by_feature_ = false;
   std::uint64_t last_latch_ticks_ = 0;
 };

@@ -1,4 +1,4 @@
-// The errors of an opened camera, and GLib's errors.
+// Holds a GLib error and converts it to an exception.
 #pragma once
 
 #include <arv.h>
@@ -16,7 +16,7 @@ class AravisError {
   AravisError(const AravisError&) = delete;
   AravisError& operator=(const AravisError&) = delete;
 
-  // For the next call; clears the previous error.
+  // The argument for the next call; clears the previous error.
   GError** out() {
     clear();
     return &error_;

@@ -1,5 +1,6 @@
-// The features of an opened camera by purpose. The GT1290C predates GenICam's naming convention
-// (SFNC), and SFNC itself has renamed some: the first name that the camera knows is used.
+// The features of an opened camera, by purpose. The GT1290C is older than GenICam's naming
+// convention (SFNC), and SFNC itself has renamed some features. The first name that the camera
+// knows is used.
 #pragma once
 
 #include <array>
@@ -14,10 +15,11 @@ namespace ols::camera {
 
 struct Feature {
   const char* what;                  // for messages
-  std::array<const char*, 3> names;  // nullptr: no further one
+  std::array<const char*, 3> names;  // nullptr after the last name
 };
 
-// Floats or integers. SFNC 2.x, then GT1290C ("GigE Camera and Driver Features", AVT) and SFNC 1.x.
+// Numbers (floats or integers). The names are those of SFNC 2.x, then those of the GT1290C ("GigE
+// Camera and Driver Features", AVT) and SFNC 1.x.
 inline constexpr Feature kExposureTime{"exposure", {"ExposureTime", "ExposureTimeAbs", nullptr}};
 inline constexpr Feature kGain{"gain", {"Gain", "GainRaw", nullptr}};
 inline constexpr Feature kFrameRate{"frame rate",
@@ -37,7 +39,7 @@ inline constexpr Feature kFrameRateEnable{
 inline constexpr Feature kPtpLatch{"PTP latch",
                                    {"PtpDataSetLatch", "GevIEEE1588DataSetLatch", nullptr}};
 
-// Setters throw CameraUnfit with the feature and the camera's error.
+// Setters throw CameraUnfit with the feature and the camera's error message.
 class AravisFeatures {
  public:
   explicit AravisFeatures(ArvCamera* camera) : camera_(camera) {}
@@ -59,7 +61,7 @@ class AravisFeatures {
   bool execute(const Feature& command) const;
 
  private:
-  const char* name_of(const Feature& feature) const;  // nullptr: the camera has none of the names
+  const char* name_of(const Feature& feature) const;  // nullptr if the camera has none of the names
 
   ArvCamera* camera_;
 };

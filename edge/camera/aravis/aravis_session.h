@@ -1,5 +1,5 @@
-// One opened camera, from its first frame until it is lost: computes its frames' times, monitors
-// its clock and temperature, and sets its exposure.
+// One opened camera, from its first frame until it is lost. Computes the times of its frames,
+// monitors its clock and temperature, and sets its exposure.
 #pragma once
 
 #include <optional>
@@ -16,11 +16,11 @@ namespace ols::camera {
 
 class AravisSession {
  public:
-  // All references must outlive it. Frame numbers continue from the previous session.
+  // All references must outlive this object. Frame numbers continue those of the previous session.
   AravisSession(const AravisConfig& config, AravisDevice& device, FrameNumbers& numbers,
                 CameraHandover& handover);
 
-  // Runs until the end. Throws CameraAbsent when the camera is lost.
+  // Runs until the camera's thread is to end. Throws CameraAbsent when the camera is lost.
   void stream();
 
  private:

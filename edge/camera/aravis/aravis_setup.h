@@ -1,5 +1,5 @@
-// The setup of an opened camera before it streams: image, trigger, exposure, PTP, transport. Each
-// function throws CameraUnfit when the camera does not accept the configuration, CameraAbsent when
+// Sets up an opened camera before it streams: image, trigger, exposure, PTP, transport. Each
+// function throws CameraUnfit if the camera does not accept the configuration, and CameraAbsent if
 // it no longer answers.
 #pragma once
 
@@ -9,25 +9,24 @@ using ArvCamera = struct _ArvCamera;
 
 namespace ols::camera {
 
-// Sets pixel format and size, and reads them back, because some cameras silently keep their own
-// values.
+// Sets pixel format and size. Reads them back, because some cameras silently keep their own values.
 void set_picture(ArvCamera* camera, const AravisConfig& config);
 
 void set_trigger(ArvCamera* camera, const AravisConfig& config);
 
-// Exposure and gain as configured; switches the camera's own automatic control off.
+// Sets exposure and gain as configured, and switches the camera's own automatic control off.
 ExposureSetting set_first_exposure(ArvCamera* camera, const AravisConfig& config);
 
-// The camera's actual values.
+// Returns the camera's actual values.
 ExposureSetting set_exposure(ArvCamera* camera, const ExposureSetting& setting);
 
-// The configured limits, within those of the camera.
+// Returns the configured limits, narrowed to those of the camera.
 ExposureLimits exposure_limits(ArvCamera* camera, const ExposureLimits& configured);
 
 void set_ptp(ArvCamera* camera, const AravisConfig& config);
 
 // Sets packet size, packet socket and packet delay. Call it after the image format is set, and
-// before the stream.
+// before the stream starts.
 void set_transport(ArvCamera* camera, const AravisConfig& config);
 
 }  // namespace ols::camera

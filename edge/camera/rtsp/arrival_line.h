@@ -1,8 +1,8 @@
-// The arrival of a camera's pictures as a line over the camera's own stamps. Pure.
+// A line that relates the arrival of a camera's pictures to the camera's own stamps. Pure.
 //
-// Network, encoder and a busy host only ever delay a picture, so the least delayed picture of every
-// two seconds counts. A line through these has the camera's rate, even of a camera whose stamps run
-// far too fast or too slowly.
+// Network, encoder and a busy host can only delay a picture. Therefore the least delayed picture of
+// every two seconds counts. The slope of a line through these is the camera's rate, even if the
+// camera's stamps run far too fast or too slowly.
 #pragma once
 
 #include <cstdint>
@@ -19,13 +19,13 @@ class ArrivalLine {
   void add(std::int64_t device_ns, double arrival_s);
   void clear() { *this = ArrivalLine(); }
 
-  // When a picture with this stamp arrives if nothing delays it more than usual; sd_s is what the
-  // least delayed pictures scatter about the line. Empty before the first add().
+  // When a picture with this stamp arrives if nothing delays it more than usual. sd_s is the
+  // scatter of the least delayed pictures about the line. nullopt before the first add().
   std::optional<MappedTime> at(std::int64_t device_ns) const;
-  // Seconds of the station per second of the camera's stamps; 1 in the first seconds, unless it is
-  // far off.
+  // Seconds of the station per second of the camera's stamps; 1 in the first seconds, unless the
+  // rate is far from it.
   double rate() const { return rate_; }
-  // Whether rate() was measured, over at least eight seconds.
+  // Whether rate() has been measured, over at least eight seconds.
   bool knows_rate() const;
 
  private:
@@ -39,9 +39,9 @@ class ArrivalLine {
   void fit();
 
   std::int64_t origin_ns_ = 0;
-  double span_from_s_ = 0.0;  // arrival with which the newest span began
-  std::deque<Least> least_;   // one a span, the newest is still open
-  double reference_s_ = 0.0;  // stamp of the newest, at the last fit
+  double span_from_s_ = 0.0;  // arrival at the start of the newest span
+  std::deque<Least> least_;   // one for each span; the newest span is still open
+  double reference_s_ = 0.0;  // stamp of the newest picture at the last fit
   double offset_s_ = 0.0;     // arrival at reference_s_
   double rate_ = 1.0;
   double sd_s_ = 0.0;

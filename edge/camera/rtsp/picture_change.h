@@ -1,5 +1,5 @@
-// Notices a camera that is frozen: no picture is new to the last bit. An encoder makes the same few
-// pictures of a frozen image again and again, one for each place between two key frames. Pure.
+// Notices a frozen camera: no picture has new pixels. An encoder turns a frozen image into the same
+// few pictures again and again, one for each position between two key frames. Pure.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@ namespace ols::camera {
 
 class PictureChange {
  public:
-  // For how long there was no new picture.
+  // How long there has been no new picture [s].
   double unchanged_s(const cv::Mat& gray, double arrival_s);
 
  private:

@@ -1,4 +1,4 @@
-// How long a camera is left alone before it is connected again. Pure.
+// Determines how long to wait before a camera is connected again. Pure.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@ class RetryPause {
   static constexpr double kLongest_s = 30.0;
   static constexpr double kHealthy_s = 10.0;
 
-  // After a stream that delivered pictures for this time.
+  // The pause after a stream that delivered pictures for this time.
   double after_stream(double delivered_s) {
     if (delivered_s >= kHealthy_s) next_s_ = kFirst_s;
     const double pause_s = next_s_;

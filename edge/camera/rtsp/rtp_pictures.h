@@ -1,8 +1,8 @@
-// What the RTP packets of a stream say of its pictures, for the pictures as they leave the decoder.
-// Pure.
+// Keeps what the RTP packets of a stream say about its pictures, until the pictures leave the
+// decoder. Pure.
 //
-// Packets of one picture have one stamp. After a lost packet all pictures are wrong until one that
-// needs no other.
+// All packets of one picture have the same stamp. After a lost packet, all pictures are wrong until
+// one that does not depend on another.
 #pragma once
 
 #include <cstdint>
@@ -13,30 +13,30 @@ namespace ols::camera {
 
 struct RtpPacket {
   std::uint16_t sequence = 0;
-  bool last = false;         // of its picture: the marker
+  bool last = false;         // the last packet of its picture (marker bit)
   std::uint32_t stamp = 0;   // [ticks]
-  std::uint64_t pts_ns = 0;  // the same in the pipeline: names the picture on its way
+  std::uint64_t pts_ns = 0;  // the packet's time in the pipeline; it identifies the picture there
   double arrival_s = 0.0;    // CLOCK_MONOTONIC
   std::optional<std::int64_t> report_utc_ns;
 };
 
 struct RtpPicture {
-  std::uint64_t number = 0;    // counts the pictures of the stream
-  std::int64_t device_ns = 0;  // the stamp, unwrapped
-  double arrival_s = 0.0;      // of the first packet
+  std::uint64_t number = 0;    // number of the picture in the stream
+  std::int64_t device_ns = 0;  // the RTP stamp, unwrapped
+  double arrival_s = 0.0;      // arrival of the first packet
   std::optional<std::int64_t> report_utc_ns;
   bool broken = false;
 };
 
 class RtpPictures {
  public:
-  // `clock_hz`: ticks of the stamps.
+  // `clock_hz`: tick rate of the stamps.
   explicit RtpPictures(double clock_hz) : clock_hz_(clock_hz) {}
 
   void add(const RtpPacket& packet);
-  // The decoder gets a picture; `whole`: it needs no other one.
+  // Notes that the decoder gets a picture; `whole`: the picture does not depend on another one.
   void decoding(std::uint64_t pts_ns, bool whole);
-  // The picture that left the decoder; empty: no packet had this time.
+  // The data of a picture that has left the decoder; nullopt if no packet had this time.
   std::optional<RtpPicture> take(std::uint64_t pts_ns);
 
   std::uint64_t lost_packets() const { return lost_packets_; }
@@ -54,11 +54,11 @@ class RtpPictures {
   std::deque<Entry> entries_;
   std::optional<std::uint16_t> sequence_;
   std::uint32_t stamp_ = 0;
-  bool ended_ = true;  // the newest packet was the last of its picture
+  bool ended_ = true;  // the newest packet was the last one of its picture
   std::int64_t ticks_ = 0;
   std::uint64_t number_ = 0;
   std::uint64_t lost_packets_ = 0;
-  bool broken_ = false;  // from the picture on that the decoder got last
+  bool broken_ = false;  // the picture that the decoder got last, and those after it, are wrong
 };
 
 }  // namespace ols::camera

@@ -1,5 +1,5 @@
-// An RTSP camera, kept connected by its own thread. It sets its exposure itself and takes no
-// trigger: set_region() and trigger() have no effect.
+// An RTSP camera, kept connected by its own thread. It controls its exposure itself and has no
+// trigger, so set_region() and trigger() do nothing.
 #pragma once
 
 #include <memory>

@@ -1,10 +1,10 @@
-// The exposure time of an RTSP camera's picture on the station's monotonic clock. Pure.
+// Computes the exposure time of an RTSP camera's picture on the station's monotonic clock. Pure.
 //
-// Two sources. Sender reports (RTCP) give the UTC of a picture's stamp by the camera's own clock,
-// but the first may come after ten seconds or never, and the camera's clock may be wrong: local
-// time, never set, drifting. Arrivals are always there, but late by a delay that is only roughly
-// known. The reports are believed while they imply a credible delay; from them the delay is learnt,
-// so that the times hardly change when the reports cease.
+// There are two sources. Sender reports (RTCP) give the UTC of a picture's stamp by the camera's
+// own clock. But the first report may come after ten seconds or never, and the camera's clock may
+// be wrong: local time, never set, drifting. Arrivals are always available, but late by a delay
+// that is only roughly known. The reports are believed while they imply a credible delay. The delay
+// is learnt from them, so that the times hardly change when the reports cease.
 #pragma once
 
 #include <cstdint>
@@ -16,35 +16,37 @@
 namespace ols::camera {
 
 struct RtspStamp {
-  std::int64_t device_ns = 0;                 // the RTP stamp, unwrapped
-  double arrival_s = 0.0;                     // CLOCK_MONOTONIC of the picture's first packet
-  std::optional<std::int64_t> report_utc_ns;  // of that stamp, by the newest sender report
+  std::int64_t device_ns = 0;  // the RTP stamp, unwrapped
+  double arrival_s = 0.0;      // CLOCK_MONOTONIC of the picture's first packet
+  // UTC of that stamp according to the newest sender report.
+  std::optional<std::int64_t> report_utc_ns;
 };
 
 class RtspClock {
  public:
   struct Config {
-    double delay_s = 0.3;  // mid-exposure to the arrival of the first packet
+    double delay_s = 0.3;  // from mid-exposure to the arrival of the first packet
     double delay_sd_s = 0.3;
-    double report_delay_s = 0.0;  // mid-exposure to the instant that the camera reports
-    double report_sd_s = 0.02;    // 1-sigma of that instant and of the camera's UTC
+    double report_delay_s = 0.0;  // from mid-exposure to the instant that the camera reports
+    double report_sd_s = 0.02;    // 1-sigma of that instant and of the camera's UTC together
   };
   explicit RtspClock(const Config& config) : config_(config) {}
 
-  // `utc_minus_monotonic_ns`: of the station's clocks, now.
+  // `utc_minus_monotonic_ns`: difference between the station's clocks now.
   FrameTime stamp(const RtspStamp& picture, std::int64_t utc_minus_monotonic_ns);
 
-  // The stream begins anew, with other RTP stamps; the learnt delay stays.
+  // Notes that the stream begins anew with other RTP stamps; the learnt delay remains.
   void restart();
 
-  // By how much the newest time differs from what the previous source would have given; set by the
-  // first stamp() after a change of the source.
+  // How much the newest time differs from what the previous source would have given. It is set by
+  // the first stamp() after a change of the source.
   std::optional<double> jump_s() const { return jump_s_; }
-  // The delay as learnt from the reports; empty: never.
+  // The delay learnt from the reports; nullopt if none was learnt.
   std::optional<double> learnt_delay_s() const;
-  // Reports that are not believed: how late they make the pictures arrive. Empty: no such reports.
+  // The delay of the pictures according to reports that are not believed. nullopt if there are no
+  // such reports.
   std::optional<double> refused_delay_s() const { return refused_delay_s_; }
-  // Seconds of the station per second of the camera's stamps, once it is measured.
+  // Seconds of the station per second of the camera's stamps; nullopt until it is measured.
   std::optional<double> rate() const;
 
  private:
@@ -55,13 +57,15 @@ class RtspClock {
 
   Config config_;
   ArrivalLine arrivals_;
-  std::optional<std::int64_t> report_ns_;  // of the newest report
+  std::optional<std::int64_t> report_ns_;  // UTC of the newest report
   std::int64_t report_offset_ns_ = 0;
-  std::optional<double> stepped_s_;  // arrival after the last step of the reports
-  double step_square_s2_ = 0.0;      // of the reports against one another, smoothed
+  // Arrival of the first picture after the last step of the reports.
+  std::optional<double> stepped_s_;
+  // Mean square of the differences between successive reports, smoothed.
+  double step_square_s2_ = 0.0;
   double learnt_delay_s_ = 0.0;
-  double learnt_s_ = 0.0;  // arrival
-  int learnt_from_ = 0;    // times
+  double learnt_s_ = 0.0;  // arrival at which the delay was last learnt
+  int learnt_from_ = 0;    // how often the delay was learnt
   std::optional<double> refused_since_s_, refused_delay_s_;
   std::optional<StampSource> source_;
   std::optional<double> jump_s_;

@@ -13,19 +13,24 @@ enum class RtspTransport { kTcp, kUdp };
 struct RtspConfig : CameraConfig {
   std::string url;  // without user and password
   std::string user;
-  std::string password_file;  // its first line; read at each connection
+  // The password is the file's first line; it is read at each connection.
+  std::string password_file;
   RtspTransport transport = RtspTransport::kTcp;
   RtspClock::Config clock;
-  double row_readout_s = 0.0;       // from the first to the last row of a picture; 0: all at once
-  double frozen_s = 20.0;           // the same picture for so long: connected anew; 0: never
-  double no_frame_timeout_s = 5.0;  // plus two frame periods: connected anew
-  double first_frame_timeout_s = 20.0;  // a camera may send a whole picture every ten seconds only
+  // From the first to the last row of a picture; 0 if all rows are exposed at once.
+  double row_readout_s = 0.0;
+  double frozen_s = 20.0;  // reconnect after the same picture for this time; 0: never
+  // Reconnect after this time plus two frame periods without a picture.
+  double no_frame_timeout_s = 5.0;
+  // Longer, because some cameras send a whole picture only every ten seconds.
+  double first_frame_timeout_s = 20.0;
   bool keep_raw = false;
 };
 
-config::Section rtsp_section(RtspConfig& config);  // of [camera]
+config::Section rtsp_section(RtspConfig& config);  // the section [camera]
 
-// "rtsp://10.0.0.5:554/...": for logs; some cameras want the password in the path or behind it.
+// The URL as it may appear in logs: "rtsp://10.0.0.5:554/...". Some cameras need the password in
+// the path or after it.
 std::string shown_url(const std::string& url);
 
 }  // namespace ols::camera

@@ -1,4 +1,4 @@
-// RTSP cameras as a kind of camera.
+// RTSP cameras as a kind of camera (camera_kind.h).
 #pragma once
 
 #include <memory>

@@ -1,4 +1,4 @@
-// One connection to an RTSP camera: GStreamer receives and decodes in threads of its own; a caller
+// One connection to an RTSP camera. GStreamer receives and decodes in its own threads; a caller
 // takes the newest picture.
 #pragma once
 
@@ -14,14 +14,14 @@
 
 namespace ols::camera {
 
-// The camera refuses user or password.
+// The camera refuses the user or the password.
 struct LoginRefused : CameraError {
   using CameraError::CameraError;
 };
 
 struct DecodedPicture {
-  cv::Mat gray;  // 8 bits, its own memory
-  cv::Mat bgr;   // empty where nobody needs it
+  cv::Mat gray;  // 8-bit, in memory of its own
+  cv::Mat bgr;   // empty if nobody needs it
   RtpPicture rtp;
 };
 
@@ -33,11 +33,11 @@ class RtspStream {
   RtspStream(const RtspStream&) = delete;
   RtspStream& operator=(const RtspStream&) = delete;
 
-  // The newest picture; empty: none came in time. Throws CameraAbsent when the stream has ended,
-  // CameraUnfit if it has no video that can be decoded, LoginRefused.
+  // The newest picture; nullopt if none came in time. Throws CameraAbsent if the stream has ended,
+  // CameraUnfit if it has no video that can be decoded, and LoginRefused.
   std::optional<DecodedPicture> receive(double timeout_s);
 
-  std::string codec() const;  // "H264"; empty: not known yet
+  std::string codec() const;  // for example "H264"; empty if not known yet
   std::uint64_t lost_packets() const;
 
  private:

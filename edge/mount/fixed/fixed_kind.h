@@ -1,4 +1,4 @@
-// Cameras that stand still as a kind of mount.
+// Mounts that stand still, as a kind of mount (mount_kind.h).
 #pragma once
 
 #include <memory>

@@ -1,5 +1,5 @@
-// A camera that stands still, as a mount: the same angles at all times. Orders to move do nothing;
-// the station refuses them in words, because its traits say that nothing moves.
+// A mount for a camera that stands still: its angles never change. Orders to move do nothing. The
+// station refuses such orders in words, because the mount's traits say that nothing moves.
 #pragma once
 
 #include <atomic>
@@ -19,7 +19,7 @@ struct FixedMountConfig {
 
 Limits fixed_limits(const PanTilt& angles);
 std::string fixed_words(const PanTilt& angles);  // "fixed at pan 10.00, tilt 5.00 deg"
-// The samples after `last_s` up to now, twenty a second; after a long time only the newest.
+// The samples after `last_s` up to now, twenty per second; after a long time, only the newest.
 std::vector<AngleSample> fixed_samples(const PanTilt& angles, double last_s, double now_s);
 
 class FixedMount : public Mount {

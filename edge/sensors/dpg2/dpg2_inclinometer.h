@@ -1,5 +1,5 @@
-// A digital inclinometer (TE DPG2) on a serial line. A thread opens the device, and reopens it
-// after a failure. report() states what is wrong.
+// A digital inclinometer (TE DPG2) on a serial line. A thread opens the device and reopens it after
+// a failure. report() states what is wrong.
 #pragma once
 
 #include <memory>
@@ -11,9 +11,9 @@
 namespace ols::sensors {
 
 struct Dpg2Config : InclinometerConfig {
-  std::string device;  // serial device; empty: no inclinometer
+  std::string device;  // serial device; empty if there is no inclinometer
   int baud = 9600;
-  bool even_parity = false;  // BEI and AGS variants: 8E1
+  bool even_parity = false;  // needed for the BEI and AGS variants (8E1)
 };
 
 class Dpg2Inclinometer : public Inclinometer {

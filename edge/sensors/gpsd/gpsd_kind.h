@@ -1,4 +1,4 @@
-// A receiver that gpsd reads as a kind of GNSS receiver.
+// A receiver that gpsd reads, as a kind of GNSS receiver.
 #pragma once
 
 #include <memory>

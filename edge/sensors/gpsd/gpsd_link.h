@@ -1,4 +1,4 @@
-// One connection to gpsd through libgps, closed by the destructor.
+// A connection to gpsd through libgps; the destructor closes it.
 #pragma once
 
 #include <gps.h>
@@ -10,18 +10,18 @@ namespace ols::sensors {
 
 class GpsdLink {
  public:
-  // Connects and asks for reports. Throws std::runtime_error.
+  // Connects and requests reports. Throws std::runtime_error if this fails.
   GpsdLink(const std::string& host, const std::string& port);
   ~GpsdLink();
   GpsdLink(const GpsdLink&) = delete;
   GpsdLink& operator=(const GpsdLink&) = delete;
 
-  // Waits at most `timeout_s` for the next message; data().set says which it is. False: timeout.
-  // Throws std::runtime_error if gpsd has closed the connection.
+  // Waits at most `timeout_s` for the next message; data().set says which one it is. Returns false
+  // on timeout. Throws std::runtime_error if gpsd has closed the connection.
   bool read(double timeout_s);
   const gps_data_t& data() const { return *data_; }
 
-  // Why there are no reports, from gpsd's statements and whether the device file exists.
+  // Why there are no reports, according to gpsd's statements and whether the device file exists.
   enum class Silence { kNoReceiver, kDeviceMissing, kReceiverSilent };
   Silence silence() const;
 
@@ -31,7 +31,7 @@ class GpsdLink {
   std::unique_ptr<gps_data_t> data_;
   bool is_local_;
   bool has_receiver_ = false;
-  std::string device_;  // the receiver's, on gpsd's host
+  std::string device_;  // the receiver's device on gpsd's host
 };
 
 }  // namespace ols::sensors

@@ -1,4 +1,5 @@
-// A GNSS receiver that gpsd reads (libgps). A thread connects to gpsd, and reconnects after a loss.
+// A GNSS receiver that gpsd reads (libgps). A thread connects to gpsd, and reconnects if the
+// connection is lost.
 #pragma once
 
 #include <memory>
@@ -10,9 +11,9 @@
 namespace ols::sensors {
 
 struct GpsdConfig : GnssConfig {
-  std::string host;  // of gpsd; empty: the station has no receiver
+  std::string host;  // host of gpsd; empty if the station has no receiver
   std::string port = "2947";
-  double error_sigmas = 1.0;  // number of sigmas in gpsd's own errors; used without GST
+  double error_sigmas = 1.0;  // how many sigmas gpsd's own errors are; used only without GST
 };
 
 class GpsdReceiver : public Gnss {
