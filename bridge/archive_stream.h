@@ -1,4 +1,4 @@
-// Makes the server keep a stream, and checks periodically whether it grows. In its own thread,
+// Sets up a stream on the server, and checks periodically whether it grows. Uses its own thread,
 // because a server may be slow to answer.
 #pragma once
 
@@ -14,10 +14,10 @@
 
 namespace ols::bridge {
 
-// A copied site, with its newest message in the stream.
+// A site whose stream is copied, with the time of its newest message here.
 struct SourceReport {
   std::string site;
-  std::int64_t newest_utime_us = 0;  // 0: none
+  std::int64_t newest_utime_us = 0;  // 0: no message
 };
 
 struct ArchiveReport {

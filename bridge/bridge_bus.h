@@ -1,5 +1,5 @@
-// ols-bridge on the bus: receives and sends messages unchanged, with their signatures, which it
-// does not judge. Sends from any thread.
+// ols-bridge on the bus. It passes on messages unchanged, with their signatures, which it does not
+// check. Call send() from any thread.
 #pragma once
 
 #include <functional>
@@ -17,15 +17,15 @@ class BridgeBus : public BusClient {
   // Called in the thread of turn(), with the message's bytes as received.
   using Handler = std::function<void(const std::string& channel, Bytes bytes)>;
 
-  // channels: a regular expression; empty: it receives nothing.
+  // channels: a regular expression; empty: nothing is received.
   BridgeBus(std::string url, const std::string& channels, const Handler& handler);
 
-  // False: there is no bus.
+  // Returns false if there is no bus.
   bool send(const std::string& channel, Bytes bytes);
 
  private:
   std::mutex mutex_;
-  std::unique_ptr<LcmBus> sender_;  // under the lock: a second connection, which receives nothing
+  std::unique_ptr<LcmBus> sender_;  // under the lock; a second connection, which only sends
 };
 
 }  // namespace ols::bridge

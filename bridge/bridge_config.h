@@ -15,25 +15,26 @@ namespace ols::bridge {
 // The connection to a NATS server.
 struct NatsConfig {
   std::vector<std::string> servers{"nats://127.0.0.1:4222"};
-  std::string credentials;  // file of a user's JWT and seed
-  std::string nkey, seed;   // public key; file with its seed
-  std::string authority;    // file of trusted certificates
+  std::string credentials;  // path of a file with a user's JWT and seed
+  std::string nkey, seed;   // the public key, and the path of a file with its seed
+  std::string authority;    // path of a file with trusted certificates
   std::string certificate, key;
 };
 
-// What a server keeps, in addition to the live traffic.
+// What a server stores, in addition to passing on the live traffic.
 struct ArchiveConfig {
   bool is_on = false;
   double keep_h = 24.0;
   double most_bytes = 16e9;
-  std::string domain;                // of the server that keeps it; empty: the connected one
-  std::vector<std::string> sources;  // sites whose streams a region copies
+  std::string domain;                // of the server that stores the stream; empty: the connected
+                                     // server
+  std::vector<std::string> sources;  // sites whose streams are copied to a region
 };
 
 struct OwnershipConfig {
   bool is_on = false;
-  std::string name;    // of this fusion, among those that may own a target
-  std::string domain;  // of the server that keeps the owners
+  std::string name;    // the name of this fusion among those that may own a target
+  std::string domain;  // of the server with the store of owners
   std::array<double, 4> cell_deg{-90.0, -180.0, 90.0, 180.0};  // south, west, north, east
   double margin_m = 2000.0;
 };
@@ -52,7 +53,7 @@ struct BridgeConfig {
   OwnershipConfig ownership;
 };
 
-// Whether its servers are reached only over TLS.
+// Whether all its servers are reached over TLS.
 bool is_over_tls(const NatsConfig& config);
 config::Section bridge_section(BridgeConfig& config);  // the whole file
 PassageConfig passage_of(const BridgeConfig& config);

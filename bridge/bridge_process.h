@@ -1,5 +1,5 @@
-// ols-bridge at work: connects its parts. Messages of the bus are handled in the thread of run(),
-// those of the network in the threads in which they arrive: neither waits for the other.
+// Runs ols-bridge: connects its parts. Bus messages are handled in the thread of run(), network
+// messages in the library's threads. Neither waits for the other.
 #pragma once
 
 #include <atomic>
@@ -31,7 +31,8 @@ class BridgeProcess {
   void run();
 
  private:
-  // The parts of one connection to a server. Each ends before the parts that it needs.
+  // The parts of one connection to a server. They are ended in the reverse order of declaration, so
+  // each ends before the parts that it needs.
   struct Remote {
     Remote(BridgeProcess& bridge, const BridgeConfig& config);
     NatsLink link;
@@ -49,18 +50,18 @@ class BridgeProcess {
   BridgeStatus status();
   void describe_link(BridgeStatus& status) const;
   void describe_archive(BridgeStatus& status, std::map<std::string, double> heard, double now_s);
-  // Logs conditions that begin and end, and writes the status. Returns it in one line.
+  // Logs conditions that begin or end, and writes the status file. Returns the status in one line.
   std::string report();
 
   const BridgeConfig config_;
   StatusFile status_file_;
   std::mutex mutex_;
   Passage passage_;                     // under the lock
-  std::optional<Ownership> ownership_;  // under the lock; nullopt: nobody else owns targets
+  std::optional<Ownership> ownership_;  // under the lock; nullopt: there is no other owner
   BridgeBus bus_;
   std::atomic<std::uint64_t> unsent_to_bus_{0};
   AlarmJournal alarms_;
-  std::map<std::string, double> live_since_s_;  // by site
+  std::map<std::string, double> live_since_s_;  // since when each site is heard live
   LinkReport before_;                           // counts of the connections that have ended
   std::string tried_anew_;                      // the logged reason for a new attempt; empty: none
   std::unique_ptr<Remote> remote_;  // declared after everything that its threads use, so that they

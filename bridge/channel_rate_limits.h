@@ -1,5 +1,5 @@
-// The rate limit of each channel. When there is no more room, channels that are silent for a minute
-// are forgotten. Pure.
+// The rate limit of each channel. If there are too many channels, those that were silent for a
+// minute are forgotten. Pure.
 #pragma once
 
 #include <cstddef>
@@ -18,11 +18,12 @@ class ChannelRateLimits {
 
   explicit ChannelRateLimits(std::size_t most) : most_(most) {}
 
-  // Whether one more may pass now; counts it.
+  // Whether one more message may pass now; counts it.
   bool passes(std::string_view channel, double rate_hz, double now_s);
 
  private:
-  static constexpr double kSweep_s = 1.0;  // a flood of names must not cost a search each
+  static constexpr double kSweep_s = 1.0;  // least time between two searches for silent channels,
+                                           // also in a flood of names
 
   struct One {
     trust::RateLimit limit;

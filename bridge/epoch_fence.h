@@ -1,9 +1,9 @@
-// Whose commands a station obeys: those of the greatest epoch. Pure.
+// Decides which owner's commands a station obeys: those with the greatest epoch. Pure.
 //
 // Epochs are revisions of one store, so they grow over all targets and owners: of two commands, the
-// one with the greater epoch comes from the later owner. An owner that does not know yet that it
-// was replaced is thereby ignored. Nobody signs epochs. Impossible ones are therefore refused, and
-// those of a sender that is silent for a minute are forgotten.
+// one with the greater epoch comes from the later owner. The command of an owner that does not yet
+// know that it was replaced is thereby ignored. Epochs are not signed. Impossible ones are
+// therefore refused, and those of a sender that is silent for a minute are forgotten.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace ols::bridge {
 
-// What a command states of its sender. Epoch 0: without ownership.
+// What a command states about its sender. Epoch 0: the sender works without ownership.
 struct Claim {
   std::string target;  // the region-wide id
   std::string owner{};
@@ -21,22 +21,23 @@ struct Claim {
 
 class EpochFence {
  public:
-  // Another owner's command with a lower epoch passes when no command of the greatest has come for
-  // this long: that owner no longer leads this station.
+  // An owner with a lower epoch may lead a station again when no command with the greatest epoch
+  // has come for this long: that owner no longer leads it.
   static constexpr double kSilence_s = 2.0;
   static constexpr double kForgotten_s = 60.0;
-  // The store counts the renewals of all targets. No revision differs from the last one by more
-  // than kMostJump, plus as many per second.
+  // The store counts the renewals of all targets. Its revision can exceed the last one by at most
+  // kMostJump, plus kMost_Hz for each second between.
   static constexpr std::uint64_t kMostEver = 1'000'000'000'000'000, kMostJump = 1'000'000;
   static constexpr double kMost_Hz = 10'000.0;
 
-  // Without ownership, a command passes while no owner leads the station. `now_s`: monotonic.
+  // A command without ownership passes while no owner leads the station. `now_s`: monotonic.
   bool passes(const std::string& station, const Claim& claim, double now_s);
-  // Of all commands that have passed; 0: none had an owner.
+  // The greatest epoch among commands that have passed; 0: no command had an owner.
   std::uint64_t greatest() const { return greatest_; }
 
  private:
-  static constexpr double kSweep_s = 1.0;  // a flood of names must not cost a search each
+  static constexpr double kSweep_s = 1.0;  // least time between two searches for silent stations,
+                                           // also in a flood of names
 
   struct Led {
     std::uint64_t epoch = 0;
@@ -48,8 +49,8 @@ class EpochFence {
     double heard_s = 0.0;
   };
   struct Station {
-    Led by;                                // who leads it now
-    std::map<std::string, Heard> targets;  // the greatest epoch of each
+    Led by;                                // the owner that leads it now
+    std::map<std::string, Heard> targets;  // the greatest epoch for each
   };
   bool is_possible(std::uint64_t epoch, double now_s) const;
   Station* station_of(const std::string& station, double now_s);

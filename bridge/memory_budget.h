@@ -7,8 +7,8 @@
 
 namespace ols::bridge {
 
-// For the bus, and for all subscriptions at the server: each one second of traffic of a thousand
-// stations. The library needs as much again around each message.
+// For the bus, and for all subscriptions at the server together: each holds one second of traffic
+// of a thousand stations. The library needs as much memory again around each message.
 inline constexpr std::size_t kBusQueueBytes = 24'000'000;
 inline constexpr std::size_t kNetworkQueueBytes = 24'000'000;
 

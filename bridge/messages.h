@@ -9,13 +9,12 @@
 
 namespace ols::bridge {
 
-// The target of a fusion message (a target or a slew; 0: it concerns none). nullopt if it is no
-// such message. `payload`: without its signature.
+// The target's number in a fusion message, which is a target or a slew; 0: it concerns no target.
+// nullopt if the payload is no such message. `payload`: without its signature.
 std::optional<std::int64_t> target_id_of(Kind kind, Bytes payload);
-// A target at the message's position. nullopt: the message states no position, or the end of the
-// target.
+// The target in a message. nullopt if the message states no position or ends the target.
 std::optional<Track> track_from(Bytes payload);
-// Another owner's target, from such a message.
+// Another owner's target, from such a message and its headers.
 std::optional<TargetReport> sighting_from(const Headers& headers, Bytes payload);
 
 }  // namespace ols::bridge

@@ -1,9 +1,9 @@
 // The connection to a NATS server: publishes and receives, and reconnects by itself. It ends only
-// if the server has refused it twice, or is no NATS server. No message waits for a connection. A
-// message that cannot be sent now is lost and counted, because a queued command is a stale one.
+// if the server has refused it twice, or is no NATS server. A message that cannot be sent now is
+// dropped and counted. It never waits for a connection, because a queued command is a stale one.
 //
-// On an open connection the library collects up to 32 kB and writes them in its own thread. While
-// that thread waits, send() waits too. A server that does not read holds it up for kWrite_ms; then
+// On an open connection the library collects up to 32 kB, and its own thread writes them. While
+// that thread waits for the server, send() waits too. If the server does not read for kWrite_ms,
 // the library reconnects.
 #pragma once
 
@@ -31,8 +31,9 @@ namespace ols::bridge {
 struct LinkReport {
   bool is_open = false;
   std::uint64_t openings = 0, losses = 0;
-  std::uint64_t sent = 0, unsent = 0;  // unsent: there was no connection
-  std::uint64_t displaced = 0;         // arrived faster than they were handled
+  std::uint64_t sent = 0, unsent = 0;  // unsent: dropped, because there was no connection
+  std::uint64_t displaced = 0;         // dropped, because they arrived faster than they were
+                                       // handled
   std::uint64_t refusals = 0;          // refusals by the server on an open connection
   std::string refusal;                 // the last refusal, while it is recent
   std::string trouble;                 // why there is no connection; empty: there is one
@@ -41,7 +42,7 @@ struct LinkReport {
 
 class NatsLink {
  public:
-  // Called in the library's threads, one message after the other for each subject.
+  // Called in the library's threads. Messages of one subject come one after the other.
   using Handler =
       std::function<void(std::string_view subject, const Headers& headers, Bytes bytes)>;
 
@@ -52,10 +53,10 @@ class NatsLink {
   NatsLink(const NatsLink&) = delete;
   NatsLink& operator=(const NatsLink&) = delete;
 
-  // False: there is no connection.
+  // Returns false if there is no connection.
   bool send(const Outgoing& outgoing, Bytes bytes);
   LinkReport report() const;
-  // For streams and stores on the same connection, while it is open.
+  // For streams and stores on the same connection; valid while it is open.
   __natsConnection* connection() const { return connection_; }
 
  private:
@@ -64,7 +65,7 @@ class NatsLink {
   };
   struct Said {
     std::string trouble = "connecting";
-    std::string unheard;  // a refused subscription, which the server reports once
+    std::string unheard;  // a refused subscription; the server reports it only once
     std::string refusal;  // a refused publication
     double refused_s = -1e9;
   };
@@ -90,7 +91,7 @@ class NatsLink {
   Tally tally_;
   mutable std::mutex mutex_;
   std::condition_variable ended_;
-  std::size_t callers_ = 0;  // library threads that may call; under the lock
+  std::size_t callers_ = 0;  // library threads that are still to call back; under the lock
   Said said_;                // under the lock
 };
 

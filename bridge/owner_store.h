@@ -1,5 +1,5 @@
-// The store of owners: a bucket of keys and values at a NATS server. Two threads, because it may be
-// slow: one asks, the other receives changes.
+// The store of owners: a bucket of keys and values at a NATS server. It uses two threads, because
+// the server may be slow: one sends requests, the other receives changes.
 #pragma once
 
 #include <atomic>
@@ -21,7 +21,7 @@ namespace ols::bridge {
 
 class OwnerStore {
  public:
-  // Called in the two threads.
+  // Called in these two threads.
   struct Ears {
     std::function<void(const std::string& target, const OwnerRecord&, std::uint64_t)> learn;
     std::function<void(const std::string& target)> gone;
@@ -35,9 +35,9 @@ class OwnerStore {
   OwnerStore(const OwnerStore&) = delete;
   OwnerStore& operator=(const OwnerStore&) = delete;
 
-  // Asked one after the other. If there are too many, the excess is answered with kNone.
+  // Requests are handled one after the other. If too many wait, the excess is answered with kNone.
   void ask(std::vector<StoreRequest> requests);
-  // Time from request to answer: of the last request, or of the one that waits longest.
+  // Time from request to answer: that of the last request, or of the longest waiting one.
   double delay_s() const;
 
  private:
@@ -57,7 +57,7 @@ class OwnerStore {
   NatsLink& link_;
   const std::string domain_;
   const Ears ears_;
-  __jsCtx* js_ = nullptr;  // both for the working thread, until the watching one has begun
+  __jsCtx* js_ = nullptr;  // used by the working thread only, until the watching thread has begun
   __kvStore* store_ = nullptr;
   mutable std::mutex mutex_;
   std::condition_variable asked_;

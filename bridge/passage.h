@@ -1,7 +1,7 @@
-// Decides which messages pass between a bus and the network of sites. Changes none. Pure.
+// Decides which messages pass between a bus and the network of sites. It changes no message. Pure.
 //
-// It holds no keys: on a signed bus, the receiver judges the signatures. It knows which messages
-// may go where, how large and how many they may be, and how old a command may be.
+// It holds no keys: on a signed bus, the receiver verifies the signatures. It knows which messages
+// may go where, how large and how frequent they may be, and how old a command may be.
 #pragma once
 
 #include <array>
@@ -42,13 +42,13 @@ enum class Role {
 enum class Refusal {
   kShape,  // a channel or subject that never crosses, or not in this direction
   kSize,
-  kMalformed,  // not the head of such a message
-  kName,       // a station of another place, or not the one that the message names
+  kMalformed,  // it does not begin as a message of this kind does
+  kName,       // the station is known at another place, or the message names another station
   kRate,
-  kStale,   // too old by this host's clock; a command also: from its future
-  kOwn,     // came in over the bridge: it never goes out again
-  kEpoch,   // a command of an owner that was replaced
-  kNobody,  // a command to a station that was not heard
+  kStale,   // too old by this host's clock; for a command also: from the future
+  kOwn,     // it came in over the bridge, so it must not go out again
+  kEpoch,   // a command from an owner that was replaced
+  kNobody,  // a command to a station from which nothing was received
   kNotOwned,
   kCount,  // not a reason: the number of reasons
 };
@@ -80,12 +80,12 @@ struct Counts {
   std::string last_refusal{};
 };
 
-// The id and epoch of a target that goes out itself, or whose commands do.
+// The id and epoch of a target. They go out with the target and with commands about it.
 struct Grant {
   std::string id;            // region-wide; empty: no target (a search)
   std::uint64_t epoch = 0;   // 0: without ownership
   bool is_confirmed = true;  // false: the store of owners does not answer
-  std::string owner{};       // a fusion and its start
+  std::string owner{};       // name and start of a fusion
 };
 // nullopt: another fusion owns the target of this message.
 using Owned = std::function<std::optional<Grant>(Kind, Bytes)>;
@@ -97,36 +97,36 @@ class Passage {
  public:
   explicit Passage(PassageConfig config) : config_(std::move(config)) {}
 
-  // `bytes`: with their signature, as received. `owned`: called for the targets and slews of a
-  // region.
+  // The message to send out; nullopt: it does not pass. `bytes`: as received, with the signature.
+  // `owned`: called for the targets and slews of a region.
   std::optional<Outgoing> out(std::string_view channel, Bytes bytes, const Now& now,
                               const Owned& owned = {});
-  // The channel on which the same bytes continue.
+  // The channel on which the same bytes go to the bus; nullopt: they do not pass.
   std::optional<std::string> in(std::string_view subject, const Headers& headers, Bytes bytes,
                                 const Now& now);
-  // Whether another owner's target comes in time for its position to be used.
+  // Whether the message is another owner's target, and fresh enough for its position to be used.
   bool hears_target(std::string_view subject, Bytes bytes, const Now& now);
 
-  // The subscriptions on either side.
+  // The subscriptions on the bus and on the network.
   std::string channels() const;
   std::vector<std::string> subjects() const;
 
   const Counts& out_counts() const { return out_; }
   const Counts& in_counts() const { return in_; }
-  // The greatest epoch of a command that came in; 0: none had an owner.
+  // The greatest epoch among commands that came in; 0: no command had an owner.
   std::uint64_t greatest_epoch() const { return epochs_.greatest(); }
   const SequenceWatch& gaps() const { return gaps_; }
   // The last live message that came late ("alfa, 12 s"), while it is recent; otherwise empty.
   std::string late(double now_s) const;
   std::size_t stations() const { return places_.size(); }
-  // How long ago a station of each site was heard.
+  // How long ago the last station of each site was heard, by site.
   std::map<std::string, double> sites_ago_s(double now_s) const {
     return places_.sites_ago_s(now_s);
   }
 
  private:
-  // Limits for bearings and statuses: twice as many as the bridge knows places of stations. Limit
-  // for commands: separate, because they name stations that need not exist.
+  // The most channels that are counted. For bearings and statuses: two per station that the bridge
+  // knows. Commands have their own limit, because they may name stations that do not exist.
   static constexpr std::size_t kMostChannels = 2 * StationPlaces::kMost + 1, kMostCommands = 10'000;
   using Judged = std::optional<Refusal>;
 

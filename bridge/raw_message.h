@@ -1,5 +1,5 @@
-// A message that is passed on unchanged, with its signature. It has only those parts of an LCM type
-// that sending needs.
+// A message that is passed on unchanged, with its signature. It has only the members of an LCM type
+// that are needed for sending.
 #pragma once
 
 #include <algorithm>

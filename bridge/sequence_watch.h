@@ -1,4 +1,4 @@
-// Finds gaps in what came over a link, from each sender's own sequence numbers. Pure.
+// Finds messages that a link has lost, from each sender's own sequence numbers. Pure.
 #pragma once
 
 #include <cstdint>
@@ -12,9 +12,9 @@ class SequenceWatch {
   // `stream`: a station and a kind of message.
   void hear(const std::string& stream, std::int64_t boot_id, std::int64_t sequence, double now_s);
 
-  // Number of sequences that never came, over all streams. A late one is subtracted again.
+  // Number of missing messages over all streams. A late message is subtracted again.
   std::uint64_t missing() const { return missing_; }
-  // Number of messages that came twice, or too late to distinguish the two.
+  // Number of messages that came twice, or so late that they cannot be told from repeated ones.
   std::uint64_t repeated() const { return repeated_; }
   // The last stream with a gap within kAlarm_s; otherwise empty.
   std::string alarm(double now_s) const;
@@ -24,7 +24,7 @@ class SequenceWatch {
   struct Mark {
     std::int64_t boot_id = 0;
     std::int64_t newest = 0;
-    std::uint64_t heard = 0;  // bit n: sequence newest - n
+    std::uint64_t heard = 0;  // bit n: sequence newest - n was received
     double heard_s = 0.0;
   };
   void advance(const std::string& stream, Mark& mark, std::int64_t sequence, double now_s);

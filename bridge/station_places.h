@@ -1,6 +1,6 @@
-// Where each station is. A name belongs to the place from which it is heard, until it falls silent.
-// Otherwise a fusion would take two stations of the same name for one, and incoming messages would
-// go out again. Pure.
+// The region and site of each station. A station's name belongs to the place from which it is
+// heard, until the station falls silent. Without this rule a fusion would take two stations of the
+// same name for one, and messages that came in would go out again. Pure.
 #pragma once
 
 #include <cstddef>
@@ -21,20 +21,22 @@ class StationPlaces {
     double heard_s = 0.0;
   };
 
-  // Where it was heard last; null: nowhere.
+  // The place where the station was heard last; null: it was never heard.
   const Place* find(const std::string& station) const;
-  // Whether the name belongs to another place now.
+  // Whether the station's name now belongs to another place than this one.
   bool is_elsewhere(const std::string& station, const std::string& region, const std::string& site,
                     double now_s) const;
-  // The station is heard there. False: the name belongs to another place, or there is no room.
+  // Notes that the station is heard at this place. False: the name belongs to another place, or
+  // there is no room.
   bool settle(const std::string& station, const std::string& region, const std::string& site,
               double now_s);
   std::size_t size() const { return places_.size(); }
-  // How long ago a station of each site was heard.
+  // How long ago the last station of each site was heard, by site.
   std::map<std::string, double> sites_ago_s(double now_s) const;
 
  private:
-  static constexpr double kSweep_s = 1.0;  // a flood of names must not cost a search each
+  // Least time between two searches for silent stations, also in a flood of names.
+  static constexpr double kSweep_s = 1.0;
 
   using Site = std::pair<std::string, std::string>;  // region, site
   bool has_room(const Site& site, double now_s);

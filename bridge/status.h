@@ -16,7 +16,7 @@ struct LinkStatus {
   std::string trouble;
   std::uint64_t openings = 0, losses = 0, sent = 0, unsent = 0, displaced = 0;
   std::uint64_t refusals = 0;
-  std::string refusal;  // the server's last one
+  std::string refusal;  // the server's last refusal
 };
 
 struct ArchiveStatus {
@@ -31,7 +31,7 @@ struct OwnershipStatus {
   std::size_t owned = 0, others = 0;
   std::uint64_t taken = 0, handed_over = 0, lost = 0;
   std::uint64_t epoch = 0;  // the greatest among owned targets
-  double delay_s = 0.0;     // until the store answers
+  double delay_s = 0.0;     // from a request to the store's answer
 };
 
 struct BridgeStatus {
@@ -44,19 +44,19 @@ struct BridgeStatus {
   OwnershipStatus ownership;
   Counts out, in;
   std::uint64_t missing = 0, repeated = 0, unsent_to_bus = 0;
-  std::uint64_t obeyed_epoch = 0;  // the greatest of a command that came in
+  std::uint64_t obeyed_epoch = 0;  // the greatest among commands that came in
   std::string gap;                 // the stream with the last gap, while recent
   std::string late;                // the last live message that came late, while recent
 };
 
-// One condition each; empty if all is well.
+// One alarm for each condition; empty if all is well.
 std::vector<Alarm> alarms(const BridgeStatus& status);
 // "connected; out 120, in 3; 2 refused (last x: stale)".
 std::string in_one_line(const BridgeStatus& status);
 std::string to_json(const BridgeStatus& status);
 
-// The sites that are live now, but have not come into the archive for `patience_s`. A server that
-// has stopped copying reports that all is well.
+// The sites that are heard live now, but of which nothing has reached the archive for `patience_s`.
+// This is checked here because a server that has stopped copying reports no trouble.
 std::vector<std::string> standing_still(const std::map<std::string, double>& heard_ago_s,
                                         const std::map<std::string, double>& archived_ago_s,
                                         double patience_s);

@@ -1,5 +1,5 @@
-// What a server keeps of a site or a region: bearings, statuses and targets, but never a command: a
-// queued command is a stale command. Pure.
+// Plans which messages of a site or a region a server stores: bearings, statuses and targets, but
+// never commands, because a queued command is a stale command. Pure.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ struct StreamSource {
 
 struct StreamPlan {
   std::string name;
-  std::vector<std::string> subjects;  // received by this server itself; empty where it copies
+  std::vector<std::string> subjects;  // that this server itself receives; empty: it copies streams
   std::vector<StreamSource> sources;
   std::int64_t keep_ns = 0, most_bytes = 0;
 };
@@ -25,8 +25,8 @@ struct StreamPlan {
 // nullopt if no stream is configured.
 std::optional<StreamPlan> plan_stream(const BridgeConfig& config);
 
-// Whether an existing stream of that name, with these subjects and sources, is the planned one, or
-// that of an earlier configuration. If so, everything that it keeps is of this region or site.
+// Whether an existing stream of that name, with these subjects and sources, is the planned one or
+// that of an earlier configuration. Then all that it stores is from this region or site.
 bool is_same_stream(const BridgeConfig& config, const std::vector<std::string>& subjects,
                     const std::vector<std::string>& sources);
 

@@ -1,4 +1,4 @@
-// The subjects between sites, and the bus channel behind each. Pure.
+// The subjects of messages between sites, and the bus channel of each. Pure.
 //
 //   ols.v1.<region>.<site>.<station>.bearing | status | reply | cmd.<command>
 //   ols.v1.<region>.target
@@ -17,13 +17,13 @@ struct Subject {
   Kind kind = Kind::kTarget;
   std::string region;
   std::string site{}, station{};  // empty for a target
-  std::string command{};          // of kCommand, for example "slew"
+  std::string command{};          // only for kCommand, for example "slew"
 
   friend bool operator==(const Subject&, const Subject&) = default;
 };
 
-// A region, a site or a station: 1 to 40 letters, digits, - or _. Nothing else may be between the
-// dots of a subject: a station named "*" or "a.b" would be another's.
+// Whether the text may name a region, a site or a station: 1 to 40 letters, digits, - or _. A
+// station named "*" or "a.b" would give its subject another meaning.
 bool is_name(std::string_view text);
 // The commands that a subject may carry.
 const std::vector<std::string>& commands();
@@ -32,7 +32,7 @@ const std::vector<std::string>& commands();
 std::optional<Subject> parse_subject(std::string_view text);
 std::string to_text(const Subject& subject);
 
-// The contents of a station's channel; nullopt for a channel that never crosses.
+// The kind of message on a station's channel; nullopt for a channel that never crosses.
 struct Content {
   Kind kind = Kind::kTarget;
   std::string station, command;

@@ -1,4 +1,5 @@
-// An alarm: a row of conditions.toml with its parameters. conditions/alarms.h raises them. Pure.
+// An alarm: a row of conditions.toml and the values of its parameters. conditions/alarms.h raises
+// them. Pure.
 #pragma once
 
 #include <algorithm>
@@ -11,47 +12,48 @@
 
 namespace ols {
 
-// A sentence of the table and its row.
+// A row of the table, with its sentence.
 struct AlarmRow {
   std::string_view id;
   std::string_view english;   // "ptu: supply voltage low ({volts} V)"
-  std::string_view subject;   // " station axis ": the parameters that belong to the key
+  std::string_view subject;   // " station axis ": the parameters that are part of the key
   std::string_view severity;  // "urgent", "warning", "notice"
-  std::string_view action;    // what to do
+  std::string_view action;    // what a person should do
 };
 
 struct Alarm {
   using Parameters = std::vector<std::pair<std::string, std::string>>;  // name, value
 
   std::string text{};  // the sentence in English
-  std::string id{};    // of its row; empty in logs from before messages had ids
+  std::string id{};    // of its row; empty in old logs, whose messages had no ids
   Parameters parameters{};
 
-  bool empty() const { return text.empty(); }  // no alarm
+  bool empty() const { return text.empty(); }  // whether there is no alarm
   operator const std::string&() const { return text; }
   bool operator==(const Alarm&) const = default;
   friend bool operator==(const Alarm& alarm, std::string_view text) { return alarm.text == text; }
 
-  // The same alarm, followed by the words of a device or library, as one more parameter.
+  // The same alarm with one more parameter: the words of a device or library, after the sentence.
   Alarm with_detail(const std::string& detail) const;
-  // A key that does not change while the alarm holds: id and subject ("station_silent s1"). Other
-  // parameters may change. Without an id: the sentence.
+  // A key that stays the same while the alarm holds: the id and the subject's parameters
+  // ("station_silent s1"). Other parameters may change meanwhile. Without an id: the sentence.
   std::string key() const;
-  // The sentence with the subject filled in; all other parameters appear as "…".
+  // The sentence with the values of the subject's parameters; all other parameters appear as "…".
   std::string gist() const;
-  // The part that the sentence is about ("ptu"), and what the sentence says about it: the words
-  // before and after the first colon in the table. Without an id, there is no part.
+  // The words of the table's sentence before its first colon (part(): what it is about, "ptu") and
+  // after it (reason()). Without an id, part() is empty.
   std::string part() const;
   std::string reason() const;
-  // The value of a parameter; empty: it has none of this name.
+  // The value of a parameter; empty: the alarm has no parameter of this name.
   std::string parameter(std::string_view name) const;
-  // The severity and the action. Without an id: a warning that refers to docs/troubleshooting.md.
+  // The row, with severity and action. Without an id: a warning that refers to
+  // docs/troubleshooting.md.
   const AlarmRow& row() const;
 };
 
-// The alarm of the row `id`, which must be in the table.
+// Makes the alarm of the row `id`, which must be in the table.
 Alarm raise(std::string_view id, Alarm::Parameters parameters);
-// Alarms without ids.
+// Makes alarms without ids.
 std::vector<Alarm> alarms_of(const std::vector<std::string>& sentences);
 
 // Writes alarms into a status: station_status_t or fusion_status_t.

@@ -1,4 +1,4 @@
-// The table of alarms as the build has it. Pure.
+// The table of alarms, as compiled in. Pure.
 #pragma once
 
 #include <span>

@@ -9,9 +9,9 @@
 
 namespace ols::console {
 
-// In the unit's counted angles, within its travel. `station`: the fields of its last status
-// (docs/console.md). nullopt while the station does not know where it looks, and for an unreachable
-// place.
+// The angles as the unit counts them, within its travel. `station`: the fields of its last status
+// (docs/console.md). nullopt if the station does not know its orientation, or cannot reach the
+// angles.
 std::optional<PanTilt> aim_at_place(const Json& station, const Geodetic& place);
 
 }  // namespace ols::console

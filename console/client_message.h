@@ -1,4 +1,4 @@
-// A browser's WebSocket messages: parsed strictly, refused in words. Pure.
+// A browser's WebSocket messages: strictly parsed, and refused with a reason in words. Pure.
 #pragma once
 
 #include <cstddef>
@@ -18,12 +18,12 @@
 
 namespace ols::console {
 
-// `number`: the browser's own, repeated in the answer; 0: none.
+// `number`: chosen by the browser, repeated in the answer; 0: none.
 struct CommandRequest {
   std::int64_t number = 0;
   wire::Order order;
-  // The console's time that the browser heard last [us UTC], because its own clock may be wrong.
-  // Required with rates, optional otherwise.
+  // The console's time that the browser received last [us UTC], because the browser's own clock may
+  // be wrong. Required for rates, optional otherwise.
   std::optional<std::int64_t> heard_utime_us;
   std::optional<Geodetic> place = {};  // for kPoint: the place, instead of angles
 };
@@ -33,10 +33,11 @@ struct StopAllRequest {
 struct ControlRequest {
   std::int64_t number = 0;
   std::string station;
-  bool take = true;                            // from its holder; false: give it up
-  std::optional<std::int64_t> heard_utime_us;  // as with a command
+  bool take = true;                            // true: take control, also from its holder; false:
+                                               // give it up
+  std::optional<std::int64_t> heard_utime_us;  // as for a command
 };
-// From now on only pictures of these stations are wanted.
+// From now on the browser wants pictures of these stations only.
 struct WatchRequest {
   std::vector<std::string> stations;
   Codec codec = Codec::kJpeg;
@@ -46,7 +47,7 @@ struct TakenRequest {
   std::vector<std::string> stations;
   bool state = false;
 };
-// Where a replay is to go, whether it runs, how fast. Missing values stay.
+// Where a replay should continue, whether it runs, and how fast. Missing values do not change.
 struct ReplayRequest {
   std::int64_t number = 0;
   std::optional<std::int64_t> at_us;
@@ -57,31 +58,31 @@ struct ReplayRequest {
 struct AnswerRequest {
   std::int64_t number = 0;
   ProcedureAnswer answer;
-  std::optional<std::int64_t> heard_utime_us;  // as with a command
+  std::optional<std::int64_t> heard_utime_us;  // as for a command
 };
-// Whether stations may be led to a cue, or to what detectors find.
+// Whether stations may be slewed to a cue, or to what detectors find.
 struct CueRequest {
   std::int64_t number = 0;
   wire::CueOrder order;
-  std::optional<std::int64_t> heard_utime_us;  // as with a command
+  std::optional<std::int64_t> heard_utime_us;  // as for a command
 };
-// Somebody handles an alarm: the event of that number.
+// Somebody handles an alarm: the event with that number.
 struct AcknowledgeRequest {
   std::int64_t number = 0;
   std::uint64_t event = 0;
 };
-// The operators' name for a target; empty: the fusion's.
+// The operators' name for a target; empty: the name that the fusion gives it.
 struct NameRequest {
   std::int64_t number = 0;
   std::string target;
   std::string name;
 };
-// An area is set or removed.
+// Sets or removes an area.
 struct AreaRequest {
   std::int64_t number = 0;
   AreaChange change;
 };
-// What somebody says of an incident.
+// A person's judgement of an incident.
 struct JudgeRequest {
   std::int64_t number = 0;
   IncidentJudgement judgement;

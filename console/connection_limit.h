@@ -1,4 +1,4 @@
-// Limits the connections, in total and per address, so that no host can use up the room of all.
+// Limits the connections, in total and per address, so that no host can take them all.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@ namespace ols::console {
 
 class ConnectionLimit {
  public:
-  // Keep it for as long as the connection lasts; null: there is no room.
+  // Keep the place for as long as the connection lasts; null: the connection is refused.
   using Place = std::shared_ptr<const void>;
   Place admit(const std::string& address);
 

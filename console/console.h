@@ -1,5 +1,5 @@
-// The console without its sockets: the site's state, the viewers, what each is sent next, and the
-// commands. Pure: time, messages and texts come in, orders and texts go out.
+// The console without its sockets: the site's state, the viewers, the next message to each of them,
+// and the commands. Pure: time, messages and texts come in, orders and texts go out.
 #pragma once
 
 #include <cstdint>
@@ -29,16 +29,16 @@ struct Outgoing {
   std::string bytes;
 };
 
-// The state of a replay at one instant.
+// The complete state of a replay at one instant.
 struct Moment {
   SiteState site;
   PendingOrders orders;
   std::map<std::string, Picture> pictures;
 };
 
-// Who gives an order.
+// The person who gives an order.
 struct Person {
-  std::string name;          // empty: nobody known to this console
+  std::string name;          // empty: unknown to this console
   std::uint64_t viewer = 0;  // the browser; 0: unknown
 };
 
@@ -56,7 +56,7 @@ class Console {
 
   // Somebody's order in a recording, for the events of a replay.
   void hear(const wire::Order& order, const Now& now);
-  // To an order: of turn(), whose boot is 0, or of the log.
+  // A reply to an order: to one of turn(), which has boot 0, or to one in the log.
   void hear(const wire::Reply& reply);
 
   // The newest picture (JPEG) of a station's guided procedure; null: there is none.
@@ -75,56 +75,58 @@ class Console {
   // The alarms of the console itself.
   void hear_own(const std::vector<Alarm>& alarms, const Now& now);
 
-  // Before anything else: the areas and incidents that were kept.
+  // Call before anything else, with the areas and incidents that were kept.
   void resume(KeptIncidents kept, const Now& now);
   const IncidentBook& incidents() const { return incidents_; }
-  // What is to be written and sent of them since the last call of turn(), and what of it failed.
+  // What must be written and sent about incidents since the last call of turn().
   const IncidentBook::News& incident_news() const { return incident_news_; }
   void incident_trouble(const std::vector<Alarm>& alarms) { incident_trouble_ = alarms; }
 
-  // A browser has opened its WebSocket; returns its number. A second one of the same name is "ana
+  // A browser has opened its WebSocket; returns the viewer's number. A second one of the same name
+  // is called "ana 2".
   // 2".
   std::uint64_t open(const std::string& name, Role role);
   void close(std::uint64_t viewer);
   void take(std::uint64_t viewer, std::string_view text, const Now& now);
-  // The next message for this viewer, once the last one is through; nullopt: nothing new. It holds
-  // the newest state, never a queue.
+  // The next message for this viewer, once the last one is through; nullopt: there is nothing new.
+  // It is made from the newest state; nothing queues.
   std::optional<Outgoing> next(std::uint64_t viewer, const Now& now);
 
-  // Why no order goes out; empty: orders go out.
+  // Why orders cannot go out; empty: they can.
   void bus_is(const Alarm& trouble) { bus_trouble_ = trouble; }
   const Outcome& bus_trouble() const { return bus_trouble_; }
 
   // Stops every station, also those that are first heard within the next seconds. Returns their
-  // ids. All viewers are told which stations do not confirm it.
+  // ids. All viewers are told which stations do not confirm the stop.
   std::vector<std::string> stop_all(const Person& by, const Ticket& ticket, const Now& now);
-  // Who makes a request outside of the WebSocket: this browser, if it belongs to that name.
+  // The person behind a request outside of the WebSocket. `viewer`: the browser; used only if it
+  // belongs to that name.
   Person person(const std::string& name, std::uint64_t viewer) const;
 
-  // Call often: outcomes, control, ages. Returns the orders to be sent now.
+  // Call often: updates outcomes, control and ages. Returns the orders to be sent now.
   std::vector<wire::Order> turn(const Now& now);
 
   // This console shows a replay. From now on no order goes out, and every message has the replay's
-  // state. `is_urgent`: viewers get it at once.
+  // state. `is_urgent`: viewers get the state at once.
   void replay_is(const Json& state, bool is_urgent);
   void timeline_is(const Json& timeline) { replay_.timeline = timeline; }
   bool is_replay() const { return !replay_.state.is_null(); }
   const Json& timeline() const { return replay_.timeline; }
-  // Viewers' requests to the replay since the last call.
+  // What viewers have requested of the replay since the last call.
   std::vector<ReplayRequest> take_replay_requests() { return std::exchange(replay_.requests, {}); }
   Moment moment() const;
-  // Shows this moment to every viewer, as a whole.
+  // Shows this moment to every viewer, replacing the whole state.
   void show(const Moment& moment);
   Json events_since(Revision revision) const { return site_.events_since(revision); }
   Revision revision() const { return site_.revision(); }
 
   Json state(const Now& now) const;
   Json health(const Now& now) const;
-  // For the history: what somebody did in this console, or "": what happened.
+  // Adds an event: what the person `who` did in this console. Empty `who`: something happened.
   void note(const std::string& who, const Alarm& what, const Now& now);
   std::size_t viewers() const { return viewers_.size(); }
 
-  // 20 Hz, less a turn's jitter. At 10 Hz a new position would wait for up to 0.1 s.
+  // 20 Hz, less the jitter of a turn. At 10 Hz a new position would wait for up to 0.1 s.
   static constexpr double kDeltaPeriod_s = 0.045;
 
  private:
@@ -162,16 +164,16 @@ class Console {
   void begin_stop(const std::string& station, const std::string& name, Ticket ticket,
                   const Now& now);
   std::string distinct(const std::string& name) const;
-  // Tells whoever controls one of these stations what another person has done there.
+  // Tells everybody who controls one of these stations what another person has done there.
   void tell_holders(const std::vector<std::string>& stations, const char* what, const Person& by,
                     const Now& now);
   void look_at_incidents(const Now& now);
   void show_areas();
   void show_incident(const Incident& incident);
   void look_at_own_alarms(const Now& now);
-  // A change that needs no station was made: its event and its answer.
+  // Concludes a change that needs no station: adds its event and answers the viewer.
   void conclude(std::uint64_t id, std::int64_t number, const Alarm& what, const Now& now);
-  // Why this viewer may change nothing; empty: may.
+  // Why this viewer may not make changes; empty: the viewer may.
   Outcome change_refusal(std::uint64_t id) const;
   void forget_gone();
   void add_time(Json& message, const Now& now) const;

@@ -1,4 +1,4 @@
-// The console on the bus: messages go to the console, orders go out.
+// Connects the console to the bus: messages go to the console, orders go out.
 #pragma once
 
 #include <string>
@@ -24,9 +24,9 @@ class ConsoleBus {
   void send(const std::vector<ProcedureAnswer>& answers, const Now& now);
   void send(const std::vector<wire::CueOrder>& orders, const Now& now);
   void send(const IncidentBook::News& news, const Now& now);
-  // Why no order goes out; empty: orders go out.
+  // Why orders cannot go out; empty: they can.
   Alarm trouble() const { return client_.trouble(); }
-  // For people: the state of the bus.
+  // The state of the bus, for people.
   std::string in_one_line() const;
 
  private:
@@ -40,7 +40,7 @@ class ConsoleBus {
   wire::OrderSender sender_;
   AnswerSender answer_sender_;
   IncidentSender incident_sender_;
-  Now now_;  // of this turn, for the handlers
+  Now now_;  // the time of this turn, for the handlers
   std::vector<Alarm> alarms_;
   bool send_failed_ = false;
 };

@@ -16,16 +16,16 @@ struct ConsoleConfig {
   std::string lcm_url = "udpm://239.255.76.67:7667?ttl=0";
   std::string address = "127.0.0.1";
   int port = 8080;
-  std::vector<std::string> host_names;  // names by which browsers may call it, besides the address
+  std::vector<std::string> host_names;  // names that browsers may use for it, besides the address
   std::string certificate, key;         // PEM files; both empty: no TLS
   std::string users = "/var/lib/ols/console-users";
-  std::string incidents_folder = "/var/lib/ols/incidents";  // made when it is first needed
+  std::string incidents_folder = "/var/lib/ols/incidents";  // created when it is first needed
   IncidentRecording incident_recording;
-  std::string maps_folder = "/var/lib/ols/maps";  // users' own maps; need not exist
+  std::string maps_folder = "/var/lib/ols/maps";  // users' own maps; the folder need not exist
   double session_s = 12.0 * 3600.0;
   double control_timeout_s = 60.0;
-  // Networks of the stations' video sockets. The addresses come over the bus, where anybody may
-  // write.
+  // The networks in which the console connects to stations' video sockets. It must be limited,
+  // because the addresses come over the bus, where anybody may write.
   std::vector<std::string> video_networks = {"127.0.0.0/8",    "10.0.0.0/8", "172.16.0.0/12",
                                              "192.168.0.0/16", "::1/128",    "fc00::/7"};
   trust::TrustConfig trust;
@@ -37,13 +37,14 @@ ConsoleConfig load_console_config(const std::string& path);
 // The same from text. Errors give `name` instead of the path.
 ConsoleConfig parse_console_config(const std::string& text, const std::string& name);
 
-std::string address_problem(const std::string& address);  // empty: none
+std::string address_problem(const std::string& address);  // the error in an address; empty: it is
+                                                          // valid
 bool is_loopback(const std::string& address);
-// Why the console must not serve on this address; empty: it may. Other than on loopback, TLS and
-// users are required.
+// Why the console must not serve on its address; empty: it may. On any address but loopback, TLS
+// and users are required.
 std::string serving_problem(const ConsoleConfig& config, bool has_users);
-// Whether a browser may call this console by this Host header. Otherwise any page in the world
-// could, by a name that points here.
+// Whether the Host header names this console. Without this check any page in the world could call
+// it, through a name that points here.
 bool is_own_host(const ConsoleConfig& config, const std::string& host);
 
 }  // namespace ols::console

@@ -1,5 +1,5 @@
-// Which viewer controls which station. A viewer keeps control until it gives up, another takes
-// over, or it has given no command for a while. Pure.
+// Which viewer controls which station. A viewer keeps control until it gives it up, another takes
+// it over, or it has given no command for a while. Pure.
 #pragma once
 
 #include <cstdint>
@@ -22,16 +22,16 @@ class ControlLeases {
  public:
   explicit ControlLeases(double timeout_s) : timeout_s_(timeout_s) {}
 
-  // A command of this viewer: takes or prolongs control. Returns why it may not: another viewer has
-  // control; else empty.
+  // A command of this viewer: takes or prolongs control. Returns why the command is refused,
+  // because another viewer has control; empty: it is not refused.
   Outcome use(const std::string& station, std::uint64_t viewer, const std::string& name,
               double now_s);
   void take(const std::string& station, std::uint64_t viewer, const std::string& name,
             double now_s);
   void give_up(const std::string& station, std::uint64_t viewer);
-  void leave(std::uint64_t viewer);  // of all stations
+  void leave(std::uint64_t viewer);  // gives up control of all stations
 
-  // The viewer that controls it; 0: none.
+  // The viewer that controls the station; 0: nobody does.
   std::uint64_t holder(const std::string& station, double now_s) const;
 
   // Stations whose holder has changed since the last call, with the present holder.

@@ -1,4 +1,4 @@
-// Operators' decisions on cues: on their way to the fusion, and what it answers. Pure.
+// Operators' decisions on cues: sends them to the fusion and takes its answers. Pure.
 #pragma once
 
 #include <string>
@@ -13,15 +13,15 @@ namespace ols::console {
 
 class CueOrders {
  public:
-  // Why the order does not go out; empty: it does.
+  // Why the order cannot go out; empty: it can.
   Outcome refusal(Role role, const Alarm& bus_trouble) const;
-  // Of an order that is not refused.
+  // Gives an order. Call only if refusal() is empty.
   void give(wire::CueOrder order, const Ticket& ticket, double now_s);
-  // The orders given since the last call, each under its own sequence number and the boot 0.
+  // The orders given since the last call, each with its own sequence number and boot 0.
   std::vector<wire::CueOrder> take() { return std::exchange(given_, {}); }
 
   void hear(const wire::Reply& reply);
-  // Orders that the fusion has answered, or whose time is over.
+  // Orders that the fusion has answered, or that have timed out.
   std::vector<Verdict> finished(double now_s);
 
  private:

@@ -14,23 +14,23 @@
 namespace ols::console {
 
 using Json = nlohmann::json;
-// Of the whole site's state: grows by one with each change.
+// Counts the changes of the whole site's state.
 using Revision = std::uint64_t;
 
 class EntityTable {
  public:
   explicit EntityTable(std::size_t most) : most_(most) {}
 
-  // Sets these fields; others stay. Changes no revision if nothing differs. False if the table is
-  // full and nothing in it is stale.
+  // Sets these fields; others do not change. The revision grows only if something differs. False if
+  // the table is full and nothing in it is stale.
   bool set(const std::string& id, const Json& fields, double now_s, Revision& revision);
-  // The same without counting as a sign of life.
+  // Sets one field, but does not count as a sign of life.
   void mark(const std::string& id, const std::string& field, const Json& value, Revision& revision);
   void remove(const std::string& id, Revision& revision);
   void clear(Revision& revision);
 
-  // Marks entities silent for stale_s ("stale": true), removes those silent for forget_s. Returns
-  // those that have just become stale.
+  // Marks entities that are silent for stale_s ("stale": true), and removes those silent for
+  // forget_s. Returns those that have just become stale.
   std::vector<std::string> age(double now_s, double stale_s, double forget_s, Revision& revision);
 
   const Json* find(const std::string& id) const;
@@ -39,7 +39,7 @@ class EntityTable {
   std::vector<std::string> ids() const;
   Json all() const;                    // an array of whole objects, each with its "id"
   Json changed(Revision since) const;  // an array of objects: "id" and the changed fields
-  // Ids removed since; nullopt if that is too long ago to be known.
+  // Ids removed since that revision; nullopt if it is too long ago.
   std::optional<Json> gone(Revision since) const;
 
  private:

@@ -1,5 +1,5 @@
-// The events at the site (errors, alarms, commands), each with person, time and outcome. The newest
-// are kept. Pure.
+// The events at the site (errors, alarms, commands), each with its time, person and outcome. Only
+// the newest are kept. Pure.
 #pragma once
 
 #include <cstdint>
@@ -15,15 +15,16 @@ namespace ols::console {
 struct Event {
   std::int64_t utime_us = 0;  // this host's UTC
   std::string kind;           // "error", "alarm", "command", "site", "console"
-  std::string station;        // empty: the site
-  std::string who;            // of a command
+  std::string station;        // empty: it concerns the site
+  std::string who;            // the person who gave a command
   std::string text;
-  std::string outcome;  // of a command: empty while unknown, "sent", "done", or the refusal's text
-  Alarm said{};         // an alarm, or a note, by its row of the table; of an error only the text
-  Outcome refusal{};    // of a command that is not carried out
+  std::string outcome;  // of a command: empty while unknown, "sent", "done", or the text of the
+                        // refusal
+  Alarm said{};         // an alarm or a note as a row of the table; for an error only its text
+  Outcome refusal{};    // why a command is not carried out
 };
 
-// Of a note of the table.
+// Makes the event of a note of the table.
 inline Event noted(std::int64_t utime_us, const char* kind, const std::string& station,
                    const std::string& who, const Alarm& note, const std::string& outcome = {}) {
   return {utime_us, kind, station, who, note.text, outcome, note};
@@ -31,10 +32,10 @@ inline Event noted(std::int64_t utime_us, const char* kind, const std::string& s
 
 class EventList {
  public:
-  // Returns its number, by which its outcome can be added. An event, except a command, that is
-  // repeated within kRepeat_us is counted and moves to the end: it must not push out other events.
-  // An alarm stands until it is ended. An error that only explains an alarm or a refused command is
-  // not listed (0); one that comes shortly before its alarm becomes that alarm's row.
+  // Returns the event's number, by which its outcome can be added later. An event, except a
+  // command, that is repeated within kRepeat_us is counted and moves to the end, so that it pushes
+  // out no other event. An alarm holds until it is ended. An error that only explains an alarm or a
+  // refused command is not listed (0). If the error comes first, the alarm takes over its row.
   std::uint64_t add(Event event, Revision& revision);
   void conclude(std::uint64_t number, const Outcome& refusal, Revision& revision);
 
@@ -46,7 +47,7 @@ class EventList {
   // Somebody has seen this alarm and handles it. False: there is no such alarm.
   bool acknowledge(std::uint64_t number, const std::string& who, Revision& revision);
 
-  Json since(Revision revision) const;  // an array, oldest first
+  Json since(Revision revision) const;  // as an array, oldest first
   static constexpr std::size_t kMost = 500;
   static constexpr std::int64_t kRepeat_us = 60'000'000;
 
@@ -55,10 +56,10 @@ class EventList {
     std::uint64_t number;
     Revision changed;
     Event event;
-    std::string key;  // the same for what is the same event
+    std::string key;  // equal for repetitions of the same event
     int times = 1;
-    std::optional<std::int64_t> over_us;  // of an alarm; nullopt: it stands
-    std::string acknowledged;             // the person
+    std::optional<std::int64_t> over_us;  // when an alarm ended; nullopt: it holds
+    std::string acknowledged;             // the person who handles the alarm
     bool holds() const { return event.kind == "alarm" && !over_us; }
   };
   std::deque<Kept>::iterator repeated(const Event& event, const std::string& key);

@@ -1,5 +1,5 @@
 // A listening socket that the service manager, or the demo, has opened and handed over (systemd's
-// socket activation). The console then needs no right to the port or its network.
+// socket activation). The console then needs no permission for the port or its network.
 #pragma once
 
 #include <optional>
@@ -14,7 +14,7 @@ struct HandedOverSocket {
   int port = 0;
 };
 
-// nullopt if there is none. Throws std::runtime_error if it is no listening TCP socket.
+// nullopt if no socket was handed over. Throws std::runtime_error if it is no listening TCP socket.
 std::optional<HandedOverSocket> handed_over_socket();
 
 }  // namespace ols::console

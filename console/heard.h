@@ -1,4 +1,4 @@
-// Messages of the bus, translated for the console's site model.
+// Messages of the bus, translated into values for the console's model of the site.
 #pragma once
 
 #include <compare>
@@ -16,7 +16,7 @@ struct StationHeard {
   std::string id;
   Json fields;  // docs/console.md lists them
   bool is_stopped = false;
-  std::string video_address;  // where its pictures are to be had; empty: nowhere
+  std::string video_address;  // where its video can be fetched; empty: nowhere
   std::vector<Alarm> alarms;
   std::string last_error;
   std::int64_t last_error_utime_us = 0;
@@ -26,7 +26,7 @@ struct TargetHeard {
   enum class What { kPosition, kLine, kNoPosition, kDropped, kNothing };
   What what = What::kNothing;
   std::int64_t boot_id = 0;
-  std::string id;  // of the target; for a line: its station
+  std::string id;  // of the target; of a line: its station
   Json fields;
   double latitude_deg = 0.0, longitude_deg = 0.0, height_m = 0.0;
 };
@@ -38,29 +38,29 @@ struct FusionHeard {
   std::string last_error;
 };
 
-// How pictures are coded: each separately, or as the change from the one before.
+// How pictures are coded: each one alone, or as changes of the one before.
 enum class Codec { kJpeg, kH264 };
 
 struct Picture {
   std::string station;
   Json header;  // listed in docs/console.md
   std::string bytes;
-  bool is_video = false;  // from the station's video socket, not the bus's preview
+  bool is_video = false;  // from the station's video socket, not from the bus (preview)
   Codec codec = Codec::kJpeg;
-  bool is_key = false;  // of H.264: it can be shown without earlier ones
+  bool is_key = false;  // of H.264: can be decoded without earlier ones
 };
 
-// For H.264: a key frame is requested after this many units; a browser that has missed something
-// begins there.
+// For H.264: a key frame is requested after this many units. A browser that has missed something
+// continues there.
 inline constexpr int kUnitsOfKeyFrame = 90;
 
-// A station's video that somebody watches.
+// A station's video that somebody watches, and how it is coded.
 struct WatchedVideo {
   std::string station;
   Codec codec = Codec::kJpeg;
   auto operator<=>(const WatchedVideo&) const = default;
 };
-// The address of each video: "10.0.0.11:7790".
+// The watched videos with their addresses, such as "10.0.0.11:7790".
 using WatchedVideos = std::map<WatchedVideo, std::string>;
 
 }  // namespace ols::console

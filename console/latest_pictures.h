@@ -1,5 +1,5 @@
-// The console's pictures, and which one a browser is to be sent next: the newest of each station,
-// never a queue. Pure.
+// The console's pictures, and which one a browser receives next: always the newest of a station;
+// nothing queues. Pure.
 #pragma once
 
 #include <cstdint>
@@ -26,14 +26,14 @@ class LatestPictures {
   };
 
   void hear(Picture picture);
-  // Of the stations with a new picture, the one that was sent longest ago: over a slow link each
-  // gets its turn. Returns the message's bytes (docs/console.md); nullopt: nothing new.
+  // Of the stations with a new picture, takes the one that was sent longest ago: even over a slow
+  // link each gets its turn. Returns the message's bytes (docs/console.md); nullopt: nothing new.
   std::optional<std::string> next(View& view) const;
   void keep_only(const std::function<bool(const std::string&)>& is_known);
 
-  // The newest single picture of a station; null: there is none.
+  // The newest single picture of a station; null: it has none.
   const Picture* newest(const std::string& station) const;
-  // The newest single picture of each station; show() replaces all pictures by these.
+  // newest(): the newest single picture of each station. show(): replaces all pictures by these.
   std::map<std::string, Picture> newest() const;
   void show(const std::map<std::string, Picture>& pictures);
 

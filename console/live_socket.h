@@ -76,8 +76,8 @@ class LiveSocket : public Live, public std::enable_shared_from_this<LiveSocket<S
     read();
   }
 
-  // Reads until it fails. Then nothing keeps this object alive, once the current write has failed
-  // too.
+  // Reads until reading fails. When the current write has failed too, nothing keeps this object
+  // alive.
   void read() {
     ws_.async_read(buffer_,
                    [self = this->shared_from_this()](boost::beast::error_code error, std::size_t) {
@@ -100,7 +100,7 @@ class LiveSocket : public Live, public std::enable_shared_from_this<LiveSocket<S
 
   bool is_logged_in() const { return shared_.api.lasts(token_, clock_now()); }
 
-  // A browser sends a few messages a second at most.
+  // Limits the browser's messages: a browser sends a few a second.
   bool has_patience() {
     const double now_s = clock_monotonic_s();
     if (now_s > counted_from_s_ + 1.0) {

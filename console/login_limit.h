@@ -10,11 +10,11 @@ namespace ols::console {
 
 class LoginLimit {
  public:
-  // Whether this address may try now; counts as a try.
+  // Whether this address may try now. Counts the try.
   bool admit(const std::string& address, double now_s);
 
-  static constexpr double kTries = 5.0;        // at once
-  static constexpr double kRegained_s = 10.0;  // one more try after this long
+  static constexpr double kTries = 5.0;        // that are allowed at once
+  static constexpr double kRegained_s = 10.0;  // one more try is allowed after this time
   static constexpr double kAllTries = 50.0;    // of all addresses together
   static constexpr double kAllRegained_s = 1.0;
   static constexpr std::size_t kMostAddresses = 1000;

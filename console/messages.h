@@ -1,5 +1,5 @@
-// The bus's messages as the console's own values. nullopt for a message that cannot be decoded, is
-// of another schema, or is not from the station of its channel. Texts are made safe to show
+// Converts bus messages to the console's own values. nullopt for a message that cannot be decoded,
+// has another schema, or does not come from the station of its channel. Texts are made safe to show
 // (base/text/plain_text.h).
 #pragma once
 
@@ -13,9 +13,9 @@
 namespace ols::console {
 
 std::optional<StationHeard> station_from(const BusMessage& message);
-// The station and the bearing.
+// The station's name and its bearing.
 std::optional<std::pair<std::string, Json>> bearing_from(const BusMessage& message);
-// nullopt for another channel: the paper's estimate is no target.
+// nullopt for another channel: the paper's estimate is not shown as a target.
 std::optional<TargetHeard> target_from(const BusMessage& message);
 std::optional<FusionHeard> fusion_from(const BusMessage& message);
 

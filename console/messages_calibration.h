@@ -1,4 +1,5 @@
-// A station's calibration, from its own status and from the fusion's, as the console's own values.
+// Converts a station's calibration, from its own status or from the fusion's, to the console's
+// values.
 #pragma once
 
 #include "console/heard.h"
@@ -10,7 +11,7 @@ namespace ols::console {
 // {state, id, utime_us, sd_deg}: "none", "in use", "refused" or "doubted"; its id; its last
 // observation, null if not stated; 1-sigma of a direction, each axis, null if there is none.
 Json calibration_of(const ols_msg::station_status_t& status);
-// The same without an id, from the fusion's report on the station at this index.
+// The same, but without an id; from the fusion's report on the station with this index.
 Json calibration_of(const ols_msg::fusion_status_t& status, std::size_t station);
 
 }  // namespace ols::console

@@ -1,4 +1,4 @@
-// The cues of a fusion's status as the console's own values.
+// The cues in a fusion's status as the console's own values.
 #pragma once
 
 #include "console/heard.h"
@@ -6,7 +6,7 @@
 
 namespace ols::console {
 
-// An array, in the order of ids.
+// An array, sorted by id.
 Json cues_of(const ols_msg::fusion_status_t& status);
 
 }  // namespace ols::console

@@ -9,8 +9,8 @@
 
 namespace ols::console {
 
-// Sends each incident that has changed, and once a second those that last: a message may get lost,
-// and who comes later is told, too.
+// Sends each incident that has changed, and once a second those that continue. A message may be
+// lost, and a program may start later.
 class IncidentSender {
  public:
   explicit IncidentSender(std::int64_t boot_id) : boot_id_(boot_id) {}

@@ -13,9 +13,9 @@ namespace ols::console {
 
 std::optional<Picture> picture_from(const BusMessage& message);
 
-// For a station's video socket, not the bus: a request and its answer.
+// A request to a station's video socket (not to the bus) for a picture.
 std::vector<std::uint8_t> video_request(std::int64_t after_utime_us, int max_width_px, int quality);
-// The same for H.264. key_frame: its answer must be decodable without earlier ones.
+// The same for H.264. key_frame: the answer must be decodable without earlier units.
 std::vector<std::uint8_t> stream_request(std::int64_t after_utime_us, int max_width_px, int quality,
                                          bool key_frame);
 std::optional<Picture> video_picture_from(std::span<const std::uint8_t> bytes, Codec codec);

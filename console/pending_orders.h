@@ -14,27 +14,27 @@
 
 namespace ols::console {
 
-// Who waits for an outcome.
+// Who waits for the outcome of an order.
 struct Ticket {
-  std::uint64_t viewer = 0;  // 0: nobody does
-  std::int64_t number = 0;   // the viewer's own
-  std::uint64_t event = 0;   // in the list of events
+  std::uint64_t viewer = 0;  // 0: no viewer
+  std::int64_t number = 0;   // number that the viewer gave the request
+  std::uint64_t event = 0;   // its number in the list of events
   std::string who = {};
-  bool is_for_all = false;  // of a stop of the whole site
-  bool is_watched = false;  // of an order that somebody else has sent, in a log
+  bool is_for_all = false;  // part of a stop of the whole site
+  bool is_watched = false;  // an order that somebody else has sent, seen in a log
 };
 
 struct Verdict {
   Ticket ticket;
   std::string station;
-  Outcome why;  // it was refused, or not answered; empty: it is carried out
+  Outcome why;  // why it was refused or not answered; empty: it is carried out
 };
 
 class PendingOrders {
  public:
-  // Of a station's newest status.
+  // Takes the state from a station's newest status.
   void hear(const std::string& station, bool is_stopped);
-  // To an order that was sent.
+  // Takes a reply to an order that was sent.
   void hear(const wire::Reply& reply);
   // Forgets all stations but these.
   void keep_only(const std::function<bool(const std::string&)>& is_known);
@@ -45,31 +45,32 @@ class PendingOrders {
   // yet is replaced by the next.
   Outcome begin(const wire::Order& order, const Ticket& ticket, double now_s);
 
-  // A stop that is watched was repeated under another id.
+  // A watched stop was repeated with another id.
   void watch_again(const wire::Order& order);
 
-  // Whether a joystick's order of this kind was given a moment ago: the next one continues the same
-  // hold.
+  // Whether a joystick's order of this kind was given a moment ago: the next one then belongs to
+  // the same movement of the stick.
   bool is_held(const wire::Order& order, double now_s) const;
 
-  // The event of a stop of this person that is still pending; 0: none.
+  // The event of this person's pending stop of the station; 0: there is none.
   std::uint64_t stop_event(const std::string& station, const std::string& who) const;
 
   // Whether a stop of this station is pending.
   bool is_stopping(const std::string& station) const;
-  // Whether it is stopped, by its newest status.
+  // Whether the station is stopped, according to its newest status.
   bool is_stopped(const std::string& station) const;
 
-  // The orders to be sent now, each under its own sequence number and the boot 0: each once, but a
-  // stop again and again until it is confirmed.
+  // The orders to be sent now, each with its own sequence number and boot 0. An order is sent once,
+  // a stop again and again until it is confirmed.
   std::vector<wire::Order> due(double now_s);
-  // Orders that are answered, or whose time is over. Of a watched one nothing is told without an
-  // answer: a log of before may have none.
+  // Orders that were answered, or that have timed out. A watched order that times out is not
+  // reported: an old log may contain no answers.
   std::vector<Verdict> finished(double now_s);
 
-  static constexpr std::size_t kMostPending = 500;  // without stops: one per known station
-  static constexpr std::size_t kMostTickets = 64;   // of a stop
-  static constexpr std::size_t kMostSent = 500;     // of an order
+  static constexpr std::size_t kMostPending = 500;  // without stops, of which there is one per
+                                                    // known station
+  static constexpr std::size_t kMostTickets = 64;   // of one stop
+  static constexpr std::size_t kMostSent = 500;     // repetitions of one order
   static constexpr double kStopPatience_s = 3.0;
   static constexpr double kHold_s = 1.0;
 
@@ -80,8 +81,8 @@ class PendingOrders {
   };
   struct Pending {
     wire::Order order;
-    std::vector<Waiting> waiting;  // never empty; only a stop has several
-    std::set<wire::OrderId> sent;  // each time under another
+    std::vector<Waiting> waiting;  // never empty; only a stop has more than one
+    std::set<wire::OrderId> sent;  // the ids with which it was sent
     double sent_s = -1e9;
     bool is_watched = false;
     std::optional<wire::Reply> reply;
@@ -91,7 +92,8 @@ class PendingOrders {
   std::int64_t sequence_ = 0;            // of the last order that was sent
   std::map<std::string, bool> stopped_;  // the stations that are heard
   std::vector<Pending> pending_;
-  std::map<std::pair<std::string, wire::Kind>, double> holds_s_;  // the newest order of each
+  std::map<std::pair<std::string, wire::Kind>, double> holds_s_;  // when the newest order of each
+                                                                  // was given
 };
 
 }  // namespace ols::console

@@ -1,6 +1,6 @@
-// The stations' guided procedures (calibrations), for a browser. The state of each is part of the
-// site's state, its picture is fetched separately, and an answer is checked against the current
-// question. Pure.
+// The stations' guided procedures (calibrations), for a browser. Their fields are part of the
+// site's state. Pictures are fetched separately. An answer is checked against the current question.
+// Pure.
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@ namespace ols::console {
 struct ProcedureHeard {
   std::string station;
   Json fields;                       // listed in docs/console.md
-  std::int64_t question = 0;         // 0: none
+  std::int64_t question = 0;         // number of the question; 0: none
   std::vector<std::string> choices;  // of the question
   std::string jpeg;                  // empty: no picture
   bool is_at_work = true;            // false: it has ended
@@ -36,14 +36,14 @@ struct ProcedureAnswer {
 
 class Procedures {
  public:
-  // Returns its part of the site's state: the fields, and `picture`, a number that changes with
-  // each picture; 0: none.
+  // Returns the procedure's part of the site's state: its fields, and `picture`, a number that
+  // changes with each picture; 0: there is no picture.
   Json hear(ProcedureHeard heard);
   // The newest picture (JPEG) of a station's procedure; null: there is none.
   const std::string* picture(const std::string& station) const;
 
   bool has(const std::string& station) const { return kept_.contains(station); }
-  // Why this answer cannot be given; empty: it is on its way. One that ends the procedure ("abort")
+  // Why this answer is refused; empty: it will be sent. An answer that ends the procedure ("abort")
   // is accepted whatever the question.
   Outcome answer(const ProcedureAnswer& answer);
   // The answers to be sent now.

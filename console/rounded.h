@@ -1,4 +1,4 @@
-// Numbers of messages as a browser gets them.
+// Converts numbers of messages to what a browser receives.
 #pragma once
 
 #include <cmath>

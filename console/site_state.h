@@ -15,7 +15,7 @@
 
 namespace ols::console {
 
-// `monotonic_s`: of this host, for ages. `utime_us`: its UTC, for people.
+// `monotonic_s`: for ages. `utime_us`: this host's UTC, for people.
 struct Now {
   double monotonic_s = 0.0;
   std::int64_t utime_us = 0;
@@ -35,7 +35,7 @@ class SiteState {
   void set_procedure(const std::string& station, const Json& procedure);
   // The areas that are watched, each with its "name".
   void set_areas(const Json& areas);
-  // Of a number; null: it is forgotten.
+  // Sets the incident with this number; null: removes it.
   void set_incident(std::uint64_t number, const Json& incident);
   // Call often.
   void look(const Now& now);
@@ -50,26 +50,26 @@ class SiteState {
   }
   // The operators' name for a target, for as long as it lasts. False: there is no such target.
   bool name_target(const std::string& id, const std::string& name);
-  // Who holds control of a station: {"by": NAME, "viewer": N}, or null.
+  // Who controls a station: {"by": NAME, "viewer": N}; null: nobody.
   void set_holder(const std::string& station, const Json& holder);
 
   Revision revision() const { return revision_; }
   // stations, targets (with trails), lines, fusion, areas, incidents, events; for GET /api/state
   // and a new viewer.
   Json snapshot() const;
-  // The changes since a revision: changed fields only, and "gone". A snapshot if that is too long
-  // ago to be known.
+  // The changes since a revision: changed fields only, and "gone". If that revision is too old to
+  // be known, a snapshot.
   Json changes(Revision since) const;
   Json events_since(Revision since) const { return events_.since(since); }
-  // Whether targets of this boot are those of the fusion that counts.
+  // Whether `boot_id` is that of the fusion whose targets are shown.
   bool counts_fusion(std::int64_t boot_id) const { return boot_id == fusion_boot_; }
-  // Numbers of stations, silent ones, targets; whether there is a fusion.
+  // The numbers of stations, of silent stations and of targets, and whether there is a fusion.
   Json counts() const;
   std::vector<std::string> station_ids() const { return stations_.ids(); }
   bool knows(const std::string& station) const { return fields_of(station) != nullptr; }
-  // From its last status; null: unknown.
+  // The fields of a station's last status; null: the station is unknown.
   const Json* fields_of(const std::string& station) const { return stations_.find(station); }
-  std::uint64_t refused() const { return refused_; }  // names for which there was no room
+  std::uint64_t refused() const { return refused_; }  // number of names for which there was no room
 
   static constexpr double kStationStale_s = 2.5;  // five status intervals
   static constexpr double kTargetStale_s = 1.5;
@@ -79,7 +79,7 @@ class SiteState {
   static constexpr std::size_t kMostAreas = 50, kMostIncidents = 200;
 
  private:
-  struct Kept {  // of a station or, with an empty name, the fusion
+  struct Kept {  // of a station, or of the fusion if the name is empty
     AlarmChanges alarms;
     std::string last_error;
     std::int64_t last_error_utime_us = -1;
@@ -98,7 +98,7 @@ class SiteState {
   void note_error(const std::string& station, const std::string& error, std::int64_t error_utime_us,
                   std::int64_t utime_us);
   void add_to_trail(const TargetHeard& target, double now_s);
-  // Whether this is the fusion that counts. Another one counts once the old one is silent.
+  // Whether this is the fusion that is shown. Another one is shown once the old one is silent.
   bool is_of_fusion(std::int64_t boot_id, const Now& now);
 
   Revision revision_ = 0;

@@ -1,6 +1,6 @@
-// What a browser was sent and has not taken yet: the site's state, stations' pictures. At most one
-// of each is under way: otherwise messages sent faster than they are taken would wait in its queue.
-// A browser that is slower than the site gets less, but nothing old. Pure.
+// What a browser was sent and has not processed yet: the site's state, stations' pictures. At most
+// one of each is under way. Otherwise messages would wait in its queue if they are sent faster than
+// it processes them. A slow browser gets less, but nothing old. Pure.
 #pragma once
 
 #include <set>
@@ -13,8 +13,8 @@ class UnderWay {
   static constexpr const char* kState = "";  // stations' names are not empty
 
   void sent(const std::string& thing) { things_.insert(thing); }
-  // Reported by the browser. A browser that never reports is sent everything at the pace of its
-  // connection.
+  // The browser has processed it. A browser that never reports this is sent everything at the pace
+  // of its connection.
   void taken(const std::string& thing) {
     is_paced_ = true;
     things_.erase(thing);

@@ -11,7 +11,7 @@
 
 namespace ols::console {
 
-// Each role may do everything that the one before may: look; command; manage the users.
+// Each role may do all that the previous role may. In order: look; command; manage the users.
 enum class Role { kViewer, kOperator, kAdmin };
 std::string_view name(Role role);
 std::optional<Role> role_named(std::string_view name);
@@ -26,9 +26,9 @@ using Users = std::map<std::string, User>;
 // Throws std::invalid_argument: "FILE:LINE: what is wrong".
 Users parse_users(const std::string& text, const std::string& file);
 std::string users_text(const Users& users);
-// The error in a list of users, such as a missing admin; empty: none.
+// The error in a list of users, such as a missing admin; empty: the list is valid.
 Outcome users_problem(const Users& users);
-// The error in a name or a password for a new user; empty: none.
+// The error in a name or a password for a new user; empty: it is valid.
 Outcome name_problem(std::string_view name);
 Outcome password_problem(std::string_view password);
 

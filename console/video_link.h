@@ -1,6 +1,6 @@
-// The console's connection to one station's video socket (docs/video.md): requests the newest
-// picture, its size and quality, again and again; reconnects after a failure. For one thread, that
-// of the io_context.
+// The console's connection to one station's video socket (docs/video.md). Requests the newest
+// picture again and again, with size and quality; reconnects after a failure. Use it in one thread,
+// that of the io_context.
 #pragma once
 
 #include <boost/asio/ip/tcp.hpp>
@@ -17,11 +17,11 @@
 
 namespace ols::console {
 
-// The request to every station.
+// What is requested from every station.
 struct VideoWish {
   int max_width_px = 960;
   int quality = 65;
-  // Quality of H.264: a tenth of the JPEGs' rate in the demo.
+  // Quality of H.264: in the demo it needs a tenth of the data rate of JPEG.
   int thin_quality = 45;
   double interval_s = 0.0;  // from one picture to the next request
   Codec codec = Codec::kJpeg;
@@ -30,14 +30,14 @@ struct VideoWish {
 class VideoLink : public std::enable_shared_from_this<VideoLink> {
  public:
   // Receives a whole video_frame_t, still encoded. Returns its utime, so that the next request asks
-  // for a later one; nullopt: it is no frame, and the connection ends.
+  // for a later picture. nullopt: it is no frame; the connection is then closed.
   using Take = std::function<std::optional<std::int64_t>(std::vector<std::uint8_t>)>;
 
   VideoLink(boost::asio::io_context& io, const boost::asio::ip::tcp::endpoint& endpoint,
             const VideoWish& wish, Take take);
 
   void begin() { connect(); }
-  // Nothing is called after this.
+  // No callback is called after this.
   void end();
 
  private:
@@ -61,7 +61,7 @@ class VideoLink : public std::enable_shared_from_this<VideoLink> {
   LengthPrefix prefix_{};
   std::vector<std::uint8_t> request_, answer_;
   std::int64_t last_utime_us_ = 0;
-  int taken_ = 0;  // of this connection
+  int taken_ = 0;  // pictures received over this connection
   bool has_ended_ = false;
 };
 

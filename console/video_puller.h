@@ -13,16 +13,17 @@ namespace ols::console {
 
 class VideoPuller {
  public:
-  // A station is asked only if its address is in one of these networks: addresses come over the
-  // bus, where anybody may write. Throws std::invalid_argument.
+  // Connects only to addresses in these networks: addresses come over the bus, where anybody may
+  // write. Throws std::invalid_argument.
   VideoPuller(const std::vector<std::string>& networks, const VideoWish& wish);
   ~VideoPuller();
   VideoPuller(const VideoPuller&) = delete;
   VideoPuller& operator=(const VideoPuller&) = delete;
 
-  // From now on only these videos.
+  // From now on pulls only these videos.
   void watch(const WatchedVideos& videos);
-  // Since the last call: the newest picture of each station; for H.264 all units, oldest first.
+  // What has come since the last call: the newest picture of each station; for H.264 all units,
+  // oldest first.
   std::vector<Picture> take();
 
  private:

@@ -32,22 +32,22 @@ struct WebResponse {
   std::vector<std::pair<std::string, std::string>> headers;
 };
 
-// A log-in whose password is still to be verified, which takes long and is done elsewhere.
+// A log-in whose password must still be verified. That takes long and is done elsewhere.
 struct LoginTask {
   std::string name, password, hash;
 };
 
-// A user to be added or changed: the hash takes long, too.
+// A user to be added or changed. Hashing the password takes long, so it is done elsewhere.
 struct UserTask {
   std::string by, name, password;
   Role role = Role::kViewer;
 };
 
-// A request for the users' own maps, which waits for a disk and is answered elsewhere.
+// A request for the users' own maps. It waits for a disk, so it is answered elsewhere.
 struct MapTask {
   std::string map = {};  // empty: the list of maps
   TileAddress tile = {};
-  bool accuracy = false;  // instead of a tile
+  bool accuracy = false;  // an accuracy map, not a tile
 };
 
 using WebAnswer = std::variant<WebResponse, LoginTask, UserTask, MapTask>;
@@ -67,12 +67,12 @@ class WebApi {
   // The session that may open a WebSocket with this request, or the response that refuses it.
   std::variant<Session, WebResponse> admit(const WebRequest& request, const Now& now) const;
 
-  // Whether the session of a WebSocket still lasts: it ends by itself, and with the log-out.
+  // Whether the session of a WebSocket still lasts: it ends after its time or with the log-out.
   bool lasts(const std::string& token, const Now& now) const {
     return is_open() || sessions_.find(token, now.monotonic_s).has_value();
   }
 
-  bool is_open() const { return is_open_; }  // without log-in: on loopback, without users
+  bool is_open() const { return is_open_; }  // no log-in is needed: on loopback, without users
   // For every response: headers that restrict the browser.
   static std::vector<std::pair<std::string, std::string>> security_headers(bool is_tls);
 

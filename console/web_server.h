@@ -1,5 +1,5 @@
-// Serves the console over HTTP, HTTPS and WebSockets (Boost.Beast). It uses the caller's thread;
-// passwords are verified in another one. Nothing queues for a browser: it gets the newest state
+// Serves the console over HTTP, HTTPS and WebSockets (Boost.Beast). It runs in the caller's thread;
+// passwords are verified in another thread. Nothing queues for a browser: it gets the newest state
 // when its last message is through.
 #pragma once
 
@@ -21,7 +21,7 @@ class WebServer {
 
   int port() const;
   void serve_for(double seconds);
-  // Sends every ready browser what is new.
+  // Sends what is new to every browser that can take it.
   void pump();
 
   struct Shared;  // shared by the connections

@@ -10,11 +10,11 @@
 
 namespace ols::cues {
 
-// A whole file. The time of a position is `now` minus `seen_pos`.
+// Reads a whole file. The time of a position is `now` minus `seen_pos`, both from the file.
 Readings aircraft_json_readings(const std::string& text);
 
-// Takes lines. An aircraft's position, velocity and call sign come in separate lines. The times in
-// the lines have no zone, so the time of arrival counts.
+// Reads single lines. An aircraft's position, velocity and call sign come in separate lines. The
+// times in the lines have no time zone, so the time of arrival is used.
 class SbsReader {
  public:
   // Empty for a line without a position.

@@ -1,7 +1,7 @@
 // Cursor on Target: an event as XML, or as a message of the TAK protocol, version 1. Pure.
 //
-// ce and le count as one sigma, as in the schema. A source whose values mean 90 % thus states a
-// larger error than it has.
+// ce and le are taken as one sigma, as in the schema. If a source means 90 %, its errors are in
+// fact smaller.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace ols::cues {
 
-// The types of wanted events, by their beginnings: "a-" is everything, "a-h-A" hostile objects in
+// Selects events by the beginnings of their types: "a-" is everything, "a-h-A" hostile objects in
 // the air.
 using CotTypes = std::vector<std::string>;
 

@@ -1,4 +1,4 @@
-// ols-cue on the bus: it sends cues, and receives nothing but its own self-test.
+// Sends cues on the bus. It receives nothing but its own self-test.
 #pragma once
 
 #include <cstdint>

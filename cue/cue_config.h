@@ -17,9 +17,9 @@ enum class Format { kCot, kAircraftJson, kSbs, kJson, kSapient };
 
 struct InputConfig {
   Format format = Format::kCot;
-  std::string from;                      // parse_source()
-  double poll_s = 1.0;                   // for a file or a web address
-  std::vector<std::string> types{"a-"};  // for CoT events
+  std::string from;                      // see parse_source()
+  double poll_s = 1.0;                   // interval; only for a file or a web address
+  std::vector<std::string> types{"a-"};  // only for CoT events
   InputRules rules;
 };
 
@@ -34,7 +34,7 @@ struct CueConfig {
 };
 
 config::Section cue_section(CueConfig& config);  // the whole file
-// For a new input: a table of the array.
+// Adds an input, and returns its section: a table of the array.
 config::Section input_section(CueConfig& config);
 // Throws ConfigError.
 CueConfig load_cue_config(const std::string& path);

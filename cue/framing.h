@@ -8,10 +8,10 @@
 namespace ols::cues {
 
 enum class Framing {
-  kWhole,  // a datagram, a file
+  kWhole,  // a message comes as a whole: a datagram or a file
   kLines,
   kCot,      // XML events in sequence, or messages of the TAK protocol with their length
-  kSapient,  // messages, each after its length in four bytes
+  kSapient,  // messages, each with its length in four bytes before it
 };
 
 class Framer {
@@ -20,21 +20,22 @@ class Framer {
 
   // Takes bytes, and returns the messages that they complete.
   std::vector<std::string> take(std::string_view bytes);
-  // The stream starts again.
+  // Call when the stream starts again.
   void clear() { drop_rest(); }
-  // Number of dropped streams, in which no end of a message came in sight.
+  // How often the stream was dropped because a message had no end within the size limit.
   int overlong() const { return overlong_; }
 
   static constexpr std::size_t kLongest_bytes = 65'536;
 
  private:
-  // Takes the next message; false: it is not complete.
+  // Takes the next message; false: it is not yet complete.
   bool next(std::string& message);
   bool next_line(std::string& message);
   bool next_event(std::string& message);
   bool next_tak_message(std::string& message);
   bool next_sapient_message(std::string& message);
-  // Drops the stream: no message has this length, and the start of the next one is unknown.
+  // Drops the stream because a message's length is impossible: where the next one begins is
+  // unknown.
   bool refuse_overlong();
 
   void drop_rest();
@@ -42,7 +43,7 @@ class Framer {
 
   Framing framing_;
   std::string bytes_;
-  std::size_t taken_ = 0;  // bytes taken during take(); erased once at its end
+  std::size_t taken_ = 0;  // bytes of complete messages; they are erased once, at the end of take()
   int overlong_ = 0;
 };
 

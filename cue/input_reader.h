@@ -14,12 +14,12 @@ namespace ols::cues {
 
 class InputReader {
  public:
-  // `is_stream`: messages come in any pieces; otherwise each piece is a whole message. `geoid_m`:
-  // for SAPIENT's heights above the geoid; without it they are refused.
+  // `is_stream`: bytes come in any pieces; otherwise each piece is a whole message. `geoid_m`:
+  // converts SAPIENT's heights above the geoid; without it, such heights are refused.
   InputReader(Format format, CotTypes types, bool is_stream, GeoidHeight geoid_m = {});
 
   Readings take(std::string_view bytes, std::int64_t now_us);
-  // The connection starts again.
+  // Call when the connection starts again.
   void clear() { framer_.clear(); }
 
  private:
@@ -30,7 +30,7 @@ class InputReader {
   Framer framer_;
   SbsReader sbs_;
   SapientReader sapient_;
-  int overlong_ = 0;  // how much of the framer's count has been reported
+  int overlong_ = 0;  // the framer's count that has already been reported
 };
 
 }  // namespace ols::cues

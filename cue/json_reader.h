@@ -1,4 +1,4 @@
-// A cue as a line of JSON, for sources without a format of their own: docs/cues.md. Pure.
+// Reads a cue from a line of JSON, for sources without a format of their own: docs/cues.md. Pure.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace ols::cues {
 
-// `now_us`: the time of a line that states none.
+// `now_us`: used for a line that states no time.
 Reading json_reading(const std::string& line, std::int64_t now_us);
 
 }  // namespace ols::cues

@@ -1,4 +1,4 @@
-// The live cues of all inputs: judges new readings, and selects what is to be sent. Pure.
+// The live cues of all inputs: judges new readings, and selects which cues are sent. Pure.
 #pragma once
 
 #include <array>
@@ -12,15 +12,16 @@
 
 namespace ols::cues {
 
-// The values assumed where a source states none, and the filter of wanted objects.
+// What is assumed if a source states no errors, and which objects are wanted.
 struct InputRules {
   std::string name;
   Area area_deg{-90.0, -180.0, 90.0, 180.0};
   double max_age_s = 10.0;
   double horizontal_sd_m = 50.0, vertical_sd_m = 100.0;
-  double pressure_height_sd_m = 300.0;  // of a pressure altitude as a height above the ellipsoid
-  double velocity_sd_m_s = 3.0;         // of a velocity
-  double speed_sd_m_s = 15.0;           // of a target without a known velocity, each axis
+  double pressure_height_sd_m = 300.0;  // error of a pressure altitude, taken as a height above the
+                                        // ellipsoid
+  double velocity_sd_m_s = 3.0;         // error of a stated velocity
+  double speed_sd_m_s = 15.0;           // of a target whose velocity is unknown, each axis
 };
 
 // A complete cue: all values are finite.
@@ -33,7 +34,7 @@ struct LiveCue {
   double velocity_sd_m_s = 0.0;
 };
 
-// The results of an input's readings.
+// How many readings of an input were taken or refused.
 struct InputCounts {
   std::int64_t taken = 0;
   std::map<std::string, std::int64_t> refused;  // by reason
@@ -46,7 +47,7 @@ class LiveCues {
   LiveCues(std::vector<InputRules> inputs, int most);
 
   void take(std::size_t input, const Readings& readings, std::int64_t now_us);
-  // The cues that are not too old, each at its own instant.
+  // The cues that are not too old, each with its own time.
   std::vector<LiveCue> live(std::int64_t now_us);
   const std::vector<InputCounts>& counts() const { return counts_; }
 
@@ -57,7 +58,8 @@ class LiveCues {
     std::int64_t until_us = 0;
   };
   void judge(std::size_t input, const Report& report, std::int64_t now_us);
-  // Removes expired cues, and cues in the future, left by a clock that was set back.
+  // Removes expired cues. Also removes cues with a future time, which a clock that was set back has
+  // left.
   void forget(std::int64_t now_us);
   bool is_full(std::size_t input) const;
   void refuse(std::size_t input, const Refused& refused);

@@ -1,4 +1,4 @@
-// An input's data on one object, or the reason why they are not used.
+// Data about one object from an input, or the reason why they are not used.
 #pragma once
 
 #include <array>
@@ -10,12 +10,12 @@
 
 namespace ols::cues {
 
-// NaN or nullopt: the source does not state it.
+// NaN or nullopt: the source does not state the value.
 struct Report {
-  std::string name;           // stable, as its source calls it
+  std::string name;           // permanent name that the source uses
   std::string label;          // for people
   std::int64_t utime_us = 0;  // UTC of the position
-  std::int64_t stale_us = 0;  // valid until, as its source states; 0: not stated
+  std::int64_t stale_us = 0;  // until when the data are valid, as the source states; 0: not stated
   double latitude_deg = 0.0, longitude_deg = 0.0;
   double height_m = 0.0;  // above the ellipsoid, unless it is a pressure altitude
   bool is_pressure_height = false;
@@ -24,7 +24,7 @@ struct Report {
   std::optional<double> velocity_sd_m_s;
 };
 
-// to_string() names its counter.
+// Why data are not used; to_string() is part of the counter's name.
 enum class Refusal {
   kMalformed,
   kNotFinite,
@@ -33,8 +33,8 @@ enum class Refusal {
   kNoHeight,
   kStale,
   kFuture,
-  kOwn,        // sent by ols-export itself
-  kOtherType,  // not of a wanted type
+  kOwn,        // an object that ols-export itself has sent
+  kOtherType,  // its type is not wanted
   kOutOfArea,
   kTooMany,
   kCount,  // not a reason: the number of reasons
@@ -43,7 +43,7 @@ const char* to_string(Refusal refusal);
 
 struct Refused {
   Refusal why = Refusal::kMalformed;
-  std::string what;  // the object, or what is wrong with it
+  std::string what;  // the name of the object, or what is wrong with its data
 };
 
 using Reading = std::variant<Report, Refused>;

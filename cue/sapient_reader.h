@@ -1,4 +1,4 @@
-// SAPIENT, BSI Flex 335 v2.0: detections of other nodes, passed on by a middleware. Pure.
+// Reads SAPIENT (BSI Flex 335 v2.0): detections of other nodes that a middleware passes on. Pure.
 #pragma once
 
 #include <functional>
@@ -12,28 +12,29 @@
 
 namespace ols::cues {
 
-// [m] geoid above the ellipsoid, by latitude and longitude in degrees; not finite: unknown there.
+// Height of the geoid above the ellipsoid [m] at a latitude and longitude [deg]; not finite:
+// unknown.
 using GeoidHeight = std::function<double(double, double)>;
 
 class SapientReader {
  public:
-  // Without a geoid, heights above it are refused.
+  // Without a geoid, heights above the geoid are refused.
   explicit SapientReader(GeoidHeight geoid_m) : geoid_m_(std::move(geoid_m)) {}
 
-  // A message without its length. Empty for a message that is no detection.
+  // `message`: without the length before it. Returns nothing for a message that is no detection.
   Readings take(const std::string& message);
 
  private:
-  // What is known of a node; its detections are relative to it.
+  // What is known about a node; its detections refer to it.
   struct Node {
     std::optional<Geodetic> place;
     double speed_unit_m_s = 1.0;
-    std::string utm_zone;  // for locations that name none
+    std::string utm_zone;  // for locations that state no zone
   };
   Reading reading_of(const exports::sapient::DetectionReport& report, const std::string& node,
                      std::int64_t utime_us) const;
   static void note_registration(Node& node, const exports::sapient::Registration& registration);
-  // Sets the report's position; otherwise returns why it is unknown.
+  // Sets the report's position; if it is unknown, returns why.
   std::optional<Refusal> place(Report& report, const exports::sapient::Location& location,
                                const Node& from) const;
   std::optional<Refusal> set_height(Report& report,

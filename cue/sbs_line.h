@@ -1,4 +1,4 @@
-// One line of SBS, the format of aircraft receivers: cells separated by commas. The first is the
+// One line of SBS, a format of aircraft receivers: cells separated by commas. The first cell is the
 // type of the message. Pure.
 #pragma once
 
@@ -11,7 +11,7 @@ namespace ols {
 
 class SbsLine {
  public:
-  // The cells in use: the time of the message, as text, and the data of the aircraft.
+  // The cells that are read: the time of the message, as text, and the aircraft's data.
   enum Cell : std::size_t {
     kType = 0,
     kAddress = 4,
@@ -28,11 +28,11 @@ class SbsLine {
 
   explicit SbsLine(const std::string& line);
 
-  // Empty if the line has no such cell.
+  // The text of a cell; empty if the line has no such cell.
   const std::string& text(Cell cell) const;
-  // nullopt if the cell is empty or no finite number.
+  // nullopt if the cell is empty or holds no finite number.
   std::optional<double> number(Cell cell) const;
-  // The aircraft's address: six hexadecimal digits, in lower case; nullopt: none.
+  // The aircraft's address: six hexadecimal digits, in lower case; nullopt: the line has none.
   std::optional<std::string> icao() const;
 
  private:

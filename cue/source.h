@@ -11,7 +11,7 @@ struct Source {
   Carrier carrier = Carrier::kUdp;
   std::string host;  // udp: the address to listen on, or a group; tcp, http: the server
   int port = 0;
-  std::string path;       // of a file, also on a web server
+  std::string path;       // of a file, on this host or on a web server
   std::string interface;  // udp group: the interface's address; empty: any
 };
 

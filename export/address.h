@@ -11,10 +11,9 @@ struct Address {
   Scheme scheme = Scheme::kUdp;
   std::string host;  // udp: an IP address; otherwise a name or an address
   int port = 0;
-  std::string path;  // file
-  int ttl = 1;       // udp, multicast: hops
-  std::string
-      interface;  // udp, multicast: the address of the interface to send by; empty: by route
+  std::string path;       // file
+  int ttl = 1;            // udp, multicast: hops
+  std::string interface;  // udp, multicast: the sending interface's address; empty: as routed
 };
 
 // "udp://239.2.3.1:6969?ttl=1&interface=10.0.0.5", "tcp://HOST:PORT", "tls://HOST:PORT",

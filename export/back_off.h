@@ -1,4 +1,4 @@
-// How long to wait before the next attempt to reach a receiver; longer after each failure. Pure.
+// The waiting time before the next attempt to reach a receiver. It grows with each failure. Pure.
 #pragma once
 
 #include <algorithm>

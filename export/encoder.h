@@ -1,5 +1,5 @@
-// One format: records in, bytes out. Encoders have no clock, file or socket; their only memory is
-// of the records that they received.
+// One format: records in, bytes out. Encoders use no clock, file or socket, and remember only
+// records that they received.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,8 @@ namespace ols::exports {
 
 // One datagram, message of a stream, MQTT message or file.
 struct Packet {
-  std::string subject;  // a newer packet replaces one of the same subject; empty: none does
+  std::string subject;  // a newer packet replaces a waiting one with the same subject; empty: it
+                        // replaces none
   std::string bytes{};
   std::string where{};       // an MQTT topic, or the suffix of a file's name
   bool is_retained = false;  // MQTT
@@ -27,18 +28,18 @@ class Encoder {
   virtual Packets encode(const Target& target) = 0;
   virtual Packets encode(const Station& station) = 0;
   virtual Packets encode(const Line& line) = 0;
-  // Formats without a place for it send nothing.
+  // Returns nothing if the format has no place for incidents.
   virtual Packets encode_incident(const Incident& incident) {
     static_cast<void>(incident);
     return {};
   }
-  // The packets that the format sends without a record, about once a second, or as often as a file
-  // is written: a document, a service status. `utime_us`: now.
+  // The packets that the format sends without a record, such as a document or a service status.
+  // Call about once a second, or as often as a file is written. `utime_us`: now.
   virtual Packets turn(std::int64_t utime_us) {
     static_cast<void>(utime_us);
     return {};
   }
-  // The receiver is new or has forgotten everything: what is sent once is to be sent again.
+  // The receiver is new or has forgotten everything: what is sent only once must be sent again.
   virtual void begin_again() {}
 };
 

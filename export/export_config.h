@@ -43,7 +43,7 @@ struct ExportConfig {
   std::string lcm_url = "udpm://239.255.76.67:7667?ttl=0";
   std::string site = "ols";
   std::string geoid = "egm96_15.gtx";
-  bool has_own_geoid = false;  // the file states it; otherwise the site's settings may
+  bool has_own_geoid = false;  // the file states a geoid; otherwise the site's settings may
   std::string status_file;
   double max_age_s = 5.0;
   double history_min = 10.0;  // of tracks in a file [min]
@@ -65,7 +65,7 @@ ExportConfig load_export_config(const std::string& path);
 // The same from text. Errors give `name` instead of the path.
 ExportConfig parse_export_config(const std::string& text, const std::string& name);
 
-// Whether its heights are above sea level, so that it needs a geoid.
+// Whether the format's heights are above sea level, so that it needs a geoid.
 bool needs_geoid(Format format);
 const char* to_string(Format format);
 // From its name on a command line. Throws std::invalid_argument.

@@ -1,4 +1,4 @@
-// Passes everything from the bus, or from a recording, to every output. Counts what is not used.
+// Passes all records from the bus, or from a recording, to every output. Counts unused messages.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ namespace ols::exports {
 
 class Exporter {
  public:
-  // max_age_s: records further from the present are not sent.
+  // max_age_s: records whose time differs more from the present are not sent.
   Exporter(SiteContext site, std::vector<std::unique_ptr<Output>> outputs, double max_age_s);
 
   void hear(const BusMessage& message, std::int64_t now_utime_us);

@@ -13,7 +13,7 @@ namespace ols::exports {
 
 std::unique_ptr<Output> make_output(const OutputConfig& output, const ExportConfig& config);
 
-// For a file of a whole recording: the history is unlimited, and there are no companion files.
+// Makes the encoder for a file of a whole recording: with unlimited history and no companion files.
 std::unique_ptr<Encoder> make_file_encoder(Format format, const ExportConfig& config);
 
 }  // namespace ols::exports

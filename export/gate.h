@@ -18,7 +18,7 @@ struct GateConfig {
   Area area_deg{-90, -180, 90, 180};
 };
 
-// Records that come too early are left out, not delayed: what goes out is new. A change of a
+// Records that come too early are dropped, not delayed, so that all output is recent. A change of a
 // target's state passes at once. A target that leaves the area ends there.
 class Gate {
  public:
@@ -27,7 +27,7 @@ class Gate {
   std::optional<Target> pass(const Target& target);
   bool passes(const Station& station);
   bool passes(const Line& line);
-  // They are few, and pass at any rate.
+  // Incidents are few, and pass at any rate.
   bool passes(const Incident& incident) const;
 
   static constexpr double kLeastBelief = 0.5;  // min belief of a line; as the fusion's own limit

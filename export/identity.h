@@ -1,5 +1,6 @@
-// Names that stay the same. They are computed from the bus's data, never counted here, so a restart
-// of ols-export, or a second one, gives an object the same name. Pure.
+// Names that stay the same. They are computed from the bus's data and not counted here. So an
+// object keeps its name when ols-export restarts, and has the same name in a second ols-export.
+// Pure.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +12,7 @@ namespace ols::exports {
 std::string target_uid(const std::string& site, std::int64_t boot_id, std::int64_t target_id);
 std::string station_uid(const std::string& site, const std::string& station);
 std::string line_uid(const std::string& site, const std::string& station);
-// "SITE.incident.NUMBER.BEGUN": the numbers of another console are the same, its times are not.
+// "SITE.incident.NUMBER.BEGUN": another console may use the same numbers, but at other times.
 std::string incident_uid(const std::string& site, std::int64_t number, std::int64_t begun_us);
 
 }  // namespace ols::exports

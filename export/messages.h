@@ -1,5 +1,5 @@
-// Messages of the bus as records. Decides only whether a message is valid. Never throws, whatever
-// the bytes.
+// Converts messages of the bus to records. It only decides whether a message is valid. Never
+// throws, whatever the bytes.
 #pragma once
 
 #include <functional>
@@ -27,7 +27,7 @@ std::optional<Station> station_from(const BusMessage& message, const SiteContext
 std::optional<Line> line_from(const BusMessage& message, const SiteContext& site);
 std::optional<Incident> incident_from(const BusMessage& message, const SiteContext& site);
 
-// Whether the message matches its channel and schema; others are refused and counted.
+// Whether the message matches its channel and schema. Other messages are refused and counted.
 bool is_understood(const BusMessage& message);
 // Whether messages of this channel are read here.
 bool is_read(const std::string& channel);

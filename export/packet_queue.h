@@ -1,4 +1,5 @@
-// The packets that wait for a receiver: bounded, and the newest wins. Pure.
+// The packets that wait for a receiver. Their number is limited; newer packets replace older ones.
+// Pure.
 #pragma once
 
 #include <cstdint>
@@ -15,14 +16,17 @@ class PacketQueue {
  public:
   explicit PacketQueue(std::size_t most = 1000) : most_(most) {}
 
-  // Replaces a waiting packet of the same subject; otherwise goes last. If there are too many, the
-  // oldest is dropped.
+  // Replaces a waiting packet with the same subject; otherwise adds the packet at the end. If there
+  // are too many, the oldest is dropped.
   void put(Packet packet);
   std::optional<Packet> take();
   void clear();
 
   std::size_t size() const { return waiting_.size(); }
-  std::uint64_t displaced() const { return displaced_; }  // never sent; only increases
+  std::uint64_t displaced() const {
+    return displaced_;
+  }  // number of packets never sent; only
+     // increases
 
  private:
   std::size_t most_;

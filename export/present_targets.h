@@ -1,5 +1,5 @@
-// The present targets. The end of each is reported once, with its last position, even if the fusion
-// did not report it (because it has stopped) or reported it without a position. Pure.
+// The present targets. Reports the end of each once, with its last position. It does so even if the
+// fusion has stopped before it reported the end, or reported it without a position. Pure.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@ class PresentTargets {
   std::size_t size() const { return live_.size(); }
 
   static constexpr double kSilent_s = 10.0;
-  // Limits forged messages with invented numbers; the oldest targets are ended.
+  // A limit against forged messages with invented numbers; beyond it, the oldest targets are ended.
   static constexpr std::size_t kMost = 2000;
 
  private:

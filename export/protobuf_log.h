@@ -1,5 +1,5 @@
-// libprotobuf's own warnings about damaged messages: a line on standard error for each. Damaged
-// messages from others would fill the log, so they are counted instead.
+// Replaces libprotobuf's warnings, one line on standard error for each damaged message, by a count.
+// Damaged messages from others would otherwise fill the log.
 #pragma once
 
 #include <cstdint>

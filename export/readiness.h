@@ -8,13 +8,13 @@
 
 namespace ols::exports {
 
-// The site with its geoid; without one, if none is installed and no format needs it. Throws
+// The site with its geoid, or without one if none is installed and no format needs it. Throws
 // std::invalid_argument that names the format and what to do.
 SiteContext site_context(const ExportConfig& config, const std::vector<Format>& formats);
 std::vector<Format> formats_of(const ExportConfig& config);
 
-// Throws std::invalid_argument that names the output whose certificate, key or password cannot be
-// read. Otherwise it would fail again and again.
+// Throws std::invalid_argument naming the output whose certificate, key or password cannot be read.
+// Without this check the output would fail again and again.
 void check_files(const ExportConfig& config);
 
 }  // namespace ols::exports

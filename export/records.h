@@ -16,7 +16,7 @@ struct Place {
   double latitude_deg = 0.0;   // WGS84
   double longitude_deg = 0.0;  // WGS84
   double height_m = 0.0;       // above the ellipsoid
-  double geoid_m = kUnknown;   // the geoid's height above the ellipsoid there
+  double geoid_m = kUnknown;   // the geoid's height above the ellipsoid at this place
 
   double above_sea_m() const { return height_m - geoid_m; }
 };
@@ -47,7 +47,7 @@ struct Target {
   double above_ground_m = kUnknown, above_ground_sd_m = kUnknown;  // height, and its 1-sigma
 };
 
-// In the order of the bus's numbers, then the word for an unknown number.
+// In the order of the bus's numbers; at the end, the word for an unknown number.
 inline constexpr std::array kStationStates{"idle",   "manual",  "tracking",  "coasting", "lost",
                                            "slewed", "stopped", "emergency", "hidden",   "unknown"};
 
@@ -61,7 +61,7 @@ struct Station {
   double elevation_deg = kUnknown;            // above the horizon
   std::array<double, 2> field_of_view_deg{};  // horizontal, vertical; 0: unknown
   std::string state;                          // of kStationStates
-  bool is_well = true;                        // no alarm
+  bool is_well = true;                        // whether it has no alarm
   bool clock_is_good = true;
   std::size_t alarms = 0;
 };
@@ -74,7 +74,7 @@ struct Line {
   Place camera;
   double azimuth_deg = 0.0;
   double elevation_deg = 0.0;
-  // 1-sigma, across: of the azimuth times the cosine of the elevation.
+  // 1-sigma across the line, horizontally: that of the azimuth times the cosine of the elevation.
   double cross_sd_deg = 0.0;
   double elevation_sd_deg = 0.0;
   double belief = 1.0;        // 0..1
@@ -92,10 +92,10 @@ struct Incident {
   std::string object_class;             // "unknown", "drone"
   double class_probability = kUnknown;  // 0..1 of this class
   std::int64_t begun_us = 0;
-  std::int64_t ended_us = 0;          // 0: it is inside
+  std::int64_t ended_us = 0;          // 0: the target is still inside
   Place place;                        // where it was last inside
   std::string verdict, judged_by;     // "open", "confirmed", "dismissed"; a person
-  std::vector<std::string> stations;  // that saw it
+  std::vector<std::string> stations;  // those that saw the target
 
   bool is_inside() const { return ended_us == 0; }
   bool is_alarm() const { return is_inside() && verdict != "dismissed"; }

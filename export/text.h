@@ -9,12 +9,13 @@
 
 namespace ols::exports {
 
-// With this many decimals, without an exponent, and with a point whatever the locale. Empty if not
-// finite.
+// The value with this many decimals, without an exponent, and with a point whatever the locale.
+// Empty if not finite.
 std::string fixed(double value, int decimals);
 // "2026-11-23T10:15:30.250Z"; years 1970 to 9999.
 std::string iso_time(std::int64_t utime_us);
-// For an element, or an attribute in double quotes. Characters that XML cannot hold become "?".
+// Text for an element, or for an attribute in double quotes. Characters that XML cannot hold become
+// "?".
 std::string xml(std::string_view text);
 // "tentative", "confirmed", "coasted", "ended".
 const char* to_string(TrackState state);

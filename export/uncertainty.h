@@ -1,4 +1,4 @@
-// A covariance in the few numbers that most formats have. Pure.
+// Converts a covariance to the few numbers that most formats have. Pure.
 #pragma once
 
 #include "export/records.h"
@@ -9,12 +9,12 @@ struct Ellipse {
   double semi_major_m = kUnknown, semi_minor_m = kUnknown;  // 1-sigma
   double azimuth_deg = 0.0;  // of the major axis, clockwise from north, 0..180
 };
-// Of the horizontal part; all unknown if it is no covariance.
+// The ellipse of the horizontal part; all values are unknown if it is no covariance.
 Ellipse ellipse_of(const Covariance& enu);
 // 1-sigma of one axis; unknown if the variance is negative or not finite.
 double sd(double variance);
 
-// A deviation with so many decimals, rounded up: a text must not claim more accuracy than there is.
+// A deviation rounded up to this many decimals: a text must not claim more accuracy than there is.
 double rounded_up(double value, int decimals);
 
 // Horizontal speed and course of a velocity; unknown if the velocity is.

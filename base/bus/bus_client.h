@@ -17,21 +17,21 @@ namespace ols {
 class BusClient {
  public:
   using Subscribe = std::function<void(LcmBus&)>;
-  // Receives why there is no connection; empty: it is back.
+  // Receives the reason when the connection is lost, and an empty text when it is back.
   using Tell = std::function<void(const std::string& trouble)>;
 
-  // subscribe: called on each new connection. tell: receives trouble, which is also logged. trust:
-  // null if nothing is signed or verified.
+  // subscribe: called on each new connection. tell: receives each trouble; it is also logged.
+  // trust: null if nothing is signed or verified.
   BusClient(std::string url, std::shared_ptr<trust::BusTrust> trust, Subscribe subscribe = {},
             Tell tell = {});
 
-  // Waits at most this long for a connection.
+  // Tries to connect; waits at most wait_s for the connection.
   void connect(double now_s, double wait_s);
-  // Handles the messages that have arrived (waits at most this long for the first), and checks
+  // Handles the messages that have arrived, and waits at most wait_ms for the first. Then checks
   // whether any arrive at all. Without a connection, tries to connect.
   void turn(double now_s, int wait_ms);
 
-  // The parts of turn(), for a caller with work between them. Need a connection.
+  // The two parts of turn(), for a caller with work between them. Both need a connection.
   void handle(double now_s, int wait_ms);
   void end_if_deaf();
 
@@ -40,7 +40,7 @@ class BusClient {
 
   LcmBus* bus() const { return bus_.get(); }  // null: no network
   const std::string& url() const { return url_; }
-  // Empty if there is a connection.
+  // Why there is no connection; empty if there is one.
   Alarm trouble() const;
   // Alarms about the traffic.
   std::vector<Alarm> alarms(double now_s) const { return monitor_.alarms(now_s); }
@@ -57,7 +57,7 @@ class BusClient {
   BusConnector connector_;
   std::unique_ptr<LcmBus> bus_;
   BusMonitor monitor_;
-  std::string trouble_;  // the last one reported; empty: none since the connection
+  std::string trouble_;  // the last one reported; empty: none since the last connection
 };
 
 }  // namespace ols

@@ -1,9 +1,10 @@
 // A datagram of the bus: one whole LCM message ("LC02"). Pure.
 //
-// LCM cuts messages that fit no datagram into fragments ("LC03"). No message of this system needs
-// them. The reassembly in liblcm 1.3.1 writes beyond its buffer when a fragment says so (offset and
-// length are added in 32 bits; https://github.com/lcm-proj/lcm/pull/628). Fragments are therefore
-// refused here, and liblcm never sees a datagram.
+// LCM cuts a message that does not fit into one datagram into fragments ("LC03"). No message of
+// this system is that large. The reassembly in liblcm 1.3.1 adds offset and length of a fragment in
+// 32 bits, so a forged fragment makes it write beyond its buffer
+// (https://github.com/lcm-proj/lcm/pull/628). Fragments are therefore refused here, and liblcm
+// never sees a datagram.
 #pragma once
 
 #include <cstddef>
@@ -17,20 +18,20 @@ namespace ols {
 
 // LCM_MAX_CHANNEL_NAME_LENGTH.
 inline constexpr std::size_t kLongestChannel = 63;
-// Of a UDP datagram over IPv4.
+// The largest payload of a UDP datagram over IPv4.
 inline constexpr std::size_t kLargestDatagram = 65507;
 
 // Views into the parsed datagram.
 struct BusDatagram {
-  std::uint32_t sequence = 0;  // of its sender, over all channels
+  std::uint32_t sequence = 0;  // the sender's count of datagrams, over all channels
   std::string_view channel;    // 1 to kLongestChannel printable ASCII characters without a space
   std::span<const std::uint8_t> payload;
 };
 
 enum class DatagramFault {
   kFragment,  // part of a message that was cut into several datagrams
-  kForeign,   // not LCM, or cut off in its header
-  kChannel,   // the channel name is empty, endless, too long or not printable
+  kForeign,   // not LCM, or it ends within its header
+  kChannel,   // the channel name is empty, has no end, is too long or is not printable
 };
 
 std::variant<BusDatagram, DatagramFault> parse_datagram(std::span<const std::uint8_t> bytes);

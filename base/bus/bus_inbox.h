@@ -33,10 +33,10 @@ struct BusMessage {
   // Whether a command names this process's boot. If not, only a stop may be obeyed. Always true
   // where signatures are not required.
   bool addressed = true;
-  std::int64_t list_number = 0;  // of the trust list that judged it; 0: none
+  std::int64_t list_number = 0;  // of the trust list by which the message was judged; 0: none
 };
 
-// The limit of one subscription's queue. The oldest messages are displaced.
+// The limit of one subscription's queue. When it is reached, the oldest messages are dropped.
 struct QueueLimits {
   std::size_t messages = 1000;
   std::size_t bytes = 4'000'000;  // of names, payloads and their overhead
@@ -46,7 +46,7 @@ struct QueueLimits {
 struct BusTraffic {
   std::uint64_t received = 0;    // whole messages, of any channel
   std::uint64_t fragments = 0;   // refused, see DatagramFault
-  std::uint64_t malformed = 0;   // refused: foreign, or with a damaged channel name
+  std::uint64_t malformed = 0;   // refused: not LCM, or with an invalid channel name
   std::uint64_t overflowed = 0;  // displaced by newer ones before they were handled
   std::uint64_t unsendable = 0;  // own messages that fit into no datagram
   std::uint64_t dropped = 0;     // by the kernel: this process did not fetch them in time
@@ -54,7 +54,7 @@ struct BusTraffic {
   // signatures are required.
   std::array<std::uint64_t, static_cast<std::size_t>(trust::Distrust::kCount)> distrusted{};
   std::string distrusted_last{};  // the last such message, for a person
-  Alarm trust_trouble{};          // what a person should correct in keys and trust list
+  Alarm trust_trouble{};          // what a person should correct in the keys or the trust list
 };
 
 class BusInbox {

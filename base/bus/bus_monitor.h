@@ -26,9 +26,9 @@ class BusMonitor {
   // The alarm if traffic was refused or displaced within the last kAlarm_s; otherwise empty.
   Alarm alarm(double now_s) const;
   static constexpr double kAlarm_s = 10.0;
-  // The same for messages that failed verification, and for keys and trust list.
+  // The same for messages that failed verification, and for trouble with keys or trust list.
   Alarm trust_alarm(double now_s) const;
-  // The current ones of these two alarms.
+  // Those of these two alarms that hold now.
   std::vector<Alarm> alarms(double now_s) const;
 
  private:
@@ -37,7 +37,7 @@ class BusMonitor {
 
   BusTraffic ended_;                 // total of all earlier connections
   BusTraffic current_;               // the current connection
-  BusTraffic calm_;                  // total when the last alarm ended
+  BusTraffic calm_;                  // total when the last alarm ended, or at the start
   std::optional<double> refused_s_;  // time of the last refusal
   BusTraffic trusting_;              // total when the last trust alarm ended
   std::optional<double> distrusted_s_;

@@ -6,7 +6,7 @@
 
 namespace ols {
 
-// Each followed by a station's name.
+// Each name is completed by a station's name.
 inline constexpr std::string_view kBearingChannel = "OLS_BEARING_";
 inline constexpr std::string_view kSightingChannel = "OLS_SIGHTING_";
 inline constexpr std::string_view kStatusChannel = "OLS_STATUS_";
@@ -23,7 +23,7 @@ inline constexpr std::string_view kFrameChannel = "OLS_FRAME_";
 inline constexpr std::string_view kProcedureChannel = "OLS_PROCEDURE_";
 inline constexpr std::string_view kProcedureAnswerChannel = "OLS_PROCEDURE_ANSWER_";
 
-// One per site.
+// One channel per site.
 inline constexpr std::string_view kTargetChannel = "OLS_TARGET";
 inline constexpr std::string_view kPaperTargetChannel = "OLS_TARGET_PAPER";
 inline constexpr std::string_view kFusionStatusChannel = "OLS_FUSION_STATUS";
@@ -36,7 +36,7 @@ inline std::string station_channel(std::string_view channel, std::string_view st
   return std::string(channel).append(station);
 }
 
-// The kind of message on a station's channel, from the channel's name: PTU for OLS_PTU_.
+// The kind of message on a station's channel, as its name states it: PTU for OLS_PTU_a.
 inline std::string message_kind(std::string_view channel) {
   constexpr std::string_view kPrefix = "OLS_";
   return std::string(channel.substr(kPrefix.size(), channel.size() - kPrefix.size() - 1));

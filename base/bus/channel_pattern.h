@@ -1,5 +1,5 @@
-// The channels that a reader of the bus wants: a regular expression (GLib's, as in LCM) that must
-// match the whole name. Plain names and prefixes ("NAME.*") are matched without an expression.
+// Selects channels by a regular expression (GLib's, as in LCM) that must match the whole name.
+// Plain names and prefixes ("NAME.*") are compared directly.
 #pragma once
 
 #include <memory>

@@ -42,8 +42,8 @@ class LcmBus {
   void subscribe(const std::string& channel_regex, Handler handler, QueueLimits limits = {},
                  Express express = {});
 
-  // False if sending fails because the network is down. A message too large for a datagram is not
-  // sent but counted (BusTraffic::unsendable); that is no network failure.
+  // False if sending fails because the network is down. A message that is too large for a datagram
+  // is only counted (BusTraffic::unsendable); then the result is true.
   template <class Message>
   bool publish(const std::string& channel, const Message& message) {
     std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
@@ -60,9 +60,9 @@ class LcmBus {
   // Stops receiving. Queued messages can still be handled. A later subscription starts again.
   void stop_listening();
 
-  // True if nothing has arrived for some seconds, not even this connection's own self-test: an
-  // interface that disappears takes the group membership with it, without an error. The state is
-  // permanent; a new connection may receive again.
+  // True if nothing has arrived for some seconds, not even this connection's own self-test. An
+  // interface that disappears takes the group membership with it, without an error. The connection
+  // then stays deaf; only a new one may receive again.
   bool is_deaf() const { return unanswered_ >= kUnanswered; }
 
   BusTraffic traffic() const;
@@ -77,8 +77,8 @@ class LcmBus {
 
   std::string url_;
   std::shared_ptr<trust::BusTrust> trust_;
-  class InProcess;                           // the connections with one name
-  std::unique_ptr<MulticastSocket> socket_;  // null: within this process
+  class InProcess;                           // all connections to the memq:// bus of one name
+  std::unique_ptr<MulticastSocket> socket_;  // null: the bus is within this process
   BusInbox inbox_;
   std::shared_ptr<InProcess> others_;  // null: this connection alone
   std::uint32_t sequence_ = 0;
@@ -94,7 +94,7 @@ class LcmBus {
 };
 
 // True if the whole datagram is one message of this type. Generated decoders throw on a damaged
-// length (std::length_error, std::bad_alloc): then it is no message either.
+// length (std::length_error, std::bad_alloc); the result is then false.
 template <class Message>
 bool decode_exactly(const void* data, int bytes, Message& message) {
   try {
@@ -110,7 +110,7 @@ bool decode_exactly(const BusMessage& received, Message& message) {
                         message);
 }
 
-// The same, and the schema number is the one that this program knows.
+// As decode_exactly(); also false if this program does not know the message's schema number.
 template <class Message>
 bool decode_of_schema(const BusMessage& received, Message& message) {
   return decode_exactly(received, message) && message.schema_version == Message::SCHEMA_VERSION;

@@ -15,7 +15,7 @@ namespace ols {
 
 // Where a message's time comes from.
 enum class LogTimes {
-  kTimeline,    // never goes back; a record more than a day after the one before is garbage
+  kTimeline,    // time never goes back; a record more than a day after its predecessor is garbage
   kAsRecorded,  // the record's time, for a caller that orders messages by their own stamps
 };
 
@@ -24,20 +24,20 @@ class LogReader {
   // Throws std::invalid_argument naming the file if it cannot be read, is empty or is compressed.
   explicit LogReader(const std::string& path, LogTimes times = LogTimes::kTimeline);
 
-  // The next message on this project's channels; nullopt at the end. Throws std::invalid_argument
-  // naming the file and the position if the disk fails; and at the end, if the file had no such
-  // message.
+  // The next message on this project's channels; nullopt at the end of the file. Throws
+  // std::invalid_argument naming file and position if the disk fails. Also throws it at the end of
+  // a file without any such message.
   std::optional<BusMessage> next();
-  // The caller cannot decode the message that next() gave last: counts it in damage().
+  // Call if the last message of next() cannot be decoded: counts it in damage().
   void reject(const BusMessage& message);
-  // The damage so far and its position, in words for a person; empty: none.
+  // The damage so far and its position, in words for a person; empty: no damage.
   std::string damage() const;
 
-  // Where the next record, or garbage before it, begins.
+  // Where in the file the next record begins, or the garbage before it.
   std::uint64_t offset() const { return offset_ + begin_; }
-  // Where the record of the last message begins.
+  // Where in the file the record of the last message begins.
   std::uint64_t message_offset() const { return message_offset_; }
-  // Continues at an earlier offset, with the time of the record before it.
+  // Continues at an earlier offset. `utime_us`: the time of the record before it.
   void seek(std::uint64_t offset, std::int64_t utime_us);
 
   std::int64_t utime_us() const { return utime_us_; }  // of the last record; 0: none yet
@@ -64,12 +64,13 @@ class LogReader {
   std::uint64_t size_ = 0;
   std::vector<std::uint8_t> buffer_;
   std::size_t begin_ = 0, end_ = 0;  // the part of the buffer that is not parsed yet
-  std::uint64_t offset_ = 0;         // of the buffer in the file
+  std::uint64_t offset_ = 0;         // position in the file of the buffer's first byte
   std::int64_t utime_us_ = 0;
   std::uint64_t message_offset_ = 0;
-  std::uint64_t records_ = 0, messages_ = 0;  // on all channels; on this project's
+  std::uint64_t records_ = 0, messages_ = 0;  // records on all channels; messages on this project's
+                                              // channels
   Damage garbage_, rejected_;
-  std::string rejected_channel_;  // of the first
+  std::string rejected_channel_;  // channel of the first rejected message
   bool is_cut_off_ = false;
 };
 

@@ -1,5 +1,5 @@
-// The small numbers by which messages name a state: to enumerations with the same values, and to
-// words in the order of the numbers.
+// Converts the small numbers that stand for states in messages: to enumerations with the same
+// values, or to words in the order of the numbers.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@ constexpr std::int8_t code(Enum value) {
   return static_cast<std::int8_t>(value);
 }
 
-// `otherwise` for a number that is not one of 0 to `last`.
+// The enumeration's value for `number`; `otherwise` if the number is not within 0 to `last`.
 template <class Enum>
 constexpr Enum from_code(std::int8_t number, Enum last, Enum otherwise) {
   return number >= 0 && number <= code(last) ? static_cast<Enum>(number) : otherwise;

@@ -29,8 +29,8 @@ class MulticastSocket {
   // The next datagram, in `buffer`; nullopt if none waits.
   std::optional<std::span<const std::uint8_t>> receive(std::span<std::uint8_t> buffer);
 
-  // Number of datagrams that the kernel dropped because the process did not fetch earlier ones in
-  // time. It is updated when the next datagram is received. From any thread.
+  // Number of datagrams that the kernel dropped because this process did not fetch earlier ones in
+  // time. Updated when the next datagram is received. Call from any thread.
   std::uint64_t dropped() const { return dropped_; }
 
   // Returns why the datagram could not be sent; no error if it was.

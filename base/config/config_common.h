@@ -13,7 +13,8 @@ namespace ols::config {
 Row bus_url(std::string& field);
 Row status_file(std::string& field);
 
-// The words for the values of a table's rows. Each row has a name and a value, among other fields.
+// Maps the words of a table's rows to their values. Each row has a field `name` and a field for the
+// value.
 template <class Row, class T>
 Words<T> words_of(const std::vector<Row>& rows, T Row::*value) {
   Words<T> words;
@@ -23,7 +24,7 @@ Words<T> words_of(const std::vector<Row>& rows, T Row::*value) {
 
 // Letters, digits, - and _: safe in file names, topics and XML.
 Check word_up_to(std::size_t longest);
-// South, west, north, east. The row itself checks the range of the numbers.
+// Checks the order of south, west, north, east. The row itself checks the range of each number.
 void check_area(const std::array<double, 4>& area_deg, const char* key, const ConfigTable& table);
 
 // Refuses two elements of an array of tables with the same name.

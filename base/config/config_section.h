@@ -25,7 +25,7 @@ struct Range {
   double min, max;
 };
 
-// The unit in the file. A field in another unit is converted both ways.
+// The unit in the file. If the field has another unit, values are converted both ways.
 struct Unit {
   std::string name;
   double (*to_field)(double) = [](double value) { return value; };
@@ -57,7 +57,7 @@ struct Row {
 
   Row required() && { return with(Presence::kRequired); }
   Row required_with_section() && { return with(Presence::kWithSection); }
-  // Shows these words as the default, where it depends on something else.
+  // Shows these words as the default, for a default that depends on other values.
   Row default_is(std::string words) && {
     fallback = std::move(words);
     return std::move(*this);
@@ -77,13 +77,14 @@ struct Section {
   std::vector<Section> sections = {};
   // A check across rows, which throws ConfigError. Runs after rows and sections are read.
   std::function<void(ConfigTable&)> check = {};
-  // For an array of tables: appends an element and returns its section.
+  // For an array of tables: appends an element to it and returns the element's section.
   std::function<Section()> append = {};
-  // Of a section whose other keys depend on its key `kind`: a form for each kind, whose name is
-  // what `kind` says; the first is the default. `choose` gets the index of the one that is read.
+  // For a section whose other keys depend on its key `kind`: one form for each kind. The name of a
+  // form is the value of `kind`; the first form is the default. `choose` gets the index of the form
+  // that is read.
   std::vector<Section> forms = {};
   std::function<void(std::size_t)> choose = {};
-  // A name by which the section is still read, in its first form.
+  // An older name of the section. It is still read, as the section's first form.
   std::string former_name = {};
 };
 
@@ -93,15 +94,15 @@ void read(const Section& section, ConfigTable& table);
 // parent section.
 std::string markdown(const Section& section, const std::string& path = "");
 // An example file: the rows of `values` ("mount.baud" -> "9600"), in the order of the sections,
-// each with its sentence. A section has its former name if its values have it. Throws
+// each with its sentence. If `values` use a section's former name, so does the file. Throws
 // std::invalid_argument for a key that has no row.
 std::string example(const Section& root,
                     const std::vector<std::pair<std::string, std::string>>& values);
 
-// Only the rows of these keys ("ptu.baud"), without the checks across rows. Throws
+// The section with only the rows of these keys ("ptu.baud"), without the checks across rows. Throws
 // std::invalid_argument for a key that has no row.
 Section picked(const Section& root, const std::vector<std::string>& keys);
-// The keys of the section's rows that the table states.
+// The keys of the section that are present in the table.
 std::vector<std::string> stated(const Section& section, ConfigTable& table);
 
 using Check = std::function<void(const std::string&)>;  // throws std::invalid_argument
@@ -115,7 +116,8 @@ Row texts(std::string key, std::vector<std::string>& field, std::string sentence
 Row choice(std::string key, std::string& field, std::vector<std::string> choices,
            std::string sentence);
 
-// For the templates below: a row that reads an index into the choices, or an integer.
+// For the templates below: a row that reads one of several words and passes its index to `set`, or
+// a row that reads an integer.
 Row word_row(std::string key, std::size_t fallback, std::vector<std::string> words,
              std::function<void(std::size_t)> set, std::string sentence);
 Row words_row(std::string key, const std::vector<std::size_t>& fallback,
@@ -150,7 +152,7 @@ Row integer(std::string key, T& field, std::int64_t min, std::int64_t max, std::
       [&field](std::int64_t value) { field = static_cast<T>(value); }, std::move(sentence));
 }
 
-// A field of any type, with words for its values.
+// A row for a field of any type, with a word for each value.
 template <class T>
 Row word(std::string key, T& field, const Words<std::type_identity_t<T>>& words,
          std::string sentence) {
@@ -159,7 +161,7 @@ Row word(std::string key, T& field, const Words<std::type_identity_t<T>>& words,
       [&field, words](std::size_t i) { field = words[i].second; }, std::move(sentence));
 }
 
-// A list of such words: at least one, without duplicates.
+// A row for a list of such words: at least one, without duplicates.
 template <class T>
 Row word_list(std::string key, std::vector<T>& field, const Words<std::type_identity_t<T>>& words,
               std::string sentence) {

@@ -24,7 +24,7 @@ class ConfigTable {
   ~ConfigTable();
   ConfigTable(ConfigTable&&) noexcept;
 
-  bool exists() const;  // otherwise every key is absent
+  bool exists() const;  // if false, every key is absent
   bool has(std::string_view key) const;
   // Throws ConfigError for the first key that is not one of these; the error suggests the most
   // similar one.
@@ -44,9 +44,9 @@ class ConfigTable {
                               double least, double greatest);
   std::vector<std::string> texts(std::string_view key, const std::vector<std::string>& fallback);
 
-  // A sub-table; an empty one when absent.
+  // A sub-table; an empty one if it is absent.
   ConfigTable& table(std::string_view key);
-  // An array of tables; empty when absent.
+  // An array of tables; an empty one if it is absent.
   std::vector<ConfigTable*> tables(std::string_view key);
 
   // An error about this table's key, for the caller's own checks.

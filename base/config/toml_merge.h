@@ -6,9 +6,9 @@
 
 namespace ols {
 
-// `text` with every value of `changes` set; both are TOML. A new key is added at the end of its
-// table, a new table at the end. Throws std::runtime_error if the form of the text does not allow a
-// value to be changed without changing another.
+// Returns `text` with every value of `changes` set; both are TOML. A new key is added at the end of
+// its table, a new table at the end of the text. Throws std::runtime_error if a value cannot be
+// changed without changing another, because of the way the text is written.
 std::string toml_merged(const std::string& text, const std::string& changes);
 
 }  // namespace ols

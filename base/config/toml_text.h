@@ -5,8 +5,8 @@
 
 namespace ols {
 
-// Quoted, on one line and in ASCII: quotes, backslashes, control characters and all letters beyond
-// ASCII are escaped.
+// The text in quotes, on one line and in ASCII. Quotes, backslashes, control characters and all
+// characters beyond ASCII are escaped.
 std::string toml_text(const std::string& text);
 
 }  // namespace ols

@@ -6,8 +6,9 @@
 
 namespace ols {
 
-// Appends the line with its end, and returns when it is on disk. Creates the file if needed. Throws
-// std::system_error naming the path; a part of the line may then be in the file, without its end.
+// Appends the line with a line end, and returns when it is on disk. Creates the file if needed.
+// Throws std::system_error naming the path; a part of the line may then be in the file, without its
+// end.
 void append_line(const std::filesystem::path& path, std::string_view line);
 
 }  // namespace ols

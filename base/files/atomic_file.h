@@ -12,7 +12,7 @@ class AtomicFile {
  public:
   // Throws std::system_error naming the path if it cannot be opened or is not a plain file.
   explicit AtomicFile(const std::string& path);
-  ~AtomicFile();  // without commit(), the destination is unchanged
+  ~AtomicFile();  // without commit(), the file at `path` stays unchanged
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
@@ -20,7 +20,7 @@ class AtomicFile {
   void commit();  // throws std::system_error if a write failed
 
  private:
-  // The entry of `temporary_` in the list that the signal handler removes.
+  // The place of `temporary_` in the list of files that the signal handler removes.
   class Listed {
    public:
     explicit Listed(const char* path);

@@ -9,14 +9,15 @@ namespace ols {
 
 class BackgroundFile {
  public:
-  explicit BackgroundFile(const std::string& path);  // empty: nothing is written
+  explicit BackgroundFile(const std::string& path);  // empty path: nothing is written
   // Waits briefly for a pending write, but not for a disk that hangs.
   ~BackgroundFile();
   BackgroundFile(const BackgroundFile&) = delete;
   BackgroundFile& operator=(const BackgroundFile&) = delete;
 
-  // Replaces the content of the file soon, and any pending write. Retries a failed write every few
-  // seconds. Never creates the folder: it may be the mount point of a missing disk.
+  // Replaces the content of the file soon; a write that is still pending is dropped. Retries a
+  // failed write every few seconds. Never creates the folder: it may be the mount point of a
+  // missing disk.
   void write(const std::string& text);
 
   // Whether the file holds the text; waits at most wait_s for the answer.

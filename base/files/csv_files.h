@@ -42,11 +42,11 @@ struct BearingRow {
   std::string target;      // empty without such a column; an empty cell is "1"
 };
 
-// A landmark before a base, as in the paper's Table 1.
+// A landmark in front of a base, as in the paper's Table 1.
 struct LandmarkRow {
   std::string object;
   double distance_m = 0.0;
-  double alpha_rad = 0.0;  // from the base's normal
+  double alpha_rad = 0.0;  // angle from the base's normal
   int side = 0;            // -1, 0 or 1, geometry/precision_paper.h; 0 by default
   std::optional<double> estimated_m;
   std::optional<double> measured_m;
@@ -76,7 +76,8 @@ struct SurveyRow {
 struct SightedRow {
   std::string landmark;
   double pan_deg = 0.0, tilt_deg = 0.0;  // as the PTU reports them
-  std::optional<double> x_px, y_px;      // both, or neither: where the optical axis meets the image
+  std::optional<double> x_px, y_px;      // both or neither; neither: the landmark is on the optical
+                                         // axis
   unsigned line = 0;                     // of the file
 };
 
@@ -90,8 +91,8 @@ struct FlightRow {
 
 // At least one row. Station ids are unique.
 std::vector<StationRow> read_stations(const std::string& path);
-// At least one row, in the order of the file. Each row's station is one of `stations`. This form
-// passes the rows on one by one: a file of a million rows need not fit into memory.
+// At least one row. Each row's station is one of `stations`. Passes the rows on one by one, in the
+// order of the file: a file of a million rows need not fit into memory.
 void for_each_bearing(const std::string& path, const std::vector<StationRow>& stations,
                       const std::function<void(const BearingRow&)>& take);
 std::vector<BearingRow> read_bearings(const std::string& path,

@@ -18,7 +18,7 @@
 
 #include "base/files/csv_files.h"
 
-// One thread suffices: the files have few rows.
+// The library needs no second thread for reading: the files have few rows.
 #define CSV_IO_NO_THREAD
 #include <libfccp/csv.h>
 
@@ -31,8 +31,8 @@ struct Header {
   std::size_t required;
 };
 
-// One row: its place, for errors, and its cells by column. A cell is null if the file has no such
-// column.
+// One row: its place in the file, for errors, and its cells by column. A cell is null if the file
+// has no such column.
 template <std::size_t kColumns>
 class Row {
  public:
@@ -91,7 +91,7 @@ template <std::size_t kColumns>
 using Reader = io::CSVReader<kColumns, io::trim_chars<' ', '\t'>, io::double_quote_escape<',', '"'>,
                              io::throw_on_overflow, io::empty_line_comment>;
 
-// The column separator of a spreadsheet that does not use the comma.
+// The column separator that a spreadsheet has written instead of the comma.
 inline std::string other_separator(const std::string& path) {
   std::string header;
   std::getline(std::ifstream(path, std::ios::binary), header);
@@ -120,8 +120,8 @@ void read_header(Reader<kColumns>& reader, const std::string& path,
 }
 
 // A file whose last line always has a line end. Without it the library would read past the end of
-// the file. A loss of power can leave blocks of zero bytes: for the library, a zero byte ends a
-// row, and empty rows are silently left out.
+// the file. A loss of power can leave blocks of zero bytes. They are an error here, because the
+// library takes a zero byte for a row's end and silently skips empty rows.
 class EndedLines : public io::ByteSourceBase {
  public:
   explicit EndedLines(const std::string& path) : path_(path), file_(path, std::ios::binary) {
@@ -177,8 +177,9 @@ void for_each_row(const std::string& path, const Header<kColumns>& header, Take 
   }
 }
 
-// Latitude and longitude from two columns at `geodetic`, or zone, easting and northing from three
-// at `utm`. The zone is written as "33N": number and hemisphere, not the band of latitude.
+// Reads a place: latitude and longitude from the two columns at `geodetic`, or zone, easting and
+// northing from the three at `utm`. A zone is written as "33N": its number and the hemisphere, not
+// the letter of a latitude band.
 template <std::size_t kColumns>
 std::variant<GeodeticCells, UtmCells> place_of(const Row<kColumns>& row, std::size_t geodetic,
                                                std::size_t utm) {

@@ -13,7 +13,7 @@ struct NamedFile {
 };
 
 // Throws std::invalid_argument, naming both options, if an output is the same file as an input or
-// another output, by whatever name or link.
+// another output, even under another name or through a link.
 void check_outputs(const std::vector<NamedFile>& inputs, const std::vector<NamedFile>& outputs);
 
 }  // namespace ols

@@ -14,15 +14,16 @@ enum class RestoreResult {
   kKnown,       // one of the permitted words
   kNoFile,      // no file is configured: nothing is persisted
   kMissing,     // the file or its folder does not exist
-  kUnreadable,  // it cannot be read, or holds another word
-  kUnwritable,  // it holds the first word, perhaps outdated: the disk cannot be written
+  kUnreadable,  // the file cannot be read, or holds no permitted word
+  kUnwritable,  // the file holds the first word, but the disk cannot be written, so it may be
+                // outdated
 };
 
 class PersistedWord {
  public:
-  // `words`: the permitted words, most permissive first. The first is trusted only after it was
-  // written again: on a disk that cannot be written, a later, stricter word may have been lost.
-  // `file` empty: nothing is persisted. Waits for the disk, at most kProof_s.
+  // `words`: the permitted words, most permissive first. The first word is trusted only after it
+  // has been written again: on a disk that cannot be written, a later and stricter word may have
+  // been lost. Empty `file`: nothing is persisted. Waits for the disk at most kProof_s.
   PersistedWord(const std::string& file, std::vector<std::string> words);
 
   RestoreResult restore_result() const { return restore_result_; }

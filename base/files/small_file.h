@@ -1,5 +1,4 @@
-// Reads a small file without blocking, even if another program has replaced it, for example by a
-// pipe.
+// Reads a small file without blocking, even if another program has replaced it by a pipe.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
-// Writes events into the system's journal with their fields. Where the journal does not listen, it
-// writes lines into the program's log.
+// Writes events into the system's journal with their fields. Without a journal, writes lines into
+// the program's log instead.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,7 @@
 namespace ols {
 
 // Writes the event once: with its fields if the standard error output is the journal, otherwise as
-// a line. With fields no line is written, because the journal would take it for another entry. From
-// any thread.
+// a line. Never both: the journal would take the line for another entry. Call from any thread.
 void write_to_journal(const JournalEvent& event);
 
 // Whether systemd's JOURNAL_STREAM ("device:inode") names this file.

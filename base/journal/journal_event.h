@@ -1,4 +1,4 @@
-// An event for the journal: its text, its kind, and the parts concerned. Pure.
+// An event for the journal: its text, its kind, and the parts that it is about. Pure.
 #pragma once
 
 #include <string>
@@ -12,24 +12,24 @@ namespace ols {
 struct JournalEvent {
   std::string text{};
   bool bad = false;       // a warning
-  event::Id id{};         // empty: of no listed kind
+  event::Id id{};         // the kind of event; empty: none of the listed kinds
   std::string station{};  // its id
-  std::string device{};   // or the part of a program, or a connection
-  std::string reason{};   // without the other words of the text
+  std::string device{};   // or the part of a program, or the connection
+  std::string reason{};   // why it happened; a part of the text
   std::string alarm{};    // its id in conditions.toml
-  std::string action{};   // what to do about it
+  std::string action{};   // what a person should do about it
 };
 
-// "NAME=value" each, as the journal takes them. Empty fields are left out.
+// Returns "NAME=value" texts, as the journal takes them. Empty fields are left out.
 std::vector<std::string> journal_fields(const JournalEvent& event);
 
 // A lost connection to the bus.
 JournalEvent bus_lost_event(const std::string& why);
 JournalEvent bus_connected_event(const std::string& url);
-// An alarm of a program: of a station, if it has one as a parameter, or of a part of the program.
-// begins: false if the alarm ends.
+// An alarm of a program. It concerns the station that its parameters name, or else a part of the
+// program. begins: false if the alarm ends.
 JournalEvent alarm_event(const Alarm& alarm, bool begins);
-// The same for a station, about its own parts.
+// An alarm of a station about one of its parts.
 JournalEvent station_alarm_event(const Alarm& alarm, bool begins);
 
 }  // namespace ols

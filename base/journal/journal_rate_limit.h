@@ -13,15 +13,15 @@
 namespace ols {
 
 struct News {
-  std::string key;  // entries of the same key are counted together
+  std::string key;  // entries with the same key are counted together
   JournalEvent event;
 };
 
 class JournalRateLimit {
  public:
-  // The entries to write now: the first kBurst of a key within kWindow_s. Of the others, only the
-  // last is written, after the window, with the number left out: so the end of a condition is
-  // always written. Call also when there is nothing new. `now_s`: monotonic.
+  // The entries to write now: the first kBurst of a key within kWindow_s. Of the rest, only the
+  // last is written, after the window, with the number of skipped entries. So the end of a
+  // condition is always written. Call also when there is nothing new. `now_s`: monotonic.
   std::vector<JournalEvent> pass(const std::vector<News>& news, double now_s);
 
   static constexpr int kBurst = 4;

@@ -1,5 +1,5 @@
-// Logs the beginning and end of each trouble of a program's inputs or outputs. A trouble that comes
-// and goes counts as one. Pure except for the journal.
+// Logs when each trouble of a program's inputs or outputs begins and ends. A trouble that comes and
+// goes is logged as one. Pure except for the journal.
 #pragma once
 
 #include <map>
@@ -12,10 +12,10 @@ class TroubleLog {
   // kind: "input" or "output".
   explicit TroubleLog(std::string kind);
 
-  // Call regularly. `trouble` empty: none. `now_s`: monotonic.
+  // Call regularly. Empty `trouble`: the input or output works. `now_s`: monotonic.
   void look(const std::string& name, const std::string& trouble, double now_s);
 
-  // The end of a trouble, or a change to another one, is logged only after this time.
+  // The end of a trouble, or its change into another, is logged only after this time.
   static constexpr double kSettled_s = 10.0;
 
  private:

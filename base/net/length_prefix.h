@@ -1,5 +1,5 @@
-// Messages in a stream of bytes: each follows its length in four bytes, most significant first.
-// Pure.
+// Messages in a stream of bytes. The length of each comes before it, in four bytes, most
+// significant first. Pure.
 #pragma once
 
 #include <array>

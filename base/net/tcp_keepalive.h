@@ -7,7 +7,7 @@ namespace ols {
 struct TcpKeepalive {
   int idle_s = 0;      // silence before the first probe
   int interval_s = 0;  // between two probes
-  int probes = 0;      // this many without an answer close the connection
+  int probes = 0;      // the connection is closed after this many unanswered probes
 };
 
 void keep_alive(int socket, const TcpKeepalive& keepalive);

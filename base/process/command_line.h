@@ -41,7 +41,7 @@ inline void check_numbers(CLI::App& app) {
   }
 }
 
-// The exit status: 0 after --help, 2 after bad input; nullopt if the program is to continue.
+// The exit status: 0 after --help, 2 after bad input. nullopt: the program should continue.
 inline std::optional<int> parse_command_line(CLI::App& app, int argc, char** argv,
                                              const char* program) {
   check_numbers(app);
@@ -63,8 +63,8 @@ inline std::optional<int> parse_command_line(CLI::App& app, int argc, char** arg
   return std::nullopt;
 }
 
-// Parses the command line and calls `act`, which returns the exit status. 2 after any exception,
-// with one line that names it, also if the output cannot be written.
+// Parses the command line, calls `act`, and returns its exit status. Any exception is printed in
+// one line, and the status is then 2. The same if the output cannot be written.
 template <class Act>
 int run_command(CLI::App& app, int argc, char** argv, const char* program, Act act) {
   if (const auto status = parse_command_line(app, argc, argv, program)) return *status;

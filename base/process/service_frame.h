@@ -28,16 +28,16 @@ Config configuration_of(const ServiceOptions& options, Config (*load)(const std:
   return config;
 }
 
-// What an std::invalid_argument means: bad input of the caller, or a failure of the program.
+// Whether std::invalid_argument means bad input of the caller or a failure of the program.
 enum class InvalidArgument { kBadInput, kFailure };
 
 // Runs `act`, and logs under the program's name. Returns act's exit status; 1 after a failure; 2
-// after bad input, with one line that names it (a restart would not help).
+// after bad input, which is logged in one line (a restart would not help).
 int run_service(const std::string& program, InvalidArgument invalid,
                 const std::function<int()>& act);
 
-// Turns a failure to read or write a file into bad input: a restart does not help there, as it may
-// with other failures of the system.
+// Runs the action; its failure to read or write a file counts as bad input, because a restart does
+// not help against it.
 template <class Action>
 auto as_bad_input(Action action) {
   try {
@@ -48,7 +48,7 @@ auto as_bad_input(Action action) {
 }
 
 // Calls `turn` until the process is asked to end, and `status` every status_s. The service manager
-// shows the line that `status` returns. Times: monotonic.
+// shows the line that `status` returns. Times are monotonic.
 void serve(ServiceNotifier& service_manager, double status_s,
            const std::function<void(double now_s)>& turn,
            const std::function<std::string()>& status);

@@ -7,10 +7,10 @@ namespace ols {
 
 class StatusFile {
  public:
-  // path: empty: no file.
+  // Empty path: nothing is written.
   explicit StatusFile(std::string path);
 
-  // Appends a line's end. A failure must not end the program: it is logged once.
+  // Writes the text and a line end. A failure does not end the program: it is logged once.
   void write(const std::string& text);
 
  private:

@@ -14,17 +14,18 @@ namespace ols {
 class TimeSource {
  public:
   virtual std::int64_t monotonic_ns() const = 0;
-  // Since 1970.
+  // UTC since 1970.
   virtual std::int64_t utc_ns() const = 0;
-  // Waits until `over` returns true, at most this long. `lock` guards the data that `over` reads,
+  // Waits until `over` returns true, but at most most_s. `lock` guards the data that `over` reads,
   // and is released while waiting; `news` signals that they have changed.
   virtual void wait(std::unique_lock<std::mutex>& lock, std::condition_variable& news,
                     double most_s, const std::function<bool()>& over) = 0;
-  // How long a loop that otherwise never waits may wait for work in the background, in true time.
+  // How long a loop may wait for background work when it would otherwise not wait at all; in true
+  // time.
   virtual std::chrono::seconds for_work() const = 0;
 
  protected:
-  ~TimeSource() = default;  // nobody owns one through this
+  ~TimeSource() = default;  // objects are never deleted through this class
 };
 
 class HostTime final : public TimeSource {

@@ -1,4 +1,4 @@
-// Ends another thread's poll(). Stays set until cleared.
+// Ends another thread's poll(). Stays set until clear().
 #pragma once
 
 namespace ols {

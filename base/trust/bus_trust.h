@@ -26,14 +26,15 @@ namespace ols::trust {
 
 // The process as a member of the site.
 struct Self {
-  std::string name{};        // its key's name, unless the configuration names a file
+  std::string name{};        // finds its key file by this name, unless the configuration names a
+                             // file
   std::int64_t boot_id = 0;  // in the messages that it sends
-  bool is_station = false;   // commands to `name` must name this boot
-  bool commands = false;     // shows and commands stations, even those with a wrong clock
+  bool is_station = false;   // commands to `name` must name the boot `boot_id`
+  bool commands = false;     // shows and commands stations, so it also needs the statuses of those
+                             // with a wrong clock
   bool tells_list = false;   // publishes the trust list
   bool keeps_marks = false;  // its marks against replays survive a restart
-  SettingsCheck settings{};  // checks the site's settings; none: it passes them on
-                             // them on
+  SettingsCheck settings{};  // checks the site's settings; none: the process only passes them on
   // Receives each list that is adopted, from any thread.
   std::function<void(const TrustList&)> list_taken{};
 };
@@ -43,37 +44,39 @@ struct Judgement {
   Bytes payload;  // without the trailer
   bool passes = true;
   bool addressed = true;               // whether a command names this boot, where that is required
-  std::optional<Distrust> distrust{};  // counted in mode observe too
-  std::string sender{};                // the member, if its key is known
-  std::int64_t list_number = 0;        // of the trust list that judged it
+  std::optional<Distrust> distrust{};  // why verification failed; counted in mode observe too
+  std::string sender{};                // the member that signed it, if the key is known
+  std::int64_t list_number = 0;        // of the trust list by which it was judged
 };
 
 Environment process_environment();
 
-// The site's settings of this process at its start, before it has heard any. Number 0: none, or no
-// key by which to know the site.
+// The site's settings with which this process starts, before any arrive over the bus. Number 0:
+// mode off, no settings, or no usable key.
 SiteSettings settings_at_start(const TrustConfig& config, const Environment& environment,
                                const std::string& name, const SettingsCheck& check);
 
 class BusTrust {
  public:
-  // Null in mode off. Throws ConfigError if the key or the list cannot be used. If there is no
-  // list, and the configuration names none, the first is learned from the bus (a new member).
+  // Null in mode off. Throws ConfigError if the key or the list cannot be used. A new member has no
+  // list: unless the configuration names one, it learns its first list from the bus.
   static std::shared_ptr<BusTrust> open(const TrustConfig& config, const Environment& environment,
                                         const Self& self);
   ~BusTrust();
 
-  // Payload and trailer. A command names its station's boot, if known.
+  // Returns payload and trailer. The trailer of a command names the boot of the addressed station,
+  // if that is known.
   std::vector<std::uint8_t> sign(const std::string& channel, Bytes payload);
-  // Whether it needs such messages, even if the process has not subscribed to them: the trust list,
-  // and the statuses from which the sender of commands learns the boots.
+  // Whether BusTrust itself needs the messages of this channel, even if the process has not
+  // subscribed to it. These are the trust list and, for a sender of commands, the statuses from
+  // which it learns the stations' boots.
   bool wants(std::string_view channel) const;
-  // From the receiving thread.
+  // Verifies a received message. Called from the receiving thread.
   Judgement judge(std::string_view channel, Bytes message, std::int64_t utime_us, double now_s);
 
-  // The list or the settings, if they are due for publication. A process that does not normally
-  // publish the list does so when a member publishes an older one: a restored centre does not know
-  // what was revoked.
+  // The list or the settings, when they are due for publication; otherwise nullopt. A process that
+  // does not normally publish the list still does so when a member publishes an older one: a
+  // restored centre does not know what was revoked.
   std::optional<std::string> list_to_tell(double now_s);
   std::optional<std::string> settings_to_tell(double now_s);
   static constexpr double kTell_s = 2.0;
@@ -83,24 +86,24 @@ class BusTrust {
   // The stations enrolled by the list in force.
   std::vector<std::string> stations() const;
   // The list as a signed message of this member, for kTrustChannel. nullopt without a list, or if
-  // this process is no member: nobody would believe it.
+  // this process is no member, because nobody would accept the message.
   std::optional<std::vector<std::uint8_t>> list_telling(std::int64_t utime_us);
   std::int64_t site_settings_number() const { return site_.number(); }
 
   std::int64_t boot_id() const { return self_.boot_id; }
-  // What a person should correct; empty: nothing.
+  // What a person should correct; empty alarm: nothing.
   Alarm trouble() const;
 
  private:
   BusTrust(Mode mode, const TrustConfig& config, const Environment& environment, const Self& self);
 
   void begin();
-  // Returns whether it is newer and now in force. Throws ConfigError.
+  // Takes a list. Returns whether it is newer and now in force. Throws ConfigError.
   bool offer(const std::string& text, const std::string& name);
   bool adopt(const TrustList& list, const std::string& text);
   bool replace(const TrustList& list, const std::string& text);
   bool is_of_site(std::string_view channel, Bytes message) const;
-  // Returns whether it is newer and now in force.
+  // Takes a list from the bus. Returns whether it is newer and now in force.
   bool hear_list(Bytes payload, bool from_member, double now_s);
   void watch();
   void look_at_file();
@@ -132,7 +135,7 @@ class BusTrust {
   const std::int64_t tolerance_us_;
   SiteKeeper site_;
   MarksFile marks_file_;
-  Files files_;               // used by the thread, once it runs
+  Files files_;               // used only by the thread, once it runs
   mutable std::mutex mutex_;  // guards the following
   TrustList list_;
   std::string text_;
@@ -145,7 +148,8 @@ class BusTrust {
   struct Telling {
     double due_s = 0.0;
     bool answers = false;      // a member has sent an older list
-    RateLimit strangers{5.0};  // for non-members, whose verification must not delay the members
+    RateLimit strangers{5.0};  // for messages of non-members: verifying them must not delay the
+                               // members
   };
   Telling telling_;  // of the list
   struct Watcher {

@@ -13,12 +13,13 @@
 namespace ols::trust {
 
 enum class Role {
-  kStation,    // its own channels only
-  kFusion,     // targets, slews, its status
-  kOperator,   // commands, procedures
-  kSimulator,  // the simulator's own messages
-  kCue,        // cues from outside
-  kListener,   // only what the root has signed; its key lets a logger or a doctor read the bus
+  kStation,    // sends on its own channels only
+  kFusion,     // sends targets, slews and its status
+  kOperator,   // sends commands and procedures
+  kSimulator,  // sends the simulator's own messages
+  kCue,        // sends cues from outside
+  kListener,   // sends only what the root has signed; its key lets a logger or a doctor read the
+               // bus
   kUnknown,    // from a list newer than this program: may send nothing
 };
 const char* to_string(Role role);
@@ -30,10 +31,10 @@ struct ChannelRule {
   bool with_station = false;
   Role sender = Role::kStation;
   HeadForm head = HeadForm::kStationFirst;
-  bool is_command = false;  // names the boot of its station
+  bool is_command = false;  // its trailer names the boot of the addressed station
   bool must_be_fresh = true;
-  double rate_hz = 0.0;  // limit per key; bursts of one second's worth
-  // Limit per key and station, if it is lower. At the station it is the only limit. 0: none.
+  double rate_hz = 0.0;  // limit per key; a burst may have one second's worth
+  // Limit per key and station, if that is lower; 0: none. A station applies only this limit.
   double station_rate_hz = 0.0;
   std::size_t index = 0;  // among rules()
 };
@@ -46,11 +47,11 @@ struct Channel {
   const ChannelRule* rule = nullptr;
   std::string_view station;  // from the channel's name; empty for a site channel
 };
-// The rule with the longest matching name: OLS_FRAME_REQUEST_a is not the frames of a station
-// REQUEST_a. nullopt for an unknown channel.
+// The rule with the longest matching name: OLS_FRAME_REQUEST_a must not be taken for the frames of
+// a station REQUEST_a. nullopt for an unknown channel.
 std::optional<Channel> rule_of(std::string_view channel);
 
-// Whether a member of this role and name may send there.
+// Whether a member of this role and name may send on the channel.
 bool may_send(Role role, std::string_view name, const Channel& channel);
 
 }  // namespace ols::trust

@@ -17,7 +17,8 @@ using Bytes = std::span<const std::uint8_t>;
 using PublicKey = std::array<std::uint8_t, 32>;
 using Seed = std::array<std::uint8_t, 32>;  // a private key
 using Signature = std::array<std::uint8_t, 64>;
-using SiteKey = std::array<std::uint8_t, 32>;  // of the site tag: a secret of all members
+using SiteKey = std::array<std::uint8_t, 32>;  // the secret of all members from which site tags are
+                                               // made
 using SiteTag = std::array<std::uint8_t, 8>;
 // The first bytes of a public key's BLAKE2b hash.
 using KeyId = std::array<std::uint8_t, 8>;
@@ -39,13 +40,14 @@ KeyId key_id(const PublicKey& key);
 
 std::array<std::uint8_t, 32> draw_secret();
 
-// from_hex: nullopt if the text is not exactly this many bytes. to_hex: lower case.
+// from_hex() returns nullopt if the text is not exactly that many bytes. to_hex() writes lower
+// case.
 std::string to_hex(Bytes bytes);
 template <std::size_t Size>
 std::optional<std::array<std::uint8_t, Size>> from_hex(std::string_view text);
 
-// Six words for a public key, to be compared by voice: 96 bits of its hash as proquints (Wilkerson,
-// arXiv:0901.4016).
+// Six words for a public key, to be compared by voice. They are 96 bits of its hash as proquints
+// (Wilkerson, arXiv:0901.4016).
 std::string spoken(const PublicKey& key);
 
 }  // namespace ols::trust

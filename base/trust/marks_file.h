@@ -1,5 +1,5 @@
 // Keeps the marks against replays (replay_marks.h) in a file, so that they survive a restart.
-// Reports its troubles for as long as they matter.
+// Reports each trouble for as long as it matters.
 #pragma once
 
 #include <cstddef>
@@ -15,29 +15,30 @@ namespace ols::trust {
 class MarksFile {
  public:
   static constexpr std::size_t kLargest = 20'000'000;  // [byte]
-  static constexpr int kSaid = 600;  // looks: the watching thread looks once a second
+  static constexpr int kSaid = 600;                    // calls of look(), one a second
 
-  // Empty path: nothing is kept. A file that could not be read is reported for `said` looks.
+  // Empty path: nothing is kept. A file that could not be read is reported during `said` calls of
+  // look().
   explicit MarksFile(std::string path, int said = kSaid);
 
-  // At the start. A missing file is normal at the first start.
+  // Call at the start. A missing file is normal at the first start.
   void read(ReplayMarks& marks);
-  // Whether there is anything new to write. Called from the thread that calls write().
+  // Whether the marks have changed since the last write. Call from the thread that calls write().
   bool is_behind(const ReplayMarks& marks) const;
   void write(const std::string& text, std::uint64_t revision);
   // Call once a second.
   void look();
 
-  // What a person should correct; empty: nothing.
+  // What a person should correct; empty alarm: nothing.
   Alarm trouble() const;
 
  private:
   void say_lost(const std::string& why);
 
   const std::string path_;
-  std::uint64_t written_ = 0;  // revision
+  std::uint64_t written_ = 0;  // revision of the last write
   mutable std::mutex mutex_;   // guards the following
-  int said_;                   // looks for which an unreadable file is still reported
+  int said_;                   // calls of look() during which an unreadable file is still reported
   std::string lost_, unwritten_;
 };
 

@@ -1,5 +1,4 @@
-// The beginning of every message of the bus, read without its type: when it was sent, and by whom.
-// Pure.
+// Reads the beginning of a message without knowing its type: when it was sent, and by whom. Pure.
 #pragma once
 
 #include <cstdint>

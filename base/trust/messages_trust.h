@@ -1,5 +1,5 @@
-// Texts signed by the site's root, as messages of the bus. Also the parts of an order that
-// verification must know.
+// Converts texts signed by the site's root to bus messages and back. Also reads those parts of an
+// order that verification needs.
 #pragma once
 
 #include <cstdint>
@@ -16,10 +16,11 @@ ols_msg::trust_list_t to_message(const std::string& list, std::int64_t boot_id,
                                  std::int64_t sequence, std::int64_t utime_us);
 ols_msg::site_settings_t to_settings_message(const std::string& settings, std::int64_t boot_id,
                                              std::int64_t sequence, std::int64_t utime_us);
-// The text, unchecked; nullopt if it is no such message.
+// The text, not yet verified; nullopt if the payload is no such message.
 std::optional<std::string> list_from(Bytes payload);
 std::optional<std::string> settings_from(Bytes payload);
-// Whether a station would read it as an order to stop. Any schema is accepted, as in the station.
+// Whether a station would read the payload as an order to stop. Any schema number is accepted, as
+// in the station.
 bool is_stop(Bytes payload);
 
 }  // namespace ols::trust

@@ -9,7 +9,7 @@ class RateLimit {
  public:
   explicit RateLimit(double rate_hz) : rate_hz_(rate_hz), tokens_(rate_hz) {}
 
-  // Whether one more may pass now; spend() then takes it. `now_s`: monotonic.
+  // Whether one more message may pass now. If it does, call spend(). `now_s`: monotonic.
   bool has(double now_s) {
     if (seen_s_ >= 0.0) {
       tokens_ = std::min(rate_hz_, tokens_ + std::max(0.0, now_s - seen_s_) * rate_hz_);

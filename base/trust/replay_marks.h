@@ -2,9 +2,9 @@
 // twice. Pure.
 //
 // A sender's sequence grows within its boot; datagrams may overtake each other by less than
-// kWindow. Each boot has its own mark: a recording of an earlier boot is refused, independent of
-// any clock. Only the last kBoots boots are remembered. Messages of any other boot must be stamped
-// later than everything that the forgotten boots have sent, unless the caller allows them.
+// kWindow. Each boot has its own mark, so a recording of an earlier boot is refused whatever the
+// clocks show. Only the last kBoots boots are remembered. A message of any other boot must be
+// stamped later than all messages of the forgotten boots, unless the caller allows it.
 #pragma once
 
 #include <cstddef>
@@ -24,27 +24,29 @@ class ReplayMarks {
   static constexpr std::uint64_t kWindow = 64;
   static constexpr std::size_t kBoots = 32;
 
-  // True if the message was heard before. Also true if its boot is forgotten and it may have been.
+  // True if the message was received before. Also true if its boot is forgotten, so that it may
+  // have been.
   bool is_replayed(const KeyId& key, const std::string& channel, const MessageHead& head) const;
-  // Whether it was heard from a remembered boot.
+  // Whether the message was received before, from a boot that is still remembered.
   bool is_heard(const KeyId& key, const std::string& channel, const MessageHead& head) const;
-  // Call only for a verified message that is no replay, so that the enrolled keys limit the number
-  // of streams.
+  // Call only for a verified message that is no replay: then there are no more streams than the
+  // enrolled keys can send.
   void note(const KeyId& key, const std::string& channel, const MessageHead& head);
 
-  // For a restart: one line per boot. read() ignores invalid lines, and returns their number.
+  // The marks as text for a restart, one line per boot. read() ignores invalid lines, and returns
+  // their number.
   std::string text() const;
   std::size_t read(const std::string& text);
-  // Changes with each note.
+  // Changes with each call of note().
   std::uint64_t revision() const { return revision_; }
 
  private:
   struct Mark {
     std::int64_t boot_id = 0;
     std::int64_t newest = 0;    // sequence
-    std::uint64_t heard = 0;    // bit n: sequence newest - n
-    std::int64_t utime_us = 0;  // the latest
-    std::uint64_t used = 0;     // revision at its last note
+    std::uint64_t heard = 0;    // bit n: sequence newest - n was received
+    std::int64_t utime_us = 0;  // the latest stamp
+    std::uint64_t used = 0;     // revision at the last note() of this boot
   };
   struct Stream {
     std::vector<Mark> boots;

@@ -3,7 +3,7 @@
 //   …
 //   # signature …128 hexadecimal digits…
 //
-// The signature covers a word for the kind of text and all lines before, byte by byte. Pure.
+// The signature covers a word for the kind of text, and all lines before it, byte by byte. Pure.
 #pragma once
 
 #include <string>
@@ -18,13 +18,13 @@ struct SignedText {
   Signature signature{};
 };
 
-// `name`: the file's name in errors. Throws ConfigError without a signature. Does not check whose
-// it is.
+// `name`: the file's name in errors. Throws ConfigError if there is no signature. Does not check
+// who made it.
 SignedText split_signed(const std::string& text, const std::string& name);
 // Throws ConfigError if it is not this root's signature for this kind of text.
 void require_signed(const SignedText& parts, std::string_view kind, const PublicKey& root,
                     const std::string& name);
-// `body` with its signature.
+// Returns `body` followed by its signature.
 std::string sign_text(const std::string& body, std::string_view kind, const SigningKey& root);
 
 }  // namespace ols::trust

@@ -1,11 +1,11 @@
 // The settings that are the same on all hosts of a site. `ols-key settings` makes them at the
-// centre and signs them with the site's root key. Each change has a higher number; a lower one
-// never replaces a higher one.
+// centre and signs them with the site's root key. Each change increases their number; a lower
+// number never replaces a higher one.
 //
 //   site = "airfield"
 //   number = 3
 //   root = "…64 hexadecimal digits…"
-//   geoid = "egm96_15.gtx"          # of ols-export
+//   geoid = "egm96_15.gtx"          # for ols-export
 //   [station]                       # some keys of a station's file: edge/config/site_section.h
 //   logic.slew_lease_max_s = 1.5
 //   # signature …128 hexadecimal digits…
@@ -22,12 +22,12 @@
 
 namespace ols::trust {
 
-// Max size on the bus: it fits into a datagram.
+// The largest text that fits into a datagram of the bus [byte].
 inline constexpr std::size_t kLargestSettings = 60'000;
 
 struct SiteSettings {
   std::string site;
-  std::int64_t number = 0;  // 0: there are none
+  std::int64_t number = 0;  // 0: there are no settings
   PublicKey root{};
   std::string geoid;  // empty: not stated
   std::string body;   // all lines but the signature; the station reads its table [station]
@@ -37,13 +37,13 @@ struct SiteSettings {
 // file.
 using SettingsCheck = std::function<void(const SiteSettings&, const std::string& name)>;
 
-// `wanted`: a person's text, without site, number and root. Throws ConfigError for keys that are no
-// settings.
+// Makes the signed text. `wanted`: a person's text, without site, number and root. Throws
+// ConfigError for keys that are no settings.
 std::string sign_settings(const SiteSettings& head, const std::string& wanted,
                           const std::string& name, const SigningKey& root);
 // Throws ConfigError if this root has not signed them as settings.
 SiteSettings read_settings(const std::string& text, const std::string& name, const PublicKey& root);
-// From a person's text: geoid and [station] only. Throws ConfigError.
+// Reads a person's text, which has geoid and [station] only. Throws ConfigError.
 SiteSettings read_wanted_settings(const std::string& wanted, const std::string& name);
 
 }  // namespace ols::trust

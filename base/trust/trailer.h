@@ -5,8 +5,8 @@
 //
 // The signature covers "OLS-bus-v1" | length of the payload (4) | channel | payload | key id |
 // audience. The channel is included so that no station's message passes as another's. The site tag
-// is a keyed BLAKE2b over all that and the signature. A stranger cannot make it, and it costs a
-// hundredth of the signature to check. Pure.
+// is a keyed BLAKE2b over all that and the signature. Only members can make it, and checking it
+// costs a hundredth of checking the signature. Pure.
 #pragma once
 
 #include <cstddef>
@@ -34,19 +34,19 @@ struct SignedMessage {
   Trailer trailer;
 };
 
-// nullopt if no trailer of this version follows the message: all of it is payload.
+// nullopt if no trailer of this version follows the message: then all of it is payload.
 std::optional<SignedMessage> split_trailer(Bytes message);
-// The message without its trailer, if it has one.
+// The message without its trailer, if there is one.
 Bytes without_trailer(Bytes message);
 
-// The bytes that the signature covers. With the signature appended, those that the tag covers.
+// The bytes that the signature covers. The tag covers these bytes followed by the signature.
 std::vector<std::uint8_t> signed_text(std::string_view channel, Bytes payload, const KeyId& key,
                                       std::int64_t audience);
 
-// Whether the sender knows the site's secret. This does not prove a member's signature.
+// Whether the sender knows the site's secret. Does not verify the member's signature.
 bool has_site_tag(const SiteKey& site, std::string_view channel, const SignedMessage& message);
 
-// Payload and trailer.
+// Returns payload and trailer.
 std::vector<std::uint8_t> with_trailer(const SigningKey& key, const SiteKey& site,
                                        std::string_view channel, Bytes payload,
                                        std::int64_t audience);

@@ -20,8 +20,8 @@ struct TrustConfig {
 
 config::Section trust_section(TrustConfig& config);
 
-// The environment's values, for what the configuration does not state. The variables, including
-// systemd's, are passed in.
+// Values from the environment for whatever the configuration leaves open. The caller passes in the
+// variables, including systemd's.
 struct Environment {
   std::string mode{};         // OLS_TRUST
   std::string keys{};         // OLS_KEYS: a folder of NAME.key files, trust.toml, site.toml
@@ -34,10 +34,9 @@ Mode mode_of(const TrustConfig& config, const Environment& environment);
 std::string key_path(const TrustConfig& config, const Environment& environment,
                      const std::string& name);
 std::string list_path(const TrustConfig& config, const Environment& environment);
-// The site's settings: beside the list.
+// The path of the site's settings, beside the list.
 std::string settings_path(const TrustConfig& config, const Environment& environment);
-// The file that keeps received data for the next start; empty: none, because there is no state
-// folder.
+// The path where received data are kept for the next start; empty: there is no state folder.
 std::string kept_path(const Environment& environment, const std::string& what,
                       const std::string& name);
 

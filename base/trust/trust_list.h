@@ -27,14 +27,15 @@
 namespace ols::trust {
 
 struct Member {
-  std::string name;  // for a station: its id
+  std::string name;  // a station's name is its id
   Role role = Role::kListener;
   PublicKey key{};
   bool revoked = false;
-  std::string unknown_role{};  // the word, if this program does not know it
+  std::string unknown_role{};  // the word of a role that this program does not know; otherwise
+                               // empty
 };
 
-// Max size on the bus: it fits into a datagram. About 500 members.
+// The largest list that fits into a datagram of the bus [byte]: about 500 members.
 inline constexpr std::size_t kLargestList = 60'000;
 
 struct TrustList {
@@ -43,7 +44,7 @@ struct TrustList {
   PublicKey root{};
   std::vector<Member> members;  // names and keys are unique
 
-  // The member if it is not revoked; otherwise null.
+  // The member of this name; null if there is none or it is revoked.
   const Member* find(std::string_view name) const;
   // The names of the stations that are not revoked.
   std::vector<std::string> stations() const;
@@ -53,11 +54,12 @@ struct TrustList {
   std::string in_one_line() const;
 };
 
-// The text of the file.
+// Returns the text of the file, with its signature.
 std::string sign_list(const TrustList& list, const SigningKey& root);
-// `name`: the file's name in errors. Throws ConfigError if it is not a list signed by this root.
+// `name`: the file's name in errors. Throws ConfigError if this root has not signed the text as a
+// list.
 TrustList read_list(const std::string& text, const std::string& name, const PublicKey& root);
-// The same with the root that the list itself names, which proves nothing.
+// Verifies with the root that the list itself names, which proves nothing about the site.
 TrustList read_list(const std::string& text, const std::string& name);
 
 }  // namespace ols::trust

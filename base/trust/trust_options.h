@@ -1,4 +1,4 @@
-// The command line's counterpart of the [trust] section, for programs without a configuration file.
+// Command line options that stand for the [trust] section, for programs without a configuration.
 #pragma once
 
 #include <unistd.h>
@@ -11,8 +11,8 @@
 
 namespace ols::trust {
 
-// With a key, orders are signed by default: a site that requires signatures obeys no others, and
-// any other site ignores the trailer.
+// With a key, orders are signed by default: a site that requires signatures obeys only signed ones,
+// and any other site ignores the trailer.
 inline void add_trust_options(CLI::App& app, TrustConfig& config) {
   const std::map<std::string, Mode> modes{
       {"off", Mode::kOff}, {"observe", Mode::kObserve}, {"require", Mode::kRequire}};

@@ -1,4 +1,4 @@
-// Reads the keys that the files of this folder share. Errors name file, line and key.
+// Reads keys that several files of this folder have. Errors name file, line and key.
 #pragma once
 
 #include <array>

@@ -1,7 +1,7 @@
-// Whether a message of the bus may be believed. It must be signed by a member of the site whose
-// role may send it, for this process, now, and for the first time. The checks are in the order of
-// their cost: strangers are refused before anything costs, and a member's flood before its
-// signatures are verified. Pure.
+// Decides whether a message of the bus may be believed. It must be signed by a member of the site
+// whose role may send it. It must also be meant for this process, fresh, and new. Cheap checks come
+// first: strangers are refused almost without cost, and a member's flood before its signatures are
+// verified. Pure.
 #pragma once
 
 #include <cstddef>
@@ -25,14 +25,14 @@ namespace ols::trust {
 // Why a message is not believed; to_string() is part of its counter's name.
 enum class Distrust {
   kUnsigned,
-  kStranger,  // the key of no member, or a wrong site tag
+  kStranger,  // the key belongs to no member, or the site tag is wrong
   kRevoked,
-  kChannel,    // not this member's channel, or of no enrolled station
-  kMalformed,  // signed, but no message
-  kOtherBoot,  // a command that names another boot of this station, or none
+  kChannel,    // the member may not send on it, or it names no enrolled station
+  kMalformed,  // signed, but not a valid message
+  kOtherBoot,  // a command that names another boot of this station, or no boot
   kStale,      // stamped too far from this host's clock
   kReplayed,
-  kRate,  // more than a member may send on such channels
+  kRate,  // more than a member may send on this kind of channel
   kSignature,
   kCount,  // not a reason: the number of reasons
 };
@@ -49,10 +49,10 @@ class Verifier {
     std::string station{};     // the station whose commands must name this boot; empty: none
     std::int64_t boot_id = 0;  // of this process
     std::int64_t clock_tolerance_us = 30'000'000;
-    // For a process that shows and commands stations: a station with a wrong clock can still be
-    // seen and stopped. If there are fresh statuses, too, stale statuses are recordings.
+    // For a process that shows and commands stations: lets it see and stop a station with a wrong
+    // clock. If fresh statuses also arrive, stale ones are recordings.
     bool takes_stale_statuses = false;
-    // Whether an order to a unit is a stop; empty: unknown.
+    // Tells whether an order to a unit is a stop. No function: it is not known.
     std::function<bool(Bytes)> is_stop{};
   };
   struct Verdict {
@@ -60,26 +60,26 @@ class Verifier {
     std::string sender{};  // the member, if its key is known
     // Whether a command names this boot. If not, only a stop may be obeyed.
     bool addressed = false;
-    const ChannelRule* rule = nullptr;  // of a message that may be believed
-    MessageHead head{};                 // of the same message; views into it
+    const ChannelRule* rule = nullptr;  // the rule of a message that may be believed
+    MessageHead head{};                 // the head of the same message; views into its bytes
   };
 
-  // Without the site's secret the tags are not checked. This is for recordings, which nobody
-  // floods.
+  // Without the site's secret, tags are not checked. This is for recordings: nobody floods a
+  // recording.
   Verifier(Config config, const std::optional<SiteKey>& site, const TrustList& list);
 
   // `message`: as received, with its trailer.
   Verdict judge(std::string_view channel, Bytes message, const Arrival& arrival);
 
-  // Members that stay keep their marks and rates.
+  // Replaces the list. Members on both lists keep their marks and rates.
   void adopt(const TrustList& list);
   ReplayMarks& marks() { return marks_; }
 
  private:
   struct Known {
     Member member;
-    std::vector<RateLimit> rates;  // by rule
-    // Per enrolled station: one for each rule with such a limit, and one for stops.
+    std::vector<RateLimit> rates;  // one per rule
+    // For each enrolled station: one per rule with such a limit, and one for stops.
     std::map<std::tuple<std::size_t, bool, std::string>, RateLimit> station_rates{};
   };
   struct Judged;

@@ -1,4 +1,4 @@
-// The area of a region's targets: a box of latitude and longitude. Pure.
+// The area for which a fusion owns targets: a box of latitude and longitude. Pure.
 #pragma once
 
 #include "base/config/area.h"

@@ -11,8 +11,8 @@ namespace ols::bridge {
 using Vector = std::array<double, 3>;
 
 struct OwnerRecord {
-  std::string owner;      // a fusion and its start; empty: released
-  std::string successor;  // of a released target: the next owner; empty: any
+  std::string owner;      // name and start of a fusion; empty: the target was released
+  std::string successor;  // for a released target: who should own it next; empty: anybody
   std::int64_t beat = 0;  // grows while the owner lives
   std::int64_t utime_us = 0;
   Vector position_m{}, velocity_m_s{};  // Earth-centred Earth-fixed, at utime_us
@@ -20,7 +20,7 @@ struct OwnerRecord {
 };
 
 std::string to_text(const OwnerRecord& record);
-// nullopt if it is no record: anybody may have written there.
+// nullopt if the text is no record: anybody may have written to the store.
 std::optional<OwnerRecord> parse_record(const std::string& text);
 
 }  // namespace ols::bridge

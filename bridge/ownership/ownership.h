@@ -1,16 +1,16 @@
 // Decides which of several fusions that see the same target owns it. The owner publishes the target
-// and slews stations to it. All of them run the tracks; only the publisher changes. Pure: the
+// and slews stations to it. All fusions track it; only the one that publishes changes. Pure: the
 // store's contents come in, requests to the store go out.
 //
 // An owner renews its record by compare-and-set. A fusion that takes over the target does the same,
-// so one of the two fails. An owner counts its lease from before it sent the renewal, and slightly
-// short. Another fusion counts the lease from when it heard the renewal. Two fusions therefore
-// never own one target at the same instant, independent of their clocks.
+// so only one of the two succeeds. An owner counts its lease from before it sent the renewal, and
+// makes it slightly shorter. Another fusion counts the lease from when it received the renewal. So
+// two fusions never own one target at the same instant, whatever their clocks show.
 //
 // While the store does not answer, an owner continues, and marks each message as unconfirmed. If
 // the store answers nobody, no fusion can take the target. If only this owner is cut off, another
-// fusion takes the target, and both publish. The old owner stops when it hears the new one, which
-// has the greater epoch.
+// fusion takes the target, and both publish. The old owner stops when it receives a message of the
+// new one, which has the greater epoch.
 #pragma once
 
 #include <cstdint>
@@ -26,14 +26,15 @@
 namespace ols::bridge {
 
 struct OwnershipRules {
-  std::string name;  // of this fusion and its start; unique for ever
+  std::string name;  // name and start of this fusion; never used again
   Cell cell_deg{-90.0, -180.0, 90.0, 180.0};
-  double margin_m = 2000.0;  // beyond the border, plus 3 sigma, before a target changes owner
+  double margin_m = 2000.0;  // how far beyond the border a target must be, plus 3 sigma, before it
+                             // changes owner
 };
 
 // A target of this fusion, as just published.
 struct Track {
-  std::int64_t id = 0;  // the fusion's own
+  std::int64_t id = 0;  // this fusion's number for it
   Vector position_m{}, velocity_m_s{};
   double sd_m = 0.0;
   double latitude_deg = 0.0, longitude_deg = 0.0;
@@ -47,8 +48,8 @@ struct TargetReport {
   std::uint64_t epoch = 0;
 };
 
-// A request to the store: write this record if the stored revision is still this one (0: no
-// record). With `is_wish`: a message to the owner that this fusion wants the target.
+// A request to the store: write this record if the stored revision is still `revision` (0: there is
+// no record). With `is_wish`: tell the owner that this fusion wants the target.
 struct StoreRequest {
   std::string target;
   OwnerRecord record;
@@ -67,23 +68,26 @@ class Ownership {
   // The store now has this record of a target.
   void learn(const std::string& target, const OwnerRecord& record, std::uint64_t revision,
              const Now& now);
-  // The store has no record of it any more.
+  // The store has no record of the target any more.
   void learn_gone(const std::string& target, const Now& now);
-  // `by` wants to own it. A store may repeat an old wish; its revision shows that it is old.
+  // `by` wants to own the target. A store may repeat an old wish; its revision shows that it is
+  // old.
   void learn_wish(const std::string& target, const std::string& by, std::uint64_t revision,
                   const Now& now);
-  // The answer to a request of step(); wishes are not answered. After a refusal, learn() has
-  // already been called with the store's actual record, or that record is not known yet.
+  // The store's answer to a request of step(); wishes are not answered. After a refusal, learn()
+  // has already been called with the store's actual record, or that record is still unknown.
   void answer(const StoreRequest& request, StoreAnswer answer, std::uint64_t revision,
               const Now& now);
 
-  // Whether the store answers. Renewals that an outage has prevented do not count against an owner.
+  // Whether the store answers now. An owner is not blamed for renewals that an outage has
+  // prevented.
   void feel_store(bool answers, const Now& now);
 
   // The requests that are due now. Call some 20 times a second.
   std::vector<StoreRequest> step(const Now& now);
 
-  // Whether this fusion publishes its target now. A search (id 0) has no owner.
+  // The grant under which this fusion publishes its target now; nullopt: another one does. A search
+  // (id 0) has no owner.
   std::optional<Grant> grant(std::int64_t track_id, const Now& now) const;
 
   struct Counts {
@@ -108,7 +112,7 @@ class Ownership {
     // Wishes up to old_revision are old. next_old_revision replaces it from time to time.
     std::uint64_t old_revision = 0, next_old_revision = 0;
     double marked_s = -1e9;
-    double changed_s = 0.0;  // when its record was heard here
+    double changed_s = 0.0;  // when this fusion received the record
     TargetReport place;
     double seen_s = -1e9;  // when the target was at `place`
     std::string wished_by;
@@ -120,7 +124,7 @@ class Ownership {
     bool is_doubted = false;      // another fusion has taken it, as far as known
     std::uint64_t epoch = 0;      // if owned
     double held_until_s = -1e9;   // if owned: its lease
-    double doubled_since_s = -1;  // if owned: since when another has a record of the same target; <
+    double doubled_since_s = -1;  // if owned: since when another has a record of the same target;
                                   // 0: none
   };
   struct Seen {

@@ -1,4 +1,4 @@
-// An area that an operator has drawn: a volume, the classes and the time of day that matter there.
+// An area that an operator has drawn: a volume, and the classes and times of day to watch for.
 // Pure.
 #pragma once
 
@@ -20,22 +20,22 @@ struct Area {
   std::vector<std::array<double, 2>> corners_deg;
   double lowest_m = 0.0, highest_m = 0.0;  // above the WGS84 ellipsoid
   std::vector<std::string> classes;        // as wire::class_name() names them; empty: all
-  // Minutes of the day, in the time zone of the console's host: begins and ends being watched.
+  // Minutes of the day, in the time zone of the console's host, between which the area is watched.
   // Equal: always. An end before the beginning is on the next day.
   int from_min = 0, to_min = 0;
 };
 
-// From outside: {"name", "polygon", "lowest_m", "highest_m", "classes", "from", "to"}. Throws
-// std::invalid_argument with what is wrong, in words.
+// Reads an area from outside: {"name", "polygon", "lowest_m", "highest_m", "classes", "from",
+// "to"}. Throws std::invalid_argument; its words say what is wrong.
 Area area_from(const nlohmann::json& json);
 nlohmann::json json_of(const Area& area);
 
 bool is_watched(const Area& area, int minute_of_day);
 bool concerns(const Area& area, const std::string& object_class);
 
-// The probability that a target is in the area, from its position and covariance [m^2] at its own
+// The probability that a target is in the area, from its position and covariance [m^2] in its own
 // east, north, up. Exact for a Gaussian in the horizontal; the correlation of the height with the
-// horizontal position is left out. Nullopt: a number is not finite, or the covariance is none.
+// horizontal position is ignored. nullopt: a number is not finite, or the matrix is no covariance.
 std::optional<double> probability_inside(const Area& area, const Geodetic& position,
                                          const Eigen::Matrix3d& covariance_enu_m2);
 

@@ -1,5 +1,5 @@
-// The areas and incidents of a console: who may change them, the pictures, the alarms, and what is
-// to be written, sent and recorded. Pure.
+// The areas and incidents of a console: who may change them, their pictures and alarms, and what
+// must be written, sent and recorded. Pure.
 #pragma once
 
 #include <cstdint>
@@ -19,28 +19,29 @@
 
 namespace ols::console {
 
-// What a person has asked for. Both are refused in words.
+// What a person has requested. If it is refused, the answer says why in words.
 struct AreaChange {
-  nlohmann::json area;  // to be set; null: to be removed
-  std::string name;     // of the one to be removed
+  nlohmann::json area;  // the area to set; null: remove one
+  std::string name;     // of the area to remove
 };
 struct IncidentJudgement {
   std::uint64_t incident = 0;
   Judgement verdict = Judgement::kOpen;
 };
 
-// How long stations record an incident before and after its begin; both 0: not at all.
+// How long stations record before and after the beginning of an incident; both 0: not at all.
 struct IncidentRecording {
   double before_s = 5.0, after_s = 15.0;
 };
 
-// What is kept over a restart.
+// What survives a restart.
 struct KeptIncidents {
   std::vector<Area> areas;
   bool may_change_areas = true;  // false: they could not be read
   std::vector<Incident> incidents;
   std::map<std::uint64_t, std::string> pictures;  // JPEG, by incident
-  std::uint64_t numbers = 0;                      // the highest of an incident, readable or not
+  std::uint64_t numbers = 0;                      // the highest number of an incident, readable or
+                                                  // not
 };
 
 inline constexpr std::size_t kMostPictureBytes = 1'000'000;
@@ -49,15 +50,15 @@ class IncidentBook {
  public:
   explicit IncidentBook(const IncidentRecording& recording) : recording_(recording) {}
 
-  // Before anything else: what was kept.
+  // Call before anything else, with what was kept.
   void resume(KeptIncidents kept, double now_s);
 
-  // `minute_of_day`: local.
+  // `minute_of_day`: in the time zone of this host.
   void hear(const TargetHeard& target, int minute_of_day, double now_s);
-  // Call often. `newest`: a station's newest picture; null: none.
+  // Call often. `newest` returns a station's newest picture; null: there is none.
   void turn(double now_s, const std::function<const Picture*(const std::string&)>& newest);
 
-  // Why not; empty: it is done.
+  // Both return why the request is refused; empty: it is carried out.
   Outcome change(const AreaChange& change);
   Outcome judge(const IncidentJudgement& verdict, const std::string& who, std::int64_t utime_us);
 
@@ -67,13 +68,13 @@ class IncidentBook {
 
   struct News {
     bool areas = false;
-    std::set<std::uint64_t> incidents;  // changed
+    std::set<std::uint64_t> incidents;  // changed ones
     std::set<std::uint64_t> pictures;   // new
     std::vector<std::uint64_t> forgotten;
   };
-  // Since the last call.
+  // What has changed since the last call.
   News take_news();
-  // To be sent to the stations, since the last call.
+  // Orders for the stations to record, since the last call.
   std::vector<wire::Order> take_recordings() { return std::exchange(recordings_, {}); }
 
  private:
@@ -87,7 +88,7 @@ class IncidentBook {
   News news_;
 };
 
-// A target with a position that counts, as the fusion has sent it; nullopt: it is none.
+// A target whose position can be used, from the fusion's message; nullopt: it has no such position.
 std::optional<WatchedTarget> watched(const TargetHeard& target);
 
 }  // namespace ols::console

@@ -1,12 +1,12 @@
-// Keeps areas and incidents in a folder, over a restart:
+// Stores areas and incidents in a folder, so that they survive a restart:
 //
 //   areas.json    {"version": 1, "areas": [...]}
 //   NUMBER.json   {"version": 1, "incident": {...}}: an incident, with its track
 //   NUMBER.jpg    its picture
 //
-// A file that cannot be read is named in an alarm and left as it is; what it would have said is
-// missing meanwhile, and nothing is written over it. A folder that cannot be listed is such a file:
-// its numbers would be given again.
+// A file that cannot be read is named in an alarm. It is left as it is and never overwritten; its
+// contents are missing until it can be read. The same holds for a folder that cannot be listed,
+// because its numbers would be used again.
 #pragma once
 
 #include <cstdint>
@@ -21,16 +21,16 @@ namespace ols::console {
 
 class IncidentStore {
  public:
-  // The folder is made when it is first needed.
+  // The folder is created when it is first needed.
   explicit IncidentStore(std::string folder) : folder_(std::move(folder)) {}
 
   KeptIncidents read();
 
-  // Writes what is new, and each second what could not be written before. Call often. `now_s`:
+  // Writes what is new. Retries each second what could not be written before. Call often. `now_s`:
   // monotonic.
   void keep(const IncidentBook& book, const IncidentBook::News& news, double now_s);
 
-  // What could not be read at the start, or is not written yet.
+  // About what could not be read at the start, or is not written yet.
   std::vector<Alarm> alarms() const;
 
   static constexpr double kAgain_s = 1.0;

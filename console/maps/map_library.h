@@ -1,6 +1,6 @@
-// The users' own maps, of pictures and of accuracy. They are in one folder, which is listed again
-// at each request. A damaged map is reported, and does not affect the others. For one thread, which
-// may wait for a disk.
+// The users' own maps, of pictures or of accuracy, in one folder. The folder is listed again at
+// each request. A damaged map is reported, and does not affect the others. Use it in one thread,
+// which may wait for a disk.
 #pragma once
 
 #include <cstdint>
@@ -27,8 +27,9 @@ class MapLibrary {
  private:
   struct Entry {
     std::unique_ptr<TileStore> store;        // of pictures
-    std::unique_ptr<AccuracyFile> accuracy;  // or of accuracy; with neither, it is unusable
-    std::string problem;                     // empty: none
+    std::unique_ptr<AccuracyFile> accuracy;  // or of accuracy; if both are null, the map cannot be
+                                             // used
+    std::string problem;                     // empty: no problem
     std::int64_t changed_ns = 0;             // time of the file's last change
   };
   void look();

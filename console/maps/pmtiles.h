@@ -1,5 +1,5 @@
-// A map in a PMTiles archive (pmtiles_directory.h). The console reads it and serves its tiles like
-// those of other maps, so that a browser needs neither file ranges nor a library.
+// A map in a PMTiles archive (pmtiles_directory.h). The console reads the archive and serves its
+// tiles like those of other maps. So a browser needs neither file ranges nor a library.
 #pragma once
 
 #include <cstdio>
@@ -29,7 +29,7 @@ class Pmtiles : public TileStore {
   std::unique_ptr<std::FILE, Close> file_;
   PmtilesHeader header_;
   std::vector<PmtilesEntry> root_, leaf_;
-  std::uint64_t leaf_offset_ = 0;  // of leaf_, the last one read; 0: none
+  std::uint64_t leaf_offset_ = 0;  // offset of leaf_, the leaf directory read last; 0: none
 };
 
 // Decompresses gzip. Throws std::runtime_error if the data are damaged or larger than `most`.

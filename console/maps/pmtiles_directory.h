@@ -15,9 +15,9 @@ inline constexpr std::size_t kPmtilesHeaderBytes = 127;
 
 struct PmtilesHeader {
   std::uint64_t root_offset = 0, root_bytes = 0;      // of the top directory
-  std::uint64_t leaves_offset = 0, leaves_bytes = 0;  // of the others
+  std::uint64_t leaves_offset = 0, leaves_bytes = 0;  // of the leaf directories
   std::uint64_t tiles_offset = 0, tiles_bytes = 0;
-  bool is_gzipped = false;  // the directories are
+  bool is_gzipped = false;  // whether the directories are gzipped
   MapInfo info;             // without the name
 };
 // Throws std::runtime_error with the error.
@@ -29,12 +29,12 @@ struct PmtilesEntry {
   std::uint32_t bytes = 0;
   std::uint32_t run = 0;  // number of equal tiles; 0: this is a leaf directory
 };
-// From a decompressed directory. Throws std::runtime_error.
+// Reads a decompressed directory. Throws std::runtime_error.
 std::vector<PmtilesEntry> parse_pmtiles_directory(std::span<const std::uint8_t> bytes);
 // The entry of a tile, or of the leaf directory that contains it.
 std::optional<PmtilesEntry> find_tile(const std::vector<PmtilesEntry>& directory,
                                       std::uint64_t tile);
-// The number of a tile: along a Hilbert curve, zoom level after zoom level.
+// The number of a tile: tiles are counted along a Hilbert curve, zoom level after zoom level.
 std::uint64_t tile_number(const TileAddress& address);
 
 }  // namespace ols::console

@@ -10,13 +10,13 @@ namespace ols::console {
 
 class TileFolder : public TileStore {
  public:
-  // Throws std::runtime_error if it has no zoom level.
+  // Throws std::runtime_error if the folder has no zoom level.
   explicit TileFolder(const std::string& path);
   const MapInfo& info() const override { return info_; }
   std::optional<std::string> tile(const TileAddress& address) override;
 
  private:
-  std::string path_, suffix_;  // the one found last
+  std::string path_, suffix_;  // suffix: of the picture found last
   MapInfo info_;
 };
 

@@ -25,16 +25,16 @@ class TileStore {
  public:
   virtual ~TileStore() = default;
   virtual const MapInfo& info() const = 0;
-  // A picture that a browser can show; nullopt where the map has none. Throws std::runtime_error
-  // with the damage.
+  // A picture that a browser can show; nullopt where the map has none. Throws std::runtime_error;
+  // the message says what is damaged.
   virtual std::optional<std::string> tile(const TileAddress& address) = 0;
 };
 
-// Whether there is such a tile in the tiling.
+// Whether the tiling has such a tile.
 bool is_address(const TileAddress& address);
 // "image/png" or similar, from a picture's first bytes; empty: browsers cannot show it.
 std::string picture_type(const std::string& bytes);
-// Limits a file's statements about itself to possible values.
+// Limits what a file states about itself to possible values.
 MapInfo plausible(MapInfo info);
 
 }  // namespace ols::console

@@ -15,14 +15,14 @@ namespace ols::console {
 
 class RecordedFrames {
  public:
-  // Adds the events in a recorder's folder. Throws std::invalid_argument that names it. A damaged
-  // row or event is left out and reported in problems().
+  // Adds the events in a recorder's folder. Throws std::invalid_argument naming the folder. A
+  // damaged row or event is skipped and reported in problems().
   void add(const std::string& station, const std::string& folder);
 
-  // The newest frame of a station at an instant; nullopt if it is more than kOld_us old, or was
-  // given last.
+  // The newest frame of a station at an instant. nullopt if that frame is more than kOld_us old, or
+  // was already given last time.
   std::optional<Picture> newest(const std::string& station, std::int64_t utime_us);
-  // Allows the frame given last to be given again.
+  // Allows the frames given last to be given again.
   void give_again() {
     for (auto& [station, frames] : stations_) frames.given_us = 0;
   }
@@ -49,7 +49,7 @@ class RecordedFrames {
   std::size_t frames_ = 0;
 };
 
-// Width and height from the header of a PNG file; nullopt if it is none.
+// Width and height from the header of a PNG file; nullopt if it is no PNG file.
 std::optional<std::pair<int, int>> png_size(const std::string& png);
 
 }  // namespace ols::console

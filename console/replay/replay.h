@@ -1,7 +1,7 @@
-// Shows a recorded log on the console as if it were now: plays, pauses, jumps. It also reads the
-// whole log once, a little in each turn, for the timeline and for snapshots. A jump rebuilds the
-// state from the nearest earlier snapshot, out of sight, and shows it when it is complete. No
-// clock: time comes in.
+// Shows a recorded log on the console as if it happened now: plays, pauses, jumps. Meanwhile it
+// reads the whole log once, a little in each turn, for the timeline and for snapshots. A jump
+// rebuilds the state from the nearest earlier snapshot, and shows it when it is complete. It reads
+// no clock.
 #pragma once
 
 #include <cstdint>
@@ -17,14 +17,14 @@ namespace ols::console {
 
 class Replay {
  public:
-  // Throws std::invalid_argument that names the file if it contains no message of a site.
+  // Throws std::invalid_argument naming the file if it contains no message of a site.
   Replay(const std::string& log, RecordedFrames frames, Console& console);
 
   // Call often: reads, plays, carries out viewers' requests.
   void turn(double monotonic_s);
   std::string in_one_line() const;
-  bool is_read() const { return is_scanned_; }  // the whole log
-  // What is wrong with the log and the frames so far, in words for a person; empty: nothing.
+  bool is_read() const { return is_scanned_; }  // whether the whole log was read once
+  // What is wrong with the log and the frames so far, in words for a person; empty: no problem.
   std::string problem() const;
 
   static constexpr int kScannedAtOnce = 1500;  // messages per turn; each takes some 20 us
@@ -36,7 +36,7 @@ class Replay {
     double speed = 1.0, at_us = 0.0;
   };
   struct Told {
-    bool is_urgent = true;                      // viewers are to receive it at once
+    bool is_urgent = true;                      // viewers should receive it at once
     std::uint64_t changes = ~std::uint64_t{0};  // of the timeline
     double timeline_s = -1e9;
   };
@@ -47,7 +47,7 @@ class Replay {
   void show_frames();
   void tell();
   void tell_timeline();
-  // Processes the log up to an instant; false if there is more than for one turn.
+  // Processes the log up to an instant. False: there is more than one turn can process.
   bool catch_up(Console& console, std::int64_t until_us);
 
   const std::string log_;
@@ -56,7 +56,7 @@ class Replay {
   RecordedFrames frames_;
   Timeline timeline_;
   std::unique_ptr<Console> scanned_;   // the scanner's state
-  std::unique_ptr<Console> ahead_;     // the state that a jump rebuilds; null: none
+  std::unique_ptr<Console> ahead_;     // the state that a jump rebuilds; null: no jump is under way
   std::optional<BusMessage> waiting_;  // the player's next message
   bool is_scanned_ = false;
   double turned_s_ = -1.0;

@@ -14,16 +14,16 @@ namespace ols::console {
 
 struct Snapshot {
   std::int64_t utime_us = 0;
-  std::uint64_t offset = 0;  // in the log, of the following message
-  std::size_t bytes = 0;     // as text
+  std::uint64_t offset = 0;  // in the log; of the next message
+  std::size_t bytes = 0;     // size as text
   Moment moment;
 };
 
 class Timeline {
  public:
-  // This console has heard everything up to this instant and offset.
+  // `console` has received everything up to this instant and offset.
   void reach(std::int64_t utime_us, std::uint64_t offset, const Console& console);
-  // The end of the log.
+  // Call at the end of the log.
   void end(const Console& console) { add_marks(console); }
   // A target's beginning or end is an event too.
   void hear(const TargetHeard& target, std::int64_t utime_us);
@@ -39,7 +39,8 @@ class Timeline {
   std::uint64_t changes() const { return changes_; }  // grows with each new or changed mark
 
   static constexpr std::size_t kMostMarks = 5000;
-  static constexpr std::size_t kMostTargets = 10'000;  // alive at once; a forged log has more
+  static constexpr std::size_t kMostTargets = 10'000;  // at the same time; only a forged log has
+                                                       // more
   static constexpr std::size_t kMostSnapshotBytes = 8'000'000;  // of all together, as text
   static constexpr std::int64_t kLook_us = 500'000;
 

@@ -1,4 +1,4 @@
-// The source of an input's bytes. Inlets share the process's io_context, so none makes another
+// The source of an input's bytes. All inlets share the process's io_context, so none makes another
 // wait.
 #pragma once
 
@@ -17,11 +17,11 @@ namespace ols::cues {
 
 struct InletReport {
   bool is_open = false;
-  std::string trouble;  // in words; empty: none
+  std::string trouble;  // in words; empty: no trouble
   std::int64_t openings = 0, failures = 0, bytes = 0;
 };
 
-// The receiver of the bytes. `begins`: called before the first bytes of a connection.
+// Receives the bytes. `begins`: called before the first bytes of each connection.
 struct InletSink {
   std::function<void()> begins;
   std::function<void(std::string_view)> bytes;
@@ -41,7 +41,7 @@ class Inlet {
   InletReport report_;
 };
 
-// `poll_s`: interval between two looks at a file.
+// `poll_s`: interval between two reads of a file.
 std::unique_ptr<Inlet> make_inlet(boost::asio::io_context& context, const Source& source,
                                   double poll_s, InletSink sink);
 

@@ -1,5 +1,5 @@
-// A file that is rewritten again and again, here or on a web server. It is read periodically, and
-// passed on when it has changed.
+// A file that is rewritten again and again, on this host or on a web server. It is read
+// periodically, and passed on when it has changed.
 #pragma once
 
 #include <boost/asio/io_context.hpp>

@@ -21,7 +21,7 @@ class TcpInlet : public Inlet {
   void connected();
   void listen();
   void fail(const std::string& why);
-  // Ends a connection attempt that takes too long.
+  // Ends the connection attempt if it takes too long.
   void give_patience();
 
   Source source_;

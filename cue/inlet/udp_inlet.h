@@ -27,7 +27,7 @@ class UdpInlet : public Inlet {
   boost::asio::ip::udp::socket socket_;
   boost::asio::steady_timer timer_;
   std::vector<char> buffer_;
-  bool heard_ = false;  // since the last look
+  bool heard_ = false;  // whether a datagram has come since the last look
 };
 
 }  // namespace ols::cues

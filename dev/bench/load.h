@@ -1,4 +1,4 @@
-// What benchmarks under load share.
+// Shared by the benchmarks that run under load.
 #pragma once
 
 #include <algorithm>
@@ -10,8 +10,8 @@
 
 namespace ols::bench {
 
-// Calls `act` with 0, 1, … evenly in time; what fell due while this process did not run follows at
-// once.
+// Calls `act` with 0, 1, … at an even rate. Calls that became due while this process did not run
+// follow at once.
 void at_rate(double rate_hz, double seconds, const auto& act) {
   constexpr timespec kNap{0, 200'000};  // some messages of a flood each time
   const double begin_s = clock_monotonic_s();
@@ -24,7 +24,7 @@ void at_rate(double rate_hz, double seconds, const auto& act) {
   }
 }
 
-// The value that this share of the others does not exceed; NaN of none.
+// The smallest value that this share of the values does not exceed; NaN if there are no values.
 inline double quantile(std::vector<double> values, double share) {
   if (values.empty()) return NAN;
   const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));

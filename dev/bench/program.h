@@ -9,7 +9,7 @@
 
 namespace ols::bench {
 
-// The exit status; what `run` throws is said under the app's name.
+// Returns the exit status. An exception of `run` is printed under the app's name.
 int run_program(CLI::App& app, int argc, char** argv, const auto& run) {
   const std::string name = app.get_name();
   if (const auto status = parse_command_line(app, argc, argv, name.c_str())) return *status;

@@ -1,4 +1,4 @@
-// What the synthetic benchmark asks of a tracker: sweeps of one property each, and events.
+// The cases of the synthetic tracker benchmark: sweeps of one property each, and events.
 #pragma once
 
 #include <optional>
@@ -10,8 +10,8 @@
 namespace ols::bench {
 
 enum class CameraPath {
-  kTurning,   // steadily in azimuth; the target keeps its path in the image
-  kSwinging,  // to and fro, so that a target that stands in the sky crosses the image
+  kTurning,   // turns steadily in azimuth; the target keeps its path in the image
+  kSwinging,  // swings to and fro, so that a target at rest in the sky crosses the image
 };
 enum class TargetPath {
   kCircle,    // in the image
@@ -21,7 +21,7 @@ enum class TargetPath {
 
 struct BenchCase {
   std::string sweep;
-  double value = 0.0;  // of what the sweep varies
+  double value = 0.0;  // of the swept property
   TargetLook look;
   Backdrop backdrop = Backdrop::kBlankSky;
   CameraPath camera_path = CameraPath::kTurning;
@@ -29,10 +29,12 @@ struct BenchCase {
   double speed_px_s = 40.0;             // of the target in the image
   double growth_per_s = 0.0;            // of its size, relative
   double pan_rate_deg_s = 0.0;          // of the camera
-  double elevation_deg = 0.0;           // of the camera; 0 is woods, without a ridge line
+  double elevation_deg = 0.0;           // of the camera; at 0 it looks at woods, without a ridge
+                                        // line
   bool on_ridge = false;                // the camera looks at the ridge line instead
-  bool angles_given = false;            // the homography of the PTU's angles is given
-  std::optional<double> hidden_from_s;  // for a second
+  bool angles_given = false;            // whether the tracker gets the homography from the PTU's
+                                        // angles
+  std::optional<double> hidden_from_s;  // from here on, for a second
   double seconds = 2.0;
 };
 
@@ -44,7 +46,7 @@ inline constexpr double kAngleSd_rad =
 
 std::vector<BenchCase> bench_cases();
 
-// One run of a case: what is drawn by chance is drawn.
+// One run of a case, with its random values drawn.
 class BenchPath {
  public:
   BenchPath(const BenchCase& which, const Landscape& landscape, tracker::Random& random);

@@ -12,10 +12,10 @@
 
 namespace ols::bench {
 
-// 50 mm before pixels of 3.75 um, 1 px = 75 urad, without distortion; 2.7 by 2.2 degrees.
+// 50 mm focal length and pixels of 3.75 um: 1 px = 75 urad. No distortion; 2.7 by 2.2 degrees.
 CameraIntrinsics bench_camera(cv::Size picture = {640, 512});
 
-// Camera to east-north-up for a level camera that looks there.
+// Rotates from the camera to east-north-up, for a level camera that looks along this axis.
 Eigen::Matrix3d camera_rotation(const AzimuthElevation& axis);
 
 // K R_2^T R_1 K^-1: maps pixels of an image taken at `from` to pixels of one taken at `to`.
@@ -24,7 +24,7 @@ Eigen::Matrix3d rotation_between(const CameraIntrinsics& camera, const AzimuthEl
 
 enum class Backdrop { kBlankSky, kLandscape };
 
-// One for all cases: the landscape takes a second to make.
+// One landscape for all cases, because it takes a second to make.
 class Landscape {
  public:
   explicit Landscape(const CameraIntrinsics& camera);
@@ -39,7 +39,7 @@ class Landscape {
   cv::Mat drawn_;
 };
 
-// Noise of every pixel, standard deviation kNoiseSd: read at random places of a long strip.
+// Noise of every pixel, with standard deviation kNoiseSd; read at random places of a long strip.
 class PixelNoise {
  public:
   PixelNoise();

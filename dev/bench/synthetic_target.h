@@ -1,4 +1,5 @@
-// A target of known place, drawn by the simulator, and how well any tracker could know that place.
+// A target at a known place, drawn by the simulator, and how well any tracker could know that
+// place.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,7 +9,8 @@ namespace ols::bench {
 
 struct TargetLook {
   double width_px = 16.0;  // of its silhouette
-  // Greatest difference from the sky, in standard deviations of the pixel noise; 0: as it is.
+  // Greatest difference from the sky, in standard deviations of the pixel noise; 0: the natural
+  // one.
   double contrast_sigma = 20.0;
   double blur_px = 0.7;  // standard deviation of the lens's blur
 };
@@ -26,11 +28,11 @@ class SyntheticTarget {
   void draw(cv::Mat1f& picture, const Eigen::Vector2d& centre_px, const Eigen::Vector2d& smear_px,
             double growth) const;
 
-  // Box on pixel edges as a tracker is given it: the silhouette and half a pixel around it.
+  // A box on pixel edges, for a tracker's start: the silhouette and half a pixel around it.
   cv::Rect2d box(const Eigen::Vector2d& centre_px) const;
 
-  // Cramer-Rao bound of the centre's covariance [px^2] in one such image, if all else is known:
-  // the inverse of J'J / sigma^2, where J are the derivatives of the noise-free image.
+  // Cramer-Rao bound of the centre's covariance [px^2] in one such image, if all else is known: the
+  // inverse of J'J / sigma^2. J holds the derivatives of the noise-free image.
   Eigen::Matrix2d bound(const cv::Mat1f& backdrop, const Eigen::Vector2d& centre_px,
                         const Eigen::Vector2d& smear_px, double growth) const;
 

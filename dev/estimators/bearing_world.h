@@ -1,5 +1,6 @@
-// Simulated bearings without images: targets fly, stations measure their directions with noise,
-// biases, misses and false ones. For Monte Carlo runs of the estimators. Deterministic by the seed.
+// Simulated bearings without images: targets fly, and stations measure their directions with noise,
+// biases, misses and false bearings. For Monte Carlo runs of the estimators. Deterministic by the
+// seed.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,19 +23,21 @@ struct WorldConfig {
   double rate_hz = 30.0;  // frames of each station, evenly staggered
   double noise_rad = 3e-4;
   double bias_sd_rad = 0.0;      // of each station's rotation about east, north and up: its bias
-  double heading_sd_rad = 0.0;   // about up, besides
+  double heading_sd_rad = 0.0;   // about up, in addition
   double bias_time_s = 1e12;     // their correlation time: constant
-  double place_sd_m = 0.0;       // of where each station says it is: east, north, up; constant
-  bool bias_stated = true;       // and the stations state them
+  double place_sd_m = 0.0;       // error of each station's stated position: east, north, up;
+                                 // constant
+  bool bias_stated = true;       // whether the stations state their errors
   double missed = 0.0;           // share of a station's detections
   double false_per_frame = 0.0;  // mean number, Poisson
-  double view_rad = 0.5;         // half width of the field of the false ones
-  // Whether the stations have detectors: bearings are of tracklets, which say what was seen. False
-  // ones are then of objects that only this station sees, each for some time and on its way.
+  double view_rad = 0.5;         // half width of the field in which false bearings lie
+  // Whether the stations have detectors. Bearings then belong to tracklets, which say what was
+  // seen. False ones come from objects that only this station sees, each for some time and along
+  // its own path.
   bool tracklets = false;
   double rate_sd_rad_s = 2e-3;  // of a tracklet's angular rate
-  double breaks_per_s = 0.05;   // of a target's tracklet: another id
-  double false_life_s = 2.0;    // mean, of a false tracklet
+  double breaks_per_s = 0.05;   // how often a target's tracklet gets another id
+  double false_life_s = 2.0;    // mean life of a false tracklet
   double size_m = 0.5;          // of targets
 };
 
@@ -52,14 +55,14 @@ inline constexpr double kPathHz = 1000.0;
 const LocalFrame& site();
 PathPoint at(const Path& path, double time_s);
 
-// Constant velocity but for white noise of the acceleration [m/s^2 over root Hz].
+// Constant velocity, disturbed by white noise of the acceleration [m/s^2 over root Hz].
 Path cruising(const PathPoint& start, double disturbance, double duration_s,
               std::mt19937_64& random);
 // A drone that turns, brakes and climbs: piecewise constant turns and accelerations of this size.
 Path manoeuvring(const PathPoint& start, double acceleration_m_s2, double duration_s,
                  std::mt19937_64& random);
 
-// In order of time; several of one station and frame share their stamp.
+// In order of time. Bearings of one station and frame have the same stamp.
 std::vector<fusion::BearingMeasurement> measure(const WorldConfig& config,
                                                 const std::vector<Path>& targets, double duration_s,
                                                 std::mt19937_64& random);

@@ -1,5 +1,5 @@
-// Simulated tracks of objects whose class is known: what the classifier learns from, and what it is
-// measured with. Deterministic by the seed.
+// Simulated tracks of objects of known class: the classifier learns from them and is measured with
+// them. Deterministic by the seed.
 #pragma once
 
 #include <array>
@@ -25,7 +25,7 @@ inline constexpr std::array<SimulatedKind, 7> kSimulatedKinds = {{
     {"meteor", fusion::ObjectClass::kOther},
 }};
 
-// 1-sigma of what is seen; 0: the truth.
+// 1-sigma of the errors of what is seen; 0: the truth.
 struct LookNoise {
   double size = 0.0;       // relative, of one image
   double size_bias = 0.0;  // relative, the same for the whole track, not stated

@@ -1,6 +1,6 @@
-// A site that hands targets over, in simulated time and without pictures: an overview station that
-// stares at everything, and stations that turn to where the fusion leads them. Detectors report
-// what has been in view for a while. Deterministic by the seed.
+// A site that hands targets over, in simulated time and without pictures. An overview station
+// stares at everything; other stations turn to where the fusion leads them. Detectors report what
+// has been in view for a while. Deterministic by the seed.
 #pragma once
 
 #include <Eigen/Core>
@@ -26,10 +26,10 @@ struct HandoverSiteConfig {
   std::optional<Eigen::Vector3d> overview_enu{};
   bool stations_turn = true;  // false: they stare at all of the sky, too
   std::vector<FlyingTarget> targets;
-  double view_rad = 0.08;  // field of view of those that turn
+  double view_rad = 0.08;  // field of view of the stations that turn
   double rate_hz = 15.0;
   double noise_rad = 3e-4;
-  double confirm_s = 0.2;  // in view until a led station has it (acquisition)
+  double confirm_s = 0.2;  // time in view until a led station has acquired the target
   double delay_s = 0.1;    // from the exposure to the fusion
   double slew_s = 0.05;    // from the fusion to the servo
   fusion::HandoverConfig handover{};
@@ -41,13 +41,13 @@ class HandoverSite {
 
   void run_until(double time_s);
   fusion::Fusion& fusion() { return fusion_; }
-  // All stations start again: they see what they saw, and number it from 1.
+  // All stations start again: they still see the same targets, but number them from 1 again.
   void restart_stations();
   // The stations whose detectors report the target now, without the overview.
   std::vector<std::string> holders(std::size_t target) const;
-  // The established target of the fusion that is at this one now; 0: none.
+  // The fusion's established target that is now at this simulated target; 0: there is none.
   std::int64_t found(std::size_t target) const;
-  // When the overview station first reported it.
+  // When the overview station first reported this target.
   std::optional<double> first_seen_s(std::size_t target) const;
 
  private:

@@ -1,4 +1,4 @@
-// What a measure must reach. Says how each one stands, and counts those that miss.
+// Compares measures with the values that they must reach. Prints each, and counts those that miss.
 #pragma once
 
 #include <limits>

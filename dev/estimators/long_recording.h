@@ -9,7 +9,7 @@ namespace ols::bench {
 struct LongRecording {
   std::size_t rows = 1'000'000;
   int stations = 4;       // on a circle of 300 m, 25 exposures a second each, evenly staggered
-  int targets = 1;        // that each of them sees in each exposure
+  int targets = 1;        // number of targets that each station sees in each exposure
   bool are_named = true;  // in a column `target`
 };
 

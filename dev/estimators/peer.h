@@ -12,7 +12,7 @@
 
 namespace ols::bench {
 
-// std::runtime_error when the folder cannot be written.
+// Throws std::runtime_error if the folder cannot be written.
 void write_peer_runs(const std::string& folder, int runs);
 
 }  // namespace ols::bench

@@ -9,8 +9,8 @@
 
 namespace ols::bench {
 
-// Mean squared position error [m^2] that no estimator can beat, after each of the frames' bearings,
-// on the bearings' own times.
+// Mean squared position error [m^2] that no estimator can beat, after the bearings of each frame,
+// at the times of the bearings.
 std::vector<double> posterior_bound(const WorldConfig& config, const Path& path,
                                     const std::vector<fusion::BearingMeasurement>& bearings,
                                     double disturbance, double position_sd_m,

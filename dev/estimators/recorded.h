@@ -1,5 +1,5 @@
-// A simulated recording whose files state nothing but the noise of the bearings, as ols-fuse gets
-// it: the filter and its smoother against least squares, at the same instants.
+// A simulated recording for ols-fuse whose files state nothing but the noise of the bearings.
+// Compares the filter and its smoother with least squares, at the same instants.
 #pragma once
 
 #include <array>
@@ -14,12 +14,13 @@ namespace ols::bench {
 struct Recording {
   std::vector<fusion::BearingMeasurement> bearings;
   Path path;                           // the truth, from 0 s
-  double from_s = 0.0, until_s = 0.0;  // instants that are judged
-  double rate_hz = 0.0;                // of the instants; 0: each bearing's
+  double from_s = 0.0, until_s = 0.0;  // the judged instants are between these
+  double rate_hz = 0.0;                // of the judged instants; 0: at each bearing
 };
 
-// Over all recordings, of one estimator: its errors over those of least squares, and its normalised
-// error squared. Recordings with fewer than ten instants that all have do not count.
+// The errors of one estimator over those of least squares, and its normalised error squared, over
+// all recordings. Recordings are left out if fewer than ten instants have results of all
+// estimators.
 class AgainstLeastSquares {
  public:
   // An estimator of ols-fuse: the filter, or its smoother.

@@ -1,5 +1,5 @@
-// The scenario of several targets: crossings, misses, false bearings; and how well the fusion keeps
-// them apart.
+// The scenario of several targets: crossings, misses, false bearings. Measures how well the fusion
+// keeps the targets apart.
 #pragma once
 
 #include <cstdint>
@@ -12,15 +12,16 @@ struct SeveralTargets {
   double duration_s = 40.0;
   double missed = 0.1;
   double false_per_frame = 1.0;
-  bool tracklets = false;  // of detectors, in 15 images a second of cameras that stare
+  bool tracklets = false;  // whether bearings are tracklets of detectors, in 15 images a second of
+                           // staring cameras
 };
 
 struct IdentityScore {
   double by_right_identity = 0.0;  // share of target-seconds
-  double longest_ghost_s = 0.0;    // a confirmed track far from every target
-  int switches = 0;                // a target's track has got another id
+  double longest_ghost_s = 0.0;    // longest life of a confirmed track far from every target
+  int switches = 0;                // how often a target's track has got another id
   double rms_m = 0.0;
-  double found = 0.0;                   // share of target-seconds, by whichever identity
+  double found = 0.0;                   // share of target-seconds, under any identity
   int ghosts = 0;                       // identities that were never near a target
   double predicted_ghosts_a_day = 0.0;  // by the fusion's own model, at the end
 };

@@ -14,7 +14,8 @@ namespace ols::exports {
 struct AsterixSettings {
   int sac = 0;  // system area code, from EUROCONTROL's list
   int sic = 1;  // this system's identification code
-  // The stations' identification codes follow ours, in this order; other stations are not sent.
+  // The stations' identification codes follow ours, in this order. Stations not listed are not
+  // sent.
   std::vector<std::string> stations;
 };
 

@@ -10,8 +10,8 @@ namespace ols::exports {
 
 class TrackNumbers {
  public:
-  // The number of a present target: the fusion's own number, unless another present target has it;
-  // then the next free one. A restart thus gives the same numbers again.
+  // The number of a present target: the fusion's own number or, if another present target has it,
+  // the next free one. So a target mostly keeps its number over a restart.
   std::uint16_t of(const std::string& uid, std::int64_t target_id);
   void release(const std::string& uid);
 

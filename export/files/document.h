@@ -11,7 +11,7 @@ namespace ols::exports {
 
 class DocumentEncoder : public Encoder {
  public:
-  // The document of a picture; empty: none yet.
+  // Writes the document of a picture; empty: there is nothing to write yet.
   using Writer = std::function<std::string(const Picture&)>;
   // `where`: as Packet::where. `companions`: files beside it, sent once.
   DocumentEncoder(PictureLimits limits, Writer writer, std::string where = {},

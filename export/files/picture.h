@@ -15,7 +15,7 @@ struct PictureLimits {
   double history_s = std::numeric_limits<double>::infinity();
   // Limit for all tracks and lines together. Beyond it, each is thinned evenly in time.
   std::int64_t most_points = std::numeric_limits<std::int64_t>::max();
-  // Leaves out what has no height above sea level: the format has no other height.
+  // Skips objects whose height above sea level is unknown: the format has no other height.
   bool needs_sea = false;
 };
 

@@ -1,4 +1,4 @@
-// Home Assistant's MQTT discovery: what it must receive once to show an entity. Pure.
+// Home Assistant's MQTT discovery: the messages that it needs once to show an entity. Pure.
 #pragma once
 
 #include <cstddef>

@@ -47,9 +47,9 @@ class MqttEncoder : public Encoder {
 
 // The beginning of the site's topics.
 std::string site_prefix(const MqttSettings& settings, const std::string& site);
-// The topic of its availability: that of the last will.
+// The topic of the site's availability, which is also that of the last will.
 std::string status_topic(const MqttSettings& settings, const std::string& site);
-// A name as a level of a topic: everything but letters, digits, - and _ becomes "_".
+// Makes a name fit for one level of a topic: all but letters, digits, - and _ becomes "_".
 std::string topic_word(const std::string& name);
 
 }  // namespace ols::exports

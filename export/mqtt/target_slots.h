@@ -1,5 +1,5 @@
 // Numbered slots for targets. Home Assistant keeps an entity for every name that it has ever
-// received; names of targets would fill it. Pure.
+// received, so the names of all targets would fill it. Pure.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@ class TargetSlots {
  public:
   explicit TargetSlots(std::size_t count) : taken_(count) {}
 
-  // The slot of this target: its own, otherwise the first free one; nullopt if there is none.
+  // The slot of this target: its own, otherwise the first free one; nullopt: no slot is free.
   std::optional<std::size_t> take(const std::string& uid);
   // Frees the target's slot and returns it.
   std::optional<std::size_t> release(const std::string& uid);
@@ -21,7 +21,7 @@ class TargetSlots {
   std::size_t count() const { return taken_.size(); }
 
  private:
-  std::vector<std::string> taken_;  // by uid; empty: free
+  std::vector<std::string> taken_;  // uid of the target in each slot; empty: the slot is free
 };
 
 }  // namespace ols::exports

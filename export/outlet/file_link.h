@@ -1,4 +1,4 @@
-// Files that appear whole: each packet is one file. Its `where` is inserted before the extension.
+// Files that appear whole, one for each packet. Packet::where is inserted before the extension.
 #pragma once
 
 #include <string>

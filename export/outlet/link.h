@@ -19,7 +19,7 @@ class LinkError : public std::runtime_error {
 class Link {
  public:
   virtual ~Link() = default;
-  // These throw LinkError, after kPatience_s at the latest. The link is then closed.
+  // open() and send() throw LinkError, after kPatience_s at the latest. The link is then closed.
   virtual void open() = 0;
   virtual void send(const Packet& packet) = 0;
   // Waits until `wake_fd` is readable or the time is over. Reads what the receiver sends.
@@ -27,11 +27,14 @@ class Link {
   virtual void close() = 0;
   // Called before an open connection is closed because the program ends. Throws as the others do.
   virtual void say_goodbye() {}
-  // Whether packets that waited while it was closed are to be dropped.
+  // Whether packets that have waited while the link was closed should be dropped.
   virtual bool forgets() const { return true; }
-  // What the receiver reports as wrong while the connection holds; empty: nothing.
+  // What the receiver reports as wrong over the open connection; empty: nothing.
   virtual std::string trouble() const { return {}; }
-  virtual std::uint64_t complaints() const { return 0; }  // of the receiver; only increases
+  virtual std::uint64_t complaints() const {
+    return 0;
+  }  // number of the receiver's complaints;
+     // only increases
 
   static constexpr double kPatience_s = 3.0;
 };

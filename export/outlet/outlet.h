@@ -11,14 +11,14 @@ namespace ols::exports {
 
 struct OutletReport {
   bool is_open = false;
-  std::string trouble{};         // why it is not open, or the last failure; empty: none
+  std::string trouble{};         // why it is not open, or the last failure; empty: no trouble
   std::uint64_t sent = 0;        // packets handed over
   std::uint64_t bytes = 0;       // bytes of these packets
   std::uint64_t displaced = 0;   // replaced by newer ones, or dropped, before they were sent
   std::uint64_t failures = 0;    // connections that failed or broke; for datagrams and files, each
                                  // one
   std::uint64_t openings = 0;    // connections made
-  std::uint64_t complaints = 0;  // messages that the receiver has called wrong
+  std::uint64_t complaints = 0;  // messages that the receiver has reported as wrong
 };
 
 class Outlet {

@@ -1,4 +1,5 @@
-// A connection to a SAPIENT receiver. Nothing is sent before it has accepted the registration.
+// A connection to a SAPIENT receiver. Sends nothing else before the receiver has accepted the
+// registration.
 #pragma once
 
 #include "export/outlet/stream_link.h"
@@ -14,7 +15,7 @@ class SapientLink : public StreamLink {
   void open() override;
   void send(const Packet& packet) override;
   void say_goodbye() override;
-  // The newest of the messages that the receiver has called wrong, for some seconds.
+  // The last complaint of the receiver about a message; shown for some seconds.
   std::string trouble() const override;
   std::uint64_t complaints() const override { return dialogue_.complaints(); }
 

@@ -7,21 +7,21 @@ struct addrinfo;
 
 namespace ols::exports {
 
-// For any TCP connection: unsent data waits in our queue, where a newer message displaces it, and
-// not in the system's buffer of megabytes.
+// Call for any TCP connection. Keeps unsent data in our queue, where a newer message replaces an
+// older one, and out of the system's buffer of megabytes.
 void keep_unsent_short(int descriptor);
 
 class TcpSocket {
  public:
-  // Connects to the first of the name's addresses that answers. The system looks the name up, for
-  // as long as its settings allow. Throws LinkError.
+  // Connects to the first of the name's addresses that answers. Looking up the name takes as long
+  // as the system's settings allow. Throws LinkError.
   TcpSocket(const std::string& host, int port, double patience_s);
   ~TcpSocket();
   TcpSocket(const TcpSocket&) = delete;
   TcpSocket& operator=(const TcpSocket&) = delete;
 
   int descriptor() const { return fd_; }
-  // Waits until it can be read or written. False: not in time.
+  // Waits until the socket can be read or written. False: it cannot within this time.
   bool wait(bool to_write, double patience_s) const;
 
  private:

@@ -1,5 +1,5 @@
-// SAPIENT in a stream of bytes: each message follows its length in four bytes, least significant
-// first. Pure.
+// SAPIENT in a stream of bytes. The length of each message comes before it, in four bytes, least
+// significant first. Pure.
 #pragma once
 
 #include <cstddef>

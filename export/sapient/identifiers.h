@@ -7,10 +7,11 @@
 
 namespace ols::exports {
 
-// Lower case, and marked as version 4 because receivers insist on it, although its bits are a hash.
+// In lower case. It is marked as version 4 because receivers insist on that, although its bits are
+// a hash.
 std::string uuid_of(const std::string& name);
 bool is_uuid(const std::string& text);
-// `time_ms`: since 1970; 0 if it has no time of its own, such as an object.
+// `time_ms`: since 1970; 0 for an object without a time of its own.
 std::string ulid_of(std::int64_t time_ms, const std::string& name);
 
 }  // namespace ols::exports

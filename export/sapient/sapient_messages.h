@@ -24,8 +24,8 @@ std::string sapient_detection(const SapientSettings& settings, const Target& tar
 std::string sapient_task_refusal(const SapientSettings& settings, const std::string& task_id,
                                  const std::string& to, std::int64_t utime_us);
 
-// If the type of a detection's information begins with this, the detection comes from ols-export:
-// it is no outside target.
+// The beginning of a type of detection information that marks detections of ols-export itself. They
+// are no outside targets.
 inline constexpr const char* kSapientOwn = "ols.";
 
 }  // namespace ols::exports

@@ -17,7 +17,7 @@ struct SapientSettings {
 
 // The id by which the site is known as a node.
 std::string node_id(const SapientSettings& settings);
-// A message of the node, still without content.
+// A message of the node, without content yet.
 sapient::SapientMessage message_of(const SapientSettings& settings, std::int64_t utime_us);
 
 }  // namespace ols::exports

@@ -14,8 +14,8 @@ namespace ols::exports {
 
 class Scan {
  public:
-  // The instant for this target's report, at most kGap_s before its own; nullopt: it was already
-  // reported for that instant.
+  // The instant for this target's report, at most kGap_s before the target's own time; nullopt: it
+  // was already reported for that instant.
   std::optional<std::int64_t> instant_of(const Target& target);
   void begin_again() { told_.clear(); }
 

@@ -14,7 +14,7 @@
 namespace ols::exports {
 
 struct CotSettings {
-  std::string target_type = "a-u-A";       // an unknown in the air; of a drone a-u-A-M-F-Q
+  std::string target_type = "a-u-A";       // an unknown object in the air; for a drone a-u-A-M-F-Q
   std::string station_type = "a-f-G-E-S";  // a friendly sensor on the ground
   double stale_s = 10.0;                   // a client fades it after this time
   double line_m = 5000.0;                  // drawn length of a line
@@ -36,8 +36,8 @@ inline constexpr double kCotUnknown_m = 9999999.0;
 // A target that has ended is stale at once.
 CotEvent cot_event(const Target& target, const CotSettings& settings);
 CotEvent cot_event(const Station& station, const CotSettings& settings);
-// An alert: a breached geo-fence, or that alert's cancellation once the target has left or was
-// dismissed, as ATAK sends and shows them.
+// An alert for a breached geo-fence, as ATAK sends and shows it. Once the target has left or was
+// dismissed: the cancellation of that alert.
 CotEvent cot_event(const Incident& incident, const CotSettings& settings);
 // A range-and-bearing line from its camera.
 CotEvent cot_event(const Line& line, const CotSettings& settings);

@@ -8,8 +8,8 @@
 namespace ols::exports {
 
 std::string cot_xml(const CotEvent& event);
-// An event without the XML declaration, and a document of such elements, as a TAK server answers a
-// request for an object's history.
+// An event without the XML declaration, and a document of such elements. A TAK server answers a
+// request for an object's history with such a document.
 std::string cot_element(const CotEvent& event);
 std::string cot_document(const std::string& elements);
 

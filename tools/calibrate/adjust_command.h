@@ -30,10 +30,10 @@ struct Adjusted {
 Adjusted adjust_into(const CaseOptions& options, const std::filesystem::path& folder,
                      const TellAdjusted& tell = {});
 
-// What is not within the limits, for all stations, as sentences; empty: all is good.
+// Everything outside of the limits, for all stations, as sentences; empty: all is within them.
 std::vector<std::string> bad_findings(const Adjusted& adjusted);
 
-// One screen for a person: the remaining errors, the rejected references, the worst one.
+// One screen for a person: the remaining errors, the rejected references, and the worst one.
 AdjustedResult result_for_person(const Adjusted& adjusted);
 
 }  // namespace ols::calibration

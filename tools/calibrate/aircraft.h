@@ -16,22 +16,22 @@ struct AircraftOptions {
   std::vector<std::string> inputs;  // files, or HOST:PORT
   std::string format, output;
   double sd_m = 10.0;
-  double duration_s = 600.0;                   // of a connection
+  double duration_s = 600.0;                   // how long to read from a connection
   std::optional<std::int64_t> start_utime_us;  // of the first frame in a Beast file
   bool heights_are_geometric = false;          // SBS does not say which heights it gives
   bool clock_is_right = false;                 // a person's statement, if no time service confirms
                                                // it
 };
 
-// What is wrong with the clock of a receiver that stamps its messages, in words; empty: nothing.
-// `least_delay_us`: of ReceiverDelay.
+// The error of the clock of a receiver that stamps its messages, in words; empty: no error was
+// found. `least_delay_us`: from ReceiverDelay.
 std::string receiver_clock_trouble(std::int64_t least_delay_us);
 
-// The rows, by aircraft and time. An aircraft that was silent for half a minute returns under
-// another name. One with a single position is left out.
+// The rows, sorted by aircraft and time. An aircraft that was silent for half a minute gets a new
+// name. One with only one position is left out.
 std::string reference_rows(std::vector<AircraftPosition> positions, double sd_m);
 
-// Reads and writes. Throws std::runtime_error naming input or option.
+// Reads the inputs and writes the output. Throws std::runtime_error naming input or option.
 // `tell`: progress in bytes of all inputs, also while a receiver is silent.
 CommandReport write_aircraft(const AircraftOptions& options, const TellSteps& tell = {});
 

@@ -16,19 +16,20 @@ namespace ols::calibration {
 class BeastFrames {
  public:
   struct Frame {
-    std::uint64_t ticks = 0;  // of 12 MHz
+    std::uint64_t ticks = 0;  // count of the 12 MHz clock
     std::vector<std::uint8_t> message;
   };
   // Takes bytes, and returns the long frames that they complete.
   std::vector<Frame> take(std::span<const std::uint8_t> bytes);
 
  private:
-  std::vector<std::uint8_t> frame_;  // after its escape, without escapes
+  std::vector<std::uint8_t> frame_;  // bytes after the escape that begins a frame, with escapes
+                                     // removed
   bool is_inside_ = false, is_escaped_ = false;
 };
 
-// Converts a receiver's counter to this host's time. The counter has no time of day, and a frame
-// arrives with a delay. The frame with the least delay gives the time of the first one.
+// Converts a receiver's counter to this host's time. The counter has no time of day, and each frame
+// arrives with a delay. The time of the first frame follows from the frame with the least delay.
 class TickClock {
  public:
   // [us] Time from the first frame to this one, which arrived at `arrival_utime_us`.
@@ -41,8 +42,8 @@ class TickClock {
   std::int64_t first_utime_us_ = 0;
 };
 
-// The delay of a receiver's own stamps. No message arrives before it was sent, and of many messages
-// one hardly waits on its way. The least delay is therefore the offset between the clocks.
+// The delay of messages, by the receiver's own stamps. No message arrives before it was sent, and
+// of many messages one is hardly delayed. So the least delay is the offset between the clocks.
 class ReceiverDelay {
  public:
   void note(std::int64_t stamp_utime_us, std::int64_t arrival_utime_us);
@@ -53,9 +54,9 @@ class ReceiverDelay {
   std::optional<std::int64_t> least_us_;
 };
 
-// A line of SBS, port 30003; nullopt without a position. Its height is barometric. It is only
-// usable if the receiver is configured to write geometric heights. Its times have no zone and are
-// taken as UTC.
+// Reads a line of SBS, port 30003; nullopt if it has no position. Its height is barometric, and
+// usable only if the receiver is configured to write geometric heights. Its times have no time zone
+// and are taken as UTC.
 std::optional<AircraftPosition> sbs_position(const std::string& line);
 
 struct AircraftSnapshot {

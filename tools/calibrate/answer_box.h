@@ -1,5 +1,5 @@
-// Answers to a procedure's questions that arrive over the bus: the first one to the current
-// question, and an abort at any time. Pure.
+// Answers to a procedure's questions that arrive over the bus. It takes the first answer to the
+// current question, and an abort at any time. Pure.
 #pragma once
 
 #include <cstdint>
@@ -14,9 +14,9 @@ namespace ols::calibration {
 
 class AnswerBox {
  public:
-  // From now on only answers to this question are taken; 0: none.
+  // From now on only answers to this question are taken; 0: to no question.
   void ask(std::int64_t question);
-  // Refuses an answer that is old, was heard before, is to no current question, or is out of range.
+  // Ignores an answer that is old or repeated, is not to the current question, or is out of range.
   // `now_utime_us`: this host's UTC.
   void hear(const ols_msg::procedure_answer_t& answer, std::int64_t now_utime_us);
   // True once for each abort.
@@ -28,7 +28,7 @@ class AnswerBox {
   std::int64_t question_ = 0;
   std::optional<Answer> answer_;
   bool is_aborted_ = false;
-  // sender's boot and number of taken answers only, so that no flood makes it grow
+  // sender's boot and number, only of answers that were taken, so that a flood cannot make it grow
   std::set<std::pair<std::int64_t, std::int64_t>> heard_;
 };
 

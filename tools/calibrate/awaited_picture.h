@@ -1,5 +1,6 @@
-// A picture expected from where the unit was sent: how near the unit is, which parts have arrived,
-// and what is missing, in words. Without clock or bus: times are given [s, monotonic].
+// A picture that is expected from the place where the unit was sent: how near the unit is, which
+// parts have arrived, and what is missing, in words. Uses no clock or bus: times are given [s,
+// monotonic].
 #pragma once
 
 #include <algorithm>
@@ -21,12 +22,12 @@ class AwaitedPicture {
       : boot_id_(boot_id), at_(at), progress_s_(now_s), part_s_(now_s) {}
 
   const PanTilt& at() const { return at_; }
-  // The picture was requested. After a second request, a frame that is already on its way still
-  // counts.
+  // The picture was requested. After a second request, a frame that the first one has caused is
+  // still accepted.
   void asked(std::int64_t sequence) { first_request_ = std::min(first_request_, sequence); }
   void hear_angles(const PanTilt& angles, double now_s);
-  // The file, when this part completes it. Parts of other requests are dropped. A newer frame's
-  // part replaces an older frame.
+  // Returns the file if this part completes it. Parts of other requests are dropped. Parts of a
+  // newer frame replace those of an older one.
   std::optional<std::vector<std::uint8_t>> hear_part(const ols_msg::frame_part_t& part,
                                                      double now_s);
 
@@ -36,7 +37,8 @@ class AwaitedPicture {
   std::string missing() const;
 
  private:
-  static constexpr double kThere_rad = 2e-3;  // a quarter of the run-up before an approach
+  static constexpr double kThere_rad = 2e-3;  // a quarter of the distance over which an approach
+                                              // runs
 
   std::int64_t boot_id_;  // of the requester
   PanTilt at_;

@@ -20,9 +20,9 @@ struct BoardShape {
 // Throws std::invalid_argument naming the option, for unusable shapes.
 void check_board(const BoardShape& shape);
 
-// Empty if the board, or enough of it, is not found. A chessboard needs all corners, a ChArUco
-// (dictionary 5X5_1000) eight, AprilTags (36h11, numbered row by row from 0, from the top or from
-// the bottom) four tags.
+// Empty if too little of the board is found. A chessboard needs all corners, a ChArUco (dictionary
+// 5X5_1000) eight. AprilTags (36h11) need four tags; they are numbered row by row from 0, from the
+// top or from the bottom.
 BoardView find_board(const cv::Mat& picture, const BoardShape& shape);
 
 }  // namespace ols::calibration

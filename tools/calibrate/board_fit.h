@@ -1,5 +1,6 @@
 // Fits a camera in one of the lens models (geometry/lens.h) to pictures of a flat board, with its
-// full covariance. For cameras that focus near. (A long lens focused at infinity sees only a blur.)
+// full covariance. Only for cameras that focus near: a long lens focused at infinity sees only a
+// blur.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,13 +12,13 @@
 
 namespace ols::calibration {
 
-// The corners in one picture, and their positions on the board [m]; equal numbers.
+// The corners in one picture, and as many positions on the board [m].
 struct BoardView {
   std::vector<cv::Point3f> board;
   std::vector<cv::Point2f> pixels;
 };
 
-// The order in every vector and covariance; what a model lacks is zero, exactly.
+// The order in every vector and covariance. Parameters that a model lacks are exactly zero.
 inline constexpr std::array<const char*, 10> kCameraParameters{
     "focal_px", "aspect", "cx_px", "cy_px", "k1", "k2", "p1", "p2", "k3", "k4"};
 inline constexpr int kCameraSize = static_cast<int>(kCameraParameters.size());

@@ -32,9 +32,9 @@ struct Case {
   std::set<std::size_t> mistaken;  // indices of the observations that are left out
 };
 
-// The instrument with which a new setup begins. An earlier calibration's values (with a covariance
+// The instrument with which a new setup begins. Values of an earlier calibration (with a covariance
 // in the file) get a larger uncertainty, because the unit was carried: 30 arc seconds for the
-// camera on its plate, 4 for the axes. Values that a person states are unchanged.
+// camera on its plate, 4 for the axes. Values that a person states do not change.
 Instrument carried_instrument(const std::string& path, const Instrument& fallback);
 
 // The station before an adjustment. Throws std::invalid_argument if its position is not surveyed.
@@ -49,14 +49,14 @@ Case read_stations(const CaseOptions& options);
 // std::invalid_argument.
 Case read_case(const CaseOptions& options);
 
-// The network of the case without the mistaken observations. A refused observation is named with
-// file and line.
+// The network of the case, without the mistaken observations. An error names the refused
+// observation's file and line.
 Network network_of(const Case& what);
 
 // Finds single sightings of drones, aircraft and tracks that contradict all others. `tell`: as for
 // calibrate().
 void find_mistaken(Case& what, const TellAdjusted& tell = {});
-// One sentence for each of the first few, with file and line.
+// One sentence for each of the first few mistaken observations, with file and line.
 std::vector<std::string> mistaken_in_words(const Case& what);
 
 }  // namespace ols::calibration

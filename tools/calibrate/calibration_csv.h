@@ -11,7 +11,7 @@
 
 namespace ols {
 
-// ICRS at epoch 2000.0.
+// ICRS, epoch 2000.0.
 struct StarCells {
   double ra_deg = 0.0, dec_deg = 0.0;
   double pm_ra_mas_yr = 0.0;  // times the cosine of the declination

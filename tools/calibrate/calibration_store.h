@@ -1,5 +1,6 @@
-// A station's calibrations on disk. Each has a folder named by its id. The link `current` is the
-// one in use. history.jsonl records the events. Nothing is overwritten; going back is one rename.
+// A station's calibrations on disk. Each has a folder named by its id. The link `current` points to
+// the one in use. history.jsonl records the events. Nothing is overwritten; a return to an earlier
+// calibration is one rename.
 //
 //   FOLDER/current -> 4711            switched by one rename
 //   FOLDER/instrument -> 4712         an instrument without a setup, accepted later; without it,
@@ -23,8 +24,8 @@ struct HistoryLine {
   std::int64_t utime_us = 0;
   std::string event;      // "accepted", "instrument", "kept", "reverted"
   std::string id;         // of the calibration
-  std::string procedure;  // that made it
-  std::string previous;   // the calibration in use before; empty: none
+  std::string procedure;  // the procedure that made it
+  std::string previous;   // the calibration that was in use before; empty: none
 };
 
 class CalibrationStore {
@@ -36,16 +37,16 @@ class CalibrationStore {
   CalibrationStore& operator=(const CalibrationStore&) = delete;
 
   const std::filesystem::path& folder() const { return folder_; }
-  // Allows one procedure at a time. Throws std::runtime_error if another one is running. Sets the
-  // folders of dead procedures aside, and returns their new names. Completes a decision that a loss
-  // of power has interrupted.
+  // Allows one procedure at a time. Throws std::runtime_error if another one is running. Renames
+  // the folders of procedures that have died, and returns the new names. Completes a decision that
+  // a loss of power has interrupted.
   std::vector<std::filesystem::path> lock();
 
   // A new folder for a running procedure.
   std::filesystem::path begin(const std::string& procedure, std::int64_t utime_us);
-  // Sets the folder aside with all its data; returns its new name.
+  // Renames the folder, with all its data, as interrupted; returns its new name.
   std::filesystem::path interrupt(const std::filesystem::path& running);
-  // Folders that were set aside, oldest first.
+  // The folders of interrupted procedures, oldest first.
   std::vector<std::filesystem::path> interrupted() const;
   // Makes one of them a running procedure again; returns its new name.
   std::filesystem::path resume(const std::filesystem::path& interrupted);
@@ -57,7 +58,7 @@ class CalibrationStore {
   bool has(const std::string& id) const;
   // Puts the calibration of this id into use. Throws std::runtime_error if there is none.
   void use(const std::string& id, HistoryLine line);
-  // New setups begin with the instrument of this calibration; the one in use stays.
+  // New setups begin with the instrument of this calibration. The calibration in use stays in use.
   void use_instrument(const std::string& id, HistoryLine line);
   // The file of the instrument accepted last; nullopt: none.
   std::optional<std::filesystem::path> instrument_file() const;

@@ -16,8 +16,8 @@ struct CameraOptions {
   std::string output;
 };
 
-// Writes the folder. Some pictures always miss the board; if most do, the fault is rather that of
-// its description. Throws std::runtime_error or std::invalid_argument naming picture or option.
+// Writes the folder. Some pictures always miss the board; if most do, the description of the board
+// is probably wrong. Throws std::runtime_error or std::invalid_argument naming picture or option.
 CommandReport write_camera(const CameraOptions& options);
 
 }  // namespace ols::calibration

@@ -7,7 +7,7 @@
 
 namespace ols::calibration {
 
-// Total size; 0 if any has no size: a pipe, a receiver's address, a missing file.
+// Total size; 0 if the size of any is unknown: a pipe, a receiver's address, a missing file.
 std::size_t input_bytes(const std::vector<std::string>& paths);
 
 }  // namespace ols::calibration

@@ -10,18 +10,18 @@ namespace ols::calibration {
 
 class ManualHold {
  public:
-  // The procedure points the unit, which takes the station into manual operation ..
+  // The procedure points the unit: the station changes to manual operation once it has accepted.
   void point() { pointed_ = true; }
-  // .. once the station has answered that it does.
+  // The station has accepted it.
   void accept() { held_ = pointed_; }
-  // Whether the procedure has begun the manual operation: only then does it end it.
+  // Whether the procedure itself has begun the manual operation. Only then may it end it.
   bool has_pointed() const { return pointed_; }
   // The station's reported state: station_status_t's STATE_*.
   void hear(std::int8_t state) {
     const bool manual = state == ols_msg::station_status_t::STATE_MANUAL;
     lost_ = lost_ || (!manual && held_);  // for good: a later manual operation is somebody else's
   }
-  // Somebody else has taken it back: the procedure must not point it any more.
+  // Somebody else has taken the station back: the procedure must not point the unit any more.
   bool is_lost() const { return lost_; }
 
  private:

@@ -2,8 +2,9 @@
 // the station's status. Pure.
 //
 // Pointing and releasing end a stop, as an operator's own commands do. A person's stop must hold.
-// After a stop, the station therefore refuses both for StationMode::kStopHold_s. A command sent on
-// a younger status "not stopped" cannot undo a stop that this status does not show yet.
+// After a stop, the station therefore refuses both for StationMode::kStopHold_s. A status that
+// shows no stop may be older than a stop. A command that relies on a status younger than
+// kReliedOn_s arrives while such a stop still holds.
 #pragma once
 
 #include "ols_msg/station_status_t.hpp"
@@ -15,7 +16,7 @@ inline constexpr double kReliedOn_s = 0.8;
 
 // `age_s`: since the status arrived at this host.
 bool may_point(const ols_msg::station_status_t& status, double age_s);
-// Only manual operation that a procedure has begun is released.
+// Only manual operation that the procedure itself has begun may be released.
 bool may_release(const ols_msg::station_status_t& status, double age_s);
 
 }  // namespace ols::calibration

@@ -9,9 +9,9 @@
 
 namespace ols::calibration {
 
-// An answer from a line: "confirm", "point 640.2 481", "exactly 640.2 481", "turn 2.5 -1" (degrees
-// of pan and tilt), "skip", "accept", "redo", "keep", "abort", "again", "filter_on", "filter_off",
-// "sight", "done". Throws std::invalid_argument for any other.
+// Reads an answer from a line: "confirm", "point 640.2 481", "exactly 640.2 481", "turn 2.5 -1"
+// (degrees of pan and tilt), "skip", "accept", "redo", "keep", "abort", "again", "filter_on",
+// "filter_off", "sight", "done". Throws std::invalid_argument for any other.
 Answer answer_of(const std::string& line);
 
 class Person {
@@ -23,15 +23,15 @@ class Person {
   void tell(const std::string& line);
   // A line that replaces the previous progress line.
   void progress(const std::string& line);
-  // Earlier input is no answer to this question; but an abort always counts.
+  // Input from before this question is no answer to it, except an abort.
   void ask(const Question& question);
-  // The same question with another picture: input so far remains an answer. Only the last line,
-  // with the measured value, is shown again.
+  // Shows the same question with another picture: input so far remains an answer. Of the text, only
+  // the last line, with the measured value, is shown again.
   void ask_again(const Question& question);
-  // The answer to the question; nullopt: none yet. An invalid line is reported, and the question
-  // stays.
+  // The answer to the question; nullopt: there is none yet. An invalid line is reported, and the
+  // question stays.
   std::optional<Answer> answer();
-  // Nobody answers: the script has ended, and there is no terminal.
+  // Whether nobody can answer: the script has ended, and there is no terminal.
   bool is_silent() const { return scripted_ && script_.empty(); }
 
  private:

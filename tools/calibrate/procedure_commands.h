@@ -30,7 +30,8 @@ void add_ut1(CLI::App& app, Ut1Value& ut1);
 // Adds the subcommands. After parsing, `options` has the name of the chosen one.
 void add_procedures(CLI::App& app, ProcedureOptions& options);
 
-// The exit status: 0 accepted or done, 1 kept the old or aborted. Throws for bad input.
+// The exit status: 0: accepted or done; 1: the old calibration was kept, or the procedure aborted.
+// Throws for bad input.
 int run_procedure(const ProcedureOptions& options);
 
 }  // namespace ols::calibration

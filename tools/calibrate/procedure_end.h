@@ -8,11 +8,11 @@
 
 namespace ols::calibration {
 
-// After an outcome. Returns the exit status.
+// Ends a procedure after an outcome. Returns the exit status.
 int finish(const Procedure& procedure, Outcome outcome, const StationFiles& station,
            StationLink& link, CalibrationStore& store, Person& person);
-// After an error: the old calibration stays in use, and the observations are kept. After a late
-// failure they may already have their final name.
+// Ends a procedure after an error: the old calibration stays in use, and the observations are kept.
+// After a late failure they may already have their final name.
 [[noreturn]] void fail(const std::exception& error, const ProcedureSession& session,
                        CalibrationStore& store);
 

@@ -1,4 +1,5 @@
-// The results reported to a procedure, in order, from which an interrupted one can be resumed.
+// The results that were reported to a procedure, in order. An interrupted procedure is resumed from
+// them.
 // Pure.
 #pragma once
 
@@ -13,7 +14,7 @@ namespace ols::calibration {
 struct JournalEntry {
   enum class Kind { kTaken, kNotTaken, kAnswered, kResumed };
   Kind kind = Kind::kTaken;
-  std::string step;                   // of the order
+  std::string step;                   // the step of the order
   std::int64_t pose = 0;              // kTaken: number of the picture
   std::string why;                    // kNotTaken
   Answer answer;                      // kAnswered
@@ -26,7 +27,7 @@ std::string journal_line(const JournalEntry& entry);
 // Throws std::runtime_error naming `path` and line.
 std::vector<JournalEntry> journal_entries(const std::string& text, const std::string& path);
 
-// Whether an entry is the result of this order; numbers in its words are ignored.
+// Whether the entry is the result of this order; numbers in its words are ignored.
 bool answers(const JournalEntry& entry, const Order& order);
 
 }  // namespace ols::calibration

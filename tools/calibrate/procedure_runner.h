@@ -16,11 +16,11 @@ namespace ols::calibration {
 class ProcedureRunner {
  public:
   using Adjust = std::function<AdjustedResult()>;
-  // `session`: null if nothing is to be kept.
+  // `session`: null if nothing is stored.
   ProcedureRunner(std::string name, StationLink& station, Person& person, ProcedureSession* session)
       : name_(std::move(name)), station_(station), person_(person), session_(session) {}
 
-  // Why the unit must not look there now (reported angles); empty: it may.
+  // Why the unit must not look at these reported angles now; empty: it may.
   using KeepAway = std::function<std::string(const PanTilt&)>;
   void keep_away(KeepAway why) { keep_away_ = std::move(why); }
 
@@ -42,7 +42,7 @@ class ProcedureRunner {
   void note(JournalEntry entry);
   // Approached from the wanted side. nullopt: aborted, or not reached.
   std::optional<FrameFile> picture_of(FieldProcedure& procedure, const Shot& shot);
-  // The same with the unit standing there.
+  // The same while the unit stands at these angles.
   std::optional<FrameFile> picture_at(FieldProcedure& procedure, const PanTilt& angles,
                                       Arrival arrival, bool lossless);
   PanTilt before_approach(const Shot& shot) const;

@@ -30,8 +30,8 @@ class ProcedureSession {
   // [us] When the order was given whose result is replayed next. nullopt: there is none, or the
   // journal does not say.
   std::optional<std::int64_t> replayed_utime_us() const;
-  // The recorded result of this order; only while replaying. Throws std::runtime_error if the
-  // journal is of another procedure.
+  // The recorded result of this order; call only while replaying. Throws std::runtime_error if the
+  // journal belongs to another procedure.
   JournalEntry replayed(const Order& order);
   Taken stored(std::int64_t pose) const;
   void note(const JournalEntry& entry) const;
@@ -43,7 +43,7 @@ class ProcedureSession {
   Taken add(FrameFile frame, bool is_view);
   void write_observations(const std::vector<Observation>& observations) const;
   std::filesystem::path observations_path() const { return folder_ / "observations.jsonl"; }
-  // The folder of an adjustment: a new one each time.
+  // A new folder for the files of an adjustment.
   std::filesystem::path next_result();
   // Copies the last adjustment's results into the folder itself.
   void take_result() const;
@@ -60,7 +60,7 @@ class ProcedureSession {
     std::filesystem::path file;
     Taken taken;  // without its picture
   };
-  std::map<std::int64_t, Frame> frames_;  // by pose, from before
+  std::map<std::int64_t, Frame> frames_;  // by pose; from before the interruption
 };
 
 }  // namespace ols::calibration

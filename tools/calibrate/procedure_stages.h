@@ -24,12 +24,12 @@ struct StationFiles {
   Instrument instrument;
 };
 
-// Throws ConfigError and others naming file and key; std::invalid_argument for different serial
+// Throws ConfigError and others naming file and key, and std::invalid_argument for different serial
 // numbers.
 StationFiles read_station(const ProcedureOptions& options);
 
-// Checks the preconditions of any motion, and tells the person. Throws std::runtime_error naming
-// the obstacle.
+// Checks the preconditions of any motion, and reports them to the person. Throws std::runtime_error
+// naming the obstacle.
 void check_station(StationLink& link, const StationFiles& station, const ProcedureOptions& options,
                    Person& person);
 
@@ -39,12 +39,12 @@ inline constexpr const char* kSessionFile = "session.json";
 struct Procedure {
   ProcedureOptions options;
   ProcedureSession* session = nullptr;
-  std::shared_ptr<ReferenceFeed> references;  // null: none
-  std::shared_ptr<SunKeepOut> sun;            // null: it is not visible
+  std::shared_ptr<ReferenceFeed> references;  // null: there are no references
+  std::shared_ptr<SunKeepOut> sun;            // null: the sun is not visible
   std::unique_ptr<FieldProcedure> field;
   LandmarkStage* landmarks = nullptr;  // one of its stages; null: none
   CaseOptions files;                   // of the adjustment
-  std::optional<Adjusted> adjusted;    // the last one
+  std::optional<Adjusted> adjusted;    // the last adjustment
 
   // Creates its stages. After this it must not be moved.
   void plan(const StationFiles& station, StationLink& link, Person& person);
@@ -57,7 +57,7 @@ CaseOptions files_of(const ProcedureOptions& options, const StationFiles& statio
 Procedure make_procedure(const ProcedureOptions& options, const StationFiles& station,
                          ProcedureSession& session);
 
-// The exit status: 0: nothing has moved; 1: something has, or it could not be determined.
+// The exit status. 0: nothing has moved; 1: something has, or this could not be determined.
 int run_check(const ProcedureOptions& options, const StationFiles& station,
               CalibrationStore& store);
 

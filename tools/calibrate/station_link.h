@@ -21,7 +21,7 @@
 
 namespace ols::calibration {
 
-// The station was stopped, by a person or an emergency: the procedure ends.
+// The station was stopped, by a person or an emergency. This ends the procedure.
 class StationStopped : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -37,40 +37,40 @@ enum class Arrival { kStands, kPasses };
 
 class StationLink {
  public:
-  // The process's role on the bus: an operator. Null in mode off. Throws ConfigError.
+  // Signs as an operator. Null in mode off. Throws ConfigError.
   static std::shared_ptr<trust::BusTrust> open_trust(const trust::TrustConfig& config);
   // Throws BusError. `bus` must outlive it.
   StationLink(LcmBus& bus, std::string station);
 
   // Handles messages for at most this long.
   void handle(int timeout_ms) { bus_.handle(timeout_ms); }
-  // The newest status. Waits at most within_s for one sent after this call.
+  // The newest status; waits at most within_s for one that is sent after this call.
   std::optional<ols_msg::station_status_t> status(double within_s);
   double heard_s() const { return heard_s_; }  // monotonic, of the newest status
   // Throws StationStopped.
   void check_not_stopped() const;
 
-  // Whether a status says that pointing ends no stop (motion_leave.h).
+  // Whether the newest status shows that pointing would not end a stop (motion_leave.h).
   bool may_point() const;
-  // The unit's angles by its newest status; nullopt while it does not know them.
+  // The unit's angles in its newest status; nullopt if it does not know them.
   std::optional<PanTilt> angles() const;
-  // From now on the unit is wanted there, with a picture.
+  // Sets the next place for the unit. From now on a picture from there is awaited. Sends nothing.
   void set_out(const PanTilt& angles);
-  // Turns the unit to where it is wanted, and stops there. Only if may_point().
+  // Turns the unit to the place of the last set_out(). Call only if may_point().
   void point();
-  // Why the station does not turn there, in words; empty: nothing is known against it.
+  // Why the station refused to turn there, in words; empty: it has not refused.
   const std::string& refusal() const { return refusal_; }
-  // Gives the unit back that it has pointed, if a fresh status says that it is under manual
-  // operation: a release would end a person's stop, or another operator's hold. Waits for the
-  // answer; false: not released.
+  // Releases the unit, if this link has pointed it and a fresh status still shows manual operation.
+  // Otherwise a release would end a person's stop or another operator's hold. Waits for the answer.
+  // Returns false if the unit was not released.
   bool release();
   // [s] The least interval between consecutive statuses; infinite if none came.
   double status_gap_s();
-  // Requests a frame from where the unit is wanted.
+  // Requests a frame taken at the place of the last set_out().
   void ask_frame(Arrival arrival, bool lossless);
-  // The frame requested since the unit set out, once.
+  // Returns the frame requested since the last set_out(), once.
   std::optional<FrameFile> take_frame();
-  // For the last set_out().
+  // The picture awaited since the last set_out().
   const AwaitedPicture& awaited() const { return awaited_; }
 
   void publish(ols_msg::procedure_t message);
@@ -88,7 +88,7 @@ class StationLink {
   void hear_answer(const BusMessage& message);
   double status_age_s() const;
   void hear(const wire::Reply& reply);
-  // Its number.
+  // Returns the command's sequence number.
   std::int64_t command(std::int8_t what, const PanTilt& angles);
   void complete(std::vector<std::uint8_t> file, const ols_msg::frame_part_t& any);
   template <class Message>
@@ -100,18 +100,19 @@ class StationLink {
   std::int64_t sequence_ = 0, procedure_sequence_ = 0;
   std::optional<ols_msg::station_status_t> status_;
   double heard_s_ = 0.0;
-  std::int64_t arrived_utime_us_ = 0;  // of the newest status
+  std::int64_t arrived_utime_us_ = 0;  // when the newest status arrived
   AwaitedPicture awaited_;
   ManualHold hold_;
-  std::int64_t pointed_sequence_ = 0, released_sequence_ = 0;  // of the last such command
+  std::int64_t pointed_sequence_ = 0, released_sequence_ = 0;  // sequence numbers of the last such
+                                                               // commands
   std::string refusal_;
-  std::optional<bool> released_;  // what the station answered
+  std::optional<bool> released_;  // the station's answer to the release
   std::optional<FrameFile> frame_;
   AnswerBox answers_;
   std::optional<PanTilt> count_;
 };
 
-// From a status, for preconditions().
+// The facts in a status that preconditions() needs.
 StationFacts facts_of(const ols_msg::station_status_t& status);
 
 }  // namespace ols::calibration

@@ -1,4 +1,5 @@
-// The operator's side of the bus for cues: the fusion's report, and an operator's decision.
+// The operator's side of the bus for cues: receives the fusion's report, sends an operator's
+// decisions.
 #pragma once
 
 #include <cstdint>
@@ -17,9 +18,9 @@ class CueOperator {
   // Throws BusError, or ConfigError if it cannot sign.
   CueOperator(const std::string& lcm_url, const trust::TrustConfig& trust);
 
-  // The fusion's next status; nothing within this time: there is no fusion.
+  // The fusion's next status; nullopt: none came within this time, so there is no fusion.
   std::optional<ols_msg::fusion_status_t> listen(double timeout_s);
-  // Waits for the answer. Nothing if it was taken, otherwise why not.
+  // Gives the order and waits for the answer. nullopt: it was accepted; otherwise why it was not.
   std::optional<std::string> give(const wire::CueOrder& order, double timeout_s);
 
  private:

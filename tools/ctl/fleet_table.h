@@ -9,7 +9,7 @@
 
 namespace ols::ctl {
 
-// One line per station: those that were heard, then the other enrolled ones.
+// One line per station: first those that were heard, then the other enrolled ones.
 std::string fleet_table(const std::map<std::string, ols_msg::station_status_t>& statuses,
                         const std::vector<std::string>& enrolled = {});
 

@@ -29,29 +29,30 @@ class Operator {
   // Listens, and returns the newest status of each addressed station. For one named station: until
   // its status arrives, at most timeout_s. For all: two status intervals.
   const Statuses& listen(double timeout_s);
-  // The table of stations is full: forged statuses may hide real stations.
+  // Whether the table of stations is full: then forged statuses may hide real stations.
   bool is_full() const { return statuses_.size() >= wire::kMostStationsHeard; }
 
-  // The addressed stations of the trust list, heard or not; empty where signatures are off.
+  // Those addressed stations that are on the trust list, heard or not; empty where signatures are
+  // off.
   std::vector<std::string> enrolled() const;
 
-  // Sends stops repeatedly to the addressed station, or to each as soon as it is heard, until it
-  // answers that it stands or timeout_s is over: a stop needs no status, and may get lost. Returns
-  // whether each station confirmed.
+  // Sends stops repeatedly to the addressed station, or to each as soon as it is heard. A stop
+  // needs no status, and may get lost. Ends when all answer that they stand, or after timeout_s.
+  // Returns whether each station confirmed.
   std::map<std::string, bool> stop(double timeout_s);
 
-  // Sends the order and waits for the answer; no status is needed. Returns nullopt if it was
-  // accepted, otherwise why not. Homing: acceptance only, it takes half a minute; the status shows
-  // its result.
+  // Sends the order and waits for the answer; no status is needed. Returns nullopt if the order was
+  // accepted, otherwise why not. Homing takes half a minute: the answer only accepts it, and the
+  // status shows its result.
   std::optional<std::string> give(wire::Order order);
 
-  // Turns the unit for so long, then halts it: sends the rate again and again, each with its lease.
-  // Ends at once with the station's refusal.
+  // Turns the unit for that long, then halts it: sends the rate again and again, each time with a
+  // lease. Ends at once if the station refuses.
   std::optional<std::string> hold_rate(wire::Order order, double seconds);
 
  private:
   void hear(const BusMessage& message);
-  // Under an id of its own.
+  // Sends the order with a new id.
   wire::OrderId send(wire::Order order);
   std::optional<wire::Reply> wait_for_reply(wire::OrderId order);
   void send_stop(const std::string& station);
@@ -63,7 +64,7 @@ class Operator {
   Statuses statuses_;
   wire::OrderSender sender_;
   std::map<wire::OrderId, wire::Reply> replies_;  // to this process
-  bool stopping_ = false;                         // every station that is heard
+  bool stopping_ = false;                         // stops every station that is heard
 };
 
 }  // namespace ols::ctl

@@ -1,4 +1,4 @@
-// The subcommands of ols-ctl: each reads its words, and says what is to be sent or shown.
+// The subcommands of ols-ctl: each parses its words, and sets what is to be sent or shown.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -17,7 +17,7 @@ namespace ols::ctl {
 // How the statuses are shown.
 enum class Look { kTable, kFull, kFleet };
 
-// Orders one station; returns its refusal in words, or nullopt.
+// Sends an order to one station; returns the refusal in words, or nullopt.
 using Send = std::function<std::optional<std::string>(Operator&, const std::string&)>;
 
 // The parsed command line.

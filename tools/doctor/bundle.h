@@ -1,4 +1,4 @@
-// Collects what a remote helper needs to know of this host into one file without secrets.
+// Collects all that a remote helper needs to know about this host into one file without secrets.
 #pragma once
 
 #include <map>
@@ -15,8 +15,9 @@ struct BundleContents {
   std::map<std::string, std::string> statuses = {};  // last heard, by station
 };
 
-// Writes a gzipped tar archive of these and of this host's journal, services, clock, network and
-// disks. Throws std::runtime_error if it cannot be written. Failed queries are reported inside.
+// Writes a gzipped tar archive of the contents and of this host's journal, services, clock, network
+// and disks. Throws std::runtime_error if it cannot be written. Failed queries are reported in the
+// archive.
 void write_bundle(const std::string& file, const BundleContents& contents);
 
 }  // namespace ols::doctor

@@ -8,9 +8,8 @@
 
 namespace ols::doctor {
 
-// Never throws: the result holds the error. `own` is reported if it is heard, however many forged
-// stations there are. Without a trust list, it waits for the first one before it listens and
-// judges.
+// Never throws: the result holds the error. The station `own` is reported whenever it is heard,
+// even among many forged stations. A process without a trust list first waits for one.
 BusHeard listen(const std::string& lcm_url, const trust::TrustConfig& trust, double seconds,
                 const std::string& own = "");
 

@@ -14,7 +14,7 @@
 
 namespace ols::doctor {
 
-// A station's status message.
+// What a station's status message says.
 struct StationHeard {
   std::string id;
   std::string state;  // "tracking"
@@ -24,7 +24,7 @@ struct StationHeard {
   bool position_known = true;
   struct Calibration {
     bool in_use = false, doubted = false;
-    double sd_rad = 0.0;  // of a direction, each axis
+    double sd_rad = 0.0;  // 1-sigma of a direction, each axis
     double age_s = 0.0;   // since its last observation; 0: not stated
   } calibration;
   std::vector<Alarm> alarms;
@@ -37,21 +37,23 @@ struct StationHeard {
 
 struct BusHeard {
   std::string url;
-  std::string trouble;        // why there is no bus; empty: there is
-  std::string interface;      // of the outgoing route; empty: unknown
-  int ttl = 0;                // 0: stays on this host
+  std::string trouble;        // why there is no bus; empty: the bus works
+  std::string interface;      // of the route by which messages go out; empty: unknown
+  int ttl = 0;                // 0: messages stay on this host
   std::int64_t rmem_max = 0;  // net.core.rmem_max [byte]; 0: unknown
   std::map<std::string, StationHeard> stations;
   int fusions = 0;
   std::vector<Alarm> fusion_alarms;
-  bool is_verified = false;  // the doctor believes only signed messages, or counts the others
-  Alarm trust_trouble{};     // what is wrong with keys and trust list; empty: nothing
-  std::map<std::string, double> distrusted;  // while it listened, by "bus_distrusted_<reason>"
+  bool is_verified = false;  // whether only signed messages are believed, or unsigned ones are at
+                             // least counted
+  Alarm trust_trouble{};     // what is wrong with keys and trust list; empty: no trouble
+  std::map<std::string, double> distrusted;  // counted while the doctor listened, by
+                                             // "bus_distrusted_<reason>"
 };
 
 struct SerialFacts {
   std::string device;
-  int error = 0;                   // errno of opening it; 0: it opens
+  int error = 0;                   // errno of opening the line; 0: it opens
   std::vector<std::string> users;  // other processes that have it open: "ols-station (1234)"
 };
 
@@ -82,9 +84,9 @@ struct LinkFacts {
 
 struct CameraAnswers {
   std::string device;
-  std::string trouble;  // why it cannot be used; empty: it can
+  std::string trouble;  // why the camera cannot be used; empty: it can
   std::string identity;
-  bool controlled = false;  // by another program
+  bool controlled = false;  // whether another program controls it
   bool has_clock = true;    // false: Aravis uses the host's time instead of the camera's
   std::optional<double> temperature_degC;
   std::vector<std::string> others;  // other cameras that answered a broadcast
@@ -95,7 +97,7 @@ struct CameraAnswers {
 struct FolderFacts {
   std::string name;  // its purpose
   std::string folder;
-  int error = 0;  // errno of looking at it, or of asking for write access
+  int error = 0;  // errno of examining the folder, or of asking for write access
   double free_bytes = 0.0, reserve_bytes = 0.0;
 };
 

@@ -24,7 +24,7 @@ inline Finding fail(std::string what, std::string advice) {
   return {Verdict::kFail, std::move(what), std::move(advice)};
 }
 
-// What the table of conditions says to do about an alarm.
+// What the table of conditions advises for an alarm.
 std::string advice_on(const Alarm& alarm);
 
 // A value in printf's notation, for the text of a finding.

@@ -8,7 +8,7 @@
 
 namespace ols::doctor {
 
-// `status`: the text of its status file; empty: none.
+// `status`: the text of the bridge's status file; empty: there is none.
 Findings judge_bridge(const std::string& status, std::int64_t utime_us);
 
 }  // namespace ols::doctor

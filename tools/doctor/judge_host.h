@@ -16,7 +16,7 @@ std::optional<Finding> judge(const UnitFacts& unit);
 // The blocks printed by `systemctl show -p
 // Id,LoadState,ActiveState,SubState,Result,NRestarts,StatusText`, one per unit.
 std::vector<UnitFacts> parse_units(const std::string& text);
-// The interface in the output of `ip -o route get ADDRESS`; empty: none.
+// The interface in the output of `ip -o route get ADDRESS`; empty: it names none.
 std::string parse_route(const std::string& text);
 
 }  // namespace ols::doctor

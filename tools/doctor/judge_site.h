@@ -7,7 +7,7 @@
 namespace ols::doctor {
 
 Findings judge(const BusHeard& bus);
-// The other hosts on the bus. `own`: this host's station; empty at the centre.
+// Judges the other hosts on the bus. `own`: this host's station; empty at the centre.
 Findings judge_company(const BusHeard& bus, const std::string& own);
 Findings judge(const StationHeard& station);
 

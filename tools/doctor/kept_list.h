@@ -1,5 +1,5 @@
-// The trust list by which a host examines itself: the configured one, otherwise the one that its
-// member has heard and kept. It is only read.
+// The trust list by which a host examines itself: the configured list, otherwise the one that its
+// member has received and kept. The list is only read.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace ols::doctor {
 
-// `config`, with `name`'s kept list as the configured one if there is no other.
+// Returns `config`; if it names no existing list, with the list that member `name` has kept.
 trust::TrustConfig with_kept_list(trust::TrustConfig config, const trust::Environment& environment,
                                   const std::string& name);
 

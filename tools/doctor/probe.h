@@ -1,5 +1,5 @@
 // Probes what the station would use. Probes devices only where no station runs, and never moves
-// one. Nothing throws: errors are in the answer.
+// one. No function throws: errors are in the answer.
 #pragma once
 
 #include "edge/camera/aravis/aravis_config.h"
@@ -16,8 +16,8 @@ SerialFacts look_at_line(const std::string& device, int baud);
 // Asks for version, resolution, limits and supply, first at the configured rates, then at the
 // others. Any byte ends a unit's scan mode (which none of our programs uses).
 PtuAnswers ask_ptu(const ptu::PtuConfig& config);
-// Of any kind, by the station's own code for it, for as long as it takes to be well, at most
-// `seconds`.
+// Asks a mount or a camera of any kind, with the station's own code for it. Returns when the device
+// is well, or after `seconds`.
 device::DeviceReport ask_mount(const mount::MountKind& kind, double seconds);
 device::DeviceReport ask_camera(const camera::CameraKind& kind, double seconds);
 

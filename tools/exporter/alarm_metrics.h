@@ -9,7 +9,7 @@
 
 namespace ols::exporter {
 
-// Of a "station", the "fusion" or the "bridge"; `station` is empty for these two.
+// Alarms of a "station", the "fusion" or the "bridge"; `station` is empty for the last two.
 void add_alarms(MetricCollection& all, const std::string& program, const std::string& station,
                 const std::vector<Alarm>& alarms);
 

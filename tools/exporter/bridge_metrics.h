@@ -1,5 +1,5 @@
-// ols-bridge's status as Prometheus metrics. It has no key for the bus, so nothing that it said
-// there would be believed: the metrics come from its status file on this host. Pure.
+// ols-bridge's status as Prometheus metrics. The bridge has no key for the bus, so nobody would
+// believe its status there. The metrics therefore come from its status file on this host. Pure.
 #pragma once
 
 #include <prometheus/metric_family.h>
@@ -10,8 +10,8 @@
 
 namespace ols::exporter {
 
-// status: the file's text; empty: none. An older status, or none, gives only the metric that the
-// bridge does not run.
+// status: the file's text; empty: there is no file. Without a fresh status, the only metric says
+// that the bridge does not run.
 inline constexpr double kStaleBridge_s = 10.0;
 std::vector<prometheus::MetricFamily> bridge_metrics(const std::string& status,
                                                      std::int64_t utime_us);

@@ -13,7 +13,7 @@ namespace ols::exporter {
 struct ExporterConfig {
   std::string lcm_url = "udpm://239.255.76.67:7667?ttl=0";
   std::string address = "127.0.0.1:9316";
-  std::string bridge_status;  // empty: no bridge on this host
+  std::string bridge_status;  // empty: there is no bridge on this host
   trust::TrustConfig trust{};
 };
 

@@ -1,4 +1,5 @@
-// The site's statuses as Prometheus metrics. Base units, and names by its conventions. No target
+// The site's statuses as Prometheus metrics, with base units and names by its conventions. No
+// target
 // ids, because labels live for ever. Pure.
 #pragma once
 
@@ -26,7 +27,7 @@ class SiteMetrics {
 
   explicit SiteMetrics(std::string version) : version_(std::move(version)) {}
 
-  // Verified statuses. Times: monotonic.
+  // Take only verified statuses. Times are monotonic.
   void hear(const ols_msg::station_status_t& status, double now_s);
   void hear(const ols_msg::fusion_status_t& status, double now_s);
   // The stations of the trust list. Stations that have left it are no longer reported.

@@ -1,5 +1,5 @@
-// What a new member must know of its site: the secret of the site tag and the root's public key, as
-// 128 hexadecimal digits. Pure.
+// What a new member must know about its site: the secret for site tags and the root's public key,
+// as 128 hexadecimal digits. Pure.
 #pragma once
 
 #include <string>

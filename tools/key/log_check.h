@@ -14,19 +14,19 @@ namespace ols::key {
 
 using Lists = std::map<std::int64_t, trust::TrustList>;  // of one site, by number
 
-// The number of the trust list that a message publishes, if it is one of `lists` and its sender a
-// member of that list; otherwise nullopt. Stations publish none: their keys are the ones that may
-// be stolen.
+// The number of the trust list that a message publishes. nullopt if that list is not one of
+// `lists`, or the sender is no member of it. Also nullopt if a station sent it: stations publish no
+// lists, and their keys are the most likely to be stolen.
 std::optional<std::int64_t> told_number(const Lists& lists, std::string_view channel,
                                         trust::Bytes message);
 
 class LogCheck {
  public:
-  // `lists` must contain the list of number `first`, the first one in the recording. Without the
-  // site's secret the tags are not checked; the signatures prove more.
+  // `lists` must contain the list with number `first`, which is the first one in the recording.
+  // Without the site's secret, tags are not checked; the signatures prove more anyway.
   LogCheck(Lists lists, std::int64_t first);
 
-  // One recorded message.
+  // Takes one recorded message.
   void add(std::string_view channel, trust::Bytes message, std::int64_t utime_us);
 
   struct Count {

@@ -29,7 +29,7 @@ trust::PublicKey make_member_key(const std::string& path, const std::string& nam
 
 // Enrols a member whose key was made elsewhere. Returns the new list.
 trust::TrustList enrol_in(const SiteFiles& files, const trust::Member& member);
-// The same, with a new private key at `key_path`.
+// Does the same with a new private key, which it creates at `key_path`.
 trust::TrustList enrol_with_key(const SiteFiles& files, trust::Member member,
                                 const std::string& key_path);
 trust::TrustList revoke_in(const SiteFiles& files, const std::string& name);

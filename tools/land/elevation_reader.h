@@ -8,7 +8,7 @@
 
 namespace ols::land {
 
-// Within a site's radius; 2 GB.
+// Limit for the heights within a site's radius: 2 GB.
 inline constexpr double kMostHeights = 5e8;
 
 struct Bounds {
@@ -16,7 +16,7 @@ struct Bounds {
 };
 Bounds bounds_around(double latitude_deg, double longitude_deg, double radius_km);
 
-// Heights of one file within bounds, as the file has them; NaN: not known.
+// The heights of one file within the bounds, as the file has them; NaN: not known.
 struct Raster {
   std::string name;
   double north_deg = 0.0, west_deg = 0.0;  // of the first height
@@ -29,14 +29,13 @@ struct Raster {
 };
 
 struct ReadElevation {
-  std::optional<Raster> raster;  // nothing if the file is elsewhere
+  std::optional<Raster> raster;  // nullopt if the file lies outside of the bounds
   std::vector<std::string> notes;
 };
 
-// Throws std::runtime_error naming the file: it cannot be read, is damaged, states no place, has a
-// unit of height that is not known, or more heights within the bounds than memory is meant for. A
-// model that is not on a lattice of latitude and longitude is resampled to one of its own
-// resolution.
+// Throws std::runtime_error naming the file: it cannot be read, is damaged, states no place, has an
+// unknown unit of height, or has more than kMostHeights within the bounds. A model that is not on a
+// lattice of latitude and longitude is resampled to one with its own resolution.
 ReadElevation read_elevation(const std::string& path, const Bounds& bounds);
 
 }  // namespace ols::land

@@ -1,4 +1,4 @@
-// GDAL's files, closed at their end, and what GDAL says of them: kept for an exception's text.
+// GDAL's files, closed at the end of their scope. GDAL's messages are kept for an exception's text.
 #pragma once
 
 #include <cpl_error.h>
@@ -14,7 +14,7 @@ struct CloseDataset {
 };
 using Dataset = std::unique_ptr<GDALDataset, CloseDataset>;
 
-// While it lives, GDAL writes nothing to the terminal.
+// While this object lives, GDAL writes nothing to the terminal.
 class QuietGdal {
  public:
   QuietGdal() {

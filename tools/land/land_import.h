@@ -1,4 +1,4 @@
-// ols-land import: everything that is known of a site's land into one folder.
+// ols-land import: collects all that is known about a site's land in one folder.
 #pragma once
 
 #include <string>
@@ -10,8 +10,8 @@ struct ImportOptions {
   double latitude_deg = 0.0, longitude_deg = 0.0;  // of the site
   double radius_km = 40.0;
   std::vector<std::string> elevation, buildings, woods;  // paths
-  // What the models' heights are above: a geoid's grid for PROJ, or "ellipsoid". Empty: by the kind
-  // of the file, if it says so.
+  // The zero of the models' heights: a geoid's grid for PROJ, or "ellipsoid". Empty: as the kind of
+  // file says, if it does.
   std::string heights;
   double sd_m = 4.0;  // 1-sigma of the models' heights
   std::string licence;
@@ -19,7 +19,8 @@ struct ImportOptions {
   std::string output;
 };
 
-// Gives what was found, for people, as it stands in the manifest. Throws std::runtime_error.
+// Returns what was found, in words for people; the manifest has the same text. Throws
+// std::runtime_error.
 std::vector<std::string> import_land(const ImportOptions& options);
 
 }  // namespace ols::land

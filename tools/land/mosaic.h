@@ -1,5 +1,5 @@
-// The files of elevation models joined: what lies on one lattice becomes one grid, and what does
-// not join is found.
+// Joins the files of elevation models: files on one lattice become one grid. Finds files that do
+// not fit together.
 #pragma once
 
 #include <string>
@@ -15,9 +15,9 @@ struct Mosaic {
   std::vector<std::string> notes;  // how files differ where they meet
 };
 
-// `rasters`: heights above the ellipsoid, 1-sigma `sd_m`. Where two files have the same place, the
-// first counts. Throws std::runtime_error naming two files and a place if they differ there by more
-// than three sigmas on the whole, or (`accept_seams`) notes it.
+// `rasters`: heights above the ellipsoid, with 1-sigma `sd_m`. Where two files overlap, the first
+// is used. If they differ there by more than three sigmas on the whole, throws std::runtime_error
+// naming both files and a place; with `accept_seams` this is only noted.
 Mosaic join(const std::vector<Raster>& rasters, double sd_m, bool accept_seams);
 
 }  // namespace ols::land

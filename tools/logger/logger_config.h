@@ -15,12 +15,12 @@ struct LoggerConfig {
   std::string name = "site";  // files are NAME-<UTC>.lcmlog.NN
   std::string lcm_url = "udpm://239.255.76.67:7667?ttl=0";
   std::string channels = ".*";  // regular expression
-  bool invert = false;          // record all channels but those
-  double split_bytes = 100e6;   // beyond it, a new file begins
+  bool invert = false;          // records all channels except those that match
+  double split_bytes = 100e6;   // a larger file is ended, and a new one begins
   double quota_bytes = 20e9;    // of all files together: the oldest are removed
   double disk_reserve_bytes = 2e9;
-  double max_unwritten_mb = 50.0;  // in memory, when the disk is slow; more are lost
-  std::string status_file;         // JSON, rewritten again and again; empty: none
+  double max_unwritten_mb = 50.0;  // in memory, while the disk is slow; further messages are lost
+  std::string status_file;         // rewritten again and again, as JSON; empty: no file
   trust::TrustConfig trust{};
 };
 

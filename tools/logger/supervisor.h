@@ -17,7 +17,7 @@ struct LoggerStatus {
   std::size_t files = 0;
   double bytes = 0.0, free_bytes = 0.0;
   std::string bus_alarm;         // of the bus monitor
-  std::uint64_t starts = 0;      // of recordings
+  std::uint64_t starts = 0;      // number of started recordings
   std::uint64_t failures = 0;    // unrequested ends, and failed starts
   std::uint64_t removed = 0;     // files, for the quota
   std::uint64_t files_lost = 0;  // deleted, renamed or replaced while they were written

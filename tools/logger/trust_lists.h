@@ -1,5 +1,5 @@
 // The site's trust lists on their way into a log. Each must be written before the first message
-// that it judged, however long that message waited. One thread receives, one writes.
+// that was judged by it, however long that message waited. One thread receives, another writes.
 #pragma once
 
 #include <cstdint>
@@ -13,18 +13,18 @@ namespace ols::logger {
 struct ReceivedList {
   std::int64_t number = 0;
   std::string text{};
-  // As a message; nullopt if the recorder is not a member of the list: nobody would believe it.
+  // as a message; nullopt if the recorder is not a member: nobody would believe the message
   std::optional<std::vector<std::uint8_t>> telling{};
 };
 
 class TrustLists {
  public:
-  std::int64_t newest() const;  // 0: none
-  // `list` has a higher number than all before.
+  std::int64_t newest() const;  // number of the newest list; 0: there is none
+  // `list` must have a higher number than all before.
   void add(ReceivedList list);
-  // The lists that go before a message judged by list `judged_by`, in order. `written`: the number
-  // of the last list in this file; 0: none, and the file begins with the list that judged its first
-  // message. Older ones are dropped.
+  // The lists that must precede a message judged by list `judged_by`, in order. `written`: the
+  // number of the last list in this file; 0: there is none, so the file begins with the list that
+  // judged its first message. Older lists are dropped.
   std::vector<ReceivedList> due(std::int64_t judged_by, std::int64_t written);
 
  private:

@@ -1,4 +1,4 @@
-// What a site's stations see over its land: a lattice of latitude and longitude.
+// Computes what a site's stations see over its land, on a lattice of latitude and longitude.
 #pragma once
 
 #include <cstddef>
@@ -23,15 +23,16 @@ struct Lattice {
   Geodetic centre(std::size_t cell) const;  // row by row from the north; at height 0
 };
 
-// Cells as long as `spacing_m` in both directions, to `reach_m` around a place. Throws
+// Cells are `spacing_m` long in both directions, up to `reach_m` from a place. Throws
 // std::invalid_argument for more than a million.
 Lattice lattice_around(const Geodetic& middle, double reach_m, double spacing_m);
 
 struct CoverageCell {
-  std::optional<double> ground_m;  // ellipsoidal; nothing where the land is not known
-  // The lowest heights above the ground at which one station sees, and two do [m].
+  std::optional<double> ground_m;  // ellipsoidal; nullopt where the land is not known
+  // The lowest heights above the ground [m] that one station sees, and that two see.
   std::optional<double> one_m, two_m;
-  std::vector<std::optional<double>> errors_m;  // 3-D, 1-sigma: at each height, of who sees there
+  std::vector<std::optional<double>> errors_m;  // 3-D, 1-sigma, at each height, from the stations
+                                                // that see it
 };
 
 struct Coverage {

@@ -17,8 +17,8 @@ void write_coverage_csv(const std::string& path, const Coverage& coverage);
 // value.
 void write_coverage_geotiff(const std::string& path, const Coverage& coverage);
 
-// For each height the outlines of where two stations or more see (property `above_ground_m`), and
-// the stations.
+// For each height, the outlines of the area that two stations or more see (property
+// `above_ground_m`); also the stations.
 void write_coverage_geojson(const std::string& path, const Coverage& coverage,
                             const std::vector<StationRow>& stations);
 

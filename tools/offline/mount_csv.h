@@ -9,14 +9,14 @@
 
 namespace ols::offline {
 
-// Azimuths may have any zero; hfov is the width of the whole image.
+// Azimuths may have any zero direction; hfov is that of the whole image's width.
 class MountFile {
  public:
   MountFile() = default;
   explicit MountFile(const std::string& path);  // throws CsvError
 
-  // The rotation of the camera from the previous frame to this one: maps the previous image's
-  // pixels to this one's. Empty: the file does not have both frames.
+  // The camera's rotation from the previous frame to this one: maps the previous image's pixels to
+  // this one's. nullopt: the file lacks one of the two frames.
   std::optional<Eigen::Matrix3d> motion_to(long frame, const cv::Size& image) const;
 
  private:

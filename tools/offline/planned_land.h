@@ -11,21 +11,21 @@
 
 namespace ols::offline {
 
-// Of a planned station's map: 35 m at 10 km, about what elevation models resolve. A finer map of
-// hundreds of places would cost minutes.
+// Columns of a planned station's map: 35 m at 10 km, about the resolution of elevation models. A
+// finer map would cost minutes for hundreds of places.
 inline constexpr int kPlanColumns = 1800;
 
 class PlannedLand {
  public:
-  // A folder of `ols-land import`. Throws std::runtime_error naming the file that is wrong.
+  // Reads a folder of `ols-land import`. Throws std::runtime_error naming the file that is wrong.
   explicit PlannedLand(const std::string& folder);
 
   const land::Surface& surface() const { return *folder_.terrain; }
-  // Above the WGS84 ellipsoid; nothing where the models do not know it.
+  // Height above the WGS84 ellipsoid; nullopt where the models do not know it.
   std::optional<double> ground_m(const Geodetic& place) const;
 
-  // What is hidden from a camera, up to `reach_m`. Throws std::invalid_argument naming the station
-  // where the ground is not known or above the camera.
+  // What the land hides from a camera, up to `reach_m`. Throws std::invalid_argument naming the
+  // station if the ground there is unknown or above the camera.
   std::shared_ptr<const land::HorizonMap> look(const std::string& station, const Geodetic& camera,
                                                double reach_m) const;
 

@@ -26,8 +26,8 @@ struct MeasurementOptions {
 
 void add_measurement_options(CLI::App& app, MeasurementOptions& options);
 
-// A row's position_sd_m replaces the option for the position. Its pointing_sd_deg replaces those
-// for heading, tilt and mounting together.
+// A row's position_sd_m replaces the option for the position. Its pointing_sd_deg replaces the
+// options for heading, tilt and mounting together.
 PlannedStation planned_station(const StationRow& row, const MeasurementOptions& options);
 std::vector<PlannedStation> planned_stations(const std::vector<StationRow>& rows,
                                              const MeasurementOptions& options);

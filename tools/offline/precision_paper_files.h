@@ -5,7 +5,7 @@
 
 namespace ols::offline {
 
-// Each function adds its subcommand to ols-precision; it runs when parsed.
+// Each function adds its subcommand to ols-precision; the subcommand runs when it is parsed.
 void add_figure3(CLI::App& app);
 void add_figure4(CLI::App& app);
 void add_table(CLI::App& app);

@@ -6,7 +6,7 @@
 
 namespace ols::offline {
 
-// Each function adds its subcommand to ols-precision; it runs when parsed.
+// Each function adds its subcommand to ols-precision; the subcommand runs when it is parsed.
 void add_map(CLI::App& app);
 void add_budget(CLI::App& app);
 void add_advice(CLI::App& app);

@@ -28,17 +28,17 @@ namespace ols::setup {
 
 struct Answers {
   bool is_station = true;
-  std::string interface {};  // empty: lo
+  std::string interface {};  // empty: the loopback interface lo
   std::vector<std::string> serial{}, neighbours{};
-  std::string gnss{};            // device of the receiver that gpsd is to read
+  std::string gnss{};            // device of the receiver that gpsd should read
   std::string station{};         // id
   key::Invitation invitation{};  // of a station
   std::string site{}, root{};    // of the centre
   Values values{};               // all answers: "station.pose.heading_deg"
 };
 
-// The devices of camera and mount may be missing: they can be found. Throws ConfigError with
-// `name`, line and key.
+// The devices of camera and mount may be missing: they can be searched for. Throws ConfigError
+// naming `name`, line and key.
 Answers read_answers(const std::string& text, const std::string& name);
 
 // The text of a program's configuration file from the answers of this section, with the trust mode

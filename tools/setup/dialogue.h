@@ -36,7 +36,7 @@ std::string ask_text(std::istream& in, std::ostream& out, const std::string& wor
 std::string ask_which(std::istream& in, std::ostream& out, const std::string& what,
                       const std::vector<std::string>& choices);
 
-// Why the value does not have the form that the question needs; empty: it does. Only numbers are
+// Why the value does not have the form that the question needs; empty: it has. Only numbers are
 // checked.
 std::string not_fitting(const Question& question, const std::string& value);
 

@@ -18,7 +18,7 @@ struct FoundPtu {
 };
 std::vector<FoundPtu> find_ptus(const std::vector<std::string>& lines);
 
-// The lines on which a receiver talks: NMEA sentences or UBX.
+// The lines on which a GNSS receiver sends NMEA sentences or UBX.
 std::vector<std::string> find_receivers(const std::vector<std::string>& lines);
 // Whether these bytes are part of a receiver's output. Pure.
 bool is_receiver_talk(const std::string& bytes);

@@ -15,7 +15,7 @@ using Values = std::vector<std::pair<std::string, std::string>>;
 Values flat(const std::string& toml);
 // The values of one table: keys that begin with `table` and a dot, without that prefix.
 Values of_table(const Values& values, const std::string& table);
-// Null if it is missing.
+// The value of a key; null if it is missing.
 const std::string* find(const Values& values, const std::string& key);
 // The text of a value; nullopt if it is no text.
 std::optional<std::string> text_in(const std::string& value);

@@ -14,8 +14,8 @@ class Host {
   // started.
   explicit Host(std::string root) : root_(std::move(root)) {}
 
-  // Keeps a person's changes (kept_file.h). Reports on each file. Returns the paths of new and
-  // changed files. Throws std::system_error, std::runtime_error.
+  // Writes the files, but keeps a person's changes (kept_file.h). Reports on each file. Returns the
+  // paths of new and changed files. Throws std::system_error, std::runtime_error.
   std::vector<std::string> write(const std::vector<PlannedFile>& files) const;
   // Creates a folder with its parents. `mode`: as for chmod.
   std::string folder(const std::string& path, unsigned mode) const;
@@ -30,11 +30,11 @@ class Host {
 // files only at their start. Returns the units that did not start.
 std::vector<std::string> start(const std::vector<std::string>& units);
 
-// The running ones of `units`.
+// Those of `units` that are running.
 std::vector<std::string> running(const std::vector<std::string>& units);
 
-// The ones of `units` that read one of the `changed` files at their start: their configuration,
-// their key, the interface of the bus. Pure.
+// Those of `units` that read one of the `changed` files at their start: their configuration, their
+// key, or the interface of the bus. Pure.
 std::vector<std::string> readers(const std::vector<std::string>& units,
                                  const std::vector<std::string>& changed);
 

@@ -17,7 +17,7 @@ struct Rewrite {
 // std::runtime_error if the file's form does not allow that.
 Rewrite rewrite(const std::optional<std::string>& present, const std::optional<std::string>& last,
                 const std::string& wanted);
-// The same for a file that is no TOML: it is replaced only if nobody has changed it.
+// The same for a file that is not TOML: it is replaced only if nobody has changed it.
 Rewrite rewrite_whole(const std::optional<std::string>& present,
                       const std::optional<std::string>& last, const std::string& wanted);
 

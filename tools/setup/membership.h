@@ -20,8 +20,8 @@ std::vector<std::string> join_site(const Host& host, const std::string& station,
 std::vector<std::string> make_site(const Host& host, const std::string& site,
                                    const std::string& root);
 
-// The key by which the hosts of a site authenticate each other's time, for chrony. Without chrony's
-// file: nothing is done.
+// Gives chrony the key by which the hosts of a site authenticate each other's time. Does nothing if
+// chrony has no key file.
 void keep_time(const Host& host, const trust::SiteKey& site);
 
 }  // namespace ols::setup

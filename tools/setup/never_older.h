@@ -1,5 +1,5 @@
 // Files that a restore must not replace by older ones: the site's trust list and settings, because
-// an older list believes keys that were revoked since; and the marks against replays.
+// an older list believes keys that have been revoked since; and the marks against replays.
 #pragma once
 
 #include <string>

@@ -34,7 +34,7 @@ std::string mount_device(const Values& values);
 bool has_camera(const Values& values);
 bool has_mount(const Values& values);
 
-// Adds a found value as another answer. Never replaces one.
+// Adds a found value as if it were an answer. Never replaces an answer.
 void add(Values& values, const std::string& key, const std::string& text);
 
 }  // namespace ols::setup

@@ -9,7 +9,7 @@
 
 namespace ols::setup {
 
-// Number of the site's key among chrony's keys.
+// The number of the site's key in chrony's key file.
 inline constexpr int kTimeKey = 7316;
 
 // /etc/chrony/conf.d/ols-site.conf. `neighbours`: addresses of the other hosts.
