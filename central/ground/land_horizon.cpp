@@ -17,12 +17,14 @@ std::optional<land::Skyline> LandHorizon::highest_before(double azimuth_rad, dou
   const double azimuth = wrap_two_pi(azimuth_rad);
   const std::size_t index = std::min(static_cast<std::size_t>(azimuth / kSector_rad), kSectors - 1);
   auto& sector = sectors_[index];
-  if (!sector) {
+  // Up to twice the distance: most targets are near, and most of a map's cells are far.
+  const double reach_m = std::clamp(2.0 * distance_m, 1000.0, kReach_m);
+  if (!sector || sector->config().reach_m < std::min(distance_m, kReach_m)) {
     const double from_rad = static_cast<double>(index) * kSector_rad - kBeside_rad;
     try {
       sector = std::make_unique<land::HorizonMap>(
           *surface_, frame_.origin(),
-          land::HorizonMapConfig{.reach_m = kReach_m,
+          land::HorizonMapConfig{.reach_m = reach_m,
                                  .from_azimuth_rad = from_rad,
                                  .sector_rad = kSector_rad + 2.0 * kBeside_rad});
     } catch (const std::invalid_argument&) {

@@ -5,12 +5,6 @@
 #include "central/tracking/position_guard.h"
 
 namespace ols::fusion {
-namespace {
-
-// A station that saw the target longer ago may have lost it behind the land: that is no ghost.
-constexpr double kSees_s = 0.2;
-
-}  // namespace
 
 bool is_behind_land(const TrackFilter& filter, const land::Surface* surface) {
   if (surface == nullptr || stations_lately(filter, Activity::kSupportsS) > 2) return false;
@@ -18,7 +12,8 @@ bool is_behind_land(const TrackFilter& filter, const land::Surface* surface) {
   const Eigen::Matrix3d P = filter.summary().covariance.topLeftCorner<3, 3>();
   bool is_behind = false;
   filter.each_station([&](const FilterStation& station) {
-    if (station.used == 0 || is_behind || !station.last_used.within(kSees_s, filter.utime_us()))
+    if (station.used == 0 || is_behind ||
+        !station.last_used.within(Activity::kSupportsS, filter.utime_us()))
       return;
     is_behind = plausibility(*surface, station.sight.origin_ecef, p_ecef, P) < kImplausible;
   });

@@ -192,6 +192,7 @@ def test_a_fixed_camera_is_a_station_that_never_moves(devices):
     assert math.degrees(status.tilt_rad) == pytest.approx(11.5)
     # Of the person's order alone: the fusion leaves it alone.
     listener.wait_for_counter("delta", "refused_fixed_mount", 1)
+    assert listener.counter("delta", "refused_fixed_mount") == 1
     site.check()
 
 

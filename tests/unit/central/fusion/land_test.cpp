@@ -118,34 +118,6 @@ TEST(FusionWithLand, PublishesNoGhostsBelowOrBehindIt) {
   EXPECT_GE(drone_with, drone_without);
 }
 
-// A wall hides the drone from one of two stations for 1.2 s. It is the same target throughout.
-TEST(FusionWithLand, KeepsATargetThatGoesBehindIt) {
-  const double ground_m = site().origin().height_m;
-  const auto land = land_of(
-      [=](double e, double n) {
-        return e > 10.0 && e < 22.0 && n > 200.0 && n < 206.0 ? ground_m + 80.0 : ground_m;
-      },
-      0.5);
-  const WorldConfig world{
-      .stations_enu = {{0, 0, 2}, {500, 100, 2}}, .aims_enu = {}, .rate_hz = 15.0};
-  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-    std::mt19937_64 random(seed);
-    const Path path = cruising({{-80, 400, 40}, {20, 0, 0}}, 0.0, 10.0, random);
-    FusionConfig config;
-    config.land.surface = land;
-    Fusion fusion(config);
-    std::set<std::int64_t> ids;
-    for (const BearingMeasurement& s : measure(world, {path}, 10.0, random)) {
-      const Vector3d p = at(path, 1e-6 * static_cast<double>(s.utime_us - kStartUs)).p_enu;
-      if (s.station == "s0" && p.x() > 20.0 && p.x() < 44.0) continue;
-      for (const FusedTarget& target : fusion.add(s).targets) {
-        if (target.estimate.solution == Solution::kOk) ids.insert(target.target_id);
-      }
-    }
-    EXPECT_EQ(ids.size(), 1U) << seed;
-  }
-}
-
 // One station 60 m above hills follows a vehicle; after half of the time a second one, too.
 TEST(FusionWithLand, GivesAPositionOfWhatStandsOnTheGroundFromOneStation) {
   constexpr double kLong_s = 6.0, kSecond_s = 3.0, kModelSd_m = 0.5;
