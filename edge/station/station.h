@@ -4,6 +4,7 @@
 // thread.
 #pragma once
 
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <optional>
@@ -55,7 +56,9 @@ class Station {
 
   // Inputs. Samples must be in order of time, and so must frames.
   void on_angles(const mount::AngleSample& sample);
-  void on_frame(const camera::Frame& frame) { on_frame(frame, now_s_); }
+  void on_frame(const camera::Frame& frame) {
+    on_frame(frame, std::max(now_s_, frame.mid_exposure_s));
+  }
   // For a motorised lens: each zoom position that it reports, and the present positions of all its
   // axes.
   void on_zoom(const lens::ZoomSample& sample) { pointing_.add(sample); }

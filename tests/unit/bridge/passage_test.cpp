@@ -88,7 +88,7 @@ TEST(Passage, ANameBelongsToOnePlaceUntilItIsSilent) {
   EXPECT_FALSE(come(1.0));
   EXPECT_EQ(refused(passage.in_counts(), Refusal::kName), 1U);
   EXPECT_THAT(passage.in_counts().last_refusal,
-              HasSubstr("ols.v1.r.border.alfa.bearing: a station that another place has"));
+              HasSubstr("ols.v1.r.border.alfa.bearing: a station that another site already has"));
   EXPECT_TRUE(come(61.0));
 }
 

@@ -54,8 +54,8 @@ TEST(SiteMetrics, AStationIsToldInBaseUnits) {
        {"ols_build_info{version=\"1.2\"} 1", "ols_station_status_age_seconds{station=\"alfa\"} 3",
         "ols_station_state{station=\"alfa\",state=\"tracking\"} 1",
         "ols_alarm{program=\"station\",station=\"alfa\",alarm=\"station_clock_error\",severity="
-        "\"urgent\",says=\"station s9: not used, it reports a clock error of … s\",action=\"that "
-        "station's time service\"} 1",
+        "\"urgent\",says=\"station s9: not used, it reports a clock error of … s\",action=\"check "
+        "that station's time service\"} 1",
         "ols_station_clock_synchronised{station=\"alfa\"} 1",
         "ols_station_calibration_age_seconds{station=\"alfa\"} 60",
         "ols_station_device_up{station=\"alfa\",device=\"camera\"} 1",
