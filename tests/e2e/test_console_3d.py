@@ -106,12 +106,12 @@ def still(page):
 
 def test_what_has_no_third_dimension_says_so(page, view):
     view.get_by_text("Layers", exact=True).click()
-    expect(view.get_by_text("on the flat map only")).to_be_visible()
+    expect(view.get_by_text("only on the flat map")).to_be_visible()
     expect(view.get_by_label("Accuracy (1σ)")).to_be_disabled()
     assert axe_finds(page) == []
     view.get_by_role("button", name="3-D").click()
     expect(view.get_by_label("Accuracy (1σ)")).to_be_enabled()
-    expect(view.get_by_text("on the flat map only")).to_have_count(0)
+    expect(view.get_by_text("only on the flat map")).to_have_count(0)
 
 
 def test_a_click_selects(page, view):

@@ -83,6 +83,6 @@ def test_a_browser_without_it_says_so_and_shows_jpegs(chromium, console):
         page.add_init_script("delete window.VideoDecoder")
         page.reload()
         region(page, "Video").get_by_role("checkbox", name="Thin link").check()
-        expect(region(page, "Video")).to_contain_text("This browser cannot decode it")
+        expect(region(page, "Video")).to_contain_text("This browser cannot decode H.264")
         expect(caption(page)).to_contain_text("JPEG")
         wait_for_pictures(page, 3)

@@ -254,7 +254,7 @@ def test_a_tracking_station_is_taken_in_hand_and_given_back(spied, paper):
     spied.mouse.click(*person.at())
     expect(spied.get_by_text("alfa follows an object by itself")).to_be_visible()
     person.figure.get_by_role("button", name="By hand").click()
-    expect(person.figure).to_contain_text("end tracking")
+    expect(person.figure).to_contain_text("ends tracking")
     spied.mouse.click(*person.at())
     wait(lambda: paper.commands, "the command")
     person.figure.get_by_role("button", name="Back to tracking").click()

@@ -16,7 +16,7 @@ def coverage(source: Path, output: Path, stations: Path | None = None) -> None:
     """The lowest heights above the ground at which one station sees, and two do."""
     table = columns(source)
     latitudes, longitudes = np.unique(table["latitude_deg"]), np.unique(table["longitude_deg"])
-    axes = LocalAxes(table)
+    axes = LocalAxes(table, stations)
     x, y = axes.east_m(longitudes), axes.north_m(latitudes)
 
     def picture(name: str) -> np.ndarray:  # rows from the north in the file, from the south here
@@ -38,7 +38,7 @@ def coverage(source: Path, output: Path, stations: Path | None = None) -> None:
         )
         ax.set(title=f"seen by {who} from this height on", xlabel="east, m", ylabel="north, m")
         ax.grid(False)
-        axes.mark(ax, stations)
+        axes.mark(ax)
     figure.colorbar(shown, ax=both, label="above the ground, m", extend="max", shrink=0.9)
     save(figure, output)
 

@@ -142,9 +142,14 @@ def table1(source: Path, output: Path) -> None:
 
 
 class LocalAxes:
-    """Metres east and north of a map's middle: plane, for a plot."""
+    """Metres east and north of a map's middle, plane, and the stations of a stations.csv."""
 
-    def __init__(self, table: Table):
+    def __init__(self, table: Table, stations: Path | None):
+        places = columns(stations) if stations else None
+        for name in ("longitude_deg", "latitude_deg") if places else ():
+            if places[name].dtype.kind != "f":
+                raise BadTable(stations, f"column {name} has a word")
+        self._places = places
         self._zero = np.mean(table["longitude_deg"]), np.mean(table["latitude_deg"])
 
     def east_m(self, longitude_deg: np.ndarray) -> np.ndarray:
@@ -153,14 +158,11 @@ class LocalAxes:
     def north_m(self, latitude_deg: np.ndarray) -> np.ndarray:
         return (latitude_deg - self._zero[1]) * 111_200
 
-    def mark(self, ax: Axes, stations: Path | None) -> None:
-        """Draws the stations of a stations.csv."""
-        if stations is None:
+    def mark(self, ax: Axes) -> None:
+        """Draws the stations."""
+        places = self._places
+        if places is None:
             return
-        places = columns(stations)
-        for name in ("longitude_deg", "latitude_deg"):
-            if places[name].dtype.kind != "f":
-                raise BadTable(stations, f"column {name} has a word")
         east, north = self.east_m(places["longitude_deg"]), self.north_m(places["latitude_deg"])
         ax.plot(east, north, "^", color=STATION, markersize=9, markeredgecolor="white")
         for x0, y0, label in zip(east, north, places["station"], strict=True):
@@ -174,7 +176,7 @@ def site_map(source: Path, output: Path, stations: Path | None = None) -> None:
     figure, axes = plt.subplots(
         len(heights), 2, figsize=(11, 4.6 * len(heights)), squeeze=False, sharex=True, sharey=True
     )
-    axes_m = LocalAxes(table)
+    axes_m = LocalAxes(table, stations)
     for row, above in zip(axes, heights, strict=True):
         mask = table["above_stations_m"] == above
         x = axes_m.east_m(table["longitude_deg"][mask])
@@ -201,5 +203,5 @@ def site_map(source: Path, output: Path, stations: Path | None = None) -> None:
             ax.set(aspect="equal", title=f"{name}, {above:g} m above the stations")
             ax.set(xlabel="east, m", ylabel="north, m")
             ax.grid(False)
-            axes_m.mark(ax, stations)
+            axes_m.mark(ax)
     save(figure, output)
