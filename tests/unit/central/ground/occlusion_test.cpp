@@ -29,6 +29,15 @@ std::vector<Position> straight(const Land& land, const Eigen::Vector3d& from_m,
   return path;
 }
 
+TEST(LandHorizon, ReachesFartherWhenItIsAskedFarther) {
+  const auto land = std::make_shared<const Land>(
+      [](double east_m, double) { return std::abs(east_m - 3000.0) < 50.0 ? 300.0 : 0.0; });
+  LandHorizon horizon(land, {kPlace.latitude_rad, kPlace.longitude_rad, 50.0});
+  EXPECT_LT(horizon.highest_before(0.5 * kPi, 300.0)->elevation_rad, 0.0);
+  EXPECT_NEAR(horizon.highest_before(0.5 * kPi, 4000.0)->elevation_rad, std::atan2(250.0, 2950.0),
+              0.002);
+}
+
 TEST(Occlusion, EndsAboveTheCrestAndBesideTheWall) {
   struct Case {
     const char* what;

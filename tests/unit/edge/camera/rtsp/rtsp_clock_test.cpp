@@ -173,6 +173,25 @@ TEST(RtspClock, AStepOfTheStationsUtcIsNotTakenForTheCameras) {
   EXPECT_EQ(time.source, StampSource::kArrival);
 }
 
+// Two refused reports, eleven minutes apart and none in between, are not eleven minutes of refusal.
+TEST(RtspClock, RefusedReportsFarApartForgetNothing) {
+  RtspWorld world;
+  RtspClock clock({.delay_s = 0.4, .delay_sd_s = 0.1});
+  run(world, clock, 0.0, 120.0);
+  ASSERT_TRUE(clock.learnt_delay_s());
+  for (const double since_s : {120.0, 780.0}) {
+    world.report_every_s = 0.0;
+    for (double s = since_s - 20.0; s < since_s; s += 0.04) {
+      if (s > 120.0) clock.stamp(world.picture(world.start_s + s), kUtcMinusMonotonic_ns);
+    }
+    world.report_every_s = 5.0;
+    world.clock_off_s = 100.0;
+    clock.stamp(world.picture(world.start_s + since_s), kUtcMinusMonotonic_ns);
+    EXPECT_TRUE(clock.refused_delay_s()) << since_s;
+  }
+  EXPECT_TRUE(clock.learnt_delay_s());
+}
+
 TEST(RtspClock, AStepOfTheStampsIsForgotten) {
   for (const double step_s : {0.5, -0.5, 100.0, -100.0}) {
     RtspWorld world;
