@@ -84,7 +84,7 @@ PlacementProblem behind_walls(std::mt19937_64& random, std::size_t places, std::
 
 TEST(Placement, IsAsGoodAsTheBestOfAllChoices) {
   std::mt19937_64 random(5);
-  for (int run = 0; run < 5; ++run) {
+  for (int run = 0; run < 20; ++run) {
     PlacementProblem problem = behind_walls(random, 14, 3);
     for (const PlacementGoal goal : {PlacementGoal::kMean, PlacementGoal::kWorst}) {
       problem.goal = goal;
