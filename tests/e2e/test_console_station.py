@@ -137,7 +137,7 @@ def test_a_box_drawn_in_the_browser_makes_the_station_track(site):
         page.goto(site)
         expect(page.get_by_role("img", name=STATION, exact=True)).to_be_visible(timeout=60_000)
         hand = Hand(page, views, bus, Pointer(bus, views, 1))
-        end = time.monotonic() + 3 * PATIENCE_S
+        end = time.monotonic() + 8 * PATIENCE_S
         while hand.state(STATION) != "tracking":
             assert time.monotonic() < end, "the station does not track"
             if not hand.draw(STATION):
