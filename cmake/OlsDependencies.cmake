@@ -26,6 +26,13 @@ find_package(nlohmann_json REQUIRED)
 find_package(spdlog REQUIRED)
 find_package(Threads REQUIRED)
 
+# Its pkg-config file names no library.
+find_library(INDICLIENT_LIBRARY indiclient REQUIRED)
+find_path(INDICLIENT_INCLUDE_DIR libindi/baseclient.h REQUIRED)
+add_library(ols_indi_client INTERFACE)
+target_link_libraries(ols_indi_client INTERFACE ${INDICLIENT_LIBRARY})
+target_include_directories(ols_indi_client SYSTEM INTERFACE ${INDICLIENT_INCLUDE_DIR} ${INDICLIENT_INCLUDE_DIR}/libindi)
+
 find_package(GDAL 3.6 REQUIRED)
 add_library(ols_gdal INTERFACE)
 target_link_libraries(ols_gdal INTERFACE ${GDAL_LIBRARIES})

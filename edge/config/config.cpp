@@ -49,10 +49,10 @@ Section pose_section(StationSettings& settings) {
            angle("heading_deg", g.chain.heading_rad, 360.0,
                  "Direction of the PTU's zero pan, clockwise from true north.")
                .required(),
-           angle("tilt_x_deg", g.chain.tilt_x_rad, 45.0,
+           angle("tilt_x_deg", g.chain.tilt_x_rad, 90.0,
                  "Inclination of ORIGIN about X, right side down positive.")
                .default_is(kFromInclinometer),
-           angle("tilt_y_deg", g.chain.tilt_y_rad, 45.0,
+           angle("tilt_y_deg", g.chain.tilt_y_rad, 90.0,
                  "Inclination of ORIGIN about Y, nose down positive.")
                .default_is(kFromInclinometer),
            angle_sd("level_sd_deg", pose.level_sd_rad,

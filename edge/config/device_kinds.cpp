@@ -3,6 +3,7 @@
 #include "edge/camera/aravis/aravis_kind.h"
 #include "edge/camera/rtsp/rtsp_kind.h"
 #include "edge/mount/fixed/fixed_kind.h"
+#include "edge/mount/indi/indi_kind.h"
 #include "edge/mount/onvif/onvif_kind.h"
 #include "edge/ptu/ptu_kind.h"
 #include "edge/sensors/dpg2/dpg2_kind.h"
@@ -26,7 +27,9 @@ const std::vector<device::KindRow<mount::MountKind>>& mount_kinds() {
       {"fixed", "The camera stands still: the station never moves it.",
        make_kind<mount::FixedKind>},
       {"onvif", "An IP camera with pan and tilt that is steered by ONVIF.",
-       make_kind<onvif::OnvifKind>}};
+       make_kind<onvif::OnvifKind>},
+      {"indi", "A telescope mount behind an INDI server, equatorial or altazimuth.",
+       make_kind<indi::IndiKind>}};
   return kinds;
 }
 

@@ -1,0 +1,213 @@
+#include "edge/mount/indi/indi_link.h"
+
+#include <libindi/baseclient.h>
+#include <libindi/basedevice.h>
+#include <libindi/indiproperty.h>
+#include <libindi/indipropertynumber.h>
+#include <libindi/indipropertyswitch.h>
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <mutex>
+#include <string_view>
+#include <utility>
+
+#include "base/process/clocks.h"
+#include "geometry/angles.h"
+
+namespace ols::indi {
+namespace {
+
+constexpr double kHour_rad = kPi / 12.0;
+const double kArcSecond_rad = radians(1.0 / 3600.0);
+
+// NaN: no such element.
+double number_in(INDI::Property& property, const char* element) {
+  const auto* const widget = property.getNumber()->findWidgetByName(element);
+  return widget == nullptr ? std::nan("") : widget->getValue();
+}
+
+bool is_on(INDI::Property& property, const char* element) {
+  const auto* const widget = property.getSwitch()->findWidgetByName(element);
+  return widget != nullptr && widget->getState() == ISS_ON;
+}
+
+// The larger of what either axis allows in its narrower direction.
+double fastest_in(INDI::Property& property) {
+  double fastest_arcsec_s = 0.0;
+  for (const auto& axis : *property.getNumber())
+    fastest_arcsec_s = std::max(fastest_arcsec_s, std::min(-axis.getMin(), axis.getMax()));
+  return fastest_arcsec_s * kArcSecond_rad;
+}
+
+bool is_order(std::string_view name) {
+  return name == "TELESCOPE_TRACK_RATE" || name == "TELESCOPE_TRACK_STATE" ||
+         name == "TELESCOPE_TRACK_MODE" || name == "TELESCOPE_ABORT_MOTION" ||
+         name == "TELESCOPE_PARK" || name == "ON_COORD_SET";
+}
+
+void take_position(Heard& heard, INDI::Property& property) {
+  const Equatorial seen{number_in(property, "RA") * kHour_rad, radians(number_in(property, "DEC"))};
+  heard.slews = property.getState() == IPS_BUSY;
+  if (!(seen.ra_rad >= 0.0 && seen.ra_rad <= 2.0 * kPi && std::abs(seen.dec_rad) <= kPi / 2.0)) {
+    ++heard.positions_refused;
+    return;
+  }
+  heard.position = seen;
+  heard.position_s = clock_monotonic_s();
+}
+
+void take_observer(Heard& heard, INDI::Property& property) {
+  const Observer observer{radians(number_in(property, "LAT")),
+                          radians(number_in(property, "LONG"))};
+  if (std::isfinite(observer.latitude_rad) && std::isfinite(observer.longitude_rad))
+    heard.observer = observer;
+}
+
+void take_numbers(Heard& heard, INDI::Property& property) {
+  if (property.isNameMatch("GEOGRAPHIC_COORD")) take_observer(heard, property);
+  if (property.isNameMatch("TELESCOPE_TRACK_RATE")) heard.fastest_rad_s = fastest_in(property);
+}
+
+void take_switches(Heard& heard, INDI::Property& property) {
+  if (property.isNameMatch("CONNECTION")) heard.is_connected = is_on(property, "CONNECT");
+  if (property.isNameMatch("TELESCOPE_TRACK_STATE")) {
+    heard.can_stop_tracking = true;
+    heard.tracks = is_on(property, "TRACK_ON");
+  }
+  if (property.isNameMatch("TELESCOPE_PARK")) heard.is_parked = is_on(property, "PARK");
+  if (property.isNameMatch("TELESCOPE_PIER_SIDE")) {
+    for (const char* side : {"PIER_WEST", "PIER_EAST"})
+      if (is_on(property, side)) heard.pier_side = side;
+  }
+}
+
+}  // namespace
+
+// The library's shared properties are written by its thread: orders are made of properties of their
+// own.
+class IndiLink::Client : public INDI::BaseClient {
+ public:
+  Client(std::string host, int port, std::string device)
+      : place_(host + ":" + std::to_string(port)), device_(std::move(device)) {
+    setServer(host.c_str(), static_cast<unsigned>(port));
+    watchDevice(device_.c_str());
+  }
+  ~Client() override { disconnectServer(); }
+
+  const std::string& place() const { return place_; }
+
+  Heard heard() const {
+    const std::lock_guard lock(mutex_);
+    return heard_;
+  }
+
+  using Value = std::pair<const char*, double>;
+  void order(const char* name, std::initializer_list<Value> values) {
+    INDI::PropertyNumber property(values.size());
+    property.setDeviceName(device_.c_str());
+    property.setName(name);
+    std::size_t at = 0;
+    for (const auto& [element, value] : values) {
+      property[at].setName(element);
+      property[at++].setValue(value);
+    }
+    sendNewProperty(property);
+  }
+  void choose(const char* name, const char* element) {
+    INDI::PropertySwitch property(1);
+    property.setDeviceName(device_.c_str());
+    property.setName(name);
+    property[0].setName(element);
+    property[0].setState(ISS_ON);
+    sendNewProperty(property);
+  }
+
+ protected:
+  void newDevice(INDI::BaseDevice /*device*/) override {
+    const std::lock_guard lock(mutex_);
+    heard_.has_device = true;
+  }
+  void removeDevice(INDI::BaseDevice /*device*/) override { lose(); }
+  void serverDisconnected(int /*exit_code*/) override { lose(); }
+  void newProperty(INDI::Property property) override { take(property); }
+  // A position that comes with its definition is no measurement.
+  void updateProperty(INDI::Property property) override {
+    take(property);
+    const std::lock_guard lock(mutex_);
+    if (property.isNameMatch("EQUATORIAL_EOD_COORD")) take_position(heard_, property);
+  }
+  void newMessage(INDI::BaseDevice device, int id) override {
+    const std::lock_guard lock(mutex_);
+    heard_.message = device.messageQueue(static_cast<std::size_t>(id));
+  }
+
+ private:
+  void lose() {
+    const std::lock_guard lock(mutex_);
+    heard_.lost = true;
+  }
+  void take(INDI::Property& property) {
+    const std::lock_guard lock(mutex_);
+    if (property.getState() == IPS_ALERT && is_order(property.getName())) ++heard_.orders_refused;
+    if (property.getType() == INDI_NUMBER) take_numbers(heard_, property);
+    if (property.getType() == INDI_SWITCH) take_switches(heard_, property);
+  }
+
+  const std::string place_, device_;
+  mutable std::mutex mutex_;
+  Heard heard_;
+};
+
+IndiLink::IndiLink(std::string host, int port, std::string device)
+    : client_(std::make_unique<Client>(std::move(host), port, std::move(device))) {}
+IndiLink::~IndiLink() = default;
+
+void IndiLink::open() {
+  if (!client_->connectServer()) throw IndiError("no INDI server at " + client_->place());
+}
+
+Heard IndiLink::heard() const { return client_->heard(); }
+void IndiLink::connect_telescope() { client_->choose("CONNECTION", "CONNECT"); }
+void IndiLink::unpark() { client_->choose("TELESCOPE_PARK", "UNPARK"); }
+
+void IndiLink::set_interval(double interval_s) {
+  client_->order("POLLING_PERIOD", {{"PERIOD_MS", 1e3 * interval_s}});
+}
+
+// Some drivers abort only a slew.
+void IndiLink::stop() {
+  ordered_.reset();
+  client_->choose("TELESCOPE_ABORT_MOTION", "ABORT");
+  if (heard().can_stop_tracking) client_->choose("TELESCOPE_TRACK_STATE", "TRACK_OFF");
+}
+
+// INDI refuses a rate into the other direction while a telescope tracks. Some drivers take a rate
+// only while it tracks: the new one is ordered again then, or the telescope would go on as before.
+void IndiLink::track(const TrackRate& rate) {
+  const bool reverses = ordered_ && (ordered_->hour_angle_rad_s * rate.hour_angle_rad_s < 0.0 ||
+                                     ordered_->dec_rad_s * rate.dec_rad_s < 0.0);
+  const auto order = [&] {
+    client_->order("TELESCOPE_TRACK_RATE",
+                   {{"TRACK_RATE_RA", rate.hour_angle_rad_s / kArcSecond_rad},
+                    {"TRACK_RATE_DE", rate.dec_rad_s / kArcSecond_rad}});
+  };
+  if (!ordered_ || reverses) {
+    client_->choose("TELESCOPE_TRACK_STATE", "TRACK_OFF");
+    client_->choose("TELESCOPE_TRACK_MODE", "TRACK_CUSTOM");
+    order();
+    client_->choose("TELESCOPE_TRACK_STATE", "TRACK_ON");
+  }
+  order();
+  ordered_ = rate;
+}
+
+void IndiLink::go_to(const Equatorial& to) {
+  ordered_.reset();
+  client_->choose("ON_COORD_SET", "SLEW");
+  client_->order("EQUATORIAL_EOD_COORD",
+                 {{"RA", to.ra_rad / kHour_rad}, {"DEC", degrees(to.dec_rad)}});
+}
+
+}  // namespace ols::indi

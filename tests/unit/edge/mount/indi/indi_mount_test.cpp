@@ -1,0 +1,214 @@
+// The mount against INDI's own telescope simulator.
+#include "edge/mount/indi/indi_mount.h"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <spawn.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+
+#include "base/process/clocks.h"
+#include "base/process/command_output.h"
+#include "edge/mount/indi/indi_link.h"
+#include "geometry/angles.h"
+#include "tests/unit/eventually.h"
+#include "tests/unit/temporary_folder.h"
+
+namespace ols::indi {
+namespace {
+
+constexpr const char* kTelescope = "Telescope Simulator";
+
+// indiserver with the simulator; both end with it.
+class Server {
+ public:
+  explicit Server(int port) : port_(port) {
+    ::setenv("HOME", (folder_.path()).c_str(), 1);  // its settings
+    start();
+  }
+  ~Server() { end(); }
+  void end() {
+    if (process_ <= 0) return;
+    ::kill(process_, SIGTERM);
+    ::waitpid(process_, nullptr, 0);
+    process_ = 0;
+  }
+  void start() {
+    const std::string port = std::to_string(port_), pipe = folder_ / "pipe";
+    const char* arguments[] = {
+        "indiserver", "-p", port.c_str(), "-u", pipe.c_str(), "indi_simulator_telescope", nullptr};
+    posix_spawn_file_actions_t files;
+    posix_spawn_file_actions_init(&files);
+    posix_spawn_file_actions_addopen(&files, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+    if (::posix_spawnp(&process_, arguments[0], &files, nullptr,
+                       const_cast<char* const*>(arguments), environ) != 0)
+      throw std::runtime_error("no indiserver: Debian's package indi-bin");
+    posix_spawn_file_actions_destroy(&files);
+  }
+
+ private:
+  int port_;
+  TemporaryFolder folder_;
+  pid_t process_ = 0;
+};
+
+IndiConfig config_of(int port) {
+  IndiConfig config;
+  config.port = port;
+  config.device = kTelescope;
+  config.drive.limits.pan_min_rad = radians(-100.0);
+  config.drive.limits.pan_max_rad = radians(100.0);
+  return config;
+}
+
+bool is_trusted(const IndiMount& mount) { return mount.reference() == mount::Reference::kTrusted; }
+
+// Keeps the newest sample of a mount.
+struct Watched {
+  explicit Watched(IndiMount& watched) : mount(watched) {}
+  IndiMount& mount;
+  std::optional<mount::AngleSample> newest;
+
+  const std::optional<mount::AngleSample>& look() {
+    for (const auto& sample : mount.take_samples()) newest = sample;
+    return newest;
+  }
+  double speed_deg_s(double over_s) {
+    look();
+    const mount::AngleSample from = newest.value();
+    EXPECT_TRUE(eventually([&] { return look()->time_s >= from.time_s + over_s; }));
+    const double time_s = newest->time_s - from.time_s;
+    return degrees(std::hypot(newest->angles.pan_rad - from.angles.pan_rad,
+                              newest->angles.tilt_rad - from.angles.tilt_rad)) /
+           time_s;
+  }
+  void go(const PanTilt& to, bool rests = true) {
+    mount.set_goal(
+        mount::Goal{clock_monotonic_s(), to, {}, clock_monotonic_s() + 1.0, false, rests});
+  }
+  bool arrives(const PanTilt& at, double within_deg) {
+    return eventually(
+        [&] {
+          go(at);
+          return look() && degrees(onvif::distance(newest->angles, at)) < within_deg;
+        },
+        60.0);
+  }
+  // Largest distance from the goal, once it has come to its speed [deg].
+  double follow(const PanTilt& rate) {
+    const double began_s = clock_monotonic_s();
+    const PanTilt from = look()->angles;
+    const auto goal_at = [&](double ran_s) {
+      return PanTilt{from.pan_rad + rate.pan_rad * ran_s, from.tilt_rad + rate.tilt_rad * ran_s};
+    };
+    double worst_rad = 0.0;
+    EXPECT_TRUE(eventually([&] {
+      const double now_s = clock_monotonic_s();
+      mount.set_goal(mount::Goal{now_s, goal_at(now_s - began_s), rate, now_s + 1.0});
+      const double ran_s = look()->time_s - began_s;
+      if (ran_s > 2.5)
+        worst_rad = std::max(worst_rad, onvif::distance(newest->angles, goal_at(ran_s)));
+      return ran_s > 4.0;
+    }));
+    return degrees(worst_rad);
+  }
+};
+
+TEST(IndiMount, GoesFollowsAndHalts) {
+  const Server server(7731);
+  IndiMount mount(config_of(7731));
+  Watched watched(mount);
+  ASSERT_TRUE(eventually([&] { return is_trusted(mount); }));
+  // The simulator begins at the pole, six hours east of the meridian.
+  const PanTilt place{radians(-85.0), radians(82.0)};
+  ASSERT_TRUE(watched.arrives(place, 0.02)) << mount.report().text;
+  // And does not follow the stars.
+  EXPECT_TRUE(eventually([&] { return watched.speed_deg_s(1.0) < 0.001; }));
+
+  // There and back, because INDI reverses a rate only after a stop; and at the rate of the stars.
+  for (const double pan_deg_s : {1.0, -1.0, -15.041 / 3600.0}) {
+    const double worst_deg = watched.follow({radians(pan_deg_s), radians(-0.3 * pan_deg_s)});
+    std::printf("follows %.3f deg/s within %.3f deg\n", pan_deg_s, worst_deg);
+    EXPECT_LT(worst_deg, 0.3);
+  }
+
+  mount.set_goal(
+      mount::Goal{clock_monotonic_s(), {}, {radians(2.0), 0.0}, clock_monotonic_s() + 5.0, true});
+  ASSERT_TRUE(eventually([&] { return watched.speed_deg_s(0.3) > 1.0; }));
+  mount.emergency_halt();
+  ASSERT_TRUE(eventually([&] { return watched.speed_deg_s(0.2) < 0.05; }));
+  EXPECT_EQ(mount.report().alarms.size(), 1);
+}
+
+// The client before was killed: its last rate goes on.
+TEST(IndiMount, StopsWhatItFindsInMotion) {
+  const Server server(7734);
+  {
+    IndiMount connects(config_of(7734));
+    ASSERT_TRUE(eventually([&] { return is_trusted(connects); }));
+  }
+  {
+    IndiLink link("localhost", 7734, kTelescope);
+    link.open();
+    ASSERT_TRUE(eventually([&] { return link.heard().can_stop_tracking; }));
+    link.track({radians(0.5), radians(-0.5)});
+    const auto dec_rad = [&] { return link.heard().position.value_or(Equatorial{}).dec_rad; };
+    ASSERT_TRUE(eventually([&] { return dec_rad() > 0.0 && dec_rad() < radians(89.5); }));
+  }
+  IndiMount mount(config_of(7734));
+  Watched watched(mount);
+  ASSERT_TRUE(eventually([&] { return is_trusted(mount) && watched.look(); }));
+  EXPECT_TRUE(eventually([&] { return watched.speed_deg_s(0.3) < 0.01; }, 3.0));
+}
+
+TEST(IndiMount, LeavesItAloneWhereOthersHavePutIt) {
+  const Server server(7735);
+  IndiMount mount(config_of(7735));
+  ASSERT_TRUE(eventually([&] { return is_trusted(mount); }));
+  const auto set = [](const std::string& what) {
+    ASSERT_TRUE(command_output({"indi_setprop", "-p", "7735", kTelescope + ("." + what)}, 10.0));
+  };
+  const auto says = [&](const std::string& words) {
+    return eventually([&] {
+      const auto alarms = mount.report().alarms;
+      return !mount.limits() && std::ranges::any_of(alarms, [&](const Alarm& alarm) {
+        return alarm.text.find(words) != std::string::npos;
+      });
+    });
+  };
+  // Its park position is on the other side.
+  set("TELESCOPE_PARK.PARK=On");
+  EXPECT_TRUE(says("parked"));
+  set("TELESCOPE_PARK.UNPARK=On");
+  EXPECT_TRUE(says("other side of its pier"));
+}
+
+TEST(IndiMount, ComesBackWhenItsServerDoes) {
+  Server server(7732);
+  IndiMount mount(config_of(7732));
+  const auto trusted = [&] { return is_trusted(mount); };
+  ASSERT_TRUE(eventually(trusted));
+  server.end();
+  ASSERT_TRUE(eventually([&] { return !trusted(); }));
+  EXPECT_FALSE(mount.limits());
+  server.start();
+  EXPECT_TRUE(eventually(trusted));
+}
+
+TEST(IndiMount, SaysWhatIsMissing) {
+  const Server server(7733);
+  IndiConfig config = config_of(7733);
+  config.device = "No Such Telescope";
+  IndiMount mount(config);
+  EXPECT_TRUE(eventually([&] {
+    const auto report = mount.report();
+    return report.last_error.find("no such device") != std::string::npos;
+  }));
+}
+
+}  // namespace
+}  // namespace ols::indi
