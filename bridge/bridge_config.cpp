@@ -157,9 +157,9 @@ config::Section bridge_section(BridgeConfig& c) {
                      "Stations of this site whose messages pass; empty: all that are heard."),
        config::texts("takes", c.takes,
                      "Other sites' stations to receive: REGION.SITE.STATION; * stands for any."),
-       config::texts(
-           "commands", c.commands,
-           "Commands that pass from a region to a site: slew, ptu, lens, designate, record."),
+       config::texts("commands", c.commands,
+                     "Commands that pass from a region to a site: slew, occlusion, ptu, lens, "
+                     "designate, record."),
        config::flag("targets", c.targets, "Whether the targets of the fusion on this bus go out."),
        config::number("command_age_s", c.command_age_s, {0.05, 10.0}, "s",
                       "An older command is refused."),

@@ -45,7 +45,7 @@ struct BridgeConfig {
   Role role = Role::kSite;
   std::string region = "region", site = "site";
   std::vector<std::string> stations, takes;
-  std::vector<std::string> commands{"slew"};
+  std::vector<std::string> commands{"slew", "occlusion"};
   bool targets = false;
   double command_age_s = 1.0, live_age_s = 5.0;
   NatsConfig nats;

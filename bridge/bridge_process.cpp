@@ -129,7 +129,7 @@ OwnerStore::Ears BridgeProcess::ears() {
   return ears;
 }
 
-// Asked under the lock, of each target and slew that is to go out.
+// Asked under the lock, of each target, and of each command that concerns one, that is to go out.
 Owned BridgeProcess::owned() {
   if (!ownership_) return {};
   return [this](Kind kind, Bytes payload) -> std::optional<Grant> {

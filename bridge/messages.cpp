@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/bus/lcm_bus.h"
+#include "ols_msg/occlusion_t.hpp"
 #include "ols_msg/slew_t.hpp"
 #include "ols_msg/target_t.hpp"
 
@@ -34,8 +35,9 @@ std::optional<std::int64_t> target_id_of(Kind kind, Bytes payload) {
     const auto target = decoded<ols_msg::target_t>(payload);
     return target ? std::optional(target->target_id) : std::nullopt;
   }
-  const auto slew = decoded<ols_msg::slew_t>(payload);
-  return slew ? std::optional(slew->target_id) : std::nullopt;
+  if (const auto slew = decoded<ols_msg::slew_t>(payload)) return slew->target_id;
+  const auto occlusion = decoded<ols_msg::occlusion_t>(payload);
+  return occlusion ? std::optional(occlusion->target_id) : std::nullopt;
 }
 
 std::optional<Track> track_from(Bytes payload) {

@@ -9,8 +9,8 @@
 
 namespace ols::bridge {
 
-// The target's number in a fusion message, which is a target or a slew; 0: it concerns no target.
-// nullopt if the payload is no such message. `payload`: without its signature.
+// The target's number in a fusion message, which is a target, a slew or an occlusion; 0: it
+// concerns no target. nullopt if the payload is no such message. `payload`: without its signature.
 std::optional<std::int64_t> target_id_of(Kind kind, Bytes payload);
 // The target in a message. nullopt if the message states no position or ends the target.
 std::optional<Track> track_from(Bytes payload);

@@ -12,7 +12,10 @@
 namespace ols::bridge {
 namespace {
 
-constexpr std::string_view kSlew = "slew";  // the only command that concerns a target
+// The fusion's commands; the others are an operator's.
+bool concerns_target(std::string_view command) {
+  return command == "slew" || command == "occlusion";
+}
 constexpr double kFuture_s = 1.0;
 constexpr double kRecent_s = 10.0;
 constexpr double kMostOfOne_Hz = 400.0;
@@ -139,7 +142,7 @@ Passage::Judged Passage::judge_out(std::string_view channel, Bytes bytes, const 
   // What is live may be late on its way out: the server's stream keeps all of it.
   const bool is_command = content->kind == Kind::kCommand;
   if (const Judged refusal = is_command ? judge_age(*content, head, now) : Judged()) return refusal;
-  const bool is_owned = content->kind == Kind::kTarget || content->command == kSlew;
+  const bool is_owned = content->kind == Kind::kTarget || concerns_target(content->command);
   if (is_owned && owned) {
     const auto grant = owned(content->kind, trust::without_trailer(bytes));
     if (!grant) return Refusal::kNotOwned;
@@ -272,7 +275,7 @@ Passage::Judged Passage::take(const Subject& subject, const Now& now) {
 
 Passage::Judged Passage::obey(const Subject& subject, const Headers& headers, const Now& now) {
   // Only those who lead a station compete; a stop by an operator concerns no owner.
-  if (subject.command != kSlew) return std::nullopt;
+  if (!concerns_target(subject.command)) return std::nullopt;
   const auto claim = claim_of(headers);
   if (!claim) return Refusal::kMalformed;
   return epochs_.passes(subject.station, *claim, now.monotonic_s) ? Judged() : Refusal::kEpoch;

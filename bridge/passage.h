@@ -98,7 +98,7 @@ class Passage {
   explicit Passage(PassageConfig config) : config_(std::move(config)) {}
 
   // The message to send out; nullopt: it does not pass. `bytes`: as received, with the signature.
-  // `owned`: called for the targets and slews of a region.
+  // `owned`: called for the targets of a region and the commands that concern them.
   std::optional<Outgoing> out(std::string_view channel, Bytes bytes, const Now& now,
                               const Owned& owned = {});
   // The channel on which the same bytes go to the bus; nullopt: they do not pass.

@@ -15,8 +15,9 @@ namespace {
 constexpr std::string_view kPrefix = "ols.v1.";
 constexpr std::size_t kLongestName = 40;
 
-constexpr std::array<std::pair<std::string_view, std::string_view>, 5> kCommands{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kCommands{
     {{kSlewChannel, "slew"},
+     {kOcclusionChannel, "occlusion"},
      {kPtuChannel, "ptu"},
      {kLensChannel, "lens"},
      {kDesignateChannel, "designate"},

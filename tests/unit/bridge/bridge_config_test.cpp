@@ -24,7 +24,7 @@ TEST(BridgeConfig, BridgesASiteAndStoresNothingByDefault) {
   EXPECT_FALSE(config.archive.is_on);
   EXPECT_FALSE(config.ownership.is_on);
   EXPECT_FALSE(config.targets);
-  EXPECT_THAT(config.commands, ElementsAre("slew"));
+  EXPECT_THAT(config.commands, ElementsAre("slew", "occlusion"));
   EXPECT_TRUE(passage_of(config).takes.empty());
 }
 

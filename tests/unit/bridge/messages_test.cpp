@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "bridge_messages.h"
+#include "ols_msg/occlusion_t.hpp"
 
 namespace ols::bridge {
 namespace {
@@ -71,6 +72,9 @@ TEST(BridgeMessages, AnOwnerSaysWhereItsTargetIsAndUnderWhichEpoch) {
 TEST(BridgeMessages, AMessageNamesItsTarget) {
   EXPECT_EQ(target_id_of(Kind::kTarget, target(8)), 8);
   EXPECT_EQ(target_id_of(Kind::kCommand, slew("alfa", 0.0, 9)), 9);
+  ols_msg::occlusion_t occlusion{};
+  occlusion.target_id = 10;
+  EXPECT_EQ(target_id_of(Kind::kCommand, encoded(occlusion)), 10);
   EXPECT_EQ(target_id_of(Kind::kCommand, target(8)), std::nullopt);
   EXPECT_EQ(target_id_of(Kind::kTarget, {}), std::nullopt);
 }

@@ -6,6 +6,7 @@
 #include "base/trust/trailer.h"
 #include "bridge/messages.h"
 #include "bridge_messages.h"
+#include "ols_msg/occlusion_t.hpp"
 #include "ols_msg/ptu_command_t.hpp"
 
 namespace ols::bridge {
@@ -211,6 +212,24 @@ TEST(Passage, OnlyTheOwnersTargetsAndSlewsGoOut) {
   EXPECT_EQ(refused(passage.out_counts(), Refusal::kNotOwned), 2U);
   const Owned alone = [](Kind, Bytes) { return Grant{"north-1", 6, false}; };
   EXPECT_EQ(passage.out("OLS_TARGET", target(3), kNow, alone)->headers.at(kUnconfirmedHeader), "1");
+}
+
+TEST(Passage, WhereATargetIsHiddenGoesTheWayOfItsSlews) {
+  PassageConfig config = region();
+  config.commands = {"slew", "occlusion"};
+  Passage passage(config);
+  EXPECT_TRUE(passage.in("ols.v1.r.hill.alfa.bearing", {}, bearing("alfa"), kNow));
+  ols_msg::occlusion_t occlusion{};
+  occlusion.utime = kNow_us;
+  occlusion.station = std::string("alfa");
+  const auto bytes = encoded(occlusion);
+  const Owned owned = [](Kind, Bytes) { return Grant{"north-1", 6, true, "north=7"}; };
+  const auto out = passage.out("OLS_OCCLUSION_alfa", bytes, kNow, owned);
+  ASSERT_TRUE(out) << passage.out_counts().last_refusal;
+  EXPECT_EQ(out->subject, "ols.v1.r.hill.alfa.cmd.occlusion");
+  EXPECT_EQ(out->headers.at(kEpochHeader), "6");
+  const Owned other = [](Kind, Bytes) { return std::optional<Grant>(); };
+  EXPECT_FALSE(passage.out("OLS_OCCLUSION_alfa", bytes, kNow, other));
 }
 
 TEST(Passage, WhatAnOperatorOrdersNeedsNoOwner) {
