@@ -2,6 +2,7 @@
 
 #include "edge/camera/aravis/aravis_kind.h"
 #include "edge/camera/rtsp/rtsp_kind.h"
+#include "edge/camera/v4l2/v4l2_kind.h"
 #include "edge/mount/fixed/fixed_kind.h"
 #include "edge/mount/indi/indi_kind.h"
 #include "edge/mount/onvif/onvif_kind.h"
@@ -17,7 +18,9 @@ const std::vector<device::KindRow<camera::CameraKind>>& camera_kinds() {
   static const std::vector<device::KindRow<camera::CameraKind>> kinds{
       {"aravis", "A GigE Vision camera.", make_kind<camera::AravisKind>},
       {"rtsp", "An IP camera that sends a video stream by RTSP: H.264, H.265 or Motion JPEG.",
-       make_kind<camera::RtspKind>}};
+       make_kind<camera::RtspKind>},
+      {"v4l2", "A camera that Linux drives (Video4Linux2), as USB cameras (UVC).",
+       make_kind<camera::V4l2Kind>}};
   return kinds;
 }
 

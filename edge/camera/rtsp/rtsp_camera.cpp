@@ -11,8 +11,8 @@
 #include "conditions/alarms.h"
 #include "edge/camera/camera_handover.h"
 #include "edge/camera/picture.h"
-#include "edge/camera/rtsp/picture_change.h"
-#include "edge/camera/rtsp/retry_pause.h"
+#include "edge/camera/picture_change.h"
+#include "edge/camera/retry_pause.h"
 #include "edge/camera/rtsp/rtsp_stream.h"
 #include "edge/device/password_file.h"
 

@@ -2,16 +2,15 @@
 
 #include <gst/app/gstappsink.h>
 #include <gst/gst.h>
-#include <gst/video/video.h>
 
 #include <algorithm>
 #include <array>
 #include <mutex>
-#include <opencv2/imgproc.hpp>
 #include <string_view>
 
 #include "base/process/clocks.h"
 #include "conditions/alarms.h"
+#include "edge/camera/gstreamer/gst_picture.h"
 
 namespace ols::camera {
 namespace {
@@ -37,14 +36,6 @@ constexpr std::array<Codec, 3> kCodecs{{
     {"JPEG", "rtpjpegdepay ! jpegdec name=decoder"},
 }};
 
-void start_library() {
-  static std::once_flag once;
-  std::call_once(once, [] {
-    gst_registry_fork_set_enabled(FALSE);  // the station starts no other program
-    gst_init(nullptr, nullptr);
-  });
-}
-
 std::string value_of(const GstCaps* caps, const char* field) {
   const char* text = gst_structure_get_string(gst_caps_get_structure(caps, 0), field);
   return text == nullptr ? "" : text;
@@ -56,12 +47,6 @@ const Codec* codec_of(const GstCaps* caps) {
   return codec == kCodecs.end() ? nullptr : &*codec;
 }
 
-// What a device says, for a line of text.
-std::string printable(std::string text) {
-  std::erase_if(text, [](unsigned char c) { return c < 0x20 || c == 0x7f; });
-  return text.substr(0, 120);
-}
-
 struct Caps {
   explicit Caps(const char* text) : caps(gst_caps_from_string(text)) {}
   ~Caps() { gst_caps_unref(caps); }
@@ -69,26 +54,6 @@ struct Caps {
   Caps& operator=(const Caps&) = delete;
   GstCaps* caps;
 };
-
-cv::Mat plane(const GstVideoFrame& frame, int index, int rows, int columns) {
-  // cv::Mat takes no const pointer; nothing writes through it.
-  return {rows, columns, CV_8U, GST_VIDEO_FRAME_PLANE_DATA(&frame, index),
-          static_cast<std::size_t>(GST_VIDEO_FRAME_PLANE_STRIDE(&frame, index))};
-}
-
-// The planes one after the other, as OpenCV wants them.
-cv::Mat bgr_of(const GstVideoFrame& frame, int rows, int columns) {
-  cv::Mat planes(rows * 3 / 2, columns, CV_8U);
-  plane(frame, 0, rows, columns).copyTo(planes.rowRange(0, rows));
-  std::uint8_t* to = planes.ptr(rows);
-  for (int index : {1, 2}) {
-    cv::Mat chroma(rows / 2, columns / 2, CV_8U, to + (index - 1) * (rows / 2) * (columns / 2));
-    plane(frame, index, rows / 2, columns / 2).copyTo(chroma);
-  }
-  cv::Mat bgr;
-  cv::cvtColor(planes, bgr, cv::COLOR_YUV2BGR_I420);
-  return bgr;
-}
 
 }  // namespace
 
@@ -156,9 +121,7 @@ void RtspStream::Impl::add_source(const RtspConfig& config, const std::string& p
   g_signal_connect(source, "pad-added",
                    G_CALLBACK(+[](GstElement*, GstPad* pad, Impl* self) { self->link(pad); }),
                    this);
-  // Planes whose first one is gray; colours of one layout.
-  const Caps formats(wants_colour_ ? "video/x-raw,format=I420"
-                                   : "video/x-raw,format={I420,NV12,Y42B,Y444,GRAY8}");
+  const Caps formats(gst_formats(wants_colour_));
   g_object_set(sink_, "caps", formats.caps, "sync", FALSE, "drop", TRUE, "max-buffers", 1,
                "wait-on-eos", FALSE, nullptr);
 }
@@ -278,21 +241,15 @@ std::optional<DecodedPicture> RtspStream::Impl::picture_of(GstSample* sample) {
     if (!rtp) return std::nullopt;
     picture.rtp = *rtp;
   }
-  GstVideoInfo info;
-  GstVideoFrame frame;
-  if (gst_video_info_from_caps(&info, gst_sample_get_caps(sample)) == FALSE ||
-      gst_video_frame_map(&frame, &info, buffer, GST_MAP_READ) == FALSE)
-    return std::nullopt;
-  const int rows = GST_VIDEO_FRAME_HEIGHT(&frame), columns = GST_VIDEO_FRAME_WIDTH(&frame);
-  picture.gray = plane(frame, 0, rows, columns).clone();
-  if (wants_colour_ && rows % 2 == 0 && columns % 2 == 0)
-    picture.bgr = bgr_of(frame, rows, columns);
-  gst_video_frame_unmap(&frame);
+  auto decoded = gst_picture(sample, wants_colour_);
+  if (!decoded) return std::nullopt;
+  picture.gray = std::move(decoded->gray);
+  picture.bgr = std::move(decoded->bgr);
   return picture;
 }
 
 RtspStream::RtspStream(const RtspConfig& config, const std::string& password) {
-  start_library();
+  start_gstreamer();
   impl_ = std::make_unique<Impl>(config, password);
 }
 RtspStream::~RtspStream() = default;

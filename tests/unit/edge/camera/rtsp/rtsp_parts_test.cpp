@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "edge/camera/rtsp/picture_change.h"
-#include "edge/camera/rtsp/retry_pause.h"
+#include "edge/camera/picture_change.h"
+#include "edge/camera/retry_pause.h"
 #include "edge/camera/rtsp/rtp_pictures.h"
 #include "edge/camera/rtsp/rtsp_config.h"
 #include "tests/unit/error_text.h"

@@ -1,4 +1,4 @@
-#include "edge/camera/rtsp/picture_change.h"
+#include "edge/camera/picture_change.h"
 
 #include <boost/container_hash/hash.hpp>
 #include <functional>
