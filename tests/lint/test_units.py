@@ -109,7 +109,11 @@ def test_the_clock_can_be_asked_by_the_station():
 
 def test_the_kernel_knows_the_device_classes_before_the_station_starts():
     """A class of a module that is not loaded yet is ignored without a word."""
-    by_module = {"char-ttyUSB": "usbserial", "char-ttyACM": "cdc_acm"}
+    by_module = {
+        "char-ttyUSB": "usbserial",
+        "char-ttyACM": "cdc_acm",
+        "char-video4linux": "videodev",
+    }
     always_there = {"char-ttyS", "char-gpiochip"}
     text = (FOLDER / "units" / "ols-station@.service").read_text()
     loaded = (FOLDER / "modules-load.d" / "ols.conf").read_text().split()

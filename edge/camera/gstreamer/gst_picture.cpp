@@ -2,7 +2,6 @@
 
 #include <gst/video/video.h>
 
-#include <mutex>
 #include <opencv2/imgproc.hpp>
 
 namespace ols::camera {
@@ -31,11 +30,12 @@ cv::Mat bgr_of(const GstVideoFrame& frame, int rows, int columns) {
 }  // namespace
 
 void start_gstreamer() {
-  static std::once_flag once;
-  std::call_once(once, [] {
+  static const bool kStarted = [] {
     gst_registry_fork_set_enabled(FALSE);  // the station starts no other program
     gst_init(nullptr, nullptr);
-  });
+    return true;
+  }();
+  static_cast<void>(kStarted);
 }
 
 const char* gst_formats(bool with_colour) {
