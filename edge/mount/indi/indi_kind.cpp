@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "edge/mount/indi/indi_mount.h"
+#include "edge/mount/indi/indi_session.h"
 
 namespace ols::indi {
 
@@ -21,6 +21,8 @@ std::string IndiKind::words() const {
   return indi.device + " of the INDI server at " + indi.host + ":" + std::to_string(indi.port);
 }
 
-std::unique_ptr<mount::Mount> IndiKind::open() const { return std::make_unique<IndiMount>(indi); }
+std::unique_ptr<mount::Mount> IndiKind::open() const {
+  return std::make_unique<mount::DrivenMount>(indi.drive, std::make_unique<IndiSession>(indi));
+}
 
 }  // namespace ols::indi

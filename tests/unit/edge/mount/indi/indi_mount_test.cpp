@@ -1,6 +1,4 @@
 // The mount against INDI's own telescope simulator.
-#include "edge/mount/indi/indi_mount.h"
-
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <spawn.h>
@@ -13,6 +11,7 @@
 
 #include "base/process/clocks.h"
 #include "base/process/command_output.h"
+#include "edge/mount/indi/indi_kind.h"
 #include "edge/mount/indi/indi_link.h"
 #include "geometry/angles.h"
 #include "tests/unit/eventually.h"
@@ -65,12 +64,20 @@ IndiConfig config_of(int port) {
   return config;
 }
 
-bool is_trusted(const IndiMount& mount) { return mount.reference() == mount::Reference::kTrusted; }
+std::unique_ptr<mount::Mount> mount_of(const IndiConfig& config) {
+  IndiKind kind;
+  kind.indi = config;
+  return kind.open();
+}
+
+bool is_trusted(const mount::Mount& mount) {
+  return mount.reference() == mount::Reference::kTrusted;
+}
 
 // Keeps the newest sample of a mount.
 struct Watched {
-  explicit Watched(IndiMount& watched) : mount(watched) {}
-  IndiMount& mount;
+  explicit Watched(mount::Mount& watched) : mount(watched) {}
+  mount::Mount& mount;
   std::optional<mount::AngleSample> newest;
 
   const std::optional<mount::AngleSample>& look() {
@@ -120,7 +127,8 @@ struct Watched {
 
 TEST(IndiMount, GoesFollowsAndHalts) {
   const Server server(7731);
-  IndiMount mount(config_of(7731));
+  const auto mount_owner = mount_of(config_of(7731));
+  mount::Mount& mount = *mount_owner;
   Watched watched(mount);
   ASSERT_TRUE(eventually([&] { return is_trusted(mount); }));
   // The simulator begins at the pole, six hours east of the meridian.
@@ -148,7 +156,8 @@ TEST(IndiMount, GoesFollowsAndHalts) {
 TEST(IndiMount, StopsWhatItFindsInMotion) {
   const Server server(7734);
   {
-    IndiMount connects(config_of(7734));
+    const auto connects_owner = mount_of(config_of(7734));
+    mount::Mount& connects = *connects_owner;
     ASSERT_TRUE(eventually([&] { return is_trusted(connects); }));
   }
   {
@@ -159,7 +168,8 @@ TEST(IndiMount, StopsWhatItFindsInMotion) {
     const auto dec_rad = [&] { return link.heard().position.value_or(Equatorial{}).dec_rad; };
     ASSERT_TRUE(eventually([&] { return dec_rad() > 0.0 && dec_rad() < radians(89.5); }));
   }
-  IndiMount mount(config_of(7734));
+  const auto mount_owner = mount_of(config_of(7734));
+  mount::Mount& mount = *mount_owner;
   Watched watched(mount);
   ASSERT_TRUE(eventually([&] { return is_trusted(mount) && watched.look(); }));
   EXPECT_TRUE(eventually([&] { return watched.speed_deg_s(0.3) < 0.01; }, 3.0));
@@ -167,7 +177,8 @@ TEST(IndiMount, StopsWhatItFindsInMotion) {
 
 TEST(IndiMount, LeavesItAloneWhereOthersHavePutIt) {
   const Server server(7735);
-  IndiMount mount(config_of(7735));
+  const auto mount_owner = mount_of(config_of(7735));
+  mount::Mount& mount = *mount_owner;
   ASSERT_TRUE(eventually([&] { return is_trusted(mount); }));
   const auto set = [](const std::string& what) {
     ASSERT_TRUE(command_output({"indi_setprop", "-p", "7735", kTelescope + ("." + what)}, 10.0));
@@ -180,16 +191,16 @@ TEST(IndiMount, LeavesItAloneWhereOthersHavePutIt) {
       });
     });
   };
-  // Its park position is on the other side.
+  // The simulator's way to its park position is on the other side.
   set("TELESCOPE_PARK.PARK=On");
   EXPECT_TRUE(says("parked"));
-  set("TELESCOPE_PARK.UNPARK=On");
   EXPECT_TRUE(says("other side of its pier"));
 }
 
 TEST(IndiMount, ComesBackWhenItsServerDoes) {
   Server server(7732);
-  IndiMount mount(config_of(7732));
+  const auto mount_owner = mount_of(config_of(7732));
+  mount::Mount& mount = *mount_owner;
   const auto trusted = [&] { return is_trusted(mount); };
   ASSERT_TRUE(eventually(trusted));
   server.end();
@@ -203,7 +214,8 @@ TEST(IndiMount, SaysWhatIsMissing) {
   const Server server(7733);
   IndiConfig config = config_of(7733);
   config.device = "No Such Telescope";
-  IndiMount mount(config);
+  const auto mount_owner = mount_of(config);
+  mount::Mount& mount = *mount_owner;
   EXPECT_TRUE(eventually([&] {
     const auto report = mount.report();
     return report.last_error.find("no such device") != std::string::npos;

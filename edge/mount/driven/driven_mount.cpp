@@ -1,0 +1,109 @@
+#include "edge/mount/driven/driven_mount.h"
+
+#include <chrono>
+#include <utility>
+
+#include "base/process/clocks.h"
+#include "conditions/alarms.h"
+#include "geometry/angles.h"
+
+namespace ols::mount {
+namespace {
+
+constexpr double kFirstPause_s = 0.2, kMaxPause_s = 5.0;
+constexpr double kNoAngles_s = 1.0;  // without a position: an alarm
+
+}  // namespace
+
+void SharedDrive::pause(double seconds, const std::stop_token& stop) {
+  std::unique_lock lock(mutex);
+  wake.wait_for(lock, stop, std::chrono::duration<double>(seconds), [] { return false; });
+}
+
+DrivenMount::DrivenMount(const onvif::DriveConfig& config, std::unique_ptr<MountSession> session)
+    : shared_(config),
+      session_(std::move(session)),
+      thread_({"ptu", "is being connected", kFirstPause_s, kMaxPause_s, alarm::ptu_no_connection}) {
+  thread_.start([this](const std::stop_token& stop) {
+    const struct Lost {
+      SharedDrive& shared;
+      ~Lost() {
+        const std::lock_guard lock(shared.mutex);
+        shared.drive.lost();
+      }
+    } lost{shared_};
+    session_->run(shared_, thread_, stop);
+  });
+}
+
+DrivenMount::~DrivenMount() = default;
+
+bool DrivenMount::ready() const {
+  return shared_.usable && shared_.drive.has_position() && thread_.link().is_open;
+}
+
+void DrivenMount::set_goal(const std::optional<Goal>& goal) {
+  const std::lock_guard lock(shared_.mutex);
+  shared_.drive.set_goal(ready() ? goal : std::nullopt);
+}
+
+std::vector<AngleSample> DrivenMount::take_samples() {
+  const std::lock_guard lock(shared_.mutex);
+  auto samples = shared_.drive.take_samples();
+  if (!ready()) samples.clear();
+  return samples;
+}
+
+std::optional<Limits> DrivenMount::limits() const {
+  const std::lock_guard lock(shared_.mutex);
+  return ready() ? std::optional(shared_.drive.limits()) : std::nullopt;
+}
+
+void DrivenMount::emergency_halt() {
+  const std::lock_guard lock(shared_.mutex);
+  shared_.drive.emergency_halt();
+  shared_.wake.notify_all();
+}
+
+void DrivenMount::clear_emergency() {
+  const std::lock_guard lock(shared_.mutex);
+  shared_.drive.clear_emergency();
+}
+
+Reference DrivenMount::reference() const {
+  const std::lock_guard lock(shared_.mutex);
+  return ready() ? Reference::kTrusted : Reference::kUnknown;
+}
+
+device::DeviceReport DrivenMount::report() const {
+  device::DeviceReport report = thread_.report();
+  const double now_s = clock_monotonic_s();
+  const std::lock_guard lock(shared_.mutex);
+  const onvif::Drive& drive = shared_.drive;
+  report.last_good_s = drive.last_position_s();
+  report.errors += shared_.errors;
+  if (!shared_.last_error.empty()) report.last_error = shared_.last_error;
+  for (Alarm& alarm : drive.alarms(now_s)) report.alarms.push_back(std::move(alarm));
+  if (report.state == device::DeviceState::kOk) {
+    report.text = shared_.words;
+    if (now_s - report.last_good_s.value_or(0.0) > kNoAngles_s)
+      report.alarms.push_back(alarm::ptu_no_angles());
+    for (const Alarm& alarm : shared_.alarms) report.alarms.push_back(alarm);
+    if (!ready()) report.state = device::DeviceState::kFault;
+  }
+  report.readings = {{"ptu_round_trip_s", drive.intake().round_trip_s()},
+                     {"ptu_position_sd_deg", degrees(drive.intake().sd_rad())}};
+  if (drive.intake().interval_s() > 0.0)
+    report.readings["ptu_interval_s"] = drive.intake().interval_s();
+  const onvif::Drive::Counters& seen = drive.counters();
+  report.counters = {{"ptu_requests", shared_.orders},
+                     {"ptu_errors", shared_.errors},
+                     {"ptu_emergencies", seen.emergencies},
+                     {"ptu_stops_repeated", seen.stops_repeated},
+                     {"ptu_unordered_motions", seen.unordered_motions},
+                     {"ptu_orders_ignored", seen.orders_ignored},
+                     {"ptu_port_failures", thread_.link().failures}};
+  return report;
+}
+
+}  // namespace ols::mount

@@ -1,0 +1,84 @@
+// A mount that is ordered velocities or places and reports its positions late (onvif::Drive decides
+// what to order next): the part that is the same for every kind. A kind's session connects, sends
+// orders and takes positions.
+#pragma once
+
+#include <condition_variable>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "conditions/alarm.h"
+#include "edge/device/device_thread.h"
+#include "edge/mount/mount.h"
+#include "edge/mount/onvif/drive.h"
+
+namespace ols::mount {
+
+// What a session and the callers of a mount share. The mutex guards all of it.
+struct SharedDrive {
+  std::mutex mutex;
+  std::condition_variable_any wake;  // notified in an emergency
+  onvif::Drive drive;
+  bool usable = true;         // false: its angles are not, whatever it reports
+  std::string words;          // what it is and can do
+  std::string last_error;     // empty: none
+  std::vector<Alarm> alarms;  // of this kind
+  std::uint64_t orders = 0, errors = 0;
+
+  explicit SharedDrive(const onvif::DriveConfig& config) : drive(config) {}
+  // For `seconds`, or until an emergency or the end.
+  void pause(double seconds, const std::stop_token& stop);
+};
+
+class MountSession {
+ public:
+  MountSession() = default;
+  virtual ~MountSession() = default;
+  MountSession(const MountSession&) = delete;
+  MountSession& operator=(const MountSession&) = delete;
+
+  // Connects, calls opened(), calls Drive::connected(), and serves until a stop is requested; then
+  // it stops the mount. Throws std::exception if the connection fails; it is called again later.
+  virtual void run(SharedDrive& shared, device::DeviceThread& thread,
+                   const std::stop_token& stop) = 0;
+};
+
+class DrivenMount : public Mount {
+ public:
+  // Starts to connect and returns at once.
+  DrivenMount(const onvif::DriveConfig& config, std::unique_ptr<MountSession> session);
+  ~DrivenMount() override;  // waits until the session has stopped the mount
+
+  void set_goal(const std::optional<Goal>& goal) override;
+  std::vector<AngleSample> take_samples() override;
+  std::optional<Limits> limits() const override;
+
+  void emergency_halt() override;
+  void clear_emergency() override;
+
+  // It has no reference to find.
+  Reference reference() const override;
+  void home() override {}
+  void stop_homing() override {}
+  void allow_rehoming(bool /*allowed*/) override {}
+  std::uint64_t homings() const override { return 0; }
+  void reference_ok() override {}
+  void restore_doubt(const std::optional<ReferenceDoubt>& /*doubt*/) override {}
+  std::optional<ReferenceDoubt> doubt_to_persist() const override { return std::nullopt; }
+
+  device::DeviceReport report() const override;
+
+ private:
+  bool ready() const;  // the caller holds the mutex
+
+  mutable SharedDrive shared_;
+  std::unique_ptr<MountSession> session_;
+  device::DeviceThread thread_;  // last: it uses the others
+};
+
+}  // namespace ols::mount

@@ -1,0 +1,39 @@
+// A connection to a telescope mount behind an INDI server. Its positions are believed as they are
+// reported, as long as it stays on the side of its pier.
+//
+// An INDI telescope keeps its last track rate when its client is gone: a station that is killed
+// stops it when it starts again.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "edge/mount/driven/driven_mount.h"
+#include "edge/mount/indi/indi_config.h"
+#include "edge/mount/indi/indi_link.h"
+
+namespace ols::indi {
+
+class IndiSession : public mount::MountSession {
+ public:
+  explicit IndiSession(IndiConfig config) : config_(std::move(config)) {}
+  void run(mount::SharedDrive& shared, device::DeviceThread& thread,
+           const std::stop_token& stop) override;
+
+ private:
+  Heard connect(IndiLink& link, mount::SharedDrive& shared, const std::stop_token& stop);
+  void serve(IndiLink& link, mount::SharedDrive& shared, device::DeviceThread& thread,
+             const std::stop_token& stop);
+  void judge(const Heard& now, mount::SharedDrive& shared);
+  void carry_out(IndiLink& link, const onvif::Order& order, double now_s);
+  PanTilt angles_at(double monotonic_s) const;
+
+  const IndiConfig config_;
+  std::string pier_side_;  // at the first connection
+  Heard heard_;
+  double taken_s_ = 0.0;          // the newest position that the drive has
+  std::optional<double> goes_s_;  // since when it slews to an ordered place
+};
+
+}  // namespace ols::indi
