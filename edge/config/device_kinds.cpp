@@ -6,6 +6,7 @@
 #include "edge/mount/fixed/fixed_kind.h"
 #include "edge/mount/indi/indi_kind.h"
 #include "edge/mount/onvif/onvif_kind.h"
+#include "edge/mount/serial/serial_kinds.h"
 #include "edge/ptu/ptu_kind.h"
 #include "edge/sensors/dpg2/dpg2_kind.h"
 #include "edge/sensors/gpsd/gpsd_kind.h"
@@ -32,7 +33,11 @@ const std::vector<device::KindRow<mount::MountKind>>& mount_kinds() {
       {"onvif", "An IP camera with pan and tilt that is steered by ONVIF.",
        make_kind<onvif::OnvifKind>},
       {"indi", "A telescope mount behind an INDI server, equatorial or altazimuth.",
-       make_kind<indi::IndiKind>}};
+       make_kind<indi::IndiKind>},
+      {"pelco-d", "A pan-tilt head on a serial line that speaks Pelco-D and reports positions.",
+       make_kind<serial_mount::PelcoDKind>},
+      {"visca", "A camera with pan and tilt on a serial line that speaks Sony's VISCA.",
+       make_kind<serial_mount::ViscaKind>}};
   return kinds;
 }
 

@@ -1,0 +1,44 @@
+// The language of a pan-tilt head on a serial line. Pure.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "geometry/kinematic_chain.h"
+
+namespace ols::serial_mount {
+
+class LineProtocol {
+ public:
+  LineProtocol() = default;
+  virtual ~LineProtocol() = default;
+  LineProtocol(const LineProtocol&) = delete;
+  LineProtocol& operator=(const LineProtocol&) = delete;
+
+  // For the position; one is asked after the other has been answered.
+  virtual std::vector<std::string> questions() const = 0;
+  virtual std::string stop() const = 0;
+  // Shares of the greatest speeds, -1..1; positive: left, up.
+  virtual std::string velocity(double pan, double tilt) const = 0;
+  // In the units of its positions.
+  virtual std::string place(double pan, double tilt) const = 0;
+
+  // Bytes as they come; what is no message is counted.
+  virtual void receive(std::string_view bytes) = 0;
+  // In the head's units; empty until an answer has come since restart().
+  struct Position {
+    std::optional<double> pan, tilt;
+  };
+  const Position& position() const { return position_; }
+  std::uint64_t garbled() const { return garbled_; }
+  void restart() { position_ = {}; }
+
+ protected:
+  Position position_;
+  std::uint64_t garbled_ = 0;
+};
+
+}  // namespace ols::serial_mount

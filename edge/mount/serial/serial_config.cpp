@@ -1,0 +1,87 @@
+#include "edge/mount/serial/serial_config.h"
+
+#include <utility>
+
+#include "edge/config/config_units.h"
+
+namespace ols::serial_mount {
+
+using config::number;
+using station::in_degrees;
+
+// One full turn, because a head on a serial line says nothing of its travel.
+SerialConfig::SerialConfig() {
+  drive.servo.gain_hz = 1.0;
+  drive.positions = {.delay_s = 0.05, .delay_sd_s = 0.05, .sd_rad = radians(0.1)};
+}
+
+namespace {
+
+std::vector<config::Row> axis_rows(onvif::AxisScale& scale, const std::string& axis,
+                                   Language language) {
+  auto gain = number(axis + "_gain_deg", scale.per_unit_rad, {-10.0, 10.0}, in_degrees(),
+                     language == Language::kPelcoD
+                         ? "1 or -1: degrees of " + axis + " per degree that the head reports."
+                         : "Degrees of " + axis + " per count of the head's position.");
+  return {std::move(gain).required(),
+          number(axis + "_zero_deg", scale.zero_rad, {-360.0, 360.0}, in_degrees(),
+                 "Angle of " + axis + " at the head's position 0."),
+          number(axis + "_speed_deg_s", scale.speed_per_unit_rad, {0.1, 720.0}, in_degrees("deg/s"),
+                 "Speed of " + axis + " at the head's greatest speed.")
+              .required()};
+}
+
+std::vector<config::Row> line_rows(SerialConfig& c, Language language) {
+  std::vector<config::Row> rows{
+      config::text("device", c.device, "Serial device: a path in /dev/serial/by-id stays the same.")
+          .required(),
+      config::one_of("baud", c.baud, {2400, 4800, 9600, 19200, 38400}, "", "Rate of the line.")};
+  if (language == Language::kPelcoD)
+    rows.push_back(config::integer("address", c.address, 1, 255, "", "Of the head on the line."));
+  rows.push_back(number("timeout_s", c.timeout_s, {0.05, 5.0}, "s",
+                        "A question without an answer for so long is asked again."));
+  return rows;
+}
+
+std::vector<config::Row> motion_rows(SerialConfig& c) {
+  onvif::DriveConfig& d = c.drive;
+  mount::Limits& l = d.limits;
+  return {
+      number("pan_min_deg", l.pan_min_rad, {-360.0, 360.0}, in_degrees(), "The head's travel."),
+      number("pan_max_deg", l.pan_max_rad, {-360.0, 360.0}, in_degrees(), "The head's travel."),
+      number("tilt_min_deg", l.tilt_min_rad, {-180.0, 180.0}, in_degrees(), "The head's travel."),
+      number("tilt_max_deg", l.tilt_max_rad, {-180.0, 180.0}, in_degrees(), "The head's travel."),
+      number("gain_hz", d.servo.gain_hz, {0.1, 5.0}, "1/s",
+             "Proportional gain on the angle error; a head that answers late needs a small one."),
+      number("max_speed_deg_s", d.servo.max_speed_rad_s, {0.1, 360.0}, in_degrees("deg/s"),
+             "Maximum speed of each axis."),
+      number("poll_interval_s", d.poll_s, {0.02, 2.0}, "s", "Interval of asking for the position."),
+      number("delay_s", d.positions.delay_s, {0.0, 5.0}, "s",
+             "Age of a position when the head answers."),
+      number("delay_sd_s", d.positions.delay_sd_s, {1e-3, 5.0}, "s", "1-sigma of delay_s."),
+      number("position_sd_deg", d.positions.sd_rad, {1e-4, 10.0}, in_degrees(),
+             "1-sigma of a reported position.")};
+}
+
+void check(ConfigTable& table, const SerialConfig& c) {
+  const onvif::DriveConfig& d = c.drive;
+  if (d.limits.pan_min_rad >= d.limits.pan_max_rad)
+    throw table.error("pan_max_deg", "must be greater than pan_min_deg");
+  if (d.limits.tilt_min_rad >= d.limits.tilt_max_rad)
+    throw table.error("tilt_max_deg", "must be greater than tilt_min_deg");
+  for (const auto& [key, value] :
+       {std::pair{"pan_gain_deg", d.pan.per_unit_rad}, {"tilt_gain_deg", d.tilt.per_unit_rad}})
+    if (value == 0.0) throw table.error(key, "must not be 0");
+}
+
+}  // namespace
+
+config::Section serial_section(SerialConfig& c, Language language) {
+  std::vector<config::Row> rows = line_rows(c, language);
+  for (auto more : {axis_rows(c.drive.pan, "pan", language),
+                    axis_rows(c.drive.tilt, "tilt", language), motion_rows(c)})
+    for (auto& row : more) rows.push_back(std::move(row));
+  return {"mount", "", rows, {}, [&c](ConfigTable& table) { check(table, c); }};
+}
+
+}  // namespace ols::serial_mount

@@ -1,0 +1,24 @@
+// The configuration of a pan-tilt head on a serial line. Pure.
+#pragma once
+
+#include <string>
+
+#include "base/config/config_section.h"
+#include "edge/mount/onvif/drive.h"
+
+namespace ols::serial_mount {
+
+struct SerialConfig {
+  SerialConfig();
+
+  std::string device;
+  int baud = 9600;
+  int address = 1;         // Pelco-D
+  double timeout_s = 0.3;  // of an answer
+  onvif::DriveConfig drive;
+};
+
+enum class Language { kPelcoD, kVisca };
+config::Section serial_section(SerialConfig& config, Language language);  // of [mount]
+
+}  // namespace ols::serial_mount

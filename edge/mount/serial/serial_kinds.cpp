@@ -1,0 +1,38 @@
+#include "edge/mount/serial/serial_kinds.h"
+
+#include <algorithm>
+
+#include "edge/mount/serial/pelco_d.h"
+#include "edge/mount/serial/serial_session.h"
+#include "edge/mount/serial/visca_head.h"
+
+namespace ols::serial_mount {
+
+template <Language kLanguage>
+mount::Traits SerialKind<kLanguage>::traits() const {
+  const double poll_s = serial.drive.poll_s;
+  mount::Traits traits;
+  traits.may_home = false;
+  traits.limits = serial.drive.limits;
+  traits.angles.step_rad = mount::kVirtualCount_rad;
+  traits.angles.max_gap_s = std::max(1.0, 5.0 * poll_s);
+  traits.angles.max_extrapolation_s = std::max(0.4, 2.0 * poll_s + serial.drive.positions.delay_s);
+  return traits;
+}
+
+template <Language kLanguage>
+std::unique_ptr<mount::Mount> SerialKind<kLanguage>::open() const {
+  std::unique_ptr<LineProtocol> protocol;
+  if (kLanguage == Language::kPelcoD) {
+    protocol = std::make_unique<PelcoD>(serial.address);
+  } else {
+    protocol = std::make_unique<ViscaHead>();
+  }
+  return std::make_unique<mount::DrivenMount>(
+      serial.drive, std::make_unique<SerialSession>(serial, std::move(protocol)));
+}
+
+template class SerialKind<Language::kPelcoD>;
+template class SerialKind<Language::kVisca>;
+
+}  // namespace ols::serial_mount

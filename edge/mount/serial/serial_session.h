@@ -1,0 +1,33 @@
+// A connection to a pan-tilt head on a serial line. The head keeps its last velocity when its line
+// is dead: a station that is killed stops it when it starts again.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <utility>
+
+#include "edge/mount/driven/driven_mount.h"
+#include "edge/mount/serial/line_protocol.h"
+#include "edge/mount/serial/serial_config.h"
+#include "edge/serial/serial_port.h"
+
+namespace ols::serial_mount {
+
+class SerialSession : public mount::MountSession {
+ public:
+  SerialSession(SerialConfig config, std::unique_ptr<LineProtocol> protocol)
+      : config_(std::move(config)), protocol_(std::move(protocol)) {}
+  void run(mount::SharedDrive& shared, device::DeviceThread& thread,
+           const std::stop_token& stop) override;
+
+ private:
+  bool ask(serial::SerialPort& port);
+  void carry_out(serial::SerialPort& port, const onvif::Order& order);
+  onvif::PtzStatus status() const;
+
+  const SerialConfig config_;
+  const std::unique_ptr<LineProtocol> protocol_;
+  std::uint64_t unanswered_ = 0;
+};
+
+}  // namespace ols::serial_mount

@@ -1,0 +1,26 @@
+// Pan and tilt by Sony's VISCA (edge/lens/visca.h has its packets): 06 01 drives, 06 02 goes to a
+// place, 09 06 12 asks where it is. Positions are counts of the camera, signed; positive ones are
+// to the right and up. Source: Sony, EVI-D100 Command List.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "edge/lens/visca.h"
+#include "edge/mount/serial/line_protocol.h"
+
+namespace ols::serial_mount {
+
+class ViscaHead : public LineProtocol {
+ public:
+  std::vector<std::string> questions() const override;
+  std::string stop() const override;
+  std::string velocity(double pan, double tilt) const override;
+  std::string place(double pan, double tilt) const override;
+  void receive(std::string_view bytes) override;
+
+ private:
+  lens::visca::Packets packets_;
+};
+
+}  // namespace ols::serial_mount
