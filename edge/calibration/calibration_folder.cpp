@@ -46,8 +46,8 @@ config::Section setup_section(Setup& s) {
                     "Height above the ellipsoid.")
                  .required(),
              angle("heading_deg", s.heading_rad, 360.0, "Direction of zero pan."),
-             angle("tilt_x_deg", s.tilt_x_rad, 45.0, "Inclination about X."),
-             angle("tilt_y_deg", s.tilt_y_rad, 45.0, "Inclination about Y.")}},
+             angle("tilt_x_deg", s.tilt_x_rad, 90.0, "Inclination about X."),
+             angle("tilt_y_deg", s.tilt_y_rad, 90.0, "Inclination about Y.")}},
            {"air",
             "The air at the observations.",
             {number("refraction_k", s.refraction_k, {-10.0, 10.0}, "",

@@ -22,6 +22,7 @@
 #include "sim/scenario/onvif_camera.h"
 #include "sim/sensors/gnss_line.h"
 #include "sim/sensors/inclinometer_line.h"
+#include "sim/telescope/telescope_server.h"
 #include "sim/world/exposed_unit.h"
 
 namespace ols::sim {
@@ -88,7 +89,9 @@ LiveSite::~LiveSite() = default;
 std::unique_ptr<PtuDevice> LiveSite::connect_ptu(std::size_t station, const std::string& link) {
   const StationScenario& scenario = world_.scenario().stations[station];
   if (scenario.fixed) return std::make_unique<FixedCamera>(*scenario.fixed);
-  if (scenario.onvif) return connect_onvif(station, std::filesystem::path(link).parent_path());
+  if (scenario.mount == MountModel::kOnvif)
+    return connect_onvif(station, std::filesystem::path(link).parent_path());
+  if (scenario.mount == MountModel::kIndi) return connect_telescope(station);
   const std::string& real_device = scenario.ptu_device;
   const std::uint64_t seed = derived_seed(world_.seed(), 4000 + station);
   if (real_device.empty()) return std::make_unique<PtuLine>(world_.ptu_unit_config(), seed, link);
@@ -106,6 +109,14 @@ std::unique_ptr<PtuDevice> LiveSite::connect_onvif(std::size_t station, const st
   std::ofstream(file) << config.password << "\n";
   std::filesystem::permissions(file, std::filesystem::perms(0600));
   return std::make_unique<OnvifServer>(config, derived_seed(world_.seed(), 7000 + station));
+}
+
+std::unique_ptr<PtuDevice> LiveSite::connect_telescope(std::size_t station) {
+  const Scenario& scenario = world_.scenario();
+  TelescopeConfig config;
+  config.address = scenario.stations[station].camera_address;
+  config.observer = {scenario.origin.latitude_rad, scenario.origin.longitude_rad};
+  return std::make_unique<TelescopeServer>(config, derived_seed(world_.seed(), 7500 + station));
 }
 
 void LiveSite::connect_camera(Device& device) {

@@ -254,23 +254,27 @@ void check_word(const std::string& id) {
 
 std::vector<Row> station_rows(StationScenario& station) {
   ChainParameters& c = station.chain;
-  return {config::text("id", station.id, "Its name.", check_word).required(),
-          config::numbers("position_enu_m", {station.p_enu.data(), 3}, {-kFar_m, kFar_m}, "m",
-                          "GROUND in the site's frame: east, north, up."),
-          angle("heading_deg", c.heading_rad, {-360, 360},
-                "Direction of the PTU's zero pan, clockwise from true north."),
-          config::word("kind", station.overview, {{"tracking", false}, {"overview", true}},
-                       "tracking, or overview: driven by a person."),
-          config::text("camera_address", station.camera_address, "IPv4 address of its camera.")
-              .required(),
-          config::word("camera", station.rtsp, {{"gige", false}, {"rtsp", true}},
-                       "GigE Vision, or video by RTSP (live only)."),
-          config::word("mount", station.onvif, {{"ptu", false}, {"onvif", true}},
-                       "A pan-tilt unit, or that of an ONVIF PTZ camera (live only)."),
-          config::text("ptu_line", station.ptu_line, "Name of the PTU's serial line.")
-              .default_is("ID.ptu"),
-          config::text("ptu_device", station.ptu_device,
-                       "Serial device of a real PTU in place of the simulated one; empty: none.")};
+  return {
+      config::text("id", station.id, "Its name.", check_word).required(),
+      config::numbers("position_enu_m", {station.p_enu.data(), 3}, {-kFar_m, kFar_m}, "m",
+                      "GROUND in the site's frame: east, north, up."),
+      angle("heading_deg", c.heading_rad, {-360, 360},
+            "Direction of the PTU's zero pan, clockwise from true north."),
+      config::word("kind", station.overview, {{"tracking", false}, {"overview", true}},
+                   "tracking, or overview: driven by a person."),
+      config::text("camera_address", station.camera_address, "IPv4 address of its camera.")
+          .required(),
+      config::word("camera", station.rtsp, {{"gige", false}, {"rtsp", true}},
+                   "GigE Vision, or video by RTSP (live only)."),
+      config::word(
+          "mount", station.mount,
+          {{"ptu", MountModel::kPtu}, {"onvif", MountModel::kOnvif}, {"indi", MountModel::kIndi}},
+          "A pan-tilt unit, that of an ONVIF PTZ camera, or an equatorial telescope "
+          "mount behind an INDI server (both live only)."),
+      config::text("ptu_line", station.ptu_line, "Name of the PTU's serial line.")
+          .default_is("ID.ptu"),
+      config::text("ptu_device", station.ptu_device,
+                   "Serial device of a real PTU in place of the simulated one; empty: none.")};
 }
 
 Section station_section(std::vector<StationScenario>& stations) {
@@ -284,7 +288,7 @@ Section station_section(std::vector<StationScenario>& stations) {
     };
     auto keys = std::make_shared<Keys>();
     auto rows = station_rows(keys->station);
-    rows.push_back(config::numbers("tilt_xy_deg", keys->tilt_xy_rad, {-10, 10},
+    rows.push_back(config::numbers("tilt_xy_deg", keys->tilt_xy_rad, {-90, 90},
                                    station::in_degrees(), "Inclination about X and Y."));
     rows.push_back(config::numbers("mount_zxy_deg", keys->mount_zxy_rad, {-45, 45},
                                    station::in_degrees(),
@@ -310,7 +314,8 @@ Section station_section(std::vector<StationScenario>& stations) {
                      c.mount_x_rad = keys->mount_zxy_rad[1];
                      c.mount_y_rad = keys->mount_zxy_rad[2];
                      if (table.has("fixed_pan_tilt_deg")) {
-                       if (s.onvif) throw table.error("mount", "of a camera that stands still");
+                       if (s.mount != MountModel::kPtu)
+                         throw table.error("mount", "of a camera that stands still");
                        s.fixed = PanTilt{keys->fixed_rad[0], keys->fixed_rad[1]};
                      }
                      if (table.has("watch_deg")) {

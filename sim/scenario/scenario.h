@@ -78,6 +78,10 @@ struct Errors {
   } frames;
 };
 
+// What turns a station's camera: a pan-tilt unit, an ONVIF PTZ camera, or a telescope mount behind
+// an INDI server, aligned with the pole by the station's heading and tilt (both live only).
+enum class MountModel { kPtu, kOnvif, kIndi };
+
 struct StationScenario {
   std::string id;
   Eigen::Vector3d p_enu =
@@ -92,7 +96,7 @@ struct StationScenario {
   // Where it looks while nobody wants its unit: the middle, and the field's width and height.
   std::optional<AzimuthElevation> watch;
   Eigen::Vector2d watch_size_rad = Eigen::Vector2d::Zero();
-  bool onvif = false;      // its mount is that of an ONVIF PTZ camera, no PTU; live only
+  MountModel mount = MountModel::kPtu;
   std::string ptu_device;  // of a real unit that replaces the simulated one; empty: none
 };
 

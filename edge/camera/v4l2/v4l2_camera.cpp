@@ -84,6 +84,8 @@ class OpenCamera {
     g_object_set(source.get(), "device", config.device.c_str(), nullptr);
     if (config.controls.empty()) return;
     GstStructure* controls = gst_structure_from_string(("c," + config.controls).c_str(), nullptr);
+    if (controls == nullptr)
+      throw CameraUnfit(alarm::camera_not_video("controls = " + config.controls));
     g_object_set(source.get(), "extra-controls", controls, nullptr);
     gst_structure_free(controls);
   }
@@ -147,6 +149,8 @@ void V4l2Camera::Impl::run() {
       handover_.note_failure(CameraState::kFault, error.alarm);
     } catch (const CameraAbsent& error) {
       handover_.note_failure(CameraState::kAbsent, error.alarm);
+    } catch (const std::exception& error) {
+      handover_.note_failure(CameraState::kAbsent, {error.what(), {}, {}});
     }
     handover_.wait(pause_.after_stream(last_s_.value_or(0.0) - first_s_.value_or(0.0)));
   }
@@ -154,15 +158,19 @@ void V4l2Camera::Impl::run() {
 
 void V4l2Camera::Impl::serve() {
   statistics_ = {};
+  change_ = {};  // some begin with the same picture each time
   first_s_.reset();
   last_s_.reset();
   OpenCamera camera(config_);
-  double silent_s = 0.0;
+  double heard_s = clock_monotonic_s();
   while (!handover_.ended()) {
     auto stamped = camera.receive(kPoll_s, config_.keep_raw);
-    silent_s = stamped ? 0.0 : silent_s + kPoll_s;
-    if (stamped) take(std::move(*stamped));
-    if (silent_s > (first_s_ ? config_.no_frame_timeout_s : kFirstFrame_s))
+    if (stamped) {
+      take(std::move(*stamped));
+      heard_s = clock_monotonic_s();
+    }
+    const double patience_s = first_s_ ? config_.no_frame_timeout_s : kFirstFrame_s;
+    if (clock_monotonic_s() - heard_s > patience_s + 2.0 / config_.frame_rate_hz)
       throw CameraAbsent(alarm::camera_lost());
   }
 }

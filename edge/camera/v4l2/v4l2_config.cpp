@@ -10,7 +10,7 @@ namespace ols::camera {
 namespace {
 
 void check_controls(const std::string& text) {
-  static const std::regex kControls(R"(([a-z0-9_]+=-?[0-9]+(,[a-z0-9_]+=-?[0-9]+)*)?)");
+  static const std::regex kControls(R"(([a-z][a-z0-9_]*=-?[0-9]+(,[a-z][a-z0-9_]*=-?[0-9]+)*)?)");
   if (!std::regex_match(text, kControls))
     throw std::invalid_argument("must be NAME=NUMBER,NAME=NUMBER,... (v4l2-ctl -l lists them)");
 }

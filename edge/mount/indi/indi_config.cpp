@@ -1,5 +1,8 @@
 #include "edge/mount/indi/indi_config.h"
 
+#include <regex>
+#include <stdexcept>
+
 #include "edge/config/config_units.h"
 
 namespace ols::indi {
@@ -22,18 +25,33 @@ void check(ConfigTable& table, const IndiConfig& c) {
     throw table.error("pan_max_deg", "must be greater than pan_min_deg");
   if (limits.tilt_min_rad >= limits.tilt_max_rad)
     throw table.error("tilt_max_deg", "must be greater than tilt_min_deg");
+  if (limits.pan_max_rad - limits.pan_min_rad > 2.0 * kPi)
+    throw table.error("pan_max_deg", "the travel of pan is at most a full turn");
+  if (c.device.empty()) throw table.error("device", "must name the telescope");
+}
+
+// The library waits for a name for ever.
+void check_host(const std::string& host) {
+  static const std::regex kAddress(R"([0-9]{1,3}(\.[0-9]{1,3}){3})");
+  if (host != "localhost" && !std::regex_match(host, kAddress))
+    throw std::invalid_argument("must be localhost or an IPv4 address");
 }
 
 std::vector<config::Row> server_rows(IndiConfig& c) {
-  return {config::text("host", c.host, "Host of the INDI server."),
-          config::integer("port", c.port, 1, 65535, "", "Its port."),
-          config::text("device", c.device,
-                       "The telescope's name at the server; `indi_getprop` lists them.")
-              .required(),
-          config::word("axes", c.axes,
-                       {{"equatorial", Axes::kEquatorial}, {"altazimuth", Axes::kAltAzimuth}},
-                       "equatorial: pan is minus the hour angle, tilt is the declination; "
-                       "altazimuth: pan is minus the azimuth, tilt is the elevation.")};
+  return {
+      config::text("host", c.host, "The INDI server: localhost or an IPv4 address.", check_host),
+      config::integer("port", c.port, 1, 65535, "", "Its port."),
+      config::text("device", c.device,
+                   "The telescope's name at the server; `indi_getprop` lists them.")
+          .required(),
+      config::word("axes", c.axes,
+                   {{"equatorial", Axes::kEquatorial}, {"altazimuth", Axes::kAltAzimuth}},
+                   "equatorial: pan is minus the hour angle, tilt is the declination; "
+                   "altazimuth: pan is minus the azimuth, tilt is the elevation."),
+      config::word("pier_side", c.pier_side,
+                   {{"first", ""}, {"west", "PIER_WEST"}, {"east", "PIER_EAST"}},
+                   "The side of the pier that the calibration is for; first: where the "
+                   "telescope is when the station starts.")};
 }
 
 std::vector<config::Row> motion_rows(IndiConfig& c) {

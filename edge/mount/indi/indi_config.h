@@ -16,6 +16,7 @@ struct IndiConfig {
   int port = 7624;
   std::string device;  // as its driver names it: "Telescope Simulator"
   Axes axes = Axes::kEquatorial;
+  std::string pier_side;     // "PIER_WEST", "PIER_EAST"; empty: that of the first connection
   onvif::DriveConfig drive;  // positions in radians
 };
 

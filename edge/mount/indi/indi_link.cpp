@@ -8,18 +8,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <csignal>
 #include <initializer_list>
+#include <limits>
 #include <mutex>
 #include <string_view>
 #include <utility>
 
 #include "base/process/clocks.h"
+#include "base/text/plain_text.h"
 #include "geometry/angles.h"
 
 namespace ols::indi {
 namespace {
 
 constexpr double kHour_rad = kPi / 12.0;
+constexpr double kBegins_s = 1.0;  // until a telescope says that it tracks
 const double kArcSecond_rad = radians(1.0 / 3600.0);
 
 // NaN: no such element.
@@ -33,27 +37,35 @@ bool is_on(INDI::Property& property, const char* element) {
   return widget != nullptr && widget->getState() == ISS_ON;
 }
 
-// The larger of what either axis allows in its narrower direction.
+// What both axes allow in both directions.
 double fastest_in(INDI::Property& property) {
-  double fastest_arcsec_s = 0.0;
+  double fastest_arcsec_s = std::numeric_limits<double>::max();
   for (const auto& axis : *property.getNumber())
-    fastest_arcsec_s = std::max(fastest_arcsec_s, std::min(-axis.getMin(), axis.getMax()));
-  return fastest_arcsec_s * kArcSecond_rad;
+    fastest_arcsec_s = std::min({fastest_arcsec_s, -axis.getMin(), axis.getMax()});
+  return std::max(0.0, fastest_arcsec_s * kArcSecond_rad);
 }
 
-bool is_order(std::string_view name) {
-  return name == "TELESCOPE_TRACK_RATE" || name == "TELESCOPE_TRACK_STATE" ||
-         name == "TELESCOPE_TRACK_MODE" || name == "TELESCOPE_ABORT_MOTION" ||
-         name == "TELESCOPE_PARK" || name == "ON_COORD_SET";
+bool is_motion(std::string_view name) {
+  return name == "TELESCOPE_TRACK_RATE" || name == "TELESCOPE_TRACK_MODE";
+}
+bool is_stop(std::string_view name) {
+  return name == "TELESCOPE_TRACK_STATE" || name == "TELESCOPE_ABORT_MOTION";
 }
 
+// A driver that cannot read its telescope sends the old position in alert; one that answers an
+// order sends it again.
 void take_position(Heard& heard, INDI::Property& property) {
   const Equatorial seen{number_in(property, "RA") * kHour_rad, radians(number_in(property, "DEC"))};
   heard.slews = property.getState() == IPS_BUSY;
-  if (!(seen.ra_rad >= 0.0 && seen.ra_rad <= 2.0 * kPi && std::abs(seen.dec_rad) <= kPi / 2.0)) {
+  const bool fits =
+      seen.ra_rad >= 0.0 && seen.ra_rad <= 2.0 * kPi && std::abs(seen.dec_rad) <= kPi / 2.0;
+  if (!fits || property.getState() == IPS_ALERT) {
     ++heard.positions_refused;
     return;
   }
+  if (heard.position && heard.position->ra_rad == seen.ra_rad &&
+      heard.position->dec_rad == seen.dec_rad)
+    return;
   heard.position = seen;
   heard.position_s = clock_monotonic_s();
 }
@@ -61,7 +73,7 @@ void take_position(Heard& heard, INDI::Property& property) {
 void take_observer(Heard& heard, INDI::Property& property) {
   const Observer observer{radians(number_in(property, "LAT")),
                           radians(number_in(property, "LONG"))};
-  if (std::isfinite(observer.latitude_rad) && std::isfinite(observer.longitude_rad))
+  if (std::abs(observer.latitude_rad) <= kPi / 2.0 && std::abs(observer.longitude_rad) <= 2.0 * kPi)
     heard.observer = observer;
 }
 
@@ -76,7 +88,11 @@ void take_switches(Heard& heard, INDI::Property& property) {
     heard.can_stop_tracking = true;
     heard.tracks = is_on(property, "TRACK_ON");
   }
-  if (property.isNameMatch("TELESCOPE_PARK")) heard.is_parked = is_on(property, "PARK");
+  if (property.isNameMatch("TELESCOPE_PARK")) {
+    const bool under_way = property.getState() == IPS_BUSY;
+    heard.is_parked = is_on(property, "PARK") && !under_way;
+    heard.parks = is_on(property, "PARK") && under_way;
+  }
   if (property.isNameMatch("TELESCOPE_PIER_SIDE")) {
     for (const char* side : {"PIER_WEST", "PIER_EAST"})
       if (is_on(property, side)) heard.pier_side = side;
@@ -136,11 +152,12 @@ class IndiLink::Client : public INDI::BaseClient {
   void updateProperty(INDI::Property property) override {
     take(property);
     const std::lock_guard lock(mutex_);
-    if (property.isNameMatch("EQUATORIAL_EOD_COORD")) take_position(heard_, property);
+    if (property.isNameMatch("EQUATORIAL_EOD_COORD") && property.getType() == INDI_NUMBER)
+      take_position(heard_, property);
   }
   void newMessage(INDI::BaseDevice device, int id) override {
     const std::lock_guard lock(mutex_);
-    heard_.message = device.messageQueue(static_cast<std::size_t>(id));
+    heard_.message = plain_text(device.messageQueue(static_cast<std::size_t>(id)).substr(0, 200));
   }
 
  private:
@@ -150,7 +167,9 @@ class IndiLink::Client : public INDI::BaseClient {
   }
   void take(INDI::Property& property) {
     const std::lock_guard lock(mutex_);
-    if (property.getState() == IPS_ALERT && is_order(property.getName())) ++heard_.orders_refused;
+    const bool refused = property.getState() == IPS_ALERT;
+    if (refused && is_motion(property.getName())) ++heard_.motions_refused;
+    if (refused && is_stop(property.getName())) ++heard_.stops_refused;
     if (property.getType() == INDI_NUMBER) take_numbers(heard_, property);
     if (property.getType() == INDI_SWITCH) take_switches(heard_, property);
   }
@@ -164,7 +183,9 @@ IndiLink::IndiLink(std::string host, int port, std::string device)
     : client_(std::make_unique<Client>(std::move(host), port, std::move(device))) {}
 IndiLink::~IndiLink() = default;
 
+// The library writes to a socket that may be closed: no program may die of it.
 void IndiLink::open() {
+  std::signal(SIGPIPE, SIG_IGN);
   if (!client_->connectServer()) throw IndiError("no INDI server at " + client_->place());
 }
 
@@ -180,7 +201,7 @@ void IndiLink::set_interval(double interval_s) {
 void IndiLink::stop() {
   ordered_.reset();
   client_->choose("TELESCOPE_ABORT_MOTION", "ABORT");
-  if (heard().can_stop_tracking) client_->choose("TELESCOPE_TRACK_STATE", "TRACK_OFF");
+  client_->choose("TELESCOPE_TRACK_STATE", "TRACK_OFF");
 }
 
 // INDI refuses a rate into the other direction while a telescope tracks. Some drivers take a rate
@@ -193,7 +214,10 @@ void IndiLink::track(const TrackRate& rate) {
                    {{"TRACK_RATE_RA", rate.hour_angle_rad_s / kArcSecond_rad},
                     {"TRACK_RATE_DE", rate.dec_rad_s / kArcSecond_rad}});
   };
-  if (!ordered_ || reverses) {
+  const double now_s = clock_monotonic_s();
+  const bool ended = ordered_ && !heard().tracks && now_s - began_s_ > kBegins_s;  // by others
+  if (!ordered_ || reverses || ended) {
+    began_s_ = now_s;
     client_->choose("TELESCOPE_TRACK_STATE", "TRACK_OFF");
     client_->choose("TELESCOPE_TRACK_MODE", "TRACK_CUSTOM");
     order();

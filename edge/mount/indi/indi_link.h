@@ -1,5 +1,5 @@
 // One telescope behind an INDI server (libindiclient): what it says, and orders to it. The library
-// receives in a thread of its own; all methods may be called from any thread.
+// receives in a thread of its own; heard() may be called from any thread, the rest from one.
 #pragma once
 
 #include <cstdint>
@@ -26,12 +26,12 @@ struct Heard {
   double position_s = 0.0;  // when it came, CLOCK_MONOTONIC
   bool slews = false;       // on its way to ordered coordinates
   std::optional<Observer> observer;
-  std::optional<double> fastest_rad_s;  // track rate of either axis; nullopt: it has none
+  std::optional<double> fastest_rad_s;  // track rate of both axes; nullopt: it has none
   bool can_stop_tracking = false;
   bool tracks = false;
-  bool is_parked = false;
-  std::string pier_side;  // "PIER_WEST"; empty: it does not say
-  std::uint64_t positions_refused = 0, orders_refused = 0;
+  bool is_parked = false, parks = false;  // the latter: on its way there
+  std::string pier_side;                  // "PIER_WEST"; empty: it does not say
+  std::uint64_t positions_refused = 0, motions_refused = 0, stops_refused = 0;
   std::string message;  // the last one
 };
 
@@ -51,11 +51,14 @@ class IndiLink {
   void stop();                           // a slew, and tracking
   void track(const TrackRate& rate);
   void go_to(const Equatorial& to);
+  // The rate at which it tracks on our order.
+  const std::optional<TrackRate>& ordered() const { return ordered_; }
 
  private:
   class Client;
   std::unique_ptr<Client> client_;
-  std::optional<TrackRate> ordered_;  // while it tracks on our order
+  std::optional<TrackRate> ordered_;
+  double began_s_ = 0.0;  // when it was ordered to track
 };
 
 }  // namespace ols::indi

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 
 #include "base/process/clocks.h"
@@ -39,9 +40,19 @@ std::string words_of(const std::string& device, const onvif::PtzOptions& options
   return "INDI " + device + text.data();
 }
 
+// In the same direction, no faster than the telescope takes.
+TrackRate within(TrackRate rate, double fastest_rad_s) {
+  const double fastest = std::max(std::abs(rate.hour_angle_rad_s), std::abs(rate.dec_rad_s));
+  const double share = fastest > fastest_rad_s ? fastest_rad_s / fastest : 1.0;
+  return {share * rate.hour_angle_rad_s, share * rate.dec_rad_s};
+}
+
 double utc_s(double monotonic_s) {
   return 1e-9 * static_cast<double>(clock_utc_ns()) + monotonic_s - clock_monotonic_s();
 }
+
+// A person has parked it, or the weather has: it is left alone.
+bool is_put_away(const Heard& heard) { return heard.is_parked || heard.parks; }
 
 bool wait_until(const IndiLink& link, mount::SharedDrive& shared, double within_s,
                 const std::stop_token& stop, const std::function<bool(const Heard&)>& holds) {
@@ -66,26 +77,34 @@ Heard IndiSession::connect(IndiLink& link, mount::SharedDrive& shared,
   need("the server has no such device", [](const Heard& h) { return h.has_device; });
   if (!link.heard().is_connected) link.connect_telescope();
   need("the driver does not reach the telescope", [](const Heard& h) { return h.is_connected; });
+  // What it can do and whether it is parked, it defines in the same breath, in any order.
+  wait_until(link, shared, kStops_s, stop,
+             [](const Heard& h) { return h.can_stop_tracking && h.fastest_rad_s; });
+  if (!is_put_away(link.heard())) link.stop();
   link.set_interval(config_.drive.poll_s);
   need("the telescope reports no position or no place",
        [](const Heard& h) { return h.position && h.observer; });
-  // What it can do, it defines in the same breath as its position, in any order.
-  wait_until(link, shared, kStops_s, stop,
-             [](const Heard& h) { return h.can_stop_tracking && h.fastest_rad_s; });
-  if (link.heard().is_parked) {
+  if (link.heard().is_parked && !was_unparked_ && !stop.stop_requested()) {
     link.unpark();
     need("the telescope stays parked", [](const Heard& h) { return !h.is_parked; });
   }
+  was_unparked_ = true;
   return link.heard();
 }
 
 void IndiSession::run(mount::SharedDrive& shared, device::DeviceThread& thread,
                       const std::stop_token& stop) {
   IndiLink link(config_.host, config_.port, config_.device);
+  const struct Stops {
+    IndiLink& link;
+    ~Stops() {
+      const Heard heard = link.heard();
+      if (heard.is_connected && !heard.lost && !is_put_away(heard)) link.stop();
+    }
+  } stops{link};
   heard_ = connect(link, shared, stop);
   if (stop.stop_requested()) return;
   const onvif::PtzOptions options = options_of(heard_, config_.drive.limits);
-  if (pier_side_.empty()) pier_side_ = heard_.pier_side;
   goes_s_.reset();
   {
     const std::lock_guard lock(shared.mutex);
@@ -94,6 +113,7 @@ void IndiSession::run(mount::SharedDrive& shared, device::DeviceThread& thread,
   }
   thread.opened();
   serve(link, shared, thread, stop);
+  if (is_put_away(link.heard())) return;
   link.stop();
   wait_until(link, shared, kStops_s, {},
              [](const Heard& h) { return h.lost || !(h.tracks || h.slews); });
@@ -114,7 +134,8 @@ void IndiSession::serve(IndiLink& link, mount::SharedDrive& shared, device::Devi
       const std::lock_guard lock(shared.mutex);
       if (now.position_s > taken_s_) thread.works();
       judge(now, shared);
-      if (!now.is_parked) order = shared.drive.next(now_s);
+      take_position(link, shared, now_s);
+      if (!is_put_away(now) || shared.drive.in_emergency()) order = shared.drive.next(now_s);
     }
     if (goes_s_ && !now.slews && now_s - *goes_s_ > kGoToBegins_s) {
       link.stop();  // it would follow the stars from there
@@ -138,18 +159,42 @@ PanTilt IndiSession::angles_at(double monotonic_s) const {
 
 // The caller holds the mutex.
 void IndiSession::judge(const Heard& now, mount::SharedDrive& shared) {
-  if (now.orders_refused > heard_.orders_refused)
-    shared.drive.failed({onvif::Act::kVelocity, {}}, clock_monotonic_s());
+  const double now_s = clock_monotonic_s();
+  const std::uint64_t motions = now.motions_refused - heard_.motions_refused;
+  const std::uint64_t stops = now.stops_refused - heard_.stops_refused;
+  const std::uint64_t positions = now.positions_refused - heard_.positions_refused;
+  if (motions > 0) shared.drive.failed({onvif::Act::kVelocity, {}}, now_s);
+  if (stops > 0) shared.drive.failed({onvif::Act::kStop, {}}, now_s);
+  if (positions > 0 && goes_s_) {
+    goes_s_.reset();
+    shared.drive.failed({onvif::Act::kAbsolute, {}}, now_s);
+  }
+  shared.errors += motions + stops + positions;
+  if (motions + stops + positions > 0) shared.last_error = "INDI: " + now.message;
   heard_ = now;
+  if (pier_side_.empty()) pier_side_ = now.pier_side;
   const bool other_side = now.pier_side != pier_side_;
-  shared.usable = !now.is_parked && !other_side;
-  shared.last_error = now.message;
-  shared.errors = now.orders_refused + now.positions_refused;
+  shared.usable = !is_put_away(now) && !other_side;
   shared.alarms.clear();
-  if (now.is_parked) shared.alarms.push_back(alarm::ptu_parked());
+  if (is_put_away(now)) shared.alarms.push_back(alarm::ptu_parked());
   if (other_side) shared.alarms.push_back(alarm::ptu_other_pier_side());
-  if (now.position_s <= taken_s_) return;
-  taken_s_ = now.position_s;
+}
+
+// Drivers report a position only when it has changed by about this: one that tracks at nearly the
+// rate of the stars is silent, and is where it was. The caller holds the mutex.
+void IndiSession::take_position(const IndiLink& link, mount::SharedDrive& shared, double now_s) {
+  constexpr double kSilentRa_rad = radians(1.5 / 3600.0), kSilentDec_rad = radians(0.1 / 3600.0);
+  constexpr double kSidereal_rad_s = radians(15.041067 / 3600.0);
+  double seen_s = heard_.position_s;
+  if (const auto& rate = link.ordered(); rate && heard_.tracks) {
+    const double silent_s = now_s - heard_.position_s;
+    const bool stays =
+        std::abs(kSidereal_rad_s - rate->hour_angle_rad_s) * silent_s < kSilentRa_rad &&
+        std::abs(rate->dec_rad_s) * silent_s < kSilentDec_rad;
+    if (stays && now_s - taken_s_ >= config_.drive.poll_s) seen_s = now_s;
+  }
+  if (seen_s <= taken_s_) return;
+  taken_s_ = seen_s;
   const PanTilt angles = angles_at(taken_s_ - config_.drive.positions.delay_s);
   shared.drive.take({angles.pan_rad, angles.tilt_rad, {}, {}}, taken_s_, taken_s_);
 }
@@ -164,7 +209,8 @@ void IndiSession::carry_out(IndiLink& link, const onvif::Order& order, double no
   } else if (order.act == onvif::Act::kStop || stands) {
     link.stop();
   } else {
-    link.track(track_rate_of(config_.axes, angles_at(now_s), vector, *heard_.observer));
+    link.track(within(track_rate_of(config_.axes, angles_at(now_s), vector, *heard_.observer),
+                      heard_.fastest_rad_s.value_or(0.0)));
   }
 }
 

@@ -17,7 +17,8 @@ namespace ols::indi {
 
 class IndiSession : public mount::MountSession {
  public:
-  explicit IndiSession(IndiConfig config) : config_(std::move(config)) {}
+  explicit IndiSession(IndiConfig config)
+      : config_(std::move(config)), pier_side_(config_.pier_side) {}
   void run(mount::SharedDrive& shared, device::DeviceThread& thread,
            const std::stop_token& stop) override;
 
@@ -26,11 +27,13 @@ class IndiSession : public mount::MountSession {
   void serve(IndiLink& link, mount::SharedDrive& shared, device::DeviceThread& thread,
              const std::stop_token& stop);
   void judge(const Heard& now, mount::SharedDrive& shared);
+  void take_position(const IndiLink& link, mount::SharedDrive& shared, double now_s);
   void carry_out(IndiLink& link, const onvif::Order& order, double now_s);
   PanTilt angles_at(double monotonic_s) const;
 
   const IndiConfig config_;
-  std::string pier_side_;  // at the first connection
+  std::string pier_side_;      // as configured, or the first that it says
+  bool was_unparked_ = false;  // once, at the first connection
   Heard heard_;
   double taken_s_ = 0.0;          // the newest position that the drive has
   std::optional<double> goes_s_;  // since when it slews to an ordered place

@@ -13,8 +13,11 @@ struct Direction {
   double hour_angle_rad, dec_rad;
 };
 
+double side_of(double latitude_rad) { return latitude_rad < 0.0 ? -1.0 : 1.0; }
+
 Direction direction_of(Axes axes, const PanTilt& angles, double latitude_rad) {
-  if (axes == Axes::kEquatorial) return {-angles.pan_rad, angles.tilt_rad};
+  const double side = side_of(latitude_rad);
+  if (axes == Axes::kEquatorial) return {-side * angles.pan_rad, side * angles.tilt_rad};
   Direction direction{};
   eraAe2hd(-angles.pan_rad, angles.tilt_rad, latitude_rad, &direction.hour_angle_rad,
            &direction.dec_rad);
@@ -35,7 +38,8 @@ double sidereal_time_rad(double utc_s, double longitude_rad) {
 PanTilt axes_of(Axes axes, const Equatorial& seen, const Observer& observer, double utc_s,
                 double middle_rad) {
   const double hour_angle_rad = sidereal_time_rad(utc_s, observer.longitude_rad) - seen.ra_rad;
-  PanTilt angles{-hour_angle_rad, seen.dec_rad};
+  const double side = side_of(observer.latitude_rad);
+  PanTilt angles{-side * hour_angle_rad, side * seen.dec_rad};
   if (axes == Axes::kAltAzimuth) {
     double azimuth_rad = 0.0;
     eraHd2ae(hour_angle_rad, seen.dec_rad, observer.latitude_rad, &azimuth_rad, &angles.tilt_rad);
@@ -53,7 +57,8 @@ Equatorial equatorial_of(Axes axes, const PanTilt& angles, const Observer& obser
 
 TrackRate track_rate_of(Axes axes, const PanTilt& angles, const PanTilt& rate_rad_s,
                         const Observer& observer) {
-  if (axes == Axes::kEquatorial) return {-rate_rad_s.pan_rad, rate_rad_s.tilt_rad};
+  const double side = side_of(observer.latitude_rad);
+  if (axes == Axes::kEquatorial) return {-side * rate_rad_s.pan_rad, side * rate_rad_s.tilt_rad};
   constexpr double kStep_s = 1e-3;
   const PanTilt later{angles.pan_rad + rate_rad_s.pan_rad * kStep_s,
                       angles.tilt_rad + rate_rad_s.tilt_rad * kStep_s};

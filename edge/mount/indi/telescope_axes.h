@@ -1,12 +1,14 @@
 // Between what an INDI telescope says, right ascension and declination of date, and the angles of
 // its axes, by the IAU's models (ERFA). Pure.
 //
-// Equatorial: pan is minus the hour angle, so that a positive pan turns left about the pole; tilt
-// is the declination. Altazimuth: pan is minus the azimuth, tilt is the elevation.
+// Equatorial: the pan axis points to the celestial pole above the horizon; a positive pan turns
+// left about it. In the north pan is minus the hour angle and tilt the declination, in the south
+// pan is the hour angle and tilt minus the declination. Altazimuth: pan is minus the azimuth, tilt
+// is the elevation.
 //
 // The driver computes right ascension from its axis, its clock and its longitude, with UT1 = UTC.
-// The same sidereal time leads back to the angle of the axis, whatever clock and longitude are
-// worth: the longitude is the driver's own.
+// The same sidereal time leads back to the angle of the axis: with the driver's own longitude, and
+// with the station's clock, from which the driver's must not differ (15 arc seconds a second).
 #pragma once
 
 #include "geometry/kinematic_chain.h"

@@ -55,6 +55,7 @@ class Drive {
   void set_goal(const std::optional<mount::Goal>& goal);
   void emergency_halt();
   void clear_emergency() { emergency_ = false; }
+  bool in_emergency() const { return emergency_; }
 
   Order next(double now_s);
   // The camera has accepted the order; or it, or the way to it, refused.

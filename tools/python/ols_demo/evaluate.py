@@ -8,7 +8,7 @@ import ols
 from ols_demo.recording import Recording
 
 OK = 0  # target_t.SOLUTION_OK
-TRACKING = 0  # station_status_t.KIND_TRACKING
+OVERVIEW = 1  # station_status_t.KIND_OVERVIEW
 JOINT, PAPER = "OLS_TARGET", "OLS_TARGET_PAPER"
 
 
@@ -145,7 +145,7 @@ def report(recording: Recording, window: tuple[int, int]) -> dict[str, Any]:
         "stations": {
             station: station_report(recording, station, window)
             for station in sorted(recording.statuses)
-            if recording.statuses[station][-1].kind == TRACKING
+            if recording.statuses[station][-1].kind != OVERVIEW
         },
         "fixes": joint["fixes"],
         "rmse_m": joint["rmse_m"],

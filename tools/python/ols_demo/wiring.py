@@ -8,6 +8,7 @@ import shutil
 import subprocess
 import tomllib
 from pathlib import Path
+from urllib.parse import urlsplit
 
 from ols_demo.bus import LIVE_URL
 from ols_demo.keys import make_keys
@@ -28,6 +29,12 @@ def add_site_options(parser: argparse.ArgumentParser, scenario: str, output: str
     parser.add_argument("--seed", type=int, default=1, help="of the simulated errors")
     parser.add_argument("--output", type=Path, default=root / "out" / output, help="folder")
     parser.add_argument("--bin", type=Path, default=root / "build/release/bin", help="programs")
+
+
+def camera_address(config: Path) -> str:
+    """Of the simulated camera in a station's configuration."""
+    camera = tomllib.loads(config.read_text())["camera"]
+    return camera["device"] if "device" in camera else urlsplit(camera["url"]).hostname
 
 
 class Wiring:
@@ -92,9 +99,7 @@ class Wiring:
             keys = self._output / "keys"
             shutil.rmtree(keys, ignore_errors=True)
             self.keys = make_keys(self._bin, keys, self.stations)
-        return [
-            tomllib.loads(path.read_text())["camera"]["device"] for path in self.configs.values()
-        ]
+        return [camera_address(path) for path in self.configs.values()]
 
     def start(self, site: Site, log: bool = True) -> None:
         """Everything up, the log running; raises SiteError when something does not come up."""

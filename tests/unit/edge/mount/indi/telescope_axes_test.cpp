@@ -26,11 +26,24 @@ TEST(TelescopeAxes, SiderealTimeIsTheAlmanacs) {
 
 TEST(TelescopeAxes, ThereAndBack) {
   for (const Axes axes : {Axes::kEquatorial, Axes::kAltAzimuth}) {
-    const Equatorial sky = equatorial_of(axes, kAngles, kObserver, kUtc_s);
-    const PanTilt back = axes_of(axes, sky, kObserver, kUtc_s, 0.0);
-    EXPECT_NEAR(back.pan_rad, kAngles.pan_rad, 1e-12);
-    EXPECT_NEAR(back.tilt_rad, kAngles.tilt_rad, 1e-12);
+    for (const Observer& observer : {kObserver, Observer{radians(-34.0), radians(150.0)}}) {
+      const Equatorial sky = equatorial_of(axes, kAngles, observer, kUtc_s);
+      const PanTilt back = axes_of(axes, sky, observer, kUtc_s, 0.0);
+      EXPECT_NEAR(back.pan_rad, kAngles.pan_rad, 1e-12);
+      EXPECT_NEAR(back.tilt_rad, kAngles.tilt_rad, 1e-12);
+    }
   }
+}
+
+// Both poles are above the horizon of their half; west of the meridian is left of it in the south.
+TEST(TelescopeAxes, TheSouthLooksNorth) {
+  const Observer south{radians(-34.0), radians(150.0)};
+  const double sidereal_rad = sidereal_time_rad(kUtc_s, south.longitude_rad);
+  const auto at = [&](double hour_angle_rad, double dec_rad) {
+    return axes_of(Axes::kEquatorial, {sidereal_rad - hour_angle_rad, dec_rad}, south, kUtc_s, 0.0);
+  };
+  EXPECT_NEAR(at(0.1, 0.0).pan_rad, 0.1, 1e-9);
+  EXPECT_NEAR(at(0.0, radians(-90.0)).tilt_rad, radians(90.0), 1e-12);
 }
 
 TEST(TelescopeAxes, PanIsWithinHalfATurnOfTheMiddle) {
