@@ -50,6 +50,7 @@ class Console {
   void hear(const StationHeard& station, const Now& now);
   void hear(const TargetHeard& target, const Now& now);
   void hear(const FusionHeard& fusion, const Now& now) { site_.hear(fusion, now); }
+  void hear(const OcclusionHeard& occlusion, const Now& now) { site_.hear(occlusion, now); }
   void hear_bearing(const std::string& station, const Json& bearing);
   void hear(Picture picture);
   void hear(ProcedureHeard procedure);
@@ -121,6 +122,8 @@ class Console {
   Revision revision() const { return site_.revision(); }
 
   Json state(const Now& now) const;
+  // The fields of a station's last status; null: the station is unknown.
+  const Json* fields_of(const std::string& id) const { return site_.fields_of(id); }
   Json health(const Now& now) const;
   // Adds an event: what the person `who` did in this console. Empty `who`: something happened.
   void note(const std::string& who, const Alarm& what, const Now& now);

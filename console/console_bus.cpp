@@ -44,6 +44,9 @@ void ConsoleBus::subscribe(LcmBus& bus) {
   bus.subscribe(std::string(kTargetChannel), [this](const BusMessage& message) {
     if (auto heard = target_from(message)) console_.hear(*heard, now_);
   });
+  bus.subscribe(station_channel(kOcclusionChannel, ".+"), [this](const BusMessage& message) {
+    if (const auto heard = occlusion_from(message)) console_.hear(*heard, now_);
+  });
   bus.subscribe(std::string(kFusionStatusChannel), [this](const BusMessage& message) {
     if (auto heard = fusion_from(message)) console_.hear(*heard, now_);
   });

@@ -58,6 +58,11 @@ config::Section console_section(ConsoleConfig& c) {
         {config::text("folder", c.maps_folder,
                       "Folder of maps: MBTiles and PMTiles files with pictures, and folders "
                       "ZOOM/COLUMN/ROW.png. ols-map-import makes them.")}},
+       {"land",
+        "The land around the site (docs/land.md).",
+        {config::text("folder", c.land_folder,
+                      "Folder that `ols-land import` has made, as the fusion has it: skylines in "
+                      "the pictures, heights of the ground. Empty: no land is known.")}},
        {"incidents",
         "What comes into the areas that operators draw.",
         {config::text("folder", c.incidents_folder,

@@ -22,6 +22,7 @@ struct ConsoleConfig {
   std::string incidents_folder = "/var/lib/ols/incidents";  // created when it is first needed
   IncidentRecording incident_recording;
   std::string maps_folder = "/var/lib/ols/maps";  // users' own maps; the folder need not exist
+  std::string land_folder;  // made by `ols-land import`; empty: no land is known
   double session_s = 12.0 * 3600.0;
   double control_timeout_s = 60.0;
   // The networks in which the console connects to stations' video sockets. It must be limited,

@@ -31,6 +31,16 @@ struct TargetHeard {
   double latitude_deg = 0.0, longitude_deg = 0.0, height_m = 0.0;
 };
 
+// What the fusion tells a station of a target that the land hides from it.
+struct OcclusionHeard {
+  std::string station;
+  std::string target;  // its id
+  bool is_hidden = false;
+  std::int64_t utime_us = 0;
+  std::int64_t back_us = 0;  // when it comes out; 0: not known
+  double holds_s = 0.0;      // from its arrival; 0: what was said before no longer holds
+};
+
 struct FusionHeard {
   std::int64_t boot_id = 0;
   Json fields;

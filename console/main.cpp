@@ -27,6 +27,7 @@
 #include "console/video_puller.h"
 #include "console/web_api.h"
 #include "console/web_server.h"
+#include "land/terrain_folder.h"
 
 namespace {
 
@@ -172,7 +173,8 @@ std::unique_ptr<Shown> shown(const Arguments& arguments, const ols::console::Con
   return std::make_unique<RecordedSite>(arguments, console);
 }
 
-int run(const Arguments& arguments, ols::console::ConsoleConfig config) {
+int run(const Arguments& arguments, ols::console::ConsoleConfig config,
+        ols::land::TerrainFolder land) {
   if (sodium_init() < 0) throw std::runtime_error("libsodium cannot be initialised");
   const auto socket = ols::console::handed_over_socket();
   if (socket) config.address = socket->address;
@@ -182,7 +184,7 @@ int run(const Arguments& arguments, ols::console::ConsoleConfig config) {
   }
   ols::console::Console console(config.control_timeout_s, config.incident_recording);
   ols::console::WebApi api(config, users, console, draw_token, user_keeper(config.users, users));
-  ols::console::WebServer server(config, socket, api, console);
+  ols::console::WebServer server(config, std::move(land), socket, api, console);
   const std::unique_ptr<Shown> site = shown(arguments, config, console);
   const std::string address = web_address(config, server.port());
   ols::ServiceNotifier service_manager;
@@ -206,8 +208,10 @@ int run(const Arguments& arguments, ols::console::ConsoleConfig config) {
 
 int act(const Arguments& arguments) {
   const ols::console::ConsoleConfig config = configuration(arguments);
-  if (arguments.check_config) return 0;
-  if (arguments.add_user.empty()) return run(arguments, config);
+  if (arguments.add_user.empty()) {
+    ols::land::TerrainFolder land = ols::land::read_configured_land(config.land_folder);
+    return arguments.check_config ? 0 : run(arguments, config, std::move(land));
+  }
   ols::as_bad_input(
       [&] { ols::console::add_user(config.users, arguments.add_user, arguments.role); });
   std::fprintf(stderr, "ols-console: %s may log in; restart the console\n",

@@ -17,6 +17,7 @@
 #include "geometry/wgs84.h"
 #include "ols_msg/bearing_t.hpp"
 #include "ols_msg/fusion_status_t.hpp"
+#include "ols_msg/occlusion_t.hpp"
 #include "ols_msg/target_t.hpp"
 #include "wire/fusion_status.h"
 #include "wire/read.h"
@@ -293,6 +294,17 @@ std::optional<TargetHeard> target_from(const BusMessage& message) {
     heard.what = What::kNoPosition;
   }
   return heard;
+}
+
+std::optional<OcclusionHeard> occlusion_from(const BusMessage& message) {
+  const auto heard = wire::read<ols_msg::occlusion_t>(kOcclusionChannel, message);
+  if (!heard) return std::nullopt;
+  return OcclusionHeard{.station = heard->station,
+                        .target = number_text(heard->target_id),
+                        .is_hidden = heard->hidden > 0.5,
+                        .utime_us = heard->utime,
+                        .back_us = heard->exit_utime,
+                        .holds_s = heard->holds_s};
 }
 
 std::optional<FusionHeard> fusion_from(const BusMessage& message) {

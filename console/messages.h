@@ -17,6 +17,7 @@ std::optional<StationHeard> station_from(const BusMessage& message);
 std::optional<std::pair<std::string, Json>> bearing_from(const BusMessage& message);
 // nullopt for another channel: the paper's estimate is not shown as a target.
 std::optional<TargetHeard> target_from(const BusMessage& message);
+std::optional<OcclusionHeard> occlusion_from(const BusMessage& message);
 std::optional<FusionHeard> fusion_from(const BusMessage& message);
 
 }  // namespace ols::console

@@ -98,7 +98,45 @@ bool SiteState::is_of_fusion(std::int64_t boot_id, const Now& now) {
   targets_.clear(revision_);
   lines_.clear(revision_);
   trails_.clear();
+  occluded_.clear();
   return true;
+}
+
+void SiteState::hear(const OcclusionHeard& occlusion, const Now& now) {
+  if (!stations_.find(occlusion.station)) return;
+  if (!occlusion.is_hidden || !(occlusion.holds_s > 0.0)) {
+    occluded_.erase(occlusion.station);
+    return;
+  }
+  const auto known = occluded_.find(occlusion.station);
+  const bool goes_on = known != occluded_.end() && known->second.target == occlusion.target &&
+                       now.monotonic_s < known->second.until_s;
+  occluded_[occlusion.station] = {occlusion.target,
+                                  goes_on ? known->second.since_us : occlusion.utime_us,
+                                  occlusion.back_us, now.monotonic_s + occlusion.holds_s};
+}
+
+Json SiteState::hidden(const std::string& target, double now_s) const {
+  constexpr double kSeen_s = 1.0;
+  Json from = Json::array();
+  const auto hides = [&](const auto& one) {
+    return one.second.target == target && now_s <= one.second.until_s;
+  };
+  for (const auto& one : occluded_) {
+    if (!hides(one)) continue;
+    const auto& [station, occluded] = one;
+    from.push_back(
+        {{"id", station}, {"since_us", occluded.since_us}, {"back_us", occluded.back_us}});
+  }
+  const Json* fields = targets_.find(target);
+  if (from.empty() || !fields) return nullptr;
+  const auto sees = [&](const Json& station) {
+    const auto known = occluded_.find(station.at("id").get<std::string>());
+    const bool is_recent = station.at("age_s").is_number() && station.at("age_s") < kSeen_s;
+    return station.at("used") && is_recent && !(known != occluded_.end() && hides(*known));
+  };
+  const bool is_seen = std::ranges::any_of(fields->value("stations", Json::array()), sees);
+  return {{"from", std::move(from)}, {"all", !is_seen}};
 }
 
 void SiteState::add_to_trail(const TargetHeard& target, double now_s) {
@@ -107,7 +145,13 @@ void SiteState::add_to_trail(const TargetHeard& target, double now_s) {
   const bool was_unseen = now_s > trail.added_s + kTargetStale_s;
   if (was_unseen && !trail.points.empty()) trail.points.emplace_back(nullptr);
   trail.added_s = now_s;
-  trail.points.push_back({target.longitude_deg, target.latitude_deg, target.height_m});
+  Json point{target.longitude_deg, target.latitude_deg, target.height_m};
+  if (const Json hides = hidden(target.id, now_s); !hides.is_null()) {
+    Json& from = point.emplace_back(Json::array());
+    for (const Json& one : hides.at("from")) from.push_back(one.at("id"));
+    if (hides.at("all")) from.push_back("*");
+  }
+  trail.points.push_back(std::move(point));
   while (trail.points.size() > kMostTrailPoints) trail.points.pop_front();
 }
 
@@ -120,6 +164,7 @@ void SiteState::hear(const TargetHeard& target, const Now& now) {
         ++refused_;
         return;
       }
+      targets_.mark(target.id, "hidden", hidden(target.id, now.monotonic_s), revision_);
       add_to_trail(target, now.monotonic_s);
       return;
     case What::kLine:
@@ -158,7 +203,11 @@ void SiteState::look(const Now& now) {
     note_alarm("", alarm::fusion_silent(), now.utime_us);
   }
   targets_.age(now_s, kTargetStale_s, kForgetTarget_s, revision_);
+  for (const std::string& id : targets_.ids()) {
+    targets_.mark(id, "hidden", hidden(id, now_s), revision_);
+  }
   lines_.age(now_s, kLineStale_s, kForgetLine_s, revision_);
+  std::erase_if(occluded_, [&](const auto& o) { return now_s > o.second.until_s; });
   std::erase_if(trails_, [this](const auto& t) { return targets_.find(t.first) == nullptr; });
   std::erase_if(kept_, [&](const auto& k) {
     if (k.first.empty() || stations_.find(k.first) != nullptr) return false;

@@ -27,6 +27,8 @@ class SiteState {
   void hear(const StationHeard& station, const Now& now);
   void hear(const TargetHeard& target, const Now& now);
   void hear(const FusionHeard& fusion, const Now& now);
+  // Of a station that has sent a status; others are ignored.
+  void hear(const OcclusionHeard& occlusion, const Now& now);
   // The newest bearing of a station that has sent a status; others are ignored.
   void hear_bearing(const std::string& station, const Json& bearing);
   // The alarms of the console itself.
@@ -85,11 +87,20 @@ class SiteState {
     std::int64_t last_error_utime_us = -1;
   };
   struct Trail {
-    // [longitude_deg, latitude_deg, height_m]; null: the target was not seen meanwhile
+    // [longitude_deg, latitude_deg, height_m], then the stations from which the land hid the
+    // target, if it did, and "*" if no other saw it; null: the target was not seen meanwhile
     std::deque<Json> points;
     double added_s = -1e9;
   };
 
+  struct Occluded {  // of a station
+    std::string target;
+    std::int64_t since_us = 0, back_us = 0;
+    double until_s = 0.0;  // it holds till then
+  };
+
+  // {from: [{id, since_us, back_us}], all: no other station sees it now}; null: it is not hidden.
+  Json hidden(const std::string& target, double now_s) const;
   void note_alarm(const std::string& station, const Alarm& alarm, std::int64_t utime_us) {
     note({utime_us, "alarm", station, "", alarm.text, "", alarm});
   }
@@ -112,6 +123,7 @@ class SiteState {
   std::map<std::string, Kept> kept_;
   AlarmChanges own_;
   std::map<std::string, Trail> trails_;
+  std::map<std::string, Occluded> occluded_;  // by station
   std::int64_t fusion_boot_ = 0;
   double fusion_heard_s_ = -1e9;
   std::uint64_t refused_ = 0;

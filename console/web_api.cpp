@@ -175,6 +175,9 @@ WebAnswer WebApi::get(const WebRequest& request, const Now& now) const {
     return refused(404,
                    "a tile is /api/maps/MAP/ZOOM/COLUMN/ROW, and there is /api/maps/MAP/accuracy");
   }
+  if (path == "/api/land" || path.starts_with("/api/land/")) {
+    return land(path, request.path.substr(path.size()));
+  }
   constexpr std::string_view kProcedures = "/api/procedures/";
   if (path.starts_with(kProcedures)) {
     return procedure_picture(console_, unescaped(path.substr(kProcedures.size())).value_or(""));
@@ -196,6 +199,25 @@ WebAnswer WebApi::get(const WebRequest& request, const Now& now) const {
     return grid ? json(200, *grid) : refused(400, "box must be WEST,SOUTH,EAST,NORTH [deg], small");
   }
   return refused(404, "there is no " + path);
+}
+
+// "/api/land/skyline/STATION" or "/api/land/profile/STATION", or what land_task() knows.
+WebAnswer WebApi::land(const std::string& path, const std::string& query) const {
+  if (const auto task = land_task(path, query)) return *task;
+  const std::string_view rest = std::string_view(path).substr(std::string_view("/api/land").size());
+  const auto slash = rest.find('/', 1);
+  if (slash != std::string_view::npos) {
+    const std::string id = unescaped(rest.substr(slash + 1)).value_or("");
+    const Json* station = console_.fields_of(id);
+    if (!station) return refused(404, outcome::no_such_station());
+    const auto camera = camera_of(*station);
+    if (!camera) return refused(409, outcome::camera_place_unknown());
+    if (const auto task = land_task(rest.substr(1, slash - 1), query, id, *camera)) return *task;
+  }
+  return refused(400,
+                 "there are /api/land, /api/land/ground?at=LATITUDE,LONGITUDE, /api/land/heights?"
+                 "box=WEST,SOUTH,EAST,NORTH [deg], small, /api/land/skyline/STATION and "
+                 "/api/land/profile/STATION?to=LATITUDE,LONGITUDE,HEIGHT");
 }
 
 WebAnswer WebApi::log_in(const WebRequest& request, const Now& now) {

@@ -11,6 +11,7 @@
 
 #include "console/console.h"
 #include "console/console_config.h"
+#include "console/land_task.h"
 #include "console/login_limit.h"
 #include "console/maps/tile_store.h"
 #include "console/page_files.h"
@@ -50,7 +51,7 @@ struct MapTask {
   bool accuracy = false;  // an accuracy map, not a tile
 };
 
-using WebAnswer = std::variant<WebResponse, LoginTask, UserTask, MapTask>;
+using WebAnswer = std::variant<WebResponse, LoginTask, UserTask, MapTask, LandTask>;
 
 class WebApi {
  public:
@@ -82,6 +83,7 @@ class WebApi {
   WebAnswer post(const WebRequest& request, const Now& now);
   WebAnswer log_in(const WebRequest& request, const Now& now);
   WebAnswer get(const WebRequest& request, const Now& now) const;
+  WebAnswer land(const std::string& path, const std::string& query) const;
   WebResponse session(const WebRequest& request, const Now& now) const;
   Outcome admin_problem(const WebRequest& request, const Now& now) const;
   WebResponse list_users(const WebRequest& request, const Now& now) const;

@@ -32,8 +32,8 @@ namespace {
 
 constexpr std::size_t kMostLive = 64;
 constexpr std::size_t kMostHeaderBytes = 8192;
-constexpr int kMostHashing = 4;  // each takes 64 MB and a tenth of a second
-constexpr int kMostTiles = 200;  // that wait for the disk
+constexpr int kMostHashing = 4;    // each takes 64 MB and a tenth of a second
+constexpr int kMostLookUps = 200;  // that wait for the disk, or for the land
 
 using PlainStream = beast::tcp_stream;
 using TlsStream = beast::ssl_stream<beast::tcp_stream>;
@@ -41,8 +41,12 @@ using TlsStream = beast::ssl_stream<beast::tcp_stream>;
 }  // namespace
 
 struct WebServer::Shared {
-  Shared(const ConsoleConfig& of, WebApi& web_api, Console& of_console)
-      : config(of), api(web_api), console(of_console), maps(of.maps_folder) {}
+  Shared(const ConsoleConfig& of, land::TerrainFolder of_land, WebApi& web_api, Console& of_console)
+      : config(of),
+        api(web_api),
+        console(of_console),
+        maps(of.maps_folder),
+        land(std::move(of_land)) {}
 
   ConsoleConfig config;
   WebApi& api;
@@ -54,8 +58,10 @@ struct WebServer::Shared {
   ConnectionLimit limit;
   int hashing = 0;
   int reading = 0;
-  MapLibrary maps;                          // of the thread of `readers`
-  net::thread_pool hashers{1}, readers{1};  // last: they end before what their tasks use
+  MapLibrary maps;  // of the thread of `readers`
+  SiteLand land;    // of the thread of `surveyors`
+  // Last: they end before what their tasks use.
+  net::thread_pool hashers{1}, readers{1}, surveyors{1};
 
   void accept();
   // Computes elsewhere, then calls back here. False if too many wait already.
@@ -71,7 +77,20 @@ struct WebServer::Shared {
     });
     return true;
   }
-  bool read_map(const MapTask& task, std::function<void(const WebResponse&)> done);
+  // Reads from a disk, or computes, in that thread. False if too many requests wait already.
+  template <class Source, class Task>
+  bool look_up(net::thread_pool& thread, Source& source, const Task& task,
+               std::function<void(const WebResponse&)> done) {
+    if (reading >= kMostLookUps) return false;
+    ++reading;
+    net::post(thread, [this, &source, task, done = std::move(done)]() mutable {
+      net::post(io, [this, response = source.answer(task), done = std::move(done)]() mutable {
+        --reading;
+        done(response);
+      });
+    });
+    return true;
+  }
 };
 
 namespace {
@@ -127,7 +146,10 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection<Stream
     if (const auto* response = std::get_if<WebResponse>(&answer)) return respond(*response);
     if (const auto* task = std::get_if<LoginTask>(&answer)) return log_in(*task);
     if (const auto* task = std::get_if<UserTask>(&answer)) return enter(*task);
-    show_map(std::get<MapTask>(answer));
+    if (const auto* task = std::get_if<MapTask>(&answer)) {
+      return look_up(shared_.readers, shared_.maps, *task);
+    }
+    look_up(shared_.surveyors, shared_.land, std::get<LandTask>(answer));
   }
 
   WebRequest web_request(const http::request<http::string_body>& request) const {
@@ -171,11 +193,13 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection<Stream
     if (!is_begun) refuse(503, "too many people log in: try again");
   }
 
-  void show_map(const MapTask& task) {
+  template <class Source, class Task>
+  void look_up(net::thread_pool& thread, Source& source, const Task& task) {
     beast::get_lowest_layer(stream_).expires_after(kPatience);
-    const bool is_begun = shared_.read_map(
-        task, [self = this->shared_from_this()](const WebResponse& tile) { self->respond(tile); });
-    if (!is_begun) refuse(503, "too many tiles of maps are asked for");
+    const bool is_begun = shared_.look_up(
+        thread, source, task,
+        [self = this->shared_from_this()](const WebResponse& found) { self->respond(found); });
+    if (!is_begun) refuse(503, "too many maps and heights are asked for");
   }
 
   // In the words of the other refusals; the connection ends.
@@ -229,19 +253,6 @@ tcp::endpoint endpoint_of(const ConsoleConfig& config) {
 
 }  // namespace
 
-bool WebServer::Shared::read_map(const MapTask& task,
-                                 std::function<void(const WebResponse&)> done) {
-  if (reading >= kMostTiles) return false;
-  ++reading;
-  net::post(readers, [this, task, done = std::move(done)]() mutable {
-    net::post(io, [this, response = maps.answer(task), done = std::move(done)]() mutable {
-      --reading;
-      done(response);
-    });
-  });
-  return true;
-}
-
 void WebServer::Shared::accept() {
   acceptor->async_accept([this](beast::error_code error, tcp::socket socket) {
     if (error == net::error::operation_aborted) return;
@@ -265,9 +276,9 @@ void WebServer::Shared::accept() {
   });
 }
 
-WebServer::WebServer(const ConsoleConfig& config, const std::optional<HandedOverSocket>& socket,
-                     WebApi& api, Console& console)
-    : shared_(std::make_unique<Shared>(config, api, console)) {
+WebServer::WebServer(const ConsoleConfig& config, land::TerrainFolder land,
+                     const std::optional<HandedOverSocket>& socket, WebApi& api, Console& console)
+    : shared_(std::make_unique<Shared>(config, std::move(land), api, console)) {
   if (!config.certificate.empty()) {
     beast::error_code error;
     shared_->tls.set_options(net::ssl::context::default_workarounds | net::ssl::context::no_tlsv1 |
@@ -294,6 +305,7 @@ WebServer::WebServer(const ConsoleConfig& config, const std::optional<HandedOver
 WebServer::~WebServer() {
   shared_->hashers.join();
   shared_->readers.join();
+  shared_->surveyors.join();
   shared_->acceptor->close();
 }
 

@@ -8,6 +8,7 @@
 
 #include "console/handed_over_socket.h"
 #include "console/maps/map_library.h"
+#include "console/site_land.h"
 #include "console/web_api.h"
 
 namespace ols::console {
@@ -15,8 +16,8 @@ namespace ols::console {
 class WebServer {
  public:
   // Throws std::runtime_error that names the address or the file.
-  WebServer(const ConsoleConfig& config, const std::optional<HandedOverSocket>& socket, WebApi& api,
-            Console& console);
+  WebServer(const ConsoleConfig& config, land::TerrainFolder land,
+            const std::optional<HandedOverSocket>& socket, WebApi& api, Console& console);
   ~WebServer();
 
   int port() const;

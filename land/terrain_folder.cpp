@@ -12,6 +12,7 @@
 #include <string_view>
 #include <utility>
 
+#include "base/config/toml_config.h"
 #include "geometry/angles.h"
 
 namespace ols::land {
@@ -118,6 +119,15 @@ TerrainFolder read_terrain_folder(const std::string& path) {
   folder.terrain = std::make_shared<const Terrain>(
       grids, parse_file(coverings_path, coverings, parse_coverings), mapped);
   return folder;
+}
+
+TerrainFolder read_configured_land(const std::string& folder) {
+  if (folder.empty()) return {};
+  try {
+    return read_terrain_folder(folder);
+  } catch (const std::exception& wrong) {
+    throw ConfigError("[land] folder: " + std::string(wrong.what()));
+  }
 }
 
 void write_terrain_folder(const std::string& path, Manifest manifest,

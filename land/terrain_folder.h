@@ -22,6 +22,10 @@ struct TerrainFolder {
 // wrong length or of another version.
 TerrainFolder read_terrain_folder(const std::string& path);
 
+// The folder that a configuration names in [land]; without one there is no terrain. Throws
+// ConfigError, which names the key, for what read_terrain_folder() refuses.
+TerrainFolder read_configured_land(const std::string& folder);
+
 // One grid to write; write_terrain_folder() sets `file` and `sha256` of `form`.
 struct NewGrid {
   GridFile form;

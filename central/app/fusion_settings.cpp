@@ -146,7 +146,13 @@ Section land_section(FusionSettings& s) {
                         "Folder that `ols-land import` has made; empty: no land is known."),
            config::texts("on_ground", s.fusion.land.on_ground,
                          "Stations whose designated objects stand on the ground: one of them "
-                         "alone gives a position (docs/fusion.md, section 11).")}};
+                         "alone gives a position (docs/fusion.md, section 11).")},
+          {},
+          [&s](ConfigTable& table) {
+            if (s.land_folder.empty() && !s.fusion.land.on_ground.empty()) {
+              throw table.error("on_ground", "needs folder: no land is known");
+            }
+          }};
 }
 
 std::vector<config::Row> admission_rows(FusionConfig& c) {

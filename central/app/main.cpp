@@ -23,8 +23,7 @@ struct Arguments : ols::ServiceOptions {
 int run(const Arguments& arguments) {
   ols::fusion::FusionSettings settings =
       configuration_of(arguments, ols::fusion::load_fusion_settings);
-  if (!settings.land_folder.empty())
-    settings.fusion.land.surface = ols::land::read_terrain_folder(settings.land_folder).terrain;
+  settings.fusion.land.surface = ols::land::read_configured_land(settings.land_folder).terrain;
   if (arguments.check_config) return 0;
   ols::fusion::FusionProcessOptions options{
       .slew_url = arguments.replay ? kReplaySlewUrl : settings.lcm_url,

@@ -31,6 +31,8 @@ bool hear(Console& console, const BusMessage& message, Timeline* timeline) {
     console.hear(*target, now);
   } else if (const auto bearing = bearing_from(message)) {
     console.hear_bearing(bearing->first, bearing->second);
+  } else if (const auto occlusion = occlusion_from(message)) {
+    console.hear(*occlusion, now);
   } else if (const auto fusion = fusion_from(message)) {
     console.hear(*fusion, now);
   } else if (auto picture = picture_from(message)) {
@@ -47,8 +49,9 @@ bool hear(Console& console, const BusMessage& message, Timeline* timeline) {
 
 // Channels whose messages are shown.
 bool is_shown(const std::string& channel) {
-  constexpr std::array kShown{kStatusChannel, kBearingChannel,   kPreviewChannel, kPtuChannel,
-                              kReplyChannel,  kDesignateChannel, kRecordChannel};
+  constexpr std::array kShown{kStatusChannel, kBearingChannel,  kPreviewChannel,
+                              kPtuChannel,    kReplyChannel,    kDesignateChannel,
+                              kRecordChannel, kOcclusionChannel};
   return channel == kTargetChannel || channel == kFusionStatusChannel ||
          std::ranges::any_of(kShown, [&](std::string_view c) { return channel.starts_with(c); });
 }

@@ -61,6 +61,14 @@ def test_fusion_names_file_line_and_key(tmp_path):
     refused(run("ols-fusion", "--config", str(config)), f"{config}:2:", "no_such_key")
 
 
+@pytest.mark.parametrize("program", ["ols-fusion", "ols-console"])
+def test_a_folder_without_land_is_named(tmp_path, program):
+    config = tmp_path / "c.toml"
+    config.write_text(f'[land]\nfolder = "{tmp_path}"\n')
+    checked = run(program, "--check-config", "--config", str(config))
+    refused(checked, f"{program}: [land] folder: ", f"{tmp_path}/land.json")
+
+
 @pytest.mark.parametrize("option", ["--lcm-url", "--slew-url"])
 def test_fusion_checks_the_urls_of_its_command_line(option):
     url = "udpm://239.255.76.67:7667?ttl=x"

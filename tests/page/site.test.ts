@@ -4,7 +4,8 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { canGoBack, isAtWork, lostForAll, stopped } from "../../console/page/src/byhand";
 import { apply, cuesOnMap, emptySite, isTarget, silence, stationState, stretches, targetState, type Cue, type Fusion, type Station, type Target } from "../../console/page/src/site";
-import { stateText } from "../../console/page/src/statetext";
+import { runsOf } from "../../console/page/src/heights";
+import { hiddenInShort, hiddenText, stateText, stationWords } from "../../console/page/src/statetext";
 
 const station = (id: string, state: string, more = {}) => ({ id, state, stale: false, ...more });
 const target = (second: number, more = {}) => ({ id: "7", state: "confirmed", stale: false, utime_us: second * 1e6, longitude_deg: second, latitude_deg: 1, height_m: 2, ...more });
@@ -36,6 +37,37 @@ test("a trail is not drawn where the target was not seen", () => {
   const site = siteOf([], [target(1, { trail: [[0.5, 1, 2], [1, 1, 2]] })]);
   for (const second of [1.5, 2, 6, 6.5]) apply(site, { kind: "delta", targets: [target(second)] });
   assert.deepEqual(places(site.targets.get("7")!), [[0.5, 1, 1.5, 2], [6, 6.5, 6.5]]);
+});
+
+test("a trail is dashed where the land hid the target from the selected station, or from all", () => {
+  const from = [{ id: "alfa", since_us: 1e6, back_us: 0 }];
+  const site = siteOf([], [target(1, { trail: [[0.5, 1, 2], [1, 1, 2, ["bravo"]]] })]);
+  apply(site, { kind: "delta", targets: [target(1.5, { hidden: { from, all: false } })] });
+  apply(site, { kind: "delta", targets: [target(2, { hidden: { from, all: true } })] });
+  apply(site, { kind: "delta", targets: [target(2.5, { hidden: null })] });
+  const [whole] = stretches(site.targets.get("7")!);
+  const cases: [string, boolean[]][] = [
+    ["station:alfa", [false, true, false]],
+    ["station:bravo", [true, false]],
+    ["target:7", [false, true, false]],
+    ["station:charlie", [false]],
+  ];
+  for (const [selected, hidden] of cases) {
+    const runs = runsOf(whole, [0, 10], 3, selected);
+    assert.deepEqual(runs.map((one) => one.isHidden), hidden, selected);
+    assert.equal(runs.reduce((sum, one) => sum + one.places.length - 1, 0), whole.length - 1);
+  }
+});
+
+test("a hidden target says from whom and for how long", () => {
+  const from = [{ id: "alfa", since_us: 1e6, back_us: 0 }, { id: "bravo", since_us: 3e6, back_us: 43_267_000_000 }];
+  const one = (all: boolean) => ({ ...target(5), hidden: { from, all } }) as Target;
+  assert.equal(hiddenInShort(one(false), 5e6), "   hidden from alfa, bravo for 4 s");
+  assert.equal(hiddenInShort(one(true), 5e6), "   hidden for 2 s");
+  assert.equal(hiddenInShort(target(5) as Target, 5e6), "");
+  assert.equal(hiddenText(one(true), 5e6), "alfa for 4 s; bravo for 2 s, back 12:01:07");
+  const alfa = station("alfa", "hidden", { hidden_since_utime_us: 1e6, hidden_until_utime_us: 9e6 }) as Station;
+  assert.equal(stationWords(alfa, 5e6), "alfa   hidden for 4 s");
 });
 
 test("a gap that the server knows of is one", () => {

@@ -20,6 +20,7 @@ import { PlacePanel, placeOf } from "./placepanel";
 import { Procedures } from "./procedure";
 import { ReplayBar } from "./replay";
 import type { Area, Corner } from "./site";
+import { seenBy } from "./site";
 import { Stations } from "./stations";
 import { TargetPanel } from "./targetpanel";
 import { Targets } from "./targets";
@@ -86,13 +87,13 @@ function Side({ link, version, station, mayCommand, orders, arrangement, onSelec
 }
 
 type OnDraft = (area: Area | null) => void;
-type PanelProps = { link: Link; selected: string; draft: Area | null; mayCommand: boolean; orders: Orders; onDraft: OnDraft; onClose: () => void };
+type PanelProps = { link: Link; station: string; selected: string; draft: Area | null; mayCommand: boolean; orders: Orders; onDraft: OnDraft; onClose: () => void };
 
 // On the map: the area that is being drawn, or what is known of the selected target or place.
-function Panel({ link, selected, draft, mayCommand, orders, onDraft, onClose }: PanelProps) {
+function Panel({ link, station, selected, draft, mayCommand, orders, onDraft, onClose }: PanelProps) {
   if (draft) return <AreaPanel area={draft} local={localTime(link.localMinute)} onChange={onDraft} onSave={(area) => orders.setArea(area, () => onDraft(null))} onClose={() => onDraft(null)} />;
   const target = link.site.targets.get(selected.replace("target:", ""));
-  const rest = { link, mayCommand, onPoint: (station: string, place: Place) => orders.command(station, "point", place), onClose };
+  const rest = { link, station, mayCommand, onPoint: (id: string, place: Place) => orders.command(id, "point", place), onClose };
   if (target) return <TargetPanel key={selected} target={target} onName={(name) => orders.nameTarget(target.id, name)} onCue={(cue, allow) => orders.cue(cue, allow)} {...rest} />;
   return placeOf(selected) && <PlacePanel key={selected} selected={selected} {...rest} />;
 }
@@ -133,7 +134,14 @@ export function Console({ session, look, onLoggedOut }: Props) {
   const stopAll = () => void orders.stopAll();
   useEscapeKey(stopAll, () => notices.say(t(link.replay ? "closed" : "escape_closed"), false));
   const mayCommand = session.role !== "viewer" && !link.replay;
-  const pick = (what: string) => (what.startsWith("station:") ? setStation(what.slice(8)) : setTarget(what));
+  const pick = (what: string) => {
+    if (what.startsWith("station:")) return setStation(what.slice(8));
+    if (!what.startsWith("sight:")) return setTarget(what);
+    // A station's line of sight: what it sees there.
+    setStation(what.slice(6));
+    const seen = seenBy(link.site, what.slice(6));
+    if (seen) setTarget(`target:${seen.id}`);
+  };
   const addCorner = (corner: Corner) => setDraft((area) => area && { ...area, polygon: [...area.polygon, corner] });
   const shared = { link, mayCommand, orders };
   return (
@@ -156,7 +164,7 @@ export function Console({ session, look, onLoggedOut }: Props) {
       {link.replay && <ReplayBar link={link} />}
       <main class={`views ${arrangement.isAlone ? "alone" : arrangement.large}`}>
         <MapView link={link} version={version} theme={look.theme} selected={target || `station:${station}`} draft={draft?.polygon ?? null} onPick={pick} onCorner={addCorner} />
-        <Panel selected={target} draft={draft} onDraft={setDraft} onClose={() => setTarget("")} {...shared} />
+        <Panel station={station} selected={target} draft={draft} onDraft={setDraft} onClose={() => setTarget("")} {...shared} />
         <Side version={version} station={station} {...shared} arrangement={arrangement} onSelect={setStation} />
         <Targets
           link={link}

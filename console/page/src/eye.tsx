@@ -12,6 +12,7 @@ import { drawPicture } from "./overlay";
 import { pressKey } from "./picturekeys";
 import { usePointer } from "./picturepointer";
 import { stationState } from "./site";
+import type { SkylineChoice } from "./skyline";
 import { stateText } from "./statetext";
 import { t } from "./words";
 
@@ -66,7 +67,7 @@ function InHand({ on }: { on: OnPicture }) {
   );
 }
 
-export function Eye({ isThin, ...rest }: PictureProps & { isThin: boolean }) {
+export function Eye({ isThin, skyline, ...rest }: PictureProps & { isThin: boolean; skyline: SkylineChoice }) {
   const { link, station, large, mayCommand, onSelect } = rest;
   const on = useOnPicture(rest);
   const { canvas, shown, hand } = on;
@@ -75,8 +76,8 @@ export function Eye({ isThin, ...rest }: PictureProps & { isThin: boolean }) {
   const isTracking = station.state === "tracking" && !station.stale;
   // At once, and with the attributes that say which picture it is.
   useLayoutEffect(() => {
-    if (canvas.current && shown) drawPicture(canvas.current, link.site, shown, region, box, isTracking);
-  }, [shown, region, box, isTracking, large]);
+    if (canvas.current && shown) drawPicture(canvas.current, link.site, shown, region, box, isTracking, skyline.skylines);
+  }, [shown, region, box, isTracking, large, skyline.skylines, skyline.news]);
   const pointer = usePointer(on);
   useEffect(() => (large && mayCommand ? steerByGamepad(hand) : undefined), [large, mayCommand]);
   return (

@@ -1,7 +1,8 @@
 // Trails in the colours of their heights, whoever draws them.
 
-import { stretches, type Target, type TrailPoint } from "./site";
+import { stretches, wasHidden, type Target, type TrailPoint } from "./site";
 
+export const HIDDEN_DASH = [5, 5];
 const LEAST_SPAN_M = 20; // a target that keeps its height does not run through all colours
 
 export type HeightRange = [number, number]; // lowest, highest [m]
@@ -25,16 +26,17 @@ export function stepOf(height_m: number, [lowest, highest]: HeightRange, steps: 
   return Math.max(0, Math.min(steps - 1, Math.floor((steps * (height_m - lowest)) / (highest - lowest))));
 }
 
-type Run = { step: number; places: TrailPoint[] };
+type Run = { step: number; isHidden: boolean; places: TrailPoint[] };
 
-// A stretch of a trail in parts of one colour; each begins where the one before ends.
-export function runsOf(places: TrailPoint[], range: HeightRange, steps: number): Run[] {
+// A stretch of a trail in parts of one colour, hidden or not; each begins where the one before ends.
+export function runsOf(places: TrailPoint[], range: HeightRange, steps: number, selected: string): Run[] {
   const runs: Run[] = [];
   for (let i = 1; i < places.length; i++) {
     const step = stepOf((places[i - 1][2] + places[i][2]) / 2, range, steps);
     const last = runs[runs.length - 1];
-    if (last?.step === step) last.places.push(places[i]);
-    else runs.push({ step, places: [places[i - 1], places[i]] });
+    const isHidden = wasHidden(places[i], selected);
+    if (last?.step === step && last.isHidden === isHidden) last.places.push(places[i]);
+    else runs.push({ step, isHidden, places: [places[i - 1], places[i]] });
   }
   return runs;
 }

@@ -3,6 +3,7 @@
 import { h, type RefObject } from "preact";
 import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
 import { useEscape, useHeld } from "./escape";
+import { useLand } from "./land";
 import type { Link } from "./link";
 import { measures } from "./measures";
 import { Legend, OwnMaps } from "./ownmaps";
@@ -14,7 +15,7 @@ import { t } from "./words";
 type Options = SiteMap["options"];
 type Props = { link: Link; version: number; theme: string; selected: string; draft: Corner[] | null; onPick: (pick: string) => void; onCorner: (corner: Corner) => void };
 
-const OPTIONS: Options = { rings: true, grid: true, trails: true, views: true, limits: true, follow: false, measuring: false, placing: false };
+const OPTIONS: Options = { terrain: true, rings: true, grid: true, trails: true, views: true, limits: true, follow: false, measuring: false, placing: false };
 
 // The map in its element, which follows what the page shows; null until it is made.
 function useSiteMap(element: RefObject<HTMLDivElement>, { link, version, theme, selected, draft, onPick, onCorner }: Props, onMeasured: (text: string) => void): SiteMap | null {
@@ -42,9 +43,9 @@ function useSiteMap(element: RefObject<HTMLDivElement>, { link, version, theme, 
   return made;
 }
 
-type ToolsProps = { map: SiteMap | null; options: Options; isSolid: boolean; onToggle: (name: keyof Options) => void; onSolid: () => void; onAccuracy: (isShown: boolean) => void };
+type ToolsProps = { map: SiteMap | null; options: Options; isSolid: boolean; hasLand: boolean; onToggle: (name: keyof Options) => void; onSolid: () => void; onAccuracy: (isShown: boolean) => void };
 
-function Tools({ map, options, isSolid, onToggle, onSolid, onAccuracy }: ToolsProps) {
+function Tools({ map, options, isSolid, hasLand, onToggle, onSolid, onAccuracy }: ToolsProps) {
   const [isOpen, setOpen] = useState(false); // the menu of layers
   useEscape(isOpen, () => setOpen(false));
   const button = (name: keyof Options, text: string) => (
@@ -68,6 +69,7 @@ function Tools({ map, options, isSolid, onToggle, onSolid, onAccuracy }: ToolsPr
       <details class="layers" open={isOpen} onToggle={(event) => setOpen(event.currentTarget.open)}>
         <summary>{t("layers")}</summary>
         <div>
+          {isSolid && hasLand && button("terrain", t("terrain"))}
           {button("grid", t("grid"))}
           {button("rings", t("rings"))}
           {button("trails", t("trails"))}
@@ -91,6 +93,8 @@ export function MapView(props: Props) {
   const [measured, setMeasured] = useState("");
   const [isSolid, setSolid] = useState(false);
   const [hasAccuracy, setAccuracy] = useState(false);
+  const [ground, setGround] = useState("");
+  const land = useLand(props.link);
   const map = useSiteMap(element, props, setMeasured);
   const set = (changed: Partial<Options>) => {
     setOptions((before) => ({ ...before, ...changed }));
@@ -103,6 +107,8 @@ export function MapView(props: Props) {
     set({ ...other, [name]: !options[name] });
   };
   if (map) map.onPlaced = () => set({ placing: false });
+  if (map) map.onGround = setGround;
+  if (map) map.hasGround = land != null;
   useEscape(options.measuring, () => toggle("measuring"));
   useEscape(options.placing, () => toggle("placing"));
   const hold = useHeld(() => map?.cancelBox());
@@ -115,14 +121,15 @@ export function MapView(props: Props) {
   return (
     <section class="map" aria-label={t("map")} onPointerDown={hold}>
       <div class="map-canvas" ref={element} tabIndex={0} role="application" aria-label={t("map")} />
-      {isSolid && <View3d {...props} options={options} onMeasured={setMeasured} />}
-      <Tools map={map} options={options} isSolid={isSolid} onToggle={toggle} onSolid={showSolid} onAccuracy={setAccuracy} />
+      {isSolid && <View3d {...props} land={land} options={options} onMeasured={setMeasured} />}
+      <Tools map={map} options={options} isSolid={isSolid} hasLand={land != null} onToggle={toggle} onSolid={showSolid} onAccuracy={setAccuracy} />
       {hasAccuracy && !isSolid && <Legend />}
       {!isSolid && (
         <div class="map-north" aria-hidden="true">
           <span>N</span>
         </div>
       )}
+      {ground && !isSolid && <p class="map-ground">{ground}</p>}
       {options.placing && !isSolid && <output class="map-measure">{t("place_hint")}</output>}
       {options.measuring && (
         <output class="map-measure">{measured || t(isSolid ? "measure_hint_3d" : "measure_hint")}</output>

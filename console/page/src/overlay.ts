@@ -4,6 +4,7 @@ import type { Picture } from "./link";
 import { axisMark, bordersOf, horizonOf, marksOf, type Mark, type PictureLine } from "./marks";
 import type { Region } from "./region";
 import type { Site } from "./site";
+import type { Skylines } from "./skyline";
 
 export type Box = [number, number, number, number]; // x, y, width, height in the full frame [px]
 
@@ -77,27 +78,35 @@ const LINES: Record<PictureLine["kind"], { colour: string; dash: number[] }> = {
   "keep-out": { colour: "--mark-keep-out", dash: [10, 5] },
   travel: { colour: "--mark-travel", dash: [3, 6] },
   horizon: { colour: "--mark-horizon", dash: [] },
+  skyline: { colour: "--mark-skyline", dash: [] },
 };
 
 function drawLine(g: CanvasRenderingContext2D, { kind, points }: PictureLine, unit: number) {
   g.save();
   g.beginPath();
   for (const [x, y] of points) g.lineTo(x, y);
-  g.lineWidth = (kind === "horizon" ? 1 : 2) * unit;
+  if (kind === "skyline") {
+    // Between a bright sky and a dark land neither colour would be seen everywhere.
+    g.lineWidth = 3 * unit;
+    g.strokeStyle = "rgba(0,0,0,.45)";
+    g.stroke();
+  }
+  g.lineWidth = (LINES[kind].dash.length ? 2 : 1) * unit;
   g.strokeStyle = colour(LINES[kind].colour);
   g.setLineDash(LINES[kind].dash.map((part) => part * unit));
   g.stroke();
   g.restore();
 }
 
-function linesOf(site: Site, picture: Picture): PictureLine[] {
+function linesOf(site: Site, picture: Picture, skylines: Skylines | null): PictureLine[] {
   const horizon = horizonOf(site, picture);
-  return [...bordersOf(site, picture), ...(horizon ? [horizon] : [])];
+  const skyline = skylines?.linesIn(picture).map((points): PictureLine => ({ kind: "skyline", points })) ?? [];
+  return [...bordersOf(site, picture), ...(horizon ? [horizon] : []), ...skyline];
 }
 
 // Picture and overlay in one call, from one message: they always belong together. Everything in the
 // coordinates of the full frame; `drawn`: the box that a person draws.
-export function drawPicture(canvas: HTMLCanvasElement, site: Site, picture: Picture, region: Region | null, drawn: Box | null, isTracking: boolean) {
+export function drawPicture(canvas: HTMLCanvasElement, site: Site, picture: Picture, region: Region | null, drawn: Box | null, isTracking: boolean, skylines: Skylines | null) {
   if (!picture.image.width) return; // replaced, and freed: the next one is about to be drawn
   const [width, height] = picture.full_px;
   const across = Math.min(1600, Math.max(320, Math.round(canvas.clientWidth * devicePixelRatio)));
@@ -110,7 +119,7 @@ export function drawPicture(canvas: HTMLCanvasElement, site: Site, picture: Pict
   g.drawImage(picture.image, 0, 0, width, height);
   const unit = devicePixelRatio / scale;
   drawCross(g, axisMark(site, picture).at, unit);
-  for (const line of linesOf(site, picture)) drawLine(g, line, unit);
+  for (const line of linesOf(site, picture, skylines)) drawLine(g, line, unit);
   for (const mark of marksOf(site, picture)) drawMark(g, mark, unit);
   if (picture.box_px) {
     drawCorners(g, picture.box_px, unit, colour(isTracking ? "--tracking" : "--warn"));

@@ -5,7 +5,7 @@ import type { Extent } from "ol/extent";
 import type { Box } from "./labels";
 
 const PANEL = ".map-panel";
-const OVER = [PANEL, ".map-tools > *", ".layers[open] div", ".map-north", ".map-measure", ".legend", ".ol-scale-line", ".view-3d-tools"];
+const OVER = [PANEL, ".map-tools > *", ".layers[open] div", ".map-north", ".map-measure", ".map-ground", ".legend", ".ol-scale-line", ".view-3d-tools"];
 const LEAST_FREE_PX = 160;
 
 // [px], from the map's corner.

@@ -3,6 +3,7 @@
 import { h } from "preact";
 import { useEffect, useState } from "preact/hooks";
 import { numberOf } from "./format";
+import { LineProfile } from "./lineprofile";
 import type { Link } from "./link";
 import { length } from "./measures";
 import { PanelFrame, PanelRow, PointThere, PositionRows, type OnPoint } from "./panel";
@@ -36,9 +37,9 @@ function meanHeight(link: Link): number {
   return heights.reduce((sum, one) => sum + one, 0) / Math.max(1, heights.length);
 }
 
-type Props = { selected: string; link: Link; mayCommand: boolean; onPoint: OnPoint; onClose: () => void };
+type Props = { selected: string; link: Link; station: string; mayCommand: boolean; onPoint: OnPoint; onClose: () => void };
 
-export function PlacePanel({ selected, link, mayCommand, onPoint, onClose }: Props) {
+export function PlacePanel({ selected, link, station, mayCommand, onPoint, onClose }: Props) {
   const place = { ...placeOf(selected)!, mgrs: useMgrs(selected.slice(6)) };
   const [height, setHeight] = useState(() => String(Math.round(meanHeight(link) + ABOVE_M)));
   const height_m = numberOf(height);
@@ -52,6 +53,7 @@ export function PlacePanel({ selected, link, mayCommand, onPoint, onClose }: Pro
           </label>
         </PanelRow>
       </dl>
+      {height_m != null && <LineProfile link={link} station={station} place={{ latitude_deg: place.latitude_deg, longitude_deg: place.longitude_deg, height_m }} />}
       {mayCommand && height_m != null && <PointThere link={link} place={{ latitude_deg: place.latitude_deg, longitude_deg: place.longitude_deg, height_m }} onPoint={onPoint} />}
     </PanelFrame>
   );

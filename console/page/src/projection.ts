@@ -19,6 +19,24 @@ export function ecef(latitude_deg: number, longitude_deg: number, height_m: numb
   return [across * Math.cos(lon), across * Math.sin(lon), (n * (1 - E2) + height_m) * Math.sin(lat)];
 }
 
+// Latitude and longitude [deg] of a place near the ground: to 1e-7 deg up to 10 km above it (Bowring).
+export function onGround([x, y, z]: number[]): { latitude_deg: number; longitude_deg: number } {
+  const b = A_M * Math.sqrt(1 - E2);
+  const across = Math.hypot(x, y);
+  const reduced = Math.atan2(z * A_M, across * b);
+  const latitude = Math.atan2(z + (E2 / (1 - E2)) * b * Math.sin(reduced) ** 3, across - E2 * A_M * Math.cos(reduced) ** 3);
+  return { latitude_deg: (latitude * 180) / Math.PI, longitude_deg: (Math.atan2(y, x) * 180) / Math.PI };
+}
+
+// Unit vectors (ECEF) of elevations [deg] at equal steps of azimuth, clockwise from north; null where there is none.
+export function unitsEcef({ latitude_deg, longitude_deg }: { latitude_deg: number; longitude_deg: number }, elevations_deg: (number | null)[]): (number[] | null)[] {
+  return elevations_deg.map((elevation_deg, i) => {
+    if (elevation_deg == null) return null;
+    const [a, e] = [(2 * Math.PI * i) / elevations_deg.length, (elevation_deg * Math.PI) / 180];
+    return moved([0, 0, 0], latitude_deg, longitude_deg, [Math.cos(e) * Math.sin(a), Math.cos(e) * Math.cos(a), Math.sin(e)]);
+  });
+}
+
 // A place moved along east, north, up [m]: of a target, to the instant of a picture.
 export function moved(place: number[], latitude_deg: number, longitude_deg: number, enu_m: number[]): number[] {
   const [lat, lon] = [(latitude_deg * Math.PI) / 180, (longitude_deg * Math.PI) / 180];
@@ -66,25 +84,27 @@ function pinhole([k1, k2, p1, p2, k3]: number[], [px, py, pz]: number[]): Plane 
 
 // The radius is a polynomial of the angle off the axis: theta (1 + k1 s + k2 s^2 + ...), s = theta^power. It
 // images as far as that grows.
-function radial(power: number, k: number[], [x, y, z]: number[]): Plane {
-  const away = Math.hypot(x, y);
-  const theta = Math.atan2(away, z);
-  const [k1, k2, , , k3, k4] = k;
+function radial(power: number, [k1, k2, , , k3, k4]: number[]): (p: number[]) => Plane {
   const terms = [1, k1, k2, k3, k4];
   const radius = (angle: number) => angle * terms.reduceRight((sum, term) => sum * angle ** power + term, 0);
   const grows = (angle: number) => terms.reduceRight((sum, term, i) => sum * angle ** power + term * (1 + power * i), 0) > 0;
-  const steps = 64;
-  for (let i = 1; i <= steps; ++i) {
-    if (!grows((theta * i) / steps)) return null;
-  }
-  if (away === 0) return z > 0 ? [0, 0] : null;
-  return [(radius(theta) / away) * x, (radius(theta) / away) * y];
+  const steps = 512; // of the half circle
+  let grown = 0;
+  while (grown < steps && grows((Math.PI * (grown + 1)) / steps)) grown++;
+  const last = (Math.PI * grown) / steps;
+  return ([x, y, z]) => {
+    const away = Math.hypot(x, y);
+    const theta = Math.atan2(away, z);
+    if (theta > last) return null;
+    if (away === 0) return z > 0 ? [0, 0] : null;
+    return [(radius(theta) / away) * x, (radius(theta) / away) * y];
+  };
 }
 
-const PLANES: Record<string, (k: number[], p: number[]) => Plane> = {
-  pinhole,
-  fisheye: (k, p) => radial(2, k, p),
-  polynomial: (k, p) => radial(1, k, p),
+const PLANES: Record<string, (k: number[]) => (p: number[]) => Plane> = {
+  pinhole: (k) => (p) => pinhole(k, p),
+  fisheye: (k) => radial(2, k),
+  polynomial: (k) => radial(1, k),
 };
 
 // About the angle off the axis at this distance from the principal point.
@@ -93,13 +113,19 @@ export function offAxis_deg(camera: Camera, away_px: number): number {
   return Math.min(180, ((camera.lens === "pinhole" ? Math.atan(away) : away) * 180) / Math.PI);
 }
 
-// The pixel in the full frame; null behind the camera or far outside of its lens.
-export function pixelOf(camera: Camera, place: number[]): [number, number] | null {
-  const d = place.map((value, i) => value - camera.ecef_m[i]);
+// From directions (ECEF, from the camera, of any length) to pixels in the full frame; null behind the camera or far
+// outside of its lens.
+export function projectorOf(camera: Camera): (direction: number[]) => [number, number] | null {
   const r = camera.from_ecef;
-  const row = (i: number) => r[3 * i] * d[0] + r[3 * i + 1] * d[1] + r[3 * i + 2] * d[2];
-  const xy = PLANES[camera.lens](camera.distortion, [row(0), row(1), row(2)]);
-  if (!xy) return null;
   const [fx, fy, cx, cy, skew] = camera.matrix_px;
-  return [fx * xy[0] + skew * xy[1] + cx, fy * xy[1] + cy];
+  const plane = PLANES[camera.lens](camera.distortion);
+  return ([x, y, z]) => {
+    const row = (i: number) => r[3 * i] * x + r[3 * i + 1] * y + r[3 * i + 2] * z;
+    const xy = plane([row(0), row(1), row(2)]);
+    return xy && [fx * xy[0] + skew * xy[1] + cx, fy * xy[1] + cy];
+  };
+}
+
+export function pixelOf(camera: Camera, place: number[]): [number, number] | null {
+  return projectorOf(camera)(place.map((value, i) => value - camera.ecef_m[i]));
 }

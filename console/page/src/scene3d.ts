@@ -1,14 +1,14 @@
 // What there is to see in three dimensions, in the east-north-up frame of the site's middle, and how it
 // is projected and drawn: a few hundred lines, which need no graphics processor.
 
-import { heightRange, runsOf } from "./heights";
+import { heightRange, HIDDEN_DASH, runsOf } from "./heights";
 import { type Box, OFFSETS, type Side, sidesOf } from "./labels";
 import { fineOutline } from "./marks";
 import { length, ringName, roundStep } from "./measures";
 import { ecef } from "./projection";
 import { followed, nameOf, stretches, type Line, type Site, type Station, type Target } from "./site";
 
-export type Layers = { grid: boolean; rings: boolean; trails: boolean; views: boolean; limits: boolean };
+export type Layers = { terrain: boolean; grid: boolean; rings: boolean; trails: boolean; views: boolean; limits: boolean };
 
 export type Vector = [number, number, number];
 export type View = { away_m: number; at: Vector }; // looks at `at`
@@ -180,9 +180,9 @@ export class Scene {
     for (const target of targets) {
       const width = selected === `target:${target.id}` ? 2.5 : 1.5;
       for (const stretch of target.latitude_deg == null ? [] : stretches(target)) {
-        for (const { step, places } of runsOf(stretch, range, colours.length)) {
+        for (const { step, isHidden, places } of runsOf(stretch, range, colours.length, selected)) {
           const points = places.map(([longitude, latitude, height]) => this.frame.place(latitude, longitude, height));
-          this.strokes.push({ points, colour: colours[step], width });
+          this.strokes.push({ points, colour: colours[step], width, dash: isHidden ? HIDDEN_DASH : undefined });
         }
       }
     }
@@ -236,7 +236,7 @@ type Pixel = [number, number] | null;
 
 const focalPx = (width: number, height: number) => FOCAL * Math.min(width, height * 1.3);
 
-function projector(eye: Eye, width: number, height: number): (place: Vector) => Pixel {
+export function projector(eye: Eye, width: number, height: number): (place: Vector) => Pixel {
   const [sa, ca, se, ce] = [Math.sin(eye.azimuth), Math.cos(eye.azimuth), Math.sin(eye.elevation), Math.cos(eye.elevation)];
   return ([e, n, u]) => {
     const [x, y, z] = [e - eye.at[0], n - eye.at[1], u - eye.at[2]];
@@ -296,8 +296,8 @@ function paint(g: CanvasRenderingContext2D, stroke: Stroke, project: (place: Vec
   g.stroke();
 }
 
-// `size`: the part of the canvas in whose middle the eye looks. `over`: what covers the canvas.
-export function draw(canvas: HTMLCanvasElement, scene: Scene, ground: Stroke[], eye: Eye, size: [number, number], over: Box[], colour: (name: string) => string) {
+// `size`: the part of the canvas in whose middle the eye looks. `over`: what covers the canvas. `terrain`: its picture.
+export function draw(canvas: HTMLCanvasElement, scene: Scene, ground: Stroke[], terrain: HTMLCanvasElement | null, eye: Eye, size: [number, number], over: Box[], colour: (name: string) => string) {
   const [width, height] = [canvas.clientWidth, canvas.clientHeight];
   canvas.width = Math.round(width * devicePixelRatio);
   canvas.height = Math.round(height * devicePixelRatio);
@@ -305,6 +305,7 @@ export function draw(canvas: HTMLCanvasElement, scene: Scene, ground: Stroke[], 
   g.scale(devicePixelRatio, devicePixelRatio);
   g.fillStyle = colour("--map-sea");
   g.fillRect(0, 0, width, height);
+  if (terrain) g.drawImage(terrain, 0, 0, width, height);
   const project = projector(eye, ...size);
   for (const stroke of [...ground, ...scene.strokes]) paint(g, stroke, project);
   const names = scene.names.flatMap((name) => {

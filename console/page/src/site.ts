@@ -97,9 +97,12 @@ export type Target = {
   crossing_angle_deg: number | null;
   residual: number | null;
   stations: { id: string; used: boolean; weight: number | null; age_s: number | null }[];
+  hidden?: Hidden | null;
   trail: (TrailPoint | null)[]; // null: it was not seen meanwhile
 };
-export type TrailPoint = [number, number, number]; // longitude, latitude [deg], height [m]
+// Longitude, latitude [deg], height [m], and the stations from which the land hid the target there; "*": no other saw it.
+export type TrailPoint = [number, number, number, string[]?];
+export type Hidden = { from: { id: string; since_us: number; back_us: number }[]; all: boolean }; // back_us 0: not known
 export type Line = { id: string; stale: boolean; target: string; azimuth_deg: number; elevation_deg: number; sd_deg: number };
 // What others know of a target, or a target that detectors have found (id: its number); stations are led
 // there when an operator allows it.
@@ -207,6 +210,9 @@ export function followed(site: Site, selected: string): Target | undefined {
   return heard.length === 1 ? heard[0] : undefined;
 }
 
+// The target that a station helps to place.
+export const seenBy = (site: Site, station: string) => [...site.targets.values()].find((target) => !target.stale && target.stations?.some((one) => one.used && one.id === station));
+
 type Entity = { id: string };
 
 function merge<T extends Entity>(known: Map<string, T>, changed: Partial<T>[] | undefined, gone: string[] | undefined) {
@@ -216,6 +222,14 @@ function merge<T extends Entity>(known: Map<string, T>, changed: Partial<T>[] | 
     known.set(id, { ...known.get(id), ...fields } as T);
   }
 }
+
+function trailPoint({ longitude_deg, latitude_deg, height_m, hidden }: Target): TrailPoint {
+  if (!hidden) return [longitude_deg, latitude_deg, height_m];
+  return [longitude_deg, latitude_deg, height_m, [...hidden.from.map((one) => one.id), ...(hidden.all ? ["*"] : [])]];
+}
+
+// Whether the land hid it there from the station that is selected; with another selection, from all.
+export const wasHidden = (point: TrailPoint, selected: string) => point[3]?.includes(selected.startsWith("station:") ? selected.slice(8) : "*") ?? false;
 
 // The server sends the trail with a snapshot; from then on it grows here.
 function extendTrails(site: Site, changed: Partial<Target>[] | undefined, before: Map<string, number>) {
@@ -227,19 +241,19 @@ function extendTrails(site: Site, changed: Partial<Target>[] | undefined, before
     if (target.utime_us - last < TRAIL_PERIOD_US) continue;
     before.set(id!, target.utime_us);
     if (target.utime_us - last > TRAIL_GAP_US && target.trail.length > 0) target.trail.push(null);
-    target.trail.push([target.longitude_deg, target.latitude_deg, target.height_m]);
+    target.trail.push(trailPoint(target));
     while (target.trail.length > MOST_TRAIL_POINTS) target.trail.shift();
   }
 }
 
 // The trail's stretches in which the target was seen all along; the last goes on to where it is.
-export function stretches({ trail, longitude_deg, latitude_deg, height_m }: Target): TrailPoint[][] {
+export function stretches(target: Target): TrailPoint[][] {
   const all: TrailPoint[][] = [[]];
-  for (const point of trail ?? []) {
+  for (const point of target.trail ?? []) {
     if (point) all[all.length - 1].push(point);
     else all.push([]);
   }
-  all[all.length - 1].push([longitude_deg, latitude_deg, height_m]);
+  all[all.length - 1].push(trailPoint(target));
   return all.filter((one) => one.length > 1);
 }
 

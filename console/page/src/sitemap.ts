@@ -19,6 +19,7 @@ import { Circle, Fill, RegularShape, Stroke, Style, Text } from "ol/style";
 import type { Coordinate } from "ol/coordinate";
 import { areaShapes, draftShapes } from "./areashapes";
 import { bearing } from "./format";
+import { GroundProbe } from "./groundprobe";
 import { Grid, gridShapes, type HasRoom, ringShapes } from "./gridshapes";
 import { type Box, meet, type Named, type Side, sidesOf } from "./labels";
 import type { Link } from "./link";
@@ -30,6 +31,7 @@ import { placeOf } from "./placepanel";
 import { ScaleInMetres } from "./scale";
 import { Questions } from "./questions";
 import { type Corner, cuesOnMap, followed } from "./site";
+import { stationWords } from "./statetext";
 import { lineShapes, stationShapes } from "./stationshapes";
 import { cueShapes, cueWords, targetShapes, targetWords } from "./targetshapes";
 import { trailShapes } from "./trailshapes";
@@ -59,8 +61,9 @@ export class SiteMap {
   private accuracyShown: AccuracyChoice | null = null;
   private sides = new Map<string, Side | null>();
   private over: Box[] = []; // what covers the map
+  private probe = new GroundProbe((text) => this.onGround(text));
   private pen = document.createElement("canvas").getContext("2d")!;
-  options = { rings: true, grid: true, trails: true, views: true, limits: true, follow: false, measuring: false, placing: false };
+  options = { terrain: true, rings: true, grid: true, trails: true, views: true, limits: true, follow: false, measuring: false, placing: false };
   selected = "";
   draft: Corner[] | null = null; // of an area that is being drawn
   onCorner: (corner: Corner) => void = () => {};
@@ -68,6 +71,8 @@ export class SiteMap {
   onMeasured: (text: string) => void = () => {};
   onPlaced: () => void = () => {};
   onMapTrouble: () => void = () => {};
+  onGround: (text: string) => void = () => {};
+  hasGround = false; // land is known
 
   constructor(
     private link: Link,
@@ -87,6 +92,12 @@ export class SiteMap {
     // What is on the screen now, for whoever measures.
     this.map.on("postrender", () => (element.dataset.newestUs = String(this.newest_us)));
     this.map.on("pointerdrag", () => (this.hasMoved = true));
+    this.map.on("pointermove", (event) => {
+      if (event.dragging || !this.hasGround) return;
+      const [longitude, latitude] = toLonLat(event.coordinate);
+      this.probe.at(latitude, longitude);
+    });
+    element.addEventListener("pointerleave", () => this.probe.leave());
     element.addEventListener("wheel", () => (this.hasMoved = true), { passive: true });
     this.map.on("click", (event) => {
       if (this.draft) this.addCorner(event.coordinate);
@@ -131,7 +142,7 @@ export class SiteMap {
   private pick(pixel: number[]) {
     const picks: string[] = [];
     this.map.forEachFeatureAtPixel(pixel, (feature) => void (feature.get("pick") && picks.push(feature.get("pick"))), { hitTolerance: 8 });
-    const best = picks.find((one) => one.startsWith("target:")) ?? picks[0];
+    const best = picks.find((one) => one.startsWith("target:")) ?? picks.find((one) => !one.startsWith("sight:")) ?? picks[0];
     if (best) this.onPick(best);
   }
 
@@ -284,8 +295,8 @@ export class SiteMap {
       if (at) names.push({ id, at: at as [number, number], width: this.pen.measureText(words).width });
     };
     this.pen.font = FONT;
-    for (const one of site.targets.values()) add(`target:${one.id}`, targetWords(one), one.longitude_deg, one.latitude_deg);
-    for (const one of site.stations.values()) add(`station:${one.id}`, one.id, one.longitude_deg, one.latitude_deg);
+    for (const one of site.targets.values()) add(`target:${one.id}`, targetWords(one, this.link.now_us()), one.longitude_deg, one.latitude_deg);
+    for (const one of site.stations.values()) add(`station:${one.id}`, stationWords(one, this.link.now_us()), one.longitude_deg, one.latitude_deg);
     for (const one of cuesOnMap(site.fusion)) add(`cue:${one.id}`, cueWords(one), one.longitude_deg, one.latitude_deg);
     names.sort((a, b) => Number(b.id === this.selected) - Number(a.id === this.selected));
     this.sides = sidesOf(names, this.sides, this.over);
@@ -293,18 +304,19 @@ export class SiteMap {
 
   draw() {
     const { site } = this.link;
+    const now_us = this.link.now_us();
     this.makeRoom();
     this.placeNames();
     const features: Feature[] = [];
     const border_m = this.options.limits ? BORDER_PART * this.view_m() : null;
-    for (const s of site.stations.values()) features.push(...stationShapes(s, this.colours, this.selected === `station:${s.id}`, this.options.views, border_m, this.sides.get(`station:${s.id}`)));
+    for (const s of site.stations.values()) features.push(...stationShapes(s, this.colours, this.selected === `station:${s.id}`, this.options.views, border_m, now_us, this.sides.get(`station:${s.id}`)));
     features.push(...lineShapes(this.link, this.colours));
     features.push(...cueShapes(this.link, this.colours, this.sides));
     features.push(...this.placeShapes());
     features.push(...areaShapes(site, this.colours), ...draftShapes(this.draft ?? [], this.colours));
     const targets = [...site.targets.values()];
     if (this.options.trails) features.push(...trailShapes(targets, this.heightColours, this.selected));
-    for (const target of targets) features.push(...targetShapes(target, this.colours, this.selected === `target:${target.id}`, this.sides.get(`target:${target.id}`)));
+    for (const target of targets) features.push(...targetShapes(target, this.colours, this.selected === `target:${target.id}`, now_us, this.sides.get(`target:${target.id}`)));
     this.moving.clear(true);
     this.moving.addFeatures(features);
     this.newest_us = Math.max(0, ...[...site.targets.values()].map((target) => target.utime_us));

@@ -12,6 +12,7 @@ import type { Side } from "./labels";
 import { Colours, nameAt, offset, shape, stretch } from "./mapfeatures";
 import { fineOutline } from "./marks";
 import type { Border, Station } from "./site";
+import { stationWords } from "./statetext";
 
 const RAY_M = 20_000;
 const WEDGE_M = 2_000;
@@ -35,7 +36,7 @@ function borderShapes(at: Coordinate, borders: Border[], c: Colours, radius_m: n
   return out;
 }
 
-export function stationShapes(s: Station, c: Colours, selected: boolean, views: boolean, border_m: number | null, side?: Side | null): Feature[] {
+export function stationShapes(s: Station, c: Colours, selected: boolean, views: boolean, border_m: number | null, now_us: number, side?: Side | null): Feature[] {
   if (s.latitude_deg == null || s.longitude_deg == null) return [];
   const at = fromLonLat([s.longitude_deg, s.latitude_deg]);
   const scale = stretch(s.latitude_deg);
@@ -53,14 +54,14 @@ export function stationShapes(s: Station, c: Colours, selected: boolean, views: 
   const sees = s.state === "tracking" && s.bearing;
   if (sees && !s.stale) {
     const far = offset(at, s.bearing!.azimuth_deg, RAY_M, scale);
-    out.push(shape(new LineString([at, far]), new Style({ stroke: new Stroke({ color: c.ray, width: selected ? 2 : 1.2 }) })));
+    out.push(shape(new LineString([at, far]), new Style({ stroke: new Stroke({ color: c.ray, width: selected ? 2 : 1.2 }) }), `sight:${s.id}`));
   }
   out.push(
     shape(
       new Point(at),
       [
         new Style({ image: new Circle({ declutterMode: "obstacle", radius: selected ? 11 : 8, stroke: new Stroke({ color: selected ? c.accent : "transparent", width: 2 }) }) }),
-        new Style({ image: new Circle({ declutterMode: "obstacle", radius: 6, fill: new Fill({ color: colour }), stroke: new Stroke({ color: c.halo, width: 2 }) }), text: nameAt(side, s.id, c.text, c.halo) }),
+        new Style({ image: new Circle({ declutterMode: "obstacle", radius: 6, fill: new Fill({ color: colour }), stroke: new Stroke({ color: c.halo, width: 2 }) }), text: nameAt(side, stationWords(s, now_us), c.text, c.halo) }),
       ],
       `station:${s.id}`,
     ),

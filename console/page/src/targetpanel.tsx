@@ -4,6 +4,7 @@ import { h, Fragment } from "preact";
 import { useState } from "preact/hooks";
 import { useEscape } from "./escape";
 import { bearing, DASH, fixed } from "./format";
+import { LineProfile } from "./lineprofile";
 import type { Link } from "./link";
 import { heightRange, stepOf } from "./heights";
 import { heightColours } from "./mapfeatures";
@@ -11,6 +12,7 @@ import { climb, length, speed } from "./measures";
 import { PanelFrame, PanelRow, PointThere, PositionRows, type OnPoint } from "./panel";
 import { WordOn } from "./targets";
 import { nameOf, stretches, targetState, type Target } from "./site";
+import { hiddenText } from "./statetext";
 import { named, t } from "./words";
 
 const TRAIL_WIDTH = 240; // [px]
@@ -123,9 +125,9 @@ function Appearance({ of }: { of: Target }) {
   return <>{named("t", of.class) + sure + size + signal}</>;
 }
 
-type PanelProps = { target: Target; link: Link; mayCommand: boolean; onPoint: OnPoint; onCue: (cue: string, allow: boolean) => void; onName: (name: string) => void; onClose: () => void };
+type PanelProps = { target: Target; link: Link; station: string; mayCommand: boolean; onPoint: OnPoint; onCue: (cue: string, allow: boolean) => void; onName: (name: string) => void; onClose: () => void };
 
-export function TargetPanel({ target, link, mayCommand, onPoint, onCue, onName, onClose }: PanelProps) {
+export function TargetPanel({ target, link, station, mayCommand, onPoint, onCue, onName, onClose }: PanelProps) {
   const age_s = Math.max(0, (link.now_us() - target.utime_us) / 1e6);
   const { latitude_deg, longitude_deg, height_m } = target;
   const handover = link.site.fusion?.cues?.find((cue) => cue.id === target.id);
@@ -160,6 +162,7 @@ export function TargetPanel({ target, link, mayCommand, onPoint, onCue, onName, 
         <PanelRow word="seen_by">
           <SeenBy target={target} />
         </PanelRow>
+        {target.hidden && <PanelRow word="hidden_from_whom">{hiddenText(target, link.now_us())}</PanelRow>}
         {handover && (
           <PanelRow word="handover">
             {named("h", handover.state)} <WordOn cue={handover} mayCommand={mayCommand} onCue={onCue} />
@@ -171,6 +174,7 @@ export function TargetPanel({ target, link, mayCommand, onPoint, onCue, onName, 
           <TrailProfile target={target} targets={[...link.site.targets.values()]} />
         </PanelRow>
       </dl>
+      {latitude_deg != null && <LineProfile link={link} station={station} place={{ latitude_deg, longitude_deg, height_m }} />}
       {mayCommand && latitude_deg != null && <PointThere link={link} place={{ latitude_deg, longitude_deg, height_m }} onPoint={onPoint} />}
     </PanelFrame>
   );

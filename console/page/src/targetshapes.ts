@@ -12,6 +12,7 @@ import type { Side } from "./labels";
 import { Colours, nameAt, offset, shape, stretch } from "./mapfeatures";
 import { length, speed } from "./measures";
 import { cuesOnMap, isTarget, nameOf, targetState, type Cue, type Target } from "./site";
+import { hiddenInShort } from "./statetext";
 import { named } from "./words";
 
 const VELOCITY_S = 5;
@@ -33,13 +34,13 @@ function ellipseRing(target: Target, at: Coordinate, scale: number): Coordinate[
 const targetColour = (target: Target, c: Colours) =>
   target.stale || target.state === "coasted" ? c.coasted : target.state === "tentative" ? c.tentative : c.target;
 
-export function targetWords(target: Target): string {
+export function targetWords(target: Target, now_us: number): string {
   const moves = target.stale ? named("s", targetState(target)) : speed(target.speed_m_s);
-  return `${nameOf(target)}   ${length(target.height_m)}   ${moves}`;
+  return `${nameOf(target)}   ${length(target.height_m)}   ${moves}${hiddenInShort(target, now_us)}`;
 }
 export const cueWords = (cue: Cue) => `${cue.label || cue.id}   ${named(isTarget(cue) ? "h" : "s", cue.state)}`;
 
-export function targetShapes(target: Target, c: Colours, selected: boolean, side?: Side | null): Feature[] {
+export function targetShapes(target: Target, c: Colours, selected: boolean, now_us: number, side?: Side | null): Feature[] {
   if (target.latitude_deg == null) return [];
   const at = fromLonLat([target.longitude_deg, target.latitude_deg]);
   const scale = stretch(target.latitude_deg);
@@ -57,7 +58,7 @@ export function targetShapes(target: Target, c: Colours, selected: boolean, side
       new Point(at),
       [
         new Style({ image: new Circle({ declutterMode: "obstacle", radius: selected ? 12 : 8, stroke: new Stroke({ color: selected ? c.accent : colour, width: 2 }) }) }),
-        new Style({ image: new Circle({ declutterMode: "obstacle", radius: 3.5, fill: new Fill({ color: colour }) }), text: nameAt(side, targetWords(target), c.text, c.halo) }),
+        new Style({ image: new Circle({ declutterMode: "obstacle", radius: 3.5, fill: new Fill({ color: colour }) }), text: nameAt(side, targetWords(target, now_us), c.text, c.halo) }),
       ],
       `target:${target.id}`,
     ),

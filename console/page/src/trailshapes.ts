@@ -1,11 +1,11 @@
-// Where targets have been, on the map, each part in the colour of its height.
+// Where targets have been, on the map, each part in the colour of its height; dashed where the land hid them.
 
 import type Feature from "ol/Feature";
 import MultiLineString from "ol/geom/MultiLineString";
 import { fromLonLat } from "ol/proj";
 import { Stroke, Style } from "ol/style";
 import type { Coordinate } from "ol/coordinate";
-import { heightRange, runsOf } from "./heights";
+import { heightRange, HIDDEN_DASH, runsOf } from "./heights";
 import { shape } from "./mapfeatures";
 import { stretches, type Target } from "./site";
 
@@ -13,13 +13,15 @@ import { stretches, type Target } from "./site";
 export function trailShapes(targets: Target[], colours: string[], selected: string): Feature[] {
   const range = heightRange(targets);
   if (!range) return [];
-  const parts = { plain: colours.map((): Coordinate[][] => []), selected: colours.map((): Coordinate[][] => []) };
+  const part = () => colours.map((): [Coordinate[][], Coordinate[][]] => [[], []]); // seen, hidden
+  const parts = { plain: part(), selected: part() };
   for (const target of targets) {
     const of = parts[selected === `target:${target.id}` ? "selected" : "plain"];
     for (const stretch of target.latitude_deg == null ? [] : stretches(target)) {
-      for (const { step, places } of runsOf(stretch, range, colours.length)) of[step].push(places.map(([longitude, latitude]) => fromLonLat([longitude, latitude])));
+      for (const { step, isHidden, places } of runsOf(stretch, range, colours.length, selected)) of[step][Number(isHidden)].push(places.map(([longitude, latitude]) => fromLonLat([longitude, latitude])));
     }
   }
-  const draw = (lines: Coordinate[][], i: number, width: number) => (lines.length ? [shape(new MultiLineString(lines), new Style({ stroke: new Stroke({ color: colours[i], width }) }))] : []);
-  return [...parts.plain.flatMap((lines, i) => draw(lines, i, 1.75)), ...parts.selected.flatMap((lines, i) => draw(lines, i, 3))];
+  const draw = (lines: Coordinate[][], color: string, width: number, lineDash?: number[]) => (lines.length ? [shape(new MultiLineString(lines), new Style({ stroke: new Stroke({ color, width, lineDash, lineCap: lineDash ? "butt" : "round" }) }))] : []);
+  const drawBoth = (width: number) => ([seen, hidden]: [Coordinate[][], Coordinate[][]], i: number) => [...draw(seen, colours[i], width), ...draw(hidden, colours[i], width, HIDDEN_DASH)];
+  return [...parts.plain.flatMap(drawBoth(1.75)), ...parts.selected.flatMap(drawBoth(3))];
 }

@@ -4,11 +4,14 @@ import { h } from "preact";
 import { useState } from "preact/hooks";
 import { ArrangementChoice, type Arrangement } from "./arrangement";
 import { useEscape } from "./escape";
+import { problemOf } from "./conditions";
 import { Eye } from "./eye";
+import { useLand } from "./land";
 import type { Link } from "./link";
 import type { Designate, Point } from "./onpicture";
 import { usePictures } from "./pictures";
 import type { Station } from "./site";
+import { useSkylines, type SkylineChoice } from "./skyline";
 import { ThinLinkChoice, useThinLink } from "./thinlink";
 import { t } from "./words";
 
@@ -34,6 +37,17 @@ function HandHint() {
   );
 }
 
+// Whether the land's skyline is drawn in the pictures, and why it is not in this one.
+function SkylineToggle({ isOn, choose, skylines, station }: SkylineChoice & { station: string }) {
+  const problem = skylines?.problems.get(station);
+  return (
+    <label class="thin">
+      <input type="checkbox" checked={isOn} onChange={(event) => choose(event.currentTarget.checked)} />
+      {t("skyline")} <span role="status">{problem ? problemOf(problem) : ""}</span>
+    </label>
+  );
+}
+
 type Props = {
   link: Link;
   version: number;
@@ -49,6 +63,7 @@ type Props = {
 
 export function VideoView({ link, selected, mayCommand, arrangement, onSelect, onDesignate, onPoint, onWithheld, onRelease }: Props) {
   const thin = useThinLink(link);
+  const skyline = useSkylines(link, useLand(link));
   const stations = [...link.site.stations.values()].sort((a, b) => a.id.localeCompare(b.id));
   const ids = stations.map((s) => s.id);
   const pictures = usePictures(link, mostWanted(stations, selected), ids, thin.codec);
@@ -66,6 +81,7 @@ export function VideoView({ link, selected, mayCommand, arrangement, onSelect, o
               picture={pictures.get(station.id)}
               large={station.id === large}
               isThin={thin.isThin}
+              skyline={skyline}
               mayCommand={mayCommand}
               onSelect={() => onSelect(station.id)}
               onDesignate={onDesignate}
@@ -77,6 +93,7 @@ export function VideoView({ link, selected, mayCommand, arrangement, onSelect, o
               <div class="video-tools">
                 <ArrangementChoice {...arrangement} />
                 {!link.replay && <ThinLinkChoice {...thin} />}
+                {skyline.isThere && <SkylineToggle {...skyline} station={station.id} />}
                 {mayCommand && <HandHint />}
               </div>
             )}

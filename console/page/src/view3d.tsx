@@ -3,16 +3,19 @@
 
 import { h } from "preact";
 import { useLayoutEffect, useRef, useState } from "preact/hooks";
+import type { Land } from "./land";
 import type { Link } from "./link";
 import { ringName, roundStep } from "./measures";
 import { useOrbit, useTurning } from "./orbit";
 import { beyond, boxesOver, takenByPanel } from "./overlays";
 import { useRuler } from "./ruler3d";
 import { draw, frameOf, groundAt, groundStrokes, LARGER, type Layers, Scene } from "./scene3d";
+import { TerrainPainter, useTerrain } from "./terrain3d";
 import { t } from "./words";
 
 type Props = {
   link: Link;
+  land: Land | null;
   version: number;
   theme: string;
   selected: string;
@@ -47,11 +50,14 @@ function Tools({ step_m, larger, onLarger, onFit }: ToolsProps) {
 // What the panel leaves.
 const sizeOf = (canvas: HTMLCanvasElement): [number, number] => [canvas.clientWidth - takenByPanel(canvas), canvas.clientHeight];
 
-export function View3d({ link, version, theme, selected, options, onPick, onMeasured }: Props) {
+export function View3d({ link, land, version, theme, selected, options, onPick, onMeasured }: Props) {
   const canvas = useRef<HTMLCanvasElement>(null);
   const [larger, setLarger] = useState(1);
   const drawn = useRef<Scene | null>(null);
   const orbit = useOrbit();
+  const painter = useRef<TerrainPainter>();
+  painter.current ??= new TerrainPainter();
+  const terrain = useTerrain(land, [...link.site.stations.values()], [...link.site.targets.values()]);
   const ruler = useRuler(options.measuring, onMeasured);
   useLayoutEffect(() => {
     const frame = frameOf([...link.site.stations.values()]);
@@ -68,8 +74,10 @@ export function View3d({ link, version, theme, selected, options, onPick, onMeas
     const eye = orbit.shown.current;
     const over = [...boxesOver(canvas.current), ...beyond(canvas.current.clientWidth, canvas.current.clientHeight)];
     const ground = options.grid ? groundStrokes(eye, colour("--map-grid")) : [];
-    draw(canvas.current, scene, ground, eye, sizeOf(canvas.current), over, colour);
-  }, [version, orbit.eye, larger, theme, selected, options, ruler.ends]);
+    const { clientWidth, clientHeight } = canvas.current;
+    const land = terrain && options.terrain ? painter.current!.picture(terrain, eye, sizeOf(canvas.current), [clientWidth, clientHeight], devicePixelRatio, colour("--map-terrain")) : null;
+    draw(canvas.current, scene, ground, land, eye, sizeOf(canvas.current), over, colour);
+  }, [version, orbit.eye, larger, theme, selected, options, ruler.ends, terrain]);
   const click = (event: PointerEvent) => {
     const rect = canvas.current!.getBoundingClientRect();
     const pixel: [number, number] = [event.clientX - rect.left, event.clientY - rect.top];

@@ -7,6 +7,7 @@
 #include "conditions/alarms.h"
 #include "ols_msg/bearing_t.hpp"
 #include "ols_msg/fusion_status_t.hpp"
+#include "ols_msg/occlusion_t.hpp"
 #include "ols_msg/station_status_t.hpp"
 #include "ols_msg/target_t.hpp"
 #include "tests/unit/on_the_bus.h"
@@ -87,6 +88,24 @@ TEST(ConsoleMessages, WhatIsNoPositionIsNoPosition) {
 TEST(ConsoleMessages, OfOtherChannelsThereIsNoTargetAndNoFusion) {
   EXPECT_FALSE(target_from(on("OLS_TARGET_PAPER", target())));
   EXPECT_FALSE(fusion_from(on("OLS_FUSION_STATUS_2", made<ols_msg::fusion_status_t>())));
+}
+
+TEST(ConsoleMessages, WhatTheLandHidesFromAStation) {
+  auto message = made<ols_msg::occlusion_t>();
+  message.station = "alfa";
+  message.target_id = 7;
+  message.hidden = 0.9;
+  message.utime = 5;
+  message.exit_utime = 6;
+  message.holds_s = 2.0;
+  const auto heard = occlusion_from(on("OLS_OCCLUSION_alfa", message));
+  ASSERT_TRUE(heard);
+  EXPECT_EQ(heard->target, "7");
+  EXPECT_TRUE(heard->is_hidden);
+  EXPECT_EQ(heard->back_us, 6);
+  message.hidden = 0.2;
+  EXPECT_FALSE(occlusion_from(on("OLS_OCCLUSION_alfa", message))->is_hidden);
+  EXPECT_FALSE(occlusion_from(on("OLS_OCCLUSION_bravo", message)));
 }
 
 TEST(ConsoleMessages, ABearingIsOfTheStationOfItsChannel) {

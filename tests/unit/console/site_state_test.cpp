@@ -41,6 +41,41 @@ TEST(SiteState, AViewerGetsWhatChangedSinceItsLastMessage) {
   EXPECT_FALSE(changes.contains("targets"));
 }
 
+TEST(SiteState, ATargetSaysWhoTheLandHidesItFromAndItsTrailRemembers) {
+  SiteState site;
+  site.hear(station("alfa"), {0.0, 0});
+  site.hear(station("bravo"), {0.0, 0});
+  TargetHeard seen = target("7");
+  const auto by = [&](double age_s) {
+    seen.fields["stations"] = {{{"id", "alfa"}, {"used", true}, {"age_s", 0.1}},
+                               {{"id", "bravo"}, {"used", true}, {"age_s", age_s}}};
+    return seen;
+  };
+  const OcclusionHeard hides{"alfa", "7", true, 1'000'000, 5'000'000, 2.0};
+  site.hear(OcclusionHeard{"forged", "7", true, 1, 2, 9.0}, {0.0, 0});
+  site.hear(by(0.1), {1.0, 0});
+  site.hear(hides, {1.0, 0});
+  site.hear(by(0.1), {1.5, 0});
+  OcclusionHeard again = hides;
+  again.utime_us = 2'000'000;
+  site.hear(again, {2.0, 0});
+  site.hear(by(3.0), {2.1, 0});
+  Json known = site.snapshot().at("targets")[0];
+  EXPECT_EQ(known.at("hidden").dump(),
+            R"({"all":true,"from":[{"back_us":5000000,"id":"alfa","since_us":1000000}]})");
+  EXPECT_EQ(known.at("trail")[0].size(), 3U);
+  EXPECT_EQ(known.at("trail")[1][3], Json({"alfa"}));
+  EXPECT_EQ(known.at("trail")[2][3], Json({"alfa", "*"}));
+  site.hear(OcclusionHeard{"alfa", "8", true, 1, 2, 9.0}, {2.2, 0});
+  site.look({2.3, 0});
+  EXPECT_TRUE(site.snapshot().at("targets")[0].at("hidden").is_null()) << "of another target";
+  site.hear(hides, {2.4, 0});
+  site.look({4.3, 0});
+  EXPECT_FALSE(site.snapshot().at("targets")[0].at("hidden").is_null());
+  site.look({4.5, 0});
+  EXPECT_TRUE(site.snapshot().at("targets")[0].at("hidden").is_null()) << "it no longer holds";
+}
+
 TEST(SiteState, ABearingOfAnUnknownStationIsIgnored) {
   SiteState site;
   site.hear_bearing("forged", {{"azimuth_deg", 12.0}});

@@ -54,6 +54,8 @@ TEST_F(FusionSettingsTest, TheLandIsUnknownUntilItIsNamed) {
   const auto known = load("[land]\nfolder = \"/var/lib/ols/land\"\non_ground = [\"alfa\"]\n");
   EXPECT_EQ(known.land_folder, "/var/lib/ols/land");
   EXPECT_EQ(known.fusion.land.on_ground, std::vector<std::string>{"alfa"});
+  EXPECT_EQ(refusal("[land]\non_ground = [\"alfa\"]\n"),
+            path() + ":2: land.on_ground: needs folder: no land is known");
 }
 
 TEST_F(FusionSettingsTest, ACuesAccelerationHasLimits) {
