@@ -31,25 +31,49 @@ struct Height {
   double sd_rad = 0.0;
 };
 
-// Before the first step there is nothing but the ground at the camera's foot.
+// Steeply below the camera a cell is many degrees high. There the land is straight between two
+// steps, not its elevation.
+bool is_steep(const Step& step) { return step.elevation_rad < -0.25F * static_cast<float>(kPi); }
+double up_m(const Step& step) { return step.distance_m * std::tan(double{step.elevation_rad}); }
+
+// Between the camera's foot and the first step the ground is level.
+Height near_foot(const Step& first, double distance_m) {
+  if (first.elevation_rad >= 0.0F || !(distance_m > 0.0)) return {};
+  const double nearer = first.distance_m / distance_m;
+  return {std::atan(std::tan(double{first.elevation_rad}) * nearer),
+          first.elevation_sd_rad * nearer};
+}
+
 Height height_at(Steps steps, double distance_m) {
   const auto after = std::ranges::upper_bound(steps, distance_m, {}, &Step::distance_m);
-  if (after == steps.begin()) return {};
+  if (after == steps.begin()) return near_foot(*after, distance_m);
   const Step& from = after[-1];
   if (after == steps.end()) return {from.elevation_rad, from.elevation_sd_rad};
   const auto mix = [&](float Step::*value) {
     return interpolate(distance_m, from.distance_m, after->distance_m, from.*value,
                        (*after).*value);
   };
-  return {mix(&Step::elevation_rad), mix(&Step::elevation_sd_rad)};
+  if (!is_steep(from)) return {mix(&Step::elevation_rad), mix(&Step::elevation_sd_rad)};
+  const double at_m =
+      interpolate(distance_m, from.distance_m, after->distance_m, up_m(from), up_m(*after));
+  return {std::atan(at_m / distance_m), mix(&Step::elevation_sd_rad)};
 }
 
 // The first distance where the land is as high; infinite above the skyline.
 double distance_at(Steps steps, double elevation_rad) {
   const auto at = std::ranges::lower_bound(steps, elevation_rad, {}, &Step::elevation_rad);
   if (at == steps.end()) return kNone;
-  if (at == steps.begin()) return at->distance_m;
-  return interpolate(elevation_rad, at[-1].elevation_rad, at->elevation_rad, at[-1].distance_m,
+  if (at == steps.begin()) {
+    const double first = std::tan(double{at->elevation_rad}), wanted = std::tan(elevation_rad);
+    return first < 0.0 ? at->distance_m * first / wanted : at->distance_m;
+  }
+  const Step& from = at[-1];
+  const double run_m = double{at->distance_m} - from.distance_m;
+  if (is_steep(from) && run_m > 0.0) {
+    const double slope = (up_m(*at) - up_m(from)) / run_m;
+    return (up_m(from) - slope * from.distance_m) / (std::tan(elevation_rad) - slope);
+  }
+  return interpolate(elevation_rad, from.elevation_rad, at->elevation_rad, from.distance_m,
                      at->distance_m);
 }
 
@@ -169,14 +193,18 @@ std::optional<GroundHit> HorizonMap::ground(const AzimuthElevation& sight) const
     const bool below = columns.before(middle_m).elevation_rad < sight.elevation_rad;
     (below ? near_m : far_m) = middle_m;
   }
-  const double step_m = 0.5 * cell_m(far_m);
+  const double step_m = 0.5 * std::min(cell_m(far_m), far_m);
   const Height nearer = columns.before(far_m - step_m), farther = columns.before(far_m + step_m);
+  const auto range_m = [](double distance_m, const Height& at) {
+    return distance_m / std::cos(at.elevation_rad);
+  };
   const bool is_first = nearer.elevation_rad <= -0.5 * kPi;
-  return GroundHit{
-      .range_m = far_m / std::cos(sight.elevation_rad),
-      .elevation_sd_rad = columns.before(far_m).sd_rad,
-      .rise_rad_per_m =
-          is_first ? 0.0 : (farther.elevation_rad - nearer.elevation_rad) / (2.0 * step_m)};
+  return GroundHit{.range_m = far_m / std::cos(sight.elevation_rad),
+                   .elevation_sd_rad = columns.before(far_m).sd_rad,
+                   .rise_rad_per_m = is_first ? 0.0
+                                              : (farther.elevation_rad - nearer.elevation_rad) /
+                                                    (range_m(far_m + step_m, farther) -
+                                                     range_m(far_m - step_m, nearer))};
 }
 
 double HorizonMap::probability_at(const Columns& columns, double distance_m, double elevation_rad,

@@ -32,7 +32,8 @@ class LeftOut {
     if (count_++ > 0) return;
     std::ostringstream first;
     first.precision(8);
-    first << "feature " << feature << " at " << at.MinY << ", " << at.MinX;
+    first << "feature " << feature;
+    if (std::isfinite(at.MinY)) first << " at " << at.MinY << ", " << at.MinX;
     first_ = first.str();
   }
   void tell(std::vector<std::string>& notes) const {
@@ -126,7 +127,8 @@ class Reader {
   }
 
   ReadCoverings take() {
-    for (const LeftOut* why : {&no_height_, &absurd_, &no_place_}) why->tell(read_.notes);
+    for (const LeftOut* why : {&no_height_, &absurd_, &no_place_, &no_area_})
+      why->tell(read_.notes);
     read_.notes.push_back(name_ + ": " + std::to_string(read_.coverings.size()) + ' ' +
                           (kind_ == CoveringKind::kWood ? "woods" : "buildings"));
     return std::move(read_);
@@ -135,19 +137,24 @@ class Reader {
  private:
   void add(OGRFeature& feature) {
     OGRGeometry* geometry = feature.GetGeometryRef();
-    if (geometry == nullptr) return;
-    const bool moved = !to_wgs84_ || geometry->transform(to_wgs84_.get()) == OGRERR_NONE;
-    const auto polygons = polygons_of(*geometry);
-    if (polygons.empty()) return;
+    const bool moved =
+        geometry == nullptr || !to_wgs84_ || geometry->transform(to_wgs84_.get()) == OGRERR_NONE;
+    const auto polygons =
+        geometry == nullptr ? std::vector<const OGRPolygon*>() : polygons_of(*geometry);
     OGREnvelope box;
-    geometry->getEnvelope(&box);
+    if (geometry != nullptr) geometry->getEnvelope(&box);
+    if (polygons.empty()) {  // OSM has points and lines of much else
+      if (!std::isnan(height_of(feature, kind_).height_m)) no_area_.add(feature.GetFID(), box);
+      return;
+    }
     const bool is_placed = moved && std::ranges::all_of(polygons, [](const OGRPolygon* polygon) {
                              return std::ranges::all_of(*polygon, [](const OGRLinearRing* ring) {
                                return is_finite(*ring);
                              });
                            });
     if (!is_placed) return no_place_.add(feature.GetFID(), box);
-    if (box.MaxX < bounds_.west_deg || box.MinX > bounds_.east_deg ||
+    const double turns = turns_deg(bounds_, box.MinX);
+    if (box.MaxX + turns < bounds_.west_deg || box.MinX + turns > bounds_.east_deg ||
         box.MaxY < bounds_.south_deg || box.MinY > bounds_.north_deg) {
       return;
     }
@@ -172,11 +179,13 @@ class Reader {
   LeftOut no_height_{name_, "have neither height nor levels"};
   LeftOut absurd_{name_, "have absurd heights"};
   LeftOut no_place_{name_, "have no outline on the Earth"};
+  LeftOut no_area_{name_, "have a height and no area"};
 };
 
 }  // namespace
 
-double parse_height_m(const std::string& text) {
+double parse_height_m(const std::string& stated) {
+  const std::string text = stated.substr(std::min(stated.size(), stated.find_first_not_of(" \t")));
   double value = 0.0;
   const char* end = text.data() + text.size();
   const auto [rest, error] = std::from_chars(text.data(), end, value);

@@ -144,8 +144,10 @@ std::optional<Raster> crop(GDALDataset& dataset, const Bounds& bounds, const std
   const auto first = [](double at, int count) {
     return std::clamp(static_cast<int>(std::floor(at)), 0, count);
   };
-  const double west_deg = affine[0] + 0.5 * affine[1], north_deg = affine[3] + 0.5 * affine[5];
   const int columns = dataset.GetRasterXSize(), rows = dataset.GetRasterYSize();
+  const double turns = turns_deg(bounds, affine[0] + 0.5 * columns * affine[1]);
+  const double west_deg = affine[0] + 0.5 * affine[1] + turns,
+               north_deg = affine[3] + 0.5 * affine[5];
   const int left = first((bounds.west_deg - west_deg) / affine[1], columns);
   const int right = first((bounds.east_deg - west_deg) / affine[1] + 2.0, columns);
   const int top = first((north_deg - bounds.north_deg) / raster.step_latitude_deg, rows);
@@ -222,6 +224,11 @@ Bounds bounds_around(double latitude_deg, double longitude_deg, double radius_km
           longitude_deg + across_deg};
 }
 
+double turns_deg(const Bounds& bounds, double longitude_deg) {
+  const double middle_deg = 0.5 * (bounds.west_deg + bounds.east_deg);
+  return 360.0 * std::round((middle_deg - longitude_deg) / 360.0);
+}
+
 ReadElevation read_elevation(const std::string& path, const Bounds& bounds) {
   const QuietGdal quiet;
   GDALAllRegister();
@@ -232,7 +239,9 @@ ReadElevation read_elevation(const std::string& path, const Bounds& bounds) {
   BandMeaning meaning = meaning_of(*dataset, path);
   ReadElevation read;
   const bool is_lattice = system->IsGeographic() && affine[2] == 0.0 && affine[4] == 0.0 &&
-                          affine[5] < 0.0 && is_wgs84(*system, affine[3], affine[0]);
+                          affine[5] < 0.0 &&
+                          is_wgs84(*system, affine[3] + 0.5 * dataset->GetRasterYSize() * affine[5],
+                                   affine[0] + 0.5 * dataset->GetRasterXSize() * affine[1]);
   if (!is_lattice) {
     dataset = resample(*dataset, bounds, path);
     meaning.void_value = std::numeric_limits<double>::quiet_NaN();

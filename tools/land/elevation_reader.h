@@ -15,6 +15,9 @@ struct Bounds {
   double south_deg = 0.0, north_deg = 0.0, west_deg = 0.0, east_deg = 0.0;
 };
 Bounds bounds_around(double latitude_deg, double longitude_deg, double radius_km);
+// What to add to a longitude for it to be the one nearest to the middle of the bounds: whole turns.
+// Bounds of a site near 180 degrees reach beyond it.
+double turns_deg(const Bounds& bounds, double longitude_deg);
 
 // The heights of one file within the bounds, as the file has them; NaN: not known.
 struct Raster {

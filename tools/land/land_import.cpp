@@ -42,8 +42,8 @@ void lift_to_ellipsoid(Raster& raster, const Geoid& geoid) {
   for (int row = 0; row < raster.rows; ++row) {
     for (int column = 0; column < raster.columns; ++column, ++height) {
       if (std::isnan(*height)) continue;
-      *height += static_cast<float>(
-          geoid.height_m(raster.latitude_deg(row), raster.longitude_deg(column)));
+      *height += static_cast<float>(geoid.height_m(
+          raster.latitude_deg(row), std::remainder(raster.longitude_deg(column), 360.0)));
     }
   }
 }
@@ -62,6 +62,9 @@ class Import {
     for (const std::string& path : options_.elevation) add_elevation(path);
     if (rasters_.empty()) throw std::runtime_error(elsewhere());
     Mosaic mosaic = join(rasters_, options_.sd_m, options_.accept_seams);
+    for (NewGrid& grid : mosaic.grids) {
+      if (grid.form.west_deg < -180.0) grid.form.west_deg += 360.0;
+    }
     note(mosaic.notes);
     check_cover(mosaic);
     for (const std::string& path : options_.buildings) {
@@ -137,7 +140,7 @@ class Import {
         const double longitude_deg =
             options_.longitude_deg + east * 0.5 * (bounds_.east_deg - bounds_.west_deg);
         ++all;
-        known += terrain.ground(radians(latitude_deg), radians(longitude_deg)).has_value();
+        known += terrain.ground(radians(latitude_deg), wrap_pi(radians(longitude_deg))).has_value();
       }
     }
     if (!terrain.ground(radians(options_.latitude_deg), radians(options_.longitude_deg))) {

@@ -130,6 +130,21 @@ TEST(HorizonMap, FindsTheRangeOfTheGroundToACell) {
   EXPECT_FALSE(wall.ground({0.0, radians(0.4)}));
 }
 
+TEST(HorizonMap, FindsTheGroundAtTheCamerasFoot) {
+  for (const double high_m : {1.7, 30.0}) {
+    const Geodetic camera{kCamera.latitude_rad, kCamera.longitude_rad, high_m};
+    const HorizonMap map = look(kSphere, 1.0, camera);
+    for (const double down_deg : {50.0, 61.0, 75.0, 88.0, 89.9}) {
+      const double down = radians(down_deg);
+      const auto hit = map.ground({1.0, -down});
+      ASSERT_TRUE(hit) << high_m << ' ' << down_deg;
+      const double range_m = high_m / std::sin(down), distance_m = high_m / std::tan(down);
+      EXPECT_NEAR(hit->range_m, range_m, 0.02 * range_m) << down_deg;
+      EXPECT_NEAR(hit->rise_rad_per_m * range_m * distance_m / high_m, 1.0, 0.2) << down_deg;
+    }
+  }
+}
+
 TEST(HorizonMap, TellsHowFastTheGroundRisesAlongALineOfSight) {
   const HorizonMap map = look(kRidge, 0.0);
   const auto hit = map.ground({0.0, radians(2.0)});  // on the side of 1:4

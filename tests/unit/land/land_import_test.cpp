@@ -121,6 +121,21 @@ TEST_F(LandImportTest, TilesThatShareAnEdgeBecomeOneLand) {
   EXPECT_NEAR(ground(38.5, 10.0001)->height_m, 8700.01, 0.01);
 }
 
+TEST_F(LandImportTest, ASiteAt180DegreesHasLandOnBothSides) {
+  const auto round = [](double x, double y) { return 10.0 * (x < 0.0 ? x + 360.0 : x) + y; };
+  Model west{.west = 179.8, .height = round}, east{.west = -180.0, .height = round};
+  options_.elevation = {model("west.tif", west), model("east.tif", east)};
+  for (const double site_deg : {179.999, -179.999}) {
+    options_.longitude_deg = site_deg;
+    const std::string notes = import();
+    EXPECT_NE(notes.find("100 % of the area"), std::string::npos) << notes;
+    for (const double x : {179.97, 179.9999, -179.9999, -179.97}) {
+      ASSERT_TRUE(ground(38.5034, x)) << site_deg << ' ' << x;
+      EXPECT_NEAR(ground(38.5034, x)->height_m, round(x, 38.5034), 0.01) << site_deg << ' ' << x;
+    }
+  }
+}
+
 TEST_F(LandImportTest, ReadsAnyProjectionAndTheGeoid) {
   Model utm{.west = 580'000.0,
             .north = 4'270'000.0,
@@ -229,7 +244,10 @@ TEST_F(LandImportTest, BuildingsHaveTheirHeightOrThatOfTheirLevels) {
                                  feature(R"({"building:levels":"4"})", 10.01, 38.5) + "," +
                                  feature("{}", 10.02, 38.5) + "," +
                                  feature(R"({"height":-3})", 10.03, 38.5) + "," +
-                                 feature(R"({"height":7})", 15.0, 38.5) + "]}")};
+                                 feature(R"({"height":7})", 15.0, 38.5) + "," +
+                                 R"({"type":"Feature","properties":{"height":9},"geometry":)"
+                                 R"({"type":"Point","coordinates":[10.04,38.5]}})" +
+                                 "]}")};
   options_.woods = {file("woods.geojson", R"({"type":"FeatureCollection","features":[)" +
                                               feature(R"({"height":20})", 9.97, 38.5) + "]}")};
   const std::string notes = import();
@@ -238,6 +256,10 @@ TEST_F(LandImportTest, BuildingsHaveTheirHeightOrThatOfTheirLevels) {
             std::string::npos)
       << notes;
   EXPECT_NE(notes.find("houses.geojson: 1 have absurd heights"), std::string::npos) << notes;
+  EXPECT_NE(notes.find("houses.geojson: 1 have a height and no area, left out, the first is "
+                       "feature 5 at 38.5, 10.04"),
+            std::string::npos)
+      << notes;
   EXPECT_NE(notes.find("houses.geojson: 2 buildings"), std::string::npos) << notes;
   const auto land = read_terrain_folder(options_.output).terrain;
   const auto top = [&](double longitude_deg) {
@@ -253,7 +275,7 @@ TEST_F(LandImportTest, BuildingsHaveTheirHeightOrThatOfTheirLevels) {
 
 TEST(Height, IsReadWithItsUnit) {
   EXPECT_EQ(parse_height_m("12"), 12.0);
-  EXPECT_EQ(parse_height_m("12.5 m"), 12.5);
+  EXPECT_EQ(parse_height_m(" 12.5 m "), 12.5);
   EXPECT_NEAR(parse_height_m("40 ft"), 12.192, 1e-9);
   for (const char* text : {"", "high", "3 storeys", "12,5"}) {
     EXPECT_TRUE(std::isnan(parse_height_m(text))) << text;
