@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <vector>
 
 #include "central/ground/above_ground.h"
@@ -105,32 +106,67 @@ std::vector<Node> walk(const land::Surface& surface, const LineOfSight& sight, c
   return !nodes.empty() && nodes.back().sigmas() < -3.0 ? nodes : std::vector<Node>{};
 }
 
-// The probability that nothing hides a target at nodes[i], never zero. If the target is there, line
+// The line's clearance above tops of one sigma, by range: the lower convex hull of what was added,
+// the nearest first. So the least clearance of a tilted line is found in few steps.
+class Clearance {
+ public:
+  void add(const Node& node) {
+    const Eigen::Vector2d p(node.range_m, node.clear_m);
+    const auto is_above = [&](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+      const Eigen::Vector2d along = b - a, on = p - a;
+      return along.x() * on.y() - along.y() * on.x() <= 0.0;
+    };
+    while (hull_.size() >= 2 && is_above(hull_[hull_.size() - 2], hull_.back())) hull_.pop_back();
+    hull_.push_back(p);
+  }
+
+  // Over a line that rises by `rise` per metre of range.
+  double least_m(double rise) const {
+    std::size_t low = 0, high = hull_.size() - 1;
+    while (low < high) {
+      const std::size_t middle = (low + high) / 2;
+      const Eigen::Vector2d along = hull_[middle + 1] - hull_[middle];
+      if (along.y() < rise * along.x()) {
+        low = middle + 1;
+      } else {
+        high = middle;
+      }
+    }
+    return hull_[low].y() - rise * hull_[low].x();
+  }
+
+ private:
+  std::vector<Eigen::Vector2d> hull_;
+};
+using Clearances = std::map<double, Clearance>;  // by the 1-sigma of the tops [m]
+
+// The probability that nothing nearer hides a target here, never zero. If the target is there, line
 // or ground are off by the height that separates them there, each by its share of the variance: the
 // line by an angle, the ground everywhere.
-double seen(const std::vector<Node>& nodes, std::size_t i) {
-  constexpr double kLeast = 1e-3, kLeastSd_m = 0.1;
-  const Node& target = nodes[i];
-  const double of_line = target.line_m2 / target.variance_m2();
+double seen(const Clearances& nearer, const Node& target) {
+  constexpr double kLeast = 1e-3;
+  const double of_line_m = target.above_m * target.line_m2 / target.variance_m2();
   double least = 0.0;
-  for (std::size_t k = 0; k < i; ++k) {
-    const double nearer = 1.0 - nodes[k].range_m / target.range_m;
-    const double off_m = target.above_m * (1.0 - nearer * of_line);
-    least = std::min(least, (nodes[k].clear_m - off_m) / std::max(kLeastSd_m, nodes[k].top_sd_m));
+  for (const auto& [sd_m, clearance] : nearer) {
+    const double off_m = target.above_m - of_line_m;
+    least = std::min(least, (clearance.least_m(of_line_m / target.range_m) - off_m) / sd_m);
   }
   return std::max(kLeast, 2.0 * normal_level(-least));
 }
 
 void weigh(std::vector<Node>& nodes) {
+  constexpr double kLeastSd_m = 0.1;
   double sum = 0.0;
+  Clearances nearer;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (i > 0) nearer[std::max(kLeastSd_m, nodes[i - 1].top_sd_m)].add(nodes[i - 1]);
     Node& node = nodes[i];
     const double sigmas = node.sigmas();
     if (std::abs(sigmas) > kFar) continue;
     const double before_m = i == 0 ? node.range_m : nodes[i - 1].range_m;
     const double after_m = i + 1 == nodes.size() ? node.range_m : nodes[i + 1].range_m;
     node.weight = (after_m - before_m) / 2.0 * node.range_m / std::sqrt(node.variance_m2()) *
-                  std::exp(-sigmas * sigmas / 2.0) * seen(nodes, i);
+                  std::exp(-sigmas * sigmas / 2.0) * seen(nearer, node);
     sum += node.weight;
   }
   for (Node& node : nodes) node.weight /= sum;

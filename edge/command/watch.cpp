@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "conditions/alarms.h"
 #include "geometry/angles.h"
 #include "geometry/lens.h"
 
@@ -49,6 +50,7 @@ std::optional<mount::Goal> Watch::step(double now_s, bool free, bool sees,
     return std::nullopt;
   }
   const auto pictures = pictures_of(config_, field_of_view(pointing.geometry().camera));
+  judge(now_s, pictures, pointing);
   if (is_over(now_s, sees)) go_on();
   // One that the unit cannot look at is left out.
   std::optional<PanTilt> goal;
@@ -65,6 +67,20 @@ std::optional<mount::Goal> Watch::step(double now_s, bool free, bool sees,
   mount::Goal rest{now_s, *goal, {}, now_s + kGoal_s};
   rest.rests = true;
   return rest;
+}
+
+void Watch::judge(double now_s, const std::vector<AzimuthElevation>& pictures,
+                  const PointingModel& pointing) {
+  constexpr double kPeriod_s = 1.0;
+  if (now_s < judged_s_ + kPeriod_s) return;
+  judged_s_ = now_s;
+  all_ = static_cast<int>(pictures.size());
+  beyond_reach_ = static_cast<int>(
+      std::ranges::count_if(pictures, [&](const auto& one) { return !pointing.aim(one); }));
+}
+
+Alarm Watch::alarm() const {
+  return beyond_reach_ > 0 ? alarm::watch_out_of_reach(beyond_reach_, all_) : Alarm();
 }
 
 bool Watch::is_over(double now_s, bool sees) const {

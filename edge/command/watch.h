@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "conditions/alarm.h"
 #include "edge/frames/pointing_model.h"
 #include "edge/mount/goal.h"
 
@@ -29,14 +30,20 @@ class Watch {
   // Returns the unit's goal; nullopt if the station is not watching, or cannot look there.
   std::optional<mount::Goal> step(double now_s, bool free, bool sees,
                                   const PointingModel& pointing);
+  // Raised while some pictures of the field are beyond the unit's reach.
+  Alarm alarm() const;
 
  private:
+  void judge(double now_s, const std::vector<AzimuthElevation>& pictures,
+             const PointingModel& pointing);
   bool is_over(double now_s, bool sees) const;
   void go_on();
 
   WatchConfig config_;
   std::size_t picture_ = 0;
   std::optional<double> stands_since_s_;
+  double judged_s_ = -1e9;
+  int beyond_reach_ = 0, all_ = 0;  // pictures of the field
 };
 
 }  // namespace ols::station

@@ -465,6 +465,7 @@ std::vector<Alarm> Station::alarms() const {
   const bool slewed = mode_.is(StationState::kSlewed);
   const auto unacquired = slewed ? search_.unacquired_alarm(slew_.command()) : Alarm();
   if (!unacquired.empty()) alarms.push_back(unacquired);
+  if (const Alarm beyond = watch_.alarm(); !beyond.empty()) alarms.push_back(beyond);
   if (slew_.has_several_senders(now_s_)) {
     alarms.push_back(alarm::slews_from_two_fusions());
   }

@@ -99,8 +99,13 @@ TEST_F(WatchTest, StepsThroughALargerFieldAndStaysLongerWhereSomethingIsSeen) {
 TEST_F(WatchTest, LeavesOutWhatTheUnitCannotReach) {
   pointing_.set_limits({-radians(159), radians(12), -radians(46), radians(31)});
   Watch watch(field(20.0, 1.0));
+  EXPECT_TRUE(watch.alarm().empty());
   moves_until(watch, 40.0);
   EXPECT_LE(at_.pan_rad, radians(12.0));
+  EXPECT_EQ(watch.alarm().parameter("count"), "2") << watch.alarm().text;
+  pointing_.set_limits({-radians(159), radians(159), -radians(46), radians(31)});
+  moves_until(watch, 42.0);
+  EXPECT_TRUE(watch.alarm().empty()) << watch.alarm().text;
 }
 
 TEST_F(WatchTest, WaitsWhileTheUnitIsWanted) {
