@@ -20,7 +20,7 @@ class SiteLand {
   // The answer to a browser; docs/console.md lists its fields.
   WebResponse answer(const LandTask& task);
 
-  static constexpr int kHeightsAcross = 65;
+  static constexpr int kHeightsAcross = 49;
   static constexpr double kMoved_m = 1.0;  // a camera that has moved further has another skyline
 
  private:

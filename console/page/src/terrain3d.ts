@@ -65,6 +65,16 @@ export function useTerrain(land: Land | null, stations: Station[], targets: Plac
   return terrain;
 }
 
+// From dark to bright, of a colour "#rrggbb".
+function shadesOf(colour: string): string[] {
+  const parts = [1, 3, 5].map((at) => parseInt(colour.slice(at, at + 2), 16));
+  return Array.from({ length: SHADES }, (_, i) => {
+    const away = (0.6 * (i - SHADES / 2)) / SHADES;
+    const mixed = parts.map((part) => Math.round(part + Math.abs(away) * ((away < 0 ? 0 : 255) - part)));
+    return `rgb(${mixed.join()})`;
+  });
+}
+
 export class TerrainPainter {
   private canvas = document.createElement("canvas");
   private painted = "";
@@ -81,7 +91,7 @@ export class TerrainPainter {
     const { columns, rows, points, shade } = terrain;
     const project = projector(eye, ...size);
     const pixels = points.map((point) => point && project(point));
-    const colours = Array.from({ length: SHADES }, (_, i) => `color-mix(in srgb, ${colour}, ${i < SHADES / 2 ? "black" : "white"} ${Math.round(Math.abs(i - SHADES / 2) * (60 / SHADES))}%)`);
+    const colours = shadesOf(colour);
     const order = (count: number, isForward: boolean) => Array.from({ length: count - 1 }, (_, i) => (isForward ? i : count - 2 - i));
     const across = order(columns, Math.sin(eye.azimuth) <= 0);
     for (const row of order(rows, Math.cos(eye.azimuth) >= 0)) {

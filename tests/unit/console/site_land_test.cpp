@@ -91,7 +91,7 @@ TEST_F(SiteLandTest, HeightsOfTheGround) {
   EXPECT_EQ(ask("/api/land/ground", "?at=49.21,16.6").at("top_m"), 400.0);
   EXPECT_EQ(ask("/api/land/ground", "?at=49.3,16.6").at("ground_m"), nullptr);
   const Json heights = ask("/api/land/heights", "?box=16.59,49.2,16.61,49.3").at("heights_m");
-  ASSERT_EQ(heights.size(), 65U * 65U);
+  ASSERT_EQ(heights.size(), std::size_t{SiteLand::kHeightsAcross} * SiteLand::kHeightsAcross);
   EXPECT_EQ(heights.front(), nullptr) << "the north is not known";
   EXPECT_EQ(heights.back(), 300.0);
 }
