@@ -16,7 +16,8 @@ bool all_finite(const BearingMeasurement& s) {
          std::isfinite(s.sight.direction.elevation_rad) && std::isfinite(s.belief) &&
          std::isfinite(s.clock_sd_s) && s.sighted.rate_rad_s.allFinite() &&
          s.sighted.rate_covariance.allFinite() && std::isfinite(s.sighted.size_rad) &&
-         std::isfinite(s.sighted.size_sd_rad) && std::isfinite(s.sighted.signal);
+         std::isfinite(s.sighted.size_sd_rad) && std::isfinite(s.sighted.across_rad) &&
+         std::isfinite(s.sighted.signal);
 }
 
 // NaN is out of range, too.
@@ -31,8 +32,9 @@ bool sighted_in_range(const Sighted& s) {
   const Eigen::Matrix2d& P = s.rate_covariance;
   return s.rate_rad_s.norm() <= kGreatestRadS && P(0, 0) >= 0.0 && P(1, 1) >= 0.0 &&
          P(0, 1) * P(0, 1) <= P(0, 0) * P(1, 1) && s.size_rad >= 0.0 && s.size_rad <= kPi &&
-         s.size_sd_rad >= 0.0 && s.size_sd_rad <= kPi && s.signal >= 0.0 &&
-         s.signal <= kGreatestSignal && are_probabilities(s.class_probability);
+         s.size_sd_rad >= 0.0 && s.size_sd_rad <= kPi && s.across_rad >= 0.0 &&
+         s.across_rad <= kPi && s.signal >= 0.0 && s.signal <= kGreatestSignal &&
+         are_probabilities(s.class_probability);
 }
 
 bool in_range(const BearingMeasurement& s) {

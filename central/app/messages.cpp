@@ -151,6 +151,7 @@ Sighted sighted_in(const ols_msg::bearing_t& message) {
           .rate_covariance = symmetric(message.rate_covariance_rad2_s2),
           .size_rad = message.size_rad,
           .size_sd_rad = message.size_sd_rad,
+          .across_rad = message.across_rad,
           .signal = message.signal,
           .class_probability = message.class_probability};
 }

@@ -38,34 +38,46 @@ double log_likelihood(const Kind& kind, const Features& seen) {
   return log_sum(logs.data(), kModes);
 }
 
-// The size and its flicker. The first is the mean of a second: the outline's own changes remain.
-void see_sizes(const std::vector<Measured>& sizes_m, ClassLook& look) {
-  const auto count = static_cast<double>(sizes_m.size());
-  if (sizes_m.empty()) return;
+// The relative variance of one side of the outline beyond that of its noise.
+Measured flicker_of(const std::vector<SeenSize>& sizes, double SeenSize::*side) {
+  const auto count = static_cast<double>(sizes.size());
   double sum = 0.0, squares = 0.0, noise = 0.0;
-  for (const Measured& one : sizes_m) {
-    sum += one.value;
-    noise += one.sd * one.sd;
+  for (const SeenSize& one : sizes) sum += one.*side;
+  const double mean = sum / count;
+  if (sizes.size() < kLeastSizes || mean <= 0.0) return {};
+  for (const SeenSize& one : sizes) {
+    squares += std::pow(one.*side / mean - 1.0, 2);
+    noise += std::pow(one.noise_m / mean, 2);
+  }
+  const double own = noise / count, flicker = squares / (count - 1.0) - own;
+  const double variance = own * own + 2.0 * own * std::max(flicker, 0.0);
+  return {flicker, std::max(std::sqrt(2.0 / (count - 1.0) * variance), 1e-6)};
+}
+
+// The size is the mean of a second: the outline's own changes remain.
+void see_sizes(const std::vector<SeenSize>& sizes, ClassLook& look) {
+  const auto count = static_cast<double>(sizes.size());
+  if (sizes.empty()) return;
+  double sum = 0.0, variance = 0.0;
+  for (const SeenSize& one : sizes) {
+    sum += one.value_m;
+    variance += one.sd_m * one.sd_m;
   }
   const double mean = sum / count;
   if (mean <= 0.0) return;
-  for (const Measured& one : sizes_m) squares += (one.value - mean) * (one.value - mean);
-  const double own = noise / count / (mean * mean);
   // Errors of a box are not independent from image to image: the mean is no better than one.
-  look.size_m = {mean, std::max(std::sqrt(noise / count), 1e-6)};
-  if (sizes_m.size() < kLeastSizes) return;
-  const double all = squares / (count - 1.0) / (mean * mean);
-  const double flicker = all - own;
-  const double variance = own * own + 2.0 * own * std::max(flicker, 0.0);
-  look.flicker = {flicker, std::max(std::sqrt(2.0 / (count - 1.0) * variance), 1e-6)};
+  look.size_m = {mean, std::max(std::sqrt(variance / count), 1e-6)};
+  const Measured along = flicker_of(sizes, &SeenSize::value_m);
+  const Measured across = flicker_of(sizes, &SeenSize::across_m);
+  look.flicker = {along.value + across.value, std::hypot(along.sd, across.sd)};
 }
 
 }  // namespace
 
-ClassLook look_at(const std::vector<Measured>& sizes_m, const std::array<double, 3>& velocity_m_s,
+ClassLook look_at(const std::vector<SeenSize>& sizes, const std::array<double, 3>& velocity_m_s,
                   const std::array<double, 3>& before_m_s, double apart_s, double velocity_sd_m_s) {
   ClassLook look;
-  see_sizes(sizes_m, look);
+  see_sizes(sizes, look);
   look.speed_m_s = {std::hypot(velocity_m_s[0], velocity_m_s[1]), velocity_sd_m_s};
   look.climb_m_s = {velocity_m_s[2], velocity_sd_m_s};
   if (apart_s <= 0.0) return look;

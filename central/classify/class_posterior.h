@@ -2,8 +2,9 @@
 //
 // Each kind (class_table.h) has a probability density over five features of a look, a mixture of
 // normal distributions. The features are size, speed, climb, acceleration across the path, and
-// flicker. Flicker is the relative variance of the size within a second: a bird's outline changes
-// with its wing beat of 2 to 15 Hz, a rigid body's does not. The error of each feature is added to
+// flicker. Flicker is the relative variance of the outline's two sides within a second, wings and
+// rotors seen as one: a bird's outline changes with its wing beat of 2 to 15 Hz, a rigid body's
+// does not. Seen from the side, wings change only its height. The error of each feature is added to
 // the variance of the density, so that an uncertain look decides little. An unknown feature is left
 // out.
 //
@@ -35,18 +36,24 @@ struct Measured {
   double value = 0.0, sd = 0.0;  // 1-sigma; 0 if the value is unknown
 };
 
+// The largest extent of an object in one image [m], its 1-sigma, and the part of that which is new
+// in each image. `across_m`: the smaller side of its upright box, with the same noise; 0: unknown.
+struct SeenSize {
+  double value_m = 0.0, sd_m = 0.0, noise_m = 0.0, across_m = 0.0;
+};
+
 struct ClassLook {
   Measured size_m;       // largest extent
   Measured speed_m_s;    // horizontal speed
   Measured climb_m_s;    // vertical speed, positive up
   Measured across_m_s2;  // acceleration across the path
-  Measured flicker;      // relative variance of the size within a second, with the noise removed
+  // Relative variance of both sides of the outline within a second, with their noise removed.
+  Measured flicker;
 };
 
-// A look at a target, from three inputs: the sizes [m] that one station saw within the last second;
-// the velocities (east, north, up) now and `apart_s` before; and the velocities' 1-sigma, each
-// axis.
-ClassLook look_at(const std::vector<Measured>& sizes_m, const std::array<double, 3>& velocity_m_s,
+// A look at a target, from three inputs: the sizes that one station saw within the last second; the
+// velocities (east, north, up) now and `apart_s` before; and the velocities' 1-sigma, each axis.
+ClassLook look_at(const std::vector<SeenSize>& sizes, const std::array<double, 3>& velocity_m_s,
                   const std::array<double, 3>& before_m_s, double apart_s, double velocity_sd_m_s);
 
 inline constexpr int kFeatures = 5;

@@ -20,6 +20,7 @@ struct Sighted {
   // [rad^2/s^2] zero if the rate is unknown.
   Eigen::Matrix2d rate_covariance = Eigen::Matrix2d::Zero();
   double size_rad = 0.0, size_sd_rad = 0.0;  // largest extent
+  double across_rad = 0.0;                   // smaller side of its upright box
   double signal = 0.0;                       // signal-to-noise ratio in one image
   std::vector<double> class_probability{};   // in the order of target_t's CLASS_*
 

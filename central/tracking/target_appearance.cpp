@@ -58,18 +58,26 @@ class Sum {
   std::vector<double> log_;  // of each class
 };
 
+bool is_sighted(const BearingMeasurement& m) {
+  return m.sighted.signal > 0.0 || m.sighted.size_rad > 0.0 || !m.sighted.class_probability.empty();
+}
+
 // What the station that measures the size best has seen within the last second.
-std::vector<Measured> best_sizes(const Track& track, const Eigen::Vector3d& p_ecef) {
-  std::vector<Measured> best;
+std::vector<SeenSize> best_sizes(const Track& track, const Eigen::Vector3d& p_ecef) {
+  // The larger part of a detector's error stays: what of the object it takes for the outline.
+  constexpr double kNewShare = 0.25;
+  std::vector<SeenSize> best;
   for (const auto& [station, bearings] : track.bearings) {
-    std::vector<Measured> sizes;
+    std::vector<SeenSize> sizes;
     for (const BearingMeasurement& m : bearings) {
       if (m.sighted.size_rad <= 0.0 || m.sighted.size_sd_rad <= 0.0) continue;
       const double range_m = (p_ecef - m.sight.origin_ecef).norm();
-      sizes.push_back({range_m * m.sighted.size_rad, range_m * m.sighted.size_sd_rad});
+      const double sd_m = range_m * m.sighted.size_sd_rad;
+      sizes.push_back(
+          {range_m * m.sighted.size_rad, sd_m, kNewShare * sd_m, range_m * m.sighted.across_rad});
     }
     if (sizes.empty()) continue;
-    if (best.empty() || sizes.back().sd < best.back().sd) best = std::move(sizes);
+    if (best.empty() || sizes.back().sd_m < best.back().sd_m) best = std::move(sizes);
   }
   return best;
 }
@@ -102,9 +110,10 @@ void look_at_class(Track& track) {
 Appearance appearance_of(const Track& track, const Eigen::Vector3d& p_ecef) {
   Sum sum;
   for (const auto& [station, bearings] : track.bearings) {
-    if (bearings.empty()) continue;
-    const BearingMeasurement& newest = bearings.back();
-    sum.add(newest.sighted, (p_ecef - newest.sight.origin_ecef).norm());
+    // A tracker's bearings are more frequent than the detector's images.
+    const auto newest = std::ranges::find_if(bearings.rbegin(), bearings.rend(), is_sighted);
+    if (newest == bearings.rend()) continue;
+    sum.add(newest->sighted, (p_ecef - newest->sight.origin_ecef).norm());
   }
   return sum.appearance(track.classes.belief());
 }

@@ -110,7 +110,7 @@ std::vector<TimedLook> simulate_looks(int kind, double duration_s, const LookNoi
   const double scale = std::exp(noise.size_bias * normal(random));
   std::array<double, 3> error{};
   for (double& axis : error) axis = noise.speed_m_s * normal(random);
-  std::vector<fusion::Measured> sizes;
+  std::vector<fusion::SeenSize> sizes;
   std::vector<std::array<double, 3>> velocities;
   std::vector<TimedLook> looks;
   for (int image = 1; image <= duration_s * kImageHz; ++image) {
@@ -123,7 +123,8 @@ std::vector<TimedLook> simulate_looks(int kind, double duration_s, const LookNoi
     }
     velocities.push_back(v);
     const double size_m = scale * object.size_m();
-    sizes.push_back({size_m * (1.0 + noise.size * normal(random)), size_m * noise.size});
+    const double sd_m = size_m * noise.size;
+    sizes.push_back({size_m + sd_m * normal(random), sd_m, sd_m});
     if (image % kImagesALook != 0 || image <= kImageHz) continue;
     looks.push_back({image * 1'000'000LL / kImageHz,
                      fusion::look_at({sizes.end() - kImageHz, sizes.end()}, v,

@@ -23,6 +23,7 @@ Tracklet::Tracklet(long id, const Detection& detection, double image_width_px)
       first_pixel_(detection.pixel),
       measured_pixel_(detection.pixel),
       measured_sd_px_(detection.sd_px()),
+      measured_size_px_(detection.size_px),
       acceleration_px_s2_(0.4 * image_width_px),
       signal_to_noise_(detection.signal_to_noise),
       brighter_(detection.brighter) {
@@ -116,6 +117,7 @@ void Tracklet::count(const Detection& detection) {
   signal_to_noise_ += kLearning * (detection.signal_to_noise - signal_to_noise_);
   measured_pixel_ = detection.pixel;
   measured_sd_px_ = detection.sd_px();
+  measured_size_px_ = detection.size_px;
   ++detections_;
   if (detection.clear) ++clear_;
   unseen_s_ = 0.0;

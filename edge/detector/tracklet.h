@@ -43,10 +43,11 @@ class Tracklet {
   const Eigen::Vector2d& pixel() const { return pixel_; }
   const Eigen::Vector2d& velocity_px_s() const { return velocity_px_s_; }
   double velocity_sd_px_s() const { return std::sqrt(covariance_(1, 1)); }  // for each axis
-  // The newest detection: its pixel, and its standard deviation on each axis.
+  // The newest detection: its pixel, its standard deviation on each axis, and its size.
   const Eigen::Vector2d& measured_pixel() const { return measured_pixel_; }
   double measured_sd_px() const { return measured_sd_px_; }
-  const Eigen::Vector2d& size_px() const { return size_px_; }
+  const Eigen::Vector2d& measured_size_px() const { return measured_size_px_; }
+  const Eigen::Vector2d& size_px() const { return size_px_; }  // smoothed
   double signal_to_noise() const { return signal_to_noise_; }
   bool seen() const { return seen_; }  // whether the newest image shows it
   double unseen_s() const { return unseen_s_; }
@@ -79,6 +80,7 @@ class Tracklet {
   Eigen::Vector2d first_pixel_;  // place in the image where it began
   Eigen::Vector2d measured_pixel_;
   double measured_sd_px_;
+  Eigen::Vector2d measured_size_px_;
   double reach_px_ = 0.0;
   double marked_s_ = 0.0, rested_s_ = 0.0;  // how long mark_ and rest_ have been kept
   double path_px_ = 0.0;                    // length up to the mark

@@ -147,12 +147,13 @@ double Sender::monotonic_s(std::int64_t utime_us) const {
 namespace {
 
 void fill_detected(const DetectedObject& object, ols_msg::bearing_t& message) {
-  message.detected = 1;
+  message.detected = object.is_tracklet ? 1 : 0;
   message.image_bearings = static_cast<std::int16_t>(object.image_bearings);
   for (int i = 0; i < 2; ++i) message.rate_rad_s[i] = object.rate_rad_s[i];
   symmetric(object.rate_covariance, message.rate_covariance_rad2_s2);
   message.size_rad = object.size_rad;
   message.size_sd_rad = object.size_sd_rad;
+  message.across_rad = object.across_rad;
   message.signal = object.signal;
 }
 

@@ -93,7 +93,7 @@ void StationProcess::turn() {
   for (const Bearing& bearing : output.bearings) {
     bus_.send(bearing);
     // A sighting tells no focal length, and a calibration uses what was designated.
-    if (settings().station.zoom || bearing.detected) continue;
+    if (settings().station.zoom || bearing.is_tracklet()) continue;
     const std::int64_t utime_us = clock_.utime_us(bearing.mid_exposure_s);
     for (const Sighting& sighting : frames_.sightings(bearing, utime_us)) bus_.send(sighting);
   }

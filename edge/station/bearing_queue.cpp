@@ -27,11 +27,13 @@ std::optional<Eigen::Matrix2d> radians_of_pixels(const PixelSight& pixel, const 
 DetectedObject object_of(const DetectedPixel& seen, const Eigen::Matrix2d& J) {
   const double scale = std::sqrt(std::abs(J.determinant()));
   DetectedObject object;
+  object.is_tracklet = seen.is_tracklet;
   object.image_bearings = seen.image_bearings;
   object.rate_rad_s = J * seen.velocity_px_s;
   object.rate_covariance = std::pow(seen.velocity_sd_px_s, 2) * J * J.transpose();
   object.size_rad = scale * seen.size_px;
   object.size_sd_rad = scale * seen.size_sd_px;
+  object.across_rad = scale * seen.across_px;
   object.signal = seen.signal;
   return object;
 }
@@ -101,7 +103,7 @@ bool BearingQueue::worth_sending(const Bearing& bearing, const PointingModel& po
     counters_["bearings_too_old"] += 1;
     return false;
   }
-  if (bearing.detected) {
+  if (bearing.is_tracklet()) {
     counters_["tracklet_bearings"] += 1;
     return true;
   }

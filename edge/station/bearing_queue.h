@@ -17,9 +17,11 @@ namespace ols::station {
 
 // What the detector says about an object besides its pixel.
 struct DetectedPixel {
+  bool is_tracklet = true;  // false: of the followed target, with neither velocity nor count
   Eigen::Vector2d velocity_px_s = Eigen::Vector2d::Zero();  // relative to the scene
   double velocity_sd_px_s = 0.0;                            // 1-sigma, each axis
   double size_px = 0.0, size_sd_px = 0.0;                   // largest extent
+  double across_px = 0.0;                                   // smaller side of its upright box
   double signal = 0.0;                                      // signal-to-noise ratio
   int image_bearings = 0;                                   // as in DetectedObject
 };
@@ -34,7 +36,7 @@ struct PixelMeasurement {
   double belief = 0.0;
   std::int64_t track_id = 0;
   double designation_sd_px = 0.0;
-  std::optional<DetectedPixel> detected{};  // nullopt for the followed target
+  std::optional<DetectedPixel> detected{};
 };
 
 struct MadeBearing {

@@ -28,7 +28,7 @@ bool is_likelier(const detector::Tracklet* a, const detector::Tracklet* b) {
 }  // namespace
 
 void DetectedObjects::on_frame(const camera::Frame& frame,
-                               const std::optional<cv::Rect2d>& followed, double now_s) {
+                               const std::optional<FollowedBox>& followed, double now_s) {
   constexpr double kEarly = 0.25;  // of a period: the frames' own jitter
   if (!config_.enabled) return;
   const double period_s = 1.0 / config_.rate_hz;
@@ -65,11 +65,40 @@ std::int64_t DetectedObjects::track_id(long tracklet,
   return known->second;
 }
 
+namespace {
+
+DetectedPixel outline_of(const detector::Tracklet& tracklet) {
+  constexpr double kBlur_px = 2.0, kOutline = 0.25;  // of a point's size; of the size
+  const double size_px = tracklet.measured_size_px().maxCoeff();
+  return {.size_px = size_px,
+          .size_sd_px = std::hypot(kBlur_px, kOutline * size_px),
+          .across_px = tracklet.measured_size_px().minCoeff(),
+          .signal = tracklet.signal_to_noise()};
+}
+
+}  // namespace
+
+// Of several parts of the target, the largest.
+void DetectedObjects::note_followed(const Look& look) {
+  of_followed_.reset();
+  if (!look.followed) return;
+  followed_id_ = look.followed->track_id;
+  for (const detector::Tracklet& tracklet : newest_->confirmed) {
+    if (!tracklet.seen() || !is_in(look.followed->box, tracklet)) continue;
+    DetectedPixel part = outline_of(tracklet);
+    part.is_tracklet = false;
+    if (!of_followed_ || part.size_px > of_followed_->size_px) of_followed_ = part;
+  }
+}
+
+std::optional<DetectedPixel> DetectedObjects::take_look_at(std::int64_t track_id) {
+  if (track_id != followed_id_) return std::nullopt;
+  return std::exchange(of_followed_, std::nullopt);
+}
+
 PixelMeasurement DetectedObjects::measured(const detector::Tracklet& tracklet,
                                            const Look& look) const {
-  constexpr double kCentring = 0.1;                  // of the size: the visible part's centre
-  constexpr double kBlur_px = 2.0, kOutline = 0.25;  // of a point's size; of the size
-  const double size_px = tracklet.size_px().maxCoeff();
+  constexpr double kCentring = 0.1;  // of the size: the visible part's centre
   PixelMeasurement pixel;
   pixel.stamp_sd_s = look.frame.stamp_sd_s;
   pixel.stamp_source = look.frame.stamp_source;
@@ -77,12 +106,10 @@ PixelMeasurement DetectedObjects::measured(const detector::Tracklet& tracklet,
   pixel.mid_exposure_s = camera::row_time_s(look.frame, pixel.pixel.y());
   pixel.covariance_px2 = Eigen::Matrix2d::Identity() * std::pow(tracklet.measured_sd_px(), 2);
   pixel.belief = 1.0 / (1.0 + std::exp(-tracklet.log_ratio()));
-  pixel.designation_sd_px = kCentring * size_px;
-  pixel.detected = DetectedPixel{.velocity_px_s = tracklet.velocity_px_s(),
-                                 .velocity_sd_px_s = tracklet.velocity_sd_px_s(),
-                                 .size_px = size_px,
-                                 .size_sd_px = std::hypot(kBlur_px, kOutline * size_px),
-                                 .signal = tracklet.signal_to_noise()};
+  pixel.designation_sd_px = kCentring * tracklet.size_px().maxCoeff();
+  pixel.detected = outline_of(tracklet);
+  pixel.detected->velocity_px_s = tracklet.velocity_px_s();
+  pixel.detected->velocity_sd_px_s = tracklet.velocity_sd_px_s();
   return pixel;
 }
 
@@ -98,9 +125,10 @@ std::vector<PixelMeasurement> DetectedObjects::on_found(
   });
   if (look->forgotten) return {};
   newest_ = std::move(found);
+  note_followed(*look);
   std::vector<const detector::Tracklet*> shown;
   for (const detector::Tracklet& tracklet : newest_->confirmed) {
-    const bool is_followed = look->followed && is_in(*look->followed, tracklet);
+    const bool is_followed = look->followed && is_in(look->followed->box, tracklet);
     if (tracklet.seen() && !is_followed) shown.push_back(&tracklet);
   }
   std::ranges::stable_sort(shown, is_likelier);
@@ -121,6 +149,7 @@ void DetectedObjects::forget_angles() {
   waiting_.reset();
   looked_s_.reset();
   newest_.reset();
+  of_followed_.reset();
   if (looks_) looks_->forgotten = true;
 }
 

@@ -17,6 +17,12 @@
 
 namespace ols::station {
 
+// The station's own target in a frame.
+struct FollowedBox {
+  cv::Rect2d box;
+  std::int64_t track_id = 0;
+};
+
 // It passes one picture at a time to the detector. When the result of a picture has arrived, the
 // newest picture follows; pictures that were due in between are dropped and counted.
 class DetectedObjects {
@@ -24,9 +30,9 @@ class DetectedObjects {
   explicit DetectedObjects(const StationConfig& config)
       : config_(config.detection), angle_wait_s_(config.angle_wait_s) {}
 
-  // Takes a frame. Call it only while the mount's angles are trusted. `followed`: the box of the
-  // station's own target, if the frame gives a bearing of that target.
-  void on_frame(const camera::Frame& frame, const std::optional<cv::Rect2d>& followed,
+  // Takes a frame. Call it only while the mount's angles are trusted. `followed`: the station's own
+  // target, if the frame gives a bearing of that target.
+  void on_frame(const camera::Frame& frame, const std::optional<FollowedBox>& followed,
                 double now_s);
   // The next picture for the detector, with the mount's motion. The motion needs the mount's angles
   // before and after the exposure. nullopt if no picture is due, or if those angles have not
@@ -38,6 +44,10 @@ class DetectedObjects {
   std::vector<PixelMeasurement> on_found(detector::Found found,
                                          const std::function<std::int64_t()>& new_track_id,
                                          double now_s);
+  // What the newest picture shows of the followed target, each picture once. nullopt if it shows
+  // nothing, or if that picture's target had another id. The size changes with a bird's wings; the
+  // tracker's box does not.
+  std::optional<DetectedPixel> take_look_at(std::int64_t track_id);
   // Call when angles from now on are not comparable with earlier ones.
   void forget_angles();
 
@@ -48,12 +58,13 @@ class DetectedObjects {
  private:
   struct Look {
     camera::Frame frame;
-    std::optional<cv::Rect2d> followed;
+    std::optional<FollowedBox> followed;
     double arrived_s = 0.0;
     bool forgotten = false;  // its angles were forgotten
   };
   std::int64_t track_id(long tracklet, const std::function<std::int64_t()>& new_track_id);
   PixelMeasurement measured(const detector::Tracklet& tracklet, const Look& look) const;
+  void note_followed(const Look& look);
 
   DetectionConfig config_;
   double angle_wait_s_;
@@ -61,6 +72,8 @@ class DetectedObjects {
   std::optional<Look> waiting_, looks_;  // the next picture; the picture being looked at
   std::optional<double> looked_s_;       // mid-exposure of the last picture passed on
   std::optional<detector::Found> newest_;
+  std::optional<DetectedPixel> of_followed_;  // not yet taken
+  std::int64_t followed_id_ = 0;
   std::map<long, std::int64_t> track_ids_;  // by the detector's own id
   std::map<std::string, double> counters_;
 };

@@ -48,9 +48,11 @@ void Station::on_frame(const camera::Frame& frame, double now_s) {
   }
   if (mode_.is(StationState::kSlewed)) look_along_slew(frame);
   if (mode_.reference() != mount::Reference::kTrusted) return;
-  const auto* followed =
+  std::optional<FollowedBox> followed;
+  const auto* output =
       mode_.is(StationState::kTracking) ? target_.output_of(frame.mid_exposure_s) : nullptr;
-  detected_.on_frame(frame, followed ? std::optional(followed->box) : std::nullopt, now_s);
+  if (output) followed = {output->box, target_.track_id()};
+  detected_.on_frame(frame, followed, now_s);
 }
 
 void Station::on_found(detector::Found found) {
@@ -94,7 +96,7 @@ void Station::track(const camera::Frame& frame) {
                    .belief = output->belief,
                    .track_id = target_.track_id(),
                    .designation_sd_px = target_.centring_sd_px(),
-                   .detected = {}});
+                   .detected = detected_.take_look_at(target_.track_id())});
   }
 }
 
@@ -363,7 +365,7 @@ StationOutput Station::step(double now_s) {
   expire(now_s_);
   StationOutput output;
   for (const MadeBearing& made : bearings_.take(pointing_, now_s_)) {
-    if (!made.bearing.detected) follow(made);
+    if (!made.bearing.is_tracklet()) follow(made);
     if (made.to_send) output.bearings.push_back(made.bearing);
   }
   output.goal = goal(now_s);

@@ -35,11 +35,13 @@ bool differs(const sensors::StationPose& stated, const sensors::StationPose& now
 
 // What a detector says about its object besides the direction. 0 means unknown.
 struct DetectedObject {
+  bool is_tracklet = true;  // false: of the target, which the tracker follows
   // Number of bearings that the detector makes from this image, including this one.
   int image_bearings = 0;
   Eigen::Vector2d rate_rad_s = Eigen::Vector2d::Zero();       // cross-elevation, elevation
   Eigen::Matrix2d rate_covariance = Eigen::Matrix2d::Zero();  // [rad^2/s^2]
   double size_rad = 0.0, size_sd_rad = 0.0;                   // largest extent
+  double across_rad = 0.0;                                    // smaller side of its upright box
   double signal = 0.0;                                        // signal-to-noise ratio
 };
 
@@ -58,8 +60,9 @@ struct Bearing {
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
   Eigen::Matrix2d covariance_px2 = Eigen::Matrix2d::Zero();  // white
   double designation_sd_px = 0.0;                            // the same in every frame
-  // Set for a detector's tracklet; nullopt for the target.
   std::optional<DetectedObject> detected{};
+
+  bool is_tracklet() const { return detected && detected->is_tracklet; }
 };
 
 struct DesignateCommand {

@@ -97,16 +97,17 @@ void Lockstep::send(std::size_t station, const station::Bearing& bearing, double
   measurement.calibration_id = bearing.pose_revision;
   if (bearing.detected) {
     const station::DetectedObject& object = *bearing.detected;
-    measurement.is_tracklet = true;
+    measurement.is_tracklet = object.is_tracklet;
     measurement.image_bearings = object.image_bearings;
     measurement.sighted = {.rate_rad_s = object.rate_rad_s,
                            .rate_covariance = object.rate_covariance,
                            .size_rad = object.size_rad,
                            .size_sd_rad = object.size_sd_rad,
+                           .across_rad = object.across_rad,
                            .signal = object.signal};
   }
   bearings_.send(measurement, time_s);
-  if (bearing.detected) return;
+  if (bearing.is_tracklet()) return;
   for (station::Sighting& one : stations_[station]->sightings(bearing, measurement.utime_us)) {
     result_.sightings.push_back({station, std::move(one)});
   }

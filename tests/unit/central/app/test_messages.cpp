@@ -104,6 +104,7 @@ TEST(Messages, ABearingSaysWhatADetectorSaw) {
   message.rate_covariance_rad2_s2[1] = 2e-7;
   message.size_rad = 2e-3;
   message.size_sd_rad = 3e-4;
+  message.across_rad = 1e-3;
   message.signal = 9.5;
   message.classes = 2;
   message.class_probability = {0.25, 0.75};
@@ -115,6 +116,7 @@ TEST(Messages, ABearingSaysWhatADetectorSaw) {
   EXPECT_EQ(measurement.sighted.rate_covariance(1, 0), 2e-7);
   EXPECT_EQ(measurement.sighted.size_rad, 2e-3);
   EXPECT_EQ(measurement.sighted.size_sd_rad, 3e-4);
+  EXPECT_EQ(measurement.sighted.across_rad, 1e-3);
   EXPECT_EQ(measurement.sighted.signal, 9.5);
   EXPECT_EQ(measurement.sighted.class_probability, (std::vector{0.25, 0.75}));
 }

@@ -133,6 +133,7 @@ TEST(StationMessages, ABearingOfADetectedObjectSaysSo) {
                                     .rate_covariance = Eigen::Vector2d(4.0, 9.0).asDiagonal(),
                                     .size_rad = 0.003,
                                     .size_sd_rad = 0.001,
+                                    .across_rad = 0.002,
                                     .signal = 12.0};
   const auto message = to_message(bearing, sender(), settings, 1);
   EXPECT_TRUE(message.detected);
@@ -143,7 +144,10 @@ TEST(StationMessages, ABearingOfADetectedObjectSaysSo) {
   EXPECT_EQ(message.rate_covariance_rad2_s2[2], 9.0);
   EXPECT_EQ(message.size_rad, 0.003);
   EXPECT_EQ(message.size_sd_rad, 0.001);
+  EXPECT_EQ(message.across_rad, 0.002);
   EXPECT_EQ(message.signal, 12.0);
+  bearing.detected->is_tracklet = false;
+  EXPECT_FALSE(to_message(bearing, sender(), settings, 1).detected) << "of the followed target";
 }
 
 TEST(StationMessages, OnlySpansOfTimeAreRecorded) {

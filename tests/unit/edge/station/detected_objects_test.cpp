@@ -20,7 +20,7 @@ class DetectedObjectsTest : public testing::Test {
       pointing_.add({.time_s = 0.02 * i, .time_sd_s = 1e-4, .angles = {radians(0.02 * i), 0.0}});
     }
   }
-  void frame(double time_s, const std::optional<cv::Rect2d>& followed = std::nullopt) {
+  void frame(double time_s, const std::optional<FollowedBox>& followed = std::nullopt) {
     camera::Frame frame;
     frame.mid_exposure_s = time_s;
     objects_->on_frame(frame, followed, time_s);
@@ -47,7 +47,7 @@ class DetectedObjectsTest : public testing::Test {
   }
   // An image in which these objects are found.
   std::vector<PixelMeasurement> image(double time_s, std::vector<detector::Tracklet> objects,
-                                      const std::optional<cv::Rect2d>& followed = std::nullopt) {
+                                      const std::optional<FollowedBox>& followed = std::nullopt) {
     frame(time_s, followed);
     taken_ = take(time_s);
     if (!taken_) return {};
@@ -137,11 +137,29 @@ TEST_F(DetectedObjectsTest, EachObjectKeepsAnIdThatNoDesignationHas) {
 }
 
 TEST_F(DetectedObjectsTest, TheFollowedTargetIsNotSentAgain) {
-  const cv::Rect2d followed(290.0, 190.0, 20.0, 20.0);
+  const FollowedBox followed{{290.0, 190.0, 20.0, 20.0}, 7};
   const auto sent = image(0.1, {object(1, 302, 199), object(2, 330, 199)}, followed);
   ASSERT_EQ(sent.size(), 1U);
   EXPECT_EQ(sent[0].pixel.x(), 330.0);
+  EXPECT_FALSE(objects_->take_look_at(6)) << "of another target";
+  const auto seen = objects_->take_look_at(7);
+  ASSERT_TRUE(seen);
+  EXPECT_EQ(seen->size_px, 6.0);
+  EXPECT_FALSE(seen->is_tracklet);
+  EXPECT_FALSE(objects_->take_look_at(7)) << "a second time";
   EXPECT_EQ(image(0.2, {object(1, 302, 199)}).size(), 1U) << "it is lost";
+}
+
+TEST_F(DetectedObjectsTest, ASizeIsThatOfTheImageAlone) {
+  detector::Tracklet beating = object(1, 300, 200);
+  detector::Detection wide;
+  wide.pixel = {300, 200};
+  wide.size_px = {12.0, 4.0};
+  beating.update(wide);
+  const auto sent = image(0.1, {beating});
+  ASSERT_EQ(sent.size(), 1U);
+  EXPECT_EQ(sent[0].detected->size_px, 12.0);
+  EXPECT_EQ(sent[0].detected->across_px, 4.0);
 }
 
 TEST_F(DetectedObjectsTest, OfManyTheLikeliestAreSent) {
