@@ -332,6 +332,7 @@ ols_msg::slew_t to_message(const Slew& slew, const MessageStamp& stamp) {
   message.elevation_rate_rad_s = slew.elevation_rate_rad_s;
   message.direction_sd_rad = slew.direction_sd_rad;
   std::ranges::copy(slew.line, message.line);
+  message.let_go_track_id = slew.let_go_track_id;
   return message;
 }
 

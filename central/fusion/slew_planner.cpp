@@ -274,8 +274,18 @@ std::optional<Slew> SlewPlanner::slew_of(SlewRound& round, const SlewStation& st
   }
   if (target != nullptr) return towards(*target, station, round.now_us);
   const bool searches = round.ray && !round.bearing_only_stations.contains(station.station);
-  if (!searches) return std::nullopt;
-  return along(round, station, line_key(*round.ray));
+  if (searches) return along(round, station, line_key(*round.ray));
+  if (station.let_go_track_id != 0 && station.traits.axis) return stay(station, round.now_us);
+  return std::nullopt;
+}
+
+// Nothing wants the station: it only has to let go.
+Slew SlewPlanner::stay(const SlewStation& station, std::int64_t now_us) const {
+  Slew slew;
+  slew.lease_s = config_.lease_s;
+  slew.effect_utime_us = effect_of(station.traits, now_us);
+  slew.direction = *station.traits.axis;
+  return slew;
 }
 
 std::vector<Slew> SlewPlanner::plan(SlewRound& round, std::span<const SlewStation> stations,
@@ -293,6 +303,7 @@ std::vector<Slew> SlewPlanner::plan(SlewRound& round, std::span<const SlewStatio
     if (!slew) continue;
     slew->station = station.station;
     slew->utime_us = now_us;
+    slew->let_go_track_id = station.let_go_track_id;
     slews.push_back(std::move(*slew));
   }
   return slews;

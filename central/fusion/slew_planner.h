@@ -58,6 +58,7 @@ struct Slew {
   // In a search along a ray: direction of the ray there.
   Eigen::Vector2d line = Eigen::Vector2d::Zero();
   double lease_s = 0.0;
+  std::int64_t let_go_track_id = 0;  // what its tracker follows and lets go of; 0: nothing
 };
 
 // The slew that points a station's camera at a predicted state. Its uncertainty follows from the
@@ -72,8 +73,9 @@ Eigen::Vector2d spiral_point(int k);
 struct SlewStation {
   std::string station;
   StationTraits traits;
-  std::int64_t follows = 0;  // the target that it sees; 0 if none
-  bool stares = false;       // the station is never led
+  std::int64_t follows = 0;          // the target that it sees; 0 if none
+  bool stares = false;               // the station is never led
+  std::int64_t let_go_track_id = 0;  // what its tracker follows and lets go of; 0: nothing
   bool is_led() const { return traits.commandable && !stares; }
 };
 
@@ -131,6 +133,7 @@ class SlewPlanner {
   Slew along(const SlewRound& round, const SlewStation& station, const std::string& search_key);
   bool is_by_motion(const CueAim& cue, const SlewStation& station, std::int64_t now_us) const;
   bool is_wide(const CueAim& cue, const SlewStation& station, std::int64_t now_us) const;
+  Slew stay(const SlewStation& station, std::int64_t now_us) const;
   std::optional<Slew> slew_of(SlewRound& round, const SlewStation& station,
                               const std::vector<const Track*>& targets);
   // Moves the slew's direction to the current point of its search.

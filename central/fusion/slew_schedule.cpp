@@ -36,8 +36,24 @@ SlewStation SlewSchedule::station_of(const std::string& name, const KnownStation
   const std::int64_t seen = station.follows(now_us);
   const auto priority = round_.priority.find(seen);
   const bool leads = priority == round_.priority.end() || priority->second > 0.0;
+  const auto let_go = let_go_.find(name);
   return {name, station.traits, leads ? seen : 0,
-          std::ranges::find(staring_, name) != staring_.end()};
+          std::ranges::find(staring_, name) != staring_.end(),
+          let_go == let_go_.end() ? 0 : let_go->second};
+}
+
+// A station's tracker stays with its target until somebody says otherwise.
+void SlewSchedule::find_what_is_let_go(const std::vector<Track>& tracks,
+                                       const HandoverPolicy& handover) {
+  let_go_.clear();
+  for (const Track& track : tracks) {
+    if (!handover.is_let_go(track.id)) continue;
+    for (const auto& [station, bearings] : track.bearings) {
+      const auto newest = std::ranges::find(bearings.rbegin(), bearings.rend(), false,
+                                            &BearingMeasurement::is_tracklet);
+      if (newest != bearings.rend()) let_go_[station] = newest->track_id;
+    }
+  }
 }
 
 void SlewSchedule::begin(std::int64_t now_us, const StationRegistry& stations,
@@ -47,6 +63,7 @@ void SlewSchedule::begin(std::int64_t now_us, const StationRegistry& stations,
   next_ = "";
   round_ = {.now_us = now_us};
   for (const Track& track : tracks) round_.priority[track.id] = handover.priority(track);
+  find_what_is_let_go(tracks, handover);
   std::vector<SlewStation> all;
   for (const auto& [name, station] : stations.all()) {
     all.push_back(station_of(name, station, now_us));

@@ -46,6 +46,7 @@ class SlewSchedule {
              const HandoverPolicy& handover);
   SlewStation station_of(const std::string& name, const KnownStation& station,
                          std::int64_t now_us) const;
+  void find_what_is_let_go(const std::vector<Track>& tracks, const HandoverPolicy& handover);
   // A station, and its own id of the tracklet.
   using TrackletName = std::pair<std::string, std::int64_t>;
   struct Tracklet {
@@ -65,6 +66,7 @@ class SlewSchedule {
   std::vector<std::string> staring_;
   SlewPlanner planner_;
   SlewRound round_;
+  std::map<std::string, std::int64_t> let_go_;  // by station: what its tracker follows
   std::string cued_by_;                         // the station whose ray the others search along
   std::map<TrackletName, Tracklet> tracklets_;  // tracklets that no target has taken
   std::optional<std::int64_t> begun_us_;        // start of the last round

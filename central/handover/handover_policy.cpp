@@ -127,6 +127,14 @@ double HandoverPolicy::priority(const Track& track) const {
   return track.existence.probability() * (is_wanted ? kWantedFactor : 1.0);
 }
 
+bool HandoverPolicy::is_let_go(std::int64_t target_id) const {
+  const auto found = targets_.find(target_id);
+  if (found == targets_.end()) return false;
+  const Known& known = found->second;
+  if (known.allowed) return !*known.allowed;
+  return config_.mode == HandoverMode::kAutomatic && known.has_led && !leads(known);
+}
+
 bool HandoverPolicy::is_sought(const Known& known, std::int64_t now_us) const {
   return config_.mode != HandoverMode::kOff && leads(known) &&
          seconds(now_us - known.last.cue.state_us) <= config_.seek_s;

@@ -57,6 +57,9 @@ class HandoverPolicy {
   // The target's priority when stations are allocated; 0 if it leads no station. The priority is
   // higher for targets that an operator has designated or allowed, and lower for doubtful ones.
   double priority(const Track& track) const;
+  // Whether trackers are to let go of it: an operator has dismissed it, or the policy led stations
+  // there until it knew that its class leads none.
+  bool is_let_go(std::int64_t target_id) const;
   // Lost targets, as places at which stations are to look.
   std::vector<CueAim> lost(std::int64_t now_us) const;
   // Targets that were found by detectors or judged by an operator, each under its number. The

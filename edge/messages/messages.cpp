@@ -316,6 +316,7 @@ SlewCommand from_message(const ols_msg::slew_t& message, const Sender& sender, d
   command.elevation_rate_rad_s = message.elevation_rate_rad_s;
   command.direction_sd_rad = message.direction_sd_rad;
   command.line = Eigen::Vector2d(message.line);
+  command.let_go_track_id = message.let_go_track_id;
   return command;
 }
 

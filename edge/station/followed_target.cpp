@@ -93,6 +93,15 @@ std::optional<tracker::TrackerOutput> FollowedTarget::track(const camera::Frame&
   return result.output;
 }
 
+bool FollowedTarget::let_go(std::int64_t track_id) {
+  if (own_ && own_->track_id == track_id) own_.reset();
+  if (!exists() || track_id_ != track_id) return false;
+  kind_ = Kind::kNone;
+  own_.reset();
+  last_output_.reset();
+  return true;
+}
+
 // Compares the camera's motion by the PTU's angles with that of the image: wrong angles, times or
 // mounting show here before they affect a position.
 void FollowedTarget::compare_motion(const tracker::TrackerOutput& output) {

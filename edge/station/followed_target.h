@@ -38,6 +38,8 @@ class FollowedTarget {
   void search_near(const Eigen::Vector2d& pixel, double sd_px) {
     tracker_->search_near(pixel, sd_px);
   }
+  // Forgets the target if it has this id, also one that is set aside. False if it has another.
+  bool let_go(std::int64_t track_id);
   // Call when PTU angles from now on are not comparable with earlier ones.
   void forget_angles();
 

@@ -176,8 +176,7 @@ void Station::forget_angles() {
   slew_.clear();
   occlusion_.clear();
   manual_.clear();
-  if (mode_.is(StationState::kHidden) || mode_.is(StationState::kTracking) ||
-      mode_.is(StationState::kCoasting)) {
+  if (mode_.is(StationState::kHidden) || follows_now()) {
     enter(StationState::kLost);
   }
 }
@@ -226,6 +225,11 @@ Refusal Station::slew(const SlewCommand& command, double now_s) {
   const Refusal refusal = judge(command, situation(now_s));
   if (refusal != Refusal::kNone) return count(refusal, "slew");
   slew_.give(command, now_s_);
+  if (target_.let_go(command.let_go_track_id) && follows_now()) {
+    motion_.clear();
+    bearings_.clear();
+    enter(StationState::kIdle);
+  }
   if (mode_.is(StationState::kIdle) || mode_.is(StationState::kLost)) {
     enter(StationState::kSlewed);
   }
@@ -399,9 +403,8 @@ void Station::expire(double now_s) {
   slew_.expire(now_s);
   occlusion_.expire(now_s);
   if (is_led() || (mode_.is(StationState::kLost) && occlusion_.command())) enter(without_target());
-  const bool following = mode_.is(StationState::kTracking) || mode_.is(StationState::kCoasting);
   // Also when frames stop: without a believed frame there is no motion.
-  if (following && now_s - believed_s_ > config_.coast_s) {
+  if (follows_now() && now_s - believed_s_ > config_.coast_s) {
     motion_.clear();
     enter(without_target());
   }

@@ -158,6 +158,9 @@ class Station {
   void forget_angles();
   Refusal stand_at(const PanTilt& angles, const char* command, double now_s);
   bool follows_target() const { return target_.exists() && mode_.may_track(); }
+  bool follows_now() const {
+    return mode_.is(StationState::kTracking) || mode_.is(StationState::kCoasting);
+  }
   // What a station does whose target is not seen.
   StationState without_target() const;
   // Where it is led meanwhile.

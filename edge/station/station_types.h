@@ -85,6 +85,8 @@ struct SlewCommand {
   // elevation), a unit vector. Then the target may be anywhere on the line, and direction_sd_rad is
   // the deviation across the line.
   Eigen::Vector2d line = Eigen::Vector2d::Zero();
+  // What the tracker lets go of, if it follows that. 0: nothing.
+  std::int64_t let_go_track_id = 0;
   bool searches_line() const { return !line.isZero(); }
 };
 AzimuthElevation direction_at(const SlewCommand& slew, double time_s);

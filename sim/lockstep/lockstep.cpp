@@ -175,6 +175,7 @@ void Lockstep::deliver(const AddressedSlew& addressed, double time_s) {
   command.elevation_rate_rad_s = slew.elevation_rate_rad_s;
   command.direction_sd_rad = slew.direction_sd_rad;
   command.line = slew.line;
+  command.let_go_track_id = slew.let_go_track_id;
   stations_[addressed.station]->slew(command, time_s);
 }
 

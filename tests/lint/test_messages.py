@@ -58,6 +58,7 @@ FORMER = {
     "cue_order_v1": "b07b09c1",
     "fusion_status_v1": "5eae55e2",
     "fusion_status_v2": "bc400360",
+    "slew_v1": "88ef0ac0",
     "station_status_v1": "f51c5e11",
     "station_status_v2": "f655c9c8",
     "target_v1": "7ceb0a14",

@@ -124,6 +124,25 @@ TEST_F(SlewScheduleTest, WhomTheOperatorHasGetsNoSlew) {
   EXPECT_EQ(names(plan()), (std::vector<std::string>{"s00", "s02"}));
 }
 
+TEST_F(SlewScheduleTest, ATrackerLetsGoOfWhatAnOperatorHasDismissed) {
+  for (const char* name : {"a", "b"}) know(name, {0.0, 0.0, 0.0});
+  now_us = confirm_at(tracks, kPlace);
+  BearingMeasurement followed = sight_of(1, kPlace, now_us + 20'000);
+  followed.track_id = 7;
+  tracks.give(0, followed);
+  stations.all().at("b").traits.axis = {0.3, 0.1};
+  handover = HandoverPolicy({.mode = HandoverMode::kPropose});
+  handover.settle(now_us, tracks.tracks());
+  EXPECT_EQ(plan().size(), 2U);
+  ASSERT_TRUE(handover.order(1, false));
+  now_us += kPeriodUs;
+  const auto slews = plan();
+  ASSERT_EQ(names(slews), std::vector<std::string>{"b"}) << "no tracker of a follows it";
+  EXPECT_EQ(slews[0].let_go_track_id, 7);
+  EXPECT_EQ(slews[0].target_id, 0);
+  EXPECT_EQ(slews[0].direction.azimuth_rad, 0.3) << "where it is: nothing else wants it";
+}
+
 TEST_F(SlewScheduleTest, WithoutATargetOrARayThereAreNone) {
   know("a", {0.0, 0.0, 0.0});
   EXPECT_TRUE(plan().empty());

@@ -111,6 +111,7 @@ TEST_F(TheHandoverPolicy, AProposalWaitsForTheOperatorsWord) {
   EXPECT_TRUE(handover.order(1, false));
   EXPECT_EQ(state(handover), CueState::kForbidden);
   EXPECT_EQ(handover.priority(track), 0.0);
+  EXPECT_TRUE(handover.is_let_go(1));
 }
 
 // The led stations' trackers follow it then, and are no word of an operator.
@@ -139,13 +140,16 @@ TEST_F(TheHandoverPolicy, AutomaticLeadsAtOnceButNotWhatIsOfAnotherClass) {
   const Track drone = of_class(1), bird = of_class(2);
   handover.settle(kStart, {drone});
   EXPECT_GT(handover.priority(drone), 0.0);
+  EXPECT_FALSE(handover.is_let_go(1));
   handover.settle(after(1.0), {bird});
+  EXPECT_TRUE(handover.is_let_go(1)) << "it has been led to until its class was known";
   EXPECT_EQ(handover.priority(bird), 0.0);
   EXPECT_EQ(state(handover), CueState::kWaiting);
   handover.settle(after(2.0), {followed(bird)});
   EXPECT_EQ(handover.priority(bird), 0.0) << "those trackers were led there, not designated";
   handover.order(1, true);
   EXPECT_GT(handover.priority(bird), 0.0) << "the operator's word wins";
+  EXPECT_FALSE(handover.is_let_go(1));
 }
 
 TEST_F(TheHandoverPolicy, TheOperatorsTargetIsWorthMoreAndADoubtfulOneLess) {

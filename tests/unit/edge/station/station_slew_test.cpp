@@ -76,6 +76,20 @@ TEST_F(StationSlewTest, ASlewedStationBelievesOnlyWhatIsWhereTheSlewSays) {
   EXPECT_EQ(station_.state(), StationState::kTracking);
 }
 
+TEST_F(StationSlewTest, ItLetsGoOfWhatAnOperatorHasDismissedAndOfNothingElse) {
+  designated_for(0.5);
+  SlewCommand command = slew(30.0);
+  command.let_go_track_id = station_.snapshot().track_id + 1;
+  ASSERT_EQ(station_.slew(command, now_), Refusal::kNone);
+  EXPECT_EQ(station_.state(), StationState::kTracking) << "it follows another";
+  --command.let_go_track_id;
+  command.received_s = now_;
+  ASSERT_EQ(station_.slew(command, now_), Refusal::kNone);
+  EXPECT_EQ(station_.state(), StationState::kSlewed);
+  run_until(now_ + command.lease_s + 0.2);
+  EXPECT_EQ(station_.state(), StationState::kIdle) << "there is nothing to look for";
+}
+
 TEST_F(StationSlewTest, ASlewedStationAllowsForWhatItDoesNotKnowOfItsOwnHeading) {
   StationConfig rough = config();
   rough.geometry.sd.heading_rad = radians(0.5);
