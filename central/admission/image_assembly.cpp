@@ -1,11 +1,26 @@
 #include "central/admission/image_assembly.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "central/measurement/time_span.h"
 
 namespace ols::fusion {
+
+namespace {
+
+// Behind a rolling shutter, each object of an image has the time of its own row.
+bool is_of(const ImageBearings& image, const BearingMeasurement& measurement, double readout_s) {
+  const BearingMeasurement& first = image.front();
+  if (first.utime_us == measurement.utime_us) return true;
+  return measurement.image_bearings > 0 && measurement.image_bearings == first.image_bearings &&
+         std::abs(seconds(measurement.utime_us - first.utime_us)) <= readout_s &&
+         std::ranges::find(image, measurement.track_id, &BearingMeasurement::track_id) ==
+             image.end();
+}
+
+}  // namespace
 
 std::vector<ImageBearings> ImageAssembly::add(const BearingMeasurement& measurement,
                                               std::int64_t now_us) {
@@ -14,7 +29,7 @@ std::vector<ImageBearings> ImageAssembly::add(const BearingMeasurement& measurem
     const std::int64_t utime_us = entry.second.front().utime_us;
     const bool is_own = entry.first == measurement.station;
     const bool is_over =
-        is_own ? utime_us != measurement.utime_us : seconds(now_us - utime_us) > kWaitS;
+        is_own ? !is_of(entry.second, measurement, kWaitS) : seconds(now_us - utime_us) > kWaitS;
     if (!is_over) return false;
     complete.push_back(std::move(entry.second));
     return true;

@@ -10,7 +10,7 @@
 
 namespace ols::fusion {
 
-// The bearings of one station with one time stamp, in order of arrival.
+// The bearings of one station and image, in order of arrival.
 using ImageBearings = std::vector<BearingMeasurement>;
 
 class ImageAssembly {

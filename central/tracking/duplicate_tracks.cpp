@@ -40,7 +40,7 @@ void DuplicateTracks::count(Pair& pair, const BearingMeasurement& measurement, b
                             bool first) const {
   Tally& own = pair.stations[measurement.station];
   if (shared) pair.newest_us = std::max(pair.newest_us, measurement.utime_us);
-  if (own.utime_us == measurement.utime_us) {
+  if (is_one_exposure(own.utime_us, measurement.utime_us)) {
     ++own.bearings;
     own.shared = own.shared || shared;
     return;

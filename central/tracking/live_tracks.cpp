@@ -179,11 +179,12 @@ Association LiveTracks::initiate(const BearingMeasurement& measurement) {
 
 // Of the image of a detector. A target that hardly anybody sees is not judged: it coasts.
 void LiveTracks::judge_existence(std::span<const BearingMeasurement> image) {
+  constexpr std::int64_t kRows_us = 50'000;  // of a rolling shutter, from one object to another
   const BearingMeasurement& any = image.front();
   if (!any.is_tracklet) return;
   for (Track& track : tracks_) {
     if (!track.existence.is_judged() || track.state == TrackState::kDeleted) continue;
-    if (track.has_taken(any)) {
+    if (track.has_taken(any, kRows_us)) {
       track.existence.seen();
     } else if (should_show(any, track)) {
       track.existence.missed(visible(any, track));

@@ -4,15 +4,15 @@
 
 namespace ols::fusion {
 
-bool Track::has_taken(const BearingMeasurement& measurement) const {
+bool Track::has_taken(const BearingMeasurement& measurement, std::int64_t within_us) const {
   const auto own = bearings.find(measurement.station);
   if (own == bearings.end()) return false;
   const auto& taken = own->second;
+  const std::int64_t from_us = measurement.utime_us - within_us;
   // Most bearings are newer than all; to search each station's would fetch many from memory.
-  if (taken.empty() || taken.back().utime_us < measurement.utime_us) return false;
-  const auto at =
-      std::ranges::lower_bound(taken, measurement.utime_us, {}, &BearingMeasurement::utime_us);
-  return at->utime_us == measurement.utime_us;
+  if (taken.empty() || taken.back().utime_us < from_us) return false;
+  const auto at = std::ranges::lower_bound(taken, from_us, {}, &BearingMeasurement::utime_us);
+  return at->utime_us <= measurement.utime_us + within_us;
 }
 
 bool is_established(const Track& track) {

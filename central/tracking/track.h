@@ -10,6 +10,7 @@
 #include "central/filter/track_filter.h"
 #include "central/measurement/bearing_measurement.h"
 #include "central/measurement/ray.h"
+#include "central/measurement/time_span.h"
 #include "central/tracking/existence.h"
 
 namespace ols::fusion {
@@ -37,7 +38,8 @@ struct Track {
       velocities;  // [m/s] ECEF, at the looks of the last second
 
   // Whether the track already has a bearing from this exposure of the station.
-  bool has_taken(const BearingMeasurement& measurement) const;
+  bool has_taken(const BearingMeasurement& measurement,
+                 std::int64_t within_us = kExposure_us) const;
 };
 
 // Whether the track is confirmed or coasting.

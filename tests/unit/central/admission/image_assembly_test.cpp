@@ -39,6 +39,22 @@ TEST(ImageAssembly, ALostBearingIsNotWaitedForBeyondTheNextImage) {
   EXPECT_EQ(complete[1].front().utime_us, 30'000);
 }
 
+TEST(ImageAssembly, BehindARollingShutterEachBearingHasTheTimeOfItsRow) {
+  ImageAssembly images;
+  const auto seen = [](std::int64_t utime_us, std::int64_t track_id) {
+    BearingMeasurement measurement = of("a", utime_us, 3);
+    measurement.track_id = track_id;
+    return measurement;
+  };
+  EXPECT_TRUE(images.add(seen(20'000, 1), 20'000).empty());
+  EXPECT_TRUE(images.add(seen(1'000, 2), 20'000).empty());
+  const auto complete = images.add(seen(35'000, 3), 35'000);
+  ASSERT_EQ(complete.size(), 1U);
+  EXPECT_EQ(complete[0].size(), 3U);
+  images.add(seen(120'000, 1), 120'000);
+  EXPECT_EQ(images.add(seen(150'000, 1), 150'000).at(0).size(), 1U) << "the next image of it";
+}
+
 TEST(ImageAssembly, ALostBearingOfAStationThatFallsSilentIsNotWaitedForLong) {
   ImageAssembly images;
   images.add(of("a", 1, 2), 1);

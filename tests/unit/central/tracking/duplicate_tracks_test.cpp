@@ -129,6 +129,7 @@ bool are_same_with_apart(int exposures_apart) {
       const std::vector<std::int64_t> best_first =
           k % 2 == 0 ? std::vector<std::int64_t>{1, 2} : std::vector<std::int64_t>{2, 1};
       duplicates.note(bearing, best_first);
+      ++bearing.utime_us;  // a station converts the time of each bearing by itself
       if (k < exposures_apart) duplicates.note(bearing, std::span(best_first).last(1));
     }
   }

@@ -53,6 +53,21 @@ TEST(TrackManager, ABearingBesideTheTrackIsRejectedAndCounted) {
   EXPECT_EQ(tracks.counts().rejected, 1);
 }
 
+// A station converts the time of each bearing by itself; behind a rolling shutter each row has its
+// own.
+TEST(TrackManager, BearingsOfOneExposureDifferInTimeByMicrosecondsOrSomeRows) {
+  GivenTracks tracks;
+  const std::int64_t now_us = confirm_at(tracks, kPlace) + 20'000;
+  tracks.add(sight_of(0, kPlace, now_us));
+  for (const std::int64_t off_us : {-1500, -1, 0, 1, 1500}) {
+    EXPECT_TRUE(tracks.tracks()[0].has_taken(sight_of(0, kPlace, now_us + off_us))) << off_us;
+    EXPECT_FALSE(tracks.tracks()[0].has_taken(sight_of(1, kPlace, now_us + off_us))) << off_us;
+  }
+  for (const std::int64_t off_us : {-8000, 8000}) {
+    EXPECT_FALSE(tracks.tracks()[0].has_taken(sight_of(0, kPlace, now_us + off_us))) << off_us;
+  }
+}
+
 TEST(TrackManager, ADuplicateOfAConfirmedTrackIsDeleted) {
   GivenTracks tracks;
   std::int64_t now_us = confirm_at(tracks, kPlace);
