@@ -83,6 +83,11 @@ const char* to_string(TrackState state) {
 
 const char* to_string(ObjectClass object_class) {
   return word_of_code(code(object_class),
+                      std::array{"unknown", "drone", "bird", "aircraft", "other"});
+}
+
+const char* standard_class(ObjectClass object_class) {
+  return word_of_code(code(object_class),
                       std::array{"Unknown", "UAV", "Bird", "Aircraft", "Other"});
 }
 

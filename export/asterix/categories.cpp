@@ -68,6 +68,15 @@ std::string accuracies(const Target& target) {
   return fields.empty() ? std::string() : asterix_compound(fields);
 }
 
+// I062/380, of which only the emitter category is filled. It has a code for drones and several for
+// aircraft by weight, none for an aircraft of any kind or for a bird.
+std::string emitter_category(ObjectClass object_class) {
+  constexpr int kEmitterCategory = 21;
+  constexpr unsigned kUnmanned = 13U;
+  if (object_class != ObjectClass::kDrone) return {};
+  return AsterixRecord().with(kEmitterCategory, octet(kUnmanned)).bytes();
+}
+
 }  // namespace
 
 std::string cat062(const Target& target, std::uint16_t number, const AsterixSettings& settings) {
@@ -86,6 +95,8 @@ std::string cat062(const Target& target, std::uint16_t number, const AsterixSett
     if (std::isfinite(up)) record.with(20, asterix_signed(up, kClimbUnit_m_s, 2));
   }
   if (std::string known = accuracies(target); !known.empty()) record.with(27, known);
+  if (std::string kind = emitter_category(target.object_class); !kind.empty())
+    record.with(11, kind);
   return asterix_block(62, {record.bytes()});
 }
 

@@ -42,7 +42,7 @@ Json alarm(TrackState state) {
 const char* classification(ObjectClass object_class) {
   const bool is_named =
       object_class == ObjectClass::kUnknown || object_class == ObjectClass::kDrone;
-  return to_string(is_named ? object_class : ObjectClass::kOther);
+  return standard_class(is_named ? object_class : ObjectClass::kOther);
 }
 
 Json track_record(const Target& target, std::uint64_t number) {

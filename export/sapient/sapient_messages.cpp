@@ -197,7 +197,7 @@ std::string sapient_detection(const SapientSettings& settings, const Target& tar
   add_information(report, "velocity_covariance_enu_m2_s2",
                   numbers_of(target.velocity_covariance_m2_s2));
   auto& classification = *report.add_classification();
-  classification.set_type(to_string(target.object_class));
+  classification.set_type(standard_class(target.object_class));
   if (std::isfinite(target.class_probability)) {
     classification.set_confidence(static_cast<float>(target.class_probability));
   }

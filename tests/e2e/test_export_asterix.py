@@ -52,9 +52,11 @@ def fixture_records(network, tmp_path_factory):
 
         def heard():
             publisher.send("OLS_BEARING_alfa", bearing())
+            publisher.publish(target(object_class=ols_msg.target_t.CLASS_DRONE))
             for data in received(receiver):
                 for record in asterix.parse(data):
-                    found.setdefault(record["category"], (record, data))
+                    if record["category"] != 62 or "I380" in record:
+                        found.setdefault(record["category"], (record, data))
             return set(found) == {15, 62, 63, 65}
 
         publisher.until(heard, "each category")
@@ -74,6 +76,7 @@ def test_a_system_track(records):
     assert value(record["I130"], "Alt") * FOOT_M == pytest.approx(HEIGHT_M, abs=0.96)
     assert value(record["I040"], "TrkN") == 7
     assert (value(record["I080"], "MRH"), value(record["I080"], "SRC")) == (1, 3)
+    assert value(record["I380"]["EMC"], "ECAT") == 13  # unmanned
     assert (value(record["I080"], "CNF"), value(record["I080"], "MON")) == (0, 0)
 
     accuracies = record["I500"]

@@ -1,10 +1,14 @@
 #include "tools/ctl/cue_operator.h"
 
+#include <cmath>
+
 #include "base/bus/boot_id.h"
 #include "base/bus/channel_names.h"
 #include "base/process/clocks.h"
 #include "tools/ctl/operator.h"
+#include "wire/object_class.h"
 #include "wire/refusal_words.h"
+#include "wire/target.h"
 
 namespace ols::ctl {
 namespace {
@@ -20,10 +24,20 @@ CueOperator::CueOperator(const std::string& lcm_url, const trust::TrustConfig& t
   bus_.subscribe(std::string(kFusionStatusChannel), [this](const BusMessage& message) {
     if (auto said = wire::heard_fusion_status(message)) said_ = std::move(said);
   });
+  bus_.subscribe(std::string(kTargetChannel), [this](const BusMessage& message) {
+    if (const auto target = wire::heard_target(message)) note_class(*target);
+  });
   bus_.subscribe(std::string(kCueReplyChannel), [this](const BusMessage& message) {
     auto reply = wire::heard_reply(message);
     if (reply && reply->order.boot_id == boot_id_) reply_ = std::move(reply);
   });
+}
+
+void CueOperator::note_class(const ols_msg::target_t& target) {
+  std::string& words = classes_[target.target_id];
+  words = wire::class_name(target.object_class);
+  if (target.object_class == ols_msg::target_t::CLASS_UNKNOWN) return;
+  words += " (" + std::to_string(std::lround(100.0 * target.class_probability)) + " %)";
 }
 
 std::optional<ols_msg::fusion_status_t> CueOperator::listen(double timeout_s) {

@@ -98,7 +98,7 @@ int run_cues(const ols::ctl::Words& words) {
     std::fprintf(stderr, "ols-ctl: no status of a fusion on %s\n", words.url.c_str());
     return kExitRefused;
   }
-  std::fputs(ols::ctl::cue_table(*said).c_str(), stdout);
+  std::fputs(ols::ctl::cue_table(*said, hand.classes()).c_str(), stdout);
   return 0;
 }
 

@@ -21,13 +21,17 @@ TEST(CueTable, HasARowForEachCue) {
   status.cue_height_m = {400.0, 900.0};
   status.cue_horizontal_sd_m = {5.0, 3.0};
   status.cue_vertical_sd_m = {9.0, 4.0};
-  const std::string table = cue_table(status);
-  EXPECT_THAT(table, HasSubstr("tak.a                waiting         -     1.2      49.200000"));
+  const std::string table = cue_table(status, {{7, "drone (92 %)"}});
+  EXPECT_THAT(
+      table,
+      HasSubstr("tak.a                waiting         -  -                 1.2      49.200000"));
   EXPECT_THAT(table, HasSubstr("Anna\n"));
-  EXPECT_THAT(table, HasSubstr("adsb.3c6444          found           7     0.5      49.300000"));
+  EXPECT_THAT(
+      table,
+      HasSubstr("adsb.3c6444          found           7  drone (92 %)      0.5      49.300000"));
 }
 
-TEST(CueTable, SaysThatThereAreNone) { EXPECT_EQ(cue_table({}), "no cues\n"); }
+TEST(CueTable, SaysThatThereAreNone) { EXPECT_EQ(cue_table({}, {}), "no cues\n"); }
 
 }  // namespace
 }  // namespace ols::ctl

@@ -117,6 +117,16 @@ TEST(AsterixCategories, AccuraciesAreNeverBetterThanTheyAre) {
             "0102");
 }
 
+TEST(AsterixCategories, ADroneIsAnUnmannedEmitter) {
+  Target target = made_target();
+  target.object_class = ObjectClass::kBird;
+  EXPECT_EQ(hex(cat062(target, 7, kSettings)), hex(cat062(made_target(), 7, kSettings)));
+  target.object_class = ObjectClass::kDrone;
+  const std::string record = hex(cat062(target, 7, kSettings));
+  EXPECT_EQ(record.substr(6, 8), "9b1d1504");  // I062/380 is the eleventh item
+  EXPECT_EQ(record.substr(2 * (3 + 4 + 2 + 3 + 8 + 4), 8), "0101020d");
+}
+
 TEST(AsterixCategories, StatesOfATrack) {
   Target target = made_target();
   const auto status = [&target](TrackState state) {

@@ -122,7 +122,7 @@ TEST(MqttEncoder, EntitiesSayWhatTheyMeasureAndKeepTheirNames) {
     classes[id] = config.value("device_class", "");
     if (classes[id] != "enum") continue;
     const std::string now = id.ends_with("alfa_state") ? "tracking"
-                            : id.ends_with("_class")   ? "UAV"
+                            : id.ends_with("_class")   ? "drone"
                                                        : "none";
     EXPECT_NE(config.at("options").dump().find('"' + now + '"'), std::string::npos) << id;
     EXPECT_FALSE(config.contains("state_class"));

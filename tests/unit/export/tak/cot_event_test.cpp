@@ -33,12 +33,12 @@ TEST(CotEvent, ADroneHasATypeOfItsOwn) {
   using Class = ObjectClass;
   for (const auto& [object_class, setting, type, word] :
        std::vector<std::tuple<Class, const char*, const char*, const char*>>{
-           {Class::kDrone, "a-u-A", "a-u-A-M-F-Q", "UAV"},
-           {Class::kDrone, "a-s-A", "a-s-A-M-F-Q", "UAV"},
-           {Class::kDrone, "a-u-G", "a-u-G", "UAV"},
-           {Class::kDrone, "a-h-A-M-H-Q", "a-h-A-M-H-Q", "UAV"},
-           {Class::kBird, "a-u-A", "a-u-A", "Bird"},
-           {Class::kUnknown, "a-u-A", "a-u-A", "Unknown"}}) {
+           {Class::kDrone, "a-u-A", "a-u-A-M-F-Q", "drone"},
+           {Class::kDrone, "a-s-A", "a-s-A-M-F-Q", "drone"},
+           {Class::kDrone, "a-u-G", "a-u-G", "drone"},
+           {Class::kDrone, "a-h-A-M-H-Q", "a-h-A-M-H-Q", "drone"},
+           {Class::kBird, "a-u-A", "a-u-A", "bird"},
+           {Class::kUnknown, "a-u-A", "a-u-A", "unknown"}}) {
     target.object_class = object_class;
     const CotEvent event = cot_event(target, CotSettings{.target_type = setting});
     EXPECT_EQ(event.type, type);
