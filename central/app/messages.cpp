@@ -179,6 +179,7 @@ std::variant<BearingMeasurement, MessageRefusal> measurement_from(const std::str
   measurement.sight.covariance_systematic = symmetric(message.covariance_systematic_rad2);
   measurement.sight.origin_sd_enu_m = Eigen::Vector3d(message.camera_position_sd_m);
   measurement.is_tracklet = message.detected != 0;
+  measurement.is_acquired = message.acquired != 0;
   measurement.image_bearings = message.image_bearings;
   measurement.sighted = sighted_in(message);
   return measurement;

@@ -71,6 +71,7 @@ class ClassPosterior {
  public:
   // Takes a look. A look that is not newer than the last one, or that has no size, is ignored.
   void add(std::int64_t utime_us, const ClassLook& look);
+  bool has_looked() const { return last_us_.has_value(); }
   // The probability of each class, in the order of ObjectClass; 0 for kUnknown.
   std::array<double, kObjectClasses> posterior() const;
   // The most probable class, if its probability is at least kSure.

@@ -50,7 +50,7 @@ std::vector<const BearingMeasurement*> BearingLines::of(const std::string& stati
         std::ranges::find(names, look.track_id) != names.end())
       continue;
     names.push_back(look.track_id);
-    if (!tracks_.takes(own.bearings[i], epoch_us, Activity::kFollowsS)) {
+    if (!is_taken(own.bearings[i], epoch_us)) {
       lines.push_back(&own.bearings[i]);
     }
   }
@@ -62,6 +62,10 @@ std::vector<const BearingMeasurement*> BearingLines::of(const std::string& stati
 const BearingMeasurement* BearingLines::newest_of(const std::string& station) const {
   const UnassociatedBearings::Station& own = bearings_of(station);
   return &own.bearings[static_cast<std::size_t>(newest_look(own))];
+}
+
+bool BearingLines::is_taken(const BearingMeasurement& of, std::int64_t epoch_us) const {
+  return tracks_.takes(of, epoch_us, Activity::kFollowsS);
 }
 
 std::optional<BearingOnly> BearingLines::at(const BearingMeasurement& newest,

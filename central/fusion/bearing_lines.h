@@ -31,6 +31,8 @@ class BearingLines {
                                             std::int64_t epoch_us) const;
   // The newest bearing of one of stations().
   const BearingMeasurement* newest_of(const std::string& station) const;
+  // Whether a target has taken a bearing of the same object lately.
+  bool is_taken(const BearingMeasurement& of, std::int64_t epoch_us) const;
   std::optional<BearingOnly> at(const BearingMeasurement& newest, std::int64_t epoch_us) const;
 
  private:

@@ -83,7 +83,8 @@ void SlewPlanner::allocate(SlewRound& round, std::span<const SlewStation> statio
   for (const Track* track : with_position) {
     const auto priority = round.priority.find(track->id);
     targets.push_back({track->id, track->filter.position(),
-                       priority == round.priority.end() ? 1.0 : priority->second});
+                       priority == round.priority.end() ? 1.0 : priority->second,
+                       round.wanted.contains(track->id)});
   }
   std::vector<AllocatedStation> all;
   for (const SlewStation& station : stations) {
@@ -92,13 +93,18 @@ void SlewPlanner::allocate(SlewRound& round, std::span<const SlewStation> statio
                          station.follows};
     const auto seen = std::ranges::find(with_position, station.follows, &Track::id);
     one.by_detector = seen != with_position.end() && sees_by_detector(**seen, station.station);
+    one.is_busy = round.busy.contains(station.station);
     if (const auto search = searches_.find(station.station); search != searches_.end()) {
       one.led_to = search->second.target_id;
       one.led_s = search->second.searched_s(round.now_us);
+      one.searches = search->second.sweep.has_value();
     }
+    one.may_search = !round.bearing_only_stations.contains(station.station);
     all.push_back(std::move(one));
   }
-  round.allocation = fusion::allocate(targets, all, config_.line);
+  std::optional<Eigen::Vector3d> line;
+  if (round.ray) line = round.ray->origin_ecef + round.prior.range_m * round.ray->direction_ecef;
+  round.allocation = fusion::allocate(targets, all, config_.line, line);
 }
 
 std::vector<const Track*> SlewPlanner::targets_of(const SlewRound& round,
@@ -279,7 +285,8 @@ std::optional<Slew> SlewPlanner::slew_of(SlewRound& round, const SlewStation& st
   return std::nullopt;
 }
 
-// Nothing wants the station: it only has to let go.
+// Nothing wants the station: it only has to let go, and not to look there for another object. Of no
+// other slew without a target and a line is the direction exact.
 Slew SlewPlanner::stay(const SlewStation& station, std::int64_t now_us) const {
   Slew slew;
   slew.lease_s = config_.lease_s;

@@ -85,8 +85,10 @@ struct SlewRound {
   std::map<std::int64_t, int> seen_by{};  // number of stations that see each target
   // Priority of each target; 1 if absent; a target with 0 leads no station.
   std::map<std::int64_t, double> priority{};
+  std::set<std::int64_t> wanted{};                // targets that an operator wants
   Allocation allocation{};                        // of the stations to the targets
   std::set<std::string> bearing_only_stations{};  // stations that have a bearing-only track
+  std::set<std::string> busy{};                   // of these, by their trackers
   std::optional<CueRay> ray{};                    // the ray along which stations search
   LinePrior prior{};                              // where on the ray the target is expected
   std::map<std::string, LineShare> shares{};  // shares of the stations that search along the ray

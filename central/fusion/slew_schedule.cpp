@@ -5,6 +5,7 @@
 #include <iterator>
 #include <map>
 #include <numeric>
+#include <tuple>
 
 #include "central/fusion/output_period.h"
 #include "central/measurement/ray.h"
@@ -15,8 +16,10 @@ namespace {
 
 constexpr int kStationsABearing = 16;
 constexpr double kStepBack_s = 0.5;
+constexpr double kLongest_s = 10.0;  // of a search along the line of one object
+constexpr double kTurn_s = 5.0;      // of it, before another line has its turn
 
-CueRay cue_ray(const BearingOnly& line, std::int64_t now_us) {
+CueRay cue_ray(const BearingOnly& line, const Sighted& seen, std::int64_t now_us) {
   const RayFrame frame = ray_frame(line.sight);
   const Eigen::Matrix2d covariance = line.sight.covariance_white + line.sight.covariance_systematic;
   return {line.station,
@@ -25,8 +28,13 @@ CueRay cue_ray(const BearingOnly& line, std::int64_t now_us) {
           line.sight.origin_ecef,
           frame.direction,
           frame.tangent * line.rate_rad_s,
-          std::sqrt(covariance.trace() / 2.0)};
+          std::sqrt(covariance.trace() / 2.0),
+          seen.size_rad,
+          seen.size_sd_rad};
 }
+
+// An operator has designated what it is of.
+bool is_wanted(const BearingMeasurement& line) { return !line.is_tracklet && !line.is_acquired; }
 
 }  // namespace
 
@@ -37,18 +45,31 @@ SlewStation SlewSchedule::station_of(const std::string& name, const KnownStation
   const auto priority = round_.priority.find(seen);
   const bool leads = priority == round_.priority.end() || priority->second > 0.0;
   const auto let_go = let_go_.find(name);
-  return {name, station.traits, leads ? seen : 0,
+  const auto lent = lent_.find(name);
+  const bool is_lent = lent != lent_.end() && lent->second == seen;
+  return {name, station.traits, leads && !is_lent ? seen : 0,
           std::ranges::find(staring_, name) != staring_.end(),
           let_go == let_go_.end() ? 0 : let_go->second};
+}
+
+// The stations that see a target and have been given to another one, or to a line.
+void SlewSchedule::find_who_is_lent(std::int64_t now_us, const StationRegistry& stations) {
+  lent_.clear();
+  for (const auto& [name, station] : stations.all()) {
+    const std::int64_t seen = station.follows(now_us);
+    const auto own = round_.allocation.find(name);
+    if (seen != 0 && own != round_.allocation.end() && own->second != seen) lent_[name] = seen;
+  }
 }
 
 // A station's tracker stays with its target until somebody says otherwise.
 void SlewSchedule::find_what_is_let_go(const std::vector<Track>& tracks,
                                        const HandoverPolicy& handover) {
-  let_go_.clear();
   for (const Track& track : tracks) {
-    if (!handover.is_let_go(track.id)) continue;
+    const bool is_let_go = handover.is_let_go(track.id);
     for (const auto& [station, bearings] : track.bearings) {
+      const auto lent = lent_.find(station);
+      if (!is_let_go && (lent == lent_.end() || lent->second != track.id)) continue;
       const auto newest = std::ranges::find(bearings.rbegin(), bearings.rend(), false,
                                             &BearingMeasurement::is_tracklet);
       if (newest != bearings.rend()) let_go_[station] = newest->track_id;
@@ -59,97 +80,174 @@ void SlewSchedule::find_what_is_let_go(const std::vector<Track>& tracks,
 void SlewSchedule::begin(std::int64_t now_us, const StationRegistry& stations,
                          const BearingLines& lines, const std::vector<Track>& tracks,
                          const CueRegistry& cues, const HandoverPolicy& handover) {
+  const double since_s =
+      begun_us_ ? std::clamp(seconds(now_us - *begun_us_), 0.0, give_up_s_) : 0.0;
   begun_us_ = now_us;
   next_ = "";
   round_ = {.now_us = now_us};
-  for (const Track& track : tracks) round_.priority[track.id] = handover.priority(track);
-  find_what_is_let_go(tracks, handover);
+  for (const Track& track : tracks) {
+    round_.priority[track.id] = handover.priority(track);
+    if (handover.is_wanted(track.id)) round_.wanted.insert(track.id);
+  }
+  let_go_.clear();
   std::vector<SlewStation> all;
   for (const auto& [name, station] : stations.all()) {
     all.push_back(station_of(name, station, now_us));
     if (all.back().follows != 0) ++round_.seen_by[all.back().follows];
   }
-  planner_.allocate(round_, all, tracks);
   round_.cues = cues.aims(now_us);
   std::ranges::move(handover.lost(now_us), std::back_inserter(round_.cues));
-  cue(now_us, lines);
-  if (!round_.ray) return;
-  share_out(all);
-  narrow_by_cue();
+  cue(now_us, lines, all);
+  note_search(since_s);
+  if (round_.ray) {
+    expect_range(all);
+    narrow_by_cue();
+  }
+  planner_.allocate(round_, all, tracks);
+  find_who_is_lent(now_us, stations);
+  find_what_is_let_go(tracks, handover);
+  if (round_.ray) share_out(all);
 }
 
-// A station's line: of what it has been told to follow, else of the oldest tracklet that may be
-// searched. Null: none.
+// A station's line: of what an operator has designated, else of the object that has been searched
+// for the fewest turns, of these the oldest. Null: none.
 const BearingMeasurement* SlewSchedule::line_of(const std::string& station,
                                                 const std::vector<const BearingMeasurement*>& own) {
-  const auto told = std::ranges::find_if(own, [](const auto* line) { return !line->is_tracklet; });
+  const auto told = std::ranges::find_if(own, [](const auto* line) { return is_wanted(*line); });
   if (told != own.end()) return *told;
-  const BearingMeasurement* oldest = nullptr;
+  const BearingMeasurement* best = nullptr;
+  int fewest = 0;
   for (const BearingMeasurement* line : own) {  // each is noted
-    if (may_search({station, line->track_id}) && oldest == nullptr) oldest = line;
+    const auto turn = turn_of({station, line->track_id});
+    if (!line->is_tracklet) note_acquired(*line);
+    if (!turn || (best != nullptr && *turn >= fewest)) continue;
+    best = line;
+    fewest = *turn;
   }
-  return oldest;
+  return best;
+}
+
+// What a led station's tracker has found, and no other station confirms: it stays there as long as
+// a line is searched.
+void SlewSchedule::note_acquired(const BearingMeasurement& line) {
+  const Tracklet& known = tracklets_.at({line.station, line.track_id});
+  if (seconds(round_.now_us - known.noted_us) < kLongest_s) {
+    round_.bearing_only_stations.insert(line.station);
+    round_.busy.insert(line.station);
+  } else {
+    let_go_[line.station] = line.track_id;
+  }
 }
 
 // Not at once: the other stations may be about to see the object where they look. And not for ever:
 // it may be of anything, and of something that no other station can see.
-bool SlewSchedule::may_search(const TrackletName& tracklet) {
-  constexpr double kWait_s = 0.7, kLongest_s = 10.0;
+std::optional<int> SlewSchedule::turn_of(const TrackletName& tracklet) {
+  constexpr double kWait_s = 0.7;
   const std::int64_t now_us = round_.now_us;
   Tracklet& known = tracklets_.try_emplace(tracklet, Tracklet{now_us}).first->second;
   known.seen_us = now_us;
-  return seconds(now_us - known.noted_us) >= kWait_s &&
-         (!known.searched_us || seconds(now_us - *known.searched_us) < kLongest_s);
+  if (seconds(now_us - known.noted_us) < kWait_s || known.searched_s >= kLongest_s) {
+    return std::nullopt;
+  }
+  return static_cast<int>(known.searched_s / kTurn_s);
 }
 
-// The ray of the round before, while it lasts: another one would begin all searches anew.
-void SlewSchedule::cue(std::int64_t now_us, const BearingLines& lines) {
+// The first is an operator's, then those that have been searched for the fewest turns. Of these
+// come first the lines of stations that are never led: what a station sees alone where others look,
+// too, is beyond the site. The line of the round before stays while no other is ahead of it,
+// because another one would begin all searches anew.
+void SlewSchedule::cue(std::int64_t now_us, const BearingLines& lines,
+                       const std::vector<SlewStation>& stations) {
   constexpr double kForget_s = 2.0;  // of a tracklet that has ended, or that a target has taken
-  std::map<std::pair<bool, std::string>, CueRay> rays;  // tracklets' behind the others
+  std::map<LineKey, SearchedLine> open;
   for (const std::string& station : lines.stations(now_us)) {
     const BearingMeasurement* own = line_of(station, lines.of(station, now_us));
     if (own == nullptr) continue;  // many detections, not an object that it follows
-    if (!own->is_tracklet) round_.bearing_only_stations.insert(station);
-    const std::pair key{own->is_tracklet, station};
-    if (!rays.empty() && rays.begin()->first < key && station != cued_by_) continue;
-    if (const auto line = lines.at(*own, now_us)) rays[key] = cue_ray(*line, now_us);
+    const bool wanted = is_wanted(*own);
+    if (wanted) {
+      round_.bearing_only_stations.insert(station);
+      round_.busy.insert(station);
+    }
+    const auto known = std::ranges::find(stations, station, &SlewStation::station);
+    const bool is_new = !line_ || station != line_->second.ray.station;
+    const LineKey key{!wanted, wanted ? 0 : turn_of({station, own->track_id}).value_or(0),
+                      known != stations.end() && known->is_led(), is_new, station};
+    if (!open.empty() && open.begin()->first < key) continue;
+    if (const auto line = lines.at(*own, now_us)) {
+      open[key] = {*own, cue_ray(*line, own->sighted, now_us)};
+    }
   }
   std::erase_if(tracklets_, [&](const auto& tracklet) {
     return std::abs(seconds(now_us - tracklet.second.seen_us)) > kForget_s;
   });
-  if (rays.empty()) return;
-  const bool by_tracklet = rays.begin()->first.first;
-  const auto before = rays.find({by_tracklet, cued_by_});
-  round_.ray = before != rays.end() ? before->second : rays.begin()->second;
-  cued_by_ = round_.ray->station;
-  round_.bearing_only_stations.insert(cued_by_);
-  if (!by_tracklet) return;
-  auto& searched_us = tracklets_[{cued_by_, round_.ray->track_id}].searched_us;
-  if (!searched_us) searched_us = now_us;
+  keep_line(now_us, lines, open);
+  line_.reset();
+  if (open.empty()) return;
+  line_ = *open.begin();
+  round_.ray = line_->second.ray.at(now_us);
+  round_.bearing_only_stations.insert(round_.ray->station);
 }
 
-// Where the stations that search stand to see a target: over the circle that they make.
-void SlewSchedule::share_out(const std::vector<SlewStation>& stations) {
+// A detector misses its object now and then: the search goes on meanwhile, along the line where it
+// must be by then.
+void SlewSchedule::keep_line(std::int64_t now_us, const BearingLines& lines,
+                             std::map<LineKey, SearchedLine>& open) const {
+  constexpr double kGap_s = 1.0;
+  if (!line_) return;
+  const CueRay& ray = line_->second.ray;
+  const auto is_it = [&](const auto& one) { return one.second.ray.station == ray.station; };
+  if (std::ranges::any_of(open, is_it) || seconds(now_us - ray.utime_us) > kGap_s ||
+      lines.is_taken(line_->second.newest, now_us)) {
+    return;
+  }
+  LineKey key = line_->first;
+  if (const auto known = tracklets_.find({ray.station, ray.track_id}); known != tracklets_.end()) {
+    if (known->second.searched_s >= kLongest_s) return;
+    std::get<1>(key) = static_cast<int>(known->second.searched_s / kTurn_s);
+  }
+  open.emplace(key, line_->second);
+}
+
+void SlewSchedule::note_search(double since_s) {
+  if (!round_.ray) return;
+  const auto searched = tracklets_.find({round_.ray->station, round_.ray->track_id});
+  if (searched != tracklets_.end()) searched->second.searched_s += since_s;
+}
+
+// By the object's size, and over the circle that the stations make.
+void SlewSchedule::expect_range(const std::vector<SlewStation>& stations) {
+  const CueRay& ray = *round_.ray;
   std::vector<Eigen::Vector3d> places;
   for (const SlewStation& station : stations) {
-    if (!station.is_led() || station.traits.camera_ecef.isZero()) continue;
-    places.push_back(station.traits.camera_ecef);
-    const bool searches =
-        station.follows == 0 && !round_.bearing_only_stations.contains(station.station);
-    const auto rank = static_cast<int>(round_.shares.size());
-    if (searches) round_.shares.emplace(station.station, LineShare{rank, 0});
+    if (station.is_led() && !station.traits.camera_ecef.isZero()) {
+      places.push_back(station.traits.camera_ecef);
+    }
   }
-  for (auto& [name, share] : round_.shares) share.of = static_cast<int>(round_.shares.size());
+  const auto by_size = range_by_size(ray);
+  if (by_size) round_.prior = *by_size;
   if (places.empty()) return;
   const auto count = static_cast<double>(places.size());
   const Eigen::Vector3d middle =
       std::accumulate(places.begin(), places.end(), Eigen::Vector3d(0.0, 0.0, 0.0)) / count;
   double squared_m2 = 0.0;
   for (const Eigen::Vector3d& place : places) squared_m2 += (place - middle).squaredNorm() / count;
-  const CueRay& ray = *round_.ray;
   constexpr double kLeastSd_m = 50.0;
-  round_.prior = {(middle - ray.origin_ecef).dot(ray.direction_ecef),
-                  std::max(kLeastSd_m, std::sqrt(squared_m2) / 2.0)};
+  const LinePrior by_place{(middle - ray.origin_ecef).dot(ray.direction_ecef),
+                           std::max(kLeastSd_m, std::sqrt(squared_m2) / 2.0)};
+  round_.prior = by_size ? combined(*by_size, by_place) : by_place;
+}
+
+void SlewSchedule::share_out(const std::vector<SlewStation>& stations) {
+  for (const SlewStation& station : stations) {
+    const auto own = round_.allocation.find(station.station);
+    const bool is_free =
+        own == round_.allocation.end() ? station.follows == 0 : own->second == kOnLine;
+    const bool searches = is_free && station.is_led() && !station.traits.camera_ecef.isZero() &&
+                          !round_.bearing_only_stations.contains(station.station);
+    const auto rank = static_cast<int>(round_.shares.size());
+    if (searches) round_.shares.emplace(station.station, LineShare{rank, 0});
+  }
+  for (auto& [name, share] : round_.shares) share.of = static_cast<int>(round_.shares.size());
 }
 
 // Of a ray that passes a cue, the cue says how far out the target is.

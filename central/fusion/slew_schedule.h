@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -46,18 +47,31 @@ class SlewSchedule {
              const HandoverPolicy& handover);
   SlewStation station_of(const std::string& name, const KnownStation& station,
                          std::int64_t now_us) const;
+  void find_who_is_lent(std::int64_t now_us, const StationRegistry& stations);
   void find_what_is_let_go(const std::vector<Track>& tracks, const HandoverPolicy& handover);
   // A station, and its own id of the tracklet.
   using TrackletName = std::pair<std::string, std::int64_t>;
   struct Tracklet {
     std::int64_t noted_us = 0, seen_us = 0;
-    // The time since which stations are led along its line.
-    std::optional<std::int64_t> searched_us{};
+    double searched_s = 0.0;  // how long stations have been led along its line
   };
   const BearingMeasurement* line_of(const std::string& station,
                                     const std::vector<const BearingMeasurement*>& own);
-  bool may_search(const TrackletName& tracklet);
-  void cue(std::int64_t now_us, const BearingLines& lines);
+  // How often its line has had its turn; nullopt: it is not to be searched.
+  std::optional<int> turn_of(const TrackletName& tracklet);
+  // In the order in which lines are searched (cue()).
+  using LineKey = std::tuple<bool, int, bool, bool, std::string>;
+  struct SearchedLine {
+    BearingMeasurement newest;
+    CueRay ray;
+  };
+  void keep_line(std::int64_t now_us, const BearingLines& lines,
+                 std::map<LineKey, SearchedLine>& open) const;
+  void cue(std::int64_t now_us, const BearingLines& lines,
+           const std::vector<SlewStation>& stations);
+  void note_search(double since_s);
+  void note_acquired(const BearingMeasurement& line);
+  void expect_range(const std::vector<SlewStation>& stations);
   void share_out(const std::vector<SlewStation>& stations);
   void narrow_by_cue();
 
@@ -67,9 +81,11 @@ class SlewSchedule {
   SlewPlanner planner_;
   SlewRound round_;
   std::map<std::string, std::int64_t> let_go_;  // by station: what its tracker follows
-  std::string cued_by_;                         // the station whose ray the others search along
-  std::map<TrackletName, Tracklet> tracklets_;  // tracklets that no target has taken
-  std::optional<std::int64_t> begun_us_;        // start of the last round
+  // By station: the target that it sees, while it is lent to another one or to a line.
+  std::map<std::string, std::int64_t> lent_;
+  std::optional<std::pair<LineKey, SearchedLine>> line_;  // along which stations search
+  std::map<TrackletName, Tracklet> tracklets_;            // objects that no target has taken
+  std::optional<std::int64_t> begun_us_;                  // start of the last round
   std::optional<std::string> next_;  // the next station of the round; nullopt if the round is over
 };
 

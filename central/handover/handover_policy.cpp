@@ -14,9 +14,10 @@ constexpr double kSettle_s = 0.1;  // between two looks at the tracks
 constexpr double kWantedFactor = 10.0;
 constexpr std::size_t kMostTold = 64;  // as many as cues
 
-bool is_followed_by_tracker(const Track& track) {
+bool is_designated_there(const Track& track) {
   return std::ranges::any_of(track.bearings, [](const auto& own) {
-    return std::ranges::any_of(own.second, [](const auto& m) { return !m.is_tracklet; });
+    return std::ranges::any_of(own.second,
+                               [](const auto& m) { return !m.is_tracklet && !m.is_acquired; });
   });
 }
 
@@ -78,7 +79,7 @@ void HandoverPolicy::note(const Track& track, std::int64_t now_us) {
   const bool is_new = !targets_.contains(track.id);
   Known& known = targets_[track.id];
   known.is_live = true;
-  if (!known.has_led && is_followed_by_tracker(track)) known.is_designated = true;
+  if (!known.has_led && is_designated_there(track)) known.is_designated = true;
   known.last = aim_of(track, config_.acceleration_sd_m_s2);
   known.object_class = appearance_of(track, track.filter.position()).object_class;
   if (is_new) inherit(known, track, now_us);
@@ -120,11 +121,30 @@ bool HandoverPolicy::leads_by_itself(ObjectClass object_class) const {
 double HandoverPolicy::priority(const Track& track) const {
   const auto found = targets_.find(track.id);
   const bool is_designated =
-      found == targets_.end() ? is_followed_by_tracker(track) : found->second.is_designated;
+      found == targets_.end() ? is_designated_there(track) : found->second.is_designated;
   const bool is_led = found == targets_.end() ? is_designated : leads(found->second);
   if (!is_led) return 0.0;
   const bool is_wanted = is_designated || found->second.allowed.value_or(false);
-  return track.existence.probability() * (is_wanted ? kWantedFactor : 1.0);
+  return track.existence.probability() * (is_wanted ? kWantedFactor : probability_to_lead(track));
+}
+
+bool HandoverPolicy::is_wanted(std::int64_t target_id) const {
+  const auto found = targets_.find(target_id);
+  return found != targets_.end() &&
+         (found->second.is_designated || found->second.allowed.value_or(false));
+}
+
+// Before it has been looked at, each class is as probable as the others.
+double HandoverPolicy::probability_to_lead(const Track& track) const {
+  constexpr double kLeast = 0.05;
+  const auto of_classes = track.classes.posterior();
+  double all = 0.0, leading = 0.0;
+  for (std::size_t i = 1; i < of_classes.size(); ++i) {
+    const double probability = track.classes.has_looked() ? of_classes[i] : 1.0;
+    all += probability;
+    if (leads_by_itself(static_cast<ObjectClass>(i))) leading += probability;
+  }
+  return std::max(kLeast, leading / all);
 }
 
 bool HandoverPolicy::is_let_go(std::int64_t target_id) const {

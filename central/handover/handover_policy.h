@@ -54,9 +54,12 @@ class HandoverPolicy {
   // An operator's decision. False if there is no such target, or if it is allowed while the mode is
   // off. What was allowed before leads again when the mode is on.
   bool order(std::int64_t target_id, bool allow);
-  // The target's priority when stations are allocated; 0 if it leads no station. The priority is
-  // higher for targets that an operator has designated or allowed, and lower for doubtful ones.
+  // The target's priority when stations are allocated; 0 if it leads no station: the probability
+  // that it exists and is of a class that leads, or ten times as much as a certain one if an
+  // operator has designated or allowed it.
   double priority(const Track& track) const;
+  // Whether an operator has designated or allowed it: its trackers are not taken from it.
+  bool is_wanted(std::int64_t target_id) const;
   // Whether trackers are to let go of it: an operator has dismissed it, or the policy led stations
   // there until it knew that its class leads none.
   bool is_let_go(std::int64_t target_id) const;
@@ -87,6 +90,7 @@ class HandoverPolicy {
   void note(const Track& track, std::int64_t now_us);
   void inherit(Known& known, const Track& track, std::int64_t now_us);
   bool leads(const Known& known) const;
+  double probability_to_lead(const Track& track) const;
   bool is_sought(const Known& known, std::int64_t now_us) const;
   bool is_remembered(const Known& known, std::int64_t now_us) const;
   CueState state_of(const Known& known) const;

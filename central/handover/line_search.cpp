@@ -16,11 +16,33 @@ CueRay CueRay::at(std::int64_t later_us) const {
   return later;
 }
 
+std::optional<LinePrior> range_by_size(const CueRay& ray) {
+  constexpr double kSize_m = 0.6, kSizeSd = 0.5;  // of drones and birds (class_table.h); of its log
+  constexpr double kMost = 0.7;                   // relative error
+  if (!(ray.size_rad > 0.0 && ray.size_sd_rad > 0.0)) return std::nullopt;
+  const double relative_sd = ray.size_sd_rad / ray.size_rad;
+  if (relative_sd > kMost) return std::nullopt;
+  const double range_m = kSize_m / ray.size_rad;
+  return LinePrior{range_m, range_m * std::hypot(kSizeSd, relative_sd)};
+}
+
+LinePrior combined(const LinePrior& first, const LinePrior& second) {
+  if (second.range_m <= second.sd_m) return first;
+  const auto weight = [](const LinePrior& prior) {
+    return std::pow(prior.range_m / prior.sd_m, 2);
+  };
+  const double both = weight(first) + weight(second);
+  const double range_m = std::exp(
+      (weight(first) * std::log(first.range_m) + weight(second) * std::log(second.range_m)) / both);
+  return {range_m, range_m / std::sqrt(both)};
+}
+
 SweepStart sweep_start(const LinePrior& prior, const LineShare& share,
                        const LineSearchConfig& config) {
-  const bool outwards = 2 * share.rank >= share.of && share.of > 1;
+  constexpr double kAlone = 0.25;  // what is nearer takes too long to sweep first
+  const bool outwards = 2 * share.rank >= share.of || share.of == 1;
   const double quantile =
-      share.of > 1 ? static_cast<double>(share.rank + (outwards ? 0 : 1)) / share.of : 0.5;
+      share.of > 1 ? static_cast<double>(share.rank + (outwards ? 0 : 1)) / share.of : kAlone;
   const double scale_m = prior.sd_m * std::sqrt(3.0) / kPi;
   const double range_m = prior.range_m + scale_m * std::log(quantile / (1.0 - quantile));
   return {std::clamp(range_m, config.near_m, config.far_m), outwards};

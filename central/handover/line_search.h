@@ -11,6 +11,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "central/admission/station_registry.h"
@@ -27,6 +28,7 @@ struct CueRay {
   Eigen::Vector3d direction_ecef = Eigen::Vector3d::UnitX();
   Eigen::Vector3d rate_ecef = Eigen::Vector3d::Zero();  // [rad/s] rate of the direction
   double sd_rad = 0.0;                                  // 1-sigma of the direction, each axis
+  double size_rad = 0.0, size_sd_rad = 0.0;             // of the target; 0: unknown
 
   CueRay at(std::int64_t later_us) const;
 };
@@ -36,6 +38,14 @@ struct LinePrior {
   double range_m = 300.0;  // most likely range, from the line's origin
   double sd_m = 150.0;     // of a logistic distribution
 };
+
+// By the apparent size, for an object as large as a drone or a bird. nullopt if the size is
+// unknown.
+std::optional<LinePrior> range_by_size(const CueRay& ray);
+
+// Both together, by the logarithm of the range. A second one that does not exclude a range of zero
+// says nothing: then it is the first.
+LinePrior combined(const LinePrior& first, const LinePrior& second);
 
 // The part of the line with which one searching station begins.
 struct LineShare {

@@ -16,21 +16,27 @@ namespace {
 constexpr double kStay_s = 3.0;
 constexpr double kKeep = 1.5;          // the score of the present target over its own
 constexpr double kReact_s = 0.5;       // of every hand-over, besides the turn
-constexpr double kGoodSine = 0.34;     // of two lines that cross at 20 degrees
+constexpr double kGoodSine = 0.34;     // of two lines that cross at 20 degrees,
+constexpr double kOfBest = 0.5;        // or of the pair that sees a distant target best
 constexpr std::size_t kCompared = 64;  // free stations, and targets in need, that are compared
 
 class Allocator {
  public:
   Allocator(std::span<const AllocatedTarget> targets, std::span<const AllocatedStation> stations,
             const LineSearchConfig& unit)
-      : targets_(targets), stations_(stations), unit_(unit), held_by_(targets.size()) {
+      : targets_(targets),
+        stations_(stations),
+        unit_(unit),
+        held_by_(targets.size()),
+        good_sine_(targets.size()) {
     for (std::size_t i = 0; i < targets.size(); ++i) index_[targets[i].id] = i;
   }
 
-  Allocation run() {
+  Allocation run(const std::optional<Eigen::Vector3d>& line_ecef) {
     for (std::size_t k = 0; k < stations_.size(); ++k) keep(k);
     serve_needs();
-    for (const std::size_t k : free_) serve_rest(k);
+    if (line_ecef && !targets_.empty()) serve_line(*line_ecef);
+    serve_rest();
     return allocation_;
   }
 
@@ -45,26 +51,53 @@ class Allocator {
     const auto found = index_.find(id);
     return found == index_.end() ? kNone : found->second;
   }
+  std::size_t seen_by(std::size_t station) const { return index_of(stations_[station].sees); }
 
   void give(std::size_t station, std::size_t target) {
     held_by_[target].push_back(station);
     if (stations_[station].is_led) allocation_[stations_[station].name] = targets_[target].id;
   }
+  void take(std::size_t station) {
+    if (const std::size_t seen = seen_by(station); seen != kNone) {
+      std::erase(held_by_[seen], station);
+    }
+  }
 
-  // Where it has to stay; else it is free, or may leave what only its detector sees.
+  // Where it has to stay; else it is free, or may be lent by the target that it sees.
   void keep(std::size_t k) {
     const AllocatedStation& station = stations_[k];
-    const std::size_t seen = index_of(station.sees), led_to = index_of(station.led_to);
-    if (seen != kNone && !(station.is_led && station.by_detector)) return give(k, seen);
-    if (!station.is_led) return;
-    if (led_to != kNone && station.led_s < kStay_s) return give(k, led_to);
-    if (seen == kNone) return free_.push_back(k);
-    give(k, seen);
-    spare_.push_back(k);
+    const std::size_t seen = seen_by(k), led_to = index_of(station.led_to);
+    if (station.is_busy) return;
+    const bool is_lendable = seen == kNone || !targets_[seen].keeps_trackers || station.by_detector;
+    const bool may_leave = station.is_led && is_lendable;
+    if (may_leave && led_to != kNone && station.led_s < kStay_s) return give(k, led_to);
+    if (seen != kNone) give(k, seen);
+    if (may_leave) movable_.push_back(k);
   }
 
   Eigen::Vector3d line(std::size_t station, std::size_t target) const {
     return (targets_[target].p_ecef - stations_[station].camera_ecef).normalized();
+  }
+
+  double sine(std::size_t one, std::size_t other, std::size_t target) const {
+    return line(one, target).cross(line(other, target)).norm();
+  }
+
+  // Of a distant target no two lines may cross well: then it is the best that the site has.
+  double good_sine(std::size_t target) const {
+    std::optional<double>& known = good_sine_[target];
+    if (known) return *known;
+    std::vector<std::size_t> all;
+    for (std::size_t k = 0; k < stations_.size() && all.size() < kCompared; ++k) {
+      const bool may_see = stations_[k].is_led || seen_by(k) == target;
+      if (may_see && !stations_[k].camera_ecef.isZero()) all.push_back(k);
+    }
+    double best = 0.0;
+    for (std::size_t i = 0; i < all.size() && best < kGoodSine; ++i) {
+      for (std::size_t j = 0; j < i; ++j) best = std::max(best, sine(all[i], all[j], target));
+    }
+    known = std::min(kGoodSine, kOfBest * best);
+    return *known;
   }
 
   // Whether two of the stations that have the target see it under a good angle. `with`, `without`:
@@ -74,24 +107,33 @@ class Allocator {
     if (with != kNone) all.push_back(with);
     std::erase(all, without);
     for (std::size_t i = 0; i < std::min(all.size(), kCompared); ++i) {
-      const Eigen::Vector3d one = line(all[i], target);
       for (std::size_t j = 0; j < i; ++j) {
-        if (one.cross(line(all[j], target)).norm() >= kGoodSine) return true;
+        if (sine(all[i], all[j], target) >= good_sine(target)) return true;
       }
     }
     return false;
   }
 
-  double score(std::size_t k, std::size_t target) const {
+  bool may_go(std::size_t station) const {
+    const std::size_t seen = seen_by(station);
+    return seen == kNone || is_served(seen, kNone, station);
+  }
+
+  double time_to(std::size_t k, const Eigen::Vector3d& p_ecef) const {
     const AllocatedStation& station = stations_[k];
-    const Eigen::Vector3d there = R_ecef_enu(station.camera_ecef).transpose() * line(k, target);
+    const Eigen::Vector3d there =
+        R_ecef_enu(station.camera_ecef).transpose() * (p_ecef - station.camera_ecef).normalized();
     const bool is_known = station.axis && !station.camera_ecef.isZero();
     const double turn_rad =
         is_known ? angle_between(there, enu_from_azimuth_elevation(*station.axis)) : kPi / 4.0;
+    return kReact_s + turning_s(turn_rad, unit_);
+  }
+
+  double score(std::size_t k, std::size_t target) const {
     const std::int64_t id = targets_[target].id;
-    const bool is_present = id == station.led_to || id == station.sees;
+    const bool is_present = id == stations_[k].led_to || id == stations_[k].sees;
     return targets_[target].priority * (is_present ? kKeep : 1.0) /
-           (kReact_s + turning_s(turn_rad, unit_));
+           time_to(k, targets_[target].p_ecef);
   }
 
   std::vector<Pair> pairs() const {
@@ -102,8 +144,9 @@ class Allocator {
     std::ranges::stable_sort(needy, std::greater{},
                              [&](std::size_t i) { return targets_[i].priority; });
     needy.resize(std::min(needy.size(), kCompared));
-    std::vector<std::size_t> movable = free_;
-    movable.insert(movable.end(), spare_.begin(), spare_.end());
+    std::vector<std::size_t> movable = movable_;
+    std::stable_partition(movable.begin(), movable.end(),
+                          [&](std::size_t k) { return seen_by(k) == kNone; });
     movable.resize(std::min(movable.size(), kCompared));
     std::vector<Pair> all;
     for (const std::size_t k : movable) {
@@ -119,45 +162,99 @@ class Allocator {
     std::set<std::size_t> moved;
     for (const Pair& pair : pairs()) {
       const auto& holders = held_by_[pair.target];
-      const std::size_t seen = index_of(stations_[pair.station].sees);
       const bool helps = holders.empty() || (!is_served(pair.target, kNone, kNone) &&
                                              is_served(pair.target, pair.station, kNone));
-      const bool may_go = seen == kNone || is_served(seen, kNone, pair.station);
-      if (!helps || !may_go || moved.contains(pair.station)) continue;
-      if (seen != kNone) std::erase(held_by_[seen], pair.station);
+      if (!helps || !may_go(pair.station) || moved.contains(pair.station)) continue;
+      take(pair.station);
       give(pair.station, pair.target);
       moved.insert(pair.station);
     }
-    std::erase_if(free_, [&](std::size_t k) { return moved.contains(k); });
-    for (std::size_t i = 0; i < targets_.size(); ++i) {
-      by_count_.emplace(held_by_[i].size(), targets_[i].id, i);
+    std::erase_if(movable_, [&](std::size_t k) { return moved.contains(k); });
+  }
+
+  // One is enough: with the station whose line it is they are two. It is the one that searches
+  // already, else one without a target, else the one that is there soonest.
+  void serve_line(const Eigen::Vector3d& line_ecef) {
+    std::size_t best = kNone;
+    const auto cost = [&](std::size_t k) {
+      const AllocatedStation& station = stations_[k];
+      return std::tuple(!station.searches, seen_by(k) != kNone, time_to(k, line_ecef));
+    };
+    for (std::size_t i = 0; i < std::min(movable_.size(), kCompared); ++i) {
+      const std::size_t k = movable_[i];
+      if (!stations_[k].may_search || !may_go(k)) continue;
+      if (best == kNone || cost(k) < cost(best)) best = k;
+    }
+    if (best == kNone) return;
+    take(best);
+    std::erase(movable_, best);
+    allocation_[stations_[best].name] = kOnLine;
+  }
+
+  void serve_rest() {
+    for (std::size_t i = 0; i < targets_.size(); ++i) list(i);
+    if (by_count_.empty()) return;
+    for (const std::size_t k : movable_) {
+      const std::size_t seen = seen_by(k), target = rest_for(k);
+      if (target == seen) continue;
+      if (seen != kNone) unlist(seen);
+      unlist(target);
+      take(k);
+      give(k, target);
+      list(target);
+      if (seen != kNone) list(seen);
     }
   }
 
-  void serve_rest(std::size_t k) {
-    if (by_count_.empty()) return;
-    const std::size_t led_to = index_of(stations_[k].led_to);
-    const std::size_t target = led_to != kNone ? led_to : std::get<2>(*by_count_.begin());
-    by_count_.erase({held_by_[target].size(), targets_[target].id, target});
-    give(k, target);
-    by_count_.emplace(held_by_[target].size(), targets_[target].id, target);
+  std::size_t rest_for(std::size_t k) const {
+    const std::size_t seen = seen_by(k), led_to = index_of(stations_[k].led_to);
+    const std::size_t present = seen != kNone ? seen : led_to, best = most_worth();
+    if (present == kNone) return best;
+    const std::size_t others = held_by_[present].size() - (seen != kNone ? 1U : 0U);
+    const bool gains = worth(best, held_by_[best].size()) > kKeep * worth(present, others);
+    return gains && may_go(k) ? best : present;
+  }
+
+  double worth(std::size_t target, std::size_t others) const {
+    return targets_[target].priority / static_cast<double>(others + 1);
+  }
+  // Of targets with equally many stations, the one with the highest priority is best.
+  std::size_t most_worth() const {
+    std::size_t best = kNone;
+    for (const auto& [count, targets] : by_count_) {
+      const std::size_t i = std::get<2>(*targets.begin());
+      if (best == kNone || worth(i, count) > worth(best, held_by_[best].size())) best = i;
+    }
+    return best;
+  }
+  using Entry = std::tuple<double, std::int64_t, std::size_t>;
+  Entry entry(std::size_t target) const {
+    return {-targets_[target].priority, targets_[target].id, target};
+  }
+  void list(std::size_t target) { by_count_[held_by_[target].size()].insert(entry(target)); }
+  void unlist(std::size_t target) {
+    const auto of_count = by_count_.find(held_by_[target].size());
+    of_count->second.erase(entry(target));
+    if (of_count->second.empty()) by_count_.erase(of_count);
   }
 
   std::span<const AllocatedTarget> targets_;
   std::span<const AllocatedStation> stations_;
   const LineSearchConfig& unit_;
   std::map<std::int64_t, std::size_t> index_;
-  std::vector<std::vector<std::size_t>> held_by_;  // stations, by target
-  std::vector<std::size_t> free_, spare_;          // stations
-  std::set<std::tuple<std::size_t, std::int64_t, std::size_t>> by_count_;
+  std::vector<std::vector<std::size_t>> held_by_;         // stations, by target
+  mutable std::vector<std::optional<double>> good_sine_;  // by target; computed when needed
+  std::vector<std::size_t> movable_;  // stations without a target, and those that may be lent
+  std::map<std::size_t, std::set<Entry>> by_count_;  // targets, by the number of their stations
   Allocation allocation_;
 };
 
 }  // namespace
 
 Allocation allocate(std::span<const AllocatedTarget> targets,
-                    std::span<const AllocatedStation> stations, const LineSearchConfig& unit) {
-  return Allocator(targets, stations, unit).run();
+                    std::span<const AllocatedStation> stations, const LineSearchConfig& unit,
+                    const std::optional<Eigen::Vector3d>& line_ecef) {
+  return Allocator(targets, stations, unit).run(line_ecef);
 }
 
 }  // namespace ols::fusion

@@ -1,16 +1,17 @@
 // Decides to which target each station is led. Pure.
 //
-//  - A station whose tracker follows a target stays with it. - A station that sees its target only
-//    with its detector may be led to a target in need, if two good stations remain at its own
-//    target.
-//  - Every target first gets two stations whose lines of sight cross well. - Pairs of target and
-//    station are served in the order of priority divided by the time to turn there, the highest
-//    first.
-//  - The remaining stations stay where they were led, or go to the target with the fewest
-//    stations.
-//  - A station that was led to a target stays there for at least 3 s. - After that it leaves only
-//    for a target in need. - If its own target is in need as well, the other target must score
-//    clearly higher.
+// The rule: every target gets two stations whose lines of sight cross well (at 20 degrees, or half
+// as well as those of the best pair); whatever is beyond two is lent.
+//
+//  - The two stations of a target are never taken from it, and an operator's target keeps all of
+//    its trackers. Any other station may be lent, also if its tracker follows the target.
+//  - Targets in need of two stations come first. Pairs of target and station are served in the
+//    order of priority divided by the time to turn there, the highest first.
+//  - Then one station searches along the line of sight of an object that has no position. If there
+//    is no target, all do.
+//  - The remaining stations go where the priority, divided by the number of stations there, is
+//    highest. A station leaves its present target only for 1.5 times as much.
+//  - A station that was led to a target stays there for at least 3 s.
 #pragma once
 
 #include <Eigen/Core>
@@ -29,7 +30,8 @@ namespace ols::fusion {
 struct AllocatedTarget {
   std::int64_t id = 0;
   Eigen::Vector3d p_ecef = Eigen::Vector3d::Zero();
-  double priority = 1.0;  // > 0
+  double priority = 1.0;        // > 0
+  bool keeps_trackers = false;  // an operator wants it
 };
 
 struct AllocatedStation {
@@ -41,11 +43,18 @@ struct AllocatedStation {
   bool by_detector = false;  // only its detector sees the target, not its tracker
   std::int64_t led_to = 0;   // the target to which it was led and which it has not seen yet
   double led_s = 0.0;        // time since it was led there
+  bool is_busy = false;      // its tracker follows an object that is no target yet
+  bool may_search = true;    // false: it sees the object on the line itself
+  bool searches = false;     // it has been led along that line
 };
 
-// For each station that has a target: the target's id, by station name.
+// For each station that has a target: the target's id, by station name. kOnLine: it searches along
+// the line instead.
+inline constexpr std::int64_t kOnLine = 0;
 using Allocation = std::map<std::string, std::int64_t>;
+// `line_ecef`: the likeliest place of an object of which only a line of sight is known.
 Allocation allocate(std::span<const AllocatedTarget> targets,
-                    std::span<const AllocatedStation> stations, const LineSearchConfig& unit);
+                    std::span<const AllocatedStation> stations, const LineSearchConfig& unit,
+                    const std::optional<Eigen::Vector3d>& line_ecef = std::nullopt);
 
 }  // namespace ols::fusion

@@ -39,6 +39,7 @@ struct BearingMeasurement {
   std::int64_t track_id = 0;        // identifies one followed object of that station
   std::int64_t calibration_id = 0;  // a new id means new systematic errors
   bool is_tracklet = false;         // from a detector; nobody has designated the object
+  bool is_acquired = false;         // of a tracker that a slew led there; nobody has designated it
   int image_bearings = 0;  // number of bearings that the station sends for this image; 0 if unknown
   Sighted sighted{};
 };

@@ -65,6 +65,13 @@ std::optional<double> first(const std::map<std::string, double>& times) {
   return std::ranges::min_element(times, {}, [](const auto& one) { return one.second; })->second;
 }
 
+std::optional<double> held_by(const ols::sim::LeadTimes& times, std::size_t stations) {
+  std::vector<double> since;
+  for (const auto& [id, after_s] : times.follows) since.push_back(after_s);
+  std::ranges::sort(since);
+  return since.size() < stations ? std::nullopt : std::optional(since.at(stations - 1));
+}
+
 std::string text(const std::optional<double>& seconds) {
   if (!seconds) return "never";
   char text[16];
@@ -128,8 +135,12 @@ void watch_alone(const Arguments& arguments) {
                   text(found.seen_s).c_str(), text(found.located_s).c_str(),
                   text(found.named_s).c_str(), found.identities.size(), found.wrong_names);
     }
-    std::printf("      stations on the first target %zu, ghosts %zu, false drones %d\n",
-                run.stations_on_it, run.ghosts.size(), run.drones_that_are_none);
+    std::printf(
+        "      first target: held by one after %s, by two %s, by all %s, at the end %zu; "
+        "ghosts %zu, false drones %d\n",
+        text(held_by(run.first, 1)).c_str(), text(held_by(run.first, 2)).c_str(),
+        text(held_by(run.first, run.first.stations)).c_str(), run.stations_on_it, run.ghosts.size(),
+        run.drones_that_are_none);
     std::fflush(stdout);
     const auto first = run.targets.find(scenario.targets.front().id);
     const bool found = first != run.targets.end() && first->second.named_s;

@@ -51,16 +51,44 @@ bool HandoverSite::is_there(std::size_t target, double time_s) const {
   return time_s >= config_.targets[target].appears_s;
 }
 
+// A slewed station's tracker takes what is there and follows it until a slew lets go of it.
+void HandoverSite::acquire(Station& station) {
+  if (!config_.stations_track || station.sees_all) return;
+  if (station.follows && !station.track_ids.contains(*station.follows)) station.follows.reset();
+  const auto& slew = station.slew;
+  if (!slew) return;
+  if (station.follows && slew->let_go_track_id == station.track_ids.at(*station.follows)) {
+    station.track_ids[*station.follows] = next_track_id_++;
+    station.follows.reset();
+  }
+  const double now_s = kTick_s * static_cast<double>(tick_);
+  const double there_rad = std::max(0.01, 4.0 * slew->direction_sd_rad);
+  for (const auto& [target, id] : station.track_ids) {
+    const double off_rad =
+        angle_of(direction(station.p_ecef, place(target, now_s)), slew->direction);
+    const bool is_it = slew->line.isZero() ? off_rad < there_rad : off_rad < 0.5 * config_.view_rad;
+    if (!station.follows && is_it) station.follows = target;
+  }
+}
+
 // As the servo reaches with a pan-tilt unit (LineSearchConfig).
 void HandoverSite::turn(Station& station) {
-  if (station.sees_all || !station.slew) return;
-  const fusion::LineSearchConfig unit;
   const double now_s = kTick_s * static_cast<double>(tick_);
-  const fusion::Slew& slew = *station.slew;
-  const double dt_s = now_s - 1e-6 * static_cast<double>(slew.effect_utime_us - kStartUs);
-  if (dt_s > slew.lease_s) return station.slew.reset();
-  const AzimuthElevation goal{slew.direction.azimuth_rad + dt_s * slew.azimuth_rate_rad_s,
-                              slew.direction.elevation_rad + dt_s * slew.elevation_rate_rad_s};
+  if (station.slew && now_s - 1e-6 * static_cast<double>(station.slew->effect_utime_us - kStartUs) >
+                          station.slew->lease_s) {
+    station.slew.reset();
+  }
+  if (station.sees_all || (!station.slew && !station.follows)) return;
+  const fusion::LineSearchConfig unit;
+  AzimuthElevation goal;
+  if (station.follows) {
+    goal = direction(station.p_ecef, place(*station.follows, now_s));
+  } else {
+    const fusion::Slew& slew = *station.slew;
+    const double dt_s = now_s - 1e-6 * static_cast<double>(slew.effect_utime_us - kStartUs);
+    goal = {slew.direction.azimuth_rad + dt_s * slew.azimuth_rate_rad_s,
+            slew.direction.elevation_rad + dt_s * slew.elevation_rate_rad_s};
+  }
   const double away_rad = angle_of(station.axis, goal);
   station.speed_rad_s =
       std::min({unit.speed_rad_s, station.speed_rad_s + unit.acceleration_rad_s2 * kTick_s,
@@ -85,7 +113,8 @@ fusion::BearingMeasurement HandoverSite::measured(const Station& station, std::s
                                                            std::cos(there.elevation_rad)),
                        there.elevation_rad + config_.noise_rad * normal(random_)};
   m.sight.covariance_white = Eigen::Matrix2d::Identity() * std::pow(config_.noise_rad, 2);
-  m.is_tracklet = true;
+  m.is_tracklet = station.follows != target;
+  m.is_acquired = !m.is_tracklet;
   m.track_id = station.track_ids.at(target);
   m.boot_id = boots_;
   const AzimuthElevation next = direction(station.p_ecef, place(target, now_s + kStepS));
@@ -147,6 +176,7 @@ void HandoverSite::run_until(double time_s) {
   for (; kTick_s * static_cast<double>(tick_) < time_s; ++tick_) {
     for (std::size_t i = 0; i < stations_.size(); ++i) {
       Station& station = stations_[i];
+      acquire(station);
       turn(station);
       if ((tick_ + static_cast<std::int64_t>(i)) % frame == 0) look(station);
       if (tick_ % status != 0) continue;
@@ -175,6 +205,17 @@ std::vector<std::string> HandoverSite::holders(std::size_t target) const {
     }
   }
   return names;
+}
+
+double HandoverSite::farthest_turn_s(std::size_t target) const {
+  double longest_s = 0.0;
+  const Vector3d there = place(target, kTick_s * static_cast<double>(tick_));
+  for (const Station& station : stations_) {
+    if (station.sees_all) continue;
+    const double away_rad = angle_of(station.axis, direction(station.p_ecef, there));
+    longest_s = std::max(longest_s, fusion::turning_s(away_rad, {.settle_s = 0.0}));
+  }
+  return longest_s;
 }
 
 std::int64_t HandoverSite::found(std::size_t target) const {

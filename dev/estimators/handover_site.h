@@ -24,7 +24,8 @@ struct FlyingTarget {
 struct HandoverSiteConfig {
   std::vector<Eigen::Vector3d> stations_enu;  // that turn [m]; all look up to the north at first
   std::optional<Eigen::Vector3d> overview_enu{};
-  bool stations_turn = true;  // false: they stare at all of the sky, too
+  bool stations_turn = true;    // false: they stare at all of the sky, too
+  bool stations_track = false;  // a led station's tracker follows what it acquires
   std::vector<FlyingTarget> targets;
   double view_rad = 0.08;  // field of view of the stations that turn
   double rate_hz = 15.0;
@@ -47,6 +48,8 @@ class HandoverSite {
   std::vector<std::string> holders(std::size_t target) const;
   // The fusion's established target that is now at this simulated target; 0: there is none.
   std::int64_t found(std::size_t target) const;
+  // How long the station that is farthest from it has to turn.
+  double farthest_turn_s(std::size_t target) const;
   // When the overview station first reported this target.
   std::optional<double> first_seen_s(std::size_t target) const;
 
@@ -58,6 +61,7 @@ class HandoverSite {
     AzimuthElevation axis;
     double speed_rad_s = 0.0;
     std::optional<fusion::Slew> slew{};
+    std::optional<std::size_t> follows{};             // the target of its tracker
     std::map<std::size_t, double> in_view_s{};        // since when, by target
     std::map<std::size_t, std::int64_t> track_ids{};  // of reported ones
   };
@@ -68,6 +72,7 @@ class HandoverSite {
   Eigen::Vector3d place(std::size_t target, double time_s) const;
   bool is_there(std::size_t target, double time_s) const;
   void turn(Station& station);
+  void acquire(Station& station);
   void look(Station& station);
   fusion::BearingMeasurement measured(const Station& station, std::size_t target,
                                       const AzimuthElevation& there);

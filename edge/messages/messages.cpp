@@ -164,6 +164,7 @@ ols_msg::bearing_t to_message(const Bearing& bearing, const Sender& sender,
   ols_msg::bearing_t message{};
   stamp(message, sender, sender.utime_us(bearing.mid_exposure_s), sequence);
   message.track_id = bearing.track_id;
+  message.acquired = bearing.acquired ? 1 : 0;
   message.belief = bearing.belief;
   for (int i = 0; i < 3; ++i) {
     message.camera_ecef_m[i] = bearing.sight.origin_ecef[i];

@@ -86,6 +86,7 @@ std::optional<MadeBearing> BearingQueue::make(const PixelMeasurement& measured,
   bearing.pixel = measured.pixel;
   bearing.covariance_px2 = measured.covariance_px2;
   bearing.designation_sd_px = measured.designation_sd_px;
+  bearing.acquired = measured.acquired;
   if (measured.detected) {
     const auto J = radians_of_pixels(pixel, *line, *angles, pointing);
     bearing.detected = object_of(*measured.detected, J.value_or(Eigen::Matrix2d::Zero()));

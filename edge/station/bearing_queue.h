@@ -36,6 +36,7 @@ struct PixelMeasurement {
   double belief = 0.0;
   std::int64_t track_id = 0;
   double designation_sd_px = 0.0;
+  bool acquired = false;  // as in Bearing
   std::optional<DetectedPixel> detected{};
 };
 

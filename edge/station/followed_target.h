@@ -45,6 +45,7 @@ class FollowedTarget {
 
   bool exists() const { return kind_ != Kind::kNone; }
   bool on_trial() const { return kind_ == Kind::kUnproven; }
+  bool is_designated() const { return kind_ == Kind::kDesignated; }  // by an operator
   std::int64_t track_id() const { return track_id_; }
   // A new id for another object of this station; no two objects share an id.
   std::int64_t new_track_id() { return ++last_track_id_; }

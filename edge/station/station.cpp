@@ -96,6 +96,7 @@ void Station::track(const camera::Frame& frame) {
                    .belief = output->belief,
                    .track_id = target_.track_id(),
                    .designation_sd_px = target_.centring_sd_px(),
+                   .acquired = !target_.is_designated(),
                    .detected = detected_.take_look_at(target_.track_id())});
   }
 }
@@ -224,13 +225,13 @@ Refusal Station::slew(const SlewCommand& command, double now_s) {
   pass_time(now_s);
   const Refusal refusal = judge(command, situation(now_s));
   if (refusal != Refusal::kNone) return count(refusal, "slew");
-  slew_.give(command, now_s_);
+  if (command.leads()) slew_.give(command, now_s_);
   if (target_.let_go(command.let_go_track_id) && follows_now()) {
     motion_.clear();
     bearings_.clear();
     enter(StationState::kIdle);
   }
-  if (mode_.is(StationState::kIdle) || mode_.is(StationState::kLost)) {
+  if (command.leads() && (mode_.is(StationState::kIdle) || mode_.is(StationState::kLost))) {
     enter(StationState::kSlewed);
   }
   return count(Refusal::kNone, "slew");

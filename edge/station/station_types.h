@@ -60,6 +60,7 @@ struct Bearing {
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
   Eigen::Matrix2d covariance_px2 = Eigen::Matrix2d::Zero();  // white
   double designation_sd_px = 0.0;                            // the same in every frame
+  bool acquired = false;  // the target was found along a slew; false: an operator designated it
   std::optional<DetectedObject> detected{};
 
   bool is_tracklet() const { return detected && detected->is_tracklet; }
@@ -88,6 +89,10 @@ struct SlewCommand {
   // What the tracker lets go of, if it follows that. 0: nothing.
   std::int64_t let_go_track_id = 0;
   bool searches_line() const { return !line.isZero(); }
+  // False: the station only lets go; it is led nowhere.
+  bool leads() const {
+    return let_go_track_id == 0 || target_id != 0 || searches_line() || direction_sd_rad > 0.0;
+  }
 };
 AzimuthElevation direction_at(const SlewCommand& slew, double time_s);
 

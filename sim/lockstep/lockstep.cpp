@@ -94,6 +94,7 @@ void Lockstep::send(std::size_t station, const station::Bearing& bearing, double
   measurement.belief = bearing.belief;
   measurement.clock_sd_s = std::hypot(truth.clock_sd_s, bearing.stamp_sd_s);
   measurement.track_id = bearing.track_id;
+  measurement.is_acquired = bearing.acquired;
   measurement.calibration_id = bearing.pose_revision;
   if (bearing.detected) {
     const station::DetectedObject& object = *bearing.detected;

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "sim/lockstep/lead_times.h"
 #include "sim/lockstep/lockstep.h"
 
 namespace ols::sim {
@@ -96,15 +95,21 @@ UnattendedRun run_unattended(const Scenario& scenario, std::uint64_t seed, doubl
   Lockstep lockstep(world, fidelity);
   UnattendedRun run;
   Observer observer(world, run);
-  lockstep.listen([&observer](const fusion::FusedTarget& target, double time_s) {
+  const auto note_all = [&](LeadTimes& times, double time_s) {
+    for (const StationScenario& station : scenario.stations) {
+      if (!station.overview) note(times, lockstep, station.id, time_s);
+    }
+  };
+  run.first.stations = static_cast<std::size_t>(
+      std::ranges::count(scenario.stations, false, &StationScenario::overview));
+  lockstep.listen([&](const fusion::FusedTarget& target, double time_s) {
     observer.hear(target, time_s);
+    note_all(run.first, time_s);
   });
   lockstep.run(seconds);
-  LeadTimes times;
-  for (const StationScenario& station : scenario.stations) {
-    if (!station.overview) note(times, lockstep, station.id, seconds);
-  }
-  run.stations_on_it = times.follows.size();
+  LeadTimes at_the_end;
+  note_all(at_the_end, seconds);
+  run.stations_on_it = at_the_end.follows.size();
   return run;
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "central/handover/handover_policy.h"
+#include "sim/lockstep/lead_times.h"
 #include "sim/scenario/scenario.h"
 
 namespace ols::sim {
@@ -25,6 +26,7 @@ struct UnattendedRun {
   std::set<std::int64_t> ghosts;               // positions where nothing flies
   int drones_that_are_none = 0;                // publications: what would have raised an alarm
   std::size_t stations_on_it = 0;              // that track the first target at the end
+  LeadTimes first;                             // of the scenario's first target
 };
 
 // Nobody designates, and targets of these classes lead stations at once.

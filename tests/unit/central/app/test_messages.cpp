@@ -105,6 +105,7 @@ TEST(Messages, ABearingSaysWhatADetectorSaw) {
   message.size_rad = 2e-3;
   message.size_sd_rad = 3e-4;
   message.across_rad = 1e-3;
+  message.acquired = 1;
   message.signal = 9.5;
   message.classes = 2;
   message.class_probability = {0.25, 0.75};
@@ -117,6 +118,7 @@ TEST(Messages, ABearingSaysWhatADetectorSaw) {
   EXPECT_EQ(measurement.sighted.size_rad, 2e-3);
   EXPECT_EQ(measurement.sighted.size_sd_rad, 3e-4);
   EXPECT_EQ(measurement.sighted.across_rad, 1e-3);
+  EXPECT_TRUE(measurement.is_acquired);
   EXPECT_EQ(measurement.sighted.signal, 9.5);
   EXPECT_EQ(measurement.sighted.class_probability, (std::vector{0.25, 0.75}));
 }
@@ -134,6 +136,7 @@ TEST(Messages, ABearingOfBeforeDetectorsIsOfADesignatedObject) {
   EXPECT_EQ(measurement->track_id, 3);
   EXPECT_EQ(measurement->clock_sd_s, 1e-3);
   EXPECT_FALSE(measurement->is_tracklet);
+  EXPECT_FALSE(measurement->is_acquired);
   EXPECT_EQ(measurement->image_bearings, 0);
   EXPECT_FALSE(measurement->sighted.has_rate());
   EXPECT_TRUE(measurement->sighted.class_probability.empty());

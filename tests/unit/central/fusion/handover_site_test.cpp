@@ -82,6 +82,24 @@ TEST(HandoverSite, TheLineOfWhatIsOfNoClassIsNotSearchedWhereOthersLead) {
   EXPECT_EQ(site.fusion().health().counters.at("slews"), 0.0);
 }
 
+// All stations have followed the first one when a second one appears elsewhere.
+TEST(HandoverSite, StationsThatFollowTheFirstTargetGiveTheSecondItsShare) {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    HandoverSiteConfig config =
+        site_with(HandoverMode::kAutomatic, {in_the_north(), in_the_south()});
+    config.stations_track = true;
+    config.targets[1].appears_s = 15.0;
+    HandoverSite site(config, seed);
+    site.run_until(15.0);
+    ASSERT_EQ(site.holders(0).size(), 4U) << "seed " << seed;
+    site.run_until(30.0);
+    EXPECT_NE(site.found(0), 0) << "seed " << seed;
+    EXPECT_NE(site.found(1), 0) << "seed " << seed;
+    EXPECT_GE(site.holders(0).size(), 2U) << "seed " << seed;
+    EXPECT_GE(site.holders(1).size(), 1U) << "seed " << seed;
+  }
+}
+
 // What only the overview can see is searched for 10 s; as a new one after a restart, again.
 TEST(HandoverSite, TheLineOfATrackletIsNotSearchedForEver) {
   HandoverSiteConfig config = site_with(HandoverMode::kAutomatic, {in_the_south()});

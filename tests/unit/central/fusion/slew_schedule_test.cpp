@@ -52,11 +52,12 @@ class SlewScheduleTest : public testing::Test {
   }
   // A station follows something of its own, by this local track.
   void follow(std::size_t station, std::int64_t track_id, const Vector3d& p_enu,
-              bool is_tracklet = false) {
+              bool is_tracklet = false, bool is_acquired = false) {
     for (int i = 0; i < 4; ++i) {
       BearingMeasurement measurement = sight_of(station, p_enu, now_us - 20'000 * (3 - i));
       measurement.track_id = track_id;
       measurement.is_tracklet = is_tracklet;
+      measurement.is_acquired = is_acquired;
       tracks.keep_unassociated(measurement);
     }
   }
@@ -141,6 +142,74 @@ TEST_F(SlewScheduleTest, ATrackerLetsGoOfWhatAnOperatorHasDismissed) {
   EXPECT_EQ(slews[0].let_go_track_id, 7);
   EXPECT_EQ(slews[0].target_id, 0);
   EXPECT_EQ(slews[0].direction.azimuth_rad, 0.3) << "where it is: nothing else wants it";
+}
+
+TEST_F(SlewScheduleTest, OneOfThreeTrackersIsLentToTheLineOfAnotherObject) {
+  for (std::size_t k = 0; k < 4; ++k) {
+    know(std::string(1, static_cast<char>('a' + k)), test::square()[k]);
+  }
+  now_us = confirm_at(tracks, kPlace);
+  std::vector<Slew> slews;
+  for (int i = 0; i < 10; ++i, now_us += kPeriodUs) {
+    for (const std::size_t k : {0U, 1U, 2U}) {
+      BearingMeasurement own = sight_of(k, kPlace, now_us);
+      own.track_id = 11;
+      own.is_acquired = true;
+      tracks.give(0, own);
+      KnownStation& station = stations.all().at(own.station);
+      station.target_id = 1;
+      station.saw_target.note(now_us);
+    }
+    follow(3, 7, {-300.0, 200.0, 90.0}, true);
+    slews = plan();
+  }
+  ASSERT_EQ(names(slews), (std::vector<std::string>{"a", "b", "c", "d"}));
+  int lent = 0;
+  for (const Slew& slew : slews) {
+    const bool searches = !slew.line.isZero();
+    lent += searches ? 1 : 0;
+    EXPECT_EQ(slew.target_id, searches ? 0 : 1) << slew.station;
+    EXPECT_EQ(slew.let_go_track_id, searches ? 11 : 0) << slew.station;
+  }
+  EXPECT_EQ(lent, 1);
+}
+
+// Of several lines each gets its turn; that of a station that is never led has the first.
+TEST_F(SlewScheduleTest, LinesTakeTurnsAndTheOverviewsComesFirst) {
+  for (std::size_t k = 0; k < 4; ++k) {
+    know(std::string(1, static_cast<char>('a' + k)), test::square()[k]);
+  }
+  stations.all().at("d").traits.commandable = false;
+  std::string order;
+  for (int i = 0; i < 240; ++i, now_us += kPeriodUs) {
+    follow(0, 5, {-300.0, 200.0, 90.0}, true);
+    if (i > 5) follow(3, 7, kPlace, true);
+    const auto slews = plan();
+    const char of = slews.empty() ? '-' : names(slews).front() == "a" ? 'd' : 'a';
+    if (order.empty() || order.back() != of) order += of;
+  }
+  EXPECT_EQ(order, "-adada-");
+}
+
+// What a led station has found by mistake does not keep it for ever.
+TEST_F(SlewScheduleTest, ATrackerLetsGoOfWhatItAcquiredAndNobodyElseSees) {
+  for (const char* name : {"a", "b"}) know(name, {0.0, 0.0, 0.0});
+  stations.all().at("a").traits.axis = {0.3, 0.1};
+  std::set<std::int64_t> let_go;
+  const auto follow_for = [&](double seconds, bool is_acquired) {
+    for (const std::int64_t end_us = now_us + std::llround(seconds * 1e6); now_us < end_us;
+         now_us += kPeriodUs) {
+      follow(0, is_acquired ? 5 : 6, kPlace, false, is_acquired);
+      for (const Slew& slew : plan()) let_go.insert(slew.let_go_track_id);
+    }
+  };
+  follow_for(9.5, true);
+  EXPECT_EQ(let_go, std::set<std::int64_t>{0});
+  follow_for(1.0, true);
+  EXPECT_TRUE(let_go.contains(5));
+  let_go.clear();
+  follow_for(12.0, false);
+  EXPECT_EQ(let_go, std::set<std::int64_t>{0}) << "an operator has designated it";
 }
 
 TEST_F(SlewScheduleTest, WithoutATargetOrARayThereAreNone) {

@@ -114,6 +114,37 @@ TEST_F(TheHandoverPolicy, AProposalWaitsForTheOperatorsWord) {
   EXPECT_TRUE(handover.is_let_go(1));
 }
 
+// A station that searched along a line has found it: its tracker came first.
+TEST_F(TheHandoverPolicy, WhatALedStationHasAcquiredIsNoOperatorsTarget) {
+  HandoverPolicy handover = with(HandoverMode::kAutomatic);
+  Track track = track_of(1, false);
+  handover.settle(kStart, {track});
+  EXPECT_TRUE(handover.is_wanted(1));
+  for (auto& [station, own] : track.bearings) own.back().is_acquired = true;
+  handover.clear();
+  handover.settle(kStart, {track});
+  EXPECT_FALSE(handover.is_wanted(1));
+}
+
+TEST_F(TheHandoverPolicy, ThePriorityIsTheProbabilityThatItsClassLeads) {
+  HandoverConfig config;
+  config.mode = HandoverMode::kAutomatic;
+  config.classes = {ObjectClass::kUnknown, ObjectClass::kDrone};
+  HandoverPolicy handover(config);
+  const auto priority_of = [&](const ClassLook& look) {
+    Track track = track_of(1, true);
+    track.classes.add(kStart, look);
+    handover.clear();
+    handover.settle(kStart, {track});
+    return handover.priority(track);
+  };
+  const double any = priority_of({});
+  EXPECT_NEAR(any, 0.25 * track_of(1, true).existence.probability(), 1e-9) << "one of four classes";
+  const Measured size{0.6, 0.1}, speed{12.0, 0.5};
+  EXPECT_GT(priority_of({.size_m = size, .speed_m_s = speed, .flicker = {0.0, 0.003}}), 1.5 * any);
+  EXPECT_LT(priority_of({.size_m = size, .speed_m_s = speed, .flicker = {0.05, 0.003}}), any / 1.5);
+}
+
 // The led stations' trackers follow it then, and are no word of an operator.
 TEST_F(TheHandoverPolicy, ADismissedTargetLeadsNobodyAlsoWhereATrackerFollowsIt) {
   HandoverPolicy handover = with(HandoverMode::kAutomatic);

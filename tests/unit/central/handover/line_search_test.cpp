@@ -51,10 +51,33 @@ TEST(LineSearch, TheSearchersBeginWithEqualPartsOfTheProbability) {
   // Of a logistic distribution with this deviation, a quarter lies beyond 0.606 of it.
   EXPECT_NEAR(range_m(0, 4), 400.0 - 60.6, 0.1);
   EXPECT_NEAR(range_m(3, 4), 400.0 + 60.6, 0.1);
-  EXPECT_DOUBLE_EQ(range_m(0, 1), 400.0);
+  EXPECT_NEAR(range_m(0, 1), 400.0 - 60.6, 0.1);
+  EXPECT_TRUE(sweep_start(prior, {0, 1}, {}).outwards);
   EXPECT_DOUBLE_EQ(range_m(0, 2), 400.0);
   EXPECT_DOUBLE_EQ(sweep_start({-1e6, 100.0}, {0, 4}, {}).range_m, LineSearchConfig{}.near_m);
   EXPECT_DOUBLE_EQ(sweep_start({1e9, 100.0}, {0, 4}, {}).range_m, LineSearchConfig{}.far_m);
+}
+
+TEST(LineSearch, ALargeObjectIsExpectedNear) {
+  CueRay seen = ray();
+  EXPECT_FALSE(range_by_size(seen)) << "its size is unknown";
+  seen.size_rad = 0.002;
+  seen.size_sd_rad = 0.002;
+  EXPECT_FALSE(range_by_size(seen)) << "a point";
+  seen.size_sd_rad = 0.0002;
+  const auto near = range_by_size(seen);
+  ASSERT_TRUE(near);
+  EXPECT_NEAR(near->range_m, 300.0, 1e-9);  // of 0.6 m
+  EXPECT_NEAR(near->sd_m, 300.0 * std::hypot(0.5, 0.1), 1e-9);
+}
+
+TEST(LineSearch, TwoExpectationsOfTheRangeAreOne) {
+  const LinePrior both = combined({100.0, 50.0}, {400.0, 200.0});
+  EXPECT_NEAR(both.range_m, 200.0, 1e-9);
+  EXPECT_NEAR(both.sd_m, 200.0 * 0.5 / std::sqrt(2.0), 1e-9);
+  const LinePrior first = combined({100.0, 50.0}, {40.0, 50.0});
+  EXPECT_EQ(first.range_m, 100.0);
+  EXPECT_EQ(first.sd_m, 50.0);
 }
 
 TEST(LineSearch, ATurnTakesAsLongAsItsAccelerationAndItsSpeedAllow) {

@@ -75,12 +75,70 @@ TEST(StationAllocation, TheStationThatIsThereSoonestGoes) {
   EXPECT_EQ(allocation.at("b"), 1);
 }
 
-TEST(StationAllocation, WhatATrackerFollowsIsNeverTaken) {
-  const auto allocation = run({target_at(1, kLeft), target_at(2, kRight, 100.0)},
-                              {seeing(station_at("a", {-300, 0, 0}), 1, false),
-                               seeing(station_at("b", {-100, 0, 0}), 1, false),
-                               seeing(station_at("c", {100, 0, 0}), 1, false)});
-  EXPECT_EQ(led_to(allocation, 1), 3);
+TEST(StationAllocation, WhatIsBeyondTwoTrackersIsLentButNotAnOperatorsTrackers) {
+  const auto stations_on_first = [](bool keeps_trackers, double priority) {
+    AllocatedTarget first = target_at(1, kLeft);
+    first.keeps_trackers = keeps_trackers;
+    const auto allocation = run({first, target_at(2, kRight, priority)},
+                                {seeing(station_at("a", {-300, 0, 0}), 1, false),
+                                 seeing(station_at("b", {-100, 0, 0}), 1, false),
+                                 seeing(station_at("c", {100, 0, 0}), 1, false)});
+    return led_to(allocation, 1);
+  };
+  EXPECT_EQ(stations_on_first(true, 100.0), 3);
+  EXPECT_EQ(stations_on_first(false, 1.0), 2);
+  EXPECT_EQ(stations_on_first(false, 100.0), 2) << "its two are never taken";
+}
+
+// No two lines to it cross at 20 degrees.
+TEST(StationAllocation, ADistantTargetIsServedByTheBestPairThatThereIs) {
+  const std::vector<AllocatedStation> stations = {seeing(station_at("a", {-100, 0, 0}), 1, false),
+                                                  seeing(station_at("b", {-90, 0, 0}), 1, false),
+                                                  seeing(station_at("c", {100, 0, 0}), 1, false)};
+  const auto allocation = run({target_at(1, {0, 3000, 60}), target_at(2, kRight)}, stations);
+  EXPECT_EQ(led_to(allocation, 1), 2);
+  EXPECT_EQ(allocation.at("c"), 1) << "a and b alone see it under a much smaller angle";
+}
+
+// 1: a crow that is not named yet. All are at it when 2 appears, which the overview sees as well.
+TEST(StationAllocation, TheSurplusGoesWhereThePriorityIsHigher) {
+  AllocatedStation overview = seeing(station_at("o", {0, -300, 0}), 2, true);
+  overview.is_led = false;
+  const std::vector<AllocatedStation> stations = {overview,
+                                                  seeing(station_at("a", {-300, 0, 0}), 1, false),
+                                                  seeing(station_at("b", {-300, 800, 0}), 1, false),
+                                                  seeing(station_at("c", {300, 800, 0}), 1, false),
+                                                  seeing(station_at("d", {300, 0, 0}), 2, false)};
+  EXPECT_EQ(led_to(run({target_at(1, kLeft), target_at(2, kRight)}, stations), 2), 1)
+      << "a little gain takes no station";
+  EXPECT_EQ(led_to(run({target_at(1, kLeft, 0.3), target_at(2, kRight)}, stations), 2), 2);
+}
+
+TEST(StationAllocation, OneStationSearchesTheLineWhileTargetsHaveTheOthers) {
+  std::vector<AllocatedStation> stations = {seeing(station_at("a", {-300, 0, 0}, kRight), 1, false),
+                                            seeing(station_at("b", {0, 0, 0}, kLeft), 1, false),
+                                            seeing(station_at("c", {300, 0, 0}, kLeft), 1, false)};
+  const std::vector<AllocatedTarget> targets = {target_at(1, kLeft)};
+  const Vector3d line = site().to_ecef(kRight);
+  const auto searcher = [&] {
+    std::string name;
+    for (const auto& [station, target] : allocate(targets, stations, {}, line)) {
+      if (target == kOnLine) name += station;
+    }
+    return name;
+  };
+  EXPECT_EQ(searcher(), "a") << "it is there soonest";
+  stations[0].may_search = false;
+  EXPECT_EQ(searcher(), "c") << "a sees the object itself";
+  stations[1].searches = true;
+  EXPECT_EQ(searcher(), "b") << "it has begun";
+  stations.erase(stations.begin() + 1);
+  EXPECT_EQ(searcher(), "") << "two stay";
+  stations.push_back(station_at("d", {0, 100, 0}));
+  EXPECT_EQ(searcher(), "d") << "it has no target";
+  stations.back().is_busy = true;
+  EXPECT_EQ(searcher(), "") << "its tracker follows something of its own";
+  EXPECT_TRUE(allocate({}, stations, {}, line).empty()) << "then all search";
 }
 
 TEST(StationAllocation, WhatADetectorSeesIsLeftToTwoGoodOnes) {

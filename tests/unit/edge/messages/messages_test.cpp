@@ -148,6 +148,9 @@ TEST(StationMessages, ABearingOfADetectedObjectSaysSo) {
   EXPECT_EQ(message.signal, 12.0);
   bearing.detected->is_tracklet = false;
   EXPECT_FALSE(to_message(bearing, sender(), settings, 1).detected) << "of the followed target";
+  EXPECT_FALSE(to_message(bearing, sender(), settings, 1).acquired);
+  bearing.acquired = true;
+  EXPECT_TRUE(to_message(bearing, sender(), settings, 1).acquired);
 }
 
 TEST(StationMessages, OnlySpansOfTimeAreRecorded) {

@@ -62,6 +62,7 @@ TEST_F(AcquisitionBySlewTest, FindsTheTargetTracksItAndIsHonestAboutTheBox) {
   EXPECT_GE(counter("acquisition_candidates"), 3.0);
   ASSERT_FALSE(bearings_.empty());
   EXPECT_EQ(bearings_.back().track_id, 1);
+  EXPECT_TRUE(bearings_.back().acquired);
   EXPECT_NEAR(std::sqrt(bearings_.back().sight.covariance_systematic(0, 0)),
               std::hypot(radians(0.02), config().acquisition_sd_px * 75e-6), 2e-6);
 }
@@ -129,6 +130,7 @@ TEST_F(AcquisitionBySlewTest, GoesBackToItsOwnTargetWhenWhatItFoundIsNotBelieved
   ASSERT_EQ(station_.designate({std::nullopt, {629, 469, 20, 20}}, now_), Refusal::kNone);
   run_until(now_ + 0.3);
   EXPECT_EQ(bearings_.back().track_id, 3) << "an id means one thing";
+  EXPECT_FALSE(bearings_.back().acquired) << "an operator designated it";
 }
 
 TEST_F(AcquisitionBySlewTest, PrefersItsOwnTargetWhileItIsThere) {

@@ -88,6 +88,11 @@ TEST_F(StationSlewTest, ItLetsGoOfWhatAnOperatorHasDismissedAndOfNothingElse) {
   EXPECT_EQ(station_.state(), StationState::kSlewed);
   run_until(now_ + command.lease_s + 0.2);
   EXPECT_EQ(station_.state(), StationState::kIdle) << "there is nothing to look for";
+  designated_for(0.5);
+  command = {.effect_s = now_, .received_s = now_, .lease_s = 0.5, .direction = command.direction};
+  command.let_go_track_id = station_.snapshot().track_id;
+  ASSERT_EQ(station_.slew(command, now_), Refusal::kNone);
+  EXPECT_EQ(station_.state(), StationState::kIdle) << "it only lets go";
 }
 
 TEST_F(StationSlewTest, ASlewedStationAllowsForWhatItDoesNotKnowOfItsOwnHeading) {
