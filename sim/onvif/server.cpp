@@ -10,6 +10,7 @@
 
 #include "base/process/clocks.h"
 #include "sim/onvif/device.h"
+#include "sim/onvif/probe_server.h"
 
 namespace ols::sim {
 namespace {
@@ -25,14 +26,16 @@ constexpr auto kPatience = std::chrono::seconds(30);
 }  // namespace
 
 struct OnvifServer::Impl {
-  Impl(OnvifConfig config, std::uint64_t seed);
+  Impl(const OnvifConfig& wanted, std::uint64_t seed);
   ~Impl();
   void accept();
 
   net::io_context io{1};
   tcp::acceptor acceptor;
   std::mutex mutex;  // of the device
+  const OnvifConfig config;
   OnvifDevice device;
+  ProbeServer probes;
   std::thread thread;  // last: it uses the rest
 
  private:
@@ -90,10 +93,12 @@ OnvifConfig OnvifServer::Impl::bound(OnvifConfig config, const tcp::acceptor& ac
   return config;
 }
 
-OnvifServer::Impl::Impl(OnvifConfig config, std::uint64_t seed)
+OnvifServer::Impl::Impl(const OnvifConfig& wanted, std::uint64_t seed)
     : acceptor(io,
-               {net::ip::make_address(config.address), static_cast<std::uint16_t>(config.port)}),
-      device(bound(config, acceptor), seed, clock_monotonic_s()) {
+               {net::ip::make_address(wanted.address), static_cast<std::uint16_t>(wanted.port)}),
+      config(bound(wanted, acceptor)),
+      device(config, seed, clock_monotonic_s()),
+      probes(io, config) {
   accept();
   thread = std::thread([this] { io.run(); });
 }

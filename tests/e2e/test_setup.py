@@ -1,5 +1,6 @@
 """ols-setup from answers: a centre and a station that joins it by one command on each side, with a
-simulated PTU on its line; what a person has changed outlasts the next run."""
+simulated PTU on its line, or an ONVIF camera that is found; what a person has changed outlasts the
+next run."""
 
 import pytest
 from conftest import BIN, ROOT, finished, wait
@@ -36,8 +37,8 @@ fy_px = 13333.3
 """
 
 
-def run(program, *words, status=0):
-    done = finished(BIN / program, *words)
+def run(program, *words, status=0, typed=None):
+    done = finished(BIN / program, *words, input=typed)
     assert done.returncode == status, done.stdout + done.stderr
     return done.stdout + done.stderr
 
@@ -67,6 +68,49 @@ def ptu(tmp_path):
         site.start("ptu", [str(BIN / "ols-sim-ptu"), "--link", str(line), "--no-home"])
         wait(lambda: site.check() or line.exists(), "a line")
         yield line
+
+
+@pytest.fixture
+def ptz(network, tmp_path):
+    """The password of an ONVIF camera that answers who looks for cameras."""
+    sim = [str(BIN / "ols-sim"), "--scenario", str(ROOT / "sim/scenarios/onvif.toml")]
+    sim += ["--lcm-url", LIVE_URL, "--directory", str(tmp_path / "lines")]
+    with Site(tmp_path / "sim-logs") as site:
+        site.start_and_wait("ols-sim", sim, "ready")
+        yield (tmp_path / "lines/alfa.password").read_text().strip()
+
+
+def test_an_onvif_camera_is_found_and_becomes_camera_and_mount(tmp_path, centre, ptz):
+    tripod = tmp_path / "alfa"
+    secret = tripod / "etc/ols/ptz.password"
+    secret.parent.mkdir(parents=True)
+    login = 'user = "admin"\npassword_file = "/etc/ols/ptz.password"\n'
+    answers = answers_of(tmp_path, centre, "/nonexistent").replace(
+        'device = "127.0.0.99"', 'kind = "rtsp"'
+    )
+    answers += f'[station.mount]\nkind = "onvif"\n{login}'
+    secret.write_text("wrong\n")
+    assert "user or password refused" in set_up(tripod, answers, status=2)
+    assert not (tripod / "etc/ols/alfa.toml").exists()
+    secret.write_text(ptz + "\n")
+    said = set_up(tripod, answers)
+    assert "http://127.0.0.11:8080/onvif/device_service, stream main: H264, 640 x 480" in said
+    config = tripod / "etc/ols/alfa.toml"
+    assert 'url = "rtsp://127.0.0.11:8554/video"' in config.read_text()
+    run("ols-station", "--config", config, "--check-config")
+    assert ptz not in said + config.read_text()
+
+
+def test_a_person_picks_an_onvif_camera_and_types_its_password(tmp_path, centre, ptz):
+    tripod = tmp_path / "alfa"
+    typed = ["station", "lo", "none", centre[2], "alfa", "49.2", "16.6", "310", "45", "0.5", "0.1"]
+    typed += ["900", "900", "2", "admin", "wrong", "admin", ptz]
+    said = run("ols-setup", "--root", tripod, typed="\n".join(typed) + "\n")
+    assert "user or password refused" in said
+    assert 'kind = "onvif"' in (tripod / "etc/ols/alfa.toml").read_text()
+    secret = tripod / "etc/ols/alfa.camera-password"
+    assert secret.read_text().strip() == ptz
+    assert secret.stat().st_mode & 0o777 == 0o640
 
 
 def answers_of(tmp_path, centre, line):

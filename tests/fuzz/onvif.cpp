@@ -1,7 +1,9 @@
-// What an ONVIF camera may answer: whatever the bytes are, a number that is read is finite, a span
-// is not empty, and an error has words.
+// What an ONVIF camera may answer, also to those who look for it: whatever the bytes are, a number
+// that is read is finite, a span is not empty, and an error has words.
 #include <cmath>
 
+#include "edge/mount/onvif/discovery.h"
+#include "edge/mount/onvif/service_address.h"
 #include "edge/mount/onvif/soap_answer.h"
 #include "tests/fuzz/fuzz_input.h"
 
@@ -43,5 +45,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         "a position is finite");
   });
   attempt([&] { onvif::check_done(answer, "Stop"); });
+  attempt([&] {
+    const std::string url = onvif::stream_address("http://cam/d", onvif::stream_uri(answer));
+    ols::fuzz::require(url.empty() || onvif::host_of(url) == "cam", "a stream is at the camera");
+  });
+  onvif::Discovery discovery("urn:uuid:1");
+  discovery.add(answer, "10.0.0.5");
+  for (const auto& camera : discovery.cameras())
+    ols::fuzz::require(onvif::host_of(camera.url) == "10.0.0.5", "a camera is where it answered");
   return 0;
 }

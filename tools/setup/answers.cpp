@@ -67,6 +67,10 @@ void read_station(ConfigTable& root, Answers& answers) {
   config::Section section = station::station_section(settings);
   make_optional(section, "camera", "device");
   make_optional(section, "mount", "device");
+  make_optional(section, "camera", "url");
+  for (const char* key :
+       {"url", "pan_gain_deg", "tilt_gain_deg", "pan_speed_deg_s", "tilt_speed_deg_s"})
+    make_optional(section, "mount", key);
   config::read(section, root.table("station"));
   if (!is_station_file(settings.id)) {
     throw root.table("station").error("id", "is the name of another file in /etc/ols");

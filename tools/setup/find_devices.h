@@ -1,4 +1,4 @@
-// Finds this host's camera, PTU and GNSS receiver. Nothing is moved.
+// Finds this host's cameras, PTU and GNSS receiver. Nothing is moved.
 #pragma once
 
 #include <optional>

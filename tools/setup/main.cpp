@@ -11,16 +11,13 @@
 #include <vector>
 
 #include "base/config/toml_config.h"
-#include "base/config/toml_text.h"
 #include "base/files/atomic_file.h"
 #include "base/files/small_file.h"
 #include "base/process/command_line.h"
-#include "edge/config/device_kinds.h"
-#include "tools/doctor/probe.h"
 #include "tools/setup/answers.h"
 #include "tools/setup/backup.h"
+#include "tools/setup/chosen_devices.h"
 #include "tools/setup/dialogue.h"
-#include "tools/setup/find_devices.h"
 #include "tools/setup/host.h"
 #include "tools/setup/membership.h"
 #include "tools/setup/plan.h"
@@ -39,21 +36,6 @@ struct Words {
   bool no_start = false;
 };
 
-// The only one; a person chooses among several, and names one where none answers.
-std::string one_of(const std::vector<std::string>& found, const std::string& what,
-                   const std::string& key, bool asks) {
-  if (found.empty() && asks) {
-    return setup::ask_text(std::cin, std::cout,
-                           "No " + what + " answers. What is to be " + key + "?");
-  }
-  if (found.empty()) throw std::runtime_error("no " + what + " answers: say " + key);
-  if (found.size() == 1) return found.front();
-  if (asks) return setup::ask_which(std::cin, std::cout, "Which " + what + "?", found);
-  std::string all;
-  for (const std::string& one : found) all += "\n  " + one;
-  throw std::runtime_error("several times " + what + ": say which one by " + key + all);
-}
-
 // A running station holds its devices: those of the last run are taken as they are.
 void take_known_devices(const setup::Host& host, setup::Answers& answers) {
   const std::string path = host.path("/etc/ols/" + answers.station + ".toml");
@@ -68,41 +50,6 @@ void take_known_devices(const setup::Host& host, setup::Answers& answers) {
     if (taken && setup::find(answers.values, answer) == nullptr)
       answers.values.emplace_back(answer, value);
   }
-}
-
-// A device, or the name of a kind that has none.
-void take_mount(const std::string& said, setup::Answers& answers) {
-  const bool is_kind = std::ranges::any_of(ols::station::mount_kinds(),
-                                           [&](const auto& row) { return said == row.name; });
-  setup::add(answers.values, is_kind ? "station.mount.kind" : "station.mount.device", said);
-}
-
-void find_devices(setup::Answers& answers, bool asks) {
-  if (!setup::has_camera(answers.values)) {
-    std::vector<std::string> cameras;
-    for (const auto& camera : ols::doctor::cameras_that_answer()) cameras.push_back(camera.id);
-    const std::string camera = one_of(cameras, "camera", "station.camera.device", asks);
-    setup::add(answers.values, "station.camera.device", camera);
-    std::printf("camera: %s\n", camera.c_str());
-  }
-  std::vector<std::string> lines = answers.serial.empty() ? setup::serial_lines() : answers.serial;
-  if (!setup::has_mount(answers.values)) {
-    std::vector<std::string> units;
-    for (const auto& unit : setup::find_ptus(lines)) {
-      units.push_back(unit.device);
-      std::printf("PTU: %s on %s at %d baud\n", unit.version.c_str(), unit.device.c_str(),
-                  unit.baud);
-    }
-    take_mount(one_of(units, "PTU", "station.mount.device, or \"fixed\"", asks), answers);
-  }
-  std::erase_if(lines, [&](const std::string& line) {
-    return setup::mount_device(answers.values) == ols::toml_text(line);
-  });
-  if (!answers.gnss.empty()) return;
-  const auto receivers = setup::find_receivers(lines);
-  if (receivers.empty()) return;
-  answers.gnss = one_of(receivers, "GNSS receiver", "gnss", asks);
-  std::printf("GNSS receiver: %s\n", answers.gnss.c_str());
 }
 
 // Until what was typed can be used.
@@ -139,7 +86,7 @@ Done set_up(const Words& words, const setup::Host& host) {
   std::vector<std::string> changed, keys;
   if (answers.is_station) {
     take_known_devices(host, answers);
-    find_devices(answers, asks);
+    setup::choose_devices(host, answers, asks);
     plan = setup::plan_station(answers);
     changed = host.write(plan.files);
     keys = setup::join_site(host, answers.station, answers.invitation);

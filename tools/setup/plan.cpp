@@ -27,6 +27,16 @@ bool is_other(const Values& values, const std::string& key, const auto& kinds) {
   return stated != nullptr && *stated != toml_text(kinds.front().name);
 }
 
+// A kind that is found by its address, which is not stated.
+bool lacks_url(const Values& values, const std::string& device, const std::string& kind) {
+  const std::string* stated = find(values, device + ".kind");
+  return stated != nullptr && *stated == toml_text(kind) &&
+         find(values, device + ".url") == nullptr;
+}
+
+bool lacks_stream(const Values& values) { return lacks_url(values, "station.camera", "rtsp"); }
+bool lacks_service(const Values& values) { return lacks_url(values, "station.mount", "onvif"); }
+
 PlannedFile time_file(const Answers& answers) {
   return {"/etc/chrony/conf.d/ols-site.conf", chrony_file(answers.neighbours), false};
 }
@@ -46,13 +56,16 @@ std::string mount_device(const Values& values) {
 
 bool has_camera(const Values& values) {
   return find(values, "station.camera.device") != nullptr ||
-         is_other(values, "station.camera.kind", station::camera_kinds());
+         (is_other(values, "station.camera.kind", station::camera_kinds()) &&
+          !lacks_stream(values));
 }
 
 bool has_mount(const Values& values) {
   return !mount_device(values).empty() ||
-         is_other(values, "station.mount.kind", station::mount_kinds());
+         (is_other(values, "station.mount.kind", station::mount_kinds()) && !lacks_service(values));
 }
+
+bool wants_onvif(const Values& values) { return lacks_stream(values) || lacks_service(values); }
 
 Plan plan_station(const Answers& answers) {
   Plan plan;

@@ -30,9 +30,13 @@ Plan plan_centre(const Answers& answers, Installed installed);
 
 // The mount's device in the answers, as TOML, under either name of its section. Empty: none.
 std::string mount_device(const Values& values);
-// False: `ols-setup` has to search for the device. It finds GigE Vision cameras and FLIR's units.
+// False: `ols-setup` has to search for the device. It finds GigE Vision and ONVIF cameras, and
+// FLIR's units.
 bool has_camera(const Values& values);
 bool has_mount(const Values& values);
+// The answers want an ONVIF camera, and do not say where its pictures or its motion are:
+// kind = "rtsp" or "onvif" without `url`.
+bool wants_onvif(const Values& values);
 
 // Adds a found value as if it were an answer. Never replaces an answer.
 void add(Values& values, const std::string& key, const std::string& text);

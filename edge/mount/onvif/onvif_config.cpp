@@ -65,7 +65,7 @@ void check(ConfigTable& table, const OnvifConfig& c) {
                                    {"tilt_gain_deg", d.tilt.per_unit_rad},
                                    {"pan_speed_deg_s", d.pan.speed_per_unit_rad},
                                    {"tilt_speed_deg_s", d.tilt.speed_per_unit_rad}}) {
-    if (value == 0.0) throw table.error(key, "must not be 0");
+    if (value == 0.0 && table.has(key)) throw table.error(key, "must not be 0");
   }
 }
 

@@ -85,24 +85,51 @@ void OnvifLink::read_clock() {
   }
 }
 
-Learnt OnvifLink::learn(const std::string& wanted) {
+std::vector<Profile> OnvifLink::read_profiles() {
   read_clock();
   const Services services = onvif::services(ask(url_, get_capabilities()).answer);
-  if (services.ptz.empty()) throw AnswerError("the camera has no PTZ service");
+  has_ptz_ = !services.ptz.empty();
   ptz_url_ = service_address(url_, services.ptz);
-  const auto all = profiles(ask(service_address(url_, services.media), get_profiles()).answer);
+  media_url_ = service_address(url_, services.media);
+  return profiles(ask(media_url_, get_profiles()).answer);
+}
+
+std::string OnvifLink::read_device() {
+  try {
+    return device_information(ask(url_, get_device_information()).answer);
+  } catch (const AnswerError&) {  // only a name
+    return {};
+  }
+}
+
+Learnt OnvifLink::learn(const std::string& wanted) {
+  const auto all = read_profiles();
+  if (!has_ptz_) throw AnswerError("the camera has no PTZ service");
   const auto found = std::ranges::find_if(all, [&](const Profile& profile) {
     return wanted.empty() ? !profile.configuration.empty() : profile.token == wanted;
   });
   if (found == all.end() || found->configuration.empty())
     throw AnswerError(wanted.empty() ? "the camera has no profile with PTZ"
                                      : "the camera has no profile " + wanted + " with PTZ");
-  Learnt learnt{"", *found, options(ask_ptz(get_options(found->configuration)).answer)};
-  try {
-    learnt.device = device_information(ask(url_, get_device_information()).answer);
-  } catch (const AnswerError&) {  // only a name
+  return {read_device(), *found, options(ask_ptz(get_options(found->configuration)).answer)};
+}
+
+Offer OnvifLink::offer() {
+  Offer offer;
+  for (const Profile& profile : read_profiles()) {
+    const std::string stated = stream_uri(ask(media_url_, get_stream_uri(profile.token)).answer);
+    Offer::Stream stream{profile, stream_address(url_, stated), {}};
+    if (stream.url.empty()) continue;
+    try {
+      if (has_ptz_ && !profile.configuration.empty())
+        stream.ptz = options(ask_ptz(get_options(profile.configuration)).answer);
+    } catch (const AnswerError&) {  // it sees, at least
+    }
+    offer.streams.push_back(std::move(stream));
   }
-  return learnt;
+  if (offer.streams.empty()) throw AnswerError("the camera has no stream by RTSP");
+  offer.device = read_device();
+  return offer;
 }
 
 }  // namespace ols::onvif

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "edge/mount/onvif/http_link.h"
 #include "edge/mount/onvif/soap_answer.h"
@@ -22,6 +23,18 @@ struct Learnt {
   PtzOptions options;
 };
 
+// What a camera has, for a person who sets a station up.
+struct Offer {
+  struct Stream {
+    Profile profile;
+    std::string url;  // rtsp://, without user and password
+    // Empty: its profile does not turn the camera, or the camera does not say how.
+    std::optional<PtzOptions> ptz;
+  };
+  std::string device;  // maker and model
+  std::vector<Stream> streams;
+};
+
 class OnvifLink {
  public:
   // `url`: of the device service.
@@ -30,6 +43,9 @@ class OnvifLink {
   // Reads the clock, the addresses and the profile; `profile`: its token, empty: the first with
   // PTZ. Throws HttpError, AnswerError, LoginRefused; these are what all methods throw.
   Learnt learn(const std::string& profile);
+
+  // Reads the same of all profiles, and their streams. Nothing is moved.
+  Offer offer();
 
   // When the request left and its answer came, CLOCK_MONOTONIC [s].
   struct Exchange {
@@ -47,11 +63,14 @@ class OnvifLink {
   Exchange ask(const std::string& url, const Request& request);
   HttpLink::Answer post(const std::string& url, const Request& request);
   void read_clock();
+  std::vector<Profile> read_profiles();
+  std::string read_device();
 
   HttpLink http_;
   const std::string url_;
   const Credentials credentials_;
-  std::string ptz_url_;
+  std::string ptz_url_, media_url_;
+  bool has_ptz_ = false;
   Login login_ = Login::kNone;
   bool logged_in_ = false;  // the camera has accepted the login on this connection
   std::optional<double> clock_ahead_s_;

@@ -18,7 +18,7 @@ bool is_port(const std::string& text) {
 // No scheme: it is no such address.
 Parts parts_of(const std::string& url) {
   Parts parts;
-  for (const std::string scheme : {"http://", "https://"}) {
+  for (const std::string scheme : {"http://", "https://", "rtsp://", "rtsps://"}) {
     if (!url.starts_with(scheme)) continue;
     const std::size_t path = std::min(url.find_first_of("/?#", scheme.size()), url.size());
     const std::string authority = url.substr(scheme.size(), path - scheme.size());
@@ -38,16 +38,27 @@ void check_address(const std::string& url) {
   if (url.find('@') != std::string::npos)
     throw std::invalid_argument(
         "must not name user and password: they belong in user and password_file");
-  if (parts_of(url).scheme.empty())
+  if (!parts_of(url).scheme.starts_with("http"))
     throw std::invalid_argument("must be http://HOST/... or https://HOST/...");
 }
 
 std::string service_address(const std::string& configured, const std::string& stated) {
   const Parts known = parts_of(configured), said = parts_of(stated);
-  if (said.path.empty()) return configured;
+  if (said.path.empty() || !said.scheme.starts_with("http")) return configured;
   const bool same = said.scheme == known.scheme && said.host == known.host;
   return known.scheme + known.host + (same ? said.port : known.port) + said.path;
 }
+
+std::string stream_address(const std::string& configured, const std::string& stated) {
+  // A user and password before the host are not needed: the station has its own.
+  const std::size_t at = stated.find('@'), path = stated.find('/', stated.find("//") + 2);
+  const std::string scheme = stated.substr(0, std::min(stated.find("//") + 2, stated.size()));
+  const Parts said = parts_of(at < path ? scheme + stated.substr(at + 1) : stated);
+  if (!said.scheme.starts_with("rtsp")) return {};
+  return said.scheme + parts_of(configured).host + said.port + said.path;
+}
+
+std::string host_of(const std::string& url) { return parts_of(url).host; }
 
 std::string shown_address(const std::string& url) {
   const Parts parts = parts_of(url);

@@ -15,6 +15,13 @@ void check_address(const std::string& url);
 // same.
 std::string service_address(const std::string& configured, const std::string& stated);
 
+// Where a stream is, from the address that the camera states: at the configured host, too. Empty:
+// it states none of RTSP.
+std::string stream_address(const std::string& configured, const std::string& stated);
+
+// "10.0.0.5"; empty: no such address.
+std::string host_of(const std::string& url);
+
 // "http://10.0.0.5:8080/...": for logs.
 std::string shown_address(const std::string& url);
 

@@ -2,44 +2,20 @@
 
 #include <charconv>
 #include <cmath>
-#include <cstring>
 #include <ctime>
 #include <pugixml.hpp>
 #include <string_view>
 
-#include "base/text/plain_text.h"
+#include "edge/mount/onvif/soap_xml.h"
 
 namespace ols::onvif {
 namespace {
 
 using Node = pugi::xml_node;
+using namespace soap_xml;
 
 constexpr double kGreatest = 1e5;  // of any number: degrees, spaces, seconds
-constexpr std::size_t kLongestWords = 120, kLongestToken = 200, kMostProfiles = 64;
-
-std::string_view local(const char* name) {
-  const char* colon = std::strchr(name, ':');
-  return colon == nullptr ? name : colon + 1;
-}
-
-Node child(const Node& parent, std::string_view name) {
-  return parent.find_child([name](const Node& node) { return local(node.name()) == name; });
-}
-
-Node below(const Node& parent, std::string_view name) {
-  return parent.find_node([name](const Node& node) { return local(node.name()) == name; });
-}
-
-std::string trimmed(std::string_view text) {
-  constexpr std::string_view kSpace = " \t\r\n";
-  const std::size_t first = text.find_first_not_of(kSpace);
-  if (first == std::string_view::npos) return {};
-  return std::string(text.substr(first, text.find_last_not_of(kSpace) - first + 1));
-}
-
-std::string text_of(const Node& node) { return trimmed(node.text().get()); }
-
-std::string words(const std::string& text) { return plain_text(text.substr(0, kLongestWords)); }
+constexpr std::size_t kLongestToken = 200, kLongestAddress = 2000, kMostProfiles = 64;
 
 // An answer in its envelope.
 class Answer {
@@ -184,16 +160,43 @@ Services services(const std::string& text) {
   return {text_of(child(child(all, "Media"), "XAddr")), text_of(child(child(all, "PTZ"), "XAddr"))};
 }
 
+namespace {
+
+Profile profile(const Answer& answer, const Node& node) {
+  const Node ptz = child(node, "PTZConfiguration");
+  Profile profile{answer.token(node), ptz ? answer.token(ptz) : "", "", 0, 0, 0.0};
+  const Node video = child(node, "VideoEncoderConfiguration");
+  profile.encoding = words(text_of(child(video, "Encoding")));
+  const auto stated = [&](const Node& parent, const char* name) {
+    const std::string text = text_of(child(parent, name));
+    return text.empty() ? 0.0 : answer.number(text, name);
+  };
+  const Node size = child(video, "Resolution");
+  profile.width_px = static_cast<int>(stated(size, "Width"));
+  profile.height_px = static_cast<int>(stated(size, "Height"));
+  profile.frame_rate_hz = stated(child(video, "RateControl"), "FrameRateLimit");
+  return profile;
+}
+
+}  // namespace
+
 std::vector<Profile> profiles(const std::string& text) {
   const Answer answer(text, "GetProfiles");
   std::vector<Profile> profiles;
   for (const Node& node : answer.response().children()) {
     if (local(node.name()) != "Profiles") continue;
     if (profiles.size() == kMostProfiles) throw answer.wrong("too many profiles");
-    const Node ptz = child(node, "PTZConfiguration");
-    profiles.push_back({answer.token(node), ptz ? answer.token(ptz) : ""});
+    profiles.push_back(profile(answer, node));
   }
   return profiles;
+}
+
+std::string stream_uri(const std::string& text) {
+  const Answer answer(text, "GetStreamUri");
+  const std::string uri =
+      text_of(answer.required(answer.required(answer.response(), "MediaUri"), "Uri"));
+  if (uri.empty() || uri.size() > kLongestAddress) throw answer.wrong("no usable Uri");
+  return uri;
 }
 
 PtzOptions options(const std::string& text) {

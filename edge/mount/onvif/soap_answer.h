@@ -41,6 +41,10 @@ struct PtzOptions {
 
 struct Profile {
   std::string token, configuration;  // the latter of its PTZ; empty: it has none
+  std::string encoding;              // of its video: "H264"; empty: it does not say
+  // Of its pictures; 0: it does not say.
+  int width_px = 0, height_px = 0;
+  double frame_rate_hz = 0.0;
 };
 
 struct Services {
@@ -58,6 +62,7 @@ std::optional<std::int64_t> date_and_time(const std::string& answer);
 std::string device_information(const std::string& answer);  // maker and model
 Services services(const std::string& answer);
 std::vector<Profile> profiles(const std::string& answer);
+std::string stream_uri(const std::string& answer);
 PtzOptions options(const std::string& answer);
 PtzStatus status(const std::string& answer);
 // Of a request that is answered by nothing but its success: "Stop".

@@ -112,6 +112,13 @@ Request get_capabilities() {
   return request(kDevice, "GetCapabilities", element("Category", "All"));
 }
 Request get_profiles() { return request(kMedia, "GetProfiles"); }
+Request get_stream_uri(const std::string& profile) {
+  const std::string schema = " xmlns=\"http://www.onvif.org/ver10/schema\">";
+  return request(kMedia, "GetStreamUri",
+                 "<StreamSetup><Stream" + schema + "RTP-Unicast</Stream><Transport" + schema +
+                     "<Protocol>RTSP</Protocol></Transport></StreamSetup>" +
+                     element("ProfileToken", escaped(profile)));
+}
 Request get_options(const std::string& configuration) {
   return request(kPtz, "GetConfigurationOptions",
                  element("ConfigurationToken", escaped(configuration)));

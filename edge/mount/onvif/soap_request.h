@@ -28,6 +28,7 @@ Request get_system_date_and_time();
 Request get_device_information();
 Request get_capabilities();
 Request get_profiles();
+Request get_stream_uri(const std::string& profile);
 Request get_options(const std::string& configuration);
 Request get_status(const std::string& profile);
 Request stop(const std::string& profile);

@@ -197,6 +197,16 @@ TEST(OnvifAddress, ThePasswordGoesToTheConfiguredHostAlone) {
            {"http://cam/d", "", "http://cam/d"}}) {
     EXPECT_EQ(service_address(configured, stated), expected) << stated;
   }
+  for (const auto& [stated, expected] : std::vector<std::array<std::string, 2>>{
+           {"rtsp://10.0.0.5:554/v?x=1", "rtsp://cam:554/v?x=1"},
+           {"rtsp://u:p@10.0.0.5/v", "rtsp://cam/v"},
+           {"rtsp://10.0.0.5/v@1", "rtsp://cam/v@1"},
+           {"http://cam/v", ""},
+           {"rtsp:", ""},
+           {"", ""}}) {
+    EXPECT_EQ(stream_address("http://cam:8080/d", stated), expected) << stated;
+  }
+  EXPECT_EQ(service_address("http://cam/d", "rtsp://cam/v"), "http://cam/d");
   EXPECT_THROW(check_address("http://u:p@cam/d"), std::invalid_argument);
   EXPECT_THROW(check_address("rtsp://cam/d"), std::invalid_argument);
   EXPECT_EQ(shown_address("http://cam:81/d?password=p"), "http://cam:81/...");

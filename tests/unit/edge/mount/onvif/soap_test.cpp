@@ -80,10 +80,18 @@ TEST(OnvifAnswer, WhatACameraCanDoIsRead) {
 TEST(OnvifAnswer, ProfilesServicesAndTheClockAreRead) {
   const auto read = profiles(envelope_of(
       "<GetProfilesResponse><Profiles token=\"a\"/><Profiles token=\"b\"><PTZConfiguration "
-      "token=\"c\"/></Profiles></GetProfilesResponse>"));
+      "token=\"c\"/><VideoEncoderConfiguration><Encoding>H264</Encoding><Resolution><Width>1280</"
+      "Width>"
+      "<Height>720</Height></Resolution></VideoEncoderConfiguration></Profiles>"
+      "</GetProfilesResponse>"));
   ASSERT_EQ(read.size(), 2u);
   EXPECT_EQ(read[0].configuration, "");
   EXPECT_EQ(read[1].configuration, "c");
+  EXPECT_EQ(read[1].encoding + std::to_string(read[1].width_px + read[1].height_px), "H2642000");
+  EXPECT_EQ(read[1].frame_rate_hz + read[0].width_px, 0.0);
+  EXPECT_EQ(stream_uri(envelope_of("<GetStreamUriResponse><MediaUri><Uri>rtsp://h/v</Uri>"
+                                   "</MediaUri></GetStreamUriResponse>")),
+            "rtsp://h/v");
   EXPECT_EQ(services(envelope_of("<GetCapabilitiesResponse><Capabilities><PTZ><XAddr> http://h/p "
                                  "</XAddr></PTZ></Capabilities></GetCapabilitiesResponse>"))
                 .ptz,
