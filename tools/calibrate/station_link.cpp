@@ -21,7 +21,7 @@
 namespace ols::calibration {
 namespace {
 
-constexpr double kCommandLease_s = 2.0, kFrameLease_s = 4.0;
+constexpr double kCommandLease_s = 2.0, kFrameLease_s = 4.0, kRateLease_s = 0.3;
 constexpr double kTolerance_rad = 2e-4;  // some counts of a unit
 constexpr double kNear_rad = 2e-3;       // a quarter of the run-up before an approach
 constexpr double kStill_s = 0.1;         // no ringing of the tripod afterwards
@@ -153,6 +153,15 @@ void StationLink::point() {
   pointed_sequence_ = command(ols_msg::ptu_command_t::COMMAND_POINT, awaited_.at());
 }
 
+void StationLink::turn_at(const PanTilt& rate_rad_s) {
+  ols_msg::ptu_command_t message;
+  address(message, kRateLease_s);
+  message.command = ols_msg::ptu_command_t::COMMAND_RATE;
+  message.pan_rate_rad_s = rate_rad_s.pan_rad;
+  message.tilt_rate_rad_s = rate_rad_s.tilt_rad;
+  bus_.publish(station_channel(kPtuChannel, station_), message);
+}
+
 bool StationLink::release() {
   if (!hold_.has_pointed()) return false;
   status(kReliedOn_s);
@@ -170,11 +179,11 @@ void StationLink::ask_frame(Arrival arrival, bool lossless) {
   ols_msg::frame_request_t message;
   address(message, kFrameLease_s);
   const bool stands = arrival == Arrival::kStands;
-  message.at_angles = 1;
+  message.at_angles = stands || arrival == Arrival::kPasses ? 1 : 0;
   message.pan_rad = awaited_.at().pan_rad;
   message.tilt_rad = awaited_.at().tilt_rad;
   message.tolerance_rad = stands ? kTolerance_rad : kNear_rad;
-  message.still_s = stands ? kStill_s : 0.0;
+  message.still_s = stands || arrival == Arrival::kRests ? kStill_s : 0.0;
   message.encoding =
       lossless ? ols_msg::frame_request_t::ENCODING_PNG : ols_msg::frame_request_t::ENCODING_JPEG;
   awaited_.asked(message.sequence);

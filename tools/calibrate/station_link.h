@@ -32,8 +32,9 @@ struct FrameFile {
   bool lossless = true;
 };
 
-// kPasses: passing near the place is enough; the unit need not stand.
-enum class Arrival { kStands, kPasses };
+// kPasses: passing near the place is enough; the unit need not stand. kRests: it stands, wherever.
+// kAnywhere: whatever it does.
+enum class Arrival { kStands, kPasses, kRests, kAnywhere };
 
 class StationLink {
  public:
@@ -58,6 +59,9 @@ class StationLink {
   void set_out(const PanTilt& angles);
   // Turns the unit to the place of the last set_out(). Call only if may_point().
   void point();
+  // Turns the unit at these rates for a moment; to go on, call it again within 0.3 s. The link must
+  // have pointed the unit before.
+  void turn_at(const PanTilt& rate_rad_s);
   // Why the station refused to turn there, in words; empty: it has not refused.
   const std::string& refusal() const { return refusal_; }
   // Releases the unit, if this link has pointed it and a fresh status still shows manual operation.

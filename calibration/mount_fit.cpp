@@ -1,0 +1,108 @@
+#include "calibration/mount_fit.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+namespace ols::calibration {
+namespace {
+
+using Eigen::Matrix4d;
+using Eigen::Vector4d;
+
+constexpr double kLeastSd_rad = 2e-5;  // of a position beside a picture
+constexpr double kStray = 4.0;         // 1-sigmas
+constexpr int kRounds = 20, kLeastRests = 5, kLeastMoves = 6;
+enum Unknown { kZero, kGain, kBacklash, kLag };  // kLag: gain * delay
+
+struct Solution {
+  Vector4d x = Vector4d::Zero();
+  Matrix4d covariance = Matrix4d::Zero();
+  double rest_sd_rad = 1e-3, move_sd_rad = 1e-2;
+};
+
+Vector4d row_of(const MountReading& r) {
+  return {1.0, r.reported_rad, 0.5 * r.approach, r.rate_rad_s};
+}
+
+double residual(const MountReading& r, const Vector4d& x) { return r.seen_rad - row_of(r).dot(x); }
+
+// Robust 1-sigma of the residuals of one kind.
+double scatter(const std::vector<MountReading>& readings, const Vector4d& x, bool moves) {
+  std::vector<double> sizes;
+  for (const MountReading& r : readings) {
+    if (r.moves == moves) sizes.push_back(std::abs(residual(r, x)));
+  }
+  if (sizes.empty()) return kLeastSd_rad;
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::ranges::nth_element(sizes, middle);
+  return std::max(1.4826 * *middle, kLeastSd_rad);
+}
+
+// `robust`: by Huber's weights for the present solution.
+void solve(const std::vector<MountReading>& readings, bool both_sides, bool robust, Solution& s) {
+  constexpr double kHuber = 1.5;  // 1-sigmas
+  Matrix4d N = Matrix4d::Zero();
+  Vector4d b = Vector4d::Zero();
+  if (!both_sides) N(kBacklash, kBacklash) = 1e20;
+  for (const MountReading& r : readings) {
+    const double sd = r.moves ? s.move_sd_rad : s.rest_sd_rad;
+    const double off = std::abs(residual(r, s.x)) / sd;
+    const double weight = (robust && off > kHuber ? kHuber / off : 1.0) / (sd * sd);
+    const Vector4d row = row_of(r);
+    N += weight * row * row.transpose();
+    b += weight * row * r.seen_rad;
+  }
+  s.covariance = N.completeOrthogonalDecomposition().pseudoInverse();
+  s.x = N.completeOrthogonalDecomposition().solve(b);
+}
+
+// Also the deviations, from the residuals.
+void settle(const std::vector<MountReading>& readings, bool both_sides, Solution& s) {
+  for (int round = 0; round < kRounds; ++round) {
+    solve(readings, both_sides, round > 0, s);
+    s.rest_sd_rad = scatter(readings, s.x, false);
+    s.move_sd_rad = scatter(readings, s.x, true);
+  }
+}
+
+int count(const std::vector<MountReading>& readings, bool moves) {
+  return static_cast<int>(std::ranges::count(readings, moves, &MountReading::moves));
+}
+
+Measured measured(const Solution& s, Unknown of) {
+  return {s.x(of), std::sqrt(s.covariance(of, of))};
+}
+
+}  // namespace
+
+std::optional<MountFit> fit_mount(std::vector<MountReading> readings) {
+  if (count(readings, false) < kLeastRests || count(readings, true) < kLeastMoves)
+    return std::nullopt;
+  const auto [least, most] = std::ranges::minmax(readings, {}, &MountReading::reported_rad);
+  if (most.reported_rad - least.reported_rad < 1e-3) return std::nullopt;
+  const auto from = [&](int side) {
+    return std::ranges::any_of(readings, [side](const auto& r) { return r.approach * side > 0; });
+  };
+  const bool both_sides = from(1) && from(-1);
+  Solution s;
+  settle(readings, both_sides, s);
+  std::erase_if(readings, [&](const MountReading& r) {
+    return std::abs(residual(r, s.x)) > kStray * (r.moves ? s.move_sd_rad : s.rest_sd_rad);
+  });
+  settle(readings, both_sides, s);
+  solve(readings, both_sides, false, s);
+  MountFit fit;
+  fit.rests = count(readings, false);
+  fit.moves = count(readings, true);
+  fit.gain = measured(s, kGain);
+  if (fit.rests < kLeastRests || fit.moves < kLeastMoves || fit.gain.value == 0.0)
+    return std::nullopt;
+  if (both_sides) fit.backlash_rad = measured(s, kBacklash);
+  const Measured lag = measured(s, kLag);
+  fit.delay_s = {lag.value / fit.gain.value, lag.sd / std::abs(fit.gain.value)};
+  fit.position_sd_rad = s.rest_sd_rad;
+  return fit;
+}
+
+}  // namespace ols::calibration

@@ -1,0 +1,157 @@
+#include "tools/calibrate/mount_command.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "base/files/atomic_file.h"
+#include "base/files/small_file.h"
+#include "base/process/shutdown.h"
+#include "base/trust/trust_options.h"
+#include "geometry/angles.h"
+#include "tools/calibrate/command_report.h"
+#include "tools/calibrate/mount_run.h"
+#include "tools/setup/flat_toml.h"
+#include "tools/setup/kept_file.h"
+
+namespace ols::calibration {
+namespace {
+
+constexpr std::size_t kLargestConfig = 1'000'000;
+
+std::string said(const std::string& axis, const AxisResult& of) {
+  if (!of.fit && of.pictures == 0) return axis + ": too little travel to measure it";
+  if (!of.fit)
+    return fmt::format(
+        "{}: the scenery of {} of {} pictures is found again, too few: turn to something that "
+        "stands still and has structure",
+        axis, of.found, of.pictures);
+  const MountFit& fit = *of.fit;
+  return fmt::format(
+      "{}: gain {:.4f} +- {:.4f}, positions {:.0f} +- {:.0f} ms later than configured, backlash "
+      "{:.3f} +- {:.3f} deg, positions +- {:.3f} deg ({} pictures at rest, {} in motion)",
+      axis, fit.gain.value, fit.gain.sd, 1e3 * fit.delay_s.value, 1e3 * fit.delay_s.sd,
+      degrees(fit.backlash_rad.value), degrees(fit.backlash_rad.sd), degrees(fit.position_sd_rad),
+      fit.rests, fit.moves);
+}
+
+double number_in(const setup::Values& values, const std::string& key, double otherwise) {
+  const std::string* text = setup::find(values, key);
+  return text == nullptr ? otherwise : std::stod(*text);
+}
+
+void set(setup::Values& values, const std::string& key, double number) {
+  const std::string text = fmt::format("{:.6g}", number);
+  for (auto& [known, value] : values) {
+    if (known == key) {
+      value = text;
+      return;
+    }
+  }
+  values.emplace_back(key, text);
+}
+
+// Both axes are reported at once, so they have one delay.
+Measured common_delay(const std::vector<const MountFit*>& fits) {
+  double weights = 0.0, sum = 0.0, apart = 0.0;
+  for (const MountFit* fit : fits) {
+    const double weight = 1.0 / (fit->delay_s.sd * fit->delay_s.sd);
+    weights += weight;
+    sum += weight * fit->delay_s.value;
+  }
+  const double mean = sum / weights;
+  for (const MountFit* fit : fits) apart = std::max(apart, std::abs(fit->delay_s.value - mean));
+  return {mean, std::hypot(std::sqrt(1.0 / weights), apart)};
+}
+
+// A camera that counts the other way turns the other way, too.
+void set_axis(setup::Values& values, const std::string& axis, const MountFit& fit) {
+  const std::string gain = "mount." + axis + "_gain_deg", speed = "mount." + axis + "_speed_deg_s";
+  set(values, gain, number_in(values, gain, 1.0) * fit.gain.value);
+  if (fit.gain.value < 0.0) set(values, speed, -number_in(values, speed, 1.0));
+}
+
+setup::Values corrected(setup::Values values, const MountResult& result) {
+  constexpr double kDelay_s = 0.05, kLeastSd_s = 1e-3, kLeastSd_deg = 1e-3;  // of a configuration
+  std::vector<const MountFit*> fits;
+  double position_sd_rad = 0.0;
+  for (const auto& [axis, of] : {std::pair{"pan", &result.pan}, std::pair{"tilt", &result.tilt}}) {
+    const auto& fit = of->fit;
+    if (!fit) continue;
+    fits.push_back(&*fit);
+    set_axis(values, axis, *fit);
+    // What comes of backlash, an error of half of it to either side, is not told from noise.
+    position_sd_rad =
+        std::max(position_sd_rad, std::hypot(fit->position_sd_rad, 0.5 * fit->backlash_rad.value));
+  }
+  const Measured delay = common_delay(fits);
+  set(values, "mount.delay_s",
+      std::max(0.0, number_in(values, "mount.delay_s", kDelay_s) + delay.value));
+  set(values, "mount.delay_sd_s", std::max(delay.sd, kLeastSd_s));
+  set(values, "mount.position_sd_deg", std::max(degrees(position_sd_rad), kLeastSd_deg));
+  return values;
+}
+
+void write_into(const std::string& path, const std::string& text, const setup::Values& before,
+                const setup::Values& now) {
+  const auto rewritten = setup::rewrite(text, setup::as_toml(before), setup::as_toml(now));
+  if (!rewritten.text) throw std::runtime_error(path + ": " + rewritten.note);
+  AtomicFile file(path);
+  file.stream() << *rewritten.text;
+  file.commit();
+  std::printf("%s: written; restart the station\n", path.c_str());
+}
+
+}  // namespace
+
+CLI::App* add_mount(CLI::App& app, MountOptions& o) {
+  CLI::App* mount = app.add_subcommand(
+      "mount",
+      "Gain, sign, delay, backlash and scatter of an ONVIF camera's position reports, by its own "
+      "pictures: turns it a little to all sides. Turn it to still scenery before.");
+  mount
+      ->add_option("--station", o.station,
+                   "its configuration, or its name: NAME is /etc/ols/NAME.toml")
+      ->required();
+  mount->add_option(
+      "--state", o.state_folder,
+      "folder of its calibrations; else calibrations/ID in the configured state_folder");
+  mount->add_option("--lcm-url", o.lcm_url, "bus of the site; else the station's")
+      ->envname("LCM_DEFAULT_URL");
+  trust::add_trust_options(*mount, o.trust);
+  mount->add_flag("--write", o.write, "change [mount] of the station's configuration");
+  return mount;
+}
+
+int run_mount(const MountOptions& o) {
+  install_shutdown_handler();
+  ProcedureOptions options;
+  options.name = "mount";
+  options.station = o.station;
+  options.state_folder = o.state_folder;
+  const StationFiles station = read_station(options);
+  const std::string text = read_small_file(station.config, kLargestConfig);
+  const setup::Values before = setup::flat(text);
+  const std::string* kind = setup::find(before, "mount.kind");
+  if (kind == nullptr || setup::text_in(*kind) != "onvif")
+    throw std::invalid_argument(station.config + ": [mount] is not of the kind \"onvif\"");
+  LcmBus bus(o.lcm_url.empty() ? station.settings.lcm_url : o.lcm_url,
+             StationLink::open_trust(o.trust));
+  const MountResult result = MountRun(station, bus).measure();
+  std::printf("%s\n%s\n", said("pan", result.pan).c_str(), said("tilt", result.tilt).c_str());
+  std::fflush(stdout);
+  if (!result.pan.fit && !result.tilt.fit) throw std::runtime_error("nothing could be measured");
+  const setup::Values now = corrected(before, result);
+  for (const auto& [key, value] : now) {
+    const std::string* old = setup::find(before, key);
+    if (old == nullptr || *old != value)
+      std::printf("%s = %s (was %s)\n", key.c_str(), value.c_str(),
+                  old == nullptr ? "not stated" : old->c_str());
+  }
+  if (o.write) write_into(station.config, text, before, now);
+  return result.pan.fit && result.tilt.fit ? 0 : kExitLookAtIt;
+}
+
+}  // namespace ols::calibration
