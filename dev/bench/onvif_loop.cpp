@@ -1,0 +1,307 @@
+// ols-bench-onvif: what drives an ONVIF camera against the simulated one, in simulated time, by
+// their SOAP texts: how far it lags behind a target, whether the errors of its angles are as
+// stated, and when it is at rest after an emergency, a cut link, a station's end.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <optional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "dev/bench/program.h"
+#include "edge/mount/angle_history.h"
+#include "edge/mount/onvif/onvif_kind.h"
+#include "geometry/angles.h"
+#include "sim/onvif/device.h"
+#include "sim/onvif/ptz_scale.h"
+
+namespace {
+
+using namespace ols;
+using onvif::Act;
+
+constexpr double kTurn_s = 0.005, kTimeout_s = 2.0, kReconnect_s = 0.2;
+constexpr std::int64_t kStart_us = 1'800'000'000'000'000;
+
+struct Wire {
+  double least_s = 0.005, most_s = 0.03;  // of each way
+  bool cut = false;
+};
+
+// The configuration that a data sheet gives.
+onvif::DriveConfig drive_config(const sim::PtzUnitConfig& unit) {
+  const auto scale = [&unit](int axis) {
+    const double zero = sim::angle_rad(axis, 0.0, unit);
+    return onvif::AxisScale{zero, sim::angle_rad(axis, 1.0, unit) - zero,
+                            sim::full_speed_rad_s(axis, unit)};
+  };
+  onvif::DriveConfig config;
+  config.pan = scale(0);
+  config.tilt = scale(1);
+  return config;
+}
+
+class Loop {
+ public:
+  Loop(const sim::OnvifConfig& device, const onvif::DriveConfig& drive, std::uint64_t seed)
+      : device_config_(device),
+        drive_config_(drive),
+        device_(device, seed, 0.0),
+        drive_(drive),
+        history_(history_config(drive)),
+        random_(seed) {
+    connect();
+  }
+
+  using GoalAt = std::function<std::optional<mount::Goal>(double)>;
+  // `each`: after each turn of 5 ms.
+  void run(double seconds, const GoalAt& goal_at, const std::function<void()>& each = {}) {
+    for (const double end_s = now_s_ + seconds; now_s_ < end_s; now_s_ += kTurn_s) {
+      if (station_lives) turn(goal_at);
+      if (each) each();
+    }
+  }
+  double now_s() const { return now_s_; }
+  PanTilt truth(double time_s) const { return device_.angles_at(time_s); }
+  bool turns() const {
+    const PanTilt then = truth(now_s_ - kTurn_s), now = truth(now_s_);
+    return std::abs(now.pan_rad - then.pan_rad) + std::abs(now.tilt_rad - then.tilt_rad) > 0.0;
+  }
+  const mount::AngleHistory& history() const { return history_; }
+  onvif::Drive& drive() { return drive_; }
+  void set_faults(const sim::PtzFaults& faults) {
+    device_.set_faults(faults, std::max(now_s_, device_s_));
+  }
+
+  Wire wire;
+  bool station_lives = true;
+
+ private:
+  static mount::AngleHistory::Config history_config(const onvif::DriveConfig& drive) {
+    onvif::OnvifKind kind;
+    kind.onvif.drive = drive;
+    return kind.traits().angles;
+  }
+  double way_s() { return std::uniform_real_distribution(wire.least_s, wire.most_s)(random_); }
+  std::string ask(const onvif::Request& request) {
+    const std::int64_t utime_us = kStart_us + std::llround(1e6 * device_s_);
+    onvif::Token token{{device_config_.user, device_config_.password},
+                       fmt::format("{:016}", ++nonce_),
+                       utime_us / 1'000'000};
+    const auto answer =
+        device_.answer({"POST", "/", "", onvif::envelope(request, token)}, device_s_, utime_us);
+    return answer ? answer->body : "";
+  }
+  void connect() {
+    device_s_ = std::max(device_s_, now_s_);
+    drive_.connected(onvif::options(ask(onvif::get_options("motion"))));
+  }
+  onvif::Request request_of(const onvif::Order& order) const {
+    if (order.act == Act::kStop) return onvif::stop("main");
+    if (order.act == Act::kVelocity)
+      return onvif::continuous_move("main", order.vector, drive_config_.lease_s);
+    if (order.act == Act::kAbsolute) return onvif::absolute_move("main", order.vector);
+    return onvif::get_status("main");
+  }
+  void turn(const GoalAt& goal_at) {
+    drive_.set_goal(goal_at ? goal_at(now_s_) : std::nullopt);
+    if (now_s_ < again_s_) return;
+    if (pending_) finish();
+    if (lost_) {
+      if (wire.cut) return;
+      lost_ = false;
+      connect();
+    }
+    const onvif::Order order = drive_.next(now_s_);
+    if (order.act != Act::kWait) send(order);
+  }
+  void send(const onvif::Order& order) {
+    pending_ = order;
+    sent_s_ = now_s_;
+    answer_.clear();
+    again_s_ = now_s_ + kTimeout_s;
+    if (wire.cut) return;
+    device_s_ = now_s_ + way_s();
+    answer_ = ask(request_of(order));
+    again_s_ = device_s_ + way_s();
+  }
+  void finish() {
+    const onvif::Order order = *pending_;
+    pending_.reset();
+    if (answer_.empty()) {
+      drive_.lost();
+      lost_ = true;
+      again_s_ = now_s_ + kReconnect_s;
+    } else if (order.act == Act::kStatus) {
+      drive_.take(onvif::status(answer_), sent_s_, again_s_);
+      for (const auto& sample : drive_.take_samples()) history_.add(sample);
+    } else {
+      drive_.done(order, now_s_);
+    }
+  }
+
+  const sim::OnvifConfig device_config_;
+  const onvif::DriveConfig drive_config_;
+  sim::OnvifDevice device_;
+  onvif::Drive drive_;
+  mount::AngleHistory history_;
+  std::mt19937_64 random_;
+  double now_s_ = 1.0, device_s_ = 1.0;  // the latter: of the last request's arrival
+  double sent_s_ = 0.0, again_s_ = 0.0;
+  std::optional<onvif::Order> pending_;
+  std::string answer_;
+  bool lost_ = false;
+  int nonce_ = 0;
+};
+
+// A target that passes at a constant speed.
+Loop::GoalAt passing(double rate_rad_s, double from_s) {
+  return [=](double now_s) {
+    const double pan_rad = radians(-60.0) + rate_rad_s * (now_s - from_s);
+    return mount::Goal{now_s, {pan_rad, radians(20.0)}, {rate_rad_s, 0.0}, now_s + 0.5};
+  };
+}
+
+struct Case {
+  const char* name;
+  sim::PtzFaults faults;
+  double delay_s = 0.0, delay_sd_s = 0.005;  // as configured
+};
+
+struct Following {
+  double lag_deg = 0.0, error_deg = 0.0, told_over_actual = 0.0, share = 0.0;
+};
+
+// Frames come 25 times a second, a tenth of a second late, and wait for the next position as the
+// station lets them.
+Following follow(const Case& c, double rate_deg_s, std::uint64_t seed) {
+  const sim::OnvifConfig device;
+  onvif::DriveConfig config = drive_config(device.unit);
+  config.positions.delay_s = c.delay_s;
+  config.positions.delay_sd_s = c.delay_sd_s;
+  config.positions.sd_rad = std::max(radians(0.01), radians(c.faults.step_deg) / std::sqrt(12.0));
+  Loop loop(device, config, seed);
+  loop.set_faults(c.faults);
+  constexpr double kSettle_s = 15.0, kLast_s = 20.0, kFrame_s = 0.04, kLater_s = 0.1 + 0.03;
+  const auto goal_at = passing(radians(rate_deg_s), loop.now_s() + kSettle_s - 5.0);
+  loop.run(kSettle_s, goal_at);
+  double lag2 = 0.0, error2 = 0.0, told2 = 0.0, frame_s = loop.now_s();
+  int frames = 0, known = 0;
+  loop.run(kLast_s, goal_at, [&] {
+    if (loop.now_s() < frame_s + kLater_s) return;
+    const PanTilt truth = loop.truth(frame_s);
+    const double behind_rad = goal_at(frame_s)->angles.pan_rad - truth.pan_rad;
+    lag2 += behind_rad * behind_rad;
+    ++frames;
+    if (const auto at = loop.history().at(frame_s)) {
+      const double error_rad = at->angles.pan_rad - truth.pan_rad;
+      error2 += error_rad * error_rad;
+      told2 += at->covariance(0, 0);
+      ++known;
+    }
+    frame_s += kFrame_s;
+  });
+  return {degrees(std::sqrt(lag2 / frames)), degrees(std::sqrt(error2 / known)),
+          std::sqrt(told2 / error2), static_cast<double>(known) / frames};
+}
+
+// From `event` until it stands; nullopt: it did not within a quarter of a minute.
+std::optional<double> rest_after(const sim::PtzFaults& faults, std::uint64_t seed,
+                                 const std::function<void(Loop&)>& event,
+                                 const std::function<void(Loop&)>& later = {}) {
+  const sim::OnvifConfig device;
+  Loop loop(device, drive_config(device.unit), seed);
+  loop.set_faults(faults);
+  const auto goal_at = passing(radians(2.0), loop.now_s());
+  loop.run(8.0, goal_at);
+  event(loop);
+  const double began_s = loop.now_s();
+  double last_s = began_s;
+  bool did_later = false;
+  loop.run(15.0, goal_at, [&] {
+    if (later && !did_later && loop.now_s() > began_s + 5.0) {
+      later(loop);
+      did_later = true;
+    }
+    if (loop.turns()) last_s = loop.now_s();
+  });
+  if (loop.turns()) return std::nullopt;
+  return last_s - began_s;
+}
+
+void say_rest(const char* name, const sim::PtzFaults& faults, int seeds,
+              const std::function<void(Loop&)>& event,
+              const std::function<void(Loop&)>& later = {}) {
+  double worst_s = 0.0;
+  int never = 0;
+  for (int seed = 1; seed <= seeds; ++seed) {
+    const auto rest_s = rest_after(faults, static_cast<std::uint64_t>(seed), event, later);
+    never += rest_s ? 0 : 1;
+    worst_s = std::max(worst_s, rest_s.value_or(0.0));
+  }
+  fmt::print("| {} | {} | {} of {} |\n", name,
+             never == seeds ? std::string("-") : fmt::format("{:.2f}", worst_s), never, seeds);
+}
+
+double rms(const std::vector<double>& values) {
+  double sum = 0.0;
+  for (const double value : values) sum += value * value;
+  return std::sqrt(sum / static_cast<double>(values.size()));
+}
+
+void say_following(double rate_deg_s, int seeds) {
+  fmt::print("Following {} deg/s, RMS over 20 s and {} seeds:\n\n", rate_deg_s, seeds);
+  fmt::print("| camera | lag [deg] | error of angles [deg] | told over actual | frames |\n");
+  fmt::print("|---|---|---|---|---|\n");
+  for (const Case& c :
+       {Case{"exact", {}}, Case{"positions 0.3 s late", {.late_s = 0.3}, 0.3},
+        Case{"in steps of 0.1 deg", {.step_deg = 0.1}},
+        Case{"in steps of 0.5 deg, 0.2 s late", {.late_s = 0.2, .step_deg = 0.5}, 0.2}}) {
+    std::vector<double> lag, error, told, share;
+    for (int seed = 1; seed <= seeds; ++seed) {
+      const Following f = follow(c, rate_deg_s, static_cast<std::uint64_t>(seed));
+      lag.push_back(f.lag_deg);
+      error.push_back(f.error_deg);
+      told.push_back(f.told_over_actual);
+      share.push_back(f.share);
+    }
+    fmt::print("| {} | {:.3f} | {:.3f} | {:.2f} | {:.0f} % |\n", c.name, rms(lag), rms(error),
+               rms(told), 100.0 * rms(share));
+  }
+}
+
+void say_rests(int seeds) {
+  const sim::PtzFaults good, deaf{.ignores_timeout = true};
+  const auto cut = [](Loop& loop) { loop.wire.cut = true; };
+  const auto mend = [](Loop& loop) { loop.wire.cut = false; };
+  const auto kill = [](Loop& loop) { loop.station_lives = false; };
+  const auto emergency = [](Loop& loop) { loop.drive().emergency_halt(); };
+  fmt::print("\nAt rest after it, worst [s]:\n\n| event | rest [s] | never |\n|---|---|---|\n");
+  say_rest("emergency", good, seeds, emergency);
+  say_rest("emergency; ignores time-outs", deaf, seeds, emergency);
+  say_rest("link cut", good, seeds, cut);
+  say_rest(
+      "link cut for 5 s and back, emergency; ignores time-outs", deaf, seeds,
+      [](Loop& loop) { loop.wire.cut = true, loop.drive().emergency_halt(); }, mend);
+  say_rest("station killed", good, seeds, kill);
+  say_rest("station killed; ignores time-outs", deaf, seeds, kill);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"An ONVIF camera that is simulated, in simulated time: following, coming to rest",
+               "ols-bench-onvif"};
+  int seeds = 5;
+  double rate_deg_s = 5.0;
+  app.add_option("--seeds", seeds, "runs of each row")->check(CLI::Range(1, 1000));
+  app.add_option("--rate", rate_deg_s, "of the target [deg/s]")->check(CLI::Range(0.1, 6.0));
+  return ols::bench::run_program(app, argc, argv, [&] {
+    say_following(rate_deg_s, seeds);
+    say_rests(seeds);
+  });
+}
