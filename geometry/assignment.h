@@ -8,7 +8,7 @@ namespace ols {
 
 // Gives each row at most one column, and each column to at most one row, so that the sum of costs
 // is least. A row without a column costs `unassigned`. An infinite cost forbids a pair. Returns the
-// column of each row; -1 for a row without a column. Costs must not be negative. The Hungarian
+// column of each row; -1 for a row without a column. Costs must not be negative. Uses the Hungarian
 // method with potentials; the time grows with rows^2 (rows + columns).
 std::vector<int> assign(const Eigen::MatrixXd& cost, double unassigned);
 

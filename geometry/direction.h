@@ -1,9 +1,9 @@
 // Directions in a local east-north-up frame, and their tangent plane.
 //
 // Azimuth is clockwise from true north, elevation above the local horizontal plane. Small errors of
-// a direction are given on its tangent plane. The plane's axes (cross-elevation, elevation) are the
-// unit vectors of growing azimuth and of growing elevation. Cross-elevation is azimuth times
-// cos(elevation).
+// a direction are given on the tangent plane at that direction. The plane's axes (cross-elevation,
+// elevation) are the unit vectors of growing azimuth and of growing elevation. Cross-elevation is
+// azimuth times cos(elevation).
 #pragma once
 
 #include <Eigen/Core>
@@ -26,8 +26,8 @@ AzimuthElevation azimuth_elevation_from_enu(const Eigen::Vector3d& v_enu);
 // direction and to each other.
 Eigen::Matrix<double, 3, 2> tangent_basis(const AzimuthElevation& direction);
 
-// 2x3: how a small rotation vector [rad] moves a direction on its tangent plane. The rotation
-// vector is in the frame in which `tangent` is given.
+// 2x3: the shift of a direction on its tangent plane that a small rotation vector [rad] causes. The
+// rotation vector is in the frame in which `tangent` is given.
 Eigen::Matrix<double, 2, 3> shift_by_rotation(const Eigen::Matrix<double, 3, 2>& tangent);
 
 // Angle between two vectors [rad]; exact for tiny angles too.

@@ -8,8 +8,9 @@
 //   fisheye      radius theta (1 + k1 theta^2 + k2 theta^4 + k3 theta^6 + k4 theta^8): OpenCV's
 //   polynomial   radius theta (1 + k1 theta + k2 theta^2 + k3 theta^3 + k4 theta^4)
 //
-// Each model ends where its radius stops growing; beyond that, far directions would get the pixels
-// of near ones. The two radial models extend behind the camera, up to theta = 180 degrees.
+// Each model ends where its radius stops growing: beyond that, directions farther from the axis
+// would get the pixels of nearer ones. The two radial models extend behind the camera, up to theta
+// = 180 degrees.
 #pragma once
 
 #include <Eigen/Core>

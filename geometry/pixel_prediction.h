@@ -19,8 +19,8 @@ struct HomogeneousPoint {
 struct PixelPrediction {
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
   // Derivatives with respect to the parameters, in the order of Parameter. The derivatives with
-  // respect to the position hold for a target that stays in place. They neglect the rotation of the
-  // horizon (0.03 arc seconds per metre).
+  // respect to the position hold for a target that stays in place. They neglect that the horizon
+  // turns as the station moves (0.03 arc seconds per metre).
   Eigen::Matrix<double, 2, kModelParameters> by_parameters;
   Eigen::Matrix2d by_shafts;  // [px/rad] with respect to pan and tilt
   Eigen::Matrix<double, 2, 3> by_x;

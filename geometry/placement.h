@@ -2,13 +2,12 @@
 // deterministic for a given generator.
 //
 // The value of a place is its information about each point of the area that it sees
-// (geometry/precision.h). A choice is better if it leaves fewer points undetermined. Among choices
-// that are equal in this, the one with the least cost is best. The cost is a 3-D position error
-// over the determined points: the root of its mean square, or its maximum. The search starts from
-// random choices. It improves each choice by exchanging one place at a time for the best other
-// place, until no exchange helps (V. Fedorov's exchange algorithm). If the worst point counts, it
-// first minimises a power mean of high order: where several points share the largest error, no
-// single exchange lowers the maximum.
+// (geometry/precision.h). The best choice leaves the fewest points undetermined; among equals, the
+// one with the least cost wins. The cost is the 3-D position error over the determined points: the
+// root of its mean square, or its maximum. The search starts from random choices. It improves each
+// choice by exchanging one place at a time for the best other place, until no exchange helps (V.
+// Fedorov's exchange algorithm). If the worst point counts, it first minimises a power mean of high
+// order: where several points share the largest error, no single exchange lowers the maximum.
 #pragma once
 
 #include <cstddef>
@@ -21,9 +20,9 @@
 
 namespace ols {
 
-// By default the worst point counts. Where stations may stand anywhere around the area, it gives
-// the paper's regular polygon on the edge. kMean gives the polygon only for four or more stations.
-// It puts three stations on one side of the area, at the expense of the far side.
+// By default the worst point counts. If stations may stand anywhere around the area, kWorst gives
+// the paper's regular polygon on the edge. kMean gives the polygon only for four or more stations;
+// three stations it puts on one side of the area, at the expense of the far side.
 enum class PlacementGoal { kMean, kWorst };
 
 struct PlacementProblem {
@@ -40,8 +39,8 @@ struct PlacementProblem {
 
 struct Placement {
   std::vector<std::size_t> chosen;  // indices into `places`, ascending
-  // Number of points that the stations do not determine to within_m. Points on which a station
-  // stands are not counted.
+  // Number of points that the stations do not determine to within_m. Points at the place of a
+  // station are not counted.
   std::size_t undetermined = 0;
   double mean_m = 0.0;   // root of the mean squared 3-D error over the other points
   double worst_m = 0.0;  // the largest root mean squared 3-D error of these points

@@ -1,14 +1,14 @@
-// How accurately N stations can know a position: the Cramer-Rao bound of one instant, before any
-// measurement. It is exact on the ellipsoid: each station has its own horizon, and distances are
-// unlimited.
+// How accurately N stations can determine a position: the Cramer-Rao bound for one instant, known
+// before any measurement. It is exact on the ellipsoid: each station has its own horizon, and
+// distances are unlimited.
 //
 // Each station measures the direction to the target on its tangent plane (geometry/direction.h).
-// Its errors are independent of those of other stations. A station's errors that are constant from
-// frame to frame are nuisance parameters with known deviations. With these marginalised, the
+// Its errors are independent of those of other stations. Errors of a station that are constant from
+// frame to frame are nuisance parameters with known deviations. After marginalising these, the
 // information about the position is the sum over stations of H' R^-1 H, where R is the covariance
-// of all errors of a station. Its inverse is the bound. (H. Van Trees, Detection, Estimation, and
-// Modulation Theory I, section 2.4.3: the bound with random nuisance parameters, for the linear
-// Gaussian case.)
+// of all errors of a station. The inverse of the information is the bound. (H. Van Trees,
+// Detection, Estimation, and Modulation Theory I, section 2.4.3: the bound with random nuisance
+// parameters, for the linear Gaussian case.)
 #pragma once
 
 #include <Eigen/Core>
@@ -54,8 +54,8 @@ struct PlannedStation {
   double white_rad = 0.0;  // 1-sigma of each axis of the tangent plane; independent in every frame
   // Constant errors; the roll about the optical axis has no effect on the axis.
   CalibrationSd calibration;
-  double clock_sd_s = 0.0;  // constant error; it acts like the target's motion in that time
-  // Whether the land leaves a point [m, ECEF] in sight; if empty, every point is in sight.
+  double clock_sd_s = 0.0;  // constant error; it acts like motion of the target during that time
+  // Whether a point [m, ECEF] is in sight of the station. If empty, the land hides nothing.
   std::function<bool(const Eigen::Vector3d& p_ecef)> sees = {};
 
   bool in_sight(const Eigen::Vector3d& p_ecef) const { return !sees || sees(p_ecef); }

@@ -1,5 +1,5 @@
-// The paper's precision theory (section 4.1): how far an error of p pixels displaces the position
-// of a target that two cameras see. Plane geometry; lengths in metres, angles in radians.
+// The paper's precision theory (section 4.1): the displacement of a target, seen by two cameras,
+// that an error of p pixels causes. Plane geometry; lengths in metres, angles in radians.
 //
 // Every error here is a worst case, not a standard deviation: the pixels are off by up to p. The
 // result is the largest distance from the truth that such an error can cause; infinity if it is
@@ -30,9 +30,9 @@ double canonical_stereo_error_m(const PixelError& error, double base_m, double d
 // paper prints arctan(r / f), which is p = 1.
 double rotating_pair_error_m(const PixelError& error, double base_m, double distance_m);
 
-// For errors of up to angle_rad in both cameras, in the plane of the cameras and the target: the
-// largest distance from the target at which the two rays can meet. The possible intersections fill
-// the overlap of two wedges. It is convex, so the farthest point is a corner.
+// The largest distance from the target at which the two rays can meet, for errors of up to
+// angle_rad in both cameras, in the plane of the cameras and the target. The possible intersections
+// fill the overlap of two wedges. The overlap is convex, so the farthest point is a corner.
 double pair_error_m(const Eigen::Vector3d& first, const Eigen::Vector3d& second,
                     const Eigen::Vector3d& target, double angle_rad);
 
@@ -52,11 +52,11 @@ double normal_component(const Baseline& baseline, const Eigen::Vector3d& target)
 std::size_t best_baseline(std::span<const Baseline> baselines, const Eigen::Vector3d& target);
 
 // The target of a row of the paper's Table 1, in the plane (x along the base, y across it),
-// relative to the base's centre. The paper says neither from where it measures the distance, nor on
-// which side of the base's normal the target is. side 0: the distance is from the centre of the
-// base. Otherwise the distance is from the first camera (at x = -base/2), and the target is on that
-// camera's side (-1) or on the other (+1). alpha_rad: the angle at the base's centre, from its
-// normal.
+// relative to the base's centre. The paper does not say from where the distance is measured, nor on
+// which side of the base's normal the target is. `side` 0: the distance is from the centre of the
+// base. Otherwise the distance is from the first camera (at x = -base/2), and the target is on the
+// side of that camera (-1) or on the other side (+1). alpha_rad: the angle at the base's centre,
+// from its normal.
 Eigen::Vector3d table_target(double base_m, double distance_m, double alpha_rad, int side);
 
 }  // namespace ols

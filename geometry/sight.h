@@ -1,4 +1,4 @@
-// Computes the line of sight and its covariance from a pixel and the PTU angles, and the inverse.
+// Computes the line of sight and its covariance from a pixel and the PTU angles; also the inverse.
 #pragma once
 
 #include <Eigen/Core>

@@ -10,7 +10,7 @@ inline constexpr double kSlewRateLimit_rad_s = 1.5;  // about each axis
 // Largest time between the present and the effect of a slew, in either direction.
 inline constexpr double kSlewLead_s = 1.0;
 
-// For how long a prediction of what the land hides may hold.
+// The longest time for which a prediction of what the land hides may hold.
 inline constexpr double kOcclusionHolds_s = 15.0;
 
 // The largest pan and tilt, either way, as the PTU counts them. More than this is a typing error:

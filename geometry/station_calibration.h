@@ -1,5 +1,5 @@
-// A station whose parameters come from an adjustment: sight() with the full covariance of the
-// parameters, and its inverse. docs/calibration.md.
+// A station whose parameters come from an adjustment (docs/calibration.md): sight() with the full
+// covariance of the parameters, and the inverse of sight().
 #pragma once
 
 #include <Eigen/Core>
@@ -29,7 +29,7 @@ struct CountedSight {
 };
 
 // J C J' on the tangent plane (cross-elevation, elevation) [rad^2]: the covariance of a pixel's
-// direction that the errors of all parameters cause. nullopt when the pixel cannot be unprojected.
+// direction due to the errors of all parameters. nullopt when the pixel cannot be unprojected.
 std::optional<Eigen::Matrix2d> systematic_covariance(const StationCalibration& calibration,
                                                      const UnitReading& reading,
                                                      const Eigen::Vector2d& pixel);

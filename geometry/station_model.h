@@ -6,11 +6,11 @@
 //   theta = s q n + zero + sum_k (A_k cos k theta + B_k sin k theta)
 //           + W_c cos(m theta) + W_s sin(m theta) + b d / 2
 //
-// n: counts at the exposure. q: 2 pi over the counts of a turn (exact: the resolution that a unit
-// prints is rounded). s: the axis' sign. k = 1, 2: eccentricity of the worm wheel and of the axis.
-// m: number of teeth of the worm wheel; the worm makes one turn for each. b: backlash. d = 1 or -1:
-// sign of the last motion in counts. The harmonic terms use s q n + zero in place of theta. The
-// worm wheel is a closed circle, so there is no error of scale.
+// n: counts at the exposure. q: 2 pi divided by the counts of a turn (exact, unlike the rounded
+// resolution that a unit prints). s: the axis' sign. k = 1, 2: eccentricity of the worm wheel and
+// of the axis. m: number of teeth of the worm wheel; the worm makes one turn for each tooth. b:
+// backlash. d = 1 or -1: sign of the last motion in counts. In the harmonic terms, s q n + zero
+// replaces theta. The worm wheel is a closed circle, so there is no error of scale.
 #pragma once
 
 #include <Eigen/Core>
@@ -94,8 +94,8 @@ struct ShaftAngle {
 ShaftAngle shaft_angle(const AxisModel& axis, int sign, double zero_rad, const AxisReading& reading,
                        double exposure_offset_s);
 
-// The angles that an ideal unit would report if its shafts had the same angles. They serve sight(),
-// view() and the chain.
+// The angles that an ideal unit would report with its shafts at the same angles. Pass them to
+// sight(), view() and the kinematic chain, which assume an ideal unit.
 PanTilt corrected_angles(const StationModel& model, const UnitReading& reading);
 
 // The model with `by` added to its parameters. Tilts and heading then refer to the horizon at the

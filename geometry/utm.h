@@ -1,5 +1,5 @@
-// Universal Transverse Mercator, the coordinates of land registers and surveyors. By GeographicLib
-// (C. Karney).
+// Universal Transverse Mercator: the coordinates used by land registers and surveyors. By
+// GeographicLib (C. Karney).
 //
 // Grid north is not true north: a grid bearing plus the convergence is the true azimuth. A grid
 // distance is the true distance times the scale. Heights in land registers are usually above mean

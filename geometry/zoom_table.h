@@ -25,10 +25,10 @@ class ZoomTable {
   explicit ZoomTable(std::vector<ZoomPoint> points);
 
   // Between the points, the logarithm of the focal length and all other values are linear in the
-  // position. Each deviation is the larger one of the two neighbouring points'. The focal length's
-  // deviation also includes the curvature between the points (from the difference of the slopes on
-  // both sides) and the position's own 1-sigma. Outside the table, the values of the nearest point
-  // apply.
+  // position. Each deviation is the larger of those at the two neighbouring points. The focal
+  // length's deviation also includes the curvature between the points (from the difference of the
+  // slopes on both sides) and the 1-sigma of the position. Outside the table, the values of the
+  // nearest point apply.
   ZoomPoint at(double position, double position_sd) const;
 
   const std::vector<ZoomPoint>& points() const { return points_; }

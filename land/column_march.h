@@ -15,14 +15,15 @@ struct MarchSettings {
   double cell_per_distance = 0.0;
   double refraction_k = 0.0;
   double refraction_k_sd = 0.0;  // 1-sigma
-  // The surface is lowered by this at the camera, and by less and less up to kLowered_m away.
+  // The surface is lowered by this amount at the camera, and by less with growing distance, down to
+  // nothing at kLowered_m.
   double lowered_m = 0.0;
-  // A roof or tree-tops are above the camera: they are ignored up to their edge.
+  // The camera is below a roof or tree-tops; these are ignored up to their edge.
   bool covered = false;
 };
 
-// The distance over which an elevation model's error stays the same: some samples of the usual
-// models.
+// The distance over which the error of an elevation model stays about the same: some samples of the
+// usual models.
 inline constexpr double kLowered_m = 300.0;
 
 // Adds the azimuth's steps to `steps`. Returns the distance at which the surface ends or has its

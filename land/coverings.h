@@ -1,4 +1,4 @@
-// Buildings and woods: where they stand, and which of them cover a place.
+// The coverings of the land (buildings and woods), and which of them cover a place.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,8 +10,8 @@ namespace ols::land {
 
 enum class CoveringKind { kBuilding, kWood };
 
-// Polygons of (longitude, latitude) [rad], outlines and holes alike: a place is inside if an odd
-// number of rings contain it. A ring's last corner is joined to its first.
+// Polygons of (longitude, latitude) [rad]. Outlines and holes are not distinguished: a place is
+// inside if an odd number of rings contain it. A ring's last corner is joined to its first.
 struct Covering {
   CoveringKind kind = CoveringKind::kBuilding;
   std::vector<std::vector<Eigen::Vector2d>> rings;

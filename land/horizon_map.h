@@ -1,10 +1,9 @@
-// The part of the world that the land hides from a camera: for each azimuth a staircase of
-// (elevation, distance), the highest elevation of the land up to that distance.
+// What the land hides from a camera: for each azimuth a staircase of (elevation, distance), where
+// the elevation is the highest of the land up to that distance.
 //
-// Angles are apparent: in the east-north-up frame at the camera (geometry/direction.h), lifted by
-// terrestrial refraction, k d^2 / 2R. Points are converted from the surface's latitude, longitude
-// and height by exact WGS84 geometry. `distance_m` is horizontal in that frame; a range is measured
-// along a straight line.
+// Angles are apparent angles: in the east-north-up frame at the camera (geometry/direction.h),
+// lifted by terrestrial refraction, k d^2 / 2R. Points of the surface are converted by exact WGS84
+// geometry. `distance_m` is horizontal in that frame; a range is measured along the straight line.
 //
 // The land is sampled in cells. A cell is as long as the distance between neighbouring columns, and
 // at least `least_cell_m`; crests are refined within a cell. The staircase keeps distances to
@@ -42,22 +41,22 @@ struct HorizonMapConfig {
 struct Skyline {
   double elevation_rad = 0.0;
   double elevation_sd_rad = 0.0;  // 1-sigma, from the surface and the refraction
-  double distance_m = 0.0;        // of that crest, in the nearer of the two neighbouring columns
+  double distance_m = 0.0;        // of the crest, in the nearer of the two neighbouring columns
 };
 
 // Where a line of sight first meets the land.
 struct GroundHit {
   double range_m = 0.0;
   double elevation_sd_rad = 0.0;  // 1-sigma of the land there
-  // How much the land's elevation grows with range there [rad/m]; 0 on a crest. The range's 1-sigma
-  // is the combined 1-sigma of the land's and the sight's elevation, divided by this.
+  // The growth of the land's elevation with range there [rad/m]; 0 on a crest. The 1-sigma of the
+  // range is the combined 1-sigma of both elevations (land and sight) divided by this.
   double rise_rad_per_m = 0.0;
 };
 
 class HorizonMap {
  public:
-  // `camera`: the camera's centre. Throws std::invalid_argument if the surface does not know the
-  // ground at the camera, or has it above the camera by more than three of its sigmas.
+  // `camera`: the camera's centre. Throws std::invalid_argument if the ground at the camera is
+  // unknown, or is above the camera by more than three sigmas of the surface.
   HorizonMap(const Surface& surface, const Geodetic& camera, const HorizonMapConfig& config = {});
 
   // nullopt if the land in that direction is unknown.
@@ -66,15 +65,16 @@ class HorizonMap {
   std::optional<GroundHit> ground(const AzimuthElevation& sight) const;
   // Like skyline(), but only for land nearer than `distance_m`.
   std::optional<Skyline> highest_before(double azimuth_rad, double distance_m) const;
-  // The probability that the land does not hide a point. `covariance_ecef` [m^2] is the point's;
-  // the land's sigma is included. Unknown land hides nothing.
+  // The probability that the land does not hide a point. `covariance_ecef` [m^2] is that of the
+  // point; the land's sigma is added. Unknown land hides nothing.
   double visible_probability(const Eigen::Vector3d& p_ecef,
                              const Eigen::Matrix3d& covariance_ecef) const;
 
   // The horizontal distance at which the surface has a gap or ends [m]; reach_m if it has neither.
   double known_to_m(double azimuth_rad) const;
-  // How far the surface was lowered at the camera [m]. It is lowered if it has the camera less than
-  // kLeastAboveGround_m above the ground, within its own error.
+  // The amount by which the surface was lowered at the camera [m]. It is lowered if the camera
+  // would be less than kLeastAboveGround_m above the ground, and the surface's error can explain
+  // this.
   double lowered_m() const { return lowered_m_; }
   const Geodetic& camera() const { return frame_.origin(); }
   const HorizonMapConfig& config() const { return config_; }

@@ -8,8 +8,8 @@
 namespace ols::land {
 
 // The lowest height above the WGS84 ellipsoid [m] at which a point at this latitude and longitude
-// is visible from the map's camera. If the ground there is itself visible, this is the surface's
-// height, to within a fraction of the map's cells. nullopt if land in between is unknown.
+// is visible from the map's camera. If the ground there is visible, this is the surface's height,
+// to within a fraction of the map's cells. nullopt if land in between is unknown.
 std::optional<double> lowest_visible_m(const HorizonMap& map, double latitude_rad,
                                        double longitude_rad);
 

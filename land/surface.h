@@ -11,13 +11,13 @@ struct SurfaceHeight {
 };
 
 // The height of the land at a place. Implementations do not change after construction, so any
-// thread may ask.
+// thread may call them.
 class Surface {
  public:
   virtual ~Surface() = default;
   // The bare ground; nullopt if no model knows it.
   virtual std::optional<SurfaceHeight> ground(double latitude_rad, double longitude_rad) const = 0;
-  // The top of whatever stands at the place: the ground, a roof or the tree-tops.
+  // The top surface at the place: the ground, a roof or tree-tops.
   virtual std::optional<SurfaceHeight> top(double latitude_rad, double longitude_rad) const = 0;
 };
 

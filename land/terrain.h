@@ -23,8 +23,8 @@ struct HeightGrid {
 };
 
 // Heights are interpolated bilinearly within a grid, if all four neighbouring heights are known.
-// Where several grids know a place, the first one counts. A building's roof is level, tree-tops
-// follow the ground.
+// If several grids know a place, the first one counts. A building's roof is level; tree-tops follow
+// the ground.
 class Terrain : public Surface {
  public:
   // `memory` owns the memory of the grids' heights.

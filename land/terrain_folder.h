@@ -18,8 +18,8 @@ struct TerrainFolder {
   std::shared_ptr<const Terrain> terrain;
 };
 
-// Throws std::runtime_error naming the file and the reason: a file is missing, damaged, of the
-// wrong length or of another version.
+// Throws std::runtime_error with the file and the reason: it is missing, damaged, of the wrong
+// length or of another version.
 TerrainFolder read_terrain_folder(const std::string& path);
 
 // The folder that a configuration names in [land]; without one there is no terrain. Throws

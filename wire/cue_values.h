@@ -1,5 +1,5 @@
-// The valid values of a cue from outside. They are checked where the cue is read, and again by the
-// fusion when the cue arrives over the bus. Pure.
+// Checks the values of a cue from outside: once when the cue is read, and again in the fusion when
+// it arrives over the bus. Pure.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// The class of an object, in words.
+// The name of an object's class.
 #pragma once
 
 #include <cstdint>

@@ -25,8 +25,8 @@ enum class Kind {
   kLook
 };
 
-// Identifies an order: a random number drawn when the sender started, and the order's number since
-// then.
+// Identifies an order: a random number drawn at the sender's start, and a count of the sender's
+// orders since then.
 struct OrderId {
   std::int64_t boot_id = 0, sequence = 0;
   auto operator<=>(const OrderId&) const = default;
@@ -56,7 +56,8 @@ struct Order {
   std::string label = {};
 };
 
-// An operator's decision on a cue or target, for the fusion; or on everything that detectors find.
+// An operator's decision for the fusion: on a cue, on a target, or on everything that detectors
+// find.
 struct CueOrder {
   std::string cue;
   bool allow = false;
@@ -79,7 +80,7 @@ struct Reply {
 // How long a station obeys an order after its creation, and therefore how long the sender waits for
 // the answer.
 inline constexpr double kLease_s = 2.0;
-// Within this time every station sends a status: two status intervals.
+// Two status intervals: every station sends a status within this time.
 inline constexpr double kTwoIntervals_s = 1.2;
 // Interval at which a rate is repeated while the joystick is held. Two repetitions in a row may get
 // lost before the lease ends.

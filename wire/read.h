@@ -1,5 +1,5 @@
-// Reads a message of the bus. Only this file decides whether bytes are a whole message of this
-// schema, on the channel of its station. The callers judge the values.
+// Reads a message of the bus. This file alone decides whether the bytes are a complete message of
+// this schema, on the channel of its own station. The callers judge the values.
 #pragma once
 
 #include <concepts>
