@@ -1,4 +1,4 @@
-// How the air bends a line of sight over land.
+// The bending of a line of sight by the air over land.
 #pragma once
 
 namespace ols::land {

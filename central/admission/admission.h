@@ -23,7 +23,7 @@ struct AdmissionConfig {
   // When this number of stations is reached, a new one replaces the station that has been silent
   // longest, but never one that still delivers.
   int max_stations = 1024;
-  // A station that has been silent for longer does not count in the median "now".
+  // A station that has been silent for longer than this does not count in the median "now".
   double silence_s = Activity::kDeliversS;
   ClockMonitorConfig clocks{};
 };
@@ -34,7 +34,7 @@ struct Admitted {
   KnownStation* station = nullptr;       // the sender of an admitted bearing
   std::optional<std::string> evicted{};  // the station that was replaced
   bool recalibrated = false;             // the station has a new calibration_id
-  bool restarted = false;  // the station's process numbers its tracks from the start again
+  bool restarted = false;  // the station's process has restarted and numbers its tracks anew
 };
 
 class Admission {
@@ -46,8 +46,8 @@ class Admission {
   std::optional<std::string> know_station(const std::string& station, const StationTraits& traits,
                                           FusionLog& log);
   void allow_slews(const std::string& station, bool allowed);
-  // Notes that the station sees this target. If its detector sees several targets, the first of
-  // them counts until it is out of sight.
+  // Notes that the station sees this target. If its detector sees several targets, the first one
+  // counts until it is out of sight.
   void note_target(const BearingMeasurement& measurement, std::int64_t target_id);
   // Called when message time was reset: forgets every judgement that was based on the old time.
   void begin_time_line();

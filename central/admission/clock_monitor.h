@@ -1,16 +1,16 @@
-// Judges which stations' clocks are credible: from the error that each station states, and from its
-// stamps compared with the others'. Pure.
+// Judges which stations' clocks are credible, by two measures: the error that a station states, and
+// the offset of its stamps from those of the other stations. Pure.
 //
 // The fusion does not use the bearings of a quarantined station, and does not count the station in
 // its "now". The others continue without it. A clock error below the limit only inflates the
 // station's covariance along the target's motion.
 //
 // A station is quarantined for either of two reasons:
-//  - It states an error beyond error_limit_s while most others state less. - (If no station has a
+//  - It states an error beyond error_limit_s while most others state less. (If no station has a
 //    better clock, none is quarantined: the covariances account for the errors.)
 //  - Its stamps differ by more than offset_limit_s from the median of all stations' newest stamps.
-//    - This needs three stations: with two, nobody can tell which clock is wrong. Late messages
-//    look like a slow clock, so only the offset common to all stamps of the last second counts.
+//    This needs three stations: with two, nobody can tell which clock is wrong. Late messages look
+//    like a slow clock, so only the offset common to all stamps of the last second counts.
 //
 // The quarantine ends when neither reason has held for release_s; tighter limits apply then.
 #pragma once

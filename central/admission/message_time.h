@@ -21,7 +21,7 @@ class MessageTime {
   // stepped back: three stamps in a row are more than a second older than its newest one.
   bool hear(const std::string& station, std::int64_t utime_us);
   // The median of the newest stamps of the delivering stations; 0 before the first stamp. For an
-  // even number of stations it is the lower of the two middle stamps, so that a target is seldom
+  // even number of stations it is the lower of the two middle stamps, so that a target is rarely
   // due before most stations' bearings have arrived. Untrusted stations count only while no station
   // is trusted. With more than kMany stations it is recomputed only after a share of them has sent
   // a message.
@@ -31,13 +31,14 @@ class MessageTime {
   void trust(const std::string& station, bool trusted);
   // The station's newest stamp; 0 before the first.
   std::int64_t newest_us(const std::string& station) const;
-  // How far the stamps of the others have advanced since the station's last message; 0 before the
-  // first.
+  // The progress of the other stations' stamps since the station's last message; 0 before its first
+  // message.
   double silent_s(const std::string& station) const;
   // The delivering stations, and their number.
   std::vector<std::string> delivering() const;
   std::size_t delivering_count() const { return delivering_; }
-  // Elapsed time: the largest progress of any station's stamps, with steps clipped.
+  // Elapsed time: the progress of the stamps of the station that has progressed most, with steps
+  // clipped.
   double elapsed_s() const { return elapsed_s_; }
   void forget(const std::string& station);
 

@@ -12,9 +12,8 @@ class RecentExposures {
  public:
   // Whether a bearing is a duplicate: the same exposure, and the same object or the same direction.
   bool has(const BearingMeasurement& measurement) const;
-  // Advances the time to this bearing, and forgets exposures more than a second older than the
-  // newest. Call it for refused bearings, too; otherwise a flood would lock its station out
-  // permanently.
+  // Advances the time to this bearing, and forgets exposures that are over a second older. Call it
+  // for refused bearings, too; otherwise a flood would lock its station out permanently.
   void go_on_to(std::int64_t utime_us);
   void add(const BearingMeasurement& measurement);
   void clear() { exposures_.clear(); }

@@ -16,7 +16,7 @@
 
 namespace ols::fusion {
 
-// What the fusion must know of a station in order to slew it.
+// What the fusion must know about a station in order to slew it.
 struct StationTraits {
   Eigen::Vector3d camera_ecef = Eigen::Vector3d::Zero();
   Eigen::Vector3d camera_sd_enu_m = Eigen::Vector3d::Zero();

@@ -30,7 +30,7 @@ class FusionProcess {
   // Handles the messages that have arrived (waits briefly for the first one) and publishes the
   // results.
   void turn();
-  // One status line for a person.
+  // The status in one line, for a person.
   std::string in_one_line() const;
 
  private:
@@ -50,7 +50,7 @@ class FusionProcess {
   void publish(const std::vector<Slew>& slews);
   void publish_status_when_due();
 
-  // The last error of the fusion or of this process.
+  // The newest error, of the fusion or of this process.
   struct Errors {
     std::string last{}, told{}, of_fusion{};
 

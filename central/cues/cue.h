@@ -21,8 +21,8 @@ struct Cue {
   double velocity_sd_m_s = 0.0;  // 1-sigma of each axis
 };
 
-// The cues to which stations are led: none, those that an operator has allowed, or all that no
-// operator has forbidden.
+// Which cues lead stations: none, those that an operator has allowed, or all that no operator has
+// forbidden.
 enum class CueAllowance { kNever, kAsk, kAll };
 
 struct CueConfig {
@@ -30,7 +30,7 @@ struct CueConfig {
   double range_m = 20e3;      // largest distance from the nearest station
   double max_age_s = 10.0;    // largest time since the source measured the position
   double most_sd_m = 2000.0;  // stations do not search for a less certain cue
-  // 1-sigma of the assumed acceleration, by which the uncertainty grows.
+  // 1-sigma of the assumed acceleration, from which the growth of the uncertainty follows.
   double acceleration_sd_m_s2 = 3.0;
   int most = 32;  // largest number of cues at the same time
 };

@@ -37,12 +37,12 @@ class CueRegistry {
 
   // present_us: the host's UTC; in a replay, the message's time.
   CueRefusal take(const Cue& cue, std::int64_t present_us, const StationRegistry& stations);
-  // An operator's decision. Returns false if there is no such cue, or if the configuration does not
-  // leave the decision to operators.
+  // Takes an operator's decision. Returns false if there is no such cue, or if the configuration
+  // leaves no decision to operators.
   bool order(const std::string& id, bool allow);
   // Removes cues that their sources no longer send.
   void end_silent(std::int64_t present_us);
-  // Finds the target at each cue; works at a limited rate.
+  // Finds the target at each cue. Does nothing if it was called only recently.
   void settle(std::int64_t now_us, const std::vector<Track>& tracks);
 
   // The cues to which stations are to be led: those that are allowed and have no target yet.
@@ -53,7 +53,7 @@ class CueRegistry {
  private:
   struct Live {
     Cue cue;
-    // Time at which it was last received, on the time scale of `present_us`
+    // When the cue was last received, on the time scale of `present_us`
     std::int64_t heard_us = 0;
     std::optional<bool> allowed;  // the operator's decision
     std::int64_t target_id = 0;

@@ -61,8 +61,8 @@ class Estimator {
 
 inline constexpr const char* kEstimators[] = {"filter", "least-squares", "paper"};
 
-// Whether the estimator predicts the target's motion. If so, an instant after a station's last
-// bearing costs little accuracy. Other estimators have to extrapolate that station's bearings.
+// Whether the estimator predicts the target's motion. Such an estimator loses little accuracy at an
+// instant later than a station's last bearing; other estimators have to extrapolate the bearings.
 inline bool predicts(std::string_view name) { return name == "filter"; }
 
 // Returns null for an unknown name.

@@ -24,12 +24,13 @@ struct LeastSquaresConfig {
 };
 
 // Rays are rejected only if the remaining rays are a majority and agree: one of three or four can
-// be rejected, or two of five or six. Otherwise (always if two rays miss each other) all rays are
-// kept with robust weights, and the covariance is multiplied by chi^2 over its degrees of freedom.
+// be rejected, or two of five or six. Otherwise all rays are kept with robust weights, and the
+// covariance is multiplied by chi^2 over its degrees of freedom. (With only two rays, this is
+// always so.)
 Estimate least_squares(const std::vector<Ray>& rays, const LeastSquaresConfig& config = {});
 
-// Computes the velocity from the angular rates of all used rays together. Sets the velocity and its
-// covariance; NaN if the rates do not determine them.
+// Computes the velocity and its covariance from the angular rates of all used rays together; NaN if
+// the rates do not determine them.
 void estimate_velocity(const std::vector<Ray>& rays, Estimate& estimate);
 
 }  // namespace ols::fusion

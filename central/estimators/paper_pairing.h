@@ -28,13 +28,14 @@ struct PaperPairing {
   Eigen::Matrix3d by_centroid = Eigen::Matrix3d::Zero();
 };
 
-// All pairs of views, combined according to config.pairs. If no pair intersects, `solution` is the
-// reason of the last pair.
+// All pairs of views, combined according to config.pairs. If no pair intersects, `solution` says
+// why the last pair does not.
 PaperPairing pair_views(const std::vector<PaperView>& views, const PaperConfig& config);
 
 // The derivative of the position with respect to the direction of each view, for a change
-// perpendicular to the direction. It has a closed form: a difference quotient would evaluate all
-// pairs four times for every view. The choice of `best-baseline` is held fixed.
+// perpendicular to the direction. It is computed in closed form, because a difference quotient
+// would evaluate all pairs four times for every view. The pair chosen by `best-baseline` is held
+// fixed.
 std::vector<Eigen::Matrix3d> derivatives_by_direction(const std::vector<PaperView>& views,
                                                       const PaperPairing& pairing,
                                                       const PaperConfig& config);

@@ -51,7 +51,7 @@ PaperPoint paper_two_view(const PaperView& first, const PaperView& second,
 //  - Algorithm 1: the weighted centroid of all pairs' estimates, with weights w_i ~ exp(n_i .
 //    unit(T' - bc_i)). bc_i is the baseline's centre and n_i its normal towards T'. The paper
 //    prints the exponent with the vector T' - bc_i itself, which overflows at a few hundred metres.
-//    The paper's text says that the weights express the angle; hence the unit vector here.
+//    The paper's text says that the weights express the angle, so the unit vector is used here.
 //  - Best baseline: the pair with the largest t_i . n_i, where t_i is the direction from its centre
 //    to the target.
 PaperPoint paper_n_view(const std::vector<PaperView>& views, const PaperConfig& config = {});

@@ -2,15 +2,15 @@
 // show beyond these. Pure.
 //
 // The filter carries each station's bias (cross-elevation, elevation) as states with a prior of
-// zero mean. The prior variance v is learnt here. A bias estimated as b with variance P is
-// observable to the share k = 1 - P / v. The square of the bias counts as b^2 - k P with the weight
-// k^2. It therefore counts fully if the geometry determines the bias, and not at all if it does
-// not. (One step of Fisher scoring on the marginal likelihood: Harville, 1977.)
+// zero mean. The prior variance v is learnt here. For a bias estimated as b with variance P, the
+// share k = 1 - P / v is observable. The square of the bias enters as b^2 - k P with the weight
+// k^2: fully if the geometry determines the bias, and not at all if it does not. (One step of
+// Fisher scoring on the marginal likelihood: Harville, 1977.)
 //
-// An undeclared systematic error is first assumed to be small. The biases of other stations that
-// declare none, in units of their stated noise, also count as evidence for it. The only absolute
-// scale here is the correlation time of the bias, so the model fits a drone as well as a meteor. A
-// clock offset is learnt in the same way if the station's clock error is only a guess.
+// An undeclared systematic error is first assumed to be small. Evidence for it also comes from the
+// biases of other stations that declare none, in units of their stated noise. The only absolute
+// scale is the correlation time of the bias, so the model fits a drone as well as a meteor. A clock
+// offset is learnt in the same way if the station's clock error is only a guess.
 //
 // The noise variance is learnt from the residuals (expectation maximisation): each bearing
 // contributes the expected square of its noise, given its residual. The actual noise may be smaller
@@ -37,23 +37,23 @@ namespace ols::fusion {
 struct BiasModelConfig {
   double stated_time_s = 60e3;     // correlation time of a declared pose error
   double undeclared_time_s = 5.0;  // correlation time of an undeclared pose error
-  double memory_s = 600.0;         // evidence that is older than this counts less than 1/e
+  double memory_s = 600.0;         // evidence older than this has a weight below 1/e
   double stated_weight = 20.0;     // weight of the declared bias, as a number of estimated biases
-  double undeclared_weight = 1.0;  // weight of the assumed bias if none is declared
-  // Smallest sd of a bias, relative to the sd of the noise. It is assumed if a station declares no
-  // bias and its residuals show none.
+  double undeclared_weight = 1.0;  // the same for the assumed bias, if none is declared
+  // Smallest sd of a bias, relative to the sd of the noise: assumed if a station declares no bias
+  // and its residuals show none.
   double least_over_noise = 0.2;
-  // Weight of the stated noise and its whiteness, as a number of bearings.
+  // Weight of the prior assumption (noise as stated, and white), as a number of bearings.
   double noise_weight = 20.0;
   double noise_memory = 500.0;  // number of bearings over which the noise is averaged
   double least_noise = 0.1;     // bounds of the noise variance relative to the stated one
   double greatest_noise = 100.0;
   double clock_time_s = 5.0;  // correlation time of a clock error
-  // Weight of a clock's stated error, as a number of estimated offsets; 0: the stated error is not
-  // changed.
+  // Weight of a clock's stated error, as a number of estimated offsets. 0: the stated error is
+  // kept.
   double clock_weight = 0.0;
-  // Correlation time of coloured noise; it lies between a frame's interval and the time of the slow
-  // bias
+  // Correlation time of coloured noise: between a frame interval and the correlation time of the
+  // bias.
   double colour_time_s = 0.3;
   // The same time for a station that declares no bias; its slower errors are part of its bias.
   double undeclared_colour_time_s = 0.05;
@@ -61,11 +61,11 @@ struct BiasModelConfig {
   double colour_memory = 500.0;
 };
 
-// The prior of one station's bias in the direction of a target, and the causes of that bias: a
-// small rotation of the station (about east, north, up: two equal tilts and a heading); an
-// elevation error that is fixed in the camera (its mounting, and the place on the target at which
-// it points); and, with position_states, an error of the station's position. The cross-elevation
-// error of the camera counts as heading, because at low elevations the two are the same.
+// The prior of one station's bias in the direction of a target, and of its causes: a small rotation
+// of the station (about east, north, up: two equal tilts and a heading); an elevation error that is
+// fixed in the camera (from its mounting, and from the point on the target that it follows); and,
+// with position_states, an error of the station's position. The cross-elevation error of the camera
+// counts as heading, because at low elevations the two are the same.
 struct BiasPrior {
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  // [rad^2] stationary, on the tangent plane
   Eigen::Array3d rotation = Eigen::Array3d::Zero();      // [rad^2] stationary variances
@@ -74,7 +74,7 @@ struct BiasPrior {
   bool position_states = false;  // if false, the rotation includes the position error
   Eigen::Array3d place_m2 = Eigen::Array3d::Zero();  // stationary variances: east, north, up
   double place_time_s = 1.0;                         // correlation time of the position error
-  // The part of the rotation's variances that no station declares and only residuals show.
+  // The part of the rotation's variances that the station does not declare and only residuals show.
   Eigen::Array3d empirical = Eigen::Array3d::Zero();
 };
 
@@ -89,8 +89,8 @@ struct BiasEstimate {
 class BiasModel {
  public:
   explicit BiasModel(const BiasModelConfig& config = {}) : config_(config) {}
-  // A model that holds new evidence on top of `known`. It reads what it lacks from `known`, which
-  // must outlive it, and stores the new evidence separately. known.learn() adopts that evidence.
+  // A model that stores new evidence separately, on top of `known`. It reads everything else from
+  // `known`, which must outlive it. known.learn() adopts the evidence.
   static BiasModel evidence_on(const BiasModel& known);
   void learn(const BiasModel& evidence);
 
@@ -98,18 +98,18 @@ class BiasModel {
   // error divided by the range.
   BiasPrior prior(const std::string& station, const LineOfSight& sight, double range_m,
                   bool position_states = false) const;
-  // The variance to add to a ray's stated one, for estimators without bias states [rad^2].
+  // The variance to add to a ray's stated variance, for estimators without bias states [rad^2].
   Eigen::Matrix2d undeclared(const std::string& station, const LineOfSight& sight) const;
-  // Takes a bias that the filter has estimated, dt_s after its last report, with its prior.
+  // Takes a bias that the filter has estimated, with its prior, dt_s after the previous report.
   void observe(const std::string& station, const LineOfSight& sight, const BiasEstimate& bias,
                double dt_s, double range_m);
-  // ratio: the noise variance that a bearing's residual shows, over the variance that was assumed
-  // for the bearing.
+  // ratio: the noise variance that a bearing's residual shows, divided by the variance that was
+  // assumed.
   void observe_residual(const std::string& station, double ratio);
-  // The variance of a station's noise over the stated one.
+  // The ratio of a station's actual to its stated noise variance.
   double noise_scale(const std::string& station) const;
-  // squared_ratio: the square of a second difference of a station's bearings, over its expectation
-  // for white noise of noise_scale().
+  // squared_ratio: the square of a second difference of a station's bearings, divided by its
+  // expectation for white noise of noise_scale().
   void observe_noise(const std::string& station, double squared_ratio);
   // The white share: the part of a station's noise variance that is independent in each bearing;
   // above 0, at most 1.
@@ -120,11 +120,11 @@ class BiasModel {
   // interval; 1 if the noise is white. declared: the station declares a bias.
   double inflation(const std::string& station, bool declared, double interval_s) const;
   double clock_time_s() const { return config_.clock_time_s; }
-  // Takes a clock offset that the filter has estimated, dt_s after its last report, with its
-  // variance, its prior variance and the variance that the station states [s^2].
+  // Takes a clock offset that the filter has estimated, dt_s after the previous report, with three
+  // variances [s^2]: that of the estimate, the prior's, and the one that the station states.
   void observe_clock(const std::string& station, double value_s, double variance_s2,
                      double prior_s2, double stated_s2, double dt_s);
-  // The variance of a station's clock offset over the stated one, at least 1.
+  // The ratio of actual to stated variance of a station's clock offset, at least 1.
   double clock_scale(const std::string& station) const;
   void forget(const std::string& station);
   void clear() { *this = BiasModel(config_); }

@@ -8,9 +8,9 @@ namespace ols::fusion {
 
 class ConsecutiveRejections {
  public:
-  // Takes note of a used bearing: the count starts again.
+  // Call it for a used bearing: the count starts again.
   void clear();
-  // Takes note of a rejected bearing of this station. Returns true if at least kMany bearings were
+  // Counts a rejected bearing of this station. Returns true if at least kMany bearings were
   // rejected in a row, from two or more stations. The caller must then inflate the covariance and
   // call clear().
   bool add(const std::string& station);

@@ -1,8 +1,8 @@
 // The Gaussian of a filter's state, and the operations on it for every bearing. Pure.
 //
 // The target's nine states (motion_model.h) come first, then those of the stations. Only the lower
-// triangle of the covariance is stored. That halves the work, and the matrix cannot become
-// asymmetric. Each function passes once through the columns.
+// triangle of the covariance is stored: this halves the work, and the matrix cannot become
+// asymmetric. Each function passes through the columns only once.
 #pragma once
 
 #include <Eigen/Core>
@@ -24,8 +24,8 @@ inline constexpr int kStationStates = kPoseStates + kPlaceStates;
 inline constexpr int kFilterStates = 9 + kStationStates * kFilterStations;
 
 using FilterVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kFilterStates, 1>;
-// On the heap, because thousands of filters are copied and kept. A matrix takes 70 kB with the
-// maximum number of states, and a tenth of that with a few stations.
+// The matrices are on the heap, because thousands of filters are copied and kept. A matrix takes 70
+// kB with the maximum number of states, and a tenth of that with a few stations.
 using FilterMatrix = Eigen::MatrixXd;
 using FilterMatrix2 = Eigen::Matrix<double, Eigen::Dynamic, 2, 0, kFilterStates, 2>;
 

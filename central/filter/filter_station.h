@@ -19,7 +19,7 @@ struct FilterStation {
   Activity last_used, last_offered;
   int used = 0;      // number of bearings
   int rejected = 0;  // number of consecutive rejections since the last used bearing
-  // If one of these ids changes, the bias is a new one.
+  // If one of these ids changes, the station's bias is a new one.
   std::int64_t calibration_id = 0, track_id = 0;
   double weight = 0.0;      // of the last bearing; 0 if it was rejected
   double clock_sd_s = 0.0;  // as learnt from the bearings
@@ -31,9 +31,10 @@ struct FilterStation {
   void note_use(const BearingMeasurement& measurement, double nis, double used_weight);
 };
 
-// Whether the stations' residuals can distinguish this station's errors from the target's motion.
-// For declared errors this is always so. For undeclared errors it is so only if two other stations
-// deliver: the residuals of two stations have one dimension, but their biases and clocks have six.
+// Whether the residuals can distinguish this station's errors from the target's motion. For
+// declared errors the answer is always yes. For undeclared errors it is yes only if two other
+// stations deliver: the residuals of two stations have one dimension, but their biases and clocks
+// have six.
 bool is_redundant(const std::vector<FilterStation>& stations, const FilterStation& entry);
 
 }  // namespace ols::fusion

@@ -15,7 +15,7 @@
 
 namespace ols::fusion {
 
-// How a station's own states move its bearing on the tangent plane.
+// The effect of a station's own states on its bearing, on the tangent plane.
 struct StationPart {
   Eigen::Index first = 0;  // index of the first of the station's states
   bool has_place = false;
@@ -31,7 +31,7 @@ struct ModelInnovation {
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  // of the residual, without noise
   Eigen::Matrix<double, 2, 3> J = Eigen::Matrix<double, 2, 3>::Zero();
   double ahead_s = 0.0, curved_s2 = 0.0;
-  // Velocity, through which a clock error acts on the bearing.
+  // A clock error moves the bearing in proportion to this velocity.
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
   Eigen::Matrix<double, 2, kPoseStates> by_pose;
   Eigen::Matrix<double, 2, kPlaceStates> by_place;
@@ -50,7 +50,7 @@ struct Innovation {
   std::int64_t state = 0;  // version of the filter's state to which this belongs
 };
 
-// about: the motion about which to linearise; nullopt for the current estimate.
+// about: the motion at which to linearise; nullopt for the current estimate.
 ModelInnovation innovation_of(const InteractingModels& models, std::size_t which,
                               const BearingMeasurement& measurement, const RayFrame& frame,
                               const StationPart* station,

@@ -48,8 +48,8 @@ class InteractingModels {
   void interact(double dt_s);
   // Updates the models' probabilities after a measurement.
   void weigh(std::span<const double> log_likelihood);
-  // Inflates the covariance along these directions, by the acceleration that is possible at this
-  // velocity if it acts for this time.
+  // Inflates the covariance along these directions, by the effect of the acceleration that is
+  // possible at this velocity, over this time.
   void inflate(double time_s, const Eigen::Matrix3d& along, const Eigen::Vector3d& v_ecef);
 
   // Mixtures over the models: the kinematics at the state's own instant, the kinematics at another

@@ -1,4 +1,4 @@
-// How a target may move: three models that use the same state, so that they can be mixed. Pure.
+// Models of a target's motion: three models with the same state, so that they can be mixed. Pure.
 //
 // The state of each axis is (position, velocity, acceleration). The three axes of space share one
 // 3x3 transition f and one 3x3 noise q: F = f (x) I and Q = q (x) D. D is I unless the target is
@@ -12,8 +12,8 @@
 //
 // The assumed manoeuvre grows with the speed: at 10 m/s the velocity changes by a few m/s in a
 // second, at 20 km/s by some km/s (drag). The same numbers therefore fit a drone and a meteor. Drag
-// acts along the path, and nothing turns by more than some 30 g. Beyond a kilometre per second, the
-// acceleration across the path is therefore limited.
+// acts only along the path, and no object turns with more than about 30 g. The acceleration across
+// the path is therefore limited, which matters beyond a kilometre per second.
 #pragma once
 
 #include <Eigen/Core>
@@ -35,7 +35,7 @@ struct MotionConfig {
   // The models to mix: at least one, each at most once.
   std::vector<Motion> models = {Motion::kConstantVelocity, Motion::kCoordinatedTurn,
                                 Motion::kAcceleration};
-  // 1-sigma of a manoeuvre's acceleration: its value at rest, and its increase with speed.
+  // 1-sigma of a manoeuvre's acceleration: at rest, and its increase with speed.
   double acceleration_sd_m_s2 = 3.0;
   double acceleration_per_speed_s = 0.3;  // [1/s]
   double acceleration_time_s = 1.5;       // Singer's correlation time

@@ -16,7 +16,7 @@ inline Eigen::Index states_of(const BiasPrior& prior) {
 }
 
 // The systematic part of the position's covariance at the state's own instant. The empirical part
-// comes from biases that no station declares and only residuals show.
+// comes from undeclared biases, which only residuals show.
 struct SystematicPart {
   Eigen::Matrix3d all_m2 = Eigen::Matrix3d::Zero();
   Eigen::Matrix3d empirical_m2 = Eigen::Matrix3d::Zero();

@@ -14,8 +14,8 @@
 // one station if only two deliver, indicate a manoeuvre that no motion model allows. The covariance
 // is then inflated.
 //
-// Data flow in one direction. The filter reads the priors of the stations' errors, and returns what
-// a bearing shows about these errors. The owner of the priors learns from what is returned.
+// Data flow in one direction: the filter reads the priors of the stations' errors, and returns what
+// a bearing shows about these errors. The owner of the priors learns from this.
 #pragma once
 
 #include <Eigen/Core>
@@ -51,7 +51,7 @@ struct FilterConfig {
   // cross widely enough to determine a range.
   double undeclared_sd_rad = 1e-3;
   // If only two stations deliver: the largest squared correction, normalised by stated bias and
-  // noise. Beyond it the two are an inconsistent pair.
+  // noise. If it is larger, the two are an inconsistent pair.
   double two_stations_nis = 25.0;
   // A station's position error gets states of its own when it makes up at least this share of the
   // stated bias's variance.
@@ -92,8 +92,8 @@ class TrackFilter {
     refresh();
     return evidence;
   }
-  // Linearises the bearings' equations about this motion instead of the current estimate. This is
-  // for repeated runs over the same bearings while the estimate is vague.
+  // Linearises at this motion instead of at the current estimate, for repeated runs over the same
+  // bearings while the estimate is vague.
   void linearise_about(const KinematicState& motion) { about_ = motion; }
   void linearise_about_itself() { about_.reset(); }
 
@@ -114,7 +114,7 @@ class TrackFilter {
     for (const auto& [name, station] : without_states_) visit(station);
   }
   const std::vector<BiasPrior>& priors() const { return priors_; }  // for each station
-  // How many other stations have had a bearing used since this station's last used one.
+  // The number of other stations from which a bearing was used after this station's last used one.
   std::ptrdiff_t agreed_since(const FilterStation& station) const {
     std::ptrdiff_t count = 0;
     each_station([&](const FilterStation& other) {

@@ -1,7 +1,6 @@
 // Bearing-only tracks: lines of sight to objects that a station follows and no target explains. A
-// tracklet is not a bearing-only track: nobody has designated its object, which may be anything.
-// But if the site's hand-over is automatic, stations are led along the lines of tracklets, too.
-// Pure.
+// tracklet is not a bearing-only track, because nobody has designated its object. But if the site's
+// hand-over is automatic, stations are also led along the lines of tracklets. Pure.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +25,7 @@ class BearingLines {
   // Stations that have recently sent an unassociated bearing and are not quarantined.
   std::vector<std::string> stations(std::int64_t epoch_us) const;
   // The newest bearing of each local track that no target takes, smallest track ids first (most
-  // trackers assign ids in ascending order). Without tracklets, only the first four.
+  // trackers assign ids in ascending order). If tracklets do not count, only the first four.
   std::vector<const BearingMeasurement*> of(const std::string& station,
                                             std::int64_t epoch_us) const;
   // The newest bearing of one of stations().

@@ -3,11 +3,11 @@
 // stations need not have bearings later than it. Pure.
 //
 // A station is delivering if it has sent a bearing recently. A delivering station is due if its
-// next frame, one frame interval after its newest, is older than the epoch: that frame's bearing is
-// still on its way. An epoch is published as soon as fewer than half of the delivering stations are
-// due. All stations that expose together are therefore included, and stations that expose in turn
-// cause no delay. After a station has missed a frame, no epoch waits for it until it delivers
-// again. No epoch waits for more than 20 ms of message time.
+// next frame (one frame interval after its newest) is older than the epoch, so that the frame's
+// bearing must still be on its way. An epoch is published as soon as fewer than half of the
+// delivering stations are due. All stations that expose together are therefore included, and
+// stations that expose in turn cause no delay. After a station has missed a frame, no epoch waits
+// for it until it delivers again. No epoch waits for more than 20 ms of message time.
 #pragma once
 
 #include <cstddef>

@@ -1,8 +1,8 @@
 // The fusion: takes bearings, and returns targets and slews. Pure: its time is that of the
-// messages, so the same bearings in the same order give the same targets to the last digit. It
-// never waits for a slow station: targets are computed once a period has passed and enough of the
-// due stations have delivered (epoch_rule.h). With many targets or stations, the work of a period
-// is spread over several bearings.
+// messages, so the same bearings in the same order give the same targets to the last digit. It does
+// not wait for slow stations: targets are computed once a period has passed and enough stations
+// have delivered (epoch_rule.h). With many targets or stations, the work of a period is spread over
+// several bearings.
 //
 // Admission decides which bearings are used. The tracks decide to which target each bearing
 // belongs. The schedules decide what is published, and when.
@@ -72,8 +72,8 @@ class Fusion {
   const LiveTracks& tracks() const { return tracks_; }
 
  private:
-  // Returns the fate of an admitted bearing. The fate of a bearing that waits for the others of its
-  // image is not known yet.
+  // Returns the fate of an admitted bearing. While a bearing waits for the others of its image, its
+  // fate is not known yet.
   BearingRefusal take(const BearingMeasurement& measurement, std::vector<ImageBearings>& used);
   std::vector<BearingRefusal> associate(const ImageBearings& image);
   void note_unassociated(const BearingMeasurement& measurement, const Association& result);

@@ -1,4 +1,4 @@
-// Tells stations when and where the target that the land hides from them comes out again. Pure.
+// Tells a station when and where its target, hidden by the land, will come out again. Pure.
 #pragma once
 
 #include <cstdint>
@@ -16,24 +16,24 @@
 
 namespace ols::fusion {
 
-// To one station, of the target to which it is allocated.
+// A notice to one station about the target to which it is allocated.
 struct OcclusionNotice {
   std::string station;
   std::int64_t utime_us = 0;  // message time at creation
   std::int64_t target_id = 0;
-  double hidden = 0.0;  // the probability that it is hidden at that time
-  // From the creation; empty: it does not come out within the prediction.
+  double hidden = 0.0;  // the probability that the target is hidden at that time
+  // When and where the target comes out, counted from utime_us. Empty: not within the prediction.
   std::optional<Emergence> exit{};
-  double holds_s = 0.0;  // 0: what was said before no longer holds
+  double holds_s = 0.0;  // 0: the last notice no longer holds
 };
 
 class OcclusionSchedule {
  public:
-  // surface: null if no land is known. Then nothing is hidden.
+  // surface: null if no land is known; then nothing is hidden.
   explicit OcclusionSchedule(std::shared_ptr<const land::Surface> surface)
       : surface_(std::move(surface)) {}
 
-  // For the stations of these slews.
+  // Plans notices for the stations that get these slews.
   std::vector<OcclusionNotice> plan(std::int64_t now_us, const std::vector<Slew>& slews,
                                     const StationRegistry& stations,
                                     const std::vector<Track>& tracks);
@@ -43,7 +43,7 @@ class OcclusionSchedule {
  private:
   struct Told {
     std::unique_ptr<LandHorizon> horizon;
-    std::int64_t exit_us = 0;  // until then, what was said last is withdrawn when it is wrong
+    std::int64_t exit_us = 0;  // until then the last notice is withdrawn if it proves wrong
   };
   LandHorizon& horizon_of(Told& told, const Eigen::Vector3d& camera_ecef) const;
 

@@ -1,4 +1,4 @@
-// Decides where each station is to point at the instant when it can act. Pure.
+// Decides where each station is to point when the command takes effect. Pure.
 //
 //  - A station is led to the predicted position of the target to which it is allocated
 //    (station_allocation.h). While it does not see that target, and the direction is less certain
@@ -9,11 +9,11 @@
 //  - An allowed cue from outside (central/cues/) is an additional place for stations that see
 //    nothing. A station that would otherwise join a crowded target goes to the cue instead.
 //  - A station that cannot be commanded (it is stopped, or under operator control) gets no slew,
-//    because the operator has precedence over the fusion. - In these cases the station itself
-//    refuses slews, too.
+//    because the operator has precedence over the fusion. The station itself would refuse the slew,
+//    too.
 //
-// Commanded rates stay within the rate limit. A new direction may be anywhere: the station turns to
-// it at its own maximum rate. Every slew contains its lease.
+// Commanded rates stay within the rate limit. A slew may jump to any new direction: the station
+// turns there at its own maximum rate. Every slew contains its lease.
 #pragma once
 
 #include <Eigen/Core>
@@ -66,8 +66,8 @@ struct Slew {
 Slew slew_to(const KinematicState& target, const StationTraits& station, const SlewConfig& config);
 
 // The k-th point (k >= 0) of a search, on an Archimedean spiral from the centre outwards, in units
-// of a step. Each point is about one unit from the point before and from the inner turn, and covers
-// a unit area.
+// of a step. Each point is about one unit from the previous point and from the inner turn, and
+// covers a unit area.
 Eigen::Vector2d spiral_point(int k);
 
 struct SlewStation {
@@ -115,10 +115,10 @@ class SlewPlanner {
  private:
   struct Search {
     std::int64_t target_id = 0;  // the target to which the station is led
-    std::string ray;             // or the station whose ray it searches, or the cue
+    std::string ray;             // or the station whose ray is searched, or the cue
     std::int64_t begun_us = 0;
     std::optional<LineSweep> sweep{};  // sweep along that ray
-    std::optional<double> turn_s{};    // time that its unit needs to reach a cue
+    std::optional<double> turn_s{};    // time that the unit needs to turn to a cue
     std::string cue{};                 // the id of that cue
     double searched_s(std::int64_t now_us) const;
   };

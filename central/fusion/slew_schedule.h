@@ -1,5 +1,5 @@
 // Plans slews in rounds over all stations. Each bearing triggers the slews of a part of the
-// stations, so that the slews of a thousand stations delay no bearing. Pure.
+// stations, so that even the slews of a thousand stations delay no bearing. Pure.
 #pragma once
 
 #include <cstdint>

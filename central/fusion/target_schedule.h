@@ -1,5 +1,6 @@
 // Determines the order in which an epoch is published: targets, then bearing-only tracks, then the
-// paper's estimates. Each bearing triggers a part, so that many targets delay no bearing. Pure.
+// paper's estimates. Each bearing triggers a part, so that even many targets delay no bearing.
+// Pure.
 #pragma once
 
 #include <cstdint>

@@ -35,8 +35,8 @@ std::optional<HeightAboveGround> height_above_ground(const land::Surface& surfac
 // The probability that a position is not below the ground; 1 where the surface is unknown.
 double probability_above(const std::optional<HeightAboveGround>& height);
 
-// Height above the ground of the point that a tracker follows, for an object that stands on the
-// ground: the middle of a vehicle or a person.
+// For an object that stands on the ground, such as a vehicle or a person: the height above the
+// ground of its middle, which a tracker follows.
 inline constexpr double kMiddle_m = 1.0, kMiddleSd_m = 0.7;
 
 // A position and its covariance [m, m^2, ECEF].

@@ -1,14 +1,15 @@
 // The position of an object on the ground, from a single line of sight: where the line meets the
 // ground. Pure.
 //
-// The position along the line is a mixture over ranges. The probability of a range r depends on the
-// height h(r) by which the line passes above the middle of an object that stands there,
+// The position is a mixture over ranges along the line. The probability of a range r depends on the
+// height h(r) of the line above the middle of an object that stands there:
 //
 //   p(r) ~ r / s(r) * exp(-h(r)^2 / 2 s(r)^2) * p(seen | r),   s^2 = s_ground^2 + (r s_elevation)^2
 //
-// where all ranges have the same prior probability. If the ground is a plane and the line is steep,
-// the mixture is a Gaussian with s / tan(grazing angle). A grazing line, or a line that meets
-// several slopes, gives other shapes. The mean and the covariance of the mixture are published.
+// All ranges have the same prior probability. If the ground is a plane and the line is steep, the
+// mixture is a Gaussian with the 1-sigma s / tan(grazing angle). A grazing line, or a line that
+// meets several slopes, gives other shapes. The mean and the covariance of the mixture are
+// published.
 #pragma once
 
 #include <optional>
@@ -31,7 +32,7 @@ struct GroundPoint {
   double range_m = 0.0;
 };
 
-// nullopt if the line does not end in known ground by more than 3 sigmas, or if the mixture is too
+// nullopt if the line does not enter known ground by more than 3 sigmas, or if the mixture is too
 // long to serve as a position.
 std::optional<GroundPoint> ground_point(const land::Surface& surface, const LineOfSight& sight,
                                         const GroundPointConfig& config = {});

@@ -1,5 +1,5 @@
-// What the land hides from one camera, mapped sector by sector as it is asked for: a whole map
-// takes seconds, a sector some milliseconds. Pure.
+// What the land hides from one camera. The map is made sector by sector, when a sector is first
+// needed: a whole map takes seconds, a sector some milliseconds. Pure.
 #pragma once
 
 #include <array>
@@ -15,8 +15,8 @@ class LandHorizon {
  public:
   LandHorizon(std::shared_ptr<const land::Surface> surface, const Geodetic& camera);
 
-  // As HorizonMap::highest_before(). Nothing where no land is known in that direction, or where the
-  // surface has the camera under the ground.
+  // Like HorizonMap::highest_before(). nullopt if the land in that direction is unknown, or if the
+  // camera would be below the surface.
   std::optional<land::Skyline> highest_before(double azimuth_rad, double distance_m);
   const LocalFrame& frame() const { return frame_; }
 
@@ -28,7 +28,7 @@ class LandHorizon {
   std::shared_ptr<const land::Surface> surface_;
   LocalFrame frame_;
   std::array<std::unique_ptr<land::HorizonMap>, kSectors> sectors_;
-  bool is_unknown_ = false;  // the camera's place on this surface is not possible
+  bool is_unknown_ = false;  // the camera's place is impossible with this surface
 };
 
 }  // namespace ols::fusion

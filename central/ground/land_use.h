@@ -13,7 +13,7 @@ namespace ols::fusion {
 struct LandUse {
   std::shared_ptr<const land::Surface> surface{};  // null if no land is known
   // Stations whose designated objects stand on the ground, according to the site's configuration. A
-  // line of sight alone does not show this: a drone in front of a hillside looks the same.
+  // line of sight alone does not show this: a drone in front of a hillside has the same line.
   std::vector<std::string> on_ground{};
 
   bool stands(const std::string& station) const {

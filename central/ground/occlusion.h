@@ -1,9 +1,9 @@
-// When and where a target that the land hides from a station comes out again. Pure.
+// Predicts when and where a target that the land hides from a station comes out again. Pure.
 //
-// The target's path ahead is a Gaussian at each instant. Samples of it are compared with the
-// horizon: each sample keeps its standard-normal offset along the whole path, and has a horizon of
-// its own, wrong by as much as the land's model may be. The instants and directions at which they
-// come out have the mean and the covariance that are stated.
+// The target's predicted position at each instant is a Gaussian. Samples of the path are compared
+// with the horizon. Each sample keeps the same normalised offset from the mean along the whole
+// path. Each has its own horizon, displaced by a random error of the land's model. The result is
+// the mean and the covariance of the instants and directions at which the samples come out.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,18 +17,19 @@
 namespace ols::fusion {
 
 struct Emergence {
-  double in_s = 0.0;  // from the first instant of the path
+  double in_s = 0.0;  // time from the first instant of the path; sd_s: its 1-sigma
   double sd_s = 0.0;
   AzimuthElevation direction;                            // at the camera
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  // [rad^2] cross-elevation, elevation
 };
 
 struct Occlusion {
-  double hidden = 0.0;            // the probability that it is hidden at the first instant
-  std::optional<Emergence> exit;  // empty: not within the path
+  double hidden = 0.0;            // the probability of being hidden at the first instant
+  std::optional<Emergence> exit;  // empty: the target does not come out within the path
 };
 
-// `path`: of the target, a position every step_s. Nothing if it cannot be hidden within lead_s.
+// `path`: the target's positions, one for each step_s. nullopt if the target cannot be hidden
+// within lead_s.
 std::optional<Occlusion> occlusion_ahead(LandHorizon& horizon, std::span<const Position> path,
                                          double step_s, double lead_s);
 

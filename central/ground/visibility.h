@@ -9,9 +9,9 @@ namespace ols::fusion {
 
 // The probability that nothing on the land blocks the view from a camera to a target with this
 // covariance [m^2, ECEF]. Obstacles within 3 sigmas of the target along the line do not count,
-// because the target may be in front of them. Nor does land that covers the camera (a roof, or a
-// model that is too high there), up to the point where the line first emerges from it. Returns 1
-// where the surface is unknown.
+// because the target may be in front of them. Land that covers the camera (a roof, or a model that
+// is too high there) does not count either, up to the point where the line first emerges from it.
+// Returns 1 where the surface is unknown.
 double visibility(const land::Surface& surface, const Eigen::Vector3d& camera_ecef,
                   const Eigen::Vector3d& target_ecef, const Eigen::Matrix3d& covariance_ecef);
 
@@ -20,7 +20,7 @@ double visibility(const land::Surface& surface, const Eigen::Vector3d& camera_ec
 double plausibility(const land::Surface& surface, const Eigen::Vector3d& camera_ecef,
                     const Eigen::Vector3d& target_ecef, const Eigen::Matrix3d& covariance_ecef);
 
-// A position with a lower plausibility is below the ground, or hidden by it, by more than 3 sigmas.
+// Below this plausibility, a position is below the ground, or hidden by it, by more than 3 sigmas.
 inline constexpr double kImplausible = 0.00135;
 
 }  // namespace ols::fusion

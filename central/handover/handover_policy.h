@@ -2,9 +2,9 @@
 // leads. For a target that only detectors have found, the site's policy and the operator decide: it
 // is proposed, allowed or dismissed. Pure.
 //
-//  - off: targets found by detectors lead no station. propose: each waits for an operator.
-//    automatic: each leads at once if its class is one of `classes`; the others wait for an
-//    operator.
+//  - The policy for targets found by detectors is one of three. off: they lead no station. propose:
+//    each waits for an operator. automatic: those of the configured `classes` lead at once, and the
+//    others wait for an operator.
 //  - An operator's decision takes effect at once, for designated targets too, and lasts until the
 //    target loses its number.
 //  - If a target is lost, the decision on it passes to the first new target that appears at its
@@ -46,13 +46,13 @@ class HandoverPolicy {
  public:
   explicit HandoverPolicy(const HandoverConfig& config) : config_(config) {}
 
-  // Takes note of the present targets; works at a limited rate.
+  // Takes note of the present targets. Does nothing if it was called only recently.
   void settle(std::int64_t now_us, const std::vector<Track>& tracks);
   // Changes the mode. Operators' decisions remain in force.
   void set_mode(HandoverMode mode) { config_.mode = mode; }
   HandoverMode mode() const { return config_.mode; }
-  // An operator's decision. False if there is no such target, or if it is allowed while the mode is
-  // off. What was allowed before leads again when the mode is on.
+  // Takes an operator's decision. Returns false if there is no such target, or for allowing a
+  // target while the mode is off. Targets that were allowed before lead again when the mode is on.
   bool order(std::int64_t target_id, bool allow);
   // The target's priority when stations are allocated; 0 if it leads no station: the probability
   // that it exists and is of a class that leads, or ten times as much as a certain one if an
@@ -80,7 +80,7 @@ class HandoverPolicy {
   struct Known {
     CueAim last;  // its last state
     ObjectClass object_class = ObjectClass::kUnknown;
-    bool is_designated = false;  // a tracker followed it before the fusion led a station to it
+    bool is_designated = false;  // a tracker followed it before it led any station
     // Once it has led stations, a tracker that follows it does not prove that an operator
     // designated it.
     bool has_led = false;

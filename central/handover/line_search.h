@@ -1,12 +1,12 @@
-// Plans how a station searches along another station's line of sight, for a target without a
-// position. Pure.
+// Plans a station's search along another station's line of sight, for a target without a position.
+// Pure.
 //
 // The target is most likely near the stations. The search is therefore centred on the foot, the
 // point of the line nearest to their centre. The searching stations divide the line among them,
 // into parts of equal probability. Each station begins in its own part. From there it sweeps
 // outwards, away from the foot, then to and fro between the ends of the line. The sweep is slow
 // enough that a target can be recognised while it crosses the field of view. It begins when the
-// unit has had time to arrive.
+// unit has had time to reach the start.
 #pragma once
 
 #include <Eigen/Core>

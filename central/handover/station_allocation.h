@@ -38,7 +38,7 @@ struct AllocatedStation {
   std::string name;
   Eigen::Vector3d camera_ecef = Eigen::Vector3d::Zero();
   std::optional<AzimuthElevation> axis{};  // direction in which its camera looks
-  bool is_led = true;  // false: the station is never led, but still counts at a target that it sees
+  bool is_led = true;        // false: never led, but counts at the target that it sees
   std::int64_t sees = 0;     // the target that it sees; 0 if none
   bool by_detector = false;  // only its detector sees the target, not its tracker
   std::int64_t led_to = 0;   // the target to which it was led and which it has not seen yet

@@ -1,4 +1,4 @@
-// How long a station counts after its last bearing. Each purpose has its own window.
+// How long a station still counts after its last bearing. Each purpose has its own window.
 #pragma once
 
 #include <algorithm>

@@ -17,7 +17,7 @@ struct Ray {
   // Angular rate of the direction on the tangent plane (cross-elevation, elevation).
   Eigen::Vector2d rate_rad_s = Eigen::Vector2d::Zero();
   Eigen::Matrix2d rate_covariance = Eigen::Matrix2d::Zero();  // [rad^2/s^2] white
-  // White variance of one bearing before alignment, mean of both axes.
+  // White variance of one bearing before alignment, as the mean of both axes.
   double bearing_variance_rad2 = 0.0;
   double clock_sd_s = 0.0;  // systematic
   double belief = 1.0;
@@ -60,13 +60,13 @@ const char* to_string(Solution solution);
 struct RayUse {
   bool used = false;    // false if rejected as an outlier
   double weight = 0.0;  // 0..1, the robust weight
-  // For judging stations over many epochs: the squared normalised residual of both components, and
-  // its expected value if all covariances are right.
+  // For judging stations over many epochs: the squared normalised residual of both components
+  // together, and its expected value if all covariances are right.
   double squared = 0.0;
   double expected = 0.0;
-  // The same for each component (cross-elevation, elevation): the residual; the variance by which
-  // it was weighted; and the share of that variance that appears in a residual (0..1). A rejected
-  // ray can have a share above 1, because the position's own error adds to its residual.
+  // For each component (cross-elevation, elevation): the residual, the variance that gave its
+  // weight, and the share of that variance that is expected in the residual (0..1). For a rejected
+  // ray the share can be above 1, because the position's own error adds to its residual.
   Eigen::Vector2d residual_rad = Eigen::Vector2d::Zero();
   Eigen::Vector2d variance_rad2 = Eigen::Vector2d::Zero();
   Eigen::Vector2d redundancy = Eigen::Vector2d::Zero();

@@ -1,5 +1,5 @@
-// Separates the objects of a recording that does not name them. It runs the live tracks'
-// association (central/tracking/live_tracks.h) and reads its result afterwards. Pure.
+// Separates the objects of a recording that does not name them, by the association of the live
+// tracks (central/tracking/live_tracks.h). Pure.
 #pragma once
 
 #include <cstddef>
@@ -23,8 +23,8 @@ struct SeparatedBearings {
   std::size_t unexplained = 0;
 };
 
-// A track's bearings include those that initiated it, and those of merged duplicates. `tell` is
-// called after every bearing.
+// An object's bearings include those that initiated its track, and those of merged duplicates.
+// `tell` is called after every bearing.
 SeparatedBearings separate_objects(const MutableBearings& measurements, const FusionConfig& config,
                                    const std::function<void()>& tell);
 

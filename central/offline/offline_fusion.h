@@ -2,8 +2,8 @@
 //
 // Every estimator uses bearings up to 0.15 s after the instant for which it computes. The filter
 // runs up to that time, and its state is propagated back. The other estimators interpolate each
-// station's bearings from both sides of the instant. They take the errors that the stations do not
-// declare from a run of the filter. Smoothing uses all later bearings (smoother.h).
+// station's bearings from both sides of the instant, and take undeclared errors from a run of the
+// filter. Smoothing uses all later bearings (smoother.h).
 #pragma once
 
 #include <cstddef>
@@ -23,7 +23,7 @@ struct OfflineConfig {
   std::string estimator = "filter";  // a name for make_estimator()
   bool smooth = false;               // only possible with the filter
   // For the filter: the position at an instant also uses bearings up to this long after it, as the
-  // interpolating estimators do. 0 as in live operation.
+  // interpolating estimators do. 0: only earlier bearings, as in live operation.
   double look_ahead_s = 0.15;
   double rate_hz = 0.0;   // rate of epochs on an even grid; 0 for one epoch at each bearing
   FusionConfig fusion{};  // as in the live fusion
@@ -41,15 +41,15 @@ struct UnusedBearings {
 struct OfflineReport {
   UnusedBearings unused{};
   Unlocated unlocated{};  // numbers of instants without a position
-  // For each station whose bearings missed the other stations' target by the same angle for
+  // For each station whose bearings missed the other stations' target by the same angle for some
   // seconds: that angle as text.
   std::map<std::string, std::string> beside{};
 };
 
 // For a recording that says nothing about its clocks: sets each station's clock error [s] to the
-// time in which the object's usual angular motion equals half of a bearing's noise, but at most
-// 0.02 s (half a video frame). A clock error therefore has as much weight for a meteor as for a
-// drone. With BiasModelConfig::clock_weight, the bearings refine it.
+// time in which the object, at its usual angular speed, moves by half of a bearing's noise; at most
+// 0.02 s (half a video frame). A clock error therefore matters as much for a meteor as for a drone.
+// With BiasModelConfig::clock_weight, the bearings refine the guess.
 void guess_clocks(const MutableBearings& measurements);
 void guess_clocks(std::vector<BearingMeasurement>& measurements);
 
@@ -57,8 +57,8 @@ void guess_clocks(std::vector<BearingMeasurement>& measurements);
 // position, in order of time. The caller must leave out bearings that check() refuses. Throws
 // std::invalid_argument for a rate that is not finite or gives more than ten million epochs, for an
 // unknown estimator, and for smoothing with an estimator other than the filter. Apart from the
-// bearings themselves, the filter's memory does not grow with their number; that of smoothing
-// hardly grows. The other estimators copy the bearings.
+// bearings themselves, the filter needs the same memory for any number of bearings, and smoothing
+// little more. The other estimators copy the bearings.
 OfflineReport fuse_offline(const BearingPointers& measurements, const OfflineConfig& config,
                            const std::function<void(FusedTarget)>& take);
 

@@ -1,11 +1,11 @@
 // Runs the filter on a recording with the bearings before and after each instant (fixed-interval
 // smoothing).
 //
-// Two filters run forwards and backwards in time (Fraser and Potter, 1969). At each instant the
-// forward state (from the bearings up to it) is combined with the backward prediction (from the
-// bearings after it). Both use the biases of the more certain filter. An earlier run has learnt the
-// undeclared errors of the stations. A station that pointed beside the target in that run takes
-// part in no track initiation.
+// One filter runs forwards in time, another one backwards (Fraser and Potter, 1969). At each
+// instant the forward state (from the bearings up to the instant) is combined with the backward
+// prediction (from the later bearings). Both use the biases of the more certain filter. The
+// undeclared errors of the stations come from an earlier run. A station that missed the target in
+// that run takes part in no track initiation.
 #pragma once
 
 #include <cstdint>
@@ -33,13 +33,13 @@ struct KnownStations {
 };
 
 struct SmootherOutput {
-  // Called in order of time; if there is no position, it gets the reason.
+  // Called in order of time; without a position, it gets the reason.
   std::function<void(Smoothed)> take{};
   // Called after every bearing that a filter has processed, on the workers' threads.
   std::function<void()> tell{};
   Workers workers{};
 };
-// How many times each bearing is processed for this number of instants.
+// The number of times that each bearing is processed, for this number of instants.
 std::size_t smoother_runs(std::size_t epochs);
 
 // `bearings`: those of one object. Bearings and epochs are both in order of time. The backward

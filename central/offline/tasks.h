@@ -11,7 +11,7 @@ namespace ols::fusion {
 using Tasks = std::vector<std::function<void()>>;
 
 struct Workers {
-  std::size_t count = 1;  // number of shares into which work is divided
+  std::size_t count = 1;  // number of shares into which the work is divided
   std::function<void(const Tasks&)> run = [](const Tasks& tasks) {
     for (const auto& task : tasks) task();
   };

@@ -1,4 +1,4 @@
-// Decides whether a track that only two stations support can be where it is. Pure.
+// Decides whether the land allows the position of a track that only two stations support. Pure.
 #pragma once
 
 #include "central/tracking/track.h"
@@ -6,11 +6,11 @@
 
 namespace ols::fusion {
 
-// Lines of sight to two objects meet somewhere: often below the ground, or behind the slope that
-// one of the objects is on or in front of. True if no three stations support the track, and its
-// position is below the ground, or behind what one of their lines of sight ends at, by more than
-// 3 sigmas. A third station outweighs the model of the land, which may be wrong. surface: may be
-// null.
+// Lines of sight to two different objects often meet below the ground, or behind the slope where
+// one of the objects is. Returns true if fewer than three stations support the track, and its
+// position is, by more than 3 sigmas, below the ground or beyond the place where one of their lines
+// of sight meets the ground. A third station outweighs the model of the land, which may be wrong.
+// surface: may be null.
 bool is_behind_land(const TrackFilter& filter, const land::Surface* surface);
 
 }  // namespace ols::fusion

@@ -15,9 +15,9 @@ namespace ols::fusion {
 
 class Clutter {
  public:
-  // Take a tracklet's bearing. unclaimed: no target takes it. undecided: a target may still take
-  // it; if the tracklet ends like this, it was clutter. claimed: a target takes it, so the tracklet
-  // is not clutter.
+  // These take a bearing of a tracklet. unclaimed: no target takes the bearing. undecided: a target
+  // may still take it; if the tracklet ends in this state, it was clutter. claimed: a target takes
+  // it, so the tracklet is not clutter.
   void unclaimed(const BearingMeasurement& measurement) { note(measurement, false); }
   void undecided(const BearingMeasurement& measurement) { note(measurement, true); }
   void claimed(const BearingMeasurement& measurement);
@@ -26,7 +26,7 @@ class Clutter {
   double pairs_a_day(const std::string& a, const std::string& b, double agreed_s) const;
   int pairs_of_stations() const;
   // The expected number per day of such pairs that are published as targets, for the whole site, if
-  // no third station looks there. It counts the pairs that agree for agreed_s, but at most
+  // no third station looks there. Pairs that agree for agreed_s are counted, but at most
   // most_of_a_pair for each pair of stations.
   double published_a_day(double agreed_s, double most_of_a_pair) const;
 
@@ -46,7 +46,7 @@ class Clutter {
   // The density of a station's clutter.
   struct Density {
     double born_per_s = 0.0, life_s = 0.0, present = 0.0;
-    double height_rad = 0.0;     // height of the region in which it appears
+    double height_rad = 0.0;     // height of the region of the sky in which it appears
     double rate_variance = 0.0;  // variance of the rate, on one axis
   };
   static Density density_of(const Station& station);

@@ -1,14 +1,15 @@
-// Finds confirmed tracks that are duplicates: their bearings differ only by noise. Pure.
+// Finds confirmed tracks that are duplicates: two tracks of one object, whose bearings differ only
+// by noise. Pure.
 //
 // A station that sees two objects has two bearings in most exposures. A station that sees one
-// object has one bearing. Either both tracks explain it, or sometimes one and sometimes the other.
-// Therefore, for each pair of tracks that have explained the same bearing, three numbers are
-// counted per station: exposures with one bearing for the two tracks, how many of those bearings
-// both tracks explain, and exposures with more bearings.
+// object has one bearing, which both tracks explain, or sometimes one track and sometimes the
+// other. For each pair of tracks that have explained the same bearing, three numbers are therefore
+// counted for each station: exposures with one bearing for the two tracks, those of them whose
+// bearing both tracks explain, and exposures with more bearings.
 //
-// A station that follows a single object never has more than one bearing. In two cases the tracks
-// are therefore two real objects: they are apart in some station's view, or the same track always
-// explains a station's bearings best.
+// Some stations follow a single object and never have more than one bearing. The tracks are
+// therefore two real objects in two cases: they are apart in some station's view, or one and the
+// same track always explains a station's bearings best.
 #pragma once
 
 #include <cstdint>
@@ -36,7 +37,7 @@ class DuplicateTracks {
  public:
   explicit DuplicateTracks(const DuplicatesConfig& config = {}) : config_(config) {}
 
-  // Takes a bearing, and the confirmed tracks that explain it and have no other bearing of its
+  // Takes a bearing, and the confirmed tracks that explain it and have no other bearing of this
   // exposure, best first. The bearing counts for the pairs that contain the best track.
   void note(const BearingMeasurement& measurement, std::span<const std::int64_t> tracks);
   // Pairs of duplicates; the older identity comes first.

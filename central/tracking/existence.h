@@ -1,4 +1,4 @@
-// The probability that a target made of tracklets exists. A ghost is missing from images that
+// The probability that a target made of tracklets exists: a ghost is missing from images that
 // should show it. Pure.
 #pragma once
 
@@ -16,8 +16,8 @@ namespace ols::fusion {
 // real objects.
 class Existence {
  public:
-  // Starts judging, with a probability of 0.5. Until then the target counts as certain; a target
-  // not made of tracklets always does.
+  // Starts judging, with a probability of 0.5. Until then the target counts as certain. A target
+  // not made of tracklets is never judged.
   void begin() { is_judged_ = true; }
   void seen();
   // visible: the probability that nothing hid the target. If the target is hidden, a miss proves

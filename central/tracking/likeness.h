@@ -6,7 +6,7 @@
 
 namespace ols::fusion {
 
-// Whether their positions at one instant differ by less than both covariances allow.
+// Whether the positions at one instant agree to within both covariances.
 bool is_same_place(const KinematicState& a, const KinematicState& b);
 
 // Whether position and velocity agree to within both covariances, at the instant of the first

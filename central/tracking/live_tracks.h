@@ -5,19 +5,19 @@
 //    residuals is least. The remaining bearings are assigned to the tentative tracks in the same
 //    way. A track takes one bearing per exposure of a station.
 //  - If two confirmed tracks fit a bearing about equally well (they cross in that station's
-//    view), the bearing is ambiguous and updates neither track. - The other stations tell the two
+//    view), the bearing is ambiguous and updates neither track. The other stations tell the two
 //    tracks apart.
 //  - Unassociated bearings are kept for track initiation (track_initiation.h).
 //  - tentative -> confirmed: three stations have given two bearings each, or two stations have
 //    given five each over confirm_s; the track explains most of their bearings; and it has a
 //    position.
-//  - A track made of tracklets is not confirmed while it may be a ghost. - Images from detectors
-//    show whether it exists (existence.h). Two stations alone may pair their objects in several
-//    ways, or agree by chance (clutter.h). A tracklet belongs to one target only.
+//  - A track made of tracklets is not confirmed while it may be a ghost. Images from detectors show
+//    whether it exists (existence.h). Two stations alone may pair their objects in several ways, or
+//    agree by chance (clutter.h). A tracklet belongs to one target only.
 //  - tentative -> deleted: no two stations have seen it for tentative_delete_s, or it is a
 //    duplicate.
-//  - coasting -> deleted: no two stations have seen it for drop_s. The time is coast_s if one
-//    station has too many consecutive rejections while no two other stations agree.
+//  - coasting -> deleted: no two stations have seen it for drop_s. The limit is coast_s instead if
+//    one station has too many consecutive rejections while no two other stations agree.
 //  - two confirmed tracks -> one: they have been duplicates for a second (duplicate_tracks.h).
 //  - A track that is confirmed at the predicted position of a deleted one takes over its
 //    identity. Otherwise it takes over the identity of the bearing-only track of one of its
@@ -69,7 +69,7 @@ class LiveTracks : public TrackManager {
     Innovation seen;
   };
   std::vector<Candidate> candidates(const BearingMeasurement& measurement, bool confirmed) const;
-  // Assigns the bearings that have no fate yet to confirmed or to tentative tracks.
+  // Assigns the bearings without a fate to the confirmed tracks, or to the tentative ones.
   void give(std::span<const BearingMeasurement> image, bool confirmed,
             std::vector<std::optional<Association>>& fates);
   Association give_up(const BearingMeasurement& measurement, bool may_begin);

@@ -23,8 +23,8 @@ class LocalTracks {
 
   // The object of a bearing's station and track id; null if unknown.
   const Object* find(const BearingMeasurement& measurement) const;
-  // As find(), but adds an entry if there is none. The new entry may replace the one whose last
-  // bearing is oldest.
+  // As find(), but adds an entry if there is none. If the station has too many, the new entry
+  // replaces the one whose last bearing is oldest.
   Object& at(const BearingMeasurement& measurement);
   // Notes that two identities belong to one object.
   void rename(std::int64_t from, std::int64_t to);

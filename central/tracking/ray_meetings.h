@@ -31,8 +31,8 @@ class RayMeetings {
   RayMeetings(const MeetingConfig& config, double max_range_m)
       : config_(config), max_range_m_(max_range_m) {}
 
-  // The points where a ray intersects rays of other stations, best supported first. failure: why it
-  // does not intersect the last of the rays that it misses.
+  // The points where a ray intersects rays of other stations, best supported first. failure: why
+  // the last of the other rays was missed.
   std::vector<RayMeeting> of(const BearingMeasurement& measurement,
                              const UnassociatedBearings& bearings, const BiasModel& errors,
                              Solution& failure) const;

@@ -1,13 +1,13 @@
 // The only track of a recording of one object: every bearing is offered to it. Pure.
 //
-//  - Two rays begin the track, on trial. It is confirmed once it has a position. - The trial ends
-//    when the same bearings give an initiation that live tracks would accept. - If a bearing does
-//    not fit before that, the track is undone, together with everything learnt from it. - For a
-//    second after that, only such an initiation can begin a track.
+//  - Two rays begin the track, on trial. It is confirmed once it has a position. The trial ends
+//    when the same bearings give an initiation that live tracks would accept. If a bearing does not
+//    fit before that, the track is undone, together with everything learnt from it. For a second
+//    after that, only such an initiation can begin a track.
 //  - If most bearings of at least two stations, and of at least half of all stations, are
 //    rejected, the track is replaced by an initiation on which more stations agree. It keeps its
 //    identity.
-//  - coasting -> deleted: no two stations have seen it for drop_s. - Then two rays can begin it
+//  - coasting -> deleted: no two stations have seen it for drop_s. Then two rays can begin it
 //    again.
 #pragma once
 

@@ -1,4 +1,4 @@
-// What a target is, according to the stations' detectors. Pure.
+// Class, size and signal of a target, from the stations' detectors. Pure.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,5 +1,5 @@
-// The identity of an object: while it is a track, and before and after that, while it is a
-// bearing-only track. Pure.
+// Gives each object an identity that stays the same while it is a track, and before and after that
+// while it is a bearing-only track. Pure.
 #pragma once
 
 #include <cstdint>
@@ -15,8 +15,8 @@ namespace ols::fusion {
 
 class TrackIdentities {
  public:
-  // same_place: a track takes over the identity of a deleted one only at that one's predicted
-  // position.
+  // same_place: a track takes over the identity of a deleted track only at the predicted position
+  // of the latter.
   explicit TrackIdentities(bool same_place) : same_place_(same_place) {}
 
   // Assigns an identity to a confirmed track: that of a deleted track, that of the oldest

@@ -1,13 +1,13 @@
 // Initiates tracks from unassociated bearings and the intersections of rays of different stations.
 // Pure.
 //
-// Rays to different objects intersect too (ghosts). A hypothesis must therefore explain the recent
-// bearings of its stations, not only the two rays from which it was made: the filter is run over
-// these bearings. If three stations agree, the hypothesis is accepted at once. If only two stations
-// agree, they must agree for longer, so that the true objects can take their own bearings first.
-// The filter takes the two stations of the hypothesis first. A third station that is wrong, or that
-// follows another object, is then outside the gate and does no harm. Two stations alone initiate no
-// track that is below the ground or hidden by it (behind_land.h).
+// Rays to different objects intersect, too (ghosts). A hypothesis must therefore explain not only
+// the two rays from which it was made, but also the recent bearings of its stations: the filter is
+// run over these bearings. If three stations agree, the hypothesis is accepted at once. If only two
+// stations agree, they must agree for longer, so that the true objects can take their own bearings
+// first. The filter takes the two stations of the hypothesis first. A third station that is wrong,
+// or that follows another object, is then outside the gate and does no harm. Two stations alone
+// initiate no track that is below the ground or hidden by it (behind_land.h).
 //
 // The cost of a search grows with the number of stations that have unassociated bearings. If there
 // are many such stations, they take turns, so that the cost per bearing does not grow.
@@ -34,7 +34,7 @@ struct InitiationConfig {
   double pool_s = 0.6;  // how long unassociated bearings are kept
   MeetingConfig meeting{};
   double explained = 0.6;  // smallest share of the stations' frames that a hypothesis must explain
-  double two_stations_s = 0.35;  // required duration of agreement if only two stations agree
+  double two_stations_s = 0.35;  // if only two stations agree, they must agree for this long
   int least_bearings = 6;
   int pool_of_a_station = 64;                   // largest number of bearings kept per station
   std::shared_ptr<const land::Surface> land{};  // null if no land is known
@@ -54,8 +54,8 @@ class TrackInitiation {
         meetings_(config.meeting, filter.max_range_m),
         pool_(config.pool_s, config.pool_of_a_station) {}
 
-  // Takes an unassociated bearing. Returns a new track, if any; its bearings leave the pool. The
-  // track may contain this bearing or, if many stations wait for a search, belong to another one.
+  // Takes an unassociated bearing. Returns a new track, if any; its bearings leave the pool. If
+  // many stations wait for a search, the track may come from other bearings than this one.
   // accept_two_rays: for now two rays suffice; they stay in the pool for a better track.
   std::optional<TrackStart> add(const BearingMeasurement& measurement, const BiasModel& errors,
                                 bool accept_two_rays);
@@ -72,12 +72,12 @@ class TrackInitiation {
     return apart_s <= config_.meeting.pair_s && meetings_.may_meet(a, b, errors);
   }
   const UnassociatedBearings& pool() const { return pool_; }
-  // Why the last bearing began no track. Usually this is the reason why its ray and the last other
-  // ray give no position. kRaysMiss: rays intersect, but the bearings of their stations do not
-  // agree. kTooFewRays: the bearings agree but more are needed, or there was no other ray.
+  // Why the last bearing began no track. Usually this is the reason why its ray and the last
+  // compared ray give no position. kRaysMiss: rays intersect, but the bearings of their stations do
+  // not agree. kTooFewRays: the bearings agree but more are needed, or there was no other ray.
   Solution why_no_track() const { return failure_; }
-  // Why there is no track, judged by the stations with unassociated bearings at this instant. If
-  // there are several such stations, the last failure.
+  // Why there is no track, from the number of stations with unassociated bearings at this instant.
+  // If there are several such stations, the last failure.
   Solution why_none(std::int64_t now_us) const;
 
  private:

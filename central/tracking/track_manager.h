@@ -6,9 +6,9 @@
 //    track.
 //  - confirmed -> coasting: no two stations have seen it for coast_s. coasting -> confirmed: two
 //    stations see it again.
-//  - any -> deleted: the track is an inconsistent pair. - Only two stations see it, and their
-//    rays intersect only if their biases are larger than stated, or intersect below the ground or
-//    where it hides them (behind_land.h).
+//  - any -> deleted: only two stations see it, and their rays intersect only if their biases are
+//    larger than stated (an inconsistent pair), or they intersect below or behind the ground
+//    (behind_land.h).
 #pragma once
 
 #include <cstdint>
@@ -39,7 +39,7 @@ struct TrackManagerConfig {
   double coast_s = 0.5;
   double drop_s = Activity::kSupportsS;
   double remember_s = 5.0;     // how long the identity of a deleted track is kept
-  double ambiguous_nis = 9.0;  // smallest difference between two tracks' normalised residuals
+  double ambiguous_nis = 9.0;  // smallest difference of the sums of NIS; below it, ambiguous
   double memory_s = 1.0;       // how long bearings are kept for the estimators without memory
   InitiationConfig initiation{};
   FilterConfig filter{};
