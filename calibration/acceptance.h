@@ -1,5 +1,5 @@
-// Whether a calibration is good enough to be offered to a person: named findings, each with its
-// number and its limit. Nothing is accepted automatically.
+// Judges whether a calibration is good enough to be offered to a person. The result is a list of
+// named findings, each with its value and its limit. Nothing is accepted automatically.
 #pragma once
 
 #include <optional>
@@ -16,7 +16,7 @@ struct AcceptanceLimits {
   double detectable_arcsec = 30.0;                // for each reference
   double without_itself_sigma = 3.0;
   double without_itself_arcsec =
-      20.0;  // max offset of a checked reference from the place that the other references give it
+      20.0;  // largest offset of a checked reference from its place according to the others
   double closing_arcsec = 12.0;
   double sweep_px = 0.35, stars_px = 0.3;  // RMS residual of a coordinate
   int sectors = 3;                         // number of 60 deg sectors of azimuth that contain a
@@ -43,8 +43,8 @@ struct Acceptance {
   bool acceptable() const;  // whether no finding is bad
 };
 
-// Judges an instrument without a setup: whether its residuals, lens and gears agree with what was
-// known before. Does not judge directions.
+// Judges an instrument without a setup: whether its residuals, lens and gears agree with earlier
+// knowledge. Does not judge directions.
 Acceptance judge_instrument(const Problem& problem, const Adjustment& adjustment,
                             const Calibration& found, std::size_t station,
                             const AcceptanceLimits& limits = {});

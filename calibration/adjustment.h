@@ -1,5 +1,5 @@
 // The least-squares adjustment of a network: damped normal equations (Levenberg and Marquardt) for
-// the global parameters, with the nuisance of each block eliminated.
+// the global parameters, with the nuisance parameters of each block eliminated.
 #pragma once
 
 #include <Eigen/Core>
@@ -27,8 +27,8 @@ class Adjustment {
   // The state at the priors, but with these headings.
   State start(const std::vector<double>& headings_rad) const;
   Fit fit(State start, const std::vector<bool>& kept) const;
-  // Predicts the covariance of a station's parameters after all groups have been sighted, if
-  // reality equalled the priors. Uses no pixels. The result is infinite if a target could not be
+  // Predicts the covariance of a station's parameters after all groups have been sighted, assuming
+  // that reality equals the priors. Uses no pixels. The result is infinite if a target could not be
   // seen.
   StationMatrix planned_covariance(std::size_t station) const;
   // A group's equations: the sum of its blocks' equations, over the columns of all these blocks.

@@ -1,6 +1,6 @@
-// A block of an adjustment: observations that share a nuisance, or a prior. It eliminates its
-// nuisance (Schur complement) and returns information, gradient and squares. A block can therefore
-// be added, left out and tested as a unit.
+// A block of an adjustment: either a prior, or observations that share nuisance parameters ("the
+// nuisance"). A block eliminates its nuisance (Schur complement) and returns information, gradient
+// and squares, so it can be added, left out and tested as a unit.
 #pragma once
 
 #include <Eigen/Core>
@@ -46,7 +46,7 @@ class Block {
   virtual BlockEquations equations(const State& state, std::size_t block, double damping) const = 0;
   // The heading of the block's station at which the block's first sighting points at its target.
   virtual std::optional<double> heading(const State&, std::size_t) const { return std::nullopt; }
-  // The part of the block that one station sighted; null if there is none.
+  // The part of the block with the sightings of one station; null if there are none.
   virtual BlockPtr of_station(std::size_t) const { return nullptr; }
   // For a target's block: the number of its sightings; the block with only the sightings of these
   // indices; and, for each sighting, the block's equations without it, over the same columns.
@@ -62,7 +62,7 @@ StationModel posed_model(const State& state, const Sighting& sighting);
 struct PixelBlockConfig {
   Layout layout;
   bool robust = false;
-  bool absolute = true;  // a person has stated where the target is
+  bool absolute = true;  // whether a person has stated where the target is
 };
 BlockPtr pixel_block(TargetPtr target, std::vector<Sighting> sightings,
                      const PixelBlockConfig& config);

@@ -1,10 +1,10 @@
 // A whole calibration: the initial headings, the adjustment, and its tests by data snooping (W.
 // Baarda, A Testing Procedure for Use in Geodetic Networks, 1968).
 //
-// Each group of observations is tested against all others at once, with both components of all its
-// sightings. The search starts from the headings on which most groups agree. Groups that fail are
-// rejected one by one, the worst first; rejected groups that pass again are taken back. Scene
-// points are not tested; a robust weight reduces those that do not fit.
+// Each group of observations is tested against all other groups, with both components of all its
+// sightings at once. The search starts from the headings on which most groups agree. Groups that
+// fail are rejected one by one, the worst first; rejected groups that pass again are taken back.
+// Scene points are not tested; a robust weight reduces those that do not fit.
 #pragma once
 
 #include <string>
@@ -38,11 +38,11 @@ struct Calibration {
   StationMatrix covariance(const Network& network, std::size_t station) const;
   double scaled_by = 1.0;  // factor by which the deviations were enlarged
   // False if only rectification targets or scenery were sighted, because these do not show where
-  // the stations look. Then only the instruments' parameters are a result.
+  // the stations look. Then only the instruments' parameters are valid results.
   bool headings_known = true;
 };
 
-// Thrown if the observations contradict each other, and no minority of them can be named as the
+// Thrown if the observations contradict each other and no minority of them can be identified as the
 // cause.
 class Contradiction : public std::invalid_argument {
   using std::invalid_argument::invalid_argument;

@@ -1,4 +1,4 @@
-// Finds why observations contradict each other: a single mistake that explains the contradiction.
+// Looks for a single mistake that explains why observations contradict each other.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace ols::calibration {
 
-// One sentence for each mistake that would explain everything: two landmarks that were exchanged,
-// or a wrong sign in the station's position. Empty if no single mistake explains it.
+// One sentence for each mistake that would explain the whole contradiction: two landmarks that were
+// exchanged, or a wrong sign in the station's position. Empty if no single mistake explains it.
 std::vector<std::string> causes_of_contradiction(const Problem& problem, const Levels& levels = {});
 
 }  // namespace ols::calibration

@@ -29,11 +29,11 @@ using Instant = FollowedSighting;
 
 struct Instants {
   std::vector<Instant> instants;  // sorted by station and time
-  std::size_t lonely = 0;  // sightings without a second one on the other side of a whole second
+  std::size_t lonely = 0;  // sightings without a partner on the other side of the whole second
   std::size_t unsure = 0;  // pairs of sightings whose approach is unknown or differs
 };
 
-// `stations`: the priors of the stations, as far as known. They serve only to limit the speed of a
+// `stations`: the priors of the stations, as far as known; used only to limit the speed of a
 // target.
 Instants instants_of(std::vector<FollowedSighting> sightings,
                      const std::vector<StationPrior>& stations);
@@ -46,9 +46,10 @@ struct FollowedObservations {
 
 using TellTracks = std::function<void(std::size_t done, std::size_t all)>;
 
-// An object that moves like an aircraft of `references` becomes that aircraft. Any other object
-// that several stations see at the same instants becomes a track, one for each combination of the
-// stations' own tracks. `tell` is called after each object has been compared with all aircraft.
+// The sightings of an object that moves like an aircraft of `references` become sightings of that
+// aircraft. Any other object that several stations see at the same instants becomes a track, one
+// for each combination of the stations' own tracks. `tell` is called after each object has been
+// compared with all aircraft.
 FollowedObservations followed(const std::vector<Instant>& instants,
                               const std::vector<StationPrior>& stations,
                               const std::vector<std::string>& names, const References& references,

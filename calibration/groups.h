@@ -16,11 +16,11 @@ struct Problem {
   References references;
   std::optional<Air> air;  // the standard atmosphere if nullopt
   EarthRotation earth;
-  double ut1_sd_s = 0.3;  // by default: UT1 stays within a fraction of a second of UTC
+  double ut1_sd_s = 0.3;  // if UT1 is unknown: it is always within a second of UTC
 };
 
 // Observations that are kept or rejected together: all sightings of a landmark; one sighting of a
-// star; a pass of an aircraft; a track; all scene points.
+// star; a pass of an aircraft; a track; or all scene points together.
 struct Group {
   Kind kind = Kind::kLandmark;
   std::string name;
@@ -51,7 +51,7 @@ struct Network {
 
 // Throws ObservationRefused if a reference is missing or of the wrong kind, a star has no
 // reference, a star or the sun is too low, only one station sees a track, an instant is outside a
-// trajectory, or one pose is at two places.
+// trajectory, or one pose has different counts.
 Network network_of(const Problem& problem);
 
 // The network with the sightings of one station only: the same global parameters, fewer groups.

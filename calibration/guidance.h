@@ -1,5 +1,5 @@
-// Finds the most helpful sighting: predicts for each possible one the systematic error that would
-// remain, over the directions in which a station works.
+// Finds the most helpful next sighting. For each candidate it predicts the systematic error that
+// would remain, over the directions in which a station works.
 #pragma once
 
 #include <optional>
@@ -37,7 +37,7 @@ VolumePrecision planned_precision(const Problem& plan, std::size_t station,
                                   const StationModel& model, const WorkingVolume& volume = {});
 
 // The counts that bring a point or a direction onto a pixel, for these directions of approach;
-// nullopt if there are none.
+// nullopt if no counts do.
 std::optional<UnitReading> reading_towards(const StationModel& model, const HomogeneousPoint& point,
                                            const Eigen::Vector2d& pixel, int approach_pan = 1,
                                            int approach_tilt = 1);

@@ -4,10 +4,10 @@
 // rejected landmark. A search starts at the heading of each landmark. The cheapest result of all
 // searches wins.
 //
-// The search is repeated with all stated deviations enlarged by 2, 4 and 8. Otherwise, if all
-// sightings are equally bad, most would be rejected until a few remain that agree by chance. The
-// result with enlarged deviations is accepted at odds of 1000, or at odds of 20 if the mistaken
-// landmarks are ambiguous.
+// The search is repeated with all stated deviations enlarged by 2, 4 and 8. Without this, if all
+// sightings were equally bad, most would be rejected until only a few remained that agree by
+// chance. The result with enlarged deviations is accepted at odds of 1000, or at odds of 20 if the
+// mistaken landmarks are ambiguous.
 //
 // Landmarks are rejected only if three conditions hold:
 //  - More landmarks are kept than rejected.
@@ -21,7 +21,8 @@
 
 namespace ols::calibration {
 
-// The redundancy of the kept landmarks and the priors. The heading has no prior.
+// The redundancy: observations of the kept landmarks and the priors, minus unknowns. The heading
+// has no prior.
 int stationing_redundancy(const Adjustment& adjustment, const std::vector<bool>& kept);
 
 // `adjustment`: of one station, with one group for each landmark. Throws LandmarksContradict if the

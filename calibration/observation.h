@@ -41,10 +41,11 @@ struct TargetFacts {
   Eigen::Vector2d second_px = Eigen::Vector2d::Zero();  // for a level line: another pixel of it
   double distance_m = 0.0;  // for a cross or a ruler: distance from the pan axis
   // For a cross: its distance to the right of the plane that contains the pan axis and is
-  // perpendicular to the tilt axis. For a ruler: the reading at the pixel, growing upwards; the
-  // zeros of all rulers are at one height.
+  // perpendicular to the tilt axis. For a ruler: the reading at the pixel, growing upwards. The
+  // zeros of all rulers are at the same height.
   double offset_m = 0.0;
-  // For a line: 1-sigma of its level [rad]; for a cross or a ruler: of its place or its zero [m].
+  // 1-sigma: for a line, of its level [rad]; for a cross, of its place [m]; for a ruler, of its
+  // zero [m].
   double sd = 0.0;
 };
 
@@ -54,7 +55,7 @@ struct Observation {
   std::optional<std::int64_t> pose;  // sightings of one pose share the errors of its two angles
   std::int64_t utime_us = 0;         // UTC
   UnitReading reading;
-  // Whether the directions of approach were stated; otherwise both are taken as 1.
+  // Whether the directions of approach were stated. If not, both are 1.
   bool sides_stated = true;
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
   double sd_px = 0.0;     // 1-sigma of each coordinate

@@ -9,7 +9,7 @@ struct ParameterChange {
   double by = 0.0;  // adjusted value minus prior
   // 1-sigma of `by` if prior and observations agree: the root of the decrease in variance.
   double sd = 0.0;
-  // False if the observations say almost nothing about the parameter.
+  // Whether the observations determine the parameter at all; false if they say almost nothing.
   bool is_told = false;
   double sigmas() const;
   // Whether the change is so large that prior and observations disagree (level 0.001).

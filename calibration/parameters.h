@@ -20,7 +20,7 @@ using InstrumentMatrix = Eigen::Matrix<double, kInstrumentParameters, kInstrumen
 struct ParameterText {
   const char* key;       // its name in files, with the unit: "mount_z_deg"
   bool is_angle;         // true: degrees in files, radians here
-  double new_unit_sd;    // 1-sigma in a unit that no workshop has measured; for kFocal: of fx
+  double new_unit_sd;    // 1-sigma for a unit that was never calibrated; for kFocal: of fx
   const char* sentence;  // the parameter's meaning
 };
 // The texts in the order of Parameter.

@@ -22,17 +22,17 @@ struct TargetSighting {
   std::string name;  // name of the target
 };
 
-// Lines of one board. The nuisance: the board's error of level, and its deviation from
+// Lines of one board. The nuisance: the board's error of level, and its turn away from
 // perpendicular to the line of sight. Lines above and below the camera's height determine that
-// deviation.
+// turn.
 BlockPtr level_line_block(const PixelBlockConfig& config, std::vector<TargetSighting> sightings);
 // The nuisance: the offset of the cross from its stated place.
 BlockPtr cross_block(const PixelBlockConfig& config, std::vector<TargetSighting> sightings);
-// The nuisance: the height of the zeros above GROUND, and each ruler's own error.
+// The nuisance: the height of the zeros above GROUND, and the error of each ruler.
 BlockPtr ruler_block(const PixelBlockConfig& config, std::vector<TargetSighting> sightings);
 
-// The model of the camera and the unit's head alone: X (the line of sight) points east, the tilt
-// axis north. Its directions depend only on the camera and its mounting.
+// The model of camera and unit head alone: X (the line of sight) points east, the tilt axis north.
+// Directions in it depend only on the camera and its mounting.
 StationModel head_alone(const StationModel& model);
 
 }  // namespace ols::calibration

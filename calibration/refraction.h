@@ -1,6 +1,6 @@
-// How air bends a line of sight: to a place on or above the ground (terrestrial refraction), and to
-// a celestial body (astronomical refraction). Applied only to the observations of a calibration;
-// bearings are sent out without this correction.
+// The bending of a line of sight by the air: to a place on or above the ground (terrestrial
+// refraction), and to a celestial body (astronomical refraction). Applied only to the observations
+// of a calibration; bearings are published without this correction.
 #pragma once
 
 #include <Eigen/Core>

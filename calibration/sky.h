@@ -19,9 +19,9 @@ struct EarthRotation {
 };
 
 // 1-sigma of a planet's direction, each axis: half of the theory's largest error, as seen when the
-// planet is nearest to the Earth. It follows from the theory's errors (Simon et al. 1994) over
-// 1800-2050: at most 5, 17, 71 and 81 arc seconds in heliocentric longitude (Venus, Mars, Jupiter,
-// Saturn). The sun's error is below 0.1 arc seconds.
+// planet is nearest to the Earth. In 1800-2050 the errors of the theory (Simon et al. 1994) are at
+// most 5, 17, 71 and 81 arc seconds in heliocentric longitude (Venus, Mars, Jupiter, Saturn). The
+// sun's error is below 0.1 arc seconds.
 enum class Planet { kVenus = 2, kMars = 4, kJupiter = 5, kSaturn = 6 };
 std::optional<Planet> planet_of(const std::string& name);  // for example "venus"
 double planet_sd_rad(Planet planet);

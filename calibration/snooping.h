@@ -10,11 +10,11 @@
 
 namespace ols::calibration {
 
-// How much the misfit falls when a kept group is left out, or grows when a rejected group is added.
-// It is a chi-square with the group's degrees of freedom.
+// The decrease of the misfit when a kept group is left out, or its increase when a rejected group
+// is added: a chi-square with the group's degrees of freedom.
 double test_statistic(const Adjustment& adjustment, const Fit& fit, std::size_t group);
 
-// The same for a part of a block: how much the misfit falls when the equations `now` are replaced
+// The same for a part of a block: the decrease of the misfit when the equations `now` are replaced
 // by `then`, over the same columns. Negative if the misfit grows.
 double replacement_statistic(const Fit& fit, const BlockEquations& now, const BlockEquations& then);
 
@@ -51,7 +51,7 @@ struct Start {
   State state;
   std::vector<bool> kept;
 };
-// `variance`: the variance of all observations relative to the stated variance.
+// `variance`: the ratio of actual to stated variance, for all observations.
 Start start_at(const Adjustment& adjustment, const std::vector<double>& headings_rad, double level,
                double variance = 1.0);
 // The start at the headings at which most groups agree.
@@ -59,7 +59,7 @@ Start find_start(const Adjustment& adjustment, double level);
 
 struct Search {
   double level;               // significance of the tests of all groups together
-  double variance = 1.0;      // variance of all observations relative to the stated one
+  double variance = 1.0;      // ratio of actual to stated variance, for all observations
   std::vector<bool> among{};  // for each group, whether it may be kept; if empty, all may
 };
 using TellAdjusted = std::function<void()>;

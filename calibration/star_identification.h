@@ -4,9 +4,10 @@
 //
 // Each detection is paired with each star at about its elevation. A pair votes for the turn and the
 // lift that would bring the star onto the detection. The correct votes of one frame fall into one
-// cell. The station's model with its priors is fitted to the best cells of all frames, and the
-// stars that then fall onto detections are counted. The result is accepted if there are at least 12
-// matches, if these are 60 % of the possible ones, and if no other heading gives half as many.
+// cell of a grid over turn and lift. The station's model with its priors is fitted to the best
+// cells of all frames, and the stars that then match detections are counted. The result is accepted
+// if there are at least 12 matches, if these are 60 % of the possible ones, and if no other heading
+// gives half as many.
 #pragma once
 
 #include <cstdint>
@@ -59,7 +60,7 @@ struct StarIdentification {
 };
 
 // Does not use the station's heading. Uses its tilts, mounting and lens, with their deviations.
-// Needs frames in three or more different directions; two may suffice.
+// Give it frames in three or more different directions; two may suffice.
 StarIdentification identify_stars(const StationPrior& station, std::span<const StarFrame> frames,
                                   const StarConditions& conditions,
                                   std::span<const TableStar> table = star_table());

@@ -1,5 +1,6 @@
-// The stars down to magnitude 7: positions of the Hipparcos catalogue. dev/python/ols_star_table.py
-// makes the table from that of cedar-solve (Apache-2.0); see star_table.inc for its licence.
+// The stars down to magnitude 7, with positions of the Hipparcos catalogue.
+// dev/python/ols_star_table.py makes the table from that of cedar-solve (Apache-2.0); see
+// star_table.inc for its licence.
 #pragma once
 
 #include <cstdint>

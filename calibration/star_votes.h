@@ -10,8 +10,8 @@
 
 namespace ols::calibration {
 
-// A frame's detections as they would be at heading 0, and the stars that could be among them at
-// some heading.
+// A frame's detections, as directions at heading 0, and the stars that could be among them at some
+// heading.
 struct SeenFrame {
   struct Detection {
     std::size_t index = 0;  // in the frame's detections

@@ -12,13 +12,13 @@
 
 namespace ols::calibration {
 
-// What is known of a station before the adjustment.
+// What is known about a station before the adjustment.
 struct StationPrior {
   StationModel model;
   double refraction = 0.13;
   double air = 1.0;
   // The covariance of the parameters, in their own units; 0 for a parameter that is known exactly.
-  // That of the heading is ignored.
+  // The heading's covariance is ignored.
   StationMatrix covariance = StationMatrix::Zero();
   double pose_sd_rad = 0.0;  // 1-sigma of each angle of a pose; independent at every pose
 };

@@ -3,13 +3,13 @@
 // They also correct its tilt (from an inclinometer) and its camera's mounting (from rectification).
 //
 // The method is maximum a posteriori. The heading has no prior. Tilts, mounting and position have
-// the station's stated deviations as priors. The position is a nuisance parameter: it is not
-// changed. A turn of the mounting about the vertical looks like a turn of the heading. At the
+// the station's stated deviations as priors. The position is a nuisance parameter and is not
+// changed. A turn of the mounting about the vertical looks like a turn of the heading: at the
 // horizon only their sum is observable, and only their sum is needed.
 //
 // The adjustment is tested by geodetic methods (W. Baarda, A Testing Procedure for Use in Geodetic
 // Networks, 1968; P. Teunissen, Testing Theory): data snooping finds mistaken landmarks
-// (calibration/mistaken_landmarks.h), then the global test finds stated deviations that are too
+// (calibration/mistaken_landmarks.h); then the global test detects stated deviations that are too
 // small.
 #pragma once
 
@@ -108,10 +108,10 @@ struct HorizonSd {
 };
 
 struct Stationing {
-  // The geometry with the adjusted chain. The remaining errors are strongly correlated, and
-  // separate deviations cannot express this. Therefore, in its `sd` the mounting is zero, and
-  // heading and tilts have the smallest values that cover every line of sight within `highest_rad`
-  // of the horizon.
+  // The geometry with the adjusted chain. The remaining errors are strongly correlated, which
+  // separate deviations cannot express. In `station.sd` the mounting's deviation is therefore zero,
+  // and those of heading and tilts are the smallest values that cover every line of sight within
+  // `highest_rad` of the horizon.
   StationGeometry station;
   // [rad^2] Includes the variance factor if the global test rejects the stated deviations.
   PoseCovariance covariance = PoseCovariance::Zero();
@@ -124,12 +124,12 @@ struct Stationing {
   // normal; 0 for a prior without a deviation.
   std::array<double, 8> stated_w{};
   double scaled_by = 1.0;  // factor by which the deviations were enlarged after the global test
-  // In the directions in which the landmarks determine the tilt best and worst.
+  // For the directions in which the landmarks determine the tilt best and worst.
   HorizonSd best, worst;
 };
 
-// Throws std::invalid_argument if there are no sightings, or if the landmarks leave the heading
-// unknown (10 degrees). Throws LandmarkRefused for a sighting that is not finite, is outside the
+// Throws std::invalid_argument if there are no sightings, or if the landmarks do not determine the
+// heading to 10 degrees. Throws LandmarkRefused for a sighting that is not finite, is outside the
 // lens model, or shows a landmark at the station itself. Throws LandmarksContradict if the mistaken
 // landmarks are ambiguous.
 Stationing station_by_landmarks(const StationGeometry& rough,

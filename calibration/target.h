@@ -1,4 +1,4 @@
-// The object at a pixel: where a station sees it, and what else its place depends on.
+// The object that a pixel shows: where a station sees it, and which unknowns its place depends on.
 #pragma once
 
 #include <Eigen/Core>
@@ -37,7 +37,7 @@ struct TargetView {
   // and up.
   Eigen::Matrix3d by_position = Eigen::Matrix3d::Zero();
   double white_sd_m = 0.0;     // 1-sigma of the position; independent at every sighting
-  bool moves_with_us = false;  // the target's place is given in the station's own frame
+  bool moves_with_us = false;  // the target's place is stated in the station's own frame
 };
 
 inline constexpr double kNoPrior = std::numeric_limits<double>::infinity();

@@ -15,7 +15,7 @@ struct Motion {
 // `trajectory` must have at least two positions.
 Motion motion_at(const Trajectory& trajectory, double utime_us);
 
-// During a longer gap between positions, a drone or an aircraft may have been anywhere.
+// In a longer gap between positions, a drone or an aircraft may have been anywhere.
 inline constexpr double kLongestGap_s = 3.0;
 
 }  // namespace ols::calibration

@@ -1,5 +1,5 @@
-// Determines the focal length of a lens at one zoom position, from pictures of still scenery taken
-// at known pan angles. The pan angles that the unit counts are the measure. Pure.
+// Determines the focal length of a lens at one zoom position, from pictures of still scenery. The
+// scale comes from the pan angles that the unit counts. Pure.
 #pragma once
 
 #include <cstddef>

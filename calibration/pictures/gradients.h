@@ -7,7 +7,7 @@ namespace ols::calibration {
 
 // The 1-sigma [gray] of the noise from pixel to pixel, after J. Immerkaer, Fast Noise Variance
 // Estimation, Computer Vision and Image Understanding 64 (1996), with the median instead of the
-// mean, so that edges do not count. A fine texture makes it too large.
+// mean, so that edges do not count. Fine texture makes the result too large.
 double noise_of(const cv::Mat& gray);
 
 struct Gradients {

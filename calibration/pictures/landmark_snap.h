@@ -1,9 +1,9 @@
-// Finds the exact position of a landmark at which a person has pointed roughly. Pure.
+// Finds the exact position of a landmark to which a person has pointed roughly. Pure.
 //
-// It is Foerstner's point (W. Foerstner, E. Guelch, A Fast Operator for Detection and Precise
-// Location of Distinct Points, Corners and Centres of Circular Features, 1987). There, either the
-// surrounding edges intersect (the tip of a spire, the corner of a roof) or their normals do (a
-// ball, a lamp); the better fit is taken.
+// The position is Foerstner's point (W. Foerstner, E. Guelch, A Fast Operator for Detection and
+// Precise Location of Distinct Points, Corners and Centres of Circular Features, 1987): the point
+// where the surrounding edges intersect (the tip of a spire, the corner of a roof), or where their
+// normals intersect (a ball, a lamp). The better fit is taken.
 #pragma once
 
 #include <Eigen/Core>
@@ -28,8 +28,8 @@ struct Snap {
 };
 const char* to_string(Snap::Refusal refusal);
 
-// `radius_px`: the largest distance of the structure from the given point, and the largest size of
-// the structure.
+// `radius_px`: the largest distance of the structure from the given point, and also its largest
+// size.
 Snap snap_to_structure(const cv::Mat& gray, const Eigen::Vector2d& pointed_px, double radius_px);
 
 }  // namespace ols::calibration

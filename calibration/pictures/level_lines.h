@@ -12,8 +12,8 @@
 
 namespace ols::calibration {
 
-// One edge, represented by two points. They lie one radius of gyration to the left and right of the
-// edge's middle. Their errors across the line are therefore independent, and if the lens bends the
+// One edge, represented by two points, one radius of gyration to the left and to the right of the
+// edge's middle. The errors of these points across the line are independent. If the lens bends the
 // line evenly, it still passes through both.
 struct LevelEdge {
   Eigen::Vector2d left_px = Eigen::Vector2d::Zero(), right_px = Eigen::Vector2d::Zero();

@@ -1,4 +1,4 @@
-// Fits a straight line through points of which some belong to something else. Pure.
+// Fits a straight line through points, some of which may not belong to it. Pure.
 #pragma once
 
 #include <cstddef>
@@ -19,8 +19,9 @@ struct FittedLine {
   std::size_t columns = 0;   // number of used points
 };
 
-// Least squares, starting from `start`. Points further off than three deviations (estimated from
-// the median of the distances) are left out. nullopt if fewer than eight points remain.
+// Least squares, starting from `start`. Points more than three deviations off the line are left out
+// (the deviation is estimated from the median of the distances). nullopt if fewer than eight points
+// remain.
 std::optional<FittedLine> fit_line(const LinePoints& points, const FittedLine& start);
 
 }  // namespace ols::calibration

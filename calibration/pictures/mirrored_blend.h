@@ -1,5 +1,5 @@
-// The paper's picture for rolling a camera about its optical axis (section 4.2): the blend of a
-// picture with its mirror image. If the camera is not rolled, level lines continue without a break.
+// The picture with which the paper levels a camera about its optical axis (section 4.2): the blend
+// of a picture with its mirror image. If the camera is level, level lines continue without a break.
 // If it is rolled, they cross their mirror images in the middle column. Pure.
 #pragma once
 

@@ -17,8 +17,8 @@ struct Patch {
 };
 
 // Cuts the patch around a point; nullopt if it does not fit into the picture. `turn` maps the
-// patch's coordinates to those of the searched picture. It is not the identity if that picture
-// shows the surroundings turned or sheared.
+// patch's coordinates to those of the picture to be searched, in case that picture shows the
+// surroundings turned or sheared.
 std::optional<Patch> cut_patch(const cv::Mat& gray, const Eigen::Vector2d& centre_px, int half_px,
                                const Eigen::Matrix2d& turn = Eigen::Matrix2d::Identity());
 

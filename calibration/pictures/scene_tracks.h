@@ -1,9 +1,9 @@
-// Finds points of the scenery again in the overlapping pictures of a sweep. Pure.
+// Finds the same points of the scenery in overlapping pictures of a sweep. Pure.
 //
-// The chain predicts where a point appears in another picture, to within some tens of pixels. First
-// the offset that all points of a pair of pictures share is found. Then each point is located to a
-// fraction of a pixel, by least-squares matching. Points that move relative to the others (cars,
-// branches, clouds) are left out.
+// The chain predicts where a point appears in another picture, to within some tens of pixels. For
+// each pair of pictures, the offset common to all points is found first. Then each point is located
+// to a fraction of a pixel, by least-squares matching. Points that move relative to the others
+// (cars, branches, clouds) are left out.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,7 +18,7 @@
 namespace ols::calibration {
 
 struct SceneTrackOptions {
-  double reach_px = 40.0;     // largest error of the chain's prediction from picture to picture
+  double reach_px = 40.0;     // largest error of the prediction from picture to picture
   int points_a_picture = 40;  // largest number of points in a picture
   int patch_half_px = 9;
   double agree_px = 1.0;  // largest deviation of a point from the common motion of its pair
@@ -33,7 +33,7 @@ struct SceneSighting {
 
 struct ScenePair {
   std::size_t first = 0, second = 0;
-  int matched = 0, moved = 0;  // numbers of points that follow the common motion, and that do not
+  int matched = 0, moved = 0;  // numbers of points that follow the common motion or do not
   Eigen::Vector2d offset_px = Eigen::Vector2d::Zero();  // median of found minus predicted position
 };
 

@@ -1,6 +1,6 @@
-// Finds stars in a picture of the night sky: their centres, their brightness above the background,
-// and their deviations. Hot pixels, streaks (aircraft, satellites) and lit surfaces are rejected
-// and counted. Pure.
+// Finds stars in a picture of the night sky: their centres with 1-sigma, and their brightness above
+// the background. Hot pixels, streaks (aircraft, satellites) and lit surfaces are rejected and
+// counted. Pure.
 #pragma once
 
 #include <Eigen/Core>

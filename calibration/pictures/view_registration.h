@@ -1,10 +1,11 @@
-// Finds the shift of a view relative to a stored picture of the same view, for example a reference
-// view from another day in other light. Pure.
+// Finds the shift of a view relative to a stored picture of the same view, even from another day
+// and in different light. Pure.
 //
-// Edge orientations are compared, not brightness. Only the direction of each gradient counts,
-// doubled so that an edge lit from the other side is the same edge. Its weight is its strength
-// above the noise. The spectra of the whole pictures are correlated first, then those of tiles.
-// Only the tiles that agree count: whatever has moved in the scene is a minority.
+// Edge orientations are compared, not brightness: only the direction of each gradient counts,
+// weighted by its strength above the noise. The angle of the direction is doubled, so that an edge
+// lit from the other side is the same edge. The spectra of the whole pictures are correlated first,
+// then those of tiles. Only the tiles that agree count, because moved parts of the scene are a
+// minority.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,7 +1,7 @@
 // Calibration with a drone that records its positions by RTK. The drone hovers at one point after
-// the other, and a person says when it hovers. The unit then looks there and takes a picture. Once
-// the drone's recorded positions extend beyond the picture's time, the drone is found in the
-// picture. The next point is the one that helps most. Pure.
+// another, and a person says when it hovers. The unit then turns to it and takes a picture. Once
+// the recorded positions extend beyond the time of the picture, the drone is found in the picture.
+// The most helpful point comes next. Pure.
 #pragma once
 
 #include <functional>
@@ -55,7 +55,7 @@ class DroneStage : public Stage {
   Question question_;             // asks for the drone to be flown to the next point
   std::optional<Shot> shot_;      // the picture to be taken next
   std::optional<Taken> picture_;  // kept until the positions extend beyond its time
-  PanTilt turned_;                // how far the person has turned the unit, for this point
+  PanTilt turned_;                // how far the person has turned the unit at this point
   PointingDialog dialog_;
   // Offset of the last sighting from the chain's prediction; nullopt before the first.
   std::optional<Eigen::Vector2d> beside_px_;

@@ -27,7 +27,7 @@ enum class Outcome { kRunning, kAccepted, kKeptOld, kAborted };
 class FieldProcedure {
  public:
   using Redo = std::function<void(const std::string& reference)>;
-  // `redo`: has the last stage sight one reference again.
+  // `redo`: called to make the last stage sight one reference again.
   FieldProcedure(std::vector<std::unique_ptr<Stage>> stages, Redo redo);
 
   // nullopt if the stages are complete and adjusted() must be called next, or if the procedure has

@@ -1,6 +1,6 @@
 // The stage in which landmarks are sighted together with a person. The person points at the first
 // landmark. The unit then turns to each of the others, the most helpful one first. A crosshair
-// snaps to the landmark, and the person confirms. A second round runs automatically, with the other
+// snaps to the landmark, and the person confirms. A second round runs automatically, from the other
 // direction of approach. At the end the unit returns to the first landmark, as a check. Pure.
 #pragma once
 
@@ -77,7 +77,7 @@ class LandmarkStage : public Stage {
   std::vector<Entry> entries_;
   std::vector<Visit> visits_;
   std::size_t at_ = 0;
-  PanTilt turned_;         // how far the person has turned the unit, in this visit
+  PanTilt turned_;         // how far the person has turned the unit in this visit
   PointingDialog dialog_;  // for this visit
   Adviser adviser_;
   std::string advice_;  // for this visit

@@ -8,8 +8,8 @@
 
 namespace ols::calibration {
 
-// The heading at which the pixel shows this point (ECEF [m]), 0 to 2 pi. It includes the error of
-// the camera's mounting. nullopt if the pixel cannot be unprojected.
+// The heading at which the pixel shows this point (ECEF [m]), 0 to 2 pi. The error of the camera's
+// mounting becomes part of it. nullopt if the pixel cannot be unprojected.
 std::optional<double> learned_heading(const StationModel& model, const UnitReading& reading,
                                       const Eigen::Vector2d& pixel, const Eigen::Vector3d& ecef);
 

@@ -27,7 +27,7 @@ struct StationFacts {
 };
 
 struct Wanted {
-  // Largest interval between statuses at which a stop is still noticed in time.
+  // Largest interval between statuses that still lets a stop be noticed in time.
   double status_gap_s = 0.0;
   bool absolute_time = false;                   // needed for stars, the sun, aircraft and drones
   bool sun_kept_out = false;                    // the sun is up, and must stay out of the picture

@@ -1,7 +1,7 @@
 // The stage in which one rectification target is measured together with a person. A live picture
 // shows the measured value until the target is in place and the person confirms. Then pictures are
 // taken with both directions of approach; each is read separately. If the target's place depends on
-// where the unit points, the unit does not turn meanwhile. Pure.
+// where the unit points, the unit stays still throughout. Pure.
 #pragma once
 
 #include <string>

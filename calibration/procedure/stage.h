@@ -68,14 +68,14 @@ class Stage {
   virtual void taken(const Taken& picture) = 0;
   // Takes a new picture for a live question. It may change the question.
   virtual void seen(const Taken&) {}
-  // Does a part of the computation while the unit moves. Returns true if there is more to do. A
-  // stage is complete only when work() has nothing more to do.
+  // Does a part of the computation while the unit moves. Returns true if there is more to do; only
+  // without that is a stage complete.
   virtual bool work() { return false; }
   // Reports that the picture could not be taken.
   virtual void not_taken(const std::string& why) = 0;
   virtual void answered(const Answer& answer) = 0;
-  // Reports that the procedure was interrupted and continues now. A person's changes to the unit
-  // may have been undone.
+  // Reports that the procedure was interrupted and continues now. What a person has done to the
+  // unit (such as putting a filter on) may have been undone.
   virtual void resumed() {}
   // The stage's observations so far. A later call may return different observations (after a
   // sighting was redone).

@@ -1,7 +1,7 @@
 // The region around the sun into which the unit must not point without a filter on the lens. Pure.
 //
-// It depends on the heading. The margin covers a compass error of some degrees, but not an unknown
-// heading.
+// The region depends on the heading. Its margin covers a compass error of some degrees, but not an
+// unknown heading.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ namespace ols::calibration {
 
 class SunKeepOut {
  public:
-  static constexpr double kRadius_deg = 8.0;  // half a picture's diagonal plus a compass error
+  static constexpr double kRadius_deg = 8.0;  // half the picture's diagonal plus a compass error
 
   using UtcNow = std::function<std::int64_t()>;  // [us]
   SunKeepOut(const StationModel& model, UtcNow now) : model_(model), now_(std::move(now)) {}
@@ -23,8 +23,7 @@ class SunKeepOut {
   // Why the unit must not look in this direction now (angles as reported), in words; empty if it
   // may. `doubt_rad`: how far the tripod may have turned; added to the compass error.
   std::string hindrance(const PanTilt& angles, double doubt_rad = 0.0) const;
-  // Whether part of the sun may be visible; this is so even if the sun is a little below the
-  // horizon.
+  // Whether part of the sun may be visible; true even if the sun is a little below the horizon.
   bool is_up() const;
   // Suspends the region: a person has said that a filter is on the lens, and a picture beside the
   // sun has confirmed it.

@@ -15,7 +15,7 @@ using MayGo = std::function<bool(const PanTilt&)>;
 
 class SunStage : public Stage {
  public:
-  // `keep_out`: is suspended while the filter is on. `may_go`: whether travel limits and keep-out
+  // `keep_out`: suspended while the filter is on. `may_go`: whether travel limits and keep-out
   // regions allow a direction.
   SunStage(const StationModel& model, std::shared_ptr<SunKeepOut> keep_out, MayGo may_go);
 

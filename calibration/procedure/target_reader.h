@@ -1,5 +1,5 @@
-// Reads pictures of the paper's rectification targets as a person sets them up. Yields what to
-// show, the measured value, and observations. Pure.
+// Reads pictures of the paper's rectification targets while a person sets them up. Returns a
+// picture for the person, the measured value, and observations. Pure.
 #pragma once
 
 #include <memory>
@@ -16,9 +16,9 @@ namespace ols::calibration {
 struct LevelBoard {
   double level_sd_rad = 30.0 * EIGEN_PI / 648000.0;
 };
-// One cross straight ahead of the unit's axes, and another one to the right of it, at a distance
-// equal to the camera's offset from the axes. If the camera is directly above the axes, there is
-// only one cross.
+// One cross straight ahead of the unit's axes, and a second one to the right of it, as far as the
+// camera is to the right of the axes. If the camera is directly above the axes, there is only one
+// cross.
 struct CrossBoard {
   double distance_m = 0.0;  // from the pan axis
   double apart_m = 0.0;

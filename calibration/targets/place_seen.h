@@ -1,4 +1,4 @@
-// How a station sees a point in ECEF: in GROUND, lifted by terrestrial refraction.
+// The view that a station has of a point in ECEF: in GROUND, lifted by terrestrial refraction.
 #pragma once
 
 #include "calibration/target.h"
