@@ -26,12 +26,12 @@ class ActiveCalibration {
   // has changed. Serial numbers are known only once the devices are open.
   bool refuses(const std::vector<device::DeviceReport>& devices);
   // As above, for the size of a count [rad] that the unit reports; 0 if it is not known yet. A unit
-  // in another step mode has other errors than those that were calibrated. The calibration stays
+  // in a different step mode has errors other than the calibrated ones. The calibration stays
   // dropped until a restart or another calibration.
   bool refuses(const PanTilt& count_rad);
 
-  // Why these files do not belong to the open devices, or to counts of this size; empty if they
-  // may.
+  // Why these files cannot belong to the open devices, or to counts of this size; empty if they
+  // can.
   static std::string conflict(const CalibrationFiles& files,
                               const std::vector<device::DeviceReport>& devices,
                               const PanTilt& count_rad);

@@ -32,8 +32,8 @@ class CalibratedUnit {
     return corrected_angles(calibration_.model, reading);
   }
   // The angles that the unit reports when it has come straight from `here` and points where an
-  // ideal unit points at `corrected`. `corrected` also tells the turn of the pan axis: angles that
-  // are a whole turn apart are approached from different sides.
+  // ideal unit points at `corrected`. `corrected` must include whole turns of the pan axis, because
+  // angles a whole turn apart are approached from different sides.
   PanTilt reported(const PanTilt& corrected, const PanTilt& here) const;
 
  private:

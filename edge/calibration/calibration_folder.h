@@ -15,13 +15,13 @@ struct CalibrationFiles {
   StationCalibration calibration;
   InstrumentSerials serials;
   std::int64_t id = 0;  // computed from the content
-  // Time of its last observation; 0 if the observations had no times.
+  // Time of the last observation; 0 if the observations had no times.
   std::int64_t observed_utime_us = 0;
   // 1-sigma of the systematic error of a direction over the working volume, per axis.
   double rms_rad = 0.0, worst_rad = 0.0;
 };
 
-// FNV-1a of the three files as a non-negative number. The setup's lines up to and including the id
+// FNV-1a of the three files, as a non-negative number. The setup's lines up to and including the id
 // are left out.
 std::int64_t calibration_id_of(std::string_view instrument, std::string_view setup,
                                std::string_view covariance);

@@ -1,5 +1,5 @@
-// The calibration of a running station. It also checks whether the station has stayed in place
-// since then.
+// The calibration of a running station. Also checks whether the station has moved since it was
+// calibrated.
 #pragma once
 
 #include <cstdint>

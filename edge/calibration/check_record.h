@@ -1,4 +1,4 @@
-// Notes whether a station's reference views are checked at all, so that a missing check does not
+// Records whether a station's reference views are checked at all, so that a missing check does not
 // look like a good result. Pure.
 #pragma once
 
@@ -16,7 +16,7 @@ class CheckRecord {
   void note_judged();
   // Notes a round whose pictures were not recognised: night, fog, another scene.
   void note_unrecognised() { reason_ = "its reference views are not recognised"; }
-  // Notes that the round left out so many views because of the sun that it decided nothing.
+  // Notes that the round decided nothing, because it left out too many views near the sun.
   void note_sun() { reason_ = "the sun stands in its reference views"; }
   // Notes that the unit did not reach a view in time, in this number of consecutive rounds.
   void note_late(int rounds);

@@ -1,5 +1,5 @@
-// Compares views of the scenery with the pictures stored at the calibration. It finds whether the
-// tripod has turned, an axis has lost steps, or something else has moved. Pure.
+// Compares views of the scenery with the pictures stored at the calibration, to find out whether
+// the tripod has turned, an axis has lost steps, or something else has moved. Pure.
 #pragma once
 
 #include <cstddef>
@@ -27,8 +27,8 @@ enum class DriftCause {
 
 struct DriftFinding {
   DriftCause cause = DriftCause::kNone;
-  // The turn of the tripod that best explains the views; not valid for kUnclear. For kLostSteps it
-  // is at least as large as the lost steps (pan axis: heading; tilt axis: tilt).
+  // The turn of the tripod that best explains the views; not valid for kUnclear. For kLostSteps,
+  // the heading (pan axis) or the tilt (tilt axis) is at least as large as the lost steps.
   double heading_rad = 0.0;  // clockwise, like a heading
   double tilt_rad = 0.0;     // tilt of the vertical, in any direction
   double heading_sd_rad = 0.0, tilt_sd_rad = 0.0;

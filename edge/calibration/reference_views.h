@@ -25,7 +25,8 @@ class ReferenceViews {
  public:
   struct Config {
     std::string
-        // Folder of the persisted state; if empty, pictures and findings end with the process.
+        // Folder of the persisted state; if empty, pictures and findings are lost when the process
+        // ends.
         folder;
     std::string station;
     std::int64_t calibration_id = 0;

@@ -19,10 +19,10 @@ class ViewTour {
     // Idle time from one check to the next; if infinite, checks are made only on request.
     double interval_s = std::numeric_limits<double>::infinity();
     double settle_s = 1.0;  // time at rest before mid-exposure
-    double leg_s = 40.0;    // a view that takes longer is unreachable, and the round is given up
-    // Whether the sun forbids the unit to look in this direction now (reported angles). The round
-    // leaves out such a view, and another round follows when the view is possible again. If empty,
-    // all views are possible.
+    double leg_s = 40.0;    // a view not reached in this time ends the round
+    // Whether the sun is too near to this direction now (reported angles). The round leaves out
+    // such a view, and another round follows when the view is possible again. If empty, all views
+    // are possible.
     std::function<bool(const PanTilt&)> forbidden;
   };
   struct Situation {
@@ -76,7 +76,7 @@ class ViewTour {
   std::optional<double> stands_since_s_;
   double leg_since_s_ = 0.0;
   int late_ = 0;
-  // Those of the last round; those of the current one.
+  // The views left out in the last round; in the current one.
   std::vector<std::size_t> left_out_, leaving_out_;
   double looks_again_s_ = 0.0;
 };

@@ -1,8 +1,8 @@
 // Automatic exposure that protects the target's contrast. Pure.
 //
 // Up to saturation, gray levels grow with the light, and so does the contrast between target and
-// surround. Therefore the brighter of the two is brought to a level just below saturation, and the
-// rest of the image is ignored. Without a target, the mean of the whole image is brought to a
+// surround. The exposure therefore brings the brighter of the two to a level just below saturation,
+// and ignores the rest of the image. Without a target, the mean of the whole image is brought to a
 // middle level. Exposure is raised before gain, because gain also amplifies noise. Motion blur
 // limits the exposure.
 #pragma once
@@ -19,7 +19,7 @@ struct PictureLevels {
   bool target = false;     // true: the levels are those of a target; false: of the whole image
   double mean = 0.0;       // of the whole image; if there is a target, of its surround
   double bright = 0.0;     // 95 % quantile of the brighter one of target and surround
-  double saturated = 0.0;  // share of its saturated pixels
+  double saturated = 0.0;  // share of saturated pixels in it
 };
 
 // `gray`: 8-bit. The surround is the ring around the box, three times its size. A box outside the
@@ -27,9 +27,9 @@ struct PictureLevels {
 PictureLevels measure_levels(const cv::Mat& gray, const std::optional<cv::Rect2d>& target_box);
 
 struct AutoExposureConfig {
-  // Target value in gray levels, for the brighter one of target and surround.
+  // Wanted gray level of the brighter of target and surround.
   double bright_level = 200.0;
-  double mean_level = 110.0;     // target value for the mean of the image, if there is no target
+  double mean_level = 110.0;     // wanted mean of the image, if there is no target
   double dead_band = 0.12;       // a smaller relative error of the light is ignored
   double damping = 0.7;          // share of the (logarithmic) error that one change corrects
   double greatest_factor = 2.0;  // largest factor of one change

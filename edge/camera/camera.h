@@ -18,7 +18,7 @@ class Camera {
   Camera(const Camera&) = delete;
   Camera& operator=(const Camera&) = delete;
 
-  // The newest frame that was not taken yet; waits up to timeout_s for one.
+  // The newest frame, unless it was taken already; waits up to timeout_s for one.
   virtual std::optional<Frame> next(double timeout_s) = 0;
   // Sets the target's box, for automatic exposure; nullopt if there is no target.
   virtual void set_region(const std::optional<cv::Rect2d>& target_box) = 0;

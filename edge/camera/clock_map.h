@@ -2,9 +2,9 @@
 // uncertainty. Pure.
 //
 // There are two sources of data. A *latch* reads the camera's clock between two readings of the
-// station's clock. The true instant lies between these, whatever the network delay is. The
-// *arrival* of a frame gives only a bound: no frame arrives before its stamp plus a roughly known
-// delay. The earliest of many arrivals is the tightest bound.
+// station's clock, so its true instant lies between these, whatever the network delay is. The
+// *arrival* of a frame gives only a bound: no frame arrives earlier than its stamp plus a roughly
+// known delay. The earliest of many arrivals is the tightest bound.
 #pragma once
 
 #include <cstdint>

@@ -22,7 +22,7 @@ class ExposureLog {
   ExposureLog(double first_s, double frame_period_s)
       : first_s_(first_s), frame_period_s_(frame_period_s) {}
 
-  // Notes that a new exposure was requested and granted at these instants (CLOCK_MONOTONIC).
+  // Notes the instants (CLOCK_MONOTONIC) at which a new exposure was requested and granted.
   void change(double asked_s, double granted_s, double exposure_s);
 
   double newest_s() const { return changes_.empty() ? first_s_ : changes_.back().exposure_s; }

@@ -14,8 +14,8 @@ struct Frame {
   double mid_exposure_s = 0.0;  // on the station's monotonic clock
   double stamp_sd_s = 0.0;      // 1-sigma of mid_exposure_s
   StampSource stamp_source = StampSource::kCamera;
-  // For a rolling shutter: mid_exposure_s is that of the first row, and that of the last row is
-  // later by this time. 0 if all rows are exposed at once.
+  // For a rolling shutter, mid_exposure_s is that of the first row; the last row is later by this
+  // time. 0 if all rows are exposed at once.
   double row_readout_s = 0.0;
   std::uint64_t number = 0;  // the camera's frame counter, unwrapped
   // The camera's raw image; empty if `gray` is identical to it, or if nobody needs it.

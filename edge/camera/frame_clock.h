@@ -40,8 +40,8 @@ class FrameClock {
   ClockMap& map() { return map_; }
 
   // Call with a reference while the camera's clock is TAI and the station's UTC can be trusted,
-  // otherwise with nullopt. The reference is a second source besides the latches. While the two
-  // sources agree, the more accurate one is used. If they disagree, the latches are used.
+  // otherwise with nullopt. The reference is a second source besides the latches. The more accurate
+  // source is used, but the latches if the two disagree.
   void set_tai(const std::optional<TaiReference>& reference) { tai_ = reference; }
   // PTP minus latches [s]; set only if their uncertainties do not explain the difference.
   std::optional<double> tai_disagreement_s() const { return tai_disagreement_s_; }

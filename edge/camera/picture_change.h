@@ -1,5 +1,5 @@
-// Notices a frozen camera: no picture has new pixels. An encoder turns a frozen image into the same
-// few pictures again and again, one for each position between two key frames. Pure.
+// Notices a frozen camera, whose pictures have no new pixels. The encoder turns a frozen image into
+// the same few pictures again and again, one for each position between two key frames. Pure.
 #pragma once
 
 #include <cstddef>

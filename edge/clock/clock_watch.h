@@ -2,13 +2,13 @@
 // chrony.
 //
 //  - synchronised: a time service states that it is. The error is the service's own estimate.
-//  - unsynchronised: a time service has run since boot, but is not synchronised (any more), or
-//    has been silent for a while. - The error grows from its last good value, by the drift of a
-//    free-running clock. - The same state holds after a step of the clock that no service has
+//  - unsynchronised: a time service has run since boot, but is not synchronised (any more), or has
+//    been silent for a while. The error grows from its last good value, by the drift of a
+//    free-running clock. The same state holds after a step of the clock that no service has
 //    confirmed.
-//  - unknown: there is no trace of a time service since boot. - A person has set the clock,
-//    accurately or not. - The error is the one assumed in the configuration; the fusion compares
-//    the stations' clocks.
+//  - unknown: there is no trace of a time service since boot. A person has set the clock,
+//    accurately or not. The error is the one assumed in the configuration; the fusion compares the
+//    stations' clocks.
 //
 // A step is a jump of CLOCK_REALTIME relative to CLOCK_MONOTONIC. Slewing by a service (which is
 // slow) and an announced leap second are not steps. A suspend looks like a step and is treated as

@@ -1,4 +1,4 @@
-// What the fusion last predicted of a target that the land hides, while it holds. Pure.
+// The fusion's newest prediction about a target that the land hides, as long as it holds. Pure.
 #pragma once
 
 #include <optional>
@@ -11,16 +11,17 @@ namespace ols::station {
 
 class ActiveOcclusion {
  public:
-  // False if a later one of the same sender is in force.
+  // Returns false if a later prediction from the same sender is in force.
   bool give(const OcclusionCommand& command);
   void clear() { command_.reset(); }
   void expire(double now_s);
 
-  // nullopt: nothing is predicted.
+  // nullopt if nothing is predicted.
   const std::optional<OcclusionCommand>& command() const { return command_; }
-  // Where the target comes out, as a slew; nullopt: not known.
+  // The place where the target comes out, as a slew; nullopt if it is unknown.
   std::optional<SlewCommand> exit() const;
-  // The mount waits there. nullopt: the place is not known, or the unit cannot point there.
+  // The goal of the mount, which waits at that place. nullopt if the place is unknown, or the unit
+  // cannot point there.
   std::optional<mount::Goal> goal(const PointingModel& pointing, double now_s) const;
 
  private:

@@ -6,7 +6,7 @@
 // stamp, by the station's UTC, is not older than its lease plus a margin for the difference between
 // the two clocks. Sequence numbers are never compared, and the stamps of one sender never block
 // another: without signatures, anybody may use any name. If the station's clock is set back by more
-// than a lease, forgotten commands may pass again, as they may after a restart.
+// than a lease, or after a restart, forgotten commands may pass again.
 #pragma once
 
 #include <cstddef>
@@ -34,11 +34,11 @@ class CommandGate {
   struct Config {
     double clock_margin_s = 0.5;  // largest difference between the two clocks
     double lease_max_s = 10.0;
-    // Number of commands that are remembered however old they are, because they would become fresh
-    // again if the clock were set back. It corresponds to four minutes of slews.
+    // This number of commands is always remembered, however old they are, because they would become
+    // fresh again if the clock were set back. It corresponds to four minutes of slews.
     std::size_t kept = 4096;
-    // Largest number of remembered commands. Forged commands with the latest stamp block others
-    // only if more than this number arrive within the margin. That is 130 000 a second, more than a
+    // Largest number of remembered commands. Forged commands with the latest stamp can block others
+    // only if more than this number arrive within the margin, at 130 000 a second: more than a
     // station can read.
     std::size_t most = 65536;
   };

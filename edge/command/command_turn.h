@@ -36,7 +36,7 @@ class CommandTurn {
   // command.
   void designate(const DesignateCommand& command, const CommandId& id);
   // Call before any other operator command. Carries out the pending designation, unless one was
-  // already carried out in this turn. There are therefore at most two per turn.
+  // already carried out in this turn. So there are at most two designations per turn.
   void before_other_command(double now_s);
   // Call after the turn's last command.
   void end(double now_s);

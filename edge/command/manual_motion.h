@@ -19,8 +19,8 @@ class ManualMotion {
   // force.
   bool overtakes(const RateCommand& command, double now_s) const;
 
-  // nullopt: the unit is to halt. A halted unit still moves for a time v/a while it brakes. The
-  // halt therefore comes early, after the share kInForce of the lease.
+  // nullopt means halt. A halted unit still moves for a time v/a while it brakes, so the halt comes
+  // early, after the share kInForce of the lease.
   std::optional<mount::Goal> goal(double now_s) const;
 
   static constexpr double kInForce = 0.8;

@@ -35,7 +35,7 @@ class SlewSearch {
     Eigen::Vector2d pixel;
     double sd_px = 0.0;
   };
-  // The place where the tracker is to search for its target. nullopt if the tracker was sent a
+  // The place where the tracker is to search for its target. nullopt if the tracker got a place a
   // moment ago, or the unit has not arrived yet.
   std::optional<Place> send_tracker(const camera::Frame& frame, const PointingModel& pointing,
                                     const Slew& slew);
@@ -44,9 +44,9 @@ class SlewSearch {
   bool is_where_slewed(const camera::Frame& frame, const tracker::TrackerOutput& output,
                        const PointingModel& pointing, const Slew& slew) const;
 
-  // Whether the station may acquire any object at the slew's place. A station without a target may
-  // do so. A station with a target may do so if it has not seen the target there for own_target_s,
-  // because the designation may have been wrong.
+  // Whether the station may acquire any object at the slew's place. A station without a target may.
+  // A station with a target may if it has not seen the target there for own_target_s, because the
+  // designation may have been wrong.
   bool looks_for_anything(const FollowedTarget& target) const;
   struct Acquired {
     const camera::Frame* frame;  // one of the frames passed to acquire()

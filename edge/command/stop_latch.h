@@ -1,5 +1,5 @@
-// Passes the emergency stop from the thread that sees the line's edges to the control loop. It
-// catches even a press that is shorter than a turn of the loop.
+// Passes the emergency stop from the thread that sees the line's edges to the control loop. Even a
+// press shorter than a turn of the loop is caught.
 #pragma once
 
 #include <atomic>

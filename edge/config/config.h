@@ -80,7 +80,8 @@ StationSettings load_station_settings(const std::string& path, const trust::Site
 // stations.
 config::Section site_section(StationSettings& settings);
 
-// Returns a check whether the station with this configuration file can use a site's settings.
+// Returns a function that checks whether the station with this configuration file can use a site's
+// settings.
 trust::SettingsCheck site_check(const std::string& path);
 
 // The text of --check-config, one line per subject.

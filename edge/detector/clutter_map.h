@@ -1,4 +1,4 @@
-// Learns how often each part of the image shows something that is not a target.
+// Learns how often each part of the image shows clutter: detections that are not targets.
 #pragma once
 
 #include <Eigen/Core>

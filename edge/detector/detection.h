@@ -1,4 +1,4 @@
-// Something that one image shows: a place that differs from its surroundings or from the scene.
+// A detection in one image: a place that differs from its surroundings or from the scene.
 #pragma once
 
 #include <Eigen/Core>

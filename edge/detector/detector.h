@@ -28,8 +28,8 @@ class Detector {
     std::vector<Detection> detections;  // of this image alone
     bool suspended = false;  // everything changed at once, so movers are not searched for
   };
-  // `gray`: 8-bit, one channel, always of the same size. `predicted`: the mount's motion. It maps
-  // the previous image's pixels to this image's. The images themselves refine it.
+  // `gray`: 8-bit, one channel, always of the same size. `predicted`: the motion according to the
+  // mount. It maps the previous image's pixels to this image's, and is refined with the images.
   Result advance(const cv::Mat& gray, double time_s,
                  const std::optional<Eigen::Matrix3d>& predicted);
 

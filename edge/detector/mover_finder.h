@@ -1,4 +1,4 @@
-// Finds what differs from the aligned scene: objects that move in front of the ground.
+// Finds objects that move in front of the ground, by their difference from the aligned scene.
 #pragma once
 
 #include <optional>

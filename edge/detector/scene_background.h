@@ -7,9 +7,9 @@
 
 namespace ols::detector {
 
-// It is the median of three images of the last second, each aligned with the present image. A
-// moving object covers a given place in only one of them. It is available after a moment, even
-// while the camera moves.
+// The scene is the median of three images of the last second, each aligned with the present image.
+// A moving object covers a given place in only one of them. The scene is available after a moment,
+// even while the camera moves.
 class SceneBackground {
  public:
   void clear() { kept_.clear(); }
@@ -18,7 +18,7 @@ class SceneBackground {
   void advance(const Eigen::Matrix3d& motion);
   // Whether there are three images, of which the oldest has at least the age `kLeastAge_s`.
   bool ready(double time_s) const;
-  // For each place, the darkest and the brightest level within one pixel.
+  // The darkest and the brightest level within one pixel of each place.
   struct Range {
     cv::Mat low, high;
   };

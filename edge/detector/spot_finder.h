@@ -22,9 +22,10 @@ struct SpotConfig {
   std::size_t most = 60;      // maximum number, strongest first
 };
 
-// The spread within the ring sets the threshold of each place (order-statistic constant false alarm
-// rate): a branch, a text or the edge of a cloud has similar things around it, a target has not. A
-// bright target does not raise the threshold of its neighbour, because order statistics ignore it.
+// The threshold at each place follows from the spread within the ring around it (order-statistic
+// constant false alarm rate): a branch, a text or the edge of a cloud has similar things around it;
+// a target does not. A bright target does not raise the threshold for its neighbour, because order
+// statistics ignore it.
 class SpotFinder {
  public:
   explicit SpotFinder(const SpotConfig& config)

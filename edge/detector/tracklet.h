@@ -1,4 +1,4 @@
-// A possible object: its motion in the image, and the evidence for its existence.
+// A possible object: its motion in the image, and the evidence that it exists.
 #pragma once
 
 #include <Eigen/Core>
@@ -53,12 +53,12 @@ class Tracklet {
   double unseen_s() const { return unseen_s_; }
   double age_s() const { return age_s_; }
   bool mostly_clear() const { return clear_ > 0.7 * detections_; }
-  // The distance from where it began, and the length of its path from there; both without the
-  // camera's motion.
+  // The distance from the place where it began, and the length of its path from there; both without
+  // the camera's motion.
   double way_px() const { return (pixel_ - origin_).norm(); }
   double path_px() const { return path_px_ + (pixel_ - mark_).norm(); }
   // scene_shift_px: how far the scene has moved in the image since the tracklet began. reach_px:
-  // the largest distance in the image from where the tracklet began.
+  // the largest distance, in the image, from the place where it began.
   double scene_shift_px() const { return (origin_ - first_pixel_).norm(); }
   double reach_px() const { return reach_px_; }
   // Whether it has not moved relative to the scene in the last seconds.
@@ -74,8 +74,8 @@ class Tracklet {
 
   long id_;
   Eigen::Vector2d pixel_, velocity_px_s_ = Eigen::Vector2d::Zero(), size_px_;
-  // Where it began, where it was a moment ago, and where it was a second ago; all three move with
-  // the scene.
+  // The places where it began, where it was a moment ago, and where it was a second ago; all three
+  // move with the scene.
   Eigen::Vector2d origin_, mark_, rest_;
   Eigen::Vector2d first_pixel_;  // place in the image where it began
   Eigen::Vector2d measured_pixel_;

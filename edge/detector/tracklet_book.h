@@ -12,7 +12,8 @@
 namespace ols::detector {
 
 struct TrackletConfig {
-  // Allowed number of confirmed tracklets of clutter per hour, for the whole camera.
+  // Allowed number per hour of tracklets that are confirmed although they are clutter, for the
+  // whole camera.
   double false_an_hour = 1.0;
   double detected = 0.8;  // probability that an object is detected in an image
   // Clutter repeats itself in successive images, so one detection adds at most this much to the log

@@ -1,4 +1,4 @@
-// The password of a device on the network, in a file that only the station can read.
+// Reads the password of a device on the network from a file that only the station can read.
 #pragma once
 
 #include <functional>
@@ -6,12 +6,12 @@
 
 namespace ols::device {
 
-// The first line; empty without a file. Throws std::system_error.
+// Returns the file's first line; empty if `file` is empty. Throws std::system_error.
 std::string read_password(const std::string& file);
 
-// After a refused login: until the file has another password, or for a quarter of an hour, because
-// devices lock an account after five to ten refusals for half an hour. `wait`: waits for so many
-// seconds; false: the device is no longer wanted.
+// Call after a refused login: waits until the file has another password, or for a quarter of an
+// hour, because devices lock an account for half an hour after five to ten refusals. `wait`: waits
+// for a number of seconds; returns false if the device is no longer wanted.
 void wait_for_other_password(const std::string& file, const std::string& refused,
                              const std::function<bool(double)>& wait);
 inline constexpr double kLoginPause_s = 900.0;

@@ -1,5 +1,5 @@
-// Makes the outputs that contain the unit's counts: sightings and requested frames. It handles a
-// frame from its request to the parts that fit into datagrams.
+// Makes the outputs that contain the unit's counts: sightings and requested frames. Handles a frame
+// from the request to the parts that fit into datagrams.
 #pragma once
 
 #include <cstdint>

@@ -23,7 +23,7 @@ class FrameHistory {
   // frame.
   const camera::Frame* find(const std::optional<double>& mid_exposure_s) const;
   // The frames after this instant, oldest first, including the newest. If there are more than
-  // kMostSince, only every second, third, ... of them. The limit is needed because the control loop
+  // kMostSince, only every second (third, ...) one. The limit is needed because the control loop
   // waits while they are processed.
   std::vector<const camera::Frame*> since(double mid_exposure_s) const;
   static constexpr std::size_t kMostSince = 33;

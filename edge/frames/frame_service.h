@@ -16,7 +16,7 @@ namespace ols::station {
 
 struct FrameRequest {
   std::int64_t boot_id = 0, sequence = 0;  // id of the request
-  std::optional<PanTilt> at;               // reported angles; nullopt for wherever the unit stands
+  std::optional<PanTilt> at;               // reported angles; nullopt: wherever the unit stands
   double tolerance_rad = 0.0;
   // How long the unit must have stood still at mid-exposure; 0 if it may move.
   double still_s = 0.0;

@@ -14,8 +14,9 @@ struct GpioConfig {
   std::string chip;
   int led_line = -1;   // -1 if there is none
   int stop_line = -1;  // emergency stop, normally closed, so that a broken wire is a stop
-  // The level when the contact is open. False: high (the contact connects to ground, and the line
-  // is pulled up). True: low (the contact connects to the supply, and the line is pulled down).
+  // The level of the line when the contact is open. False: high (the contact connects to ground,
+  // and the line is pulled up). True: low (the contact connects to the supply, and the line is
+  // pulled down).
   bool stop_active_low = false;
   double stop_release_s =
       0.05;  // a release counts after it has been stable for this time; a press counts at once

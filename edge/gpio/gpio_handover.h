@@ -1,6 +1,6 @@
 // The station's GPIO: connects the control loop to the owner of the lines (Gpio, whose thread waits
-// for edges). Decides about the status LED, the inputs for emergency stop and re-arming, and the
-// optional camera trigger.
+// for edges). Handles the status LED, the inputs for emergency stop and re-arming, and the optional
+// camera trigger.
 //
 // The emergency stop in software only assists a hardware stop that cuts the power of the motors
 // (docs/field-guide.md).

@@ -24,7 +24,7 @@ class StopInput {
 
  private:
   double release_s_;
-  bool was_pressed_ = false;          // it was pressed at some time; a lost line counts
+  bool was_pressed_ = false;          // it has ever been pressed; a lost line counts as pressed
   std::optional<double> released_s_;  // time since which the line has been released without an edge
 };
 

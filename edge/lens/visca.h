@@ -1,7 +1,7 @@
-// Sony's VISCA protocol: the part that moves a lens (sources: docs/overview.md). Packets have 3 to
-// 16 bytes and end with FF. Packets to device 1 begin with 81, packets from it with 90. A command
-// is answered twice: at once by an acknowledgement, and at its end by a completion. An inquiry is
-// answered once, by its value. Pure.
+// The part of Sony's VISCA protocol that moves a lens (sources: docs/overview.md). Packets have 3
+// to 16 bytes and end with FF. Packets to device 1 begin with 81, packets from it with 90. A
+// command is answered twice: at once by an acknowledgement, and at its end by a completion. An
+// inquiry is answered once, by its value. Pure.
 #pragma once
 
 #include <cstdint>

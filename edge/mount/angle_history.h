@@ -41,10 +41,9 @@ class AngleHistory {
     // Longest time after the newest sample for which there is an answer.
     double max_extrapolation_s = 0.15;
     double step_rad = 5.61e-5;  // one encoder step: 11.5714 arc seconds
-    // The accelerations that are assumed. Between two samples the first value is assumed. More is
-    // assumed if the unit was commanded to accelerate, or if the neighbouring samples show that it
-    // did. After the newest sample, the unit may have begun to accelerate by up to the second
-    // value.
+    // The assumed accelerations. The first value holds between two samples; more is assumed if the
+    // unit was commanded to accelerate, or if the neighbouring samples show that it did. The second
+    // value is the largest that the unit may have begun after the newest sample.
     double acceleration_sd_rad_s2 = 0.04;
     double acceleration_max_rad_s2 = 1.0;
   };

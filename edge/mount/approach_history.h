@@ -1,5 +1,5 @@
-// The direction from which each axis came to its present angle, which determines where backlash
-// leaves it. Pure.
+// The direction from which each axis came to its present angle; the effect of backlash depends on
+// it. Pure.
 #pragma once
 
 #include <deque>

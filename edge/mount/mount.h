@@ -1,9 +1,9 @@
 // What a station needs from the mount that carries its camera: angles with their times and errors,
 // and a way to command them. Angles are the mount's own [rad]; times are CLOCK_MONOTONIC [s].
 //
-// The mount may be absent, vanish and come back at any time. Meanwhile it has no samples, and its
-// report says why. Nothing moves before the first goal or home(). Every method may be called from
-// any thread. None waits for the device, and none throws.
+// The mount may be absent, vanish and come back at any time. While it is absent it gives no
+// samples, and its report says why. Nothing moves before the first goal or home(). Every method may
+// be called from any thread. None waits for the device, and none throws.
 #pragma once
 
 #include <cstdint>

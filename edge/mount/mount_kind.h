@@ -12,7 +12,7 @@ namespace ols::mount {
 
 // What is known before the mount is found.
 struct Traits {
-  bool moves = true;     // if false, it obeys no order, and the station never waits for it
+  bool moves = true;     // false: the mount obeys no order, and the station never waits for it
   bool may_home = true;  // it can home on command
   AngleHistory::Config angles;
   Limits limits;  // as configured; the mount's own limits may be narrower

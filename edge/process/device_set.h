@@ -26,7 +26,7 @@ using OpenGpio = std::function<std::unique_ptr<gpio::GpioHandover>(gpio::GpioHan
 
 // The devices that the configuration chooses. A simulation provides its own instead.
 struct ChosenDevices {
-  // Pointers are null for devices that are not configured. The device made by `open_gpio` calls
+  // Pointers are null for devices that are not configured. The device that `open_gpio` makes calls
   // back from its own thread.
   OpenGpio open_gpio;
   std::unique_ptr<lens::LensHandover> lens;
@@ -48,7 +48,7 @@ class DeviceSet {
 
   camera::Camera& camera() { return *chosen_.camera; }
   mount::Mount& mount() { return *chosen_.mount; }
-  // Null if not configured.
+  // These are null if not configured.
   gpio::GpioHandover* gpio() { return gpio_.get(); }
   lens::LensHandover* lens() { return chosen_.lens.get(); }
   std::optional<recorder::Recorder>& recorder() { return recorder_; }

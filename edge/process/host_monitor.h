@@ -41,7 +41,7 @@ HostReport report_on(const HostReading& reading, const HostConfig& config);
 class HostMonitor {
  public:
   using Reader = std::function<HostReading()>;
-  // Starts to read periodically. Everything to which `reader` refers must live until the program
+  // Starts to read periodically. Everything that `reader` refers to must live until the program
   // ends.
   explicit HostMonitor(const HostConfig& config)
       : HostMonitor(config, [c = config] { return read_host(c); }) {}

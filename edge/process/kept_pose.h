@@ -1,5 +1,5 @@
-// The station's pose from survey and sensors. After a restart it is the persisted pose until the
-// sensors report (file: pose_store.h).
+// The station's pose from survey and sensors. After a restart it is the persisted pose
+// (pose_store.h) until the sensors report.
 #pragma once
 
 #include <optional>

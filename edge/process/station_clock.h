@@ -10,7 +10,7 @@
 
 namespace ols::station {
 
-// Returns what a time service has said about the clock since the last call.
+// Returns the newest reading of a time service since the last call.
 using TimeService = std::function<std::optional<clock::ClockReading>()>;
 // Kernel and chrony of this host, queried every few seconds.
 TimeService host_time_service();

@@ -1,5 +1,5 @@
-// Writes to the journal what began or ended at a station, and reports the station's newest fault.
-// Pure.
+// Writes the beginning and end of conditions at a station to the journal, and reports the station's
+// newest fault. Pure.
 #pragma once
 
 #include <cstdint>

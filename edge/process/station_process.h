@@ -28,7 +28,7 @@ struct Outside {
 
 class StationProcess {
  public:
-  // Needs neither a network nor devices; it keeps trying to reach those that are absent.
+  // Works without network and devices; it keeps trying to reach those that are absent.
   StationProcess(const StationSettings& configured, std::int64_t boot_id,
                  Outside outside = {open_chosen_devices, host_time_service()});
 

@@ -18,7 +18,7 @@ class AngleIntake {
  public:
   AngleIntake(const PtuConfig& config, const PtuFacts& facts);
 
-  // Notes that commands were sent which change the unit's speed by this [rad/s].
+  // Notes that commands were sent that change the unit's speed by this amount [rad/s].
   void commanded(const PanTilt& change_rad_s);
   // Takes the positions of a complete cycle. `change_rad_s`: the change of speed that the cycle's
   // commands cause; the unit may not have executed them yet.

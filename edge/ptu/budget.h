@@ -12,8 +12,8 @@
 //   38400     20 ms                                      14 ms
 //   115200    8 ms                                       6 ms
 //
-// Only one request is under way at a time, so that replies can be matched and the instant of a
-// position is known. The period is poll_interval_s or the time on the line, whichever is longer.
+// Only one request is under way at a time, so that replies can be matched to it and the instant of
+// a position is known. The period is poll_interval_s or the time on the line, whichever is longer.
 // Only commands that changed are sent. A period of 25 ms needs 38400 baud. If each position were
 // read once, 9600 baud would allow 21 cycles a second instead of 13, but a wrong digit would go
 // unnoticed.

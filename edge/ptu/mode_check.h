@@ -1,6 +1,6 @@
-// If a ready unit begins to echo or to reply verbosely, switches this off without a restart. Such a
-// unit may have lost power, and may now be in velocity mode or have other ramps. It therefore gets
-// no motion command until its answers show that mode and ramps are right. Pure.
+// If a ready unit begins to echo or to reply verbosely, this class switches that off without a
+// restart. Such a unit may have lost power, and may now be in velocity mode or have other ramps. It
+// therefore gets no motion command until its answers show that mode and ramps are right. Pure.
 #pragma once
 
 #include <cstdint>

@@ -11,7 +11,8 @@
 
 namespace ols::ptu {
 
-// Why no position of an axis satisfies both the configuration and the unit; empty if there is one.
+// Says which axis has no position within both the configured limits and the unit's own, and why;
+// empty if both axes have one.
 std::string limits_conflict(const mount::Limits& configured, const PtuFacts& facts);
 
 class MotionCommands {

@@ -5,10 +5,9 @@
 //
 //   PP <commands> TP <commands> TP <commands> PP <questions>
 //
-// A wrong digit then appears as a contradiction. The order is chosen so that replies cannot confirm
-// each other if one is missing and the others shift. The commands stand between the queries. Their
-// short replies leave the line free for the position that follows, so that its instant is known
-// well.
+// A wrong digit then shows as a contradiction. With this order, replies cannot confirm each other
+// if one is missing and the others shift. The commands are placed between the queries: their short
+// replies leave the line free for the next position, so that its instant is known well.
 #pragma once
 
 #include <array>

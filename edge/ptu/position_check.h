@@ -3,8 +3,8 @@
 //
 // Each position is read twice in a cycle. The two readings must differ by the motion between their
 // instants; an impossible pair is rejected. The readings of an accepted pair are averaged. The
-// standard deviation of the average grows with the difference between the two, so that it covers an
-// error that was not detected.
+// standard deviation of the average grows with the difference between the two, to cover an
+// undetected error.
 #pragma once
 
 #include <optional>

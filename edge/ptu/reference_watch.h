@@ -1,7 +1,7 @@
 // Watches whether a unit's step counter still matches the position of its head. A unit that lost
-// power counts from its present position. A unit that ran into a limit may have lost steps. In both
-// cases the zero of its angles, limits and keep-out regions is unknown until the unit is homed, or
-// until an operator confirms the reference. Pure.
+// power counts from the position where it stands. A unit that ran into a limit may have lost steps.
+// In both cases the zero of its angles, limits and keep-out regions is unknown until the unit is
+// homed or an operator confirms the reference. Pure.
 #pragma once
 
 #include <map>
@@ -15,7 +15,7 @@ namespace ols::ptu {
 
 // A homing runs into both ends of both axes and reports them: `!T!T!P!P`. Some of the four reports
 // may be lost on the line, or be sent at another baud rate than the port's. One report from each
-// axis is enough, because nothing else moves a unit that is not driven.
+// axis is enough, because a unit that is not driven moves only by homing.
 class ReferenceWatch {
  public:
   // Takes limit hits of a unit that is driven. `homing`: several came in one reply, as from homing.

@@ -40,8 +40,7 @@ std::optional<ServoCommand> servo_step(const ServoConfig& config, const mount::L
                                        const std::optional<mount::Goal>& goal, const PanTilt& now,
                                        double time_s, const PanTilt& now_rate = {});
 
-// The longest time for which the unit continues to move if its host fails while it moves at this
-// speed.
+// The longest time for which the unit keeps moving if its host fails at this speed.
 double runs_on_s(const ServoConfig& config, double speed_rad_s);
 
 // The largest allowed runs_on_s(), at kRunsOnSpeed_rad_s or, if lower, at the maximum speed.

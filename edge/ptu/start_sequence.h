@@ -1,7 +1,7 @@
 // The queries and settings that precede any motion of a PTU, one command at a time. Pure.
 //
-// Replies have no checksum. Everything that determines the meaning of a count or the permitted
-// travel is therefore queried until two successive answers agree.
+// Replies have no checksum. Values that determine the meaning of a count or the permitted travel
+// are therefore queried until two successive answers agree.
 #pragma once
 
 #include <array>
@@ -65,7 +65,7 @@ class PtuStartSequence {
     std::function<bool(const PtuReply&)> take;
     bool slow = false;
     bool twice = false;         // ask until two answers agree
-    std::string without = {};   // what is impossible if the reply is unusable
+    std::string without = {};   // what is impossible without a usable reply
     bool changes_baud = false;  // changes the baud rate when it is accepted
   };
   void add(std::string_view command, bool slow = false);

@@ -13,7 +13,7 @@ namespace ols::recorder {
 
 inline constexpr const char* kPartial = ".partial";
 
-// Encodes without loss and with least effort, because the tracker needs the processor. Throws
+// Encodes without loss and with the least effort, because the tracker needs the processor. Throws
 // cv::Exception.
 std::vector<unsigned char> encode_png(const RecordedFrame& frame);
 

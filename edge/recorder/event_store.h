@@ -1,8 +1,8 @@
 // The folder of all events: its size, the free space on the disk, and the choice of the event that
 // may be removed.
 //
-// Any program on the bus can request recordings, so new recordings must not displace old ones at
-// will. In each interval of `protect_s` at most one event is removed, and only one older than
+// Any program on the bus can request recordings, so new recordings must not displace old ones
+// freely. In each interval of `protect_s` at most one event is removed, and only one older than
 // `protect_s`: the oldest one with the label that takes most space.
 #pragma once
 

@@ -2,9 +2,10 @@
 //
 // Readings are averaged with weights 1/sd^2. Their errors are assumed to be fully correlated,
 // because multipath and a sensor's zero error last for hours. The sd of the average is therefore
-// the weighted mean of the readings' sds; it does not shrink with their number. A reading that is
-// inconsistent with the average is rejected. Rejected readings that agree with each other are
-// averaged separately. The second average replaces the first only if the configuration allows it.
+// the weighted mean of the readings' sds; it does not shrink with the number of readings. A reading
+// that is inconsistent with the average is rejected. Rejected readings that agree with each other
+// are averaged separately. The second average replaces the first only if the configuration allows
+// it.
 #pragma once
 
 #include <Eigen/Core>

@@ -44,8 +44,8 @@ struct AxisAngles {
 };
 
 // Computes the tilt of ORIGIN from the angles of the sensor's axes. Each axis of the sensor shows
-// its own inclination relative to the horizontal; in the chain, tilt_y is applied after tilt_x. At
-// 10 degrees of tilt_x the difference is 1.5 % of tilt_y. Pure.
+// its own inclination relative to the horizontal, but in the chain tilt_y is applied after tilt_x.
+// At 10 degrees of tilt_x this makes a difference of 1.5 % of tilt_y. Pure.
 TiltReading origin_tilt(const InclinometerConfig& config, const AxisAngles& shown);
 
 class InclinometerKind {

@@ -1,5 +1,5 @@
-// Pixels of the followed target and of detected objects that wait for the PTU angles at their
-// exposure, and the bearings computed from them. Pure.
+// Keeps pixels (of the followed target and of detected objects) until the PTU angles at their
+// exposure are known, and computes bearings from them. Pure.
 #pragma once
 
 #include <cstdint>
@@ -43,7 +43,8 @@ struct PixelMeasurement {
 struct MadeBearing {
   Bearing bearing;
   PanTilt reported;  // the unit's angles at the exposure
-  // False: there is no position, or the bearing is too old; it is used only to follow the target.
+  // False if the station has no position, or if the bearing is too old: then it is used only to
+  // follow the target.
   bool to_send = true;
 };
 

@@ -68,7 +68,7 @@ class DetectedObjects {
 
   DetectionConfig config_;
   double angle_wait_s_;
-  double due_s_ = 0.0;  // the first frame with a later mid-exposure is due for the detector
+  double due_s_ = 0.0;  // the next frame exposed after this instant is for the detector
   std::optional<Look> waiting_, looks_;  // the next picture; the picture being looked at
   std::optional<double> looked_s_;       // mid-exposure of the last picture passed on
   std::optional<detector::Found> newest_;

@@ -1,4 +1,4 @@
-// The last state of a station, which outlasts a restart or a power failure: whether the station was
+// The last state of a station, saved over a restart or a power failure: whether the station was
 // permitted to move, and whether its PTU's reference was in doubt. If the state is unknown, the
 // station starts stopped, with its reference in doubt, and raises an alarm.
 #pragma once
@@ -27,8 +27,7 @@ class PersistedStationState {
   const std::optional<mount::ReferenceDoubt>& doubt() const { return begin_doubt_; }
 
   // Call in every turn with the present state, which is then saved. It does not wait for the disk.
-  // Once the station has left its first state, a person has acted, and the state is no longer
-  // unknown.
+  // When the station leaves its first state, a person has acted, so the state is no longer unknown.
   void remember(StationState state, const std::optional<mount::ReferenceDoubt>& doubt,
                 mount::Reference reference);
 

@@ -47,7 +47,7 @@ struct UnitActions {
 struct StationOutput {
   std::vector<Bearing> bearings;     // those whose PTU angles are known
   std::optional<mount::Goal> goal;   // the PTU's goal; nullopt means halt,
-  std::optional<mount::Goal> watch;  // or look here, if nothing else uses the unit either
+  std::optional<mount::Goal> watch;  // or where to look if nothing else uses the unit
 };
 
 class Station {
@@ -96,8 +96,9 @@ class Station {
   // Commands. A refused command changes nothing but its counter.
   Refusal designate(const DesignateCommand& command, double now_s);
   Refusal slew(const SlewCommand& command, double now_s);
-  // The land hides the target, or no longer does. A target that is not seen is then hidden as
-  // predicted: the mount waits where it comes out.
+  // Takes a prediction that the land hides the target, or that it no longer does. While the
+  // prediction holds, a target that is not seen counts as hidden: the mount waits where the target
+  // comes out.
   Refusal occlude(const OcclusionCommand& command, double now_s);
   Refusal point(const PointCommand& command, double now_s);
   // Like point(), but points at what is at a pixel.
@@ -163,7 +164,7 @@ class Station {
   }
   // What a station does whose target is not seen.
   StationState without_target() const;
-  // Where it is led meanwhile.
+  // The slew that the station follows meanwhile.
   std::optional<SlewCommand> led_to() const;
   bool is_led() const { return mode_.is(StationState::kSlewed) || mode_.is(StationState::kHidden); }
   void track(const camera::Frame& frame);
@@ -191,7 +192,7 @@ class Station {
   UnitActions actions_;
   double believed_s_ = 0.0;      // mid-exposure of the last believed frame
   double last_belief_ = 0.0;     // its belief
-  double hidden_since_s_ = 0.0;  // when the present state began, while hidden
+  double hidden_since_s_ = 0.0;  // while hidden: when that state began
   int believed_in_a_row_ = 0;
   double now_s_ = 0.0;
   std::map<std::string, double> counters_;

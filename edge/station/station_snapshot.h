@@ -1,4 +1,4 @@
-// The data from which a station describes itself. Pure.
+// Makes the station's summary for status messages, and the frame for viewers. Pure.
 #pragma once
 
 #include "edge/camera/frame.h"
@@ -23,7 +23,7 @@ struct StationParts {
 // Fills everything except the box, the latency, the alarms and the counters.
 StationSnapshot snapshot_of(const StationParts& parts);
 
-// A frame for a viewer, without its utime.
+// A frame for a viewer; its utime is not set.
 video::VideoFrame seen_in(const camera::Frame& frame, const StationParts& parts);
 
 // Adds an accepted command to the orders that have not been sent to the lens yet.

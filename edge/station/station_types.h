@@ -96,11 +96,11 @@ struct SlewCommand {
 };
 AzimuthElevation direction_at(const SlewCommand& slew, double time_s);
 
-// The land hides the target: when and where it comes out, as the fusion predicts it.
+// The fusion's prediction for a target that the land hides: when and where it comes out.
 struct OcclusionCommand {
   double made_s = 0.0;
   double received_s = 0.0;
-  double holds_s = 0.0;     // 0: what was said before no longer holds
+  double holds_s = 0.0;     // 0: the last prediction no longer holds
   std::int64_t sender = 0;  // the boot id of the fusion
   std::int64_t target_id = 0;
   struct Exit {
@@ -108,7 +108,7 @@ struct OcclusionCommand {
     AzimuthElevation direction;  // at the camera centre
     double direction_sd_rad = 0.0;
   };
-  std::optional<Exit> exit;  // empty: not within the prediction
+  std::optional<Exit> exit;  // empty: the target does not come out within the prediction
 };
 
 struct PointCommand {
@@ -174,8 +174,8 @@ struct StationSnapshot {
   std::optional<CameraIntrinsics> camera;    // the camera at that focal length
   double focal_length_sd_px = 0.0;
   std::int64_t track_id = 0;
-  double belief = 0.0;  // of a hidden target: when it was last seen
-  std::optional<double> hidden_since_s, hidden_until_s;  // monotonic; until: if it is known
+  double belief = 0.0;  // for a hidden target: its belief when it was last seen
+  std::optional<double> hidden_since_s, hidden_until_s;  // monotonic; the latter if it is known
   std::optional<mount::AngleSample> angles;
   std::optional<AzimuthElevation> optical_axis;
   // Computed at zero pan and tilt if there are no angles.

@@ -7,10 +7,10 @@
 namespace ols::tracker {
 
 // Returns the natural logarithm of a ratio: the mean difference from the reference inside `box`,
-// over the median of that difference in boxes around it. For a piece of background it is about 0,
-// however badly the two images are aligned and however the light has changed. For an object that
-// was not there before it is positive. The difference of a pixel is its distance from the grey
-// levels that the reference has within a sixteenth of the box.
+// divided by the median of that difference in boxes around it. For a piece of background it is
+// about 0, however badly the two images are aligned and however the light has changed. For an
+// object that was not there before, it is positive. The difference of a pixel is its distance from
+// the range of grey levels that the reference has within a sixteenth of the box.
 double background_change(const cv::Mat& gray, const ReferenceFrames::Reference& reference,
                          const cv::Rect2d& box);
 

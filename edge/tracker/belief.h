@@ -45,9 +45,9 @@ class Belief {
   void update(const FrameEvidence& evidence, double interval_s);
   double value() const { return value_; }
   // Whether the evidence is plausible, given the target's recent values. This is stricter than
-  // similarity. It is meant for a target whose position is no evidence.
+  // similarity, for a target whose position gives no evidence.
   bool usual(const FrameEvidence& evidence) const;
-  // The belief that follows from this evidence alone; it does not change the object.
+  // The belief that follows from this evidence alone; the Belief itself does not change.
   double in_frame(const FrameEvidence& evidence) const { return frame_belief(evidence, typical_); }
   double of_frame() const { return of_frame_; }  // from the newest frame alone
 

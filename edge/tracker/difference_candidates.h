@@ -1,6 +1,6 @@
 // Finds the largest changes between adjacent frames. This is the paper's answer to a sky without
 // features, for which no homography is found. If there is a homography, the previous frame is
-// aligned first. The differences then show a target that moves otherwise than predicted.
+// aligned first. The differences then show a target that does not move as predicted.
 #pragma once
 
 #include <Eigen/Core>

@@ -11,7 +11,7 @@
 
 namespace ols::tracker {
 
-// A frame that is reduced once for all parts of the tracker that process the whole image.
+// A frame, reduced once for all parts of the tracker that process the whole image.
 struct ReducedFrame {
   cv::Mat image;
   double reduction = 1.0;  // full-frame pixels per reduced pixel

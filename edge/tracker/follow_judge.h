@@ -34,8 +34,8 @@ class FollowJudge {
   bool sure() const;
   bool believes() const;
   bool doubts() const;
-  // Whether there was doubt, and no belief since; then the tracker may be following an object that
-  // covered the target.
+  // Whether there has been doubt without belief since: the tracker may then be following an object
+  // that covered the target.
   bool wary() const { return wary_; }
   // Whether the doubt has lasted so long that the followed object is probably not the target.
   bool lets_go() const;

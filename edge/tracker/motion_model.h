@@ -22,8 +22,8 @@ struct CameraMotion {
 double usable_interval_s(double from_s, double to_s);
 
 // Limits the particle's position to within a frame's size of the frame, its velocity to ten frame
-// widths a second, and its size to that of the frame. Pixels therefore cannot overflow, whatever
-// clock, homography or hint says.
+// widths a second, and its size to that of the frame. Pixel values therefore cannot overflow,
+// whatever the clock, the homography or a hint says.
 Particle bounded(const Particle& particle, const cv::Size& frame);
 
 // The particles' velocities are relative to the scene. Without a homography the camera is assumed
@@ -44,7 +44,7 @@ class MotionModel {
 
   const std::optional<Eigen::Matrix3d>& homography() const { return motion_.homography; }
   double interval_s() const { return motion_.interval_s; }
-  // Where the part of the scene at this pixel of the previous frame is now.
+  // The present pixel of the part of the scene that was at this pixel of the previous frame.
   Eigen::Vector2d still(const Eigen::Vector2d& pixel) const;
   // The velocity, relative to the scene, of an object that is stationary in the image.
   Eigen::Vector2d image_fixed_velocity() const { return -camera_rate_px_s_; }

@@ -27,11 +27,11 @@ struct MoverSearch {
 };
 
 // Finds movers by their difference from an earlier image of the same scene. The covariance holds
-// for an object that has moved by three pixels or more; if it has moved less, perhaps only slivers
-// of it differ. `to_present` maps the earlier image's pixels (full frame) to those of `current`.
-// Edges that are misaligned by a pixel are ignored. The mover's earlier position looks like its
-// present one; use two earlier images, or the mover's appearance, to distinguish them. Empty
-// images, different sizes, and homographies that are not finite give no movers.
+// for an object that has moved by three pixels or more; with less motion, perhaps only slivers of
+// the object differ. `to_present` maps the earlier image's pixels (full frame) to those of
+// `current`. Edges that are misaligned by a pixel are ignored. The mover's earlier position looks
+// like its present one; use two earlier images, or the mover's appearance, to distinguish them.
+// Empty images, different sizes, and homographies that are not finite give no movers.
 std::vector<MoverCandidate> detect_movers(const cv::Mat& earlier, const Eigen::Matrix3d& to_present,
                                           const ReducedFrame& current, const MoverSearch& search);
 

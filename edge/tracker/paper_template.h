@@ -13,7 +13,7 @@ namespace ols::tracker {
 double paper_objective(const Patch& template_gray, const MaskPatch& template_mask,
                        const Patch& candidate_gray, const MaskPatch& candidate_mask);
 
-// The whole frame as a view, because the paper's patches are sampled from the image itself.
+// The whole frame as a view: the paper's patches are sampled from the image itself.
 inline FrameView whole(const cv::Mat& gray) { return {gray, {0, 0}, 1}; }
 
 class PaperTemplate {

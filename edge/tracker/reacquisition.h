@@ -38,10 +38,10 @@ class Reacquisition {
   void restart(const Particle& target);
   // Notes that the target was seen and believed.
   void see(const Particle& target) { believed_ = target; }
-  // For a target that was found elsewhere and whose velocity is unknown: its particles start with
-  // the old velocity, or with none. Once the target has been measured in two successive frames,
-  // `target` gets the velocity between them. `unmoved_px`: where the target would be if it had not
-  // moved.
+  // For a target that was found elsewhere, so that its velocity is unknown: its particles start
+  // with the old velocity, or with none. Once the target has been measured in two successive
+  // frames, `target` gets the velocity between them. `unmoved_px`: where the target would be if it
+  // had not moved.
   void learn_velocity(bool measured, const Eigen::Vector2d& unmoved_px, double interval_s,
                       Particle& target);
   // Ends the search, because the target is believed.

@@ -32,10 +32,10 @@ class Recognition {
              double interval_s);
   // Stores the followed object if it is surely the target.
   void remember(const Particle& followed, double time_s);
-  // In doubt, returns to the appearance that was learnt while the object surely was the target.
+  // In doubt, returns to the appearance that was learnt while the object was surely the target.
   // With that appearance, the target must be found at one of three places: here, where it was then,
-  // or where it would be if it had continued. After long doubt, a weaker response is enough. It
-  // also searches in ever wider rings. A candidate found there must itself be judged to be the
+  // or where it would be if it had continued. After long doubt, a weaker response is enough. The
+  // search also continues in ever wider rings, where a candidate must itself be judged to be the
   // target.
   std::optional<Particle> return_to_sure(const TrackerInput& frame,
                                          const ReferenceFrames& references,

@@ -16,7 +16,7 @@ struct RefinedPosition {
   Eigen::Matrix4d covariance_px2 = Eigen::Matrix4d::Identity();
   double correlation = 0.0;  // -1..1
   // Factor by which correlated residuals of neighbouring pixels raise the uncertainty above that of
-  // independent noise. The causes are a background with another motion, a lens, or a changed
+  // independent noise. Causes are a background that moves differently, the lens, or a changed
   // appearance.
   double shared_noise = 1.0;
 
@@ -38,7 +38,8 @@ class PositionRefiner {
   PositionRefiner(const FrameView& view, const Eigen::Vector2d& pixel,
                   const Eigen::Vector2d& size_px);
 
-  // Sets M_t. Pixels that are not foreground move differently, and get little weight from now on.
+  // Sets M_t. Pixels that are not foreground move differently, so they get little weight from now
+  // on.
   void set_mask(const MaskPatch& mask);
 
   // Starts from the centre of a box within about a third of the target. nullopt if it does not

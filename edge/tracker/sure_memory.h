@@ -21,8 +21,8 @@ class SureMemory {
   };
 
   void clear() { newer_.reset(), older_.reset(); }
-  // Takes a state; one is stored every half second. Doubt comes later than the mistake, so the
-  // newest state is not trusted.
+  // Takes a state; one is stored every half second. The newest stored state is not trusted, because
+  // doubt comes later than the mistake.
   void offer(const LearntAppearance& appearance, const Particle& target, double time_s);
   // Advances the stored states to the next frame.
   void advance(const MotionModel& motion, const cv::Size& frame);

@@ -1,5 +1,6 @@
-// Measures the pixel of one target, frame by frame. This is done by the visual tracker or a
-// substitute (the Monte Carlo simulation draws the pixel instead of rendering an image).
+// The interface of a tracker, which measures the pixel of one target, frame by frame. It is
+// implemented by the visual tracker and by a substitute (the Monte Carlo simulation draws the pixel
+// instead of rendering an image).
 #pragma once
 
 #include <Eigen/Core>
@@ -34,7 +35,7 @@ struct TrackerOutput {
   // [px] Difference, at the target, between two predictions of the scene: the one by the predicted
   // homography, and the one by the image's own motion. At most the image diagonal. nullopt if only
   // one of the two exists. A large value means that angles or times are wrong. A prediction that
-  // was not used is compared as well.
+  // was not used is also compared.
   std::optional<double> prediction_error_px;
   bool prediction_dropped = false;  // there was a predicted homography, but it is impossible
 };

@@ -30,7 +30,7 @@ struct TrackerConfig {
   // Motion model, eq. (2)-(4): standard deviations of its noise in full-frame pixels.
   double position_sd_px = 1.0;         // per frame
   double position_sd_fraction = 0.04;  // per frame, relative to the box's size; added to the above
-  double velocity_gain = 0.4;          // share of the position noise that the velocity gets as well
+  double velocity_gain = 0.4;          // share of the position noise that is added to the velocity
   double velocity_sd_px_s = 5.0;       // per frame; the velocity's own noise
   double surprise_fraction = 0.2;      // share of the particles that get larger position noise,
   double surprise_scale = 4.0;         // larger by this factor

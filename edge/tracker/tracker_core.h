@@ -69,8 +69,8 @@ class TrackerCore {
   Particle last_;  // the best estimate in the newest frame
   Reacquisition reacquisition_;
   Velocity velocity_ = Velocity::kUnknown;
-  // The step from the image's prediction of the target to the mount's prediction, if the two
-  // disagree.
+  // The step from the target's position predicted by the image to the one predicted by the mount,
+  // if the two disagree.
   std::optional<Eigen::Vector2d> other_step_px_;
   bool placed_ = false;  // particles and last_ are already advanced to the coming frame
 };

@@ -32,14 +32,14 @@ class VideoServer {
   static constexpr int kMaxViewers = 8;
 
   // Throws std::invalid_argument for a bad address or network. If the computer does not have the
-  // address (yet), this is reported and retried.
+  // address (yet), the server reports this and tries again.
   VideoServer(const VideoConfig& config, VideoSender sender);
   ~VideoServer();
   VideoServer(const VideoServer&) = delete;
   VideoServer& operator=(const VideoServer&) = delete;
 
-  // These functions may be called from any thread; none of them waits. Whether anybody is
-  // connected; if not, frames need not be offered.
+  // All functions below may be called from any thread, and none waits. has_viewers(): whether
+  // anybody is connected; if not, frames need not be offered.
   bool has_viewers() const;
   // Call in order of time.
   void offer(VideoFrame frame);

@@ -43,9 +43,9 @@ struct AravisConfig : CameraConfig {
 
   // [byte] size of the stream's IP packets; 0 for the largest that the path allows.
   int packet_size = 0;
-  // If true, receives packets through the kernel's ring buffer, which needs CAP_NET_RAW. Otherwise
-  // the station needs no capability. It still loses no packets if they are paced, or if the
-  // socket's buffer is large.
+  // If true, receives packets through the kernel's ring buffer, which needs CAP_NET_RAW. If false,
+  // no capability is needed, and no packets are lost as long as they are paced or the socket's
+  // buffer is large.
   bool packet_socket = false;
   int socket_buffer = 8 << 20;  // [byte] requested; the kernel grants up to net.core.rmem_max
   // The pause between two packets. If -1, it is chosen automatically: no pause if the socket's

@@ -16,7 +16,7 @@ class AravisError {
   AravisError(const AravisError&) = delete;
   AravisError& operator=(const AravisError&) = delete;
 
-  // The argument for the next call; clears the previous error.
+  // The GError** argument for the next call; clears the previous error.
   GError** out() {
     clear();
     return &error_;

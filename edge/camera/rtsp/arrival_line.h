@@ -1,8 +1,8 @@
 // A line that relates the arrival of a camera's pictures to the camera's own stamps. Pure.
 //
-// Network, encoder and a busy host can only delay a picture. Therefore the least delayed picture of
-// every two seconds counts. The slope of a line through these is the camera's rate, even if the
-// camera's stamps run far too fast or too slowly.
+// Network, encoder and a busy host can only delay a picture, so only the least delayed picture of
+// every two seconds counts. The slope of a line through these is the camera's rate, even if its
+// stamps run far too fast or too slowly.
 #pragma once
 
 #include <cstdint>
@@ -22,8 +22,8 @@ class ArrivalLine {
   // When a picture with this stamp arrives if nothing delays it more than usual. sd_s is the
   // scatter of the least delayed pictures about the line. nullopt before the first add().
   std::optional<MappedTime> at(std::int64_t device_ns) const;
-  // Seconds of the station per second of the camera's stamps; 1 in the first seconds, unless the
-  // rate is far from it.
+  // Seconds of the station per second of the camera's stamps. In the first seconds it is 1, unless
+  // the rate is far from that.
   double rate() const { return rate_; }
   // Whether rate() has been measured, over at least eight seconds.
   bool knows_rate() const;

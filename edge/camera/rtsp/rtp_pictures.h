@@ -1,8 +1,8 @@
-// Keeps what the RTP packets of a stream say about its pictures, until the pictures leave the
+// Keeps the data about a stream's pictures from its RTP packets, until the pictures leave the
 // decoder. Pure.
 //
-// All packets of one picture have the same stamp. After a lost packet, all pictures are wrong until
-// one that does not depend on another.
+// All packets of one picture have the same stamp. After a lost packet, all pictures are broken up
+// to the next one that does not depend on another.
 #pragma once
 
 #include <cstdint>
@@ -34,7 +34,7 @@ class RtpPictures {
   explicit RtpPictures(double clock_hz) : clock_hz_(clock_hz) {}
 
   void add(const RtpPacket& packet);
-  // Notes that the decoder gets a picture; `whole`: the picture does not depend on another one.
+  // Notes that the decoder gets a picture. `whole`: the picture does not depend on another one.
   void decoding(std::uint64_t pts_ns, bool whole);
   // The data of a picture that has left the decoder; nullopt if no packet had this time.
   std::optional<RtpPicture> take(std::uint64_t pts_ns);

@@ -3,8 +3,8 @@
 // There are two sources. Sender reports (RTCP) give the UTC of a picture's stamp by the camera's
 // own clock. But the first report may come after ten seconds or never, and the camera's clock may
 // be wrong: local time, never set, drifting. Arrivals are always available, but late by a delay
-// that is only roughly known. The reports are believed while they imply a credible delay. The delay
-// is learnt from them, so that the times hardly change when the reports cease.
+// that is only roughly known. The reports are believed as long as they imply a credible delay. This
+// delay is learnt, so that the times hardly change if the reports cease.
 #pragma once
 
 #include <cstdint>
@@ -38,8 +38,8 @@ class RtspClock {
   // Notes that the stream begins anew with other RTP stamps; the learnt delay remains.
   void restart();
 
-  // How much the newest time differs from what the previous source would have given. It is set by
-  // the first stamp() after a change of the source.
+  // The difference between the newest time and the one that the previous source would have given.
+  // Set by the first stamp() after a change of the source.
   std::optional<double> jump_s() const { return jump_s_; }
   // The delay learnt from the reports; nullopt if none was learnt.
   std::optional<double> learnt_delay_s() const;

@@ -19,7 +19,7 @@ struct RtspConfig : CameraConfig {
   RtspClock::Config clock;
   // From the first to the last row of a picture; 0 if all rows are exposed at once.
   double row_readout_s = 0.0;
-  double frozen_s = 20.0;  // reconnect after the same picture for this time; 0: never
+  double frozen_s = 20.0;  // reconnect if the picture has not changed for this time; 0: never
   // Reconnect after this time plus two frame periods without a picture.
   double no_frame_timeout_s = 5.0;
   // Longer, because some cameras send a whole picture only every ten seconds.

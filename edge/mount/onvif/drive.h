@@ -1,9 +1,9 @@
-// What to ask an ONVIF camera next: its position, a motion, or a stop. Pure.
+// Decides what to request from an ONVIF camera next: its position, a motion, or a stop. Pure.
 //
-// No motion outlives its lease. A velocity is ordered for `lease_s`, and again while it is still
-// wanted; a camera that keeps its own time-out stands when orders cease. An absolute move, which
-// has no time-out, is ordered only for the last piece of way to a goal at rest. A stop is ordered
-// first after each connection, and is repeated until the reported positions stand still.
+// No motion outlives its lease. A velocity is ordered with the time-out `lease_s`, and again as
+// long as it is wanted. When orders cease, a camera that obeys the time-out stops. An absolute move
+// has no time-out and is ordered only for the last part of the way to a goal at rest. After each
+// connection a stop is ordered first, and repeated until the reported positions stand still.
 #pragma once
 
 #include <cstdint>
@@ -22,11 +22,12 @@
 
 namespace ols::onvif {
 
-// Angles are linear in the numbers of the camera's spaces; a negative factor is another direction.
+// Angles are linear functions of the camera's numbers. A negative factor means that the camera
+// counts in the other direction.
 struct AxisScale {
   double zero_rad = 0.0;            // the angle at position 0
-  double per_unit_rad = 0.0;        // of a position
-  double speed_per_unit_rad = 0.0;  // [rad/s] of a velocity
+  double per_unit_rad = 0.0;        // angle per unit of position
+  double speed_per_unit_rad = 0.0;  // [rad/s] per unit of velocity
 };
 
 struct DriveConfig {
@@ -34,23 +35,23 @@ struct DriveConfig {
   mount::Limits limits{radians(-180.0), radians(180.0), radians(-90.0), radians(90.0), {}, {}};
   ptu::ServoConfig servo{.gain_hz = 1.0, .max_speed_rad_s = radians(20.0)};
   PositionIntake::Config positions;
-  double lease_s = 1.0;  // of a velocity
-  double poll_s = 0.1;   // between two questions for the position
+  double lease_s = 1.0;  // time-out of a velocity
+  double poll_s = 0.1;   // interval of requests for the position
 };
 
 enum class Act { kWait, kStatus, kStop, kVelocity, kAbsolute };
 struct Order {
   Act act = Act::kWait;
-  Vector vector;  // of a motion, in the camera's numbers; a velocity of 0 stands for a stop
+  Vector vector;  // the motion, in the camera's numbers; a velocity of 0 means a stop
 };
 
 class Drive {
  public:
   explicit Drive(const DriveConfig& config) : config_(config), intake_(config.positions) {}
 
-  // A connection: where it is and what it does is unknown.
+  // Call after each connection: the camera's position and motion are unknown then.
   void connected(const PtzOptions& options);
-  void lost();  // the connection
+  void lost();  // the connection was lost
 
   void set_goal(const std::optional<mount::Goal>& goal);
   void emergency_halt();
@@ -58,12 +59,13 @@ class Drive {
   bool in_emergency() const { return emergency_; }
 
   Order next(double now_s);
-  // The camera has accepted the order; or it, or the way to it, refused.
+  // done(): the camera has accepted the order. failed(): it refused the order, or could not be
+  // reached.
   void done(const Order& order, double now_s);
   void failed(const Order& order, double now_s);
   void take(const PtzStatus& status, double sent_s, double answered_s);
 
-  // None while its positions do not follow the orders.
+  // The new samples; none while the positions do not follow the orders.
   std::vector<mount::AngleSample> take_samples() {
     auto samples = intake_.take();
     if (distrusted_) samples.clear();
@@ -71,7 +73,7 @@ class Drive {
   }
   const mount::Limits& limits() const { return limits_; }
   bool has_position() const { return !seen_.empty(); }
-  // Positions are reported, and do not change.
+  // Whether the camera reports positions and they do not change.
   bool stands() const { return motion_ == Motion::kNone && !moves(); }
   std::optional<double> last_position_s() const;
   const PositionIntake& intake() const { return intake_; }
@@ -88,7 +90,7 @@ class Drive {
     double time_s;
     PanTilt angles;
   };
-  // One axis since it was ordered into this direction.
+  // The travel of one axis since it was ordered in its present direction.
   struct Travel {
     double since_s = 0.0, ordered_rad = 0.0, from_rad = 0.0;
     int sign = 0;
@@ -115,22 +117,23 @@ class Drive {
   bool emergency_ = false;
 
   Motion motion_ = Motion::kNone;
-  PanTilt rate_;              // [rad/s] ordered
-  PanTilt absolute_;          // ordered
-  double ordered_s_ = 0.0;    // the last motion
-  double moved_for_s_ = 0.0;  // time of the position that the last motion was made for
-  double asked_s_ = -1e9;     // the last question for the position
+  PanTilt rate_;              // [rad/s] the ordered rate
+  PanTilt absolute_;          // the ordered position
+  double ordered_s_ = 0.0;    // when the last motion was ordered
+  double moved_for_s_ = 0.0;  // time of the position on which the last motion was based
+  double asked_s_ = -1e9;     // when the position was last requested
   bool stop_wanted_ = true;
-  int stops_ = 0;                        // since the last motion
-  double stop_s_ = -1e9;                 // the last stop
-  std::optional<double> rests_since_s_;  // stop accepted, no motion ordered since
-  std::optional<PanTilt> rest_;          // where it came to rest
+  int stops_ = 0;                        // number of stops since the last motion
+  double stop_s_ = -1e9;                 // when the last stop was ordered
+  std::optional<double> rests_since_s_;  // when a stop was accepted; no motion ordered since
+  std::optional<PanTilt> rest_;          // position at which it came to rest
 
   std::deque<Seen> seen_;  // positions of the last second
   Travel pan_travel_, tilt_travel_;
-  bool distrusted_ = false;        // since then no position has followed an order
-  double refused_until_s_ = -1e9;  // it did not do what it was ordered to
-  std::optional<double> unordered_s_, unstopped_s_, ignored_s_;  // last seen
+  bool distrusted_ = false;        // the positions did not follow an order, and have not done so
+                                   // since
+  double refused_until_s_ = -1e9;  // no motion until then: an order was refused or ignored
+  std::optional<double> unordered_s_, unstopped_s_, ignored_s_;  // when each was last seen
   Counters counters_;
 };
 

@@ -1,5 +1,5 @@
 // One HTTP exchange at a time with a camera, over a connection that is kept (libcurl). Redirections
-// and proxies are not followed, because the password belongs to the configured host alone.
+// and proxies are not followed, because the password is meant only for the configured host.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@ namespace ols::onvif {
 struct HttpError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
-// interrupt() ended the exchange.
+// Thrown when interrupt() has ended the exchange.
 struct Interrupted : HttpError {
   Interrupted() : HttpError("interrupted") {}
 };
@@ -23,8 +23,8 @@ class HttpLink {
  public:
   static constexpr std::size_t kLongestAnswer = 256 * 1024;
   struct Config {
-    double timeout_s = 2.0;  // of a whole exchange
-    std::string pinned_key;  // "sha256//...": of the camera's certificate; empty: authorities vouch
+    double timeout_s = 2.0;  // for a whole exchange
+    std::string pinned_key;  // "sha256//..." of the camera's certificate; empty: trusts authorities
   };
   struct Answer {
     long status = 0;
@@ -37,11 +37,11 @@ class HttpLink {
   HttpLink(const HttpLink&) = delete;
   HttpLink& operator=(const HttpLink&) = delete;
 
-  // `digest`: logs in by HTTP digest; null: does not log in. Throws HttpError.
+  // `digest`: the login for HTTP digest; null for no login. Throws HttpError.
   Answer post(const std::string& url, const std::string& action, const std::string& text,
               const Credentials* digest);
 
-  // From any thread: ends the exchange under way, and refuses others until resume().
+  // May be called from any thread. Ends the current exchange, and refuses others until resume().
   void interrupt();
   void resume();
 

@@ -9,15 +9,15 @@
 namespace ols::onvif {
 
 struct OnvifConfig {
-  std::string url;            // of the device service, without user and password
+  std::string url;            // address of the device service, without user and password
   std::string user;           // empty: none
-  std::string password_file;  // its first line; read at each connection
-  std::string profile;        // token; empty: the first with PTZ
-  std::string pinned_key;     // of an https camera: "sha256//..."
-  double timeout_s = 2.0;     // of a request
+  std::string password_file;  // the password is its first line; read at each connection
+  std::string profile;        // token of the profile; empty: the first one with PTZ
+  std::string pinned_key;     // as in HttpLink::Config, for https
+  double timeout_s = 2.0;     // for a request
   DriveConfig drive;
 };
 
-config::Section onvif_section(OnvifConfig& config);  // of [mount]
+config::Section onvif_section(OnvifConfig& config);  // the section [mount]
 
 }  // namespace ols::onvif

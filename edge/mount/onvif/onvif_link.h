@@ -1,4 +1,5 @@
-// The services of one ONVIF camera: logs in as the camera wants it, and learns what it can do.
+// The services of one ONVIF camera: logs in with the method that the camera wants, and reads what
+// the camera can do.
 #pragma once
 
 #include <optional>
@@ -16,9 +17,9 @@ struct LoginRefused : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// What was asked of a camera before anything moves.
+// What is learnt about a camera before anything moves.
 struct Learnt {
-  std::string device;  // maker and model; empty: it does not say
+  std::string device;  // maker and model; empty if the camera does not state them
   Profile profile;
   PtzOptions options;
 };
@@ -37,11 +38,11 @@ struct Offer {
 
 class OnvifLink {
  public:
-  // `url`: of the device service.
+  // `url`: the address of the device service.
   OnvifLink(const HttpLink::Config& http, std::string url, Credentials credentials);
 
-  // Reads the clock, the addresses and the profile; `profile`: its token, empty: the first with
-  // PTZ. Throws HttpError, AnswerError, LoginRefused; these are what all methods throw.
+  // Reads the clock, the addresses and the profile. `profile`: its token; empty for the first one
+  // with PTZ. Throws HttpError, AnswerError or LoginRefused, as all methods do.
   Learnt learn(const std::string& profile);
 
   // Reads the same of all profiles, and their streams. Nothing is moved.
@@ -55,7 +56,8 @@ class OnvifLink {
   Exchange ask_ptz(const Request& request) { return ask(ptz_url_, request); }
 
   HttpLink& http() { return http_; }
-  // How far the camera's clock is ahead of the station's UTC [s]; empty: it does not say.
+  // How far the camera's clock is ahead of the station's UTC [s]; nullopt if the camera does not
+  // state its time.
   std::optional<double> clock_ahead_s() const { return clock_ahead_s_; }
 
  private:

@@ -1,5 +1,5 @@
-// An ONVIF camera with pan and tilt as a mount, kept connected by its own thread. It has no
-// reference to find: its positions are believed as they are reported.
+// An ONVIF camera with pan and tilt as a mount, kept connected by its own thread. It needs no
+// homing: its positions are believed as reported.
 #pragma once
 
 #include <memory>
@@ -15,7 +15,7 @@ class OnvifMount : public mount::Mount {
  public:
   // Starts to connect and returns at once.
   explicit OnvifMount(const OnvifConfig& config);
-  ~OnvifMount() override;  // orders a stop, and waits for its answer at most for the time-out
+  ~OnvifMount() override;  // orders a stop, and waits for the answer, at most for the time-out
 
   void set_goal(const std::optional<mount::Goal>& goal) override;
   std::vector<mount::AngleSample> take_samples() override;

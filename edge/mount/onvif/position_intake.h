@@ -1,8 +1,8 @@
-// The positions that a camera reports, as angles with their times and errors. Pure.
+// Converts the positions that a camera reports to angles with their times and errors. Pure.
 //
-// An answer tells no instant: it is taken for that between question and answer. Many cameras renew
-// their position only a few times a second. A position that stays the same although the ordered
-// motion should have changed it is old, and is not used.
+// An answer contains no time. Its position is taken to hold `delay_s` before the middle between
+// request and answer. Many cameras renew their position only a few times a second. A position that
+// is still the same although the ordered motion should have changed it is old, and is not used.
 #pragma once
 
 #include <optional>
@@ -14,27 +14,28 @@
 
 namespace ols::onvif {
 
-// The difference of the axis that differs more [rad].
+// The larger of the differences of the two axes [rad].
 double distance(const PanTilt& a, const PanTilt& b);
 
 class PositionIntake {
  public:
   struct Config {
-    double delay_s = 0.05;         // age of a position when the camera answers
-    double delay_sd_s = 0.05;      // 1-sigma
+    double delay_s = 0.05;         // age of a position in the middle between request and answer
+    double delay_sd_s = 0.05;      // 1-sigma of delay_s
     double sd_rad = radians(0.1);  // 1-sigma of a position: repeatability
   };
   explicit PositionIntake(const Config& config) : config_(config) {}
 
-  // `ordered_rad_s`: the fastest axis' ordered speed; 0: at rest.
+  // `ordered_rad_s`: the ordered speed of the faster axis; 0 at rest.
   void add(const PanTilt& angles, double sent_s, double answered_s, double ordered_rad_s);
   void restart();
   std::vector<mount::AngleSample> take() { return samples_.take(); }
 
   double round_trip_s() const { return round_trip_s_; }
-  // Between two positions that differ, in motion; 0: not known yet.
+  // The time between two positions that differ, in motion; 0 if it is not known yet.
   double interval_s() const;
-  // 1-sigma of a position: the configured one, or what positions at rest scatter.
+  // 1-sigma of a position: the configured value, or the scatter of positions at rest if that is
+  // larger.
   double sd_rad() const;
 
  private:

@@ -5,14 +5,14 @@
 
 namespace ols::onvif {
 
-// Throws std::invalid_argument unless it is http:// or https:// with a host, and without user and
-// password.
+// Throws std::invalid_argument unless the address is http:// or https:// with a host, and without
+// user and password.
 void check_address(const std::string& url);
 
-// Where a service is, from the address that is configured and the one that the camera states for
-// the service. A camera behind a router states an address of its own network, and the password goes
-// to the configured host alone: only the path is the camera's, and the port where the host is the
-// same.
+// The address of a service, made from the configured address and the one that the camera states for
+// the service. The host is always the configured one, because a camera behind a router states an
+// address of its own network, and because the password may go only to the configured host. The path
+// is the one that the camera states. So is the port if the camera states the same host.
 std::string service_address(const std::string& configured, const std::string& stated);
 
 // Where a stream is, from the address that the camera states: at the configured host, too. Empty:

@@ -1,7 +1,7 @@
-// What an ONVIF camera answers. Pure. Elements are found by their local names, because cameras
-// differ in prefixes and some do not declare theirs. Entities other than the five of XML and
-// document types are not expanded. What is missing, or no finite number of a credible size, is
-// refused by name.
+// Parses the answers of an ONVIF camera. Pure. Elements are found by their local names, because
+// cameras differ in their prefixes and some do not declare them. Only the five entities of XML are
+// expanded; document types are ignored. If a value is missing, is not a finite number or has an
+// incredible size, the error names it.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ namespace ols::onvif {
 struct AnswerError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
-// The camera refuses: its reason in words, on one line.
+// Thrown if the camera refuses a request; has the camera's reason on one line.
 struct SoapFault : AnswerError {
   SoapFault(const std::string& words, bool refuses_login)
       : AnswerError(words), not_authorized(refuses_login) {}
@@ -32,10 +32,11 @@ struct Space {
   Span x, y;
 };
 
-// What a camera can do, in the first space of each kind: the one that it uses if none is named.
+// The moves that a camera offers. Each is in the first space of its kind, which the camera uses by
+// default.
 struct PtzOptions {
   std::optional<Space> absolute, relative, continuous;
-  std::optional<Span> zoom;     // absolute
+  std::optional<Span> zoom;     // of absolute moves
   std::optional<Span> timeout;  // [s] of continuous moves
 };
 
@@ -48,16 +49,16 @@ struct Profile {
 };
 
 struct Services {
-  std::string media, ptz;  // addresses; empty: it has none
+  std::string media, ptz;  // addresses; empty if there is no such service
 };
 
 struct PtzStatus {
   double x = 0.0, y = 0.0;
   std::optional<double> zoom;  // 0..1
-  std::optional<bool> moving;  // of pan and tilt
+  std::optional<bool> moving;  // whether pan or tilt moves
 };
 
-// UTC since 1970 by the camera's clock, to the second; empty: it does not say.
+// UTC since 1970 by the camera's clock, to the second; nullopt if the camera does not state it.
 std::optional<std::int64_t> date_and_time(const std::string& answer);
 std::string device_information(const std::string& answer);  // maker and model
 Services services(const std::string& answer);
@@ -65,7 +66,7 @@ std::vector<Profile> profiles(const std::string& answer);
 std::string stream_uri(const std::string& answer);
 PtzOptions options(const std::string& answer);
 PtzStatus status(const std::string& answer);
-// Of a request that is answered by nothing but its success: "Stop".
+// Checks the answer to a request that returns no data, such as "Stop".
 void check_done(const std::string& answer, const std::string& request);
 
 }  // namespace ols::onvif

@@ -9,17 +9,17 @@ namespace ols::onvif {
 
 struct Request {
   std::string action;  // "http://www.onvif.org/ver20/ptz/wsdl/GetStatus"
-  std::string body;    // what stands in the SOAP body
-  // GetStatus
+  std::string body;    // content of the SOAP body
+  // For example "GetStatus".
   std::string name() const { return action.substr(action.rfind('/') + 1); }
 };
 
-// Whom a camera shall believe: never written into a log.
+// The login for a camera; never written into a log.
 struct Credentials {
   std::string user, password;
 };
 
-// In numbers of the camera's spaces.
+// A position or velocity in the camera's own numbers.
 struct Vector {
   double x = 0.0, y = 0.0;
 };
@@ -32,11 +32,12 @@ Request get_stream_uri(const std::string& profile);
 Request get_options(const std::string& configuration);
 Request get_status(const std::string& profile);
 Request stop(const std::string& profile);
-// `timeout_s`: the camera is to stop by itself after that.
+// `timeout_s`: the camera must stop by itself after this time.
 Request continuous_move(const std::string& profile, const Vector& velocity, double timeout_s);
 Request absolute_move(const std::string& profile, const Vector& position);
 
-// `nonce`: bytes that were never used before; `created_utc_s`: now, by the camera's clock.
+// A login for one request. `nonce`: bytes that were never used before. `created_utc_s`: the present
+// time by the camera's clock.
 struct Token {
   Credentials credentials;
   std::string nonce;

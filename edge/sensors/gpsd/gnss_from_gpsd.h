@@ -1,6 +1,6 @@
 // Converts the messages of gpsd to readings of a GNSS receiver. Pure.
 //
-// There are two sources of errors. gpsd computes its own (eph, epx, epy, epv) from the geometry of
+// Errors are stated in two ways. gpsd computes its own (eph, epx, epy, epv) from the geometry of
 // the satellites. These ignore RTK: 13 m for a fix that is accurate to 1 cm. gpsd's manual
 // describes their confidence as "guessed to be 95 %, may also be 50 %, one sigma, or two sigma".
 // The sentence GST contains the receiver's own 1-sigma of latitude, longitude and altitude. It is

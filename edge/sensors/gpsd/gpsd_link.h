@@ -21,7 +21,7 @@ class GpsdLink {
   bool read(double timeout_s);
   const gps_data_t& data() const { return *data_; }
 
-  // Why there are no reports, according to gpsd's statements and whether the device file exists.
+  // Why there are no reports, judged by gpsd's statements and by the device file.
   enum class Silence { kNoReceiver, kDeviceMissing, kReceiverSilent };
   Silence silence() const;
 

@@ -13,7 +13,7 @@ namespace ols::sensors {
 struct GpsdConfig : GnssConfig {
   std::string host;  // host of gpsd; empty if the station has no receiver
   std::string port = "2947";
-  double error_sigmas = 1.0;  // how many sigmas gpsd's own errors are; used only without GST
+  double error_sigmas = 1.0;  // number of sigmas in gpsd's own errors; used only without GST
 };
 
 class GpsdReceiver : public Gnss {
