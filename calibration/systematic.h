@@ -1,5 +1,5 @@
-// The systematic error that remains after a calibration: J C J' of a direction, and its size over
-// the directions in which a station works.
+// The systematic error that remains after a calibration: its covariance J C J' in one direction,
+// and its size over all directions in which a station works.
 #pragma once
 
 #include <optional>

@@ -26,8 +26,8 @@ AzimuthElevation azimuth_elevation_from_enu(const Eigen::Vector3d& v_enu);
 // direction and to each other.
 Eigen::Matrix<double, 3, 2> tangent_basis(const AzimuthElevation& direction);
 
-// 2x3: the shift of a direction on its tangent plane that a small rotation vector [rad] causes. The
-// rotation vector is in the frame in which `tangent` is given.
+// 2x3: multiplied by a small rotation vector [rad], gives the shift of a direction on its tangent
+// plane. The rotation vector is in the same frame as `tangent`.
 Eigen::Matrix<double, 2, 3> shift_by_rotation(const Eigen::Matrix<double, 3, 2>& tangent);
 
 // Angle between two vectors [rad]; exact for tiny angles too.

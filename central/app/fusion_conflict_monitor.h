@@ -16,9 +16,9 @@ class FusionConflictMonitor {
   // Takes a fusion status, possibly our own. now_s: the host's monotonic clock. Returns true if it
   // is from another fusion.
   bool hear(std::int64_t boot_id, double now_s);
-  // The alarm while another fusion was heard within the last seconds; otherwise empty.
+  // The alarm, if another fusion's status came within the last seconds; otherwise empty.
   Alarm alarm(double now_s) const;
-  // True once, when another fusion is first heard.
+  // True once, after the first status of another fusion.
   bool take_event();
 
  private:

@@ -1,5 +1,5 @@
-// Translates between the fusion's types and LCM messages. Decides only whether a message is valid
-// on its channel.
+// Translates between the fusion's types and LCM messages. The only decision made here is whether a
+// message is valid on its channel.
 #pragma once
 
 #include <cstdint>

@@ -46,7 +46,7 @@ struct BiasModelConfig {
   // Weight of the prior assumption (noise as stated, and white), as a number of bearings.
   double noise_weight = 20.0;
   double noise_memory = 500.0;  // number of bearings over which the noise is averaged
-  double least_noise = 0.1;     // bounds of the noise variance relative to the stated one
+  double least_noise = 0.1;     // bounds of the ratio of actual to stated noise variance
   double greatest_noise = 100.0;
   double clock_time_s = 5.0;  // correlation time of a clock error
   // Weight of a clock's stated error, as a number of estimated offsets. 0: the stated error is

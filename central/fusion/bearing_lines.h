@@ -25,10 +25,11 @@ class BearingLines {
   // Stations that have recently sent an unassociated bearing and are not quarantined.
   std::vector<std::string> stations(std::int64_t epoch_us) const;
   // The newest bearing of each local track that no target takes, smallest track ids first (most
-  // trackers assign ids in ascending order). If tracklets do not count, only the first four.
+  // trackers assign ids in ascending order). Returns only the first four, unless tracklets are
+  // included.
   std::vector<const BearingMeasurement*> of(const std::string& station,
                                             std::int64_t epoch_us) const;
-  // The newest bearing of one of stations().
+  // The newest bearing of a station that stations() has returned.
   const BearingMeasurement* newest_of(const std::string& station) const;
   // Whether a target has taken a bearing of the same object lately.
   bool is_taken(const BearingMeasurement& of, std::int64_t epoch_us) const;

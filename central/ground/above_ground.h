@@ -35,8 +35,8 @@ std::optional<HeightAboveGround> height_above_ground(const land::Surface& surfac
 // The probability that a position is not below the ground; 1 where the surface is unknown.
 double probability_above(const std::optional<HeightAboveGround>& height);
 
-// For an object that stands on the ground, such as a vehicle or a person: the height above the
-// ground of its middle, which a tracker follows.
+// The height above the ground of the middle of an object that stands on it, such as a vehicle or a
+// person. A tracker follows this middle.
 inline constexpr double kMiddle_m = 1.0, kMiddleSd_m = 0.7;
 
 // A position and its covariance [m, m^2, ECEF].

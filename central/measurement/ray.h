@@ -1,4 +1,4 @@
-// A line of sight at an epoch (the input of the estimators), and their result.
+// The input and the result of the estimators: lines of sight at an epoch, and a position.
 #pragma once
 
 #include <Eigen/Core>
@@ -64,9 +64,9 @@ struct RayUse {
   // together, and its expected value if all covariances are right.
   double squared = 0.0;
   double expected = 0.0;
-  // For each component (cross-elevation, elevation): the residual, the variance that gave its
-  // weight, and the share of that variance that is expected in the residual (0..1). For a rejected
-  // ray the share can be above 1, because the position's own error adds to its residual.
+  // For each component (cross-elevation, elevation): the residual, its variance as used for the
+  // weight, and the share (0..1) of that variance that is expected to appear in the residual. For a
+  // rejected ray the share can be above 1, because the position's own error adds to its residual.
   Eigen::Vector2d residual_rad = Eigen::Vector2d::Zero();
   Eigen::Vector2d variance_rad2 = Eigen::Vector2d::Zero();
   Eigen::Vector2d redundancy = Eigen::Vector2d::Zero();

@@ -15,8 +15,8 @@ namespace ols::fusion {
 
 class TrackIdentities {
  public:
-  // same_place: a track takes over the identity of a deleted track only at the predicted position
-  // of the latter.
+  // same_place: a track takes over the identity of a deleted track only at that track's predicted
+  // position.
   explicit TrackIdentities(bool same_place) : same_place_(same_place) {}
 
   // Assigns an identity to a confirmed track: that of a deleted track, that of the oldest

@@ -29,8 +29,8 @@ struct Instrument {
   InstrumentMatrix covariance = InstrumentMatrix::Zero();
 };
 
-// Makes an instrument for a new unit, from a station's configuration. Its deviations are those of
-// calibration/parameters.h; those of the mounting are at least those of [calibration.sd].
+// Makes an instrument for a new unit, from a station's configuration. The deviations come from
+// calibration/parameters.h; for the mounting they are at least as large as in [calibration.sd].
 Instrument new_instrument(const station::StationSettings& settings);
 
 // Keys that are missing keep the values of `fallback`. Throws ConfigError or CsvError, naming file,

@@ -10,7 +10,7 @@ namespace ols::camera {
 
 class PictureChange {
  public:
-  // How long there has been no new picture [s].
+  // Takes a picture. Returns the time since the last picture with new pixels [s].
   double unchanged_s(const cv::Mat& gray, double arrival_s);
 
  private:

@@ -1,7 +1,7 @@
 // Detects that two fusions slew this station. Pure.
 //
-// A restarted fusion is a new sender, and the previous sender is not heard again. If a sender is
-// heard again after another sender, two fusions are running.
+// A restarted fusion is a new sender, and the previous sender falls silent. If slews of two senders
+// alternate, two fusions are running.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,8 @@ namespace ols::station {
 
 class SlewConflictMonitor {
  public:
-  // `boot_id`: that of the fusion whose slew was accepted. `now_s`: the station's monotonic clock.
+  // `boot_id`: identifies the fusion whose slew was accepted. `now_s`: the station's monotonic
+  // clock.
   void note(std::int64_t boot_id, double now_s);
   // Whether two fusions have slewed within the last seconds.
   bool are_several(double now_s) const;

@@ -16,7 +16,7 @@ class SceneBackground {
   // Notes that the camera has turned: `motion` maps the previous image's pixels to the present
   // image's.
   void advance(const Eigen::Matrix3d& motion);
-  // Whether there are three images, of which the oldest has at least the age `kLeastAge_s`.
+  // Whether there are three images and the oldest is at least `kLeastAge_s` old.
   bool ready(double time_s) const;
   // The darkest and the brightest level within one pixel of each place.
   struct Range {

@@ -26,8 +26,8 @@ struct UnitAngles {
   double time_s = 0.0;
 };
 
-// "Reported" angles are the unit's own: those of its samples, goals and limits. All other angles
-// are those of the kinematic chain. Without a calibration the two are the same.
+// "Reported" angles are the unit's own: its samples, goals and limits use them. All other angles
+// belong to the kinematic chain. Without a calibration the two are the same.
 class PointingModel {
  public:
   // Until set_pose(), the pose is the configured one.

@@ -18,7 +18,7 @@ class RearmInput {
   void interrupted();
   // True once each time the button has been held long enough.
   bool take(double now_s);
-  // The instant at which take() becomes true if no further edge comes; nullopt if it does not.
+  // When take() will become true if no further edge comes; nullopt if it will not.
   std::optional<double> due_s() const;
 
  private:

@@ -19,7 +19,7 @@ class StopInput {
   // nullopt while unknown: before the first level, and while the first level is a release that is
   // not stable yet.
   std::optional<bool> pressed(double now_s) const;
-  // The instant at which pressed() becomes false if no further edge comes; nullopt if it does not.
+  // When pressed() will become false if no further edge comes; nullopt if it will not.
   std::optional<double> due_s() const;
 
  private:

@@ -1,4 +1,4 @@
-// Writes the borders of the region in which a unit can point into a station's status.
+// Writes into a station's status the borders of the region in which its unit can point.
 #pragma once
 
 #include <vector>
@@ -11,7 +11,7 @@ namespace ols::station {
 
 void fill_borders(const std::vector<Border>& borders, ols_msg::station_status_t& message);
 
-// As above, for a unit that stands as the station's pose says.
+// As above; computes the borders for a unit with the pose in `report`.
 void fill_borders(ChainParameters chain, const StationReport& report,
                   ols_msg::station_status_t& message);
 

@@ -29,7 +29,7 @@ struct ReferenceDoubt {
   bool operator==(const ReferenceDoubt&) const = default;
 };
 
-// All words of the persisted form, which is a single word. The first word stands for a trusted
+// All words that can be persisted; each stands for one state. The first stands for a trusted
 // reference.
 const std::vector<std::string>& doubt_words();
 std::string to_word(const std::optional<ReferenceDoubt>& doubt);

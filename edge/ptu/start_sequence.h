@@ -87,7 +87,7 @@ class PtuStartSequence {
   bool changed_baud_ = false, not_referenced_ = false;
 };
 
-// Whether the answer to C says that speeds are bounds of position moves.
+// Whether the unit's answer to C means that speeds are limits of position moves.
 bool says_independent(const PtuReply& reply);
 
 }  // namespace ols::ptu

@@ -12,7 +12,7 @@ namespace ols::ptu {
 
 class PtuStarting {
  public:
-  // What is to happen once the unit has answered everything.
+  // What follows when the unit has answered everything.
   enum class Purpose { kDrive, kHome, kDriveAfterHoming };
 
   // `counters` must outlive this object.
@@ -22,7 +22,7 @@ class PtuStarting {
   enum class Event {
     kNone,
     kLineDropped,   // the line is quiet, or must become quiet; the caller drops an incomplete reply
-    kLineNotQuiet,  // the line has not been quiet for longer than a PTU would send
+    kLineNotQuiet,  // the line carries bytes for longer than a PTU would send
     kNoReply,
     kComplete,  // the unit has answered everything
   };

@@ -46,10 +46,10 @@ struct StationConfig {
   double angle_wait_s = 0.03;  // longest time for which a frame waits for the next PTU sample
   // How long frames are kept for a designation; a person needs time to drag a box.
   double frame_memory_s = 3.0;
-  double search_interval_s = 0.5;  // interval at which a searching tracker is told the slew's pixel
+  double search_interval_s = 0.5;  // interval at which a searching tracker gets the slew's pixel
   double search_sd_px = 25.0;  // least 1-sigma around that pixel; the largest is max_search_sd_px()
-  bool acquire_by_slew = true;  // a slewed station without a target acquires one;
-  double own_target_s = 5.0;  // a station with a lost target does so after searching for this long
+  bool acquire_by_slew = true;  // a slewed station without a target acquires one
+  double own_target_s = 5.0;  // a station that has lost its target acquires another after this time
   // An alarm is raised after this time of slewing without a target.
   double unacquired_alarm_s = 10.0;
   double acquisition_sd_px = 3.0;  // 1-sigma of an acquired box's centre on the target

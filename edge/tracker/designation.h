@@ -22,8 +22,8 @@ class Designation {
   }
 
   // Call it while nothing is conspicuous in the designated box (a bird with its wings edgewise, a
-  // drone behind a twig). Returns the part that becomes conspicuous there soon afterwards; nullopt
-  // if there is none yet.
+  // drone behind a twig). Returns the part of the box that has now become conspicuous; nullopt if
+  // there is none yet.
   std::optional<cv::Rect2d> find_late(const cv::Mat& gray, const MotionModel& motion);
 
  private:

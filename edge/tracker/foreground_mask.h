@@ -43,8 +43,8 @@ class ReferenceFrames {
 FrameView foreground_mask(const cv::Mat& frame, double level, const cv::Rect& area,
                           const Template& target);
 
-// Computes |frame - reference| inside `area` of the frame; 0..255 stands for a foreground of 0..1.
-// A difference of `noise` grey levels counts as 0, and half of `contrast` as 1.
+// Computes |frame - reference| inside `area` of the frame; values of 0..255 mean a foreground of
+// 0..1. A difference of `noise` grey levels counts as 0, and half of `contrast` as 1.
 FrameView foreground_mask(const cv::Mat& frame, const ReferenceFrames::Reference& reference,
                           const cv::Rect& area, const Template& target);
 

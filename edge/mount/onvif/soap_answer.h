@@ -1,7 +1,7 @@
 // Parses the answers of an ONVIF camera. Pure. Elements are found by their local names, because
 // cameras differ in their prefixes and some do not declare them. Only the five entities of XML are
-// expanded; document types are ignored. If a value is missing, is not a finite number or has an
-// incredible size, the error names it.
+// expanded; document types are ignored. If a value is missing, not a finite number, or absurdly
+// large, an AnswerError names it.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace ols::onvif {
 
-// "GetStatus: no Position"
+// For example "GetStatus: no Position".
 struct AnswerError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
