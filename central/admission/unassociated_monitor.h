@@ -1,7 +1,7 @@
-// Finds stations that follow an object of their own: there are targets, but none explains the
-// station's bearings. Either no other station has seen the object, or the operator has designated
-// the wrong one. Bearings cannot distinguish the two cases. The bearing-only track therefore
-// continues, and an alarm asks a person to check. Pure.
+// Finds stations that follow an object of their own, under a track id: there are targets, but none
+// explains the bearings of that object. Either no other station has seen the object, or the
+// operator has designated the wrong one. Bearings cannot distinguish the two cases. The
+// bearing-only track therefore continues, and an alarm asks a person to check. Pure.
 #pragma once
 
 #include <cstdint>

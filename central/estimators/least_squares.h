@@ -25,8 +25,8 @@ struct LeastSquaresConfig {
 
 // Rays are rejected only if the remaining rays are a majority and agree: one of three or four can
 // be rejected, or two of five or six. Otherwise all rays are kept with robust weights, and the
-// covariance is multiplied by chi^2 over its degrees of freedom. (With only two rays, this is
-// always so.)
+// covariance is multiplied by chi^2 over its degrees of freedom. (Two rays that miss each other are
+// always treated like this.)
 Estimate least_squares(const std::vector<Ray>& rays, const LeastSquaresConfig& config = {});
 
 // Computes the velocity and its covariance from the angular rates of all used rays together; NaN if
