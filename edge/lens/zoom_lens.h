@@ -1,5 +1,5 @@
-// The camera behind a zoom lens at any recent instant, from the zoom that the lens reports and a
-// calibration. Pure.
+// Gives the camera's focal length and principal point at any recent instant, from the reported zoom
+// and the lens's calibration. Pure.
 #pragma once
 
 #include <deque>

@@ -5,9 +5,10 @@
 //
 //   PP <commands> TP <commands> TP <commands> PP <questions>
 //
-// A wrong digit then shows as a contradiction. With this order, replies cannot confirm each other
-// if one is missing and the others shift. The commands are placed between the queries: their short
-// replies leave the line free for the next position, so that its instant is known well.
+// A wrong digit then shows as a contradiction. If a reply is lost, the later ones are taken for the
+// wrong queries; in this order, such replies cannot confirm each other. The commands are placed
+// between the queries: their short replies leave the line free for the next position, so that its
+// instant is known well.
 #pragma once
 
 #include <array>

@@ -51,7 +51,7 @@ struct Template {
   Patch gray{};
   float contrast = 1.0F;  // [grey levels] of the target relative to its surroundings
   float noise = 1.0F;     // [grey levels] standard deviation of the surroundings
-  bool empty = false;     // it contains only noise, so that any patch of sky is as similar
+  bool empty = false;     // it contains only noise, so it resembles any patch of sky
 };
 
 // Standard deviation of the noise [grey levels], from the residuals of a plane in 3x3 pixels. The

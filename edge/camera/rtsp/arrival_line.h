@@ -19,11 +19,12 @@ class ArrivalLine {
   void add(std::int64_t device_ns, double arrival_s);
   void clear() { *this = ArrivalLine(); }
 
-  // When a picture with this stamp arrives if nothing delays it more than usual. sd_s is the
-  // scatter of the least delayed pictures about the line. nullopt before the first add().
+  // The arrival to be expected for a picture with this stamp, with no more than the usual delay.
+  // sd_s is the scatter of the least delayed pictures about the line. nullopt before the first
+  // add().
   std::optional<MappedTime> at(std::int64_t device_ns) const;
-  // Seconds of the station per second of the camera's stamps. In the first seconds it is 1, unless
-  // the rate is far from that.
+  // Seconds of the station per second of the camera's stamps. In the first seconds it is taken as
+  // 1, unless the arrivals clearly show another rate.
   double rate() const { return rate_; }
   // Whether rate() has been measured, over at least eight seconds.
   bool knows_rate() const;
