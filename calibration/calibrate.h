@@ -3,8 +3,8 @@
 //
 // Each group of observations is tested against all other groups, with both components of all its
 // sightings at once. The search starts from the headings on which most groups agree. Groups that
-// fail are rejected one by one, the worst first; rejected groups that pass again are taken back.
-// Scene points are not tested; a robust weight reduces those that do not fit.
+// fail are rejected one by one, the worst first; rejected groups that pass later are accepted
+// again. Scene points are not tested; a robust weight reduces those that do not fit.
 #pragma once
 
 #include <string>

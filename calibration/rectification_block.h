@@ -6,7 +6,7 @@
 //  - Ruler pair: gives the elevation of the camera. Two rulers stand at two distances, with their
 //    zeros at the same height.
 //
-// Each sighting is one equation, scaled by its deviation.
+// Each sighting gives one equation, divided by its deviation.
 #pragma once
 
 #include <string>

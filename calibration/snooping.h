@@ -66,9 +66,9 @@ using TellAdjusted = std::function<void()>;
 
 bool is_finite(const Fit& fit);
 
-// Data snooping. Each round takes back the rejected group that passes its test best, or rejects the
-// kept group that fails worst. The search ends when it reaches a set that was tried before. `tell`
-// is called in each round.
+// Data snooping. Each round accepts again the rejected group that passes its test best, or rejects
+// the kept group that fails worst. The search ends when it reaches a set that was tried before.
+// `tell` is called in each round.
 Fit snoop(const Adjustment& adjustment, const Start& start, const Search& search,
           const TellAdjusted& tell = {});
 

@@ -68,8 +68,8 @@ class Stage {
   virtual void taken(const Taken& picture) = 0;
   // Takes a new picture for a live question. It may change the question.
   virtual void seen(const Taken&) {}
-  // Does a part of the computation while the unit moves. Returns true if there is more to do; only
-  // without that is a stage complete.
+  // Does a part of the computation while the unit moves. Returns whether there is more to do; while
+  // there is, the stage is not complete.
   virtual bool work() { return false; }
   // Reports that the picture could not be taken.
   virtual void not_taken(const std::string& why) = 0;

@@ -1,9 +1,9 @@
 // Plans the pictures of a sweep. A ring around the horizon determines focal length, worm and
 // backlash. A block of overlapping pictures, in rows one above the other, determines the parameters
-// that depend on the tilt. Pure. The steps are uneven: with even steps the worm's error would look
-// like an eccentricity. On the way out, the ring takes every second pose; on the way back, the
-// poses in between. Neighbouring poses are thus approached from different sides, and their
-// difference shows the backlash.
+// that depend on the tilt. The steps are uneven: with even steps the worm's error would look like
+// an eccentricity. On the way out, the ring takes every second pose; on the way back, the poses in
+// between. Neighbouring poses are thus approached from different sides, and their difference shows
+// the backlash. Pure.
 #pragma once
 
 #include <functional>

@@ -37,8 +37,7 @@ class MessageTime {
   // The delivering stations, and their number.
   std::vector<std::string> delivering() const;
   std::size_t delivering_count() const { return delivering_; }
-  // Elapsed time: the progress of the stamps of the station that has progressed most, with steps
-  // clipped.
+  // Elapsed time: the largest progress of any station's stamps. Steps of a clock are clipped.
   double elapsed_s() const { return elapsed_s_; }
   void forget(const std::string& station);
 

@@ -32,8 +32,8 @@ struct GroundPoint {
   double range_m = 0.0;
 };
 
-// nullopt if the line does not enter known ground by more than 3 sigmas, or if the mixture is too
-// long to serve as a position.
+// nullopt unless it is certain to 3 sigmas that the line meets known ground; also if the mixture is
+// too long to serve as a position.
 std::optional<GroundPoint> ground_point(const land::Surface& surface, const LineOfSight& sight,
                                         const GroundPointConfig& config = {});
 

@@ -1,6 +1,6 @@
 // Collects the operator's commands of one turn of the control loop. Only the newest designation of
-// a turn is carried out, because the tracker must process all frames since its image. A stop never
-// waits for a designation. Pure.
+// a turn is carried out, because each one makes the tracker process all frames since the designated
+// image. A stop never waits for a designation. Pure.
 #pragma once
 
 #include <atomic>

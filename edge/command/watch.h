@@ -26,8 +26,8 @@ class Watch {
 
   explicit Watch(const WatchConfig& config) : config_(config) {}
 
-  // Call in every turn. `free`: nobody else uses the unit. `sees`: the detector sees an object now.
-  // Returns the unit's goal; nullopt if the station is not watching, or cannot look there.
+  // Call in every turn. `free`: nothing else uses the unit. `sees`: the detector sees an object
+  // now. Returns the unit's goal; nullopt if the station is not watching, or cannot look there.
   std::optional<mount::Goal> step(double now_s, bool free, bool sees,
                                   const PointingModel& pointing);
   // Raised while some pictures of the field are beyond the unit's reach.

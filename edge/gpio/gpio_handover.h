@@ -42,8 +42,8 @@ class GpioHandover {
   bool stop_pressed() const;
   device::DeviceReport report() const;
 
-  // The functions below are for the owner of the lines, all from one thread. Note that the lines
-  // were opened, or have failed.
+  // The functions below are for the owner of the lines, which calls all of them from one thread.
+  // Call opened() or failed() when the lines have been opened or have failed.
   void opened();
   void failed(const std::string& what);
   // Call at each edge, at each wake(), and at the instant that the last call returned [s,

@@ -140,8 +140,8 @@ class Station {
   std::optional<PanTilt> reported_angles() const { return pointing_.reported_angles(); }
   std::optional<cv::Rect2d> target_box() const;  // in the newest frame
   StationSnapshot snapshot() const;
-  // The newest frame for a viewer, without its utime. nullopt if the newest frame has another
-  // mid-exposure, because this frame was refused.
+  // The newest frame for a viewer, without its utime. nullopt if the frame with this mid-exposure
+  // was refused, so that the newest frame is another one.
   std::optional<video::VideoFrame> video_frame(double mid_exposure_s) const;
 
  private:
