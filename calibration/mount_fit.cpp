@@ -74,9 +74,29 @@ Measured measured(const Solution& s, Unknown of) {
   return {s.x(of), std::sqrt(s.covariance(of, of))};
 }
 
+// Both ways, or a delay is not told from the zero.
+bool turned_both_ways(const std::vector<MountReading>& readings) {
+  const auto turned = [&](double sign) {
+    return std::ranges::any_of(
+        readings, [&](const MountReading& r) { return r.moves && sign * r.rate_rad_s > 0.0; });
+  };
+  return turned(1.0) && turned(-1.0);
+}
+
+bool is_useful(const MountFit& fit) {
+  constexpr double kGainShare = 0.02, kDelay_s = 0.1;
+  return fit.gain.sd < kGainShare * std::abs(fit.gain.value) && fit.delay_s.sd < kDelay_s &&
+         std::isfinite(fit.delay_s.value) && std::isfinite(fit.backlash_rad.value);
+}
+
 }  // namespace
 
 std::optional<MountFit> fit_mount(std::vector<MountReading> readings) {
+  constexpr double kTurns_rad_s = 2e-3;  // a slower one was taken before or after the motion
+  std::erase_if(readings, [](const MountReading& r) {
+    return r.moves && std::abs(r.rate_rad_s) < kTurns_rad_s;
+  });
+  if (!turned_both_ways(readings)) return std::nullopt;
   if (count(readings, false) < kLeastRests || count(readings, true) < kLeastMoves)
     return std::nullopt;
   const auto [least, most] = std::ranges::minmax(readings, {}, &MountReading::reported_rad);
@@ -102,7 +122,7 @@ std::optional<MountFit> fit_mount(std::vector<MountReading> readings) {
   const Measured lag = measured(s, kLag);
   fit.delay_s = {lag.value / fit.gain.value, lag.sd / std::abs(fit.gain.value)};
   fit.position_sd_rad = s.rest_sd_rad;
-  return fit;
+  return is_useful(fit) ? std::optional(fit) : std::nullopt;
 }
 
 }  // namespace ols::calibration

@@ -31,7 +31,8 @@ struct MountFit {
   int rests = 0, moves = 0;      // pictures that agree
 };
 
-// nullopt: too few pictures at rest or in motion, or no motion to tell them apart.
+// nullopt: too few pictures at rest or in motion, no motion both ways, or a result that is worth
+// nothing.
 std::optional<MountFit> fit_mount(std::vector<MountReading> readings);
 
 }  // namespace ols::calibration

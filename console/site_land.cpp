@@ -78,6 +78,8 @@ WebResponse SiteLand::answer(const LandTask& task) {
     }
   } catch (const std::invalid_argument& wrong) {
     return refused(409, outcome::land_does_not_fit(wrong.what()));
+  } catch (const std::exception& wrong) {  // in a thread of its own, where nobody else catches it
+    return refused(500, outcome::land_does_not_fit(wrong.what()));
   }
 }
 

@@ -305,6 +305,7 @@ WebServer::WebServer(const ConsoleConfig& config, land::TerrainFolder land,
 WebServer::~WebServer() {
   shared_->hashers.join();
   shared_->readers.join();
+  shared_->surveyors.stop();  // nobody waits for what is queued
   shared_->surveyors.join();
   shared_->acceptor->close();
 }

@@ -10,6 +10,8 @@ namespace ols::fusion {
 
 namespace {
 
+constexpr double kReadout_s = 0.025;  // less than from one image to the next
+
 // Behind a rolling shutter, each object of an image has the time of its own row.
 bool is_of(const ImageBearings& image, const BearingMeasurement& measurement, double readout_s) {
   const BearingMeasurement& first = image.front();
@@ -28,8 +30,8 @@ std::vector<ImageBearings> ImageAssembly::add(const BearingMeasurement& measurem
   std::erase_if(open_, [&](auto& entry) {
     const std::int64_t utime_us = entry.second.front().utime_us;
     const bool is_own = entry.first == measurement.station;
-    const bool is_over =
-        is_own ? !is_of(entry.second, measurement, kWaitS) : seconds(now_us - utime_us) > kWaitS;
+    const bool is_over = is_own ? !is_of(entry.second, measurement, kReadout_s)
+                                : seconds(now_us - utime_us) > kWaitS;
     if (!is_over) return false;
     complete.push_back(std::move(entry.second));
     return true;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "central/measurement/activity.h"
 #include "central/measurement/time_span.h"
 #include "geometry/angles.h"
 #include "geometry/wgs84.h"
@@ -21,10 +22,14 @@ void turn(Slew& slew, const Eigen::Vector2d& offset_rad) {
   d.elevation_rad = elevation;
 }
 
-// Whether its newest bearing of the target is its detector's.
-bool sees_by_detector(const Track& track, const std::string& station) {
-  const auto own = track.bearings.find(station);
-  return own != track.bearings.end() && !own->second.empty() && own->second.back().is_tracklet;
+// Its tracker, if it has one there, coasts for less than a second.
+bool sees_by_detector(const Track& track, const std::string& station, std::int64_t now_us) {
+  return track.bearings.contains(station) && tracker_of(track, station, now_us) == nullptr;
+}
+
+bool is_designated_there(const Track& track, const std::string& station, std::int64_t now_us) {
+  const BearingMeasurement* own = tracker_of(track, station, now_us);
+  return own != nullptr && !own->is_acquired;
 }
 
 std::string cue_key(const CueAim& aim) { return "cue/" + aim.cue.id; }
@@ -32,6 +37,18 @@ std::string line_key(const CueAim& aim) { return cue_key(aim) + "/line"; }
 std::string line_key(const CueRay& ray) { return ray.station + "/" + std::to_string(ray.track_id); }
 
 }  // namespace
+
+const BearingMeasurement* tracker_of(const Track& track, const std::string& station,
+                                     std::int64_t now_us) {
+  const auto own = track.bearings.find(station);
+  if (own == track.bearings.end()) return nullptr;
+  const auto& bearings = own->second;
+  const auto newest = std::ranges::find(bearings.rbegin(), bearings.rend(), false,
+                                        &BearingMeasurement::is_tracklet);
+  const bool is_there =
+      newest != bearings.rend() && seconds(now_us - newest->utime_us) < Activity::kFollowsS;
+  return is_there ? &*newest : nullptr;
+}
 
 // The arc length of the spiral is the square of the angle over 4 pi; its turns are a unit apart.
 Eigen::Vector2d spiral_point(int k) {
@@ -85,6 +102,7 @@ void SlewPlanner::allocate(SlewRound& round, std::span<const SlewStation> statio
     targets.push_back({track->id, track->filter.position(),
                        priority == round.priority.end() ? 1.0 : priority->second,
                        round.wanted.contains(track->id)});
+    round.targets.insert(track->id);
   }
   std::vector<AllocatedStation> all;
   for (const SlewStation& station : stations) {
@@ -92,7 +110,10 @@ void SlewPlanner::allocate(SlewRound& round, std::span<const SlewStation> statio
     AllocatedStation one{station.station, traits.camera_ecef, traits.axis, station.is_led(),
                          station.follows};
     const auto seen = std::ranges::find(with_position, station.follows, &Track::id);
-    one.by_detector = seen != with_position.end() && sees_by_detector(**seen, station.station);
+    if (seen != with_position.end()) {
+      one.by_detector = sees_by_detector(**seen, station.station, round.now_us);
+      one.keeps_tracker = is_designated_there(**seen, station.station, round.now_us);
+    }
     one.is_busy = round.busy.contains(station.station);
     if (const auto search = searches_.find(station.station); search != searches_.end()) {
       one.led_to = search->second.target_id;

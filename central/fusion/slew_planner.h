@@ -86,6 +86,7 @@ struct SlewRound {
   // Priority of each target; 1 if absent; a target with 0 leads no station.
   std::map<std::int64_t, double> priority{};
   std::set<std::int64_t> wanted{};                // targets that an operator wants
+  std::set<std::int64_t> targets{};               // targets to which stations may be led
   Allocation allocation{};                        // of the stations to the targets
   std::set<std::string> bearing_only_stations{};  // stations that have a bearing-only track
   std::set<std::string> busy{};                   // of these, by their trackers
@@ -96,6 +97,11 @@ struct SlewRound {
   std::string cue_on_ray{};                   // id of the cue near which the ray passes
   std::map<std::string, int> led_to{};        // number of stations led to each cue
 };
+
+// The newest bearing of the station's tracker of this target; null: it has none there, or none
+// within a second.
+const BearingMeasurement* tracker_of(const Track& track, const std::string& station,
+                                     std::int64_t now_us);
 
 class SlewPlanner {
  public:

@@ -58,21 +58,23 @@ void SlewSchedule::find_who_is_lent(std::int64_t now_us, const StationRegistry& 
   for (const auto& [name, station] : stations.all()) {
     const std::int64_t seen = station.follows(now_us);
     const auto own = round_.allocation.find(name);
-    if (seen != 0 && own != round_.allocation.end() && own->second != seen) lent_[name] = seen;
+    const bool is_elsewhere = own != round_.allocation.end() && own->second != seen;
+    if (round_.targets.contains(seen) && is_elsewhere) lent_[name] = seen;
   }
 }
 
-// A station's tracker stays with its target until somebody says otherwise.
+// A station's tracker stays with its target until somebody says otherwise. What an operator has
+// designated, only an operator's dismissal takes from it.
 void SlewSchedule::find_what_is_let_go(const std::vector<Track>& tracks,
                                        const HandoverPolicy& handover) {
   for (const Track& track : tracks) {
-    const bool is_let_go = handover.is_let_go(track.id);
+    const bool is_dismissed = handover.is_dismissed(track.id);
+    const bool is_let_go = is_dismissed || handover.is_let_go(track.id);
     for (const auto& [station, bearings] : track.bearings) {
       const auto lent = lent_.find(station);
       if (!is_let_go && (lent == lent_.end() || lent->second != track.id)) continue;
-      const auto newest = std::ranges::find(bearings.rbegin(), bearings.rend(), false,
-                                            &BearingMeasurement::is_tracklet);
-      if (newest != bearings.rend()) let_go_[station] = newest->track_id;
+      const BearingMeasurement* own = tracker_of(track, station, round_.now_us);
+      if (own != nullptr && (own->is_acquired || is_dismissed)) let_go_[station] = own->track_id;
     }
   }
 }

@@ -74,12 +74,30 @@ void HandoverPolicy::settle(std::int64_t now_us, const std::vector<Track>& track
   });
 }
 
-// A tracker that came before the fusion led anybody there was started by an operator.
+// An operator who designates what has been dismissed has changed his mind.
+void HandoverPolicy::note_dismissed(Known& known, const Track& track) {
+  std::set<std::pair<std::string, std::int64_t>> there, designated;
+  for (const auto& [station, bearings] : track.bearings) {
+    for (const BearingMeasurement& m : bearings) {
+      if (m.is_tracklet) continue;
+      there.emplace(station, m.track_id);
+      if (!m.is_acquired) designated.emplace(station, m.track_id);
+    }
+  }
+  if (!known.dismissed) {
+    known.dismissed = std::move(there);
+    known.is_designated = false;
+  } else if (!std::ranges::includes(*known.dismissed, designated)) {
+    known.allowed.reset();
+  }
+}
+
 void HandoverPolicy::note(const Track& track, std::int64_t now_us) {
   const bool is_new = !targets_.contains(track.id);
   Known& known = targets_[track.id];
   known.is_live = true;
-  if (!known.has_led && is_designated_there(track)) known.is_designated = true;
+  if (known.allowed == false) note_dismissed(known, track);
+  if (known.allowed != false && is_designated_there(track)) known.is_designated = true;
   known.last = aim_of(track, config_.acceleration_sd_m_s2);
   known.object_class = appearance_of(track, track.filter.position()).object_class;
   if (is_new) inherit(known, track, now_us);
@@ -102,6 +120,7 @@ bool HandoverPolicy::order(std::int64_t target_id, bool allow) {
   const auto known = targets_.find(target_id);
   if (known == targets_.end() || (allow && config_.mode == HandoverMode::kOff)) return false;
   known->second.allowed = allow;
+  known->second.dismissed.reset();
   return true;
 }
 
@@ -153,6 +172,11 @@ bool HandoverPolicy::is_let_go(std::int64_t target_id) const {
   const Known& known = found->second;
   if (known.allowed) return !*known.allowed;
   return config_.mode == HandoverMode::kAutomatic && known.has_led && !leads(known);
+}
+
+bool HandoverPolicy::is_dismissed(std::int64_t target_id) const {
+  const auto found = targets_.find(target_id);
+  return found != targets_.end() && found->second.allowed == false;
 }
 
 bool HandoverPolicy::is_sought(const Known& known, std::int64_t now_us) const {

@@ -6,7 +6,7 @@
 //    each waits for an operator. automatic: those of the configured `classes` lead at once, and the
 //    others wait for an operator.
 //  - An operator's decision takes effect at once, for designated targets too, and lasts until the
-//    target loses its number.
+//    target loses its number. Who designates a target that was dismissed has changed his mind.
 //  - If a target is lost, the decision on it passes to the first new target that appears at its
 //    predicted position.
 //  - A lost target that led stations is searched for at its predicted position, with growing
@@ -16,6 +16,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -63,6 +64,7 @@ class HandoverPolicy {
   // Whether trackers are to let go of it: an operator has dismissed it, or the policy led stations
   // there until it knew that its class leads none.
   bool is_let_go(std::int64_t target_id) const;
+  bool is_dismissed(std::int64_t target_id) const;
   // Lost targets, as places at which stations are to look.
   std::vector<CueAim> lost(std::int64_t now_us) const;
   // Targets that were found by detectors or judged by an operator, each under its number. The
@@ -80,14 +82,16 @@ class HandoverPolicy {
   struct Known {
     CueAim last;  // its last state
     ObjectClass object_class = ObjectClass::kUnknown;
-    bool is_designated = false;  // a tracker followed it before it led any station
-    // Once it has led stations, a tracker that follows it does not prove that an operator
-    // designated it.
+    bool is_designated = false;  // an operator has started a tracker on it
     bool has_led = false;
     bool is_live = false;           // there is a track of this target
     std::optional<bool> allowed{};  // the operator's decision
+    // The trackers there when it was dismissed: station and its own id of the object. Not known
+    // until the next look.
+    std::optional<std::set<std::pair<std::string, std::int64_t>>> dismissed{};
   };
   void note(const Track& track, std::int64_t now_us);
+  void note_dismissed(Known& known, const Track& track);
   void inherit(Known& known, const Track& track, std::int64_t now_us);
   bool leads(const Known& known) const;
   double probability_to_lead(const Track& track) const;

@@ -68,7 +68,8 @@ class Allocator {
     const AllocatedStation& station = stations_[k];
     const std::size_t seen = seen_by(k), led_to = index_of(station.led_to);
     if (station.is_busy) return;
-    const bool is_lendable = seen == kNone || !targets_[seen].keeps_trackers || station.by_detector;
+    const bool is_lendable = !station.keeps_tracker && (seen == kNone || station.by_detector ||
+                                                        !targets_[seen].keeps_trackers);
     const bool may_leave = station.is_led && is_lendable;
     if (may_leave && led_to != kNone && station.led_s < kStay_s) return give(k, led_to);
     if (seen != kNone) give(k, seen);

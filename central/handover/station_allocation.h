@@ -38,14 +38,15 @@ struct AllocatedStation {
   std::string name;
   Eigen::Vector3d camera_ecef = Eigen::Vector3d::Zero();
   std::optional<AzimuthElevation> axis{};  // direction in which its camera looks
-  bool is_led = true;        // false: never led, but counts at the target that it sees
-  std::int64_t sees = 0;     // the target that it sees; 0 if none
-  bool by_detector = false;  // only its detector sees the target, not its tracker
-  std::int64_t led_to = 0;   // the target to which it was led and which it has not seen yet
-  double led_s = 0.0;        // time since it was led there
-  bool is_busy = false;      // its tracker follows an object that is no target yet
-  bool may_search = true;    // false: it sees the object on the line itself
-  bool searches = false;     // it has been led along that line
+  bool is_led = true;          // false: never led, but counts at the target that it sees
+  std::int64_t sees = 0;       // the target that it sees; 0 if none
+  bool by_detector = false;    // only its detector sees the target, not its tracker
+  bool keeps_tracker = false;  // an operator has started its tracker there: it is not lent
+  std::int64_t led_to = 0;     // the target to which it was led and which it has not seen yet
+  double led_s = 0.0;          // time since it was led there
+  bool is_busy = false;        // its tracker follows an object that is no target yet
+  bool may_search = true;      // false: it sees the object on the line itself
+  bool searches = false;       // it has been led along that line
 };
 
 // For each station that has a target: the target's id, by station name. kOnLine: it searches along

@@ -179,7 +179,7 @@ Association LiveTracks::initiate(const BearingMeasurement& measurement) {
 
 // Of the image of a detector. A target that hardly anybody sees is not judged: it coasts.
 void LiveTracks::judge_existence(std::span<const BearingMeasurement> image) {
-  constexpr std::int64_t kRows_us = 50'000;  // of a rolling shutter, from one object to another
+  constexpr std::int64_t kRows_us = 25'000;  // of a rolling shutter, from one object to another
   const BearingMeasurement& any = image.front();
   if (!any.is_tracklet) return;
   for (Track& track : tracks_) {

@@ -224,13 +224,18 @@ Refusal Station::designate(const DesignateCommand& command, double now_s) {
 Refusal Station::slew(const SlewCommand& command, double now_s) {
   pass_time(now_s);
   const Refusal refusal = judge(command, situation(now_s));
-  if (refusal != Refusal::kNone) return count(refusal, "slew");
-  if (command.leads()) slew_.give(command, now_s_);
-  if (target_.let_go(command.let_go_track_id) && follows_now()) {
+  // What it cannot reach it lets go of all the same.
+  const bool frees = refusal == Refusal::kNone || refusal == Refusal::kUnreachable;
+  if (refusal == Refusal::kNone && command.leads()) slew_.give(command, now_s_);
+  if (frees && target_.let_go(command.let_go_track_id)) {
     motion_.clear();
     bearings_.clear();
-    enter(StationState::kIdle);
+    occlusion_.clear();
+    const bool had_it =
+        follows_now() || mode_.is(StationState::kHidden) || mode_.is(StationState::kLost);
+    if (had_it) enter(StationState::kIdle);
   }
+  if (refusal != Refusal::kNone) return count(refusal, "slew");
   if (command.leads() && (mode_.is(StationState::kIdle) || mode_.is(StationState::kLost))) {
     enter(StationState::kSlewed);
   }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 
@@ -87,15 +88,36 @@ setup::Values corrected(setup::Values values, const MountResult& result) {
         std::max(position_sd_rad, std::hypot(fit->position_sd_rad, 0.5 * fit->backlash_rad.value));
   }
   const Measured delay = common_delay(fits);
-  set(values, "mount.delay_s",
-      std::max(0.0, number_in(values, "mount.delay_s", kDelay_s) + delay.value));
-  set(values, "mount.delay_sd_s", std::max(delay.sd, kLeastSd_s));
+  // Less than nothing: the pictures' own delay is taken for too long.
+  const double delay_s = number_in(values, "mount.delay_s", kDelay_s) + delay.value;
+  const double short_s = std::max(0.0, -delay_s);
+  if (short_s > 3.0 * delay.sd)
+    std::printf("positions come %.0f ms before the pictures: delay_s of [camera] is too long\n",
+                1e3 * short_s);
+  set(values, "mount.delay_s", std::max(0.0, delay_s));
+  set(values, "mount.delay_sd_s", std::max(std::hypot(delay.sd, short_s), kLeastSd_s));
   set(values, "mount.position_sd_deg", std::max(degrees(position_sd_rad), kLeastSd_deg));
   return values;
 }
 
+// Limits and keep-out regions are in the mount's angles, which a new gain moves.
+void check_limits(const setup::Values& values, const MountResult& result) {
+  constexpr double kSame = 0.01;
+  const bool moves = std::ranges::any_of(
+      std::array{&result.pan, &result.tilt},
+      [](const AxisResult* of) { return of->fit && std::abs(of->fit->gain.value - 1.0) > kSame; });
+  if (!moves) return;
+  for (const auto& [key, value] : values) {
+    if (key.starts_with("mount.keep_out") || key.ends_with("_min_deg") || key.ends_with("_max_deg"))
+      throw std::runtime_error(key + " is in the mount's angles, which this gain moves: take it " +
+                               "out, write, and set it anew");
+  }
+}
+
 void write_into(const std::string& path, const std::string& text, const setup::Values& before,
                 const setup::Values& now) {
+  if (read_small_file(path, kLargestConfig) != text)
+    throw std::runtime_error(path + ": changed while the mount was measured: not written");
   const auto rewritten = setup::rewrite(text, setup::as_toml(before), setup::as_toml(now));
   if (!rewritten.text) throw std::runtime_error(path + ": " + rewritten.note);
   AtomicFile file(path);
@@ -150,7 +172,10 @@ int run_mount(const MountOptions& o) {
       std::printf("%s = %s (was %s)\n", key.c_str(), value.c_str(),
                   old == nullptr ? "not stated" : old->c_str());
   }
-  if (o.write) write_into(station.config, text, before, now);
+  if (o.write) {
+    check_limits(before, result);
+    write_into(station.config, text, before, now);
+  }
   return result.pan.fit && result.tilt.fit ? 0 : kExitLookAtIt;
 }
 

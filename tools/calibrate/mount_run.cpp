@@ -20,6 +20,8 @@ constexpr double kPointAgain_s = 1.5, kRateAgain_s = 0.1;
 constexpr double kArrived_rad = radians(0.5);  // more than such mounts scatter
 constexpr double kStepOfView = 0.1;            // of a view, from picture to picture at rest
 constexpr double kViewsPerSecond = 0.3, kFastest_rad_s = radians(10.0);
+constexpr double kPicturesOfPass = 10.0;  // half of its way
+constexpr double kTurns_s = 8.0;          // for the next picture's part of the way
 constexpr int kPanSteps = 6, kTiltSteps = 3, kPasses = 2, kTries = 3;
 
 double distance(const PanTilt& a, const PanTilt& b) {
@@ -133,7 +135,10 @@ void MountRun::pass(const Axis& axis, const PanTilt& to, double rate_rad_s) {
   PanTilt rate;
   rate.*axis.of = rate_rad_s;
   const double end_s = clock_monotonic_s() + kPatience_s;
-  double sent_s = -1e9, asked_s = -1e9;
+  // A picture whenever it has turned this far; what does not turn gives none.
+  const double apart_rad = std::abs(to.*axis.of - home_.*axis.of) / kPicturesOfPass + 1e-3;
+  double sent_s = -1e9, asked_s = -1e9, turned_s = clock_monotonic_s();
+  std::optional<double> pictured_rad;
   const auto is_beyond = [&](const PanTilt& here) {
     return (here.*axis.of - to.*axis.of) * rate_rad_s >= 0.0;
   };
@@ -143,7 +148,13 @@ void MountRun::pass(const Axis& axis, const PanTilt& to, double rate_rad_s) {
       link_.turn_at(rate);
       sent_s = now_s;
     }
-    if (now_s > asked_s + kFramePatience_s) {
+    const auto now = link_.angles();
+    const bool is_due =
+        now && (!pictured_rad || std::abs((*now).*axis.of - *pictured_rad) >= apart_rad);
+    if (is_due) turned_s = now_s;
+    if (now_s > turned_s + kTurns_s)
+      throw std::runtime_error("the mount does not turn at the ordered rate");
+    if (is_due && now_s > asked_s + kFramePatience_s) {
       link_.set_out(to);
       link_.ask_frame(Arrival::kAnywhere, false);
       asked_s = now_s;
@@ -152,6 +163,7 @@ void MountRun::pass(const Axis& axis, const PanTilt& to, double rate_rad_s) {
     const auto frame = link_.take_frame();
     if (frame) {
       add(*frame, axis, true);
+      pictured_rad = frame->taken.angles.*axis.of;
       asked_s = -1e9;
     }
     const auto here = frame ? std::optional(frame->taken.angles) : link_.angles();

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/config/toml_text.h"
+#include "base/text/plain_text.h"
 #include "edge/config/device_kinds.h"
 #include "edge/device/password_file.h"
 #include "tools/doctor/probe.h"
@@ -75,6 +76,7 @@ Learnt learn_as_stated(const std::string& url, const Host& host, const Values& v
 // a person's own.
 Learnt learn_with_a_person(const std::string& url, const Host& host, const Answers& answers) {
   for (;;) {
+    std::printf("The login goes to %s\n", plain_text(url).c_str());
     const onvif::Credentials login = ask_login();
     try {
       Learnt learnt{learn_onvif(url, login, stated(answers.values, "pinned_key")), login.user, ""};

@@ -12,6 +12,7 @@
 #include <system_error>
 
 #include "base/files/atomic_file.h"
+#include "base/text/plain_text.h"
 #include "edge/mount/onvif/discovery_link.h"
 #include "tools/setup/dialogue.h"
 
@@ -46,13 +47,19 @@ class Unseen {
 }  // namespace
 
 std::vector<onvif::FoundCamera> find_onvif() {
-  const onvif::Discovery found = onvif::look_for_cameras(kLook_s);
-  for (const std::string& refused : found.refused()) std::printf("not used: %s\n", refused.c_str());
-  return found.cameras();
+  try {
+    const onvif::Discovery found = onvif::look_for_cameras(kLook_s);
+    for (const std::string& refused : found.refused())
+      std::printf("not used: %s\n", plain_text(refused).c_str());
+    return found.cameras();
+  } catch (const std::system_error& error) {  // a host without a network
+    std::printf("no ONVIF cameras: %s\n", error.what());
+    return {};
+  }
 }
 
 std::string words_of(const onvif::FoundCamera& camera) {
-  return (camera.name.empty() ? "ONVIF camera" : camera.name) + " at " + camera.url;
+  return plain_text((camera.name.empty() ? "ONVIF camera" : camera.name) + " at " + camera.url);
 }
 
 onvif::Offer learn_onvif(const std::string& url, const onvif::Credentials& login,

@@ -58,6 +58,9 @@ TEST(MountFit, WithoutMotionOrFromOneSideLessIsSaid) {
   std::erase_if(rests, [](const auto& r) { return r.moves; });
   EXPECT_FALSE(fit_mount(rests));
   EXPECT_FALSE(fit_mount({}));
+  auto stood = all;  // it was ordered to turn, and did not
+  for (MountReading& r : stood) r.rate_rad_s = r.moves ? 1e-4 : 0.0;
+  EXPECT_FALSE(fit_mount(stood));
   for (MountReading& r : all) r.approach = 1;
   const auto fit = fit_mount(all);
   ASSERT_TRUE(fit);

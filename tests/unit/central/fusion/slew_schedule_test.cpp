@@ -144,6 +144,26 @@ TEST_F(SlewScheduleTest, ATrackerLetsGoOfWhatAnOperatorHasDismissed) {
   EXPECT_EQ(slews[0].direction.azimuth_rad, 0.3) << "where it is: nothing else wants it";
 }
 
+// Neither the class of its target nor a line takes a tracker that an operator has started.
+TEST_F(SlewScheduleTest, WhatAnOperatorHasDesignatedIsNotLetGo) {
+  for (std::size_t k = 0; k < 4; ++k) {
+    know(std::string(1, static_cast<char>('a' + k)), test::square()[k]);
+  }
+  now_us = confirm_at(tracks, kPlace);
+  for (int i = 0; i < 10; ++i, now_us += kPeriodUs) {
+    for (const std::size_t k : {0U, 1U, 2U}) {
+      BearingMeasurement own = sight_of(k, kPlace, now_us);
+      own.track_id = 11;
+      tracks.give(0, own);
+      KnownStation& station = stations.all().at(own.station);
+      station.target_id = 1;
+      station.saw_target.note(now_us);
+    }
+    follow(3, 7, {-300.0, 200.0, 90.0}, true);
+    for (const Slew& slew : plan()) EXPECT_EQ(slew.let_go_track_id, 0) << slew.station;
+  }
+}
+
 TEST_F(SlewScheduleTest, OneOfThreeTrackersIsLentToTheLineOfAnotherObject) {
   for (std::size_t k = 0; k < 4; ++k) {
     know(std::string(1, static_cast<char>('a' + k)), test::square()[k]);

@@ -49,7 +49,10 @@ class TheHandoverPolicy : public testing::Test {
   }
   // The trackers of led stations are on it now.
   static Track followed(Track track) {
-    for (auto& [station, own] : track.bearings) own.back().is_tracklet = false;
+    for (auto& [station, own] : track.bearings) {
+      own.back().is_tracklet = false;
+      own.back().is_acquired = true;
+    }
     return track;
   }
   static CueState state(const HandoverPolicy& handover) {
@@ -153,6 +156,25 @@ TEST_F(TheHandoverPolicy, ADismissedTargetLeadsNobodyAlsoWhereATrackerFollowsIt)
   EXPECT_TRUE(handover.order(1, false));
   handover.settle(after(2.0), {track_of(1, false)});
   EXPECT_EQ(handover.priority(track_of(1, false)), 0.0);
+}
+
+TEST_F(TheHandoverPolicy, WhoDesignatesWhatWasDismissedHasChangedHisMind) {
+  for (const HandoverMode mode : {HandoverMode::kOff, HandoverMode::kAutomatic}) {
+    HandoverPolicy handover = with(mode);
+    const Track before = track_of(1, false);
+    handover.settle(kStart, {before});
+    EXPECT_TRUE(handover.order(1, false));
+    handover.settle(after(1.0), {before});
+    EXPECT_TRUE(handover.is_let_go(1));
+    handover.settle(after(2.0), {followed(before)});
+    EXPECT_TRUE(handover.is_let_go(1)) << "a tracker that was led there is nobody's word";
+    Track anew = track_of(1, false);
+    anew.bearings.begin()->second.back().track_id = 77;
+    handover.settle(after(3.0), {anew});
+    EXPECT_FALSE(handover.is_let_go(1));
+    EXPECT_GT(handover.priority(anew), 0.0);
+    EXPECT_TRUE(handover.is_wanted(1));
+  }
 }
 
 TEST_F(TheHandoverPolicy, AProposalThatAnOperatorDesignatesLeads) {

@@ -76,15 +76,16 @@ TEST(StationAllocation, TheStationThatIsThereSoonestGoes) {
 }
 
 TEST(StationAllocation, WhatIsBeyondTwoTrackersIsLentButNotAnOperatorsTrackers) {
-  const auto stations_on_first = [](bool keeps_trackers, double priority) {
+  const auto stations_on_first = [](bool keeps_trackers, double priority, bool designated = false) {
     AllocatedTarget first = target_at(1, kLeft);
     first.keeps_trackers = keeps_trackers;
-    const auto allocation = run({first, target_at(2, kRight, priority)},
-                                {seeing(station_at("a", {-300, 0, 0}), 1, false),
-                                 seeing(station_at("b", {-100, 0, 0}), 1, false),
-                                 seeing(station_at("c", {100, 0, 0}), 1, false)});
-    return led_to(allocation, 1);
+    std::vector<AllocatedStation> stations{seeing(station_at("a", {-300, 0, 0}), 1, false),
+                                           seeing(station_at("b", {-100, 0, 0}), 1, false),
+                                           seeing(station_at("c", {100, 0, 0}), 1, false)};
+    for (AllocatedStation& station : stations) station.keeps_tracker = designated;
+    return led_to(run({first, target_at(2, kRight, priority)}, stations), 1);
   };
+  EXPECT_EQ(stations_on_first(false, 100.0, true), 3) << "an operator has started each tracker";
   EXPECT_EQ(stations_on_first(true, 100.0), 3);
   EXPECT_EQ(stations_on_first(false, 1.0), 2);
   EXPECT_EQ(stations_on_first(false, 100.0), 2) << "its two are never taken";

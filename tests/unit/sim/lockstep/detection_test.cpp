@@ -56,7 +56,7 @@ class OneStation : public testing::Test {
   void run_until(double end_s) {
     for (; time_s_ < end_s; time_s_ += kTick_s) {
       for (station::Bearing& bearing : station_->advance(time_s_)) {
-        (bearing.detected ? found_ : followed_).push_back(std::move(bearing));
+        (bearing.is_tracklet() ? found_ : followed_).push_back(std::move(bearing));
       }
     }
   }
