@@ -1,6 +1,8 @@
 #include "edge/mount/driven/driven_mount.h"
 
+#include <array>
 #include <chrono>
+#include <cstdio>
 #include <utility>
 
 #include "base/process/clocks.h"
@@ -12,6 +14,13 @@ namespace {
 
 constexpr double kFirstPause_s = 0.2, kMaxPause_s = 5.0;
 constexpr double kNoAngles_s = 1.0;  // without a position: an alarm
+
+std::string quality_of(const onvif::PositionIntake& intake) {
+  std::array<char, 120> text{};
+  std::snprintf(text.data(), text.size(), ", answers in %.0f ms, positions +-%.3g deg",
+                1e3 * intake.round_trip_s(), degrees(intake.sd_rad()));
+  return text.data();
+}
 
 }  // namespace
 
@@ -36,10 +45,10 @@ DrivenMount::DrivenMount(const onvif::DriveConfig& config, std::unique_ptr<Mount
   });
 }
 
-DrivenMount::~DrivenMount() = default;
+DrivenMount::~DrivenMount() { session_->interrupt(); }
 
 bool DrivenMount::ready() const {
-  return shared_.usable && shared_.drive.has_position() && thread_.link().is_open;
+  return shared_.usable && !shared_.fault && shared_.drive.has_position() && thread_.link().is_open;
 }
 
 void DrivenMount::set_goal(const std::optional<Goal>& goal) {
@@ -60,9 +69,12 @@ std::optional<Limits> DrivenMount::limits() const {
 }
 
 void DrivenMount::emergency_halt() {
-  const std::lock_guard lock(shared_.mutex);
-  shared_.drive.emergency_halt();
-  shared_.wake.notify_all();
+  {
+    const std::lock_guard lock(shared_.mutex);
+    shared_.drive.emergency_halt();
+    shared_.wake.notify_all();
+  }
+  session_->interrupt();
 }
 
 void DrivenMount::clear_emergency() {
@@ -84,8 +96,12 @@ device::DeviceReport DrivenMount::report() const {
   report.errors += shared_.errors;
   if (!shared_.last_error.empty()) report.last_error = shared_.last_error;
   for (Alarm& alarm : drive.alarms(now_s)) report.alarms.push_back(std::move(alarm));
-  if (report.state == device::DeviceState::kOk) {
-    report.text = shared_.words;
+  if (shared_.fault) {
+    report.state = device::DeviceState::kFault;
+    report.alarms = {*shared_.fault};
+    report.text = shared_.fault->text;
+  } else if (report.state == device::DeviceState::kOk) {
+    report.text = shared_.words + quality_of(drive.intake());
     if (now_s - report.last_good_s.value_or(0.0) > kNoAngles_s)
       report.alarms.push_back(alarm::ptu_no_angles());
     for (const Alarm& alarm : shared_.alarms) report.alarms.push_back(alarm);
@@ -103,6 +119,7 @@ device::DeviceReport DrivenMount::report() const {
                      {"ptu_unordered_motions", seen.unordered_motions},
                      {"ptu_orders_ignored", seen.orders_ignored},
                      {"ptu_port_failures", thread_.link().failures}};
+  report.counters.insert(shared_.counters.begin(), shared_.counters.end());
   return report;
 }
 

@@ -24,11 +24,13 @@ struct SharedDrive {
   std::mutex mutex;
   std::condition_variable_any wake;  // notified in an emergency
   onvif::Drive drive;
-  bool usable = true;         // false: its angles are not, whatever it reports
-  std::string words;          // what it is and can do
-  std::string last_error;     // empty: none
-  std::vector<Alarm> alarms;  // of this kind
+  bool usable = true;          // false: its angles are not, whatever it reports
+  std::string words;           // what it is and can do
+  std::string last_error;      // empty: none
+  std::vector<Alarm> alarms;   // of this kind
+  std::optional<Alarm> fault;  // why it is not tried again for now
   std::uint64_t orders = 0, errors = 0;
+  std::map<std::string, std::uint64_t> counters;  // of this kind
 
   explicit SharedDrive(const onvif::DriveConfig& config) : drive(config) {}
   // For `seconds`, or until an emergency or the end.
@@ -46,6 +48,8 @@ class MountSession {
   // it stops the mount. Throws std::exception if the connection fails; it is called again later.
   virtual void run(SharedDrive& shared, device::DeviceThread& thread,
                    const std::stop_token& stop) = 0;
+  // Breaks off what is on its way, so that a stop is next. From any thread.
+  virtual void interrupt() {}
 };
 
 class DrivenMount : public Mount {

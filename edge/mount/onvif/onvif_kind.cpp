@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "edge/mount/onvif/onvif_mount.h"
+#include "edge/mount/onvif/onvif_session.h"
 #include "edge/mount/onvif/service_address.h"
 
 namespace ols::onvif {
@@ -22,7 +22,7 @@ mount::Traits OnvifKind::traits() const {
 std::string OnvifKind::words() const { return "ONVIF at " + shown_address(onvif.url); }
 
 std::unique_ptr<mount::Mount> OnvifKind::open() const {
-  return std::make_unique<OnvifMount>(onvif);
+  return std::make_unique<mount::DrivenMount>(onvif.drive, std::make_unique<OnvifSession>(onvif));
 }
 
 }  // namespace ols::onvif

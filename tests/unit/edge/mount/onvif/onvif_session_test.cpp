@@ -1,5 +1,5 @@
 // The mount against a camera on loopback.
-#include "edge/mount/onvif/onvif_mount.h"
+#include "edge/mount/onvif/onvif_session.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -84,7 +84,7 @@ struct OnvifMountTest : ::testing::Test {
   Body body;
 };
 
-std::string alarms(const OnvifMount& mount) {
+std::string alarms(const mount::Mount& mount) {
   std::string text;
   for (const Alarm& alarm : mount.report().alarms) text += alarm.text + "\n";
   return text;
@@ -103,7 +103,7 @@ TEST_F(OnvifMountTest, LogsInStopsFirstGoesToAGoalAndStopsAtTheEnd) {
     return by_digest(body, name, request);
   });
   {
-    OnvifMount mount(config(camera));
+    mount::DrivenMount mount(config(camera).drive, std::make_unique<OnvifSession>(config(camera)));
     ASSERT_TRUE(eventually([&] { return mount.limits().has_value(); }));
     EXPECT_EQ(mount.reference(), mount::Reference::kTrusted);
     EXPECT_EQ(camera.count("ContinuousMove") + camera.count("AbsoluteMove"), 0u);
@@ -129,7 +129,8 @@ TEST_F(OnvifMountTest, ARefusedPasswordIsTriedOnceUntilTheFileChanges) {
     tries += request[boost::beast::http::field::authorization].empty() ? 0 : 1;
     return FakeCamera::Answer{401, "", kChallenge};
   });
-  OnvifMount mount(config(camera, "wrong"));
+  mount::DrivenMount mount(config(camera, "wrong").drive,
+                           std::make_unique<OnvifSession>(config(camera, "wrong")));
   ASSERT_TRUE(eventually([&] { return alarms(mount).find("refused") != std::string::npos; }));
   EXPECT_EQ(tries, 1);
   EXPECT_EQ(mount.report().state, device::DeviceState::kFault);
@@ -145,7 +146,7 @@ TEST_F(OnvifMountTest, ATokenHasTheTimeOfTheCamerasClock) {
       return FakeCamera::Answer{400, kRefused};
     return FakeCamera::Answer{200, body.answer(name, request.body())};
   });
-  OnvifMount mount(config(camera));
+  mount::DrivenMount mount(config(camera).drive, std::make_unique<OnvifSession>(config(camera)));
   ASSERT_TRUE(eventually([&] { return mount.limits().has_value(); }));
   EXPECT_THAT(camera.all_bytes(), HasSubstr(">2010-09-16T07:5"));
   EXPECT_THAT(camera.all_bytes(), Not(HasSubstr(kPassword)));
@@ -162,7 +163,7 @@ TEST_F(OnvifMountTest, AnEmergencyDoesNotWaitForAnAnswerThatIsDue) {
     return FakeCamera::Answer{200, body.answer(name, request.body())};
   });
   {
-    OnvifMount mount(config(camera));
+    mount::DrivenMount mount(config(camera).drive, std::make_unique<OnvifSession>(config(camera)));
     ASSERT_TRUE(eventually([&] { return mount.limits().has_value(); }));
     const std::size_t before = stops;
     hangs = true;
@@ -180,7 +181,7 @@ TEST_F(OnvifMountTest, ACameraWithoutPositionsIsToldAndIsNoMount) {
       return FakeCamera::Answer{200, "<GetStatusResponse><PTZStatus/></GetStatusResponse>"};
     return FakeCamera::Answer{200, body.answer(name, request.body())};
   });
-  OnvifMount mount(config(camera));
+  mount::DrivenMount mount(config(camera).drive, std::make_unique<OnvifSession>(config(camera)));
   ASSERT_TRUE(eventually([&] { return alarms(mount).find("no Position") != std::string::npos; }));
   EXPECT_FALSE(mount.limits());
 }

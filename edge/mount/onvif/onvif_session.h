@@ -1,0 +1,34 @@
+// A connection to an ONVIF camera with pan and tilt. Its positions are believed as they are
+// reported.
+#pragma once
+
+#include <mutex>
+#include <utility>
+
+#include "edge/mount/driven/driven_mount.h"
+#include "edge/mount/onvif/onvif_config.h"
+#include "edge/mount/onvif/onvif_link.h"
+
+namespace ols::onvif {
+
+class OnvifSession : public mount::MountSession {
+ public:
+  explicit OnvifSession(OnvifConfig config) : config_(std::move(config)) {}
+  // At its end it orders a stop, and waits for its answer at most for the time-out.
+  void run(mount::SharedDrive& shared, device::DeviceThread& thread,
+           const std::stop_token& stop) override;
+  void interrupt() override;
+
+ private:
+  void serve(OnvifLink& open, mount::SharedDrive& shared, device::DeviceThread& thread,
+             const std::stop_token& stop);
+  void carry_out(OnvifLink& open, const Learnt& learnt, const Order& order,
+                 mount::SharedDrive& shared, device::DeviceThread& thread);
+  void publish(OnvifLink* open);
+
+  const OnvifConfig config_;
+  std::mutex mutex_;  // of the link
+  OnvifLink* link_ = nullptr;
+};
+
+}  // namespace ols::onvif
