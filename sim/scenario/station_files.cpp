@@ -107,7 +107,7 @@ void write_devices(std::ostream& out, const Scenario& s, const StationScenario& 
     out << "kind = \"indi\"\nhost = " << toml_text(station.camera_address)
         << "\ndevice = \"OLS Telescope\"\naxes = \"equatorial\"\npan_min_deg = -120\n"
         << "pan_max_deg = 120\ntilt_min_deg = -85\ntilt_max_deg = 85\ndelay_s = 0\n"
-        << "delay_sd_s = 0.01\nreport_interval_s = 0.05\nposition_sd_deg = 0.002\n";
+        << "delay_sd_s = 0.01\npoll_interval_s = 0.05\nposition_sd_deg = 0.002\n";
     return;
   }
   if (station.mount == MountModel::kOnvif) {

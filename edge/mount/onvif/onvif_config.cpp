@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "edge/config/config_units.h"
+#include "edge/mount/onvif/drive_config.h"
 #include "edge/mount/onvif/service_address.h"
 
 namespace ols::onvif {
@@ -27,29 +28,11 @@ std::vector<config::Row> axis_rows(AxisScale& scale, const std::string& axis) {
           .required()};
 }
 
-std::vector<config::Row> motion_rows(OnvifConfig& c) {
-  DriveConfig& d = c.drive;
-  mount::Limits& l = d.limits;
-  return {
-      number("pan_min_deg", l.pan_min_rad, {-720.0, 720.0}, in_degrees(), "Narrows the travel."),
-      number("pan_max_deg", l.pan_max_rad, {-720.0, 720.0}, in_degrees(), "Narrows the travel."),
-      number("tilt_min_deg", l.tilt_min_rad, {-180.0, 180.0}, in_degrees(), "Narrows the travel."),
-      number("tilt_max_deg", l.tilt_max_rad, {-180.0, 180.0}, in_degrees(), "Narrows the travel."),
-      number("gain_hz", d.servo.gain_hz, {0.1, 5.0}, "1/s",
-             "Proportional gain on the angle error; a camera that answers late needs a small one."),
-      number("max_speed_deg_s", d.servo.max_speed_rad_s, {0.1, 360.0}, in_degrees("deg/s"),
-             "Maximum speed of each axis."),
-      number("lease_s", d.lease_s, {0.5, 10.0}, "s",
-             "Time-out that each motion is ordered with; it is renewed after a third of it."),
-      number("poll_interval_s", d.poll_s, {0.02, 2.0}, "s", "Interval of asking for the position."),
-      number("timeout_s", c.timeout_s, {0.2, 30.0}, "s",
-             "A request without an answer for so long ends the connection."),
-      number("delay_s", d.positions.delay_s, {0.0, 5.0}, "s",
-             "Age of a position when the camera answers."),
-      number("delay_sd_s", d.positions.delay_sd_s, {1e-3, 5.0}, "s", "1-sigma of delay_s."),
-      number("position_sd_deg", d.positions.sd_rad, {1e-4, 10.0}, in_degrees(),
-             "1-sigma of a reported position; repeatability of such cameras is 0.05 to 0.25 deg."),
-  };
+std::vector<config::Row> request_rows(OnvifConfig& c) {
+  return {number("lease_s", c.drive.lease_s, {0.5, 10.0}, "s",
+                 "Time-out that each motion is ordered with; it is renewed after a third of it."),
+          number("timeout_s", c.timeout_s, {0.2, 30.0}, "s",
+                 "A request without an answer for so long ends the connection.")};
 }
 
 void check(ConfigTable& table, const OnvifConfig& c) {
@@ -57,10 +40,7 @@ void check(ConfigTable& table, const OnvifConfig& c) {
     throw table.error(c.user.empty() ? "password_file" : "user",
                       "user and password_file need each other");
   const DriveConfig& d = c.drive;
-  if (d.limits.pan_min_rad >= d.limits.pan_max_rad)
-    throw table.error("pan_max_deg", "must be greater than pan_min_deg");
-  if (d.limits.tilt_min_rad >= d.limits.tilt_max_rad)
-    throw table.error("tilt_max_deg", "must be greater than tilt_min_deg");
+  check_travel(table, d.limits);
   for (const auto& [key, value] : {std::pair{"pan_gain_deg", d.pan.per_unit_rad},
                                    {"tilt_gain_deg", d.tilt.per_unit_rad},
                                    {"pan_speed_deg_s", d.pan.speed_per_unit_rad},
@@ -87,7 +67,8 @@ config::Section onvif_section(OnvifConfig& c) {
       config::text("pinned_key", c.pinned_key,
                    "Of an https camera with a certificate of its own: sha256// and the hash of its "
                    "public key; empty: an authority of the system must vouch for it.")};
-  for (auto more : {axis_rows(c.drive.pan, "pan"), axis_rows(c.drive.tilt, "tilt"), motion_rows(c)})
+  for (auto more : {axis_rows(c.drive.pan, "pan"), axis_rows(c.drive.tilt, "tilt"),
+                    drive_rows(c.drive), request_rows(c)})
     std::ranges::move(more, std::back_inserter(rows));
   return {"mount", "", rows, {}, [&c](ConfigTable& table) { check(table, c); }};
 }

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "edge/config/config_units.h"
+#include "edge/mount/onvif/drive_config.h"
 
 namespace ols::serial_mount {
 
@@ -43,32 +44,9 @@ std::vector<config::Row> line_rows(SerialConfig& c, Language language) {
   return rows;
 }
 
-std::vector<config::Row> motion_rows(SerialConfig& c) {
-  onvif::DriveConfig& d = c.drive;
-  mount::Limits& l = d.limits;
-  return {
-      number("pan_min_deg", l.pan_min_rad, {-360.0, 360.0}, in_degrees(), "The head's travel."),
-      number("pan_max_deg", l.pan_max_rad, {-360.0, 360.0}, in_degrees(), "The head's travel."),
-      number("tilt_min_deg", l.tilt_min_rad, {-180.0, 180.0}, in_degrees(), "The head's travel."),
-      number("tilt_max_deg", l.tilt_max_rad, {-180.0, 180.0}, in_degrees(), "The head's travel."),
-      number("gain_hz", d.servo.gain_hz, {0.1, 5.0}, "1/s",
-             "Proportional gain on the angle error; a head that answers late needs a small one."),
-      number("max_speed_deg_s", d.servo.max_speed_rad_s, {0.1, 360.0}, in_degrees("deg/s"),
-             "Maximum speed of each axis."),
-      number("poll_interval_s", d.poll_s, {0.02, 2.0}, "s", "Interval of asking for the position."),
-      number("delay_s", d.positions.delay_s, {0.0, 5.0}, "s",
-             "Age of a position when the head answers."),
-      number("delay_sd_s", d.positions.delay_sd_s, {1e-3, 5.0}, "s", "1-sigma of delay_s."),
-      number("position_sd_deg", d.positions.sd_rad, {1e-4, 10.0}, in_degrees(),
-             "1-sigma of a reported position.")};
-}
-
 void check(ConfigTable& table, const SerialConfig& c) {
   const onvif::DriveConfig& d = c.drive;
-  if (d.limits.pan_min_rad >= d.limits.pan_max_rad)
-    throw table.error("pan_max_deg", "must be greater than pan_min_deg");
-  if (d.limits.tilt_min_rad >= d.limits.tilt_max_rad)
-    throw table.error("tilt_max_deg", "must be greater than tilt_min_deg");
+  onvif::check_travel(table, d.limits);
   for (const auto& [key, value] :
        {std::pair{"pan_gain_deg", d.pan.per_unit_rad}, {"tilt_gain_deg", d.tilt.per_unit_rad}})
     if (value == 0.0) throw table.error(key, "must not be 0");
@@ -79,7 +57,7 @@ void check(ConfigTable& table, const SerialConfig& c) {
 config::Section serial_section(SerialConfig& c, Language language) {
   std::vector<config::Row> rows = line_rows(c, language);
   for (auto more : {axis_rows(c.drive.pan, "pan", language),
-                    axis_rows(c.drive.tilt, "tilt", language), motion_rows(c)})
+                    axis_rows(c.drive.tilt, "tilt", language), onvif::drive_rows(c.drive)})
     for (auto& row : more) rows.push_back(std::move(row));
   return {"mount", "", rows, {}, [&c](ConfigTable& table) { check(table, c); }};
 }
