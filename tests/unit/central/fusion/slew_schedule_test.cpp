@@ -164,6 +164,41 @@ TEST_F(SlewScheduleTest, WhatAnOperatorHasDesignatedIsNotLetGo) {
   }
 }
 
+// The policy looks at its targets ten times a second: what is designated between two looks stays.
+TEST_F(SlewScheduleTest, ADesignationIsNotUndoneBeforeThePolicyKnowsOfIt) {
+  for (const char* name : {"a", "b"}) {
+    know(name, {0.0, 0.0, 0.0});
+    stations.all().at(name).traits.axis = {0.3, 0.1};
+  }
+  tracks.begin_at(kPlace, now_us);
+  // Both stations' trackers, at ten images.
+  const auto follow_as = [&](std::size_t object_class, std::int64_t track_id, bool is_acquired) {
+    for (int i = 0; i < 10; ++i, now_us += 20'000) {
+      for (const std::size_t k : {0U, 1U}) {
+        BearingMeasurement own = sight_of(k, kPlace, now_us);
+        own.track_id = track_id;
+        own.is_acquired = is_acquired;
+        own.sighted.class_probability.assign(5, 0.02);
+        own.sighted.class_probability[object_class] = 0.92;
+        tracks.give(0, own);
+      }
+    }
+  };
+  const auto let_go = [&] {
+    std::set<std::int64_t> ids;
+    for (const Slew& slew : plan()) ids.insert(slew.let_go_track_id);
+    return ids;
+  };
+  handover = HandoverPolicy({.mode = HandoverMode::kAutomatic, .classes = {ObjectClass::kDrone}});
+  for (const std::size_t object_class : {1U, 2U}) {
+    follow_as(object_class, 11, true);
+    handover.settle(now_us, tracks.tracks());
+  }
+  EXPECT_TRUE(let_go().contains(11)) << "it is a bird";
+  follow_as(2, 12, false);
+  EXPECT_FALSE(let_go().contains(12));
+}
+
 TEST_F(SlewScheduleTest, OneOfThreeTrackersIsLentToTheLineOfAnotherObject) {
   for (std::size_t k = 0; k < 4; ++k) {
     know(std::string(1, static_cast<char>('a' + k)), test::square()[k]);
