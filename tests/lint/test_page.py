@@ -145,6 +145,8 @@ SPOKEN = (
     *(
         "edge/camera/camera_*.cpp",
         "edge/camera/picture.cpp",
+        "edge/camera/*/*.cpp",
+        "edge/mount/**/*.cpp",
         "edge/clock/clock_watch.cpp",
         "edge/calibration/ca*_watch.cpp",
         "edge/calibration/check_record.cpp",
@@ -164,6 +166,9 @@ SPOKEN = (
         "edge/process/host_monitor.cpp",
         "edge/process/kept_pose.cpp",
     ),
+)
+UNSPOKEN_FILES = (
+    "config|settings|_file|store|preconditions|codec|_kind|discovery|service_address|soap_request"
 )
 # Written to files, to the journal or to the terminal, or thrown where no page is.
 UNSPOKEN = re.compile(
@@ -185,11 +190,13 @@ def spoken_words() -> dict[str, str]:
     """Every piece of a sentence in these sources -> its file; numbers and names stand outside."""
     found = {}
     for path in (path for pattern in SPOKEN for path in ROOT.glob(pattern)):
-        if re.search("config|settings|_file|store|preconditions|codec", path.name):
+        if re.search(UNSPOKEN_FILES, path.name):
             continue
         source = re.sub(r"#include.*|//.*", "", path.read_text())
         source = re.sub(r'"\s*\n\s*"', "", re.sub(UNSPOKEN, "", source))
         for literal in re.findall(r'"((?:[^"\\\n]|\\.)*)"', source):
+            if " ! " in literal:  # a pipeline of GStreamer
+                continue
             for piece in re.split(r"%[-+ 0-9.]*[lz]?[a-z]|%%|\\.", literal):
                 piece = piece.strip(" .,;:()'\"?!`")
                 if re.search(r"[a-z]{2,} [a-z(]+", piece) and piece not in TOLD_ELSEWHERE:
