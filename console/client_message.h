@@ -66,7 +66,7 @@ struct CueRequest {
   wire::CueOrder order;
   std::optional<std::int64_t> heard_utime_us;  // as for a command
 };
-// Somebody handles an alarm: the event with that number.
+// Somebody handles an alarm. `event`: the alarm's number in the list of events.
 struct AcknowledgeRequest {
   std::int64_t number = 0;
   std::uint64_t event = 0;

@@ -57,7 +57,7 @@ class Console {
 
   // Somebody's order in a recording, for the events of a replay.
   void hear(const wire::Order& order, const Now& now);
-  // A reply to an order: to one of turn(), which has boot 0, or to one in the log.
+  // A reply to an order. An order from turn() has boot 0; in a replay, the order is one of the log.
   void hear(const wire::Reply& reply);
 
   // The newest picture (JPEG) of a station's guided procedure; null: there is none.
@@ -85,12 +85,11 @@ class Console {
 
   // A browser has opened its WebSocket; returns the viewer's number. A second one of the same name
   // is called "ana 2".
-  // 2".
   std::uint64_t open(const std::string& name, Role role);
   void close(std::uint64_t viewer);
   void take(std::uint64_t viewer, std::string_view text, const Now& now);
-  // The next message for this viewer, once the last one is through; nullopt: there is nothing new.
-  // It is made from the newest state; nothing queues.
+  // The next message for this viewer, made from the newest state; nullopt: there is nothing new.
+  // Call when the last message was sent completely: messages never queue.
   std::optional<Outgoing> next(std::uint64_t viewer, const Now& now);
 
   // Why orders cannot go out; empty: they can.
@@ -100,8 +99,8 @@ class Console {
   // Stops every station, also those that are first heard within the next seconds. Returns their
   // ids. All viewers are told which stations do not confirm the stop.
   std::vector<std::string> stop_all(const Person& by, const Ticket& ticket, const Now& now);
-  // The person behind a request outside of the WebSocket. `viewer`: the browser; used only if it
-  // belongs to that name.
+  // The person who sent an HTTP request, by the name of the session. `viewer`: the browser, as the
+  // request states it; ignored if that browser has another user.
   Person person(const std::string& name, std::uint64_t viewer) const;
 
   // Call often: updates outcomes, control and ages. Returns the orders to be sent now.
@@ -125,11 +124,12 @@ class Console {
   // The fields of a station's last status; null: the station is unknown.
   const Json* fields_of(const std::string& id) const { return site_.fields_of(id); }
   Json health(const Now& now) const;
-  // Adds an event: what the person `who` did in this console. Empty `who`: something happened.
+  // Adds an event about this console. `who`: the person who did it; empty: nobody did.
   void note(const std::string& who, const Alarm& what, const Now& now);
   std::size_t viewers() const { return viewers_.size(); }
 
-  // 20 Hz, less the jitter of a turn. At 10 Hz a new position would wait for up to 0.1 s.
+  // Time between two messages with changes. Slightly below 0.05 s, so that the jitter of a turn
+  // does not lower the rate of 20 Hz. At 10 Hz a new position would wait for up to 0.1 s.
   static constexpr double kDeltaPeriod_s = 0.045;
 
  private:

@@ -20,7 +20,7 @@ struct Event {
   std::string text;
   std::string outcome;  // of a command: empty while unknown, "sent", "done", or the text of the
                         // refusal
-  Alarm said{};         // an alarm or a note as a row of the table; for an error only its text
+  Alarm said{};         // the alarm or note with id and parameters; for an error only its text
   Outcome refusal{};    // why a command is not carried out
 };
 

@@ -31,14 +31,14 @@ struct TargetHeard {
   double latitude_deg = 0.0, longitude_deg = 0.0, height_m = 0.0;
 };
 
-// What the fusion tells a station of a target that the land hides from it.
+// The fusion's message to a station that the land hides a target from it.
 struct OcclusionHeard {
   std::string station;
   std::string target;  // its id
   bool is_hidden = false;
   std::int64_t utime_us = 0;
   std::int64_t back_us = 0;  // when it comes out; 0: not known
-  double holds_s = 0.0;      // from its arrival; 0: what was said before no longer holds
+  double holds_s = 0.0;      // validity, from the arrival; 0: the previous message no longer holds
 };
 
 struct FusionHeard {
@@ -60,8 +60,8 @@ struct Picture {
   bool is_key = false;  // of H.264: can be decoded without earlier ones
 };
 
-// For H.264: a key frame is requested after this many units. A browser that has missed something
-// continues there.
+// For H.264: a key frame is requested after this many units. A browser that has lost units can
+// continue from a key frame.
 inline constexpr int kUnitsOfKeyFrame = 90;
 
 // A station's video that somebody watches, and how it is coded.

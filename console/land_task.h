@@ -11,7 +11,8 @@
 
 namespace ols::console {
 
-// A skyline takes a second, and the land is read from a disk, so it is answered elsewhere.
+// A question that is answered in another thread: a skyline takes a second to compute, and the land
+// is read from a disk.
 struct LandTask {
   enum class What { kAbout, kGround, kHeights, kSkyline, kProfile };
   What what = What::kAbout;

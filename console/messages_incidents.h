@@ -9,8 +9,8 @@
 
 namespace ols::console {
 
-// Sends each incident that has changed, and once a second those that continue. A message may be
-// lost, and a program may start later.
+// Sends each incident that has changed. Repeats those that continue once a second, because a
+// message may be lost and a program may start later.
 class IncidentSender {
  public:
   explicit IncidentSender(std::int64_t boot_id) : boot_id_(boot_id) {}

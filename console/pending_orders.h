@@ -67,8 +67,7 @@ class PendingOrders {
   // reported: an old log may contain no answers.
   std::vector<Verdict> finished(double now_s);
 
-  static constexpr std::size_t kMostPending = 500;  // without stops, of which there is one per
-                                                    // known station
+  static constexpr std::size_t kMostPending = 500;  // not counting stops: at most one per station
   static constexpr std::size_t kMostTickets = 64;   // of one stop
   static constexpr std::size_t kMostSent = 500;     // repetitions of one order
   static constexpr double kStopPatience_s = 3.0;

@@ -87,8 +87,8 @@ class SiteState {
     std::int64_t last_error_utime_us = -1;
   };
   struct Trail {
-    // [longitude_deg, latitude_deg, height_m], then the stations from which the land hid the
-    // target, if it did, and "*" if no other saw it; null: the target was not seen meanwhile
+    // [longitude_deg, latitude_deg, height_m]. If the land hid the target from stations, their ids
+    // follow, and "*" if no other station saw it. null: a gap, the target was not seen.
     std::deque<Json> points;
     double added_s = -1e9;
   };

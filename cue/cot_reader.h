@@ -1,7 +1,7 @@
 // Cursor on Target: an event as XML, or as a message of the TAK protocol, version 1. Pure.
 //
-// ce and le are taken as one sigma, as in the schema. If a source means 90 %, its errors are in
-// fact smaller.
+// The errors ce (circular) and le (linear) are taken as one sigma, as in the schema. Some sources
+// state the 90 % error instead. Their cues are then more accurate than assumed.
 #pragma once
 
 #include <string>

@@ -34,7 +34,7 @@ struct CueConfig {
 };
 
 config::Section cue_section(CueConfig& config);  // the whole file
-// Adds an input, and returns its section: a table of the array.
+// Adds an input, and returns the section of its table [[input]].
 config::Section input_section(CueConfig& config);
 // Throws ConfigError.
 CueConfig load_cue_config(const std::string& path);

@@ -1,5 +1,5 @@
-// The folder of `ols-land import` on disk: land.json, coverings.json and one file of heights for
-// each grid. Grids are memory-mapped, not read; their checksums are verified once.
+// Reads and writes the folder that `ols-land import` makes: land.json, coverings.json and one file
+// of heights for each grid. Grids are memory-mapped; their checksums are verified once.
 #pragma once
 
 #include <memory>

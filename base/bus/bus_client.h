@@ -1,5 +1,5 @@
-// A program's connection to the bus. It retries every second while there is no network, closes when
-// nothing arrives any more, and reports its trouble once. Needs one thread.
+// A program's connection to the bus. It retries every second while there is no network, closes a
+// connection that no longer receives anything, and reports each trouble once. Use it in one thread.
 #pragma once
 
 #include <functional>
@@ -27,8 +27,8 @@ class BusClient {
 
   // Tries to connect; waits at most wait_s for the connection.
   void connect(double now_s, double wait_s);
-  // Handles the messages that have arrived, and waits at most wait_ms for the first. Then checks
-  // whether any arrive at all. Without a connection, tries to connect.
+  // Handles the messages that have arrived, and waits at most wait_ms for the first. Then closes
+  // the connection if it no longer receives anything. Without a connection, tries to connect.
   void turn(double now_s, int wait_ms);
 
   // The two parts of turn(), for a caller with work between them. Both need a connection.

@@ -14,7 +14,7 @@ using TellSteps = std::function<void(std::size_t done, std::size_t all)>;
 // Can be used as a TellSteps.
 class Progress {
  public:
-  // Prints "program: 120 of 900 frames after 10 s"; `steps` is the word "frames".
+  // Prints "program: 120 of 900 frames after 10 s". Here `steps` is "frames".
   Progress(std::string program, std::string steps);
   // For tests: the output stream and the clock.
   Progress(std::string program, std::string steps, std::ostream& out,

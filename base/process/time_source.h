@@ -20,8 +20,9 @@ class TimeSource {
   // and is released while waiting; `news` signals that they have changed.
   virtual void wait(std::unique_lock<std::mutex>& lock, std::condition_variable& news,
                     double most_s, const std::function<bool()>& over) = 0;
-  // How long a loop may wait for background work when it would otherwise not wait at all; in true
-  // time.
+  // Where a loop asks whether background work is finished, it waits this long for it, in true time.
+  // Zero on a host. In simulated time it is long, so that the result does not depend on the speed
+  // of the machine.
   virtual std::chrono::seconds for_work() const = 0;
 
  protected:

@@ -1,5 +1,4 @@
 // Keeps the marks against replays (replay_marks.h) in a file, so that they survive a restart.
-// Reports each trouble for as long as it matters.
 #pragma once
 
 #include <cstddef>
@@ -15,10 +14,10 @@ namespace ols::trust {
 class MarksFile {
  public:
   static constexpr std::size_t kLargest = 20'000'000;  // [byte]
-  static constexpr int kSaid = 600;                    // calls of look(), one a second
+  static constexpr int kSaid = 600;                    // ten minutes: look() is called each second
 
-  // Empty path: nothing is kept. A file that could not be read is reported during `said` calls of
-  // look().
+  // Empty path: nothing is kept. trouble() names a file that could not be read, until look() has
+  // been called `said` times.
   explicit MarksFile(std::string path, int said = kSaid);
 
   // Call at the start. A missing file is normal at the first start.

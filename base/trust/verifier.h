@@ -1,7 +1,7 @@
 // Decides whether a message of the bus may be believed. It must be signed by a member of the site
 // whose role may send it. It must also be meant for this process, fresh, and new. Cheap checks come
-// first: strangers are refused almost without cost, and a member's flood before its signatures are
-// verified. Pure.
+// first. So a stranger's message costs almost nothing, and a member that sends too much is refused
+// before its signatures are verified. Pure.
 #pragma once
 
 #include <cstddef>
@@ -50,7 +50,8 @@ class Verifier {
     std::int64_t boot_id = 0;  // of this process
     std::int64_t clock_tolerance_us = 30'000'000;
     // For a process that shows and commands stations: lets it see and stop a station with a wrong
-    // clock. If fresh statuses also arrive, stale ones are recordings.
+    // clock. Stale statuses are still refused if fresh ones of that station arrive too: then the
+    // stale ones are taken for a recording (station_boots.h).
     bool takes_stale_statuses = false;
     // Tells whether an order to a unit is a stop. No function: it is not known.
     std::function<bool(Bytes)> is_stop{};

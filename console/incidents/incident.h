@@ -31,7 +31,7 @@ struct Incident {
   std::int64_t ended_us = 0;               // when it left or was lost; 0: it is still inside
   int entries = 1;                         // how often it came in
   std::vector<std::string> stations;       // those that saw the target when it came in
-  TrackPoint last;                         // where it was last inside, or might have been
+  TrackPoint last;                         // last position that counted as inside
   std::vector<TrackPoint> track;           // while it was inside, thinned out as it grows
   std::int64_t track_period_us = 500'000;  // the shortest time between its points
   Judgement verdict = Judgement::kOpen;

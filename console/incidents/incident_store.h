@@ -5,8 +5,8 @@
 //   NUMBER.jpg    its picture
 //
 // A file that cannot be read is named in an alarm. It is left as it is and never overwritten; its
-// contents are missing until it can be read. The same holds for a folder that cannot be listed,
-// because its numbers would be used again.
+// contents are missing until it can be read. If the folder cannot be listed, nothing is written
+// into it: the numbers that its files use are unknown, and would be used again.
 #pragma once
 
 #include <cstdint>

@@ -35,7 +35,7 @@ std::vector<config::Row> gnss_rows(GnssConfig& config);  // rows of the section 
 class GnssKind {
  public:
   virtual ~GnssKind() = default;
-  virtual config::Section section() = 0;  // the section refers to this object
+  virtual config::Section section() = 0;  // its rows write into this object
   virtual const GnssConfig& config() const = 0;
   virtual bool is_configured() const = 0;   // false if the station has no receiver
   virtual std::string address() const = 0;  // where the station searches for it, in words

@@ -13,7 +13,7 @@ namespace ols::logger {
 
 class LogWriter {
  public:
-  // Creates the file. Throws std::system_error naming it, also if it exists.
+  // Creates the file. Throws std::system_error naming the file; it must not exist yet.
   explicit LogWriter(const std::string& path);
 
   // Both throw std::system_error naming the file if writing fails.
