@@ -6,7 +6,7 @@
 //    each waits for an operator. automatic: those of the configured `classes` lead at once, and the
 //    others wait for an operator.
 //  - An operator's decision takes effect at once, for designated targets too, and lasts until the
-//    target loses its number. Who designates a target that was dismissed has changed his mind.
+//    target loses its number. Designating a dismissed target takes the dismissal back.
 //  - If a target is lost, the decision on it passes to the first new target that appears at its
 //    predicted position.
 //  - A lost target that led stations is searched for at its predicted position, with growing
@@ -55,14 +55,14 @@ class HandoverPolicy {
   // Takes an operator's decision. Returns false if there is no such target, or for allowing a
   // target while the mode is off. Targets that were allowed before lead again when the mode is on.
   bool order(std::int64_t target_id, bool allow);
-  // The target's priority when stations are allocated; 0 if it leads no station: the probability
-  // that it exists and is of a class that leads, or ten times as much as a certain one if an
-  // operator has designated or allowed it.
+  // The target's priority when stations are allocated; 0 if it leads no station. It is the
+  // probability that it exists, times the probability that it is of a class that leads. If an
+  // operator has designated or allowed it, the second factor is 10.
   double priority(const Track& track) const;
   // Whether an operator has designated or allowed it: its trackers are not taken from it.
   bool is_wanted(std::int64_t target_id) const;
   // Whether trackers are to let go of it: an operator has dismissed it, or the policy led stations
-  // there until it knew that its class leads none.
+  // there while its class was unknown, and the class turned out to be one that leads none.
   bool is_let_go(std::int64_t target_id) const;
   bool is_dismissed(std::int64_t target_id) const;
   // Lost targets, as places at which stations are to look.

@@ -1,12 +1,13 @@
 // Decides to which target each station is led. Pure.
 //
-// The rule: every target gets two stations whose lines of sight cross well (at 20 degrees, or half
-// as well as those of the best pair); whatever is beyond two is lent.
+// Every target gets two stations whose lines of sight cross well (a good pair): at 20 degrees or
+// more, or with at least half the sine of the best pair that the site has for it. All other
+// stations are free.
 //
-//  - The two stations of a target are never taken from it, and an operator's target keeps all of
-//    its trackers. Any other station may be lent, also if its tracker follows the target.
-//  - Targets in need of two stations come first. Pairs of target and station are served in the
-//    order of priority divided by the time to turn there, the highest first.
+//  - The good pair of a target is never taken from it, and an operator's target keeps all of its
+//    trackers. Any other station may be moved, also if its tracker follows the target.
+//  - Targets without a good pair come first. Pairs of target and station are served in the order of
+//    priority divided by (0.5 s + time to turn there), the highest first.
 //  - Then one station searches along the line of sight of an object that has no position. If there
 //    is no target, all do.
 //  - The remaining stations go where the priority, divided by the number of stations there, is
