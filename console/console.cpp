@@ -4,7 +4,6 @@
 #include <iterator>
 #include <utility>
 
-#include "conditions/alarm_json.h"
 #include "conditions/sayings.h"
 #include "console/aiming.h"
 #include "wire/cue_values.h"
@@ -13,16 +12,11 @@ namespace ols::console {
 namespace {
 
 constexpr double kHeartbeat_s = 1.0;
-constexpr std::size_t kMostAnswers = 64;
 // A link that was cut delivers late what was sent while it was: the hand has let go since.
 constexpr std::int64_t kLateRate_us = 1'500'000;
 constexpr std::int64_t kLateCommand_us = 3'000'000;
 constexpr const char* kAll = "all";
 constexpr std::size_t kMostReplayRequests = 64;  // of one turn
-
-std::string dumped(const Json& json) {
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
 
 bool is_late(const std::optional<std::int64_t>& heard_utime_us, const Now& now,
              std::int64_t limit_us) {
@@ -143,85 +137,35 @@ void Console::hear(const wire::Order& order, const Now& now) {
   if (!refusal.empty()) site_.conclude(event, refusal);
 }
 
-WatchedVideos Console::watched_video() const {
-  WatchedVideos watched;
-  for (const auto& [id, viewer] : viewers_) {
-    for (const auto& [station, address] : video_addresses_) {
-      if (viewer.view.watched.contains(station)) watched[{station, viewer.view.codec}] = address;
-    }
-  }
-  return watched;
-}
-
-std::string Console::distinct(const std::string& name) const {
-  std::string result = name;
-  const auto is_taken = [&result](const auto& entry) { return entry.second.name == result; };
-  for (int i = 2; std::ranges::any_of(viewers_, is_taken); ++i) {
-    result = name + " " + std::to_string(i);
-  }
-  return result;
-}
-
-Person Console::person(const std::string& name, std::uint64_t viewer) const {
-  const auto known = viewers_.find(viewer);
-  if (known == viewers_.end() || known->second.account != name) return {name, 0};
-  return {known->second.name, viewer};
-}
-
-std::uint64_t Console::open(const std::string& name, Role role) {
-  Viewer viewer;
-  viewer.name = distinct(name);
-  viewer.account = name;
-  viewer.role = role;
-  viewers_.emplace(++viewer_numbers_, std::move(viewer));
-  return viewer_numbers_;
-}
-
 void Console::close(std::uint64_t viewer) {
-  viewers_.erase(viewer);
+  viewers_.close(viewer);
   control_.leave(viewer);
 }
 
 void Console::take(std::uint64_t viewer, std::string_view text, const Now& now) {
-  if (!viewers_.contains(viewer)) return;
+  if (viewers_.find(viewer) == nullptr) return;
   std::visit([&](const auto& message) { act(viewer, message, now); }, parse_client_message(text));
-}
-
-void Console::answer(std::uint64_t id, std::int64_t number, const std::string& station,
-                     const Outcome& refusal) {
-  const auto viewer = viewers_.find(id);
-  if (viewer == viewers_.end()) return;
-  auto& answers = viewer->second.answers;
-  answers.push_back(dumped({{"kind", "answer"},
-                            {"number", number},
-                            {"station", station},
-                            {"accepted", refusal.empty()},
-                            {"why", refusal.text},
-                            {"refusal", refusal.empty() ? Json(nullptr) : Json(refusal)}}));
-  if (answers.size() > kMostAnswers) answers.pop_front();
 }
 
 void Console::act(std::uint64_t id, const Refused& refused, const Now&) {
   ++messages_refused_;
-  answer(id, refused.number, "", outcome::not_understood(refused.why));
+  viewers_.answer(id, refused.number, "", outcome::not_understood(refused.why));
 }
 
 void Console::act(std::uint64_t id, const ReplayRequest& request, const Now&) {
-  if (!is_replay()) return answer(id, request.number, "", outcome::no_replay());
+  if (!is_replay()) return viewers_.answer(id, request.number, "", outcome::no_replay());
   if (replay_.requests.size() < kMostReplayRequests) replay_.requests.push_back(request);
 }
 
 void Console::act(std::uint64_t id, const AnswerRequest& request, const Now& now) {
   const Viewer& viewer = viewers_.at(id);
   const std::string& station = request.answer.station;
-  if (is_replay()) return answer(id, request.number, station, outcome::not_in_a_replay());
-  Outcome refusal = bus_trouble_;
+  Outcome refusal = change_refusal(id);
   // Answers turn the unit: they need control as commands do, and may be as late, but for the one
   // that ends it all.
   const bool ends = request.answer.choice == "abort";
-  if (viewer.role == Role::kViewer) {
-    refusal = outcome::viewer_only_looks();
-  } else if (refusal.empty() && !ends && is_late(request.heard_utime_us, now, kLateCommand_us)) {
+  if (refusal.empty()) refusal = bus_trouble_;
+  if (refusal.empty() && !ends && is_late(request.heard_utime_us, now, kLateCommand_us)) {
     refusal = outcome::came_too_late();
   } else if (refusal.empty() && !ends && procedures_.has(station)) {
     refusal = control_.use(station, id, viewer.name, now.monotonic_s);
@@ -231,7 +175,7 @@ void Console::act(std::uint64_t id, const AnswerRequest& request, const Now& now
     site_.note(noted(now.utime_us, "command", station, viewer.name,
                      note::answers(request.answer.choice), "sent"));
   }
-  answer(id, request.number, station, refusal);
+  viewers_.answer(id, request.number, station, refusal);
 }
 
 void Console::act(std::uint64_t id, const CueRequest& request, const Now& now) {
@@ -241,7 +185,7 @@ void Console::act(std::uint64_t id, const CueRequest& request, const Now& now) {
   const Outcome refusal = is_replay()   ? outcome::not_in_a_replay()
                           : is_too_late ? outcome::came_too_late()
                                         : cues_.refusal(viewer.role, bus_trouble_);
-  if (!refusal.empty()) return answer(id, request.number, "", refusal);
+  if (!refusal.empty()) return viewers_.answer(id, request.number, "", refusal);
   const bool is_target = target_named(request.order.cue).has_value();
   const std::string& cue = request.order.cue;
   const std::string& mode = request.order.handover;
@@ -258,16 +202,22 @@ Outcome Console::change_refusal(std::uint64_t id) const {
   return may ? Outcome() : outcome::viewer_only_looks();
 }
 
+Outcome Console::change_refusal(std::uint64_t id, const std::string& station) const {
+  const Outcome refusal = change_refusal(id);
+  if (!refusal.empty() || site_.knows(station)) return refusal;
+  return outcome::no_such_station();
+}
+
 void Console::conclude(std::uint64_t id, std::int64_t number, const Alarm& what, const Now& now) {
   site_.note(noted(now.utime_us, "command", "", viewers_.at(id).name, what, "done"));
-  answer(id, number, "", {});
+  viewers_.answer(id, number, "", {});
 }
 
 void Console::act(std::uint64_t id, const AreaRequest& request, const Now& now) {
   Outcome refusal = change_refusal(id);
   if (refusal.empty()) refusal = incidents_.change(request.change);
   const bool is_removed = request.change.area.is_null();
-  if (!refusal.empty()) return answer(id, request.number, "", refusal);
+  if (!refusal.empty()) return viewers_.answer(id, request.number, "", refusal);
   const Alarm what = is_removed ? note::removes_area(request.change.name)
                                 : note::sets_area(request.change.area.at("name"));
   conclude(id, request.number, what, now);
@@ -279,7 +229,7 @@ void Console::act(std::uint64_t id, const JudgeRequest& request, const Now& now)
   if (refusal.empty()) {
     refusal = incidents_.judge(request.judgement, viewers_.at(id).name, now.utime_us);
   }
-  if (!refusal.empty()) return answer(id, request.number, "", refusal);
+  if (!refusal.empty()) return viewers_.answer(id, request.number, "", refusal);
   const Alarm what = verdict == Judgement::kConfirmed   ? note::confirms_incident(incident)
                      : verdict == Judgement::kDismissed ? note::dismisses_incident(incident)
                                                         : note::reopens_incident(incident);
@@ -287,30 +237,18 @@ void Console::act(std::uint64_t id, const JudgeRequest& request, const Now& now)
 }
 
 void Console::act(std::uint64_t id, const AcknowledgeRequest& request, const Now&) {
-  const Viewer& viewer = viewers_.at(id);
-  if (is_replay()) return answer(id, request.number, "", outcome::not_in_a_replay());
-  if (viewer.role == Role::kViewer) {
-    return answer(id, request.number, "", outcome::viewer_only_looks());
-  }
-  const bool is_there = site_.acknowledge(request.event, viewer.name);
-  answer(id, request.number, "", is_there ? Outcome() : outcome::no_such_alarm());
+  Outcome refusal = change_refusal(id);
+  if (refusal.empty() && !site_.acknowledge(request.event, viewers_.at(id).name))
+    refusal = outcome::no_such_alarm();
+  viewers_.answer(id, request.number, "", refusal);
 }
 
 void Console::act(std::uint64_t id, const NameRequest& request, const Now& now) {
-  const Viewer& viewer = viewers_.at(id);
   const auto& [number, target, name] = request;
-  Outcome refusal;
-  if (is_replay()) {
-    refusal = outcome::not_in_a_replay();
-  } else if (viewer.role == Role::kViewer) {
-    refusal = outcome::viewer_only_looks();
-  } else if (!site_.name_target(target, name)) {
-    refusal = outcome::no_such_target();
-  } else {
-    const Alarm what = note::calls_target(target, name.empty() ? target : name);
-    site_.note(noted(now.utime_us, "command", "", viewer.name, what, "done"));
-  }
-  answer(id, number, "", refusal);
+  Outcome refusal = change_refusal(id);
+  if (refusal.empty() && !site_.name_target(target, name)) refusal = outcome::no_such_target();
+  if (!refusal.empty()) return viewers_.answer(id, number, "", refusal);
+  conclude(id, number, note::calls_target(target, name.empty() ? target : name), now);
 }
 
 void Console::act(std::uint64_t id, const WatchRequest& request, const Now&) {
@@ -330,57 +268,47 @@ void Console::act(std::uint64_t id, const TakenRequest& request, const Now&) {
 }
 
 void Console::act(std::uint64_t id, const ControlRequest& request, const Now& now) {
-  const Viewer& viewer = viewers_.at(id);
-  if (is_replay()) return answer(id, request.number, request.station, outcome::not_in_a_replay());
-  if (viewer.role == Role::kViewer) {
-    return answer(id, request.number, request.station, outcome::viewer_only_looks());
-  }
-  if (!site_.knows(request.station)) {
-    return answer(id, request.number, request.station, outcome::no_such_station());
-  }
-  if (request.take && is_late(request.heard_utime_us, now, kLateCommand_us)) {
-    return answer(id, request.number, request.station, outcome::came_too_late());
-  }
+  const std::string& station = request.station;
+  const std::string& name = viewers_.at(id).name;
+  Outcome refusal = change_refusal(id, station);
+  if (refusal.empty() && request.take && is_late(request.heard_utime_us, now, kLateCommand_us))
+    refusal = outcome::came_too_late();
+  if (!refusal.empty()) return viewers_.answer(id, request.number, station, refusal);
   if (request.take) {
-    tell_holders({request.station}, "take", {viewer.name, id}, now);
-    control_.take(request.station, id, viewer.name, now.monotonic_s);
-    site_.note(noted(now.utime_us, "command", request.station, viewer.name, note::takes_control(),
-                     "done"));
+    tell_holders({station}, "take", {name, id}, now);
+    control_.take(station, id, name, now.monotonic_s);
+    site_.note(noted(now.utime_us, "command", station, name, note::takes_control(), "done"));
   } else {
-    control_.give_up(request.station, id);
+    control_.give_up(station, id);
   }
-  answer(id, request.number, request.station, {});
+  viewers_.answer(id, request.number, station, {});
 }
 
 void Console::act(std::uint64_t id, const CommandRequest& request, const Now& now) {
   const Viewer& viewer = viewers_.at(id);
   wire::Order order = request.order;
-  if (is_replay()) return answer(id, request.number, order.station, outcome::not_in_a_replay());
+  if (is_replay())
+    return viewers_.answer(id, request.number, order.station, outcome::not_in_a_replay());
   if (order.kind == wire::Kind::kStop) {
     if (!site_.knows(order.station)) {
-      return answer(id, request.number, order.station, outcome::no_such_station());
+      return viewers_.answer(id, request.number, order.station, outcome::no_such_station());
     }
     tell_holders({order.station}, "stop", {viewer.name, id}, now);
     return begin_stop(order.station, viewer.name, {.viewer = id, .number = request.number}, now);
   }
-  // Neither is history: it would push out what has happened.
-  if (viewer.role == Role::kViewer) {
-    return answer(id, request.number, order.station, outcome::viewer_only_looks());
-  }
-  if (!site_.knows(order.station)) {
-    return answer(id, request.number, order.station, outcome::no_such_station());
-  }
   const std::int64_t late_us = wire::is_joystick(order) ? kLateRate_us : kLateCommand_us;
-  if (is_late(request.heard_utime_us, now, late_us)) {
-    return answer(id, request.number, order.station, outcome::came_too_late());
-  }
+  Outcome refusal = change_refusal(id, order.station);
+  if (refusal.empty() && is_late(request.heard_utime_us, now, late_us))
+    refusal = outcome::came_too_late();
+  // Neither is history: it would push out what has happened.
+  if (!refusal.empty()) return viewers_.answer(id, request.number, order.station, refusal);
   if (request.place) {
     const auto angles = aim_at_place(*site_.fields_of(order.station), *request.place);
-    if (!angles) return answer(id, request.number, order.station, outcome::out_of_reach());
+    if (!angles) return viewers_.answer(id, request.number, order.station, outcome::out_of_reach());
     order.pan_rad = angles->pan_rad;
     order.tilt_rad = angles->tilt_rad;
   }
-  Outcome refusal = control_.use(order.station, id, viewer.name, now.monotonic_s);
+  refusal = control_.use(order.station, id, viewer.name, now.monotonic_s);
   // A hold is one event, however often it is renewed.
   const bool continues = orders_.is_held(order, now.monotonic_s);
   const auto event = continues ? 0 : site_.note(event_of(order, viewer.name, now));
@@ -389,17 +317,17 @@ void Console::act(std::uint64_t id, const CommandRequest& request, const Now& no
   }
   if (refusal.empty()) return;
   site_.conclude(event, refusal);
-  answer(id, request.number, order.station, refusal);
+  viewers_.answer(id, request.number, order.station, refusal);
 }
 
 void Console::act(std::uint64_t id, const StopAllRequest& request, const Now& now) {
-  if (is_replay()) return answer(id, request.number, kAll, outcome::not_in_a_replay());
+  if (is_replay()) return viewers_.answer(id, request.number, kAll, outcome::not_in_a_replay());
   const Person by{viewers_.at(id).name, id};
   const bool is_nobody = stop_all(by, {.viewer = id, .number = request.number}, now).empty();
   if (!bus_trouble_.empty()) {
-    answer(id, request.number, kAll, bus_trouble_);
+    viewers_.answer(id, request.number, kAll, bus_trouble_);
   } else if (is_nobody) {
-    answer(id, request.number, kAll, outcome::stop_reaches_nobody());
+    viewers_.answer(id, request.number, kAll, outcome::stop_reaches_nobody());
   }
 }
 
@@ -412,7 +340,7 @@ void Console::begin_stop(const std::string& station, const std::string& name, Ti
     ticket.event = site_.note({now.utime_us, "command", station, name, "stop", ""});
   }
   const Outcome refusal = orders_.begin(order, ticket, now.monotonic_s);
-  if (!refusal.empty()) answer(ticket.viewer, ticket.number, station, refusal);
+  if (!refusal.empty()) viewers_.answer(ticket.viewer, ticket.number, station, refusal);
 }
 
 void Console::tell_holders(const std::vector<std::string>& stations, const char* what,
@@ -426,10 +354,8 @@ void Console::tell_holders(const std::vector<std::string>& stations, const char*
     if (holder != 0 && !is_known) told[holder].push_back(station);
   }
   for (auto& [holder, of] : told) {
-    const auto viewer = viewers_.find(holder);
-    if (viewer == viewers_.end()) continue;
-    viewer->second.answers.push_back(
-        dumped({{"kind", "hand"}, {"what", what}, {"by", by.name}, {"stations", std::move(of)}}));
+    viewers_.tell(holder,
+                  {{"kind", "hand"}, {"what", what}, {"by", by.name}, {"stations", std::move(of)}});
   }
 }
 
@@ -450,16 +376,7 @@ void Console::forget_gone() {
   procedures_.keep_only(is_known);
   pictures_.keep_only(is_known);
   std::erase_if(video_addresses_, [&](const auto& video) { return !is_known(video.first); });
-  for (auto& [id, viewer] : viewers_) {
-    std::erase_if(viewer.view.sent, [&](const auto& sent) { return !is_known(sent.first); });
-  }
-}
-
-void Console::tell_all(const Json& message) {
-  for (auto& [id, viewer] : viewers_) {
-    viewer.answers.push_back(dumped(message));
-    if (viewer.answers.size() > kMostAnswers) viewer.answers.pop_front();
-  }
+  viewers_.keep_only(is_known);
 }
 
 void Console::tell_outcomes(const Now& now) {
@@ -468,17 +385,17 @@ void Console::tell_outcomes(const Now& now) {
   std::ranges::move(cues_.finished(now.monotonic_s), std::back_inserter(verdicts));
   for (const Verdict& verdict : verdicts) {
     site_.conclude(verdict.ticket.event, verdict.why);
-    answer(verdict.ticket.viewer, verdict.ticket.number, verdict.station, verdict.why);
+    viewers_.answer(verdict.ticket.viewer, verdict.ticket.number, verdict.station, verdict.why);
     if (verdict.ticket.is_for_all && !verdict.why.empty()) unconfirmed.insert(verdict.station);
   }
-  if (!unconfirmed.empty()) tell_all({{"kind", "stop_unconfirmed"}, {"stations", unconfirmed}});
+  if (!unconfirmed.empty())
+    viewers_.tell_all({{"kind", "stop_unconfirmed"}, {"stations", unconfirmed}});
 }
 
 void Console::replay_is(const Json& state, bool is_urgent) {
   replay_.state = state;
   bus_trouble_ = outcome::not_in_a_replay();
-  if (!is_urgent) return;
-  for (auto& [id, viewer] : viewers_) viewer.sent_s = -1e9;
+  if (is_urgent) viewers_.renew(false);
 }
 
 Moment Console::moment() const { return {site_, orders_, pictures_.newest()}; }
@@ -487,10 +404,7 @@ void Console::show(const Moment& moment) {
   site_ = moment.site;
   orders_ = moment.orders;
   pictures_.show(moment.pictures);
-  for (auto& [id, viewer] : viewers_) {
-    viewer.sent = 0;
-    viewer.sent_s = -1e9;
-  }
+  viewers_.renew(true);
 }
 
 std::vector<wire::Order> Console::turn(const Now& now) {
@@ -506,25 +420,11 @@ std::vector<wire::Order> Console::turn(const Now& now) {
   return orders_.due(now.monotonic_s);
 }
 
-Outgoing Console::greeting(std::uint64_t id, Viewer& viewer, const Now& now) const {
-  viewer.is_greeted = true;
-  return {false, dumped({{"kind", "hello"},
-                         {"viewer", id},
-                         {"name", viewer.name},
-                         {"role", std::string(console::name(viewer.role))},
-                         {"time_us", now.utime_us}})};
-}
-
 std::optional<Outgoing> Console::next(std::uint64_t id, const Now& now) {
-  const auto found = viewers_.find(id);
-  if (found == viewers_.end()) return std::nullopt;
-  Viewer& viewer = found->second;
-  if (!viewer.is_greeted) return greeting(id, viewer, now);
-  if (!viewer.answers.empty()) {
-    Outgoing out{false, std::move(viewer.answers.front())};
-    viewer.answers.pop_front();
-    return out;
-  }
+  Viewer* const found = viewers_.find(id);
+  if (found == nullptr) return std::nullopt;
+  if (auto text = viewers_.next_text(id, now.utime_us)) return Outgoing{false, std::move(*text)};
+  Viewer& viewer = *found;
   const double since_s = now.monotonic_s - viewer.sent_s;
   const bool has_news = viewer.sent < site_.revision() && since_s >= kDeltaPeriod_s;
   UnderWay& under_way = viewer.view.under_way;

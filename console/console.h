@@ -3,10 +3,8 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <map>
 #include <optional>
-#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -19,7 +17,7 @@
 #include "console/pending_orders.h"
 #include "console/procedures.h"
 #include "console/site_state.h"
-#include "console/users.h"
+#include "console/viewers.h"
 
 namespace ols::console {
 
@@ -34,12 +32,6 @@ struct Moment {
   SiteState site;
   PendingOrders orders;
   std::map<std::string, Picture> pictures;
-};
-
-// The person who gives an order.
-struct Person {
-  std::string name;          // empty: unknown to this console
-  std::uint64_t viewer = 0;  // the browser; 0: unknown
 };
 
 class Console {
@@ -71,7 +63,7 @@ class Console {
   std::vector<wire::CueOrder> take_cue_orders() { return cues_.take(); }
 
   // The videos that somebody watches.
-  WatchedVideos watched_video() const;
+  WatchedVideos watched_video() const { return viewers_.watched(video_addresses_); }
 
   // The alarms of the console itself.
   void hear_own(const std::vector<Alarm>& alarms, const Now& now);
@@ -85,7 +77,7 @@ class Console {
 
   // A browser has opened its WebSocket; returns the viewer's number. A second one of the same name
   // is called "ana 2".
-  std::uint64_t open(const std::string& name, Role role);
+  std::uint64_t open(const std::string& name, Role role) { return viewers_.open(name, role); }
   void close(std::uint64_t viewer);
   void take(std::uint64_t viewer, std::string_view text, const Now& now);
   // The next message for this viewer, made from the newest state; nullopt: there is nothing new.
@@ -101,7 +93,9 @@ class Console {
   std::vector<std::string> stop_all(const Person& by, const Ticket& ticket, const Now& now);
   // The person who sent an HTTP request, by the name of the session. `viewer`: the browser, as the
   // request states it; ignored if that browser has another user.
-  Person person(const std::string& name, std::uint64_t viewer) const;
+  Person person(const std::string& name, std::uint64_t viewer) const {
+    return viewers_.person(name, viewer);
+  }
 
   // Call often: updates outcomes, control and ages. Returns the orders to be sent now.
   std::vector<wire::Order> turn(const Now& now);
@@ -133,15 +127,6 @@ class Console {
   static constexpr double kDeltaPeriod_s = 0.045;
 
  private:
-  struct Viewer {
-    std::string name, account;  // "ana 2", "ana"
-    Role role = Role::kViewer;
-    bool is_greeted = false;
-    Revision sent = 0;
-    double sent_s = -1e9;
-    LatestPictures::View view;
-    std::deque<std::string> answers;
-  };
   struct ReplayState {
     Json state, timeline;  // null: this is no replay
     std::vector<ReplayRequest> requests;
@@ -160,13 +145,9 @@ class Console {
   void act(std::uint64_t id, const AreaRequest& request, const Now& now);
   void act(std::uint64_t id, const JudgeRequest& request, const Now& now);
   void act(std::uint64_t id, const Refused& refused, const Now& now);
-  void answer(std::uint64_t id, std::int64_t number, const std::string& station,
-              const Outcome& refusal);
-  void tell_all(const Json& message);
   void tell_outcomes(const Now& now);
   void begin_stop(const std::string& station, const std::string& name, Ticket ticket,
                   const Now& now);
-  std::string distinct(const std::string& name) const;
   // Tells everybody who controls one of these stations what another person has done there.
   void tell_holders(const std::vector<std::string>& stations, const char* what, const Person& by,
                     const Now& now);
@@ -178,9 +159,10 @@ class Console {
   void conclude(std::uint64_t id, std::int64_t number, const Alarm& what, const Now& now);
   // Why this viewer may not make changes; empty: the viewer may.
   Outcome change_refusal(std::uint64_t id) const;
+  // The same of a change at a station.
+  Outcome change_refusal(std::uint64_t id, const std::string& station) const;
   void forget_gone();
   void add_time(Json& message, const Now& now) const;
-  Outgoing greeting(std::uint64_t id, Viewer& viewer, const Now& now) const;
 
   SiteState site_;
   PendingOrders orders_;
@@ -190,10 +172,9 @@ class Console {
   IncidentBook incidents_;
   IncidentBook::News incident_news_;
   std::vector<Alarm> own_alarms_, incident_trouble_;
-  std::map<std::uint64_t, Viewer> viewers_;
+  Viewers viewers_;
   LatestPictures pictures_;
   std::map<std::string, std::string> video_addresses_;
-  std::uint64_t viewer_numbers_ = 0;
   std::uint64_t messages_refused_ = 0;
   double stop_until_s_ = -1e9;
   std::string stopped_by_;
