@@ -1,9 +1,9 @@
-// What a mount's position reports are worth, by the camera's own pictures. Pure.
+// Measures the errors of a mount's position reports from the camera's own pictures. Pure.
 //
 //   seen = zero + gain * reported + backlash * approach / 2 + gain * delay * rate
 //
-// approach: 1 or -1, the sign of the last motion. A report that is `delay` late shows where the
-// mount was, so that in motion the picture is ahead of it.
+// approach: 1 or -1, the sign of the last motion. A report that is `delay` late states an earlier
+// position of the mount, so in motion the picture is ahead of it.
 #pragma once
 
 #include <optional>
@@ -25,14 +25,14 @@ struct Measured {
 
 struct MountFit {
   Measured gain;                 // -1: it counts the other way
-  Measured backlash_rad;         // 0 with sd 0: it was approached from one side only
-  Measured delay_s;              // later than the station takes it to be
-  double position_sd_rad = 0.0;  // of a reported position at rest, beside the picture
+  Measured backlash_rad;         // 0 with sd 0: all positions were approached from one side
+  Measured delay_s;              // in addition to the delay that the station assumes
+  double position_sd_rad = 0.0;  // of a reported position at rest, against the picture
   int rests = 0, moves = 0;      // pictures that agree
 };
 
-// nullopt: too few pictures at rest or in motion, no motion both ways, or a result that is worth
-// nothing.
+// nullopt if there are too few pictures at rest or in motion, if there is no motion both ways, or
+// if the result is too uncertain.
 std::optional<MountFit> fit_mount(std::vector<MountReading> readings);
 
 }  // namespace ols::calibration

@@ -1,5 +1,5 @@
-// The browsers that are connected: who sits there, what each has been sent and what it is still to
-// be told. Pure.
+// The connected browsers: the user of each, what it has been sent, and the texts that wait for it.
+// Pure.
 #pragma once
 
 #include <cstdint>
@@ -41,29 +41,30 @@ class Viewers {
   std::uint64_t open(const std::string& name, Role role);
   void close(std::uint64_t id) { viewers_.erase(id); }
 
-  // Null: it is gone.
+  // Null if the browser is gone.
   Viewer* find(std::uint64_t id);
-  // Throws std::out_of_range: it is gone.
+  // Throws std::out_of_range if the browser is gone.
   Viewer& at(std::uint64_t id) { return viewers_.at(id); }
   const Viewer& at(std::uint64_t id) const { return viewers_.at(id); }
   std::size_t size() const { return viewers_.size(); }
-  // The person behind a request outside of the WebSocket. `id`: the browser; used only if it
-  // belongs to that account.
+  // The person who sent an HTTP request, by the account of the session. `id`: the browser, as the
+  // request states it; ignored if that browser has another user.
   Person person(const std::string& account, std::uint64_t id) const;
 
-  // Answers a request by its number. To a browser that is gone, this and tell() do nothing.
+  // Answers a request by its number. If the browser is gone, this and tell() do nothing.
   void answer(std::uint64_t id, std::int64_t number, const std::string& station,
               const Outcome& refusal);
-  // Of many texts that nobody takes, the oldest are dropped.
+  // Queues a text. If too many wait, the oldest are dropped.
   void tell(std::uint64_t id, const Json& message);
   void tell_all(const Json& message);
-  // The greeting first, then the oldest text; nullopt: there is none.
+  // The next text to send: first the greeting, then the oldest waiting text; nullopt: there is
+  // none.
   std::optional<std::string> next_text(std::uint64_t id, std::int64_t utime_us);
 
   // Of these stations and their addresses, the videos that somebody watches.
   WatchedVideos watched(const std::map<std::string, std::string>& addresses) const;
   void keep_only(const std::function<bool(const std::string&)>& is_known);
-  // Every viewer gets the state at once: the whole of it, or what has changed.
+  // Makes the state due for every viewer at once: the whole state, or only the changes.
   void renew(bool whole);
 
  private:

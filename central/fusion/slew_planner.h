@@ -98,8 +98,8 @@ struct SlewRound {
   std::map<std::string, int> led_to{};        // number of stations led to each cue
 };
 
-// The newest bearing of the station's tracker of this target; null: it has none there, or none
-// within a second.
+// The newest bearing of this target from the station's tracker; null if there is none within the
+// last second.
 const BearingMeasurement* tracker_of(const Track& track, const std::string& station,
                                      std::int64_t now_us);
 

@@ -17,11 +17,11 @@ struct SeveralTargets {
 };
 
 struct IdentityScore {
-  double by_right_identity = 0.0;  // share of target-seconds
+  double by_right_identity = 0.0;  // share of the targets' time in which the right track has them
   double longest_ghost_s = 0.0;    // longest life of a confirmed track far from every target
   int switches = 0;                // how often a target's track has got another id
   double rms_m = 0.0;
-  double found = 0.0;                   // share of target-seconds, under any identity
+  double found = 0.0;                   // share of the targets' time in which any track has them
   int ghosts = 0;                       // identities that were never near a target
   double predicted_ghosts_a_day = 0.0;  // by the fusion's own model, at the end
 };

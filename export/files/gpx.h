@@ -1,5 +1,5 @@
-// GPX 1.1: a track for each target, a waypoint for each station. Heights above sea level, with the
-// geoid's height there. It has no fields for uncertainties and lines. Pure.
+// GPX 1.1: a track for each target, a waypoint for each station. Heights are above sea level; the
+// height of the geoid is stated with each. It has no fields for uncertainties and lines. Pure.
 #pragma once
 
 #include <string>

@@ -140,7 +140,7 @@ def test_a_stale_command_is_refused_and_none_is_kept(net):
     # So is what is live and was held for long, by whatever buffer.
     held = talk.station(age_s=20.0)["OLS_BEARING_alfa"]
     net.region.until(lambda s: s["in"]["refused"]["stale"] == 1, "the bearing is counted")
-    said = re.compile("bridge: what comes late is dropped: alfa, 2. s").fullmatch
+    said = re.compile("bridge: late messages are dropped: alfa, 2. s").fullmatch
     net.region.until(lambda s: any(said(one["text"]) for one in s["alarms"]), "it is said")
     assert held not in talk.region.on("OLS_BEARING_alfa")
     # The link is gone: slews of that time are nobody's, also when it is back.

@@ -88,7 +88,7 @@ def test_each_command_of_a_station(page, paper):
     for button, command in {
         "Home": PTU.COMMAND_HOME,
         "Re-arm": PTU.COMMAND_REARM,
-        "Reference ok": PTU.COMMAND_REFERENCE_OK,
+        "Angles confirmed": PTU.COMMAND_REFERENCE_OK,
         "Stop": PTU.COMMAND_STOP,
         "Release": PTU.COMMAND_RELEASE,
     }.items():

@@ -10,11 +10,12 @@ namespace ols::calibration {
 
 class ManualHold {
  public:
-  // The procedure points the unit: the station changes to manual operation once it has accepted.
+  // The procedure has ordered the unit to turn. The station goes into manual operation when it
+  // accepts the order.
   void point() { pointed_ = true; }
   // The station has accepted it.
   void accept() { held_ = pointed_; }
-  // Whether the procedure itself has begun the manual operation. Only then may it end it.
+  // Whether the procedure itself has begun the manual operation. Otherwise it must not end it.
   bool has_pointed() const { return pointed_; }
   // The station's reported state: station_status_t's STATE_*.
   void hear(std::int8_t state) {

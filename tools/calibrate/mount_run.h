@@ -1,5 +1,5 @@
-// Turns a station's mount over still scenery, at rest and in motion, and compares what it reports
-// with the pictures.
+// Turns a station's mount over still scenery, and compares its reported positions, at rest and in
+// motion, with the pictures.
 #pragma once
 
 #include <optional>
@@ -16,8 +16,9 @@
 namespace ols::calibration {
 
 struct AxisResult {
-  std::optional<MountFit> fit;          // nullopt: too few pictures
-  std::size_t pictures = 0, found = 0;  // found: whose scenery is found again; 0 of 0: no room
+  std::optional<MountFit> fit;  // nullopt: too few pictures
+  // `found`: pictures whose scenery was recognised. Both 0: the travel is too short.
+  std::size_t pictures = 0, found = 0;
 };
 struct MountResult {
   AxisResult pan, tilt;
@@ -29,8 +30,8 @@ class MountRun {
   // turn.
   MountRun(const StationFiles& station, LcmBus& bus);
 
-  // Around the place where the unit is now. Releases the unit at the end, whatever happens. Throws
-  // StationStopped, and std::runtime_error in words.
+  // Measures around the unit's present position. Releases the unit at the end, whatever happens.
+  // Throws StationStopped or std::runtime_error.
   MountResult measure();
 
  private:

@@ -1,6 +1,6 @@
-// A mount that is ordered velocities or places and reports its positions late (onvif::Drive decides
-// what to order next): the part that is the same for every kind. A kind's session connects, sends
-// orders and takes positions.
+// The common part of mounts that obey velocities or positions and report their positions late.
+// onvif::Drive chooses the next order. The session of each kind connects, sends orders and takes
+// positions.
 #pragma once
 
 #include <condition_variable>
@@ -24,11 +24,11 @@ struct SharedDrive {
   std::mutex mutex;
   std::condition_variable_any wake;  // notified in an emergency
   onvif::Drive drive;
-  bool usable = true;          // false: its angles are not, whatever it reports
-  std::string words;           // what it is and can do
+  bool usable = true;          // false: its angles must not be used, whatever it reports
+  std::string words;           // the mount and its capabilities, in words
   std::string last_error;      // empty: none
   std::vector<Alarm> alarms;   // of this kind
-  std::optional<Alarm> fault;  // why it is not tried again for now
+  std::optional<Alarm> fault;  // why the session does not connect for now
   std::uint64_t orders = 0, errors = 0;
   std::map<std::string, std::uint64_t> counters;  // of this kind
 
@@ -48,7 +48,8 @@ class MountSession {
   // it stops the mount. Throws std::exception if the connection fails; it is called again later.
   virtual void run(SharedDrive& shared, device::DeviceThread& thread,
                    const std::stop_token& stop) = 0;
-  // Breaks off what is on its way, so that a stop is next. From any thread.
+  // Interrupts the order that is being sent, so that a stop can follow at once. Call from any
+  // thread.
   virtual void interrupt() {}
 };
 
@@ -65,7 +66,7 @@ class DrivenMount : public Mount {
   void emergency_halt() override;
   void clear_emergency() override;
 
-  // It has no reference to find.
+  // Such a mount does not home: it has no reference that could be lost.
   Reference reference() const override;
   void home() override {}
   void stop_homing() override {}

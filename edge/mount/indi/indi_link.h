@@ -1,5 +1,5 @@
-// One telescope behind an INDI server (libindiclient): what it says, and orders to it. The library
-// receives in a thread of its own; heard() may be called from any thread, the rest from one.
+// A telescope behind an INDI server (libindiclient): its reports, and orders to it. The library
+// receives in its own thread. Call heard() from any thread, all other functions from one thread.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ struct IndiError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// What the telescope has said since the connection.
+// The telescope's reports since the connection.
 struct Heard {
   bool lost = false;  // server or driver are gone
   bool has_device = false;
@@ -38,7 +38,7 @@ struct Heard {
 class IndiLink {
  public:
   IndiLink(std::string host, int port, std::string device);
-  ~IndiLink();  // closes the connection; the telescope goes on as it was ordered
+  ~IndiLink();  // closes the connection; the telescope continues its last order
   IndiLink(const IndiLink&) = delete;
   IndiLink& operator=(const IndiLink&) = delete;
 

@@ -1,8 +1,8 @@
-// A connection to a telescope mount behind an INDI server. Its positions are believed as they are
-// reported, as long as it stays on the side of its pier.
+// A connection to a telescope mount behind an INDI server. Its reported positions are used as they
+// are, as long as it stays on its side of the pier.
 //
-// An INDI telescope keeps its last track rate when its client is gone: a station that is killed
-// stops it when it starts again.
+// An INDI telescope keeps its last track rate when its client is gone. If the station was killed,
+// it therefore stops the telescope at its next start.
 #pragma once
 
 #include <functional>
@@ -32,11 +32,11 @@ class IndiSession : public mount::MountSession {
   PanTilt angles_at(double monotonic_s) const;
 
   const IndiConfig config_;
-  std::string pier_side_;      // as configured, or the first that it says
+  std::string pier_side_;      // as configured, or the first one reported
   bool was_unparked_ = false;  // once, at the first connection
   Heard heard_;
   double taken_s_ = 0.0;          // the newest position that the drive has
-  std::optional<double> goes_s_;  // since when it slews to an ordered place
+  std::optional<double> goes_s_;  // since when it slews to an ordered position
 };
 
 }  // namespace ols::indi

@@ -1,5 +1,5 @@
-// Between what an INDI telescope says, right ascension and declination of date, and the angles of
-// its axes, by the IAU's models (ERFA). Pure.
+// Converts between the right ascension and declination of date that an INDI telescope reports and
+// the angles of its axes, with the IAU's models (ERFA). Pure.
 //
 // Equatorial: the pan axis points to the celestial pole above the horizon; a positive pan turns
 // left about it. In the north pan is minus the hour angle and tilt the declination, in the south
@@ -7,8 +7,9 @@
 // is the elevation.
 //
 // The driver computes right ascension from its axis, its clock and its longitude, with UT1 = UTC.
-// The same sidereal time leads back to the angle of the axis: with the driver's own longitude, and
-// with the station's clock, from which the driver's must not differ (15 arc seconds a second).
+// The same sidereal time gives the angle of the axis again. It is computed with the driver's
+// longitude and the station's clock. The driver's clock must agree with that clock: a difference of
+// one second is an error of 15 arc seconds.
 #pragma once
 
 #include "geometry/kinematic_chain.h"

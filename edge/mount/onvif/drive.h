@@ -1,7 +1,7 @@
 // Decides what to request from an ONVIF camera next: its position, a motion, or a stop. Pure.
 //
-// No motion outlives its lease. A velocity is ordered with the time-out `lease_s`, and again as
-// long as it is wanted. When orders cease, a camera that obeys the time-out stops. An absolute move
+// Every motion has a lease. A velocity is ordered with the time-out `lease_s`, and again as long as
+// it is wanted. When orders cease, a camera that obeys the time-out stops. An absolute move
 // has no time-out and is ordered only for the last part of the way to a goal at rest. After each
 // connection a stop is ordered first, and repeated until the reported positions stand still.
 #pragma once

@@ -8,8 +8,8 @@
 
 namespace ols::onvif {
 
-// Travel, speed, the interval of positions, their age and their error. The defaults are what
-// `config` has.
+// Travel, speed, the interval of positions, their age and their error. The defaults are the present
+// values of `config`.
 std::vector<config::Row> drive_rows(DriveConfig& config);
 // Throws ConfigError for a travel that is empty.
 void check_travel(ConfigTable& table, const mount::Limits& limits);

@@ -1,5 +1,4 @@
-// A connection to an ONVIF camera with pan and tilt. Its positions are believed as they are
-// reported.
+// A connection to an ONVIF camera with pan and tilt. Its reported positions are used as they are.
 #pragma once
 
 #include <mutex>
@@ -14,7 +13,7 @@ namespace ols::onvif {
 class OnvifSession : public mount::MountSession {
  public:
   explicit OnvifSession(OnvifConfig config) : config_(std::move(config)) {}
-  // At its end it orders a stop, and waits for its answer at most for the time-out.
+  // At the end it orders a stop, and waits at most timeout_s for the answer.
   void run(mount::SharedDrive& shared, device::DeviceThread& thread,
            const std::stop_token& stop) override;
   void interrupt() override;

@@ -15,8 +15,8 @@ void check_address(const std::string& url);
 // is the one that the camera states. So is the port if the camera states the same host.
 std::string service_address(const std::string& configured, const std::string& stated);
 
-// Where a stream is, from the address that the camera states: at the configured host, too. Empty:
-// it states none of RTSP.
+// The address of a stream, from the address that the camera states, with the configured host.
+// Empty if the camera states no RTSP address.
 std::string stream_address(const std::string& configured, const std::string& stated);
 
 // "10.0.0.5"; empty: no such address.

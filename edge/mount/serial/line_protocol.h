@@ -18,7 +18,7 @@ class LineProtocol {
   LineProtocol(const LineProtocol&) = delete;
   LineProtocol& operator=(const LineProtocol&) = delete;
 
-  // For the position; one is asked after the other has been answered.
+  // The questions for the position. Each is sent after the previous one was answered.
   virtual std::vector<std::string> questions() const = 0;
   virtual std::string stop() const = 0;
   // Shares of the greatest speeds, -1..1; positive: left, up.
@@ -26,7 +26,7 @@ class LineProtocol {
   // In the units of its positions.
   virtual std::string place(double pan, double tilt) const = 0;
 
-  // Bytes as they come; what is no message is counted.
+  // Takes received bytes, in any pieces. Bytes that form no message are counted.
   virtual void receive(std::string_view bytes) = 0;
   // In the head's units; empty until an answer has come since restart().
   struct Position {

@@ -1,6 +1,6 @@
-// Pelco-D: seven bytes a message, FF, address, two of commands, two of data, and their sum without
-// FF. Positions are degrees, 0 to 360, to a hundredth (extended commands 51, 53, 59, 5B to ask and
-// answer, 4B and 4D to set). Source: Pelco, "D" Protocol Manual, revision 5.
+// Pelco-D. A message has seven bytes: FF, address, two of commands, two of data, and the sum of all
+// but FF. Positions are degrees, 0 to 360, in hundredths. The extended commands 51 and 53 ask for
+// them, 59 and 5B answer, 4B and 4D set them. Source: Pelco, "D" Protocol Manual, revision 5.
 #pragma once
 
 #include <string>

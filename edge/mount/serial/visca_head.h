@@ -1,5 +1,5 @@
-// Pan and tilt by Sony's VISCA (edge/lens/visca.h has its packets): 06 01 drives, 06 02 goes to a
-// place, 09 06 12 asks where it is. Positions are counts of the camera, signed; positive ones are
+// Pan and tilt by Sony's VISCA (its packets: edge/lens/visca.h). 06 01 drives, 06 02 goes to a
+// position, 09 06 12 asks for the position. Positions are signed counts of the camera; positive is
 // to the right and up. Source: Sony, EVI-D100 Command List.
 #pragma once
 

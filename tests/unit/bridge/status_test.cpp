@@ -42,7 +42,7 @@ TEST(BridgeStatus, EachConditionIsAnAlarm) {
       alarms(status),
       ElementsAre(
           "bridge: no server: gone", "bridge: the server refuses: Permissions Violation",
-          "bridge: messages are missing: alfa", "bridge: what comes late is dropped: bravo, 20 s",
+          "bridge: messages are missing: alfa", "bridge: late messages are dropped: bravo, 20 s",
           "bridge: the archive does not work: full", "bridge: the archive of airfield stands still",
           "bridge: the store of owners does not answer, no target changes its owner",
           "bridge: the store of owners is too slow for so many targets"));

@@ -267,7 +267,7 @@ TEST_F(BusTrustTest, TheListOfAMemberIsTheHeadOfALog) {
 TEST_F(BusTrustTest, MarksThatCannotBeReadOrWrittenAreSaidUntilTheyCan) {
   std::filesystem::create_directories(folder_ + "/state/heard-fusion");
   const auto centre = fusion(), station = alfa();
-  EXPECT_THAT(centre->trouble(), HasSubstr("heard before this start is lost"));
+  EXPECT_THAT(centre->trouble(), HasSubstr("received before this start is lost"));
   EXPECT_EQ(station->trouble(), "") << "it keeps none";
   const auto bearing = station->sign("OLS_BEARING_alfa", payload(kNow_us, 11, 1, "alfa"));
   EXPECT_TRUE(hear(*centre, "OLS_BEARING_alfa", bearing).passes);

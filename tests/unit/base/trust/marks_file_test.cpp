@@ -56,7 +56,7 @@ TEST_F(MarksFileTest, ADamagedFileIsSaidForAWhileAndTheRestOfItCounts) {
   std::ofstream(path_) << marks_.text() << "nonsense\n";
   MarksFile file(path_, 3);
   EXPECT_TRUE(still_heard(file));
-  const auto said = AllOf(HasSubstr("heard before this start is lost"), HasSubstr(path_),
+  const auto said = AllOf(HasSubstr("received before this start is lost"), HasSubstr(path_),
                           HasSubstr("1 damaged lines"));
   EXPECT_THAT(file.trouble(), said);
   file.look();

@@ -208,7 +208,7 @@ TEST_F(SlewSearchTest, AlarmsAfterALongSlewWithoutATarget) {
   in_view(1.0, 0.5 + config_.unacquired_alarm_s);
   EXPECT_EQ(search_.unacquired_alarm(slew()), "");
   in_view(1.0 + config_.unacquired_alarm_s, 1.0 + config_.unacquired_alarm_s);
-  EXPECT_NE(search_.unacquired_alarm(slew()).text.find("slewed for 10 s"), std::string::npos);
+  EXPECT_NE(search_.unacquired_alarm(slew()).text.find("not found for 10 s"), std::string::npos);
   EXPECT_EQ(search_.unacquired_alarm(std::nullopt), "") << "the slew has ended";
   EXPECT_EQ(search_.unacquired_alarm(slew(0.0, 1.0)), "") << "it may be outside of the picture";
   auto along = slew();

@@ -147,8 +147,8 @@ TEST_F(AcquisitionBySlewTest, SaysThatItAcquiresNothingWhereTheSlewsLead) {
   run_slewed(config().unacquired_alarm_s - 0.5, std::nullopt);
   EXPECT_TRUE(station_.snapshot().alarms.empty());
   run_slewed(2.0, std::nullopt);
-  EXPECT_TRUE(alarmed("target: slewed for 1") &&
-              alarmed(" s with its place in the image, nothing"));
+  EXPECT_TRUE(alarmed("target: not found for 1") &&
+              alarmed(" s, although its place is in the image"));
   script_.belief = 0.9;
   run_slewed(0.5, std::nullopt);
   EXPECT_EQ(station_.state(), StationState::kTracking);
@@ -157,7 +157,7 @@ TEST_F(AcquisitionBySlewTest, SaysThatItAcquiresNothingWhereTheSlewsLead) {
 
 TEST_F(AcquisitionBySlewTest, SaysSoWithoutEverHavingHadATarget) {
   run_slewed(12.0, std::nullopt);
-  EXPECT_TRUE(alarmed("nothing acquired"));
+  EXPECT_TRUE(alarmed("target: not found for"));
   run_until(now_ + 1.0);
   EXPECT_EQ(station_.state(), StationState::kIdle);
   EXPECT_TRUE(station_.snapshot().alarms.empty()) << "it is not slewed";
