@@ -5,8 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "conditions/alarm_json.h"
-#include "conditions/sayings.h"
+#include "console/land_answers.h"
 #include "console/rounded.h"
 #include "geometry/angles.h"
 #include "geometry/direction.h"
@@ -16,23 +15,11 @@
 namespace ols::console {
 namespace {
 
-constexpr std::size_t kMostSkylines = 200;  // as stations
 constexpr int kProfilePoints = 300;
 constexpr double kFarthest_m = 60'000.0;  // of a profile
 
-WebResponse said(int status, std::string json) {
-  return {status, "application/json", std::move(json), {}};
-}
-WebResponse refused(int status, const Outcome& why) {
-  return said(status, Json{{"error", why.text}, {"refusal", why}}.dump());
-}
-
 Json height_of(const std::optional<land::SurfaceHeight>& known) {
   return known ? rounded(known->height_m, 1) : Json(nullptr);
-}
-
-Json ecef_json(const Eigen::Vector3d& p) {
-  return {rounded(p.x(), 3), rounded(p.y(), 3), rounded(p.z(), 3)};
 }
 
 // From a camera to a point, by horizontal distance in the camera's frame.
@@ -63,23 +50,21 @@ struct Sight {
 
 WebResponse SiteLand::answer(const LandTask& task) {
   using What = LandTask::What;
-  if (task.what == What::kAbout) return said(200, about().dump());
-  if (!folder_.terrain) return refused(404, outcome::land_does_not_fit("[land] folder is empty"));
+  if (task.what == What::kAbout) return land_said(200, about().dump());
+  if (!folder_.terrain) return no_land();
   try {
     switch (task.what) {
       case What::kGround:
-        return said(200, ground(task).dump());
+        return land_said(200, ground(task).dump());
       case What::kHeights:
-        return said(200, heights(task).dump());
-      case What::kProfile:
-        return said(200, profile(task).dump());
+        return land_said(200, heights(task).dump());
       default:
-        return said(200, skyline(task));
+        return land_said(200, profile(task).dump());
     }
   } catch (const std::invalid_argument& wrong) {
-    return refused(409, outcome::land_does_not_fit(wrong.what()));
+    return land_refused(409, outcome::land_does_not_fit(wrong.what()));
   } catch (const std::exception& wrong) {  // in a thread of its own, where nobody else catches it
-    return refused(500, outcome::land_does_not_fit(wrong.what()));
+    return land_refused(500, outcome::land_does_not_fit(wrong.what()));
   }
 }
 
@@ -147,33 +132,13 @@ Json SiteLand::profile(const LandTask& task) const {
   const auto hit = map.ground(sight.apparent);
   const double hit_m = hit ? hit->range_m * std::cos(sight.apparent.elevation_rad) : 0.0;
   const bool is_blocked = hit && hit_m < sight.distance_m - 2.0 * cell_m;
+  const double known_m = map.known_to_m(sight.apparent.azimuth_rad);
+  const bool is_known = known_m > sight.distance_m - 2.0 * cell_m;
   return {{"points", std::move(points)},
           {"blocked_m", is_blocked ? rounded(hit_m, 1) : Json(nullptr)},
           {"azimuth_deg", angle_deg(sight.apparent.azimuth_rad)},
           {"elevation_deg", angle_deg(sight.apparent.elevation_rad)},
-          {"known_to_m", rounded(map.known_to_m(sight.apparent.azimuth_rad), 0)}};
-}
-
-std::string SiteLand::skyline(const LandTask& task) {
-  const Eigen::Vector3d camera_ecef = ecef_from_geodetic(task.camera);
-  const auto known = skylines_.find(task.station);
-  if (known != skylines_.end() && (known->second.camera_ecef - camera_ecef).norm() <= kMoved_m) {
-    return known->second.json;
-  }
-  const land::HorizonMap map(*folder_.terrain, task.camera);
-  const int columns = map.config().columns;
-  Json elevations = Json::array();
-  for (int column = 0; column < columns; ++column) {
-    const auto skyline = map.skyline(2.0 * kPi * column / columns);
-    elevations.push_back(skyline ? angle_deg(skyline->elevation_rad) : Json(nullptr));
-  }
-  if (skylines_.size() >= kMostSkylines) skylines_.clear();
-  Kept& kept = skylines_[task.station];
-  kept = {camera_ecef, Json{{"version", folder_.version},
-                            {"camera_ecef_m", ecef_json(camera_ecef)},
-                            {"elevation_deg", std::move(elevations)}}
-                           .dump()};
-  return kept.json;
+          {"known_to_m", is_known ? Json(nullptr) : rounded(known_m, 0)}};
 }
 
 }  // namespace ols::console

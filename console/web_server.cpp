@@ -19,6 +19,7 @@
 
 #include "base/process/clocks.h"
 #include "console/connection_limit.h"
+#include "console/land_skylines.h"
 #include "console/live_socket.h"
 
 namespace beast = boost::beast;
@@ -46,6 +47,7 @@ struct WebServer::Shared {
         api(web_api),
         console(of_console),
         maps(of.maps_folder),
+        skylines(of_land.version, of_land.terrain),
         land(std::move(of_land)) {}
 
   ConsoleConfig config;
@@ -58,10 +60,11 @@ struct WebServer::Shared {
   ConnectionLimit limit;
   int hashing = 0;
   int reading = 0;
-  MapLibrary maps;  // of the thread of `readers`
-  SiteLand land;    // of the thread of `surveyors`
+  MapLibrary maps;        // of the thread of `readers`
+  LandSkylines skylines;  // computed in the thread of `skyliners`
+  SiteLand land;          // of the thread of `surveyors`
   // Last: they end before what their tasks use.
-  net::thread_pool hashers{1}, readers{1}, surveyors{1};
+  net::thread_pool hashers{1}, readers{1}, surveyors{1}, skyliners{1};
 
   void accept();
   // Computes elsewhere, then calls back here. False if too many wait already.
@@ -76,6 +79,17 @@ struct WebServer::Shared {
       });
     });
     return true;
+  }
+  // At once; what is not known yet is computed elsewhere.
+  WebResponse skyline(const LandTask& task) {
+    auto answer = skylines.answer(task);
+    if (!answer.begins) return std::move(answer.response);
+    net::post(skyliners, [this, task] {
+      net::post(io, [this, task, computed = skylines.compute(task)]() mutable {
+        skylines.keep(task, std::move(computed));
+      });
+    });
+    return std::move(answer.response);
   }
   // Reads from a disk, or computes, in that thread. False if too many requests wait already.
   template <class Source, class Task>
@@ -149,7 +163,9 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection<Stream
     if (const auto* task = std::get_if<MapTask>(&answer)) {
       return look_up(shared_.readers, shared_.maps, *task);
     }
-    look_up(shared_.surveyors, shared_.land, std::get<LandTask>(answer));
+    const auto& task = std::get<LandTask>(answer);
+    if (task.what == LandTask::What::kSkyline) return respond(shared_.skyline(task));
+    look_up(shared_.surveyors, shared_.land, task);
   }
 
   WebRequest web_request(const http::request<http::string_body>& request) const {
@@ -305,8 +321,10 @@ WebServer::WebServer(const ConsoleConfig& config, land::TerrainFolder land,
 WebServer::~WebServer() {
   shared_->hashers.join();
   shared_->readers.join();
-  shared_->surveyors.stop();  // nobody waits for what is queued
-  shared_->surveyors.join();
+  for (net::thread_pool* pool : {&shared_->surveyors, &shared_->skyliners}) {
+    pool->stop();  // nobody waits for what is queued
+    pool->join();
+  }
   shared_->acceptor->close();
 }
 

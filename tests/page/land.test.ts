@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { groundText } from "../../console/page/src/groundprobe";
-import { drawn } from "../../console/page/src/profile";
+import { drawn, profileText } from "../../console/page/src/profile";
 import { boxAround, terrainOf } from "../../console/page/src/terrain3d";
 import type { Station } from "../../console/page/src/site";
 
@@ -21,6 +21,12 @@ test("a profile is drawn to its ends, and what is blocked apart", () => {
   assert.equal((seen.match(/[ML]/g) ?? []).length, 3);
   assert.ok(blocked.startsWith(seen.slice(seen.lastIndexOf("L") + 1).replace(/^/, "M")), `${seen} ${blocked}`);
   assert.equal(drawn({ points, blocked_m: null }).blocked, "");
+});
+
+test("a line of sight is clear only where the land is known", () => {
+  assert.equal(profileText({ blocked_m: null, known_to_m: null }), "clear");
+  assert.equal(profileText({ blocked_m: null, known_to_m: 4200 }), "clear as far as the land is known: up to 4.20 km");
+  assert.equal(profileText({ blocked_m: 670, known_to_m: 4200 }), "blocked at 670 m");
 });
 
 test("the lattice is around the site, lit from the north-west, without what is not known", () => {

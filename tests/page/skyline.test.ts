@@ -46,6 +46,18 @@ test("the skyline is where the camera sees it, broken where the land is not know
   assert.deepEqual([asked, news], [["/api/land/skyline/alfa"], 1]);
 });
 
+test("while it is being computed, it is asked for again a second later", async () => {
+  const asked = console_with({ computing: true });
+  const skylines = new Skylines(() => assert.fail("nothing has come"));
+  const later = (ms: number) => (performance.now = () => ms);
+  for (const ms of [50_000, 50_900, 51_100]) {
+    later(ms);
+    assert.deepEqual(skylines.linesIn(picture(camera(90))), []);
+    await settled();
+  }
+  assert.equal(asked.length, 2);
+});
+
 test("it is projected once for each pose, and asked for again where the camera has moved", async () => {
   const asked = console_with({ camera_ecef_m: PLACE, elevation_deg: ELEVATIONS });
   const skylines = new Skylines(() => {});

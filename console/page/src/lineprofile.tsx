@@ -7,7 +7,7 @@ import { askLand, useLand } from "./land";
 import type { Link } from "./link";
 import { distance, length } from "./measures";
 import type { Place } from "./panel";
-import { drawn, HEIGHT, WIDTH, type Profile } from "./profile";
+import { drawn, HEIGHT, profileText, WIDTH, type Profile } from "./profile";
 import { t } from "./words";
 
 const AGAIN_MS = 1000; // a target moves on
@@ -30,7 +30,7 @@ function useProfile(station: string, { latitude_deg, longitude_deg, height_m }: 
 
 function Plot({ station, profile }: { station: string; profile: Profile }) {
   const { ground, top, seen, blocked, lowest, highest } = drawn(profile);
-  const said = profile.blocked_m == null ? t("line_clear") : `${t("line_blocked")} ${distance(profile.blocked_m)}`;
+  const said = profileText(profile);
   return (
     <figure class="line-profile">
       <svg viewBox={`0 0 ${WIDTH} ${HEIGHT}`} role="img" aria-label={`${t("line_from")} ${station}: ${said}`}>

@@ -9,12 +9,13 @@ import { remember, remembered } from "./memory";
 import { type Camera, offAxis_deg, onGround, projectorOf, unitsEcef } from "./projection";
 
 export type Pixels = [number, number][];
-type Answer = { camera_ecef_m: number[]; elevation_deg: (number | null)[] };
+type Answer = { camera_ecef_m: number[]; elevation_deg: (number | null)[]; computing?: boolean };
 type Known = { ecef_m: number[]; units: (number[] | null)[] }; // directions clockwise from north
 type Projected = { camera: Camera; known: Known; full_px: number[]; lines: Pixels[] };
 
-const MOVED_M = 2; // kMoved_m of console/site_land.h, and its answer's rounding
+const MOVED_M = 2; // kMoved_m of console/land_skylines.h, and its answer's rounding
 const AGAIN_MS = 10_000; // after one that cannot be had
+const SOON_MS = 1000; // while it is being computed
 
 const isSame = (a: number[], b: number[]) => a.every((value, i) => value === b[i]);
 const isSameView = (a: Camera, b: Camera) => a.lens === b.lens && isSame(a.from_ecef, b.from_ecef) && isSame(a.matrix_px, b.matrix_px) && isSame(a.distortion, b.distortion);
@@ -70,7 +71,8 @@ export class Skylines {
     if (performance.now() - (this.asked_ms.get(station) ?? -Infinity) < AGAIN_MS) return;
     this.asked_ms.set(station, Infinity); // until it is answered
     const answer = await askLand<Answer>(`/skyline/${encodeURIComponent(station)}`);
-    this.asked_ms.set(station, performance.now());
+    this.asked_ms.set(station, performance.now() - (answer?.computing ? AGAIN_MS - SOON_MS : 0));
+    if (answer?.computing) return;
     this.problems.delete(station);
     if (answer?.elevation_deg) this.known.set(station, { ecef_m: answer.camera_ecef_m, units: unitsEcef(onGround(answer.camera_ecef_m), answer.elevation_deg) });
     else if (answer) this.problems.set(station, answer);

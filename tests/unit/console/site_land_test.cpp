@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "console/land_skylines.h"
 #include "geometry/angles.h"
 
 namespace ols::console {
@@ -52,35 +53,59 @@ class SiteLandTest : public testing::Test {
   SiteLand land_{ridge()};
 };
 
-TEST_F(SiteLandTest, TheSkylineOfTheLandIsComputedOnceForEachPlaceOfACamera) {
-  const Json skyline = ask_of_alfa("skyline", "", camera());
+TEST_F(SiteLandTest, ASkylineIsComputedOnceForEachPlaceOfACameraAndNobodyWaitsForIt) {
+  LandSkylines skylines("0123456789ab", ridge().terrain);
+  const auto ask_at = [&](double height_m) {
+    return skylines.answer(*land_task("skyline", "", "alfa", camera(height_m)));
+  };
+  const auto compute = [&](double height_m) {
+    const LandTask task = *land_task("skyline", "", "alfa", camera(height_m));
+    skylines.keep(task, skylines.compute(task));
+  };
+  const auto status = [&](double height_m) { return ask_at(height_m).response.status; };
+  EXPECT_TRUE(ask_at(310.0).begins);
+  for (int browser = 0; browser < 20; ++browser) EXPECT_FALSE(ask_at(310.0).begins);
+  EXPECT_EQ(status(310.0), 202);
+  compute(310.0);
+  EXPECT_EQ(status(310.5), 200);
+  const Json skyline = Json::parse(ask_at(310.0).response.body);
   EXPECT_EQ(skyline.at("version"), "0123456789ab");
   const Json& elevations = skyline.at("elevation_deg");
   ASSERT_EQ(elevations.size(), 7200U);
   EXPECT_NEAR(elevations.at(0), degrees(std::atan2(90.0, 1112.2)), 0.01);
   EXPECT_NEAR(elevations.at(3600), degrees(std::atan2(-10.0, 1668.0)), 0.01);  // where it ends
-  EXPECT_EQ(ask_of_alfa("skyline", "", camera(310.5)), skyline);
-  EXPECT_NE(ask_of_alfa("skyline", "", camera(312.0)), skyline);
+  EXPECT_TRUE(ask_at(312.0).begins) << "a camera that has moved";
+  ask_at(200.0);
+  compute(312.0);
+  EXPECT_EQ(status(200.0), 202) << "of where it is no more";
+  compute(200.0);
+  const WebResponse refusal = ask_at(200.0).response;
+  EXPECT_EQ(refusal.status, 409);
+  const Json refused = Json::parse(refusal.body);
+  EXPECT_EQ(refused.at("refusal").at("id"), "land_does_not_fit");
+  EXPECT_NE(std::string(refused.at("error")).find("100 m under the ground"), std::string::npos);
 }
 
 TEST_F(SiteLandTest, TheLandBelowALineOfSightAndWhereItIsBlocked) {
+  const double edge_m = 1668.0;  // of the model, in the north and the south
   struct {
     const char* to;
-    double blocked_m;  // 0: nowhere
-  } const cases[]{{"?to=49.213,16.6,350", 1112.0},
-                  {"?to=49.213,16.6,450", 0.0},
-                  {"?to=49.213,16.6", 1112.0},
-                  {"?to=49.205,16.6", 0.0}};
-  for (const auto& [to, blocked_m] : cases) {
+    double blocked_m, known_m;  // 0: nowhere; all of it
+  } const cases[]{{"?to=49.213,16.6,350", 1112.0, 0.0}, {"?to=49.213,16.6,450", 0.0, 0.0},
+                  {"?to=49.213,16.6", 1112.0, 0.0},     {"?to=49.205,16.6", 0.0, 0.0},
+                  {"?to=49.18,16.6,330", 0.0, edge_m},  {"?to=49.22,16.6,350", 1112.0, edge_m}};
+  for (const auto& [to, blocked_m, known_m] : cases) {
     const Json profile = ask_of_alfa("profile", to, camera());
     const Json& points = profile.at("points");
     EXPECT_NEAR(points.front().at(3), 310.0, 0.1) << to;
     EXPECT_NEAR(profile.at("blocked_m").is_null() ? 0.0 : double{profile.at("blocked_m")},
                 blocked_m, 56.0)
         << to;
-    EXPECT_NEAR(points.back().at(0), to == cases[3].to ? 556.0 : 1446.0, 2.0) << to;
+    const Json& known_to_m = profile.at("known_to_m");
+    EXPECT_NEAR(known_to_m.is_null() ? 0.0 : double{known_to_m}, known_m, 56.0) << to;
   }
   const Json points = ask_of_alfa("profile", "?to=49.213,16.6,450", camera()).at("points");
+  EXPECT_NEAR(points.back().at(0), 1446.0, 2.0);
   EXPECT_NEAR(points.back().at(3), 450.0, 0.1);
   EXPECT_NEAR(points.at(points.size() / 2).at(3), 380.0, 0.1);  // refraction and curvature: 5 cm
   EXPECT_EQ(points.front().at(1), 300.0);
@@ -97,9 +122,6 @@ TEST_F(SiteLandTest, HeightsOfTheGround) {
 }
 
 TEST_F(SiteLandTest, WhatDoesNotFitIsNamed) {
-  const Json refused = ask_of_alfa("skyline", "", camera(200.0), 409);
-  EXPECT_EQ(refused.at("refusal").at("id"), "land_does_not_fit");
-  EXPECT_NE(std::string(refused.at("error")).find("100 m under the ground"), std::string::npos);
   ask_of_alfa("profile", "?to=49.2,16.6,400", camera(), 409);
   ask_of_alfa("profile", "?to=49.5,16.6", camera(), 409);
 }

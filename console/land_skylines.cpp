@@ -1,0 +1,64 @@
+#include "console/land_skylines.h"
+
+#include <stdexcept>
+#include <utility>
+
+#include "console/land_answers.h"
+#include "console/rounded.h"
+#include "geometry/angles.h"
+#include "land/horizon_map.h"
+
+namespace ols::console {
+namespace {
+
+constexpr std::size_t kMostSkylines = 200;  // as stations
+
+WebResponse being_computed() { return land_said(202, Json{{"computing", true}}.dump()); }
+
+Json ecef_json(const Eigen::Vector3d& p) {
+  return {rounded(p.x(), 3), rounded(p.y(), 3), rounded(p.z(), 3)};
+}
+
+}  // namespace
+
+LandSkylines::Answer LandSkylines::answer(const LandTask& task) {
+  if (!terrain_) return {no_land()};
+  const Eigen::Vector3d camera_ecef = ecef_from_geodetic(task.camera);
+  const auto known = kept_.find(task.station);
+  if (known != kept_.end() && (known->second.camera_ecef - camera_ecef).norm() <= kMoved_m) {
+    return {known->second.response.value_or(being_computed())};
+  }
+  if (kept_.size() >= kMostSkylines) kept_.clear();
+  kept_[task.station] = {camera_ecef, std::nullopt};
+  return {being_computed(), true};
+}
+
+WebResponse LandSkylines::compute(const LandTask& task) const {
+  try {
+    const land::HorizonMap map(*terrain_, task.camera);
+    const int columns = map.config().columns;
+    Json elevations = Json::array();
+    for (int column = 0; column < columns; ++column) {
+      const auto skyline = map.skyline(2.0 * kPi * column / columns);
+      elevations.push_back(skyline ? angle_deg(skyline->elevation_rad) : Json(nullptr));
+    }
+    return land_said(200, Json{{"version", version_},
+                               {"camera_ecef_m", ecef_json(ecef_from_geodetic(task.camera))},
+                               {"elevation_deg", std::move(elevations)}}
+                              .dump());
+  } catch (const std::invalid_argument& wrong) {
+    return land_refused(409, outcome::land_does_not_fit(wrong.what()));
+  } catch (const std::exception& wrong) {  // in a thread of its own, where nobody else catches it
+    return land_refused(500, outcome::land_does_not_fit(wrong.what()));
+  }
+}
+
+void LandSkylines::keep(const LandTask& task, WebResponse response) {
+  const auto known = kept_.find(task.station);
+  // Unless another one has been asked for meanwhile.
+  if (known != kept_.end() && known->second.camera_ecef == ecef_from_geodetic(task.camera)) {
+    known->second.response = std::move(response);
+  }
+}
+
+}  // namespace ols::console
