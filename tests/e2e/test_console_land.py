@@ -170,6 +170,10 @@ def test_the_profile_below_a_line_of_sight(page, paper):
     expect(panel.get_by_role("img", name="Line of sight from charlie: clear")).to_be_visible()
     behind = geodetic(RIDGE_DEG + 0.003, PLACES["charlie"][1], 310.0)
     before = paper.targets[7]
+    beyond = geodetic(SOUTH_WEST[0] - 0.02, PLACES["charlie"][1], 400.0)
+    paper.targets[7] = PaperTarget(at=lambda _time_s: beyond)
+    unknown = re.compile(r"charlie: clear, known up to 1\.5\d km")
+    expect(panel.get_by_role("img", name=unknown)).to_be_visible()
     paper.targets[7] = PaperTarget(at=lambda _time_s: behind)
     blocked = re.compile(r"charlie: blocked at 6[4-8]\d m")
     expect(panel.get_by_role("img", name=blocked)).to_be_visible()

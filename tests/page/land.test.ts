@@ -25,7 +25,7 @@ test("a profile is drawn to its ends, and what is blocked apart", () => {
 
 test("a line of sight is clear only where the land is known", () => {
   assert.equal(profileText({ blocked_m: null, known_to_m: null }), "clear");
-  assert.equal(profileText({ blocked_m: null, known_to_m: 4200 }), "clear as far as the land is known: up to 4.20 km");
+  assert.equal(profileText({ blocked_m: null, known_to_m: 4200 }), "clear, known up to 4.20 km");
   assert.equal(profileText({ blocked_m: 670, known_to_m: 4200 }), "blocked at 670 m");
 });
 

@@ -9,7 +9,7 @@ export type Profile = { points: Point[]; blocked_m: number | null; known_to_m: n
 
 export const [WIDTH, HEIGHT] = [270, 96]; // [px]
 
-// "blocked at 670 m", "known up to 4.2 km", "clear".
+// "blocked at 670 m", "clear, known up to 4.20 km", "clear".
 export function profileText({ blocked_m, known_to_m }: Pick<Profile, "blocked_m" | "known_to_m">): string {
   if (blocked_m != null) return `${t("line_blocked")} ${distance(blocked_m)}`;
   return known_to_m != null ? `${t("line_known")} ${distance(known_to_m)}` : t("line_clear");

@@ -128,7 +128,7 @@ const WORDS = {
   line_from: ["Line of sight from", "Sichtlinie von"],
   line_clear: ["clear", "frei"],
   line_blocked: ["blocked at", "verdeckt bei"],
-  line_known: ["clear as far as the land is known: up to", "frei, soweit das Land bekannt ist: bis"],
+  line_known: ["clear, known up to", "frei, bekannt bis"],
   place: ["Place", "Ort"],
   place_hint: ["Click a place", "Einen Ort anklicken"],
   height_of: ["above the ellipsoid", "über dem Ellipsoid"],
