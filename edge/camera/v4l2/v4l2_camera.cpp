@@ -16,6 +16,7 @@
 #include "edge/camera/picture.h"
 #include "edge/camera/picture_change.h"
 #include "edge/camera/retry_pause.h"
+#include "edge/camera/v4l2/v4l2_control_link.h"
 
 namespace ols::camera {
 namespace {
@@ -83,6 +84,8 @@ class OpenCamera {
     const Owned<GstElement> source(gst_bin_get_by_name(GST_BIN(pipeline_.get()), "source"));
     g_object_set(source.get(), "device", config.device.c_str(), nullptr);
     if (config.controls.empty()) return;
+    const auto known = v4l2_controls_of(config.device);
+    if (!known.empty()) check_v4l2_controls(config.controls, known);
     GstStructure* controls = gst_structure_from_string(("c," + config.controls).c_str(), nullptr);
     if (controls == nullptr)
       throw CameraUnfit(alarm::camera_not_video("controls = " + config.controls));

@@ -5,12 +5,14 @@
 #include <gtest/gtest.h>
 
 #include "base/process/clocks.h"
+#include "edge/camera/v4l2/v4l2_controls.h"
 #include "tests/unit/error_text.h"
 #include "tests/unit/eventually.h"
 
 namespace ols::camera {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 V4l2Config config_of(const std::string& element, V4l2Format format) {
@@ -75,6 +77,20 @@ TEST(V4l2Config, ControlsAreNamesWithNumbers) {
   EXPECT_THAT(error("exposure_auto=1,gain=-3"), testing::IsEmpty());
   for (const char* bad : {"gain", "gain=1;x=2", "gain=1 ! filesink", "gain=1,"})
     EXPECT_THAT(error(bad), HasSubstr("controls")) << bad;
+}
+
+// GStreamer ignores a control that the camera does not have.
+TEST(V4l2Controls, AMistypedOneIsNamed) {
+  EXPECT_EQ(v4l2_control_name("Exposure Time, Absolute"), "exposure_time_absolute");
+  EXPECT_EQ(v4l2_control_name("(Gain) "), "gain");
+  const std::vector<V4l2Control> camera{{"gain", 0, 255}, {"focus_auto", 0, 1}};
+  const auto error = [&](const std::string& controls) {
+    return error_text<CameraUnfit>([&] { check_v4l2_controls(controls, camera); });
+  };
+  EXPECT_EQ(error("focus_auto=0,gain=255"), "");
+  EXPECT_THAT(error("gain=3,focus_atuo=0"),
+              AllOf(HasSubstr("focus_atuo"), HasSubstr("controls"), HasSubstr("focus_auto")));
+  EXPECT_THAT(error("gain=256"), AllOf(HasSubstr("gain"), HasSubstr("256: it takes 0 to 255")));
 }
 
 }  // namespace

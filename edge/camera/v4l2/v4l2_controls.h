@@ -1,0 +1,27 @@
+// The controls of a V4L2 camera: exposure, gain, focus. Pure.
+//
+// GStreamer sets those that the configuration names, and says nothing of a name that the camera
+// does not have. So the names are compared with the camera's own before.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "edge/camera/camera_errors.h"
+
+namespace ols::camera {
+
+struct V4l2Control {
+  std::string name;  // as in the configuration: "exposure_time_absolute"
+  long long least = 0, greatest = 0;
+};
+
+// The name that v4l2-ctl and GStreamer have for a driver's "Exposure Time, Absolute".
+std::string v4l2_control_name(std::string_view of_driver);
+
+// Throws CameraUnfit for the first control in `configured`, "gain=3,focus_auto=0", that the camera
+// does not have, or whose value it does not take.
+void check_v4l2_controls(const std::string& configured, const std::vector<V4l2Control>& camera);
+
+}  // namespace ols::camera
