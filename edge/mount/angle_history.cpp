@@ -12,27 +12,37 @@ bool finite(const PanTilt& p) { return std::isfinite(p.pan_rad) && std::isfinite
 
 bool finite(const AngleSample& s) {
   return std::isfinite(s.time_s) && std::isfinite(s.time_sd_s) &&
-         std::isfinite(s.tilt_time_sd_s.value_or(0.0)) && std::isfinite(s.tilt_delay_s) &&
-         finite(s.angles) && finite(s.doubt) && finite(s.acceleration) && finite(s.step_share);
+         std::isfinite(s.shared_time_sd_s) && std::isfinite(s.tilt_time_sd_s.value_or(0.0)) &&
+         std::isfinite(s.tilt_delay_s) && finite(s.angles) && finite(s.doubt) &&
+         finite(s.acceleration) && finite(s.step_share);
 }
 
 double square(double x) { return x * x; }
+
+const double kUniform = 1.0 / std::sqrt(12.0);  // 1-sigma of a uniform distribution, of its width
 
 }  // namespace
 
 AngleHistory::Knot AngleHistory::pan_knot(const AngleSample& s) {
   return {s.time_s,
           s.time_sd_s,
+          s.shared_time_sd_s,
           s.angles.pan_rad,
           s.doubt.pan_rad,
           s.acceleration.pan_rad,
-          s.step_share.pan_rad};
+          s.step_share.pan_rad,
+          s.ordered_change ? std::optional(s.ordered_change->pan_rad) : std::nullopt};
 }
 
 AngleHistory::Knot AngleHistory::tilt_knot(const AngleSample& s) {
-  return {s.time_s + s.tilt_delay_s, s.tilt_time_sd_s.value_or(s.time_sd_s),
-          s.angles.tilt_rad,         s.doubt.tilt_rad,
-          s.acceleration.tilt_rad,   s.step_share.tilt_rad};
+  return {s.time_s + s.tilt_delay_s,
+          s.tilt_time_sd_s.value_or(s.time_sd_s),
+          s.shared_time_sd_s,
+          s.angles.tilt_rad,
+          s.doubt.tilt_rad,
+          s.acceleration.tilt_rad,
+          s.step_share.tilt_rad,
+          s.ordered_change ? std::optional(s.ordered_change->tilt_rad) : std::nullopt};
 }
 
 bool AngleHistory::add(const AngleSample& sample) {
@@ -65,8 +75,8 @@ std::optional<AngleAt> AngleHistory::at(double time_s) const {
 }
 
 // Linear between (or beyond) two samples. The errors: those of the two samples, by their weights;
-// and that of an unknown acceleration, |a| w (1 - w) T^2 / 2 between the samples. Beyond them the
-// unit may have begun to accelerate: half of its maximum is taken as a standard deviation.
+// that of the time that they share; and that of an unknown acceleration, |a| w (1 - w) T^2 / 2.
+// Beyond the newest sample, the acceleration is no more than what was ordered, if that is known.
 std::optional<AngleHistory::AxisAt> AngleHistory::axis_at(double time_s, KnotOf knot) const {
   if (samples_.size() < 2 || !(time_s >= knot(samples_.front()).time_s)) return std::nullopt;
   const auto after = std::lower_bound(
@@ -85,13 +95,24 @@ std::optional<AngleHistory::AxisAt> AngleHistory::axis_at(double time_s, KnotOf 
   const double weight = (time_s - a.time_s) / gap_s;  // of b; more than 1 beyond it
   const double rate = (b.angle_rad - a.angle_rad) / gap_s;
   const double lever_s2 = 0.5 * gap_s * gap_s * std::abs(weight * (1.0 - weight));
-  const double bend =
-      square(lever_s2) * (square(config_.acceleration_sd_rad_s2) + bend2(right, knot));
-  const double begun = square(0.5 * config_.acceleration_max_rad_s2 * 0.5 * square(beyond_s));
+  double acceleration2 = square(config_.acceleration_sd_rad_s2) + bend2(right, knot);
+  if (!interpolated && b.ordered_change_rad_s)
+    acceleration2 = std::min(acceleration2, square(*b.ordered_change_rad_s / gap_s));
+  const double bend = square(lever_s2) * acceleration2;
+  const double begun = begun_variance(b, beyond_s);
+  const double shared = square(rate * b.shared_time_sd_s);
   return AxisAt{a.angle_rad + weight * gap_s * rate, rate,
                 square(1.0 - weight) * knot_variance(a, rate) +
-                    square(weight) * knot_variance(b, rate) + bend + begun,
+                    square(weight) * knot_variance(b, rate) + shared + bend + begun,
                 interpolated};
+}
+
+// The unit may have begun to accelerate: half of the maximum is taken as a standard deviation, or
+// that the ordered rate has changed at any instant.
+double AngleHistory::begun_variance(const Knot& newest, double beyond_s) const {
+  if (!newest.ordered_change_rad_s)
+    return square(0.5 * config_.acceleration_max_rad_s2 * 0.5 * square(beyond_s));
+  return square(kUniform * *newest.ordered_change_rad_s * beyond_s);
 }
 
 double AngleHistory::knot_variance(const Knot& knot, double rate_rad_s) const {

@@ -23,6 +23,10 @@ struct AngleSample {
   PanTilt step_share = {1.0, 1.0};
   // [rad/s^2] approximate acceleration that was commanded since the previous sample.
   PanTilt acceleration = {};
+  // [rad/s] by how much the ordered rate had changed when the sample arrived, since shortly before
+  // the previous one; nullopt: it is not known.
+  std::optional<PanTilt> ordered_change = {};
+  double shared_time_sd_s = 0.0;  // 1-sigma of an error that the instants of all samples share
 };
 
 struct AngleAt {
@@ -43,7 +47,8 @@ class AngleHistory {
     double step_rad = 5.61e-5;  // one encoder step: 11.5714 arc seconds
     // The assumed accelerations. The first value holds between two samples; more is assumed if the
     // unit was commanded to accelerate, or if the neighbouring samples show that it did. The second
-    // value is the largest that the unit may have begun after the newest sample.
+    // value is the largest that the unit may have begun after the newest sample, unless the sample
+    // says by how much the ordered rate has changed.
     double acceleration_sd_rad_s2 = 0.04;
     double acceleration_max_rad_s2 = 1.0;
   };
@@ -60,7 +65,9 @@ class AngleHistory {
  private:
   // One axis at one sample.
   struct Knot {
-    double time_s, time_sd_s, angle_rad, doubt_rad, acceleration_rad_s2, step_share;
+    double time_s, time_sd_s, shared_time_sd_s, angle_rad, doubt_rad, acceleration_rad_s2,
+        step_share;
+    std::optional<double> ordered_change_rad_s;
   };
   struct AxisAt {
     double angle_rad, rate_rad_s, variance_rad2;
@@ -73,6 +80,8 @@ class AngleHistory {
   std::optional<AxisAt> axis_at(double time_s, KnotOf knot) const;
   // Variance of the measured angle at a knot that the axis passes at this rate.
   double knot_variance(const Knot& knot, double rate_rad_s) const;
+  // Variance of a change of rate that began after the newest sample.
+  double begun_variance(const Knot& newest, double beyond_s) const;
   // Square of the acceleration to expect between samples_[b-1] and samples_[b]: the commanded
   // acceleration, or the one that neighbouring samples show beyond their noise.
   double bend2(std::size_t b, KnotOf knot) const;

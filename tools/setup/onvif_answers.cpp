@@ -23,11 +23,11 @@ void add_number(Values& values, const std::string& key, double number) {
 }
 
 // Generic spaces reach from -1 to 1; wider ones are in degrees. `whole`: at 1 of a generic one.
-double scale(const std::optional<onvif::Space>& space, onvif::Span onvif::Space::*axis,
+double scale(const std::optional<mount::Space>& space, mount::Span mount::Space::*axis,
              double whole) {
   constexpr double kGeneric = 2.0;
   if (!space) return whole;
-  const onvif::Span& span = (*space).*axis;
+  const mount::Span& span = (*space).*axis;
   const double greatest = std::max(std::abs(span.min), std::abs(span.max));
   return greatest > kGeneric ? 1.0 : whole / greatest;
 }
@@ -45,7 +45,7 @@ void add_mount(Values& values, const std::string& url, const onvif::Offer::Strea
   add(values, "station.mount.profile", stream.profile.token);
   // By the standard it counts pan to the right.
   constexpr double kPan_deg = 180.0, kTilt_deg = 90.0, kPan_deg_s = 60.0, kTilt_deg_s = 40.0;
-  using onvif::Space;
+  using mount::Space;
   add_number(values, "station.mount.pan_gain_deg", -scale(can.absolute, &Space::x, kPan_deg));
   add_number(values, "station.mount.tilt_gain_deg", scale(can.absolute, &Space::y, kTilt_deg));
   add_number(values, "station.mount.pan_speed_deg_s",

@@ -1,4 +1,4 @@
-#include "edge/mount/onvif/drive.h"
+#include "edge/mount/driven/drive.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include "conditions/alarms.h"
 #include "geometry/angles.h"
 
-namespace ols::onvif {
+namespace ols::mount {
 namespace {
 
 constexpr double kWindow_s = 0.6;  // over which reported positions show a motion
@@ -60,13 +60,13 @@ bool differs(const PanTilt& a, const PanTilt& b) {
 
 }  // namespace
 
-void Drive::connected(const PtzOptions& options) {
-  options_ = options;
+void Drive::connected(const Moves& moves) {
+  offered_ = moves;
   limits_ = config_.limits;
-  limits_.count = {mount::kVirtualCount_rad, mount::kVirtualCount_rad};
-  if (options.absolute) {
-    narrow(limits_.pan_min_rad, limits_.pan_max_rad, config_.pan, options.absolute->x);
-    narrow(limits_.tilt_min_rad, limits_.tilt_max_rad, config_.tilt, options.absolute->y);
+  limits_.count = {kVirtualCount_rad, kVirtualCount_rad};
+  if (moves.absolute) {
+    narrow(limits_.pan_min_rad, limits_.pan_max_rad, config_.pan, moves.absolute->x);
+    narrow(limits_.tilt_min_rad, limits_.tilt_max_rad, config_.tilt, moves.absolute->y);
   }
   stop_wanted_ = true;
   stops_ = 0;
@@ -80,9 +80,7 @@ void Drive::lost() {
   if (motion_ != Motion::kNone) rest_.reset();  // where it went is unknown
 }
 
-void Drive::set_goal(const std::optional<mount::Goal>& goal) {
-  goal_ = emergency_ ? std::nullopt : goal;
-}
+void Drive::set_goal(const std::optional<Goal>& goal) { goal_ = emergency_ ? std::nullopt : goal; }
 
 void Drive::emergency_halt() {
   emergency_ = stop_wanted_ = true;
@@ -113,7 +111,7 @@ bool Drive::stop_is_due(double now_s) const {
 
 // Some cameras obey only one of the two.
 Order Drive::stop_order() const {
-  const bool by_velocity = stops_ % 2 == 1 && options_.continuous;
+  const bool by_velocity = stops_ % 2 == 1 && offered_.continuous;
   return {by_velocity ? Act::kVelocity : Act::kStop, {}};
 }
 
@@ -142,8 +140,8 @@ PanTilt Drive::angles_now(double now_s) const {
 
 // Nothing: no motion is wanted or permitted.
 std::optional<PanTilt> Drive::wanted_rate(double now_s) const {
-  if (!goal_ || now_s < refused_until_s_ || !options_.continuous) return std::nullopt;
-  mount::Goal goal = *goal_;
+  if (!goal_ || now_s < refused_until_s_ || !offered_.continuous) return std::nullopt;
+  Goal goal = *goal_;
   goal.rests = false;  // proportional: the answers are too late for the shortest braking
   const PanTilt now = angles_now(now_s);
   const auto command = ptu::servo_step(config_.servo, limits_, goal, now, now_s, rate_);
@@ -160,15 +158,15 @@ std::optional<PanTilt> Drive::wanted_rate(double now_s) const {
 
 // To a goal at rest, near enough to go there without a lease.
 std::optional<Order> Drive::last_piece(double now_s) const {
-  if (!goal_ || !goal_->rests || goal_->rate_only || !options_.absolute) return std::nullopt;
+  if (!goal_ || !goal_->rests || goal_->rate_only || !offered_.absolute) return std::nullopt;
   if (now_s > goal_->valid_until_s || now_s < refused_until_s_) return std::nullopt;
   const PanTilt& to = goal_->angles;
   const PanTilt& at = seen_.back().angles;
-  if (options_.continuous && distance(to, at) > kLastPiece_rad) return std::nullopt;
-  const mount::AngleBox travel = mount::travel(limits_);
+  if (offered_.continuous && distance(to, at) > kLastPiece_rad) return std::nullopt;
+  const AngleBox travel = mount::travel(limits_);
   if (to.pan_rad < travel.pan_min_rad || to.pan_rad > travel.pan_max_rad ||
       to.tilt_rad < travel.tilt_min_rad || to.tilt_rad > travel.tilt_max_rad ||
-      mount::blocked(limits_.keep_out, mount::spanned(to, at)))
+      blocked(limits_.keep_out, spanned(to, at)))
     return std::nullopt;
   const bool ordered = motion_ == Motion::kAbsolute && distance(absolute_, to) < intake_.sd_rad();
   const bool there = distance(to, at) < 2.0 * intake_.sd_rad();
@@ -192,8 +190,8 @@ Order Drive::motion(double now_s) {
   const bool other = motion_ != Motion::kVelocity || differs(*rate, rate_);
   if (!expires && !(other && new_position)) return {};
   return {Act::kVelocity,
-          {velocity_of(config_.pan, rate->pan_rad, options_.continuous->x),
-           velocity_of(config_.tilt, rate->tilt_rad, options_.continuous->y)}};
+          {velocity_of(config_.pan, rate->pan_rad, offered_.continuous->x),
+           velocity_of(config_.tilt, rate->tilt_rad, offered_.continuous->y)}};
 }
 
 void Drive::done(const Order& order, double now_s) {
@@ -205,6 +203,7 @@ void Drive::done(const Order& order, double now_s) {
     stop_wanted_ = false;
     motion_ = Motion::kNone;
     rate_ = {};
+    intake_.ordered(rate_, now_s);
     if (!rests_since_s_) rests_since_s_ = now_s;
     return;
   }
@@ -224,6 +223,7 @@ void Drive::done(const Order& order, double now_s) {
     rate_ = {};
     absolute_ = {angle_of(config_.pan, order.vector.x), angle_of(config_.tilt, order.vector.y)};
   }
+  intake_.ordered(motion_ == Motion::kVelocity ? std::optional(rate_) : std::nullopt, now_s);
 }
 
 // A motion that was refused may be on its way all the same.
@@ -238,9 +238,9 @@ void Drive::failed(const Order& order, double now_s) {
   refused_until_s_ = now_s + kRefused_s;
 }
 
-void Drive::take(const PtzStatus& status, double sent_s, double answered_s) {
+void Drive::take(const Vector& position, double sent_s, double answered_s) {
   asked_s_ = sent_s;
-  const PanTilt angles{angle_of(config_.pan, status.x), angle_of(config_.tilt, status.y)};
+  const PanTilt angles{angle_of(config_.pan, position.x), angle_of(config_.tilt, position.y)};
   const double now_s = 0.5 * (sent_s + answered_s) - config_.positions.delay_s;
   const bool goes = motion_ == Motion::kAbsolute && distance(absolute_, angles) > seen_motion_rad();
   intake_.add(angles, sent_s, answered_s, goes ? config_.servo.max_speed_rad_s : fastest(rate_));
@@ -308,4 +308,4 @@ std::vector<Alarm> Drive::alarms(double now_s) const {
   return alarms;
 }
 
-}  // namespace ols::onvif
+}  // namespace ols::mount

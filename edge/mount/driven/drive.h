@@ -1,7 +1,8 @@
-// Decides what to request from an ONVIF camera next: its position, a motion, or a stop. Pure.
+// Decides what to request next from a mount that takes velocities or places: its position, a
+// motion, or a stop. Pure.
 //
 // Every motion has a lease. A velocity is ordered with the time-out `lease_s`, and again as long as
-// it is wanted. When orders cease, a camera that obeys the time-out stops. An absolute move
+// it is wanted. When orders cease, a mount that obeys the time-out stops. An absolute move
 // has no time-out and is ordered only for the last part of the way to a goal at rest. After each
 // connection a stop is ordered first, and repeated until the reported positions stand still.
 #pragma once
@@ -13,17 +14,33 @@
 
 #include "conditions/alarm.h"
 #include "edge/mount/angle_history.h"
+#include "edge/mount/driven/position_intake.h"
 #include "edge/mount/goal.h"
 #include "edge/mount/limits.h"
-#include "edge/mount/onvif/position_intake.h"
-#include "edge/mount/onvif/soap_answer.h"
-#include "edge/mount/onvif/soap_request.h"
 #include "edge/ptu/servo.h"
 
-namespace ols::onvif {
+namespace ols::mount {
 
-// Angles are linear functions of the camera's numbers. A negative factor means that the camera
-// counts in the other direction.
+// A position or velocity in the mount's own numbers.
+struct Vector {
+  double x = 0.0, y = 0.0;
+};
+
+struct Span {
+  double min = 0.0, max = 0.0;
+};
+
+struct Space {
+  Span x, y;
+};
+
+// The moves that a mount offers.
+struct Moves {
+  std::optional<Space> absolute, continuous;
+};
+
+// Angles are linear functions of the mount's numbers. A negative factor means that the mount counts
+// in the other direction.
 struct AxisScale {
   double zero_rad = 0.0;            // the angle at position 0
   double per_unit_rad = 0.0;        // angle per unit of position
@@ -32,7 +49,7 @@ struct AxisScale {
 
 struct DriveConfig {
   AxisScale pan, tilt;
-  mount::Limits limits{radians(-180.0), radians(180.0), radians(-90.0), radians(90.0), {}, {}};
+  Limits limits{radians(-180.0), radians(180.0), radians(-90.0), radians(90.0), {}, {}};
   ptu::ServoConfig servo{.gain_hz = 1.0, .max_speed_rad_s = radians(20.0)};
   PositionIntake::Config positions;
   double lease_s = 1.0;  // time-out of a velocity
@@ -42,38 +59,38 @@ struct DriveConfig {
 enum class Act { kWait, kStatus, kStop, kVelocity, kAbsolute };
 struct Order {
   Act act = Act::kWait;
-  Vector vector;  // the motion, in the camera's numbers; a velocity of 0 means a stop
+  Vector vector;  // the motion, in the mount's numbers; a velocity of 0 means a stop
 };
 
 class Drive {
  public:
   explicit Drive(const DriveConfig& config) : config_(config), intake_(config.positions) {}
 
-  // Call after each connection: the camera's position and motion are unknown then.
-  void connected(const PtzOptions& options);
+  // Call after each connection: the mount's position and motion are unknown then.
+  void connected(const Moves& moves);
   void lost();  // the connection was lost
 
-  void set_goal(const std::optional<mount::Goal>& goal);
+  void set_goal(const std::optional<Goal>& goal);
   void emergency_halt();
   void clear_emergency() { emergency_ = false; }
   bool in_emergency() const { return emergency_; }
 
   Order next(double now_s);
-  // done(): the camera has accepted the order. failed(): it refused the order, or could not be
+  // done(): the mount has accepted the order. failed(): it refused the order, or could not be
   // reached.
   void done(const Order& order, double now_s);
   void failed(const Order& order, double now_s);
-  void take(const PtzStatus& status, double sent_s, double answered_s);
+  void take(const Vector& position, double sent_s, double answered_s);
 
   // The new samples; none while the positions do not follow the orders.
-  std::vector<mount::AngleSample> take_samples() {
+  std::vector<AngleSample> take_samples() {
     auto samples = intake_.take();
     if (distrusted_) samples.clear();
     return samples;
   }
-  const mount::Limits& limits() const { return limits_; }
+  const Limits& limits() const { return limits_; }
   bool has_position() const { return !seen_.empty(); }
-  // Whether the camera reports positions and they do not change.
+  // Whether the mount reports positions and they do not change.
   bool stands() const { return motion_ == Motion::kNone && !moves(); }
   std::optional<double> last_position_s() const;
   const PositionIntake& intake() const { return intake_; }
@@ -110,10 +127,10 @@ class Drive {
   void judge_rest(double now_s);
 
   DriveConfig config_;
-  mount::Limits limits_ = config_.limits;
-  PtzOptions options_;
+  Limits limits_ = config_.limits;
+  Moves offered_;
   PositionIntake intake_;
-  std::optional<mount::Goal> goal_;
+  std::optional<Goal> goal_;
   bool emergency_ = false;
 
   Motion motion_ = Motion::kNone;
@@ -137,4 +154,4 @@ class Drive {
   Counters counters_;
 };
 
-}  // namespace ols::onvif
+}  // namespace ols::mount

@@ -1,14 +1,14 @@
-#include "edge/mount/onvif/drive_config.h"
+#include "edge/mount/driven/drive_config.h"
 
 #include "edge/config/config_units.h"
 
-namespace ols::onvif {
+namespace ols::mount {
 
 using config::number;
 using station::in_degrees;
 
 std::vector<config::Row> drive_rows(DriveConfig& d) {
-  mount::Limits& l = d.limits;
+  Limits& l = d.limits;
   return {
       number("pan_min_deg", l.pan_min_rad, {-720.0, 720.0}, in_degrees(), "Narrows the travel."),
       number("pan_max_deg", l.pan_max_rad, {-720.0, 720.0}, in_degrees(), "Narrows the travel."),
@@ -25,11 +25,11 @@ std::vector<config::Row> drive_rows(DriveConfig& d) {
              "1-sigma of a reported position; repeatability of cheap mounts is 0.05 to 0.25 deg.")};
 }
 
-void check_travel(ConfigTable& table, const mount::Limits& limits) {
+void check_travel(ConfigTable& table, const Limits& limits) {
   if (limits.pan_min_rad >= limits.pan_max_rad)
     throw table.error("pan_max_deg", "must be greater than pan_min_deg");
   if (limits.tilt_min_rad >= limits.tilt_max_rad)
     throw table.error("tilt_max_deg", "must be greater than tilt_min_deg");
 }
 
-}  // namespace ols::onvif
+}  // namespace ols::mount

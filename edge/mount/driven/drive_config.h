@@ -4,14 +4,14 @@
 #include <vector>
 
 #include "base/config/config_section.h"
-#include "edge/mount/onvif/drive.h"
+#include "edge/mount/driven/drive.h"
 
-namespace ols::onvif {
+namespace ols::mount {
 
 // Travel, speed, the interval of positions, their age and their error. The defaults are the present
 // values of `config`.
 std::vector<config::Row> drive_rows(DriveConfig& config);
 // Throws ConfigError for a travel that is empty.
-void check_travel(ConfigTable& table, const mount::Limits& limits);
+void check_travel(ConfigTable& table, const Limits& limits);
 
-}  // namespace ols::onvif
+}  // namespace ols::mount

@@ -1,5 +1,6 @@
 #include "edge/mount/driven/driven_mount.h"
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstdio>
@@ -15,7 +16,7 @@ namespace {
 constexpr double kFirstPause_s = 0.2, kMaxPause_s = 5.0;
 constexpr double kNoAngles_s = 1.0;  // without a position: an alarm
 
-std::string quality_of(const onvif::PositionIntake& intake) {
+std::string quality_of(const PositionIntake& intake) {
   std::array<char, 120> text{};
   std::snprintf(text.data(), text.size(), ", answers in %.0f ms, positions +-%.3g deg",
                 1e3 * intake.round_trip_s(), degrees(intake.sd_rad()));
@@ -24,12 +25,23 @@ std::string quality_of(const onvif::PositionIntake& intake) {
 
 }  // namespace
 
+Traits driven_traits(const DriveConfig& config) {
+  Traits traits;
+  traits.may_home = false;
+  traits.limits = config.limits;
+  traits.angles.step_rad = kVirtualCount_rad;
+  // A mount that renews its position less often than it is asked leaves gaps.
+  traits.angles.max_gap_s = std::max(1.0, 5.0 * config.poll_s);
+  traits.angles.max_extrapolation_s = std::max(0.4, 2.0 * config.poll_s + config.positions.delay_s);
+  return traits;
+}
+
 void SharedDrive::pause(double seconds, const std::stop_token& stop) {
   std::unique_lock lock(mutex);
   wake.wait_for(lock, stop, std::chrono::duration<double>(seconds), [] { return false; });
 }
 
-DrivenMount::DrivenMount(const onvif::DriveConfig& config, std::unique_ptr<MountSession> session)
+DrivenMount::DrivenMount(const DriveConfig& config, std::unique_ptr<MountSession> session)
     : shared_(config),
       session_(std::move(session)),
       thread_({"ptu", "is being connected", kFirstPause_s, kMaxPause_s, alarm::ptu_no_connection}) {
@@ -91,7 +103,7 @@ device::DeviceReport DrivenMount::report() const {
   device::DeviceReport report = thread_.report();
   const double now_s = clock_monotonic_s();
   const std::lock_guard lock(shared_.mutex);
-  const onvif::Drive& drive = shared_.drive;
+  const Drive& drive = shared_.drive;
   report.last_good_s = drive.last_position_s();
   report.errors += shared_.errors;
   if (!shared_.last_error.empty()) report.last_error = shared_.last_error;
@@ -111,7 +123,7 @@ device::DeviceReport DrivenMount::report() const {
                      {"ptu_position_sd_deg", degrees(drive.intake().sd_rad())}};
   if (drive.intake().interval_s() > 0.0)
     report.readings["ptu_interval_s"] = drive.intake().interval_s();
-  const onvif::Drive::Counters& seen = drive.counters();
+  const Drive::Counters& seen = drive.counters();
   report.counters = {{"ptu_requests", shared_.orders},
                      {"ptu_errors", shared_.errors},
                      {"ptu_emergencies", seen.emergencies},

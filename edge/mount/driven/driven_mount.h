@@ -1,6 +1,12 @@
+<<<<<<< HEAD
 // The common part of mounts that obey velocities or positions and report their positions late.
 // onvif::Drive chooses the next order. The session of each kind connects, sends orders and takes
 // positions.
+=======
+// A mount that is ordered velocities or places and reports its positions late (Drive decides
+// what to order next): the part that is the same for every kind. A kind's session connects, sends
+// orders and takes positions.
+>>>>>>> a4e0b9da (Mounts that are driven late: their own folder, and errors of angles as they are)
 #pragma once
 
 #include <condition_variable>
@@ -14,8 +20,8 @@
 
 #include "conditions/alarm.h"
 #include "edge/device/device_thread.h"
-#include "edge/mount/mount.h"
-#include "edge/mount/onvif/drive.h"
+#include "edge/mount/driven/drive.h"
+#include "edge/mount/mount_kind.h"
 
 namespace ols::mount {
 
@@ -23,16 +29,22 @@ namespace ols::mount {
 struct SharedDrive {
   std::mutex mutex;
   std::condition_variable_any wake;  // notified in an emergency
+<<<<<<< HEAD
   onvif::Drive drive;
   bool usable = true;          // false: its angles must not be used, whatever it reports
   std::string words;           // the mount and its capabilities, in words
+=======
+  Drive drive;
+  bool usable = true;          // false: its angles are not, whatever it reports
+  std::string words;           // what it is and can do
+>>>>>>> a4e0b9da (Mounts that are driven late: their own folder, and errors of angles as they are)
   std::string last_error;      // empty: none
   std::vector<Alarm> alarms;   // of this kind
   std::optional<Alarm> fault;  // why the session does not connect for now
   std::uint64_t orders = 0, errors = 0;
   std::map<std::string, std::uint64_t> counters;  // of this kind
 
-  explicit SharedDrive(const onvif::DriveConfig& config) : drive(config) {}
+  explicit SharedDrive(const DriveConfig& config) : drive(config) {}
   // For `seconds`, or until an emergency or the end.
   void pause(double seconds, const std::stop_token& stop);
 };
@@ -53,10 +65,12 @@ class MountSession {
   virtual void interrupt() {}
 };
 
+Traits driven_traits(const DriveConfig& config);
+
 class DrivenMount : public Mount {
  public:
   // Starts to connect and returns at once.
-  DrivenMount(const onvif::DriveConfig& config, std::unique_ptr<MountSession> session);
+  DrivenMount(const DriveConfig& config, std::unique_ptr<MountSession> session);
   ~DrivenMount() override;  // waits until the session has stopped the mount
 
   void set_goal(const std::optional<Goal>& goal) override;

@@ -1,9 +1,9 @@
-#include "edge/mount/onvif/position_intake.h"
+#include "edge/mount/driven/position_intake.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace ols::onvif {
+namespace ols::mount {
 namespace {
 
 constexpr double kSmoothing = 0.1;  // of what is averaged over answers
@@ -11,6 +11,12 @@ constexpr double kOftenOld = 0.2;   // share of old positions from which the age
 constexpr double kSettled_s = 3.0;  // after a motion
 constexpr int kRestCount = 20;      // positions from which their scatter is known
 constexpr double kMotion = 5.0;     // 1-sigmas of the configuration: no scatter
+constexpr double kSpreadSmoothing = 0.05;
+constexpr double kWorst = 3.0;       // of the variance: at an end of the round trip, never between
+constexpr double kBegins_s = 0.2;    // after an order, the rate changes
+constexpr double kResponds_s = 0.5;  // after an order, a mount still changes its rate
+constexpr double kKept_s = 10.0;     // orders
+constexpr double kSteady = 0.05;     // share of the rate: a smaller change is none
 const double kUniform = std::sqrt(12.0);  // width over 1-sigma of a uniform distribution
 
 }  // namespace
@@ -52,6 +58,56 @@ void PositionIntake::measure_rest(const PanTilt& angles, double now_s, double or
   rest_variance_rad2_ += weight * (std::max(pan * pan, tilt * tilt) - rest_variance_rad2_);
 }
 
+void PositionIntake::ordered(const std::optional<PanTilt>& rate, double now_s) {
+  orders_.push_back({now_s, rate});
+  while (orders_.size() > 1 && orders_[1].time_s < now_s - kKept_s) orders_.pop_front();
+}
+
+// By how much the ordered rate has changed since then, with the order in force then; nullopt if one
+// of them is not known.
+std::optional<PanTilt> PositionIntake::ordered_change(double since_s) const {
+  if (orders_.empty()) return std::nullopt;
+  PanTilt least, most;
+  for (auto order = orders_.rbegin(); order != orders_.rend(); ++order) {
+    if (!order->rate) return std::nullopt;
+    const bool first = order == orders_.rbegin();
+    const PanTilt& rate = *order->rate;
+    least = first ? rate
+                  : PanTilt{std::min(least.pan_rad, rate.pan_rad),
+                            std::min(least.tilt_rad, rate.tilt_rad)};
+    most = first ? rate
+                 : PanTilt{std::max(most.pan_rad, rate.pan_rad),
+                           std::max(most.tilt_rad, rate.tilt_rad)};
+    if (order->time_s <= since_s) break;
+  }
+  return PanTilt{most.pan_rad - least.pan_rad, most.tilt_rad - least.tilt_rad};
+}
+
+// By the axis that turns faster.
+void PositionIntake::learn_spread(const Moved& newest) {
+  moved_in_row_ = {moved_in_row_[1], moved_in_row_[2], newest};
+  const auto& [x, y, z] = moved_in_row_;
+  const auto change = ordered_change(x.time_s - kResponds_s);
+  if (x.time_s == 0.0 || !change) return;
+  const double span_s = z.time_s - x.time_s, last = (y.time_s - x.time_s) / span_s;
+  const auto turn = [](const Moved& from, const Moved& to, double PanTilt::*axis) {
+    return to.angles.*axis - from.angles.*axis;
+  };
+  const bool pans =
+      std::abs(turn(x, z, &PanTilt::pan_rad)) > std::abs(turn(x, z, &PanTilt::tilt_rad));
+  const auto axis = pans ? &PanTilt::pan_rad : &PanTilt::tilt_rad;
+  const double rate = turn(x, z, axis) / span_s;
+  if (std::abs(rate) * poll_s_ < 2.0 * sd_rad() || *change.*axis > kSteady * std::abs(rate)) return;
+  const double first = 1.0 - last, off_rad = turn(x, y, axis) - last * turn(x, z, axis);
+  const double weights = 1.0 + first * first + last * last;
+  const double seen_s2 = (off_rad * off_rad - weights * sd_rad() * sd_rad()) / (rate * rate);
+  const double whole_s2 =
+      y.spread_s * y.spread_s + std::pow(first * x.spread_s, 2) + std::pow(last * z.spread_s, 2);
+  if (whole_spread_s2_ == 0.0) seen_spread_s2_ = whole_spread_s2_ = whole_s2;
+  seen_spread_s2_ += kSpreadSmoothing * (seen_s2 - seen_spread_s2_);
+  whole_spread_s2_ += kSpreadSmoothing * (whole_s2 - whole_spread_s2_);
+}
+
 void PositionIntake::add(const PanTilt& angles, double sent_s, double answered_s,
                          double ordered_rad_s) {
   const double trip_s = answered_s - sent_s;
@@ -76,10 +132,17 @@ void PositionIntake::add(const PanTilt& angles, double sent_s, double answered_s
   last_s_ = now_s;
   if (old) return;
   const double age_s = ordered_rad_s > 0.0 && old_share_ > kOftenOld ? gap_s : 0.0;
-  samples_.add({.time_s = now_s - config_.delay_s - 0.5 * age_s,
-                .time_sd_s = std::hypot(trip_s / kUniform, age_s / kUniform, config_.delay_sd_s),
+  const double time_s = now_s - config_.delay_s - 0.5 * age_s;
+  const double spread_s = std::hypot(trip_s, age_s) / kUniform;
+  if (ordered_rad_s > 0.0) learn_spread({time_s, spread_s, angles});
+  const double share =
+      whole_spread_s2_ > 0.0 ? std::clamp(seen_spread_s2_ / whole_spread_s2_, 0.0, kWorst) : 1.0;
+  samples_.add({.time_s = time_s,
+                .time_sd_s = std::sqrt(share) * spread_s,
                 .angles = angles,
-                .doubt = {sd_rad(), sd_rad()}});
+                .doubt = {sd_rad(), sd_rad()},
+                .ordered_change = ordered_change(time_s - gap_s - kBegins_s),
+                .shared_time_sd_s = config_.delay_sd_s});
 }
 
-}  // namespace ols::onvif
+}  // namespace ols::mount

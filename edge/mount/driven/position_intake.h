@@ -1,10 +1,14 @@
-// Converts the positions that a camera reports to angles with their times and errors. Pure.
+// Converts the positions that a mount reports to angles with their times and errors. Pure.
 //
 // An answer contains no time. Its position is taken to hold `delay_s` before the middle between
-// request and answer. Many cameras renew their position only a few times a second. A position that
-// is still the same although the ordered motion should have changed it is old, and is not used.
+// request and answer. How far that instant scatters within the round trip is learnt in motion:
+// three positions in a row should lie on a straight line while the ordered rate is constant. Many
+// mounts renew their position only a few times a second. A position that is still the same although
+// the ordered motion should have changed it is old, and is not used.
 #pragma once
 
+#include <array>
+#include <deque>
 #include <optional>
 #include <vector>
 
@@ -12,7 +16,7 @@
 #include "edge/mount/angle_history.h"
 #include "geometry/angles.h"
 
-namespace ols::onvif {
+namespace ols::mount {
 
 // The larger of the differences of the two axes [rad].
 double distance(const PanTilt& a, const PanTilt& b);
@@ -26,10 +30,12 @@ class PositionIntake {
   };
   explicit PositionIntake(const Config& config) : config_(config) {}
 
+  // An order that was accepted; nullopt: to a place, at a rate that is not known.
+  void ordered(const std::optional<PanTilt>& rate, double now_s);
   // `ordered_rad_s`: the ordered speed of the faster axis; 0 at rest.
   void add(const PanTilt& angles, double sent_s, double answered_s, double ordered_rad_s);
   void restart();
-  std::vector<mount::AngleSample> take() { return samples_.take(); }
+  std::vector<AngleSample> take() { return samples_.take(); }
 
   double round_trip_s() const { return round_trip_s_; }
   // The time between two positions that differ, in motion; 0 if it is not known yet.
@@ -39,10 +45,22 @@ class PositionIntake {
   double sd_rad() const;
 
  private:
+  struct RateOrder {
+    double time_s;
+    std::optional<PanTilt> rate;
+  };
+  // A position in motion. `spread_s`: the 1-sigma of an instant anywhere in its round trip.
+  struct Moved {
+    double time_s, spread_s;
+    PanTilt angles;
+  };
+
   void measure_rest(const PanTilt& angles, double now_s, double ordered_rad_s);
+  std::optional<PanTilt> ordered_change(double since_s) const;
+  void learn_spread(const Moved& newest);
 
   Config config_;
-  device::ReadingQueue<mount::AngleSample> samples_;
+  device::ReadingQueue<AngleSample> samples_;
   std::optional<PanTilt> last_;
   double last_s_ = 0.0, changed_s_ = 0.0;
   double round_trip_s_ = 0.0, poll_s_ = 0.0, old_share_ = 0.0;
@@ -51,6 +69,11 @@ class PositionIntake {
   PanTilt rest_mean_;
   double rest_variance_rad2_ = 0.0;
   int rest_count_ = 0;
+  std::deque<RateOrder> orders_;  // the last ones, and the one in force before them
+  std::array<Moved, 3> moved_in_row_{};
+  // Means of the squared distances from straight lines beyond what sd_rad() explains, and of what
+  // the round trips would explain: seconds squared.
+  double seen_spread_s2_ = 0.0, whole_spread_s2_ = 0.0;
 };
 
-}  // namespace ols::onvif
+}  // namespace ols::mount

@@ -3,7 +3,7 @@
 #include <regex>
 #include <stdexcept>
 
-#include "edge/mount/onvif/drive_config.h"
+#include "edge/mount/driven/drive_config.h"
 
 namespace ols::indi {
 
@@ -17,7 +17,7 @@ IndiConfig::IndiConfig() {
 namespace {
 
 void check(ConfigTable& table, const IndiConfig& c) {
-  onvif::check_travel(table, c.drive.limits);
+  mount::check_travel(table, c.drive.limits);
   const mount::Limits& limits = c.drive.limits;
   if (limits.pan_max_rad - limits.pan_min_rad > 2.0 * kPi)
     throw table.error("pan_max_deg", "the travel of pan is at most a full turn");
@@ -52,7 +52,7 @@ std::vector<config::Row> server_rows(IndiConfig& c) {
 
 config::Section indi_section(IndiConfig& c) {
   std::vector<config::Row> rows = server_rows(c);
-  for (auto& row : onvif::drive_rows(c.drive)) rows.push_back(std::move(row));
+  for (auto& row : mount::drive_rows(c.drive)) rows.push_back(std::move(row));
   return {"mount", "", rows, {}, [&c](ConfigTable& table) { check(table, c); }};
 }
 

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "base/config/config_section.h"
+#include "edge/mount/driven/drive.h"
 #include "edge/mount/indi/telescope_axes.h"
-#include "edge/mount/onvif/drive.h"
 
 namespace ols::indi {
 
@@ -17,7 +17,7 @@ struct IndiConfig {
   std::string device;  // as its driver names it: "Telescope Simulator"
   Axes axes = Axes::kEquatorial;
   std::string pier_side;     // "PIER_WEST", "PIER_EAST"; empty: that of the first connection
-  onvif::DriveConfig drive;  // positions in radians
+  mount::DriveConfig drive;  // positions in radians
 };
 
 config::Section indi_section(IndiConfig& config);  // of [mount]

@@ -19,24 +19,24 @@ constexpr double kStops_s = 1.0;                   // for a stop at the end
 constexpr double kLeastRate_rad_s = radians(0.1);  // a slower telescope cannot follow anything
 
 // In radians. A telescope that takes rates is steered by them, any other by ordered positions.
-onvif::PtzOptions options_of(const Heard& heard, const mount::Limits& limits) {
-  onvif::PtzOptions options;
+mount::Moves moves_of(const Heard& heard, const mount::Limits& limits) {
+  mount::Moves moves;
   const double fastest = heard.fastest_rad_s.value_or(0.0);
   if (heard.can_stop_tracking && fastest >= kLeastRate_rad_s) {
-    options.continuous = onvif::Space{"", {-fastest, fastest}, {-fastest, fastest}};
+    moves.continuous = mount::Space{{-fastest, fastest}, {-fastest, fastest}};
   } else {
-    options.absolute = onvif::Space{
-        "", {limits.pan_min_rad, limits.pan_max_rad}, {limits.tilt_min_rad, limits.tilt_max_rad}};
+    moves.absolute = mount::Space{{limits.pan_min_rad, limits.pan_max_rad},
+                                  {limits.tilt_min_rad, limits.tilt_max_rad}};
   }
-  return options;
+  return moves;
 }
 
-std::string words_of(const std::string& device, const onvif::PtzOptions& options) {
-  if (!options.continuous)
+std::string words_of(const std::string& device, const mount::Moves& moves) {
+  if (!moves.continuous)
     return "INDI " + device + ": takes no track rates, and can only be sent to a place";
   std::array<char, 80> text{};
   std::snprintf(text.data(), text.size(), ": follows at up to %.2f deg/s",
-                degrees(options.continuous->x.max));
+                degrees(moves.continuous->x.max));
   return "INDI " + device + text.data();
 }
 
@@ -104,12 +104,12 @@ void IndiSession::run(mount::SharedDrive& shared, device::DeviceThread& thread,
   } stops{link};
   heard_ = connect(link, shared, stop);
   if (stop.stop_requested()) return;
-  const onvif::PtzOptions options = options_of(heard_, config_.drive.limits);
+  const mount::Moves moves = moves_of(heard_, config_.drive.limits);
   goes_s_.reset();
   {
     const std::lock_guard lock(shared.mutex);
-    shared.drive.connected(options);
-    shared.words = words_of(config_.device, options);
+    shared.drive.connected(moves);
+    shared.words = words_of(config_.device, moves);
   }
   thread.opened();
   serve(link, shared, thread, stop);
@@ -129,7 +129,7 @@ void IndiSession::serve(IndiLink& link, mount::SharedDrive& shared, device::Devi
     if (!now.is_connected) throw IndiError("the driver has lost the telescope: " + now.message);
     if (now_s - std::max(began_s, now.position_s) > kPatience_s)
       throw IndiError("the telescope reports no positions");
-    onvif::Order order;
+    mount::Order order;
     {
       const std::lock_guard lock(shared.mutex);
       if (now.position_s > taken_s_) thread.works();
@@ -141,7 +141,7 @@ void IndiSession::serve(IndiLink& link, mount::SharedDrive& shared, device::Devi
       link.stop();  // it would follow the stars from there
       goes_s_.reset();
     }
-    if (order.act != onvif::Act::kWait && order.act != onvif::Act::kStatus) {
+    if (order.act != mount::Act::kWait && order.act != mount::Act::kStatus) {
       carry_out(link, order, now_s);
       const std::lock_guard lock(shared.mutex);
       ++shared.orders;
@@ -163,11 +163,11 @@ void IndiSession::judge(const Heard& now, mount::SharedDrive& shared) {
   const std::uint64_t motions = now.motions_refused - heard_.motions_refused;
   const std::uint64_t stops = now.stops_refused - heard_.stops_refused;
   const std::uint64_t positions = now.positions_refused - heard_.positions_refused;
-  if (motions > 0) shared.drive.failed({onvif::Act::kVelocity, {}}, now_s);
-  if (stops > 0) shared.drive.failed({onvif::Act::kStop, {}}, now_s);
+  if (motions > 0) shared.drive.failed({mount::Act::kVelocity, {}}, now_s);
+  if (stops > 0) shared.drive.failed({mount::Act::kStop, {}}, now_s);
   if (positions > 0 && goes_s_) {
     goes_s_.reset();
-    shared.drive.failed({onvif::Act::kAbsolute, {}}, now_s);
+    shared.drive.failed({mount::Act::kAbsolute, {}}, now_s);
   }
   shared.errors += motions + stops + positions;
   if (motions + stops + positions > 0) shared.last_error = "INDI: " + now.message;
@@ -196,17 +196,17 @@ void IndiSession::take_position(const IndiLink& link, mount::SharedDrive& shared
   if (seen_s <= taken_s_) return;
   taken_s_ = seen_s;
   const PanTilt angles = angles_at(taken_s_ - config_.drive.positions.delay_s);
-  shared.drive.take({angles.pan_rad, angles.tilt_rad, {}, {}}, taken_s_, taken_s_);
+  shared.drive.take({angles.pan_rad, angles.tilt_rad}, taken_s_, taken_s_);
 }
 
-void IndiSession::carry_out(IndiLink& link, const onvif::Order& order, double now_s) {
+void IndiSession::carry_out(IndiLink& link, const mount::Order& order, double now_s) {
   const PanTilt vector{order.vector.x, order.vector.y};
   const bool stands = vector.pan_rad == 0.0 && vector.tilt_rad == 0.0;
   goes_s_.reset();
-  if (order.act == onvif::Act::kAbsolute) {
+  if (order.act == mount::Act::kAbsolute) {
     link.go_to(equatorial_of(config_.axes, vector, *heard_.observer, utc_s(now_s)));
     goes_s_ = now_s;
-  } else if (order.act == onvif::Act::kStop || stands) {
+  } else if (order.act == mount::Act::kStop || stands) {
     link.stop();
   } else {
     link.track(within(track_rate_of(config_.axes, angles_at(now_s), vector, *heard_.observer),

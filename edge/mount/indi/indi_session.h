@@ -28,7 +28,7 @@ class IndiSession : public mount::MountSession {
              const std::stop_token& stop);
   void judge(const Heard& now, mount::SharedDrive& shared);
   void take_position(const IndiLink& link, mount::SharedDrive& shared, double now_s);
-  void carry_out(IndiLink& link, const onvif::Order& order, double now_s);
+  void carry_out(IndiLink& link, const mount::Order& order, double now_s);
   PanTilt angles_at(double monotonic_s) const;
 
   const IndiConfig config_;

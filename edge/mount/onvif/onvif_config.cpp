@@ -4,7 +4,7 @@
 #include <iterator>
 
 #include "edge/config/config_units.h"
-#include "edge/mount/onvif/drive_config.h"
+#include "edge/mount/driven/drive_config.h"
 #include "edge/mount/onvif/service_address.h"
 
 namespace ols::onvif {
@@ -13,7 +13,7 @@ namespace {
 using config::number;
 using station::in_degrees;
 
-std::vector<config::Row> axis_rows(AxisScale& scale, const std::string& axis) {
+std::vector<config::Row> axis_rows(mount::AxisScale& scale, const std::string& axis) {
   return {
       number(axis + "_gain_deg", scale.per_unit_rad, {-720.0, 720.0}, in_degrees(),
              "Degrees of " + axis +
@@ -39,8 +39,8 @@ void check(ConfigTable& table, const OnvifConfig& c) {
   if (c.user.empty() != c.password_file.empty())
     throw table.error(c.user.empty() ? "password_file" : "user",
                       "user and password_file need each other");
-  const DriveConfig& d = c.drive;
-  check_travel(table, d.limits);
+  const mount::DriveConfig& d = c.drive;
+  mount::check_travel(table, d.limits);
   for (const auto& [key, value] : {std::pair{"pan_gain_deg", d.pan.per_unit_rad},
                                    {"tilt_gain_deg", d.tilt.per_unit_rad},
                                    {"pan_speed_deg_s", d.pan.speed_per_unit_rad},
@@ -68,7 +68,7 @@ config::Section onvif_section(OnvifConfig& c) {
                    "Of an https camera with a certificate of its own: sha256// and the hash of its "
                    "public key; empty: an authority of the system must vouch for it.")};
   for (auto more : {axis_rows(c.drive.pan, "pan"), axis_rows(c.drive.tilt, "tilt"),
-                    drive_rows(c.drive), request_rows(c)})
+                    mount::drive_rows(c.drive), request_rows(c)})
     std::ranges::move(more, std::back_inserter(rows));
   return {"mount", "", rows, {}, [&c](ConfigTable& table) { check(table, c); }};
 }

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "base/config/config_section.h"
-#include "edge/mount/onvif/drive.h"
+#include "edge/mount/driven/drive.h"
 
 namespace ols::onvif {
 
@@ -15,7 +15,7 @@ struct OnvifConfig {
   std::string profile;        // token of the profile; empty: the first one with PTZ
   std::string pinned_key;     // as in HttpLink::Config, for https
   double timeout_s = 2.0;     // for a request
-  DriveConfig drive;
+  mount::DriveConfig drive;
 };
 
 config::Section onvif_section(OnvifConfig& config);  // the section [mount]

@@ -12,10 +12,12 @@
 namespace ols::onvif {
 namespace {
 
+using mount::Act;
+
 constexpr double kTurn_s = 0.005;     // until it is looked again whether something is to be asked
 constexpr double kPatience_s = 10.0;  // without a position: connected anew
 
-Request request_of(const Order& order, const Learnt& learnt, double lease_s) {
+Request request_of(const mount::Order& order, const Learnt& learnt, double lease_s) {
   const std::string& profile = learnt.profile.token;
   if (const auto& timeout = learnt.options.timeout)
     lease_s = std::clamp(lease_s, timeout->min, timeout->max);
@@ -104,7 +106,7 @@ void OnvifSession::serve(OnvifLink& open, mount::SharedDrive& shared, device::De
   while (!stop.stop_requested()) {
     std::unique_lock lock(shared.mutex);
     const double now_s = clock_monotonic_s();
-    const Order order = shared.drive.next(now_s);
+    const mount::Order order = shared.drive.next(now_s);
     const bool silent = now_s - shared.drive.last_position_s().value_or(began_s) > kPatience_s;
     const std::string why = shared.last_error;
     lock.unlock();
@@ -119,7 +121,7 @@ void OnvifSession::serve(OnvifLink& open, mount::SharedDrive& shared, device::De
   open.ask_ptz(onvif::stop(learnt.profile.token));
 }
 
-void OnvifSession::carry_out(OnvifLink& open, const Learnt& learnt, const Order& order,
+void OnvifSession::carry_out(OnvifLink& open, const Learnt& learnt, const mount::Order& order,
                              mount::SharedDrive& shared, device::DeviceThread& thread) {
   const Request request = request_of(order, learnt, config_.drive.lease_s);
   OnvifLink::Exchange exchange;

@@ -21,7 +21,7 @@ class OnvifSession : public mount::MountSession {
  private:
   void serve(OnvifLink& open, mount::SharedDrive& shared, device::DeviceThread& thread,
              const std::stop_token& stop);
-  void carry_out(OnvifLink& open, const Learnt& learnt, const Order& order,
+  void carry_out(OnvifLink& open, const Learnt& learnt, const mount::Order& order,
                  mount::SharedDrive& shared, device::DeviceThread& thread);
   void publish(OnvifLink* open);
 

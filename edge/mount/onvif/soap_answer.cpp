@@ -65,8 +65,7 @@ class Answer {
   }
 
   Space space(const Node& node) const {
-    return {text_of(required(node, "URI")), span(required(node, "XRange")),
-            span(required(node, "YRange"))};
+    return {span(required(node, "XRange")), span(required(node, "YRange"))};
   }
 
   std::string token(const Node& node) const {
@@ -203,9 +202,9 @@ PtzOptions options(const std::string& text) {
   const Answer answer(text, "GetConfigurationOptions");
   const Node options = answer.required(answer.response(), "PTZConfigurationOptions");
   const Node spaces = answer.required(options, "Spaces");
-  PtzOptions result{first_space(answer, spaces, "AbsolutePanTiltPositionSpace"),
+  PtzOptions result{{first_space(answer, spaces, "AbsolutePanTiltPositionSpace"),
+                     first_space(answer, spaces, "ContinuousPanTiltVelocitySpace")},
                     first_space(answer, spaces, "RelativePanTiltTranslationSpace"),
-                    first_space(answer, spaces, "ContinuousPanTiltVelocitySpace"),
                     {},
                     timeouts(options)};
   if (const Node zoom = child(spaces, "AbsoluteZoomPositionSpace"))
@@ -218,7 +217,7 @@ PtzStatus status(const std::string& text) {
   const Node status = answer.required(answer.response(), "PTZStatus");
   const Node position = answer.required(status, "Position");
   const Node pan_tilt = answer.required(position, "PanTilt");
-  PtzStatus result{answer.attribute(pan_tilt, "x"), answer.attribute(pan_tilt, "y"), {}, {}};
+  PtzStatus result{{answer.attribute(pan_tilt, "x"), answer.attribute(pan_tilt, "y")}, {}, {}};
   if (const Node zoom = child(position, "Zoom")) {
     result.zoom = answer.attribute(zoom, "x");
     if (*result.zoom < 0.0) throw answer.wrong("Zoom is negative");

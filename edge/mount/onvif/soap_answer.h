@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "edge/mount/driven/drive.h"
+
 namespace ols::onvif {
 
 // For example "GetStatus: no Position".
@@ -23,19 +25,12 @@ struct SoapFault : AnswerError {
   bool not_authorized;
 };
 
-struct Span {
-  double min = 0.0, max = 0.0;
-};
+using mount::Space;
+using mount::Span;
 
-struct Space {
-  std::string uri;
-  Span x, y;
-};
-
-// The moves that a camera offers. Each is in the first space of its kind, which the camera uses by
-// default.
-struct PtzOptions {
-  std::optional<Space> absolute, relative, continuous;
+// Each move is in the first space of its kind, which the camera uses by default.
+struct PtzOptions : mount::Moves {
+  std::optional<Space> relative;
   std::optional<Span> zoom;     // of absolute moves
   std::optional<Span> timeout;  // [s] of continuous moves
 };
@@ -52,8 +47,7 @@ struct Services {
   std::string media, ptz;  // addresses; empty if there is no such service
 };
 
-struct PtzStatus {
-  double x = 0.0, y = 0.0;
+struct PtzStatus : mount::Vector {
   std::optional<double> zoom;  // 0..1
   std::optional<bool> moving;  // whether pan or tilt moves
 };

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <string>
 
+#include "edge/mount/driven/drive.h"
+
 namespace ols::onvif {
 
 struct Request {
@@ -19,10 +21,7 @@ struct Credentials {
   std::string user, password;
 };
 
-// A position or velocity in the camera's own numbers.
-struct Vector {
-  double x = 0.0, y = 0.0;
-};
+using mount::Vector;
 
 Request get_system_date_and_time();
 Request get_device_information();

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "edge/config/config_units.h"
-#include "edge/mount/onvif/drive_config.h"
+#include "edge/mount/driven/drive_config.h"
 
 namespace ols::serial_mount {
 
@@ -18,7 +18,7 @@ SerialConfig::SerialConfig() {
 
 namespace {
 
-std::vector<config::Row> axis_rows(onvif::AxisScale& scale, const std::string& axis,
+std::vector<config::Row> axis_rows(mount::AxisScale& scale, const std::string& axis,
                                    Language language) {
   auto gain = number(axis + "_gain_deg", scale.per_unit_rad, {-10.0, 10.0}, in_degrees(),
                      language == Language::kPelcoD
@@ -45,8 +45,8 @@ std::vector<config::Row> line_rows(SerialConfig& c, Language language) {
 }
 
 void check(ConfigTable& table, const SerialConfig& c) {
-  const onvif::DriveConfig& d = c.drive;
-  onvif::check_travel(table, d.limits);
+  const mount::DriveConfig& d = c.drive;
+  mount::check_travel(table, d.limits);
   for (const auto& [key, value] :
        {std::pair{"pan_gain_deg", d.pan.per_unit_rad}, {"tilt_gain_deg", d.tilt.per_unit_rad}})
     if (value == 0.0) throw table.error(key, "must not be 0");
@@ -57,7 +57,7 @@ void check(ConfigTable& table, const SerialConfig& c) {
 config::Section serial_section(SerialConfig& c, Language language) {
   std::vector<config::Row> rows = line_rows(c, language);
   for (auto more : {axis_rows(c.drive.pan, "pan", language),
-                    axis_rows(c.drive.tilt, "tilt", language), onvif::drive_rows(c.drive)})
+                    axis_rows(c.drive.tilt, "tilt", language), mount::drive_rows(c.drive)})
     for (auto& row : more) rows.push_back(std::move(row));
   return {"mount", "", rows, {}, [&c](ConfigTable& table) { check(table, c); }};
 }

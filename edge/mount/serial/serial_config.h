@@ -4,7 +4,7 @@
 #include <string>
 
 #include "base/config/config_section.h"
-#include "edge/mount/onvif/drive.h"
+#include "edge/mount/driven/drive.h"
 
 namespace ols::serial_mount {
 
@@ -15,7 +15,7 @@ struct SerialConfig {
   int baud = 9600;
   int address = 1;         // Pelco-D
   double timeout_s = 0.3;  // of an answer
-  onvif::DriveConfig drive;
+  mount::DriveConfig drive;
 };
 
 enum class Language { kPelcoD, kVisca };

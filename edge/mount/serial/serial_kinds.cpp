@@ -1,7 +1,5 @@
 #include "edge/mount/serial/serial_kinds.h"
 
-#include <algorithm>
-
 #include "edge/mount/serial/pelco_d.h"
 #include "edge/mount/serial/serial_session.h"
 #include "edge/mount/serial/visca_head.h"
@@ -10,14 +8,7 @@ namespace ols::serial_mount {
 
 template <Language kLanguage>
 mount::Traits SerialKind<kLanguage>::traits() const {
-  const double poll_s = serial.drive.poll_s;
-  mount::Traits traits;
-  traits.may_home = false;
-  traits.limits = serial.drive.limits;
-  traits.angles.step_rad = mount::kVirtualCount_rad;
-  traits.angles.max_gap_s = std::max(1.0, 5.0 * poll_s);
-  traits.angles.max_extrapolation_s = std::max(0.4, 2.0 * poll_s + serial.drive.positions.delay_s);
-  return traits;
+  return mount::driven_traits(serial.drive);
 }
 
 template <Language kLanguage>

@@ -15,18 +15,18 @@ constexpr double kRead_s = 0.01;
 constexpr double kPatience_s = 3.0;  // without an answer: opened anew
 
 // As the head counts: a position may be on the other side of a full turn.
-onvif::Space places(const onvif::DriveConfig& drive) {
-  const auto span = [](const onvif::AxisScale& scale, double min_rad, double max_rad) {
+mount::Space places(const mount::DriveConfig& drive) {
+  const auto span = [](const mount::AxisScale& scale, double min_rad, double max_rad) {
     const auto [low, high] = std::minmax({(min_rad - scale.zero_rad) / scale.per_unit_rad,
                                           (max_rad - scale.zero_rad) / scale.per_unit_rad});
-    return onvif::Span{low, high};
+    return mount::Span{low, high};
   };
   const mount::Limits& l = drive.limits;
-  return {"", span(drive.pan, l.pan_min_rad, l.pan_max_rad),
+  return {span(drive.pan, l.pan_min_rad, l.pan_max_rad),
           span(drive.tilt, l.tilt_min_rad, l.tilt_max_rad)};
 }
 
-double within_travel(const onvif::AxisScale& scale, double position, double min_rad,
+double within_travel(const mount::AxisScale& scale, double position, double min_rad,
                      double max_rad) {
   const double middle_rad = 0.5 * (min_rad + max_rad);
   const double angle_rad = scale.zero_rad + scale.per_unit_rad * position;
@@ -36,13 +36,11 @@ double within_travel(const onvif::AxisScale& scale, double position, double min_
 
 }  // namespace
 
-onvif::PtzStatus SerialSession::status() const {
-  const onvif::DriveConfig& d = config_.drive;
+mount::Vector SerialSession::place() const {
+  const mount::DriveConfig& d = config_.drive;
   const LineProtocol::Position& at = protocol_->position();
   return {within_travel(d.pan, *at.pan, d.limits.pan_min_rad, d.limits.pan_max_rad),
-          within_travel(d.tilt, *at.tilt, d.limits.tilt_min_rad, d.limits.tilt_max_rad),
-          {},
-          {}};
+          within_travel(d.tilt, *at.tilt, d.limits.tilt_min_rad, d.limits.tilt_max_rad)};
 }
 
 // Whether every question was answered in time.
@@ -64,11 +62,11 @@ bool SerialSession::ask(serial::SerialPort& port) {
   return true;
 }
 
-void SerialSession::carry_out(serial::SerialPort& port, const onvif::Order& order) {
-  if (order.act == onvif::Act::kStop) port.write(protocol_->stop());
-  if (order.act == onvif::Act::kVelocity)
+void SerialSession::carry_out(serial::SerialPort& port, const mount::Order& order) {
+  if (order.act == mount::Act::kStop) port.write(protocol_->stop());
+  if (order.act == mount::Act::kVelocity)
     port.write(protocol_->velocity(order.vector.x, order.vector.y));
-  if (order.act == onvif::Act::kAbsolute)
+  if (order.act == mount::Act::kAbsolute)
     port.write(protocol_->place(order.vector.x, order.vector.y));
 }
 
@@ -77,23 +75,23 @@ void SerialSession::run(mount::SharedDrive& shared, device::DeviceThread& thread
   serial::SerialPort port(config_.device, config_.baud);
   port.write(protocol_->stop());
   {
-    onvif::PtzOptions options;
-    options.continuous = onvif::Space{"", {-1.0, 1.0}, {-1.0, 1.0}};
-    options.absolute = places(config_.drive);
+    mount::Moves moves;
+    moves.continuous = mount::Space{{-1.0, 1.0}, {-1.0, 1.0}};
+    moves.absolute = places(config_.drive);
     const std::lock_guard lock(shared.mutex);
-    shared.drive.connected(options);
+    shared.drive.connected(moves);
     shared.words = "head on " + config_.device;
   }
   double answered_s = clock_monotonic_s();
   bool works = false;
   while (!stop.stop_requested()) {
-    onvif::Order order;
+    mount::Order order;
     {
       const std::lock_guard lock(shared.mutex);
       order = shared.drive.next(clock_monotonic_s());
     }
     const double sent_s = clock_monotonic_s();
-    const bool asked = order.act == onvif::Act::kStatus;
+    const bool asked = order.act == mount::Act::kStatus;
     const bool answered = asked && ask(port);
     if (!asked) carry_out(port, order);
     const double now_s = clock_monotonic_s();
@@ -101,15 +99,15 @@ void SerialSession::run(mount::SharedDrive& shared, device::DeviceThread& thread
     if (asked && !answered) ++unanswered_;
     {
       const std::lock_guard lock(shared.mutex);
-      if (order.act != onvif::Act::kWait) ++shared.orders;
+      if (order.act != mount::Act::kWait) ++shared.orders;
       shared.errors = protocol_->garbled() + unanswered_;
-      if (answered) shared.drive.take(status(), sent_s, now_s);
-      if (!asked && order.act != onvif::Act::kWait) shared.drive.done(order, now_s);
+      if (answered) shared.drive.take(place(), sent_s, now_s);
+      if (!asked && order.act != mount::Act::kWait) shared.drive.done(order, now_s);
     }
     if (answered && !std::exchange(works, true)) thread.opened();
     if (answered) thread.works();
     if (now_s - answered_s > kPatience_s) throw std::runtime_error("the head does not answer");
-    if (order.act == onvif::Act::kWait) shared.pause(kTurn_s, stop);
+    if (order.act == mount::Act::kWait) shared.pause(kTurn_s, stop);
   }
   port.write(protocol_->stop());
   port.drain(config_.timeout_s);

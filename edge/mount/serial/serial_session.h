@@ -22,8 +22,8 @@ class SerialSession : public mount::MountSession {
 
  private:
   bool ask(serial::SerialPort& port);
-  void carry_out(serial::SerialPort& port, const onvif::Order& order);
-  onvif::PtzStatus status() const;
+  void carry_out(serial::SerialPort& port, const mount::Order& order);
+  mount::Vector place() const;
 
   const SerialConfig config_;
   const std::unique_ptr<LineProtocol> protocol_;

@@ -15,7 +15,7 @@ using testing::Not;
 const std::string kUrl = "http://10.0.0.5/onvif/device_service";
 
 onvif::Offer::Stream stream(double greatest) {
-  const onvif::Space space{"", {-greatest, greatest}, {-greatest, greatest}};
+  const mount::Space space{{-greatest, greatest}, {-greatest, greatest}};
   onvif::PtzOptions can;
   can.absolute = can.continuous = space;
   return {{"main", "c", "H264", 1280, 720, 25.0}, "rtsp://10.0.0.5/video", can};

@@ -6,6 +6,8 @@
 #include <limits>
 #include <random>
 
+#include "geometry/angles.h"
+
 namespace ols::mount {
 namespace {
 
@@ -93,6 +95,32 @@ TEST(AngleHistory, CovarianceIsHonest) {
       nees += error.dot(at->covariance.inverse() * error) / 2.0;
     }
     EXPECT_NEAR(nees / runs, 1.0, 0.08) << when;
+  }
+}
+
+// 5 deg/s, a sample every tenth of a second that is wrong by up to 0.1 deg.
+TEST(AngleHistory, BeyondTheNewestSampleTheOrderedRateSaysHowMuchMayHaveBegun) {
+  struct Case {
+    std::optional<PanTilt> ordered_change;
+    double shared_time_sd_s, sd_deg;  // 0.2 s after the newest sample
+  };
+  const double noise_deg = 0.05 * std::sqrt(3.0 * 3.0 + 2.0 * 2.0);
+  const double unknown_deg = degrees(0.5 * 1.0 * 0.5 * 0.2 * 0.2);
+  for (const Case& c :
+       {Case{PanTilt{}, 0.0, noise_deg}, Case{PanTilt{}, 0.1, std::hypot(noise_deg, 0.5)},
+        Case{PanTilt{0.1, 0.0}, 0.0, std::hypot(noise_deg, degrees(0.02 / std::sqrt(12.0)))},
+        Case{std::nullopt, 0.0, std::hypot(noise_deg, unknown_deg)}}) {
+    AngleHistory history({.max_extrapolation_s = 0.3, .acceleration_sd_rad_s2 = 1e-6});
+    for (int i = 0; i < 20; ++i) {
+      const double time_s = 0.1 * i;
+      history.add({.time_s = time_s,
+                   .angles = {radians(5.0 * time_s), 0.0},
+                   .doubt = {radians(0.05), 0.0},
+                   .ordered_change = c.ordered_change,
+                   .shared_time_sd_s = c.shared_time_sd_s});
+    }
+    const double variance_rad2 = history.at(2.1).value().covariance(0, 0);
+    EXPECT_NEAR(degrees(std::sqrt(variance_rad2)), c.sd_deg, 1e-3);
   }
 }
 

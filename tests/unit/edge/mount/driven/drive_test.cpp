@@ -1,4 +1,4 @@
-#include "edge/mount/onvif/drive.h"
+#include "edge/mount/driven/drive.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "geometry/angles.h"
 
-namespace ols::onvif {
+namespace ols::mount {
 namespace {
 
 constexpr double kTrip_s = 0.03, kForever_s = 1e9;
@@ -53,14 +53,14 @@ struct OnvifDrive : ::testing::Test {
     config.pan = {0.0, radians(180.0), radians(50.0)};
     config.tilt = {0.0, radians(90.0), radians(50.0)};
     config.limits = {radians(-170.0), radians(170.0), radians(-80.0), radians(80.0), {}, {}};
-    options.continuous = Space{"", {-1.0, 1.0}, {-1.0, 1.0}};
+    moves.continuous = Space{{-1.0, 1.0}, {-1.0, 1.0}};
   }
   void start() {
     drive.emplace(config);
-    drive->connected(options);
+    drive->connected(moves);
   }
   // `goal_at`: the goal at an instant; nothing: none.
-  void run(double seconds, const std::function<std::optional<mount::Goal>(double)>& goal_at = {}) {
+  void run(double seconds, const std::function<std::optional<Goal>(double)>& goal_at = {}) {
     const double end_s = now_s + seconds;
     while (now_s < end_s) {
       drive->set_goal(goal_at ? goal_at(now_s) : std::nullopt);
@@ -69,16 +69,16 @@ struct OnvifDrive : ::testing::Test {
       const double sent_s = now_s;
       track.push_back({now_s, camera.x});
       while (track.size() > 1 && track[1].first <= now_s - late_s) track.pop_front();
-      const PtzStatus status{track.front().second, camera.y, {}, {}};
+      const Vector position{track.front().second, camera.y};
       if (order.act != Act::kStatus) camera.obey(order, now_s);
       camera.run(trip_s, now_s);
       now_s += trip_s;
-      if (order.act == Act::kStatus) drive->take(status, sent_s, now_s);
+      if (order.act == Act::kStatus) drive->take(position, sent_s, now_s);
       if (order.act != Act::kStatus && order.act != Act::kWait) drive->done(order, now_s);
-      for (const mount::AngleSample& sample : drive->take_samples()) newest = sample;
+      for (const AngleSample& sample : drive->take_samples()) newest = sample;
     }
   }
-  mount::Goal rest(double pan_deg, double tilt_deg) const {
+  Goal rest(double pan_deg, double tilt_deg) const {
     return {now_s, {radians(pan_deg), radians(tilt_deg)}, {}, now_s + 0.5, false, true};
   }
   std::string alarms() const {
@@ -89,10 +89,10 @@ struct OnvifDrive : ::testing::Test {
   double pan_deg() const { return 180.0 * camera.x; }
 
   DriveConfig config;
-  PtzOptions options;
+  Moves moves;
   std::optional<Drive> drive;
   Camera camera;
-  mount::AngleSample newest;
+  AngleSample newest;
   double now_s = 100.0;
   double late_s = 0.0;                          // the positions that it reports
   std::deque<std::pair<double, double>> track;  // time, x
@@ -111,7 +111,7 @@ TEST_F(OnvifDrive, StopsFirstAndOrdersNoMotionWithoutAGoal) {
 
 TEST_F(OnvifDrive, ReachesAGoalAtRestAndStands) {
   for (const bool absolute : {false, true}) {
-    if (absolute) options.absolute = Space{"", {-1.0, 1.0}, {-1.0, 1.0}};
+    if (absolute) moves.absolute = Space{{-1.0, 1.0}, {-1.0, 1.0}};
     start();
     run(12.0, [&](double) { return rest(absolute ? 40.0 : -30.0, 20.0); });
     EXPECT_NEAR(pan_deg(), absolute ? 40.0 : -30.0, absolute ? 0.01 : 0.15);
@@ -124,7 +124,7 @@ TEST_F(OnvifDrive, ReachesAGoalAtRestAndStands) {
 TEST_F(OnvifDrive, FollowsFiveDegreesASecond) {
   start();
   const auto goal = [&](double t) {
-    return mount::Goal{t, {radians(5.0 * (t - 100.0)), 0.0}, {radians(5.0), 0.0}, t + 0.5};
+    return Goal{t, {radians(5.0 * (t - 100.0)), 0.0}, {radians(5.0), 0.0}, t + 0.5};
   };
   run(15.0, goal);
   EXPECT_NEAR(pan_deg(), 5.0 * (now_s - 100.0), 0.3);
@@ -182,7 +182,7 @@ TEST_F(OnvifDrive, ACameraThatRebootsIntoItsHomeIsNoticed) {
   run(5.0);
   drive->lost();
   camera.x = 0.0;
-  drive->connected(options);
+  drive->connected(moves);
   run(2.0);
   EXPECT_NE(alarms().find("moves without an order"), std::string::npos);
 }
@@ -231,7 +231,7 @@ TEST(OnvifPositions, AnOldPositionInMotionIsNotUsed) {
   for (int i = 0; i < 100; ++i) {  // asked ten times a second, renewed every 0.3 s
     const double t = 0.1 * i, renewed_s = 0.3 * std::floor((t + 1e-9) / 0.3);
     intake.add({rate * renewed_s, 0.0}, t - 0.01, t + 0.01, rate);
-    for (const mount::AngleSample& sample : intake.take())
+    for (const AngleSample& sample : intake.take())
       worst_s = std::max(worst_s, std::abs(sample.time_s - sample.angles.pan_rad / rate));
   }
   EXPECT_LT(worst_s, 0.11);
@@ -239,4 +239,4 @@ TEST(OnvifPositions, AnOldPositionInMotionIsNotUsed) {
 }
 
 }  // namespace
-}  // namespace ols::onvif
+}  // namespace ols::mount

@@ -102,7 +102,7 @@ struct Watched {
     return eventually(
         [&] {
           go(at);
-          return look() && degrees(onvif::distance(newest->angles, at)) < within_deg;
+          return look() && degrees(mount::distance(newest->angles, at)) < within_deg;
         },
         60.0);
   }
@@ -119,7 +119,7 @@ struct Watched {
       mount.set_goal(mount::Goal{now_s, goal_at(now_s - began_s), rate, now_s + 1.0});
       const double ran_s = look()->time_s - began_s;
       if (ran_s > 2.5)
-        worst_rad = std::max(worst_rad, onvif::distance(newest->angles, goal_at(ran_s)));
+        worst_rad = std::max(worst_rad, mount::distance(newest->angles, goal_at(ran_s)));
       EXPECT_LT(now_s - newest->time_s, 1.0) << "no old angles";
       return ran_s > runs_s;
     }));

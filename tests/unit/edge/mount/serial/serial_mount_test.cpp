@@ -231,7 +231,7 @@ TEST_P(SerialMount, GoesFollowsAndHalts) {
   ASSERT_TRUE(eventually([&] {
     const double now_s = clock_monotonic_s();
     mount->set_goal(mount::Goal{now_s, place, {}, now_s + 1.0, false, true});
-    return !head.turns() && onvif::distance(head.angles(), place) < radians(0.15);
+    return !head.turns() && mount::distance(head.angles(), place) < radians(0.15);
   })) << mount->report().text;
 
   const PanTilt rate{radians(6.0), radians(2.0)};
@@ -242,7 +242,7 @@ TEST_P(SerialMount, GoesFollowsAndHalts) {
     const PanTilt to{place.pan_rad + rate.pan_rad * ran_s, place.tilt_rad + rate.tilt_rad * ran_s};
     mount->set_goal(mount::Goal{now_s, to, rate, now_s + 1.0});
     const PanTilt at = head.angles();
-    if (ran_s > 2.5) worst_rad = std::max(worst_rad, onvif::distance(at, to));
+    if (ran_s > 2.5) worst_rad = std::max(worst_rad, mount::distance(at, to));
     return ran_s > 4.0;
   }));
   std::printf("follows 6 deg/s within %.2f deg\n", degrees(worst_rad));
