@@ -24,17 +24,18 @@ std::optional<tracker::TrackerError> ViewTracker::initialise(const tracker::Trac
   const ViewTruth* view = views_.at(frame.time_s);
   if (view == nullptr || !view->visible) return tracker::TrackerError::kBox;
   // A box begins at a pixel's edge, half a pixel before its centre.
-  offset_px_ = Eigen::Vector2d(box.x + 0.5 * box.width - 0.5, box.y + 0.5 * box.height - 0.5) -
-               view->centre_px;
+  const Eigen::Vector2d middle_px(box.x + 0.5 * box.width - 0.5, box.y + 0.5 * box.height - 0.5);
+  offset_m_ = (middle_px - view->centre_px) / view->px_per_m;
   return std::nullopt;
 }
 
 tracker::TrackerResult ViewTracker::track(const tracker::TrackerInput& frame) {
   const ViewTruth* view = views_.at(frame.time_s);
-  if (!offset_px_ || view == nullptr) return {std::nullopt, tracker::TrackerError::kNotInitialised};
+  if (!offset_m_ || view == nullptr) return {std::nullopt, tracker::TrackerError::kNotInitialised};
   const double noise_x = normal_(generator_), noise_y = normal_(generator_);
   tracker::TrackerOutput output;
-  output.pixel = view->centre_px + *offset_px_ + pixel_sd_px_ * Eigen::Vector2d(noise_x, noise_y);
+  output.pixel = view->centre_px + view->px_per_m * *offset_m_ +
+                 pixel_sd_px_ * Eigen::Vector2d(noise_x, noise_y);
   output.box = view->box;
   output.covariance_px2 = pixel_sd_px_ * pixel_sd_px_ * Eigen::Matrix2d::Identity();
   output.belief = view->visible ? 0.95 : 0.0;

@@ -28,20 +28,21 @@ class ViewTracker final : public tracker::TargetTracker {
   // `views` must outlive the tracker. pixel_sd_px: of each coordinate, new with every frame.
   ViewTracker(const ViewMemory& views, double pixel_sd_px, std::uint64_t seed);
 
-  // The box's offset from the target's centre remains, as with a template.
+  // What the box's middle shows is followed: a point of the target, at a constant distance in
+  // metres from its centre, across the line of sight.
   std::optional<tracker::TrackerError> initialise(const tracker::TrackerInput& frame,
                                                   const cv::Rect2d& box) override;
   tracker::TrackerResult track(const tracker::TrackerInput& frame) override;
   void search_near(const Eigen::Vector2d&, double) override {}
-  void set_aside() override { aside_px_ = offset_px_; }
-  void take_back() override { offset_px_ = aside_px_; }
+  void set_aside() override { aside_m_ = offset_m_; }
+  void take_back() override { offset_m_ = aside_m_; }
 
  private:
   const ViewMemory& views_;
   double pixel_sd_px_;
   std::mt19937_64 generator_;
   std::normal_distribution<double> normal_;
-  std::optional<Eigen::Vector2d> offset_px_, aside_px_;
+  std::optional<Eigen::Vector2d> offset_m_, aside_m_;
 };
 
 }  // namespace ols::sim

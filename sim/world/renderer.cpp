@@ -111,7 +111,8 @@ ViewTruth view_truth(const World& world, std::size_t station, const ExposureTrut
   const bool hidden = world.hides(station, world.target(target, exposure.mid_s).p_ecef);
   const bool inside = !hidden && c.x() >= -0.5 && c.y() >= -0.5 && c.x() < camera.width_px - 0.5 &&
                       c.y() < camera.height_px - 0.5;
-  return {inside, c, flyer_box(*view)};
+  // Of the three directions in space, the one along the line of sight does not count.
+  return {inside, c, flyer_box(*view), view->px_per_m.norm() / std::sqrt(2.0)};
 }
 
 std::vector<std::unique_ptr<Renderer>> make_renderers(const World& world) {

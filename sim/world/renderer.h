@@ -31,6 +31,7 @@ struct ViewTruth {
   bool visible = false;  // the target's centre is inside the image, and the land does not hide it
   Eigen::Vector2d centre_px = Eigen::Vector2d::Zero();
   cv::Rect2d box;
+  double px_per_m = 0.0;  // scale of the image at the target's centre, across the line of sight
 };
 
 // The camera of a station during an exposure.

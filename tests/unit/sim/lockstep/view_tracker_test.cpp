@@ -7,11 +7,12 @@ namespace {
 
 using Eigen::Vector2d;
 
-ViewTruth target_at(double x_px, bool visible = true) {
+ViewTruth target_at(double x_px, bool visible = true, double px_per_m = 20.0) {
   ViewTruth view;
   view.visible = visible;
   view.centre_px = {x_px, 50.0};
   view.box = {x_px - 10.0, 40.0, 20.0, 20.0};
+  view.px_per_m = px_per_m;
   return view;
 }
 
@@ -41,13 +42,15 @@ class ViewTrackerTest : public testing::Test {
   ViewMemory views_;
 };
 
-TEST_F(ViewTrackerTest, KeepsTheBoxsOffsetFromTheTarget) {
+TEST_F(ViewTrackerTest, FollowsThePointOfTheTargetAtTheBoxsMiddle) {
   ViewTracker tracker(views_, 0.0, 1);
   // Pixel centres are whole numbers: the middle of this box is the pixel 103.
   ASSERT_FALSE(tracker.initialise(at(1.0), {93.5, 40.5, 20.0, 20.0}));
   const auto result = tracker.track(at(2.0));
   ASSERT_TRUE(result.output);
   EXPECT_NEAR((result.output->pixel - Vector2d(203.0, 50.0)).norm(), 0.0, 1e-12);
+  views_.add(4.0, target_at(400.0, true, 40.0));  // at half the range
+  EXPECT_NEAR(tracker.track(at(4.0)).output->pixel.x(), 406.0, 1e-12);
 }
 
 TEST_F(ViewTrackerTest, DoesNotBelieveInATargetOutOfThePicture) {

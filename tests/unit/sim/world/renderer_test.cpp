@@ -64,6 +64,10 @@ TEST_F(RendererTest, TargetIsDrawnWhereTheTruthSaysInFrontOfTheSky) {
     const ViewTruth truth = renderer.draw(e, with);
     ASSERT_TRUE(truth.visible);
     EXPECT_LT((truth.centre_px - Eigen::Vector2d(250.3, 199.7)).norm(), 0.01);
+    const StationTruth& own = world.stations()[station];
+    const Eigen::Vector3d line =
+        world.target(0, 13.0).p_ecef - LocalFrame(own.truth.position).to_ecef({0.0, 0.0, 0.0});
+    EXPECT_NEAR(truth.px_per_m * line.norm() / own.truth.camera.fx_px, 1.0, 0.02);
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     const double sky = with.at<std::uint8_t>(150, 250);
     for (int y = 160; y < 240; ++y) {
