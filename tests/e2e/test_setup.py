@@ -150,7 +150,9 @@ def test_a_station_joins_by_one_command_on_each_side(network, tmp_path, centre, 
         listener.wait(lambda: says("trust: no trust list yet"), "that it waits for the list")
         fusion = [str(BIN / "ols-fusion"), "--config", str(folder / "etc/ols/fusion.toml")]
         site.start_and_wait("fusion", [*fusion, "--lcm-url", LIVE_URL], "ready", listed)
-        listener.wait(lambda: says("trust: the key of this program, alfa, is not in"), "that it has the list")
+        listener.wait(
+            lambda: says("trust: the key of this program, alfa, is not in"), "that it has the list"
+        )
         public = said.split("--public ")[1].split()[0]
         trust = folder / "etc/ols/trust.toml"
         run("ols-key", "enrol", "alfa", "--root", root, "--list", trust, "--public", public)
