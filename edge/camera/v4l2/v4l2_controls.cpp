@@ -32,15 +32,14 @@ void check_v4l2_controls(const std::string& configured, const std::vector<V4l2Co
     if (found == camera.end()) {
       std::string all;
       for (const V4l2Control& control : camera) all += (all.empty() ? "" : ", ") + control.name;
-      throw CameraUnfit(
-          alarm::camera_has_no("control " + name + " (controls in [camera]); it has " + all));
+      throw CameraUnfit(alarm::camera_has_no("control " + name + " (controls: " + all + ")"));
     }
     const std::string value = pair.substr(name.size() + 1);
     const long long number = std::strtoll(value.c_str(), nullptr, 10);
     if (number < found->least || number > found->greatest)
       throw CameraUnfit(alarm::camera_refuses_value(
-          name + " (controls in [camera])", value + ": it takes " + std::to_string(found->least) +
-                                                " to " + std::to_string(found->greatest)));
+          "controls: " + name, value + " (" + std::to_string(found->least) + "..." +
+                                   std::to_string(found->greatest) + ")"));
   }
 }
 
