@@ -1,12 +1,6 @@
-<<<<<<< HEAD
 // The common part of mounts that obey velocities or positions and report their positions late.
-// onvif::Drive chooses the next order. The session of each kind connects, sends orders and takes
+// Drive chooses the next order. The session of each kind connects, sends orders and takes
 // positions.
-=======
-// A mount that is ordered velocities or places and reports its positions late (Drive decides
-// what to order next): the part that is the same for every kind. A kind's session connects, sends
-// orders and takes positions.
->>>>>>> a4e0b9da (Mounts that are driven late: their own folder, and errors of angles as they are)
 #pragma once
 
 #include <condition_variable>
@@ -29,15 +23,9 @@ namespace ols::mount {
 struct SharedDrive {
   std::mutex mutex;
   std::condition_variable_any wake;  // notified in an emergency
-<<<<<<< HEAD
-  onvif::Drive drive;
+  Drive drive;
   bool usable = true;          // false: its angles must not be used, whatever it reports
   std::string words;           // the mount and its capabilities, in words
-=======
-  Drive drive;
-  bool usable = true;          // false: its angles are not, whatever it reports
-  std::string words;           // what it is and can do
->>>>>>> a4e0b9da (Mounts that are driven late: their own folder, and errors of angles as they are)
   std::string last_error;      // empty: none
   std::vector<Alarm> alarms;   // of this kind
   std::optional<Alarm> fault;  // why the session does not connect for now
