@@ -10,19 +10,18 @@ foreach(module ${modules})
   get_filename_component(type ${module} NAME_WE)
   string(REGEX REPLACE "_t$" "" stem ${type})
   file(GLOB frozen ${FOLDER}/${stem}_v*_t.py)
+  string(REPLACE "        if buf.read(8) != ${type}"
+                 "        fingerprint = buf.read(8)\n        if fingerprint != ${type}" code "${code}")
   foreach(former ${frozen})
     get_filename_component(former ${former} NAME_WE)
-    string(REPLACE "        if buf.read(8) != ${type}._get_packed_fingerprint():
-            raise"
+    string(REPLACE "        if fingerprint != ${type}"
                    "        from ols_msg.${former} import ${former}
-        fingerprint = buf.read(8)
         if fingerprint == ${former}._get_packed_fingerprint():
             former, grown = ${former}._decode_one(buf), ${type}()
             for name in former.__slots__:
                 setattr(grown, name, getattr(former, name))
             return grown
-        if fingerprint != ${type}._get_packed_fingerprint():
-            raise" code "${code}")
+        if fingerprint != ${type}" code "${code}")
   endforeach()
   file(WRITE ${module} "${code}")
 endforeach()
