@@ -38,16 +38,19 @@ std::string line_key(const CueRay& ray) { return ray.station + "/" + std::to_str
 
 }  // namespace
 
-const BearingMeasurement* tracker_of(const Track& track, const std::string& station,
-                                     std::int64_t now_us) {
-  const auto own = track.bearings.find(station);
-  if (own == track.bearings.end()) return nullptr;
-  const auto& bearings = own->second;
-  const auto newest = std::ranges::find(bearings.rbegin(), bearings.rend(), false,
+const BearingMeasurement* newest_of(const std::vector<BearingMeasurement>& bearings,
+                                    bool is_tracklet, std::int64_t now_us) {
+  const auto newest = std::ranges::find(bearings.rbegin(), bearings.rend(), is_tracklet,
                                         &BearingMeasurement::is_tracklet);
   const bool is_there =
       newest != bearings.rend() && seconds(now_us - newest->utime_us) < Activity::kFollowsS;
   return is_there ? &*newest : nullptr;
+}
+
+const BearingMeasurement* tracker_of(const Track& track, const std::string& station,
+                                     std::int64_t now_us) {
+  const auto own = track.bearings.find(station);
+  return own == track.bearings.end() ? nullptr : newest_of(own->second, false, now_us);
 }
 
 // The arc length of the spiral is the square of the angle over 4 pi; its turns are a unit apart.
@@ -117,7 +120,6 @@ void SlewPlanner::allocate(SlewRound& round, std::span<const SlewStation> statio
     one.is_busy = round.busy.contains(station.station);
     if (const auto search = searches_.find(station.station); search != searches_.end()) {
       one.led_to = search->second.target_id;
-      one.led_s = search->second.searched_s(round.now_us);
       one.searches = search->second.sweep.has_value();
     }
     one.may_search = !round.bearing_only_stations.contains(station.station);

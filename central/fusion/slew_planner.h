@@ -98,6 +98,10 @@ struct SlewRound {
   std::map<std::string, int> led_to{};        // number of stations led to each cue
 };
 
+// The newest of one station's bearings, of its detector or of its tracker; null if there is none
+// within the last second.
+const BearingMeasurement* newest_of(const std::vector<BearingMeasurement>& bearings,
+                                    bool is_tracklet, std::int64_t now_us);
 // The newest bearing of this target from the station's tracker; null if there is none within the
 // last second.
 const BearingMeasurement* tracker_of(const Track& track, const std::string& station,

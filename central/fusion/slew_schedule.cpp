@@ -99,6 +99,7 @@ void SlewSchedule::begin(std::int64_t now_us, const StationRegistry& stations,
   }
   round_.cues = cues.aims(now_us);
   std::ranges::move(handover.lost(now_us), std::back_inserter(round_.cues));
+  note_targets(tracks);
   cue(now_us, lines, all);
   note_search(since_s);
   if (round_.ray) {
@@ -129,11 +130,28 @@ const BearingMeasurement* SlewSchedule::line_of(const std::string& station,
   return best;
 }
 
-// What a led station's tracker has found, and no other station confirms: it stays there as long as
-// a line is searched.
+// What targets have is no object without a position. Should such a target be lost, the search for
+// it begins then; but not if it leads nobody.
+void SlewSchedule::note_targets(const std::vector<Track>& tracks) {
+  for (const Track& track : tracks) {
+    if (!is_established(track)) continue;
+    const bool leads = round_.priority.at(track.id) > 0.0;
+    for (const auto& [station, bearings] : track.bearings) {
+      for (const BearingMeasurement* own :
+           {newest_of(bearings, true, round_.now_us), newest_of(bearings, false, round_.now_us)}) {
+        if (own == nullptr || is_wanted(*own)) continue;
+        tracklets_[{station, own->track_id}] = {round_.now_us, round_.now_us,
+                                                leads ? 0.0 : kLongest_s, leads};
+      }
+    }
+  }
+}
+
+// What a led station's tracker has found, and no other station sees. It stays there as long as a
+// line is searched; for good if that was a target: it may be the last that sees it.
 void SlewSchedule::note_acquired(const BearingMeasurement& line) {
   const Tracklet& known = tracklets_.at({line.station, line.track_id});
-  if (seconds(round_.now_us - known.noted_us) < kLongest_s) {
+  if (known.was_target || seconds(round_.now_us - known.noted_us) < kLongest_s) {
     round_.bearing_only_stations.insert(line.station);
     round_.busy.insert(line.station);
   } else {

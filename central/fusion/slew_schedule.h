@@ -54,6 +54,7 @@ class SlewSchedule {
   struct Tracklet {
     std::int64_t noted_us = 0, seen_us = 0;
     double searched_s = 0.0;  // how long stations have been led along its line
+    bool was_target = false;  // of one that leads stations
   };
   const BearingMeasurement* line_of(const std::string& station,
                                     const std::vector<const BearingMeasurement*>& own);
@@ -70,6 +71,7 @@ class SlewSchedule {
   void cue(std::int64_t now_us, const BearingLines& lines,
            const std::vector<SlewStation>& stations);
   void note_search(double since_s);
+  void note_targets(const std::vector<Track>& tracks);
   void note_acquired(const BearingMeasurement& line);
   void expect_range(const std::vector<SlewStation>& stations);
   void share_out(const std::vector<SlewStation>& stations);
@@ -84,8 +86,9 @@ class SlewSchedule {
   // By station: the target that it sees, while it is lent to another one or to a line.
   std::map<std::string, std::int64_t> lent_;
   std::optional<std::pair<LineKey, SearchedLine>> line_;  // along which stations search
-  std::map<TrackletName, Tracklet> tracklets_;            // objects that no target has taken
-  std::optional<std::int64_t> begun_us_;                  // start of the last round
+  // Of objects with a position, and of those without.
+  std::map<TrackletName, Tracklet> tracklets_;
+  std::optional<std::int64_t> begun_us_;  // start of the last round
   std::optional<std::string> next_;  // the next station of the round; nullopt if the round is over
 };
 

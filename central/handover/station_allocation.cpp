@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <set>
 #include <tuple>
+#include <utility>
 
 #include "geometry/angles.h"
 #include "geometry/wgs84.h"
@@ -13,7 +15,6 @@
 namespace ols::fusion {
 namespace {
 
-constexpr double kStay_s = 3.0;
 constexpr double kKeep = 1.5;          // the score of the present target over its own
 constexpr double kReact_s = 0.5;       // of every hand-over, besides the turn
 constexpr double kGoodSine = 0.34;     // of two lines that cross at 20 degrees,
@@ -66,14 +67,12 @@ class Allocator {
   // Where it has to stay; else it is free, or may be lent by the target that it sees.
   void keep(std::size_t k) {
     const AllocatedStation& station = stations_[k];
-    const std::size_t seen = seen_by(k), led_to = index_of(station.led_to);
+    const std::size_t seen = seen_by(k);
     if (station.is_busy) return;
     const bool is_lendable = !station.keeps_tracker && (seen == kNone || station.by_detector ||
                                                         !targets_[seen].keeps_trackers);
-    const bool may_leave = station.is_led && is_lendable;
-    if (may_leave && led_to != kNone && station.led_s < kStay_s) return give(k, led_to);
     if (seen != kNone) give(k, seen);
-    if (may_leave) movable_.push_back(k);
+    if (station.is_led && is_lendable) movable_.push_back(k);
   }
 
   Eigen::Vector3d line(std::size_t station, std::size_t target) const {
@@ -101,13 +100,10 @@ class Allocator {
     return *known;
   }
 
-  // Whether two of the stations that have the target see it under a good angle. `with`, `without`:
-  // one more, one less; kNone: none.
-  bool is_served(std::size_t target, std::size_t with, std::size_t without) const {
-    std::vector<std::size_t> all = held_by_[target];
-    if (with != kNone) all.push_back(with);
-    std::erase(all, without);
-    for (std::size_t i = 0; i < std::min(all.size(), kCompared); ++i) {
+  // Whether two of these see it under a good angle.
+  bool cross_well(std::span<const std::size_t> stations, std::size_t target) const {
+    const auto all = stations.first(std::min(stations.size(), kCompared));
+    for (std::size_t i = 0; i < all.size(); ++i) {
       for (std::size_t j = 0; j < i; ++j) {
         if (sine(all[i], all[j], target) >= good_sine(target)) return true;
       }
@@ -115,9 +111,23 @@ class Allocator {
     return false;
   }
 
-  bool may_go(std::size_t station) const {
+  // Whether two of the stations that it has, or that are on their way to it, are enough. `with`:
+  // and this one; kNone: no other.
+  bool is_served(std::size_t target, std::size_t with = kNone) const {
+    std::vector<std::size_t> all = held_by_[target];
+    if (with != kNone) all.push_back(with);
+    return cross_well(all, target);
+  }
+
+  // Whether the target that the station sees can spare it: others that are there, not on their way,
+  // are enough, or what needs the station is worth more.
+  bool may_go(std::size_t station, double priority = 0.0) const {
     const std::size_t seen = seen_by(station);
-    return seen == kNone || is_served(seen, kNone, station);
+    if (seen == kNone || priority > kKeep * targets_[seen].priority) return true;
+    std::vector<std::size_t> others;
+    std::ranges::copy_if(held_by_[seen], std::back_inserter(others),
+                         [&](std::size_t k) { return k != station && seen_by(k) == seen; });
+    return cross_well(others, seen);
   }
 
   double time_to(std::size_t k, const Eigen::Vector3d& p_ecef) const {
@@ -140,7 +150,7 @@ class Allocator {
   std::vector<Pair> pairs() const {
     std::vector<std::size_t> needy;
     for (std::size_t i = 0; i < targets_.size(); ++i) {
-      if (!is_served(i, kNone, kNone)) needy.push_back(i);
+      if (!is_served(i)) needy.push_back(i);
     }
     std::ranges::stable_sort(needy, std::greater{},
                              [&](std::size_t i) { return targets_[i].priority; });
@@ -159,16 +169,21 @@ class Allocator {
     return all;
   }
 
+  // Who has to give a station up comes again, after those that are worth more.
   void serve_needs() {
     std::set<std::size_t> moved;
-    for (const Pair& pair : pairs()) {
-      const auto& holders = held_by_[pair.target];
-      const bool helps = holders.empty() || (!is_served(pair.target, kNone, kNone) &&
-                                             is_served(pair.target, pair.station, kNone));
-      if (!helps || !may_go(pair.station) || moved.contains(pair.station)) continue;
-      take(pair.station);
-      give(pair.station, pair.target);
-      moved.insert(pair.station);
+    bool has_moved = true;
+    while (std::exchange(has_moved, false)) {
+      for (const Pair& pair : pairs()) {
+        const auto& holders = held_by_[pair.target];
+        const bool helps =
+            holders.empty() || (!is_served(pair.target) && is_served(pair.target, pair.station));
+        const bool may_go = this->may_go(pair.station, targets_[pair.target].priority);
+        if (!helps || !may_go || !moved.insert(pair.station).second) continue;
+        take(pair.station);
+        give(pair.station, pair.target);
+        has_moved = true;
+      }
     }
     std::erase_if(movable_, [&](std::size_t k) { return moved.contains(k); });
   }

@@ -4,15 +4,16 @@
 // more, or with at least half the sine of the best pair that the site has for it. All other
 // stations are free.
 //
-//  - The good pair of a target is never taken from it, and an operator's target keeps all of its
-//    trackers. Any other station may be moved, also if its tracker follows the target.
+//  - The good pair of a target consists of stations that see it. It is taken from the target only
+//    for another one without a good pair and with 1.5 times the priority. An operator's target
+//    keeps all of its trackers. Any other station may be moved, also if its tracker follows the
+//    target.
 //  - Targets without a good pair come first. Pairs of target and station are served in the order of
 //    priority divided by (0.5 s + time to turn there), the highest first.
 //  - Then one station searches along the line of sight of an object that has no position. If there
 //    is no target, all do.
 //  - The remaining stations go where the priority, divided by the number of stations there, is
 //    highest. A station leaves its present target only for 1.5 times as much.
-//  - A station that was led to a target stays there for at least 3 s.
 #pragma once
 
 #include <Eigen/Core>
@@ -44,7 +45,6 @@ struct AllocatedStation {
   bool by_detector = false;    // only its detector sees the target, not its tracker
   bool keeps_tracker = false;  // an operator has started its tracker there: it is not lent
   std::int64_t led_to = 0;     // the target to which it was led and which it has not seen yet
-  double led_s = 0.0;          // time since it was led there
   bool is_busy = false;        // its tracker follows an object that is no target yet
   bool may_search = true;      // false: it sees the object on the line itself
   bool searches = false;       // it has been led along that line

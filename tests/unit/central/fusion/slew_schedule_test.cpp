@@ -267,6 +267,29 @@ TEST_F(SlewScheduleTest, ATrackerLetsGoOfWhatItAcquiredAndNobodyElseSees) {
   EXPECT_EQ(let_go, std::set<std::int64_t>{0}) << "an operator has designated it";
 }
 
+// A target of two stations is lost by one of them; the other one's tracker goes on.
+TEST_F(SlewScheduleTest, TheLastTrackerOfALostTargetStaysThere) {
+  for (const char* name : {"a", "b"}) know(name, {0.0, 0.0, 0.0});
+  stations.all().at("a").traits.axis = {0.3, 0.1};
+  now_us = confirm_at(tracks, kPlace);
+  BearingMeasurement own = sight_of(0, kPlace, now_us + 20'000);
+  own.track_id = 5;
+  own.is_acquired = true;
+  tracks.give(0, own);
+  now_us += 20'000;
+  plan();
+  tracks.clear_tracks();
+  bool has_searched = false;
+  for (const std::int64_t end_us = now_us + 20'000'000; now_us < end_us; now_us += kPeriodUs) {
+    follow(0, 5, kPlace, false, true);
+    for (const Slew& slew : plan()) {
+      EXPECT_EQ(slew.let_go_track_id, 0);
+      has_searched = has_searched || slew.station == "b";
+    }
+  }
+  EXPECT_TRUE(has_searched);
+}
+
 TEST_F(SlewScheduleTest, WithoutATargetOrARayThereAreNone) {
   know("a", {0.0, 0.0, 0.0});
   EXPECT_TRUE(plan().empty());

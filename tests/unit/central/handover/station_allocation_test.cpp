@@ -88,7 +88,7 @@ TEST(StationAllocation, WhatIsBeyondTwoTrackersIsLentButNotAnOperatorsTrackers) 
   EXPECT_EQ(stations_on_first(false, 100.0, true), 3) << "an operator has started each tracker";
   EXPECT_EQ(stations_on_first(true, 100.0), 3);
   EXPECT_EQ(stations_on_first(false, 1.0), 2);
-  EXPECT_EQ(stations_on_first(false, 100.0), 2) << "its two are never taken";
+  EXPECT_EQ(stations_on_first(false, 1.3), 2) << "its two stay";
 }
 
 // No two lines to it cross at 20 degrees.
@@ -166,16 +166,51 @@ TEST(StationAllocation, AStaringStationCountsAndIsNotLed) {
   EXPECT_EQ(led_to(allocation, 2), 2);
 }
 
-TEST(StationAllocation, ALeaseHoldsAndALittleGainTakesNoStation) {
+TEST(StationAllocation, ALittleGainTakesNoStation) {
   AllocatedStation a = station_at("a", {0, 0, 0}, kRight);
   a.led_to = 1;
-  const auto towards = [&](double priority, double led_s) {
-    a.led_s = led_s;
+  const auto towards = [&](double priority) {
     return run({target_at(1, {-1, 400, 60}), target_at(2, {1, 400, 60}, priority)}, {a}).at("a");
   };
-  EXPECT_EQ(towards(100.0, 2.0), 1) << "the lease";
-  EXPECT_EQ(towards(1.3, 4.0), 1) << "a little gain";
-  EXPECT_EQ(towards(100.0, 4.0), 2);
+  EXPECT_EQ(towards(1.3), 1);
+  EXPECT_EQ(towards(100.0), 2);
+}
+
+// 1 has its two stations, which may both be on their way to somewhere else; 2 has none.
+TEST(StationAllocation, OnlyWhatIsWorthMoreTakesTheTwoStationsOfATarget) {
+  std::vector<AllocatedStation> stations{seeing(station_at("a", {-300, 0, 0}), 1, false),
+                                         seeing(station_at("b", {100, 0, 0}), 1, false)};
+  const auto at_second = [&](double priority) {
+    return led_to(run({target_at(1, kLeft), target_at(2, kRight, priority)}, stations), 2);
+  };
+  EXPECT_EQ(at_second(1.3), 0) << "a little more";
+  EXPECT_EQ(at_second(10.0), 2) << "an operator's";
+  for (AllocatedStation& station : stations) station.led_to = 2;
+  EXPECT_EQ(at_second(1.0), 0) << "the target has lost a third station meanwhile";
+  stations.push_back(seeing(station_at("c", {300, 0, 0}), 3, false));
+  stations.push_back(seeing(station_at("d", {300, 800, 0}), 3, false));
+  const auto three =
+      run({target_at(1, kLeft, 5.0), target_at(2, kRight, 10.0), target_at(3, {200, 500, 60})},
+          stations);
+  EXPECT_EQ(led_to(three, 1), 2) << "it takes from the third what the second has taken from it";
+  EXPECT_EQ(led_to(three, 2), 2);
+}
+
+// c has been lent to find 2, was sent back to 1 when it had found it, and sees 2 now.
+TEST(StationAllocation, WhoIsOnTheWayToATargetIsNoneOfItsTwo) {
+  std::vector<AllocatedStation> stations{seeing(station_at("a", {-300, 0, 0}, kLeft), 1, false),
+                                         seeing(station_at("b", {300, 0, 0}, kLeft), 1, false),
+                                         seeing(station_at("c", {300, 800, 0}), 2, false)};
+  stations[2].led_to = 1;
+  const auto both = run({target_at(1, kLeft), target_at(2, kRight, 0.3)}, stations);
+  EXPECT_EQ(both.at("c"), 2) << "it sees that one, and nobody else does";
+  EXPECT_EQ(led_to(both, 1), 2);
+  // a and b see it under a small angle only; c comes to help, and is not there yet.
+  const auto helped = run(
+      {target_at(1, kLeft), target_at(2, kRight, 0.5)},
+      {seeing(station_at("a", {-200, 0, 0}), 1, false),
+       seeing(station_at("b", {-200, -50, 0}, kLeft), 1, false), station_at("c", {300, 300, 0})});
+  EXPECT_EQ(led_to(helped, 1), 3);
 }
 
 TEST(StationAllocation, WhoIsLeftGoesWhereTheFewestAre) {
