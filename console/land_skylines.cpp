@@ -25,10 +25,13 @@ LandSkylines::Answer LandSkylines::answer(const LandTask& task) {
   if (!terrain_) return {no_land()};
   const Eigen::Vector3d camera_ecef = ecef_from_geodetic(task.camera);
   const auto known = kept_.find(task.station);
-  if (known != kept_.end() && (known->second.camera_ecef - camera_ecef).norm() <= kMoved_m) {
-    return {known->second.response.value_or(being_computed())};
+  if (known != kept_.end()) {  // one at a time for each station, however it moves
+    const Kept& kept = known->second;
+    if (!kept.response) return {being_computed()};
+    if ((kept.camera_ecef - camera_ecef).norm() <= kMoved_m) return {*kept.response};
+  } else if (kept_.size() >= kMostSkylines) {
+    kept_.clear();
   }
-  if (kept_.size() >= kMostSkylines) kept_.clear();
   kept_[task.station] = {camera_ecef, std::nullopt};
   return {being_computed(), true};
 }
@@ -56,7 +59,10 @@ WebResponse LandSkylines::compute(const LandTask& task) const {
 void LandSkylines::keep(const LandTask& task, WebResponse response) {
   const auto known = kept_.find(task.station);
   // Unless another one has been asked for meanwhile.
-  if (known != kept_.end() && known->second.camera_ecef == ecef_from_geodetic(task.camera)) {
+  if (known == kept_.end() || known->second.camera_ecef != ecef_from_geodetic(task.camera)) return;
+  if (response.status == 500) {  // this time; the next one who asks may have it
+    kept_.erase(known);
+  } else {
     known->second.response = std::move(response);
   }
 }

@@ -16,8 +16,9 @@ namespace {
 
 constexpr int kStationsABearing = 16;
 constexpr double kStepBack_s = 0.5;
-constexpr double kLongest_s = 10.0;  // of a search along the line of one object
-constexpr double kTurn_s = 5.0;      // of it, before another line has its turn
+constexpr double kLongest_s = 10.0;      // of a search along the line of one object
+constexpr double kTurn_s = 5.0;          // of it, before another line has its turn
+constexpr double kLastTracker_s = 60.0;  // a tracker stays with what was a target
 
 CueRay cue_ray(const BearingOnly& line, const Sighted& seen, std::int64_t now_us) {
   const RayFrame frame = ray_frame(line.sight);
@@ -100,6 +101,9 @@ void SlewSchedule::begin(std::int64_t now_us, const StationRegistry& stations,
   round_.cues = cues.aims(now_us);
   std::ranges::move(handover.lost(now_us), std::back_inserter(round_.cues));
   note_targets(tracks);
+  for (const auto& [name, tracklet] : tracklets_) {
+    if (handover.is_dismissed(tracklet.target)) round_.dismissed.insert(tracklet.target);
+  }
   cue(now_us, lines, all);
   note_search(since_s);
   if (round_.ray) {
@@ -141,17 +145,20 @@ void SlewSchedule::note_targets(const std::vector<Track>& tracks) {
            {newest_of(bearings, true, round_.now_us), newest_of(bearings, false, round_.now_us)}) {
         if (own == nullptr || is_wanted(*own)) continue;
         tracklets_[{station, own->track_id}] = {round_.now_us, round_.now_us,
-                                                leads ? 0.0 : kLongest_s, leads};
+                                                leads ? 0.0 : kLongest_s, leads ? track.id : 0};
       }
     }
   }
 }
 
 // What a led station's tracker has found, and no other station sees. It stays there as long as a
-// line is searched; for good if that was a target: it may be the last that sees it.
+// line is searched; for longer if that was a target: it may be the last that sees it, or may have
+// slid onto something else.
 void SlewSchedule::note_acquired(const BearingMeasurement& line) {
   const Tracklet& known = tracklets_.at({line.station, line.track_id});
-  if (known.was_target || seconds(round_.now_us - known.noted_us) < kLongest_s) {
+  const bool is_dismissed = round_.dismissed.contains(known.target);
+  const double stays_s = is_dismissed ? 0.0 : known.target != 0 ? kLastTracker_s : kLongest_s;
+  if (seconds(round_.now_us - known.noted_us) < stays_s) {
     round_.bearing_only_stations.insert(line.station);
     round_.busy.insert(line.station);
   } else {

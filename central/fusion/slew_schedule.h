@@ -54,7 +54,7 @@ class SlewSchedule {
   struct Tracklet {
     std::int64_t noted_us = 0, seen_us = 0;
     double searched_s = 0.0;  // how long stations have been led along its line
-    bool was_target = false;  // of one that leads stations
+    std::int64_t target = 0;  // the one that it was of, if that leads stations; else 0
   };
   const BearingMeasurement* line_of(const std::string& station,
                                     const std::vector<const BearingMeasurement*>& own);

@@ -140,11 +140,12 @@ class Allocator {
     return kReact_s + turning_s(turn_rad, unit_);
   }
 
+  // Who is on the way counts as being there: else what was taken from a target would go back to it
+  // at once, because its camera still looks there.
   double score(std::size_t k, std::size_t target) const {
-    const std::int64_t id = targets_[target].id;
-    const bool is_present = id == stations_[k].led_to || id == stations_[k].sees;
-    return targets_[target].priority * (is_present ? kKeep : 1.0) /
-           time_to(k, targets_[target].p_ecef);
+    const auto& [id, p_ecef, priority, keeps_trackers] = targets_[target];
+    if (id == stations_[k].led_to) return kKeep * priority / (kReact_s + turning_s(0.0, unit_));
+    return (id == stations_[k].sees ? kKeep : 1.0) * priority / time_to(k, p_ecef);
   }
 
   std::vector<Pair> pairs() const {
@@ -169,23 +170,30 @@ class Allocator {
     return all;
   }
 
-  // Who has to give a station up comes again, after those that are worth more.
+  // First by the stations that can be spared, then by those of targets that are worth less. Who has
+  // to give a station up comes again, after those that are worth more.
   void serve_needs() {
     std::set<std::size_t> moved;
-    bool has_moved = true;
-    while (std::exchange(has_moved, false)) {
-      for (const Pair& pair : pairs()) {
-        const auto& holders = held_by_[pair.target];
-        const bool helps =
-            holders.empty() || (!is_served(pair.target) && is_served(pair.target, pair.station));
-        const bool may_go = this->may_go(pair.station, targets_[pair.target].priority);
-        if (!helps || !may_go || !moved.insert(pair.station).second) continue;
-        take(pair.station);
-        give(pair.station, pair.target);
-        has_moved = true;
-      }
+    while (serve_once(false, moved)) {
+    }
+    while (serve_once(true, moved)) {
     }
     std::erase_if(movable_, [&](std::size_t k) { return moved.contains(k); });
+  }
+
+  bool serve_once(bool by_priority, std::set<std::size_t>& moved) {
+    bool has_moved = false;
+    for (const Pair& pair : pairs()) {
+      const auto& holders = held_by_[pair.target];
+      const bool helps =
+          holders.empty() || (!is_served(pair.target) && is_served(pair.target, pair.station));
+      const double priority = by_priority ? targets_[pair.target].priority : 0.0;
+      if (!helps || !may_go(pair.station, priority) || !moved.insert(pair.station).second) continue;
+      take(pair.station);
+      give(pair.station, pair.target);
+      has_moved = true;
+    }
+    return has_moved;
   }
 
   // One is enough: with the station whose line it is they are two. It is the one that searches

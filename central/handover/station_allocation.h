@@ -4,12 +4,13 @@
 // more, or with at least half the sine of the best pair that the site has for it. All other
 // stations are free.
 //
-//  - The good pair of a target consists of stations that see it. It is taken from the target only
-//    for another one without a good pair and with 1.5 times the priority. An operator's target
-//    keeps all of its trackers. Any other station may be moved, also if its tracker follows the
-//    target.
+//  - The good pair of a target consists of stations that see it. A station that sees a target
+//    leaves it only if others that see it are a good pair, or, where no other station helps, for a
+//    target without a good pair and with 1.5 times the priority. An operator's target keeps all of
+//    its trackers. Any other station may be moved.
 //  - Targets without a good pair come first. Pairs of target and station are served in the order of
-//    priority divided by (0.5 s + time to turn there), the highest first.
+//    priority divided by (0.5 s + time to turn there), the highest first. A station that is on its
+//    way counts as being there.
 //  - Then one station searches along the line of sight of an object that has no position. If there
 //    is no target, all do.
 //  - The remaining stations go where the priority, divided by the number of stations there, is

@@ -75,9 +75,12 @@ TEST_F(SiteLandTest, ASkylineIsComputedOnceForEachPlaceOfACameraAndNobodyWaitsFo
   EXPECT_NEAR(elevations.at(0), degrees(std::atan2(90.0, 1112.2)), 0.01);
   EXPECT_NEAR(elevations.at(3600), degrees(std::atan2(-10.0, 1668.0)), 0.01);  // where it ends
   EXPECT_TRUE(ask_at(312.0).begins) << "a camera that has moved";
-  ask_at(200.0);
+  EXPECT_FALSE(ask_at(200.0).begins) << "one at a time";
+  skylines.keep(*land_task("skyline", "", "alfa", camera(312.0)), WebResponse{.status = 500});
+  EXPECT_TRUE(ask_at(312.0).begins) << "what failed is tried again";
   compute(312.0);
-  EXPECT_EQ(status(200.0), 202) << "of where it is no more";
+  EXPECT_TRUE(ask_at(200.0).begins);
+  EXPECT_EQ(status(200.0), 202);
   compute(200.0);
   const WebResponse refusal = ask_at(200.0).response;
   EXPECT_EQ(refusal.status, 409);

@@ -268,26 +268,47 @@ TEST_F(SlewScheduleTest, ATrackerLetsGoOfWhatItAcquiredAndNobodyElseSees) {
 }
 
 // A target of two stations is lost by one of them; the other one's tracker goes on.
-TEST_F(SlewScheduleTest, TheLastTrackerOfALostTargetStaysThere) {
-  for (const char* name : {"a", "b"}) know(name, {0.0, 0.0, 0.0});
-  stations.all().at("a").traits.axis = {0.3, 0.1};
-  now_us = confirm_at(tracks, kPlace);
-  BearingMeasurement own = sight_of(0, kPlace, now_us + 20'000);
-  own.track_id = 5;
-  own.is_acquired = true;
-  tracks.give(0, own);
-  now_us += 20'000;
-  plan();
-  tracks.clear_tracks();
-  bool has_searched = false;
-  for (const std::int64_t end_us = now_us + 20'000'000; now_us < end_us; now_us += kPeriodUs) {
-    follow(0, 5, kPlace, false, true);
-    for (const Slew& slew : plan()) {
-      EXPECT_EQ(slew.let_go_track_id, 0);
-      has_searched = has_searched || slew.station == "b";
-    }
+class LastTrackerTest : public SlewScheduleTest {
+ protected:
+  void SetUp() override {
+    for (const char* name : {"a", "b"}) know(name, {0.0, 0.0, 0.0});
+    stations.all().at("a").traits.axis = {0.3, 0.1};
+    now_us = confirm_at(tracks, kPlace) + 20'000;
+    BearingMeasurement own = sight_of(0, kPlace, now_us);
+    own.track_id = 5;
+    own.is_acquired = true;
+    tracks.give(0, own);
+    handover.settle(now_us, tracks.tracks());
+    plan();
+    tracks.clear_tracks();
   }
-  EXPECT_TRUE(has_searched);
+  // What has been let go of, and the stations that have been led anywhere.
+  std::pair<std::set<std::int64_t>, std::set<std::string>> go_on_for(double seconds) {
+    std::set<std::int64_t> let_go;
+    std::set<std::string> led;
+    for (const std::int64_t end_us = now_us + std::llround(seconds * 1e6); now_us < end_us;
+         now_us += kPeriodUs) {
+      follow(0, 5, kPlace, false, true);
+      for (const Slew& slew : plan()) {
+        let_go.insert(slew.let_go_track_id);
+        if (slew.let_go_track_id == 0) led.insert(slew.station);
+      }
+    }
+    return {let_go, led};
+  }
+};
+
+TEST_F(LastTrackerTest, ItStaysThereForAMinute) {
+  const auto [let_go, led] = go_on_for(59.0);
+  EXPECT_EQ(let_go, std::set<std::int64_t>{0});
+  EXPECT_EQ(led, std::set<std::string>{"b"}) << "the other one searches";
+  EXPECT_TRUE(go_on_for(2.0).first.contains(5)) << "it may have slid onto something else";
+}
+
+TEST_F(LastTrackerTest, ItLetsGoOfWhatAnOperatorDismisses) {
+  EXPECT_FALSE(go_on_for(2.0).first.contains(5));
+  ASSERT_TRUE(handover.order(1, false));
+  EXPECT_TRUE(go_on_for(1.0).first.contains(5));
 }
 
 TEST_F(SlewScheduleTest, WithoutATargetOrARayThereAreNone) {

@@ -196,6 +196,28 @@ TEST(StationAllocation, OnlyWhatIsWorthMoreTakesTheTwoStationsOfATarget) {
   EXPECT_EQ(led_to(three, 2), 2);
 }
 
+TEST(StationAllocation, WhatHasBeenTakenDoesNotGoBackOnItsWay) {
+  std::vector<AllocatedStation> stations{seeing(station_at("a", {-300, 0, 0}, kLeft), 1, false),
+                                         seeing(station_at("b", {100, 0, 0}, kLeft), 1, false)};
+  const std::vector<AllocatedTarget> targets = {target_at(1, kLeft), target_at(2, kRight, 1.8)};
+  ASSERT_EQ(led_to(run(targets, stations), 2), 2);
+  for (AllocatedStation& station : stations) {  // their cameras still look at the first
+    station.sees = 0;
+    station.led_to = 2;
+  }
+  EXPECT_EQ(led_to(run(targets, stations), 2), 2);
+}
+
+TEST(StationAllocation, TheTwoAreTakenOnlyIfNoOtherStationsHelp) {
+  const auto allocation = run({target_at(1, kLeft), target_at(2, kRight, 1.8)},
+                              {seeing(station_at("a", {-300, 0, 0}, kRight), 1, false),
+                               seeing(station_at("b", {100, 0, 0}, kRight), 1, false),
+                               station_at("c", {-300, 800, 0}, {0, -1000, 50}),
+                               station_at("d", {300, 800, 0}, {0, -1000, 50})});
+  EXPECT_EQ(allocation.at("a"), 1);
+  EXPECT_EQ(allocation.at("b"), 1);
+}
+
 // c has been lent to find 2, was sent back to 1 when it had found it, and sees 2 now.
 TEST(StationAllocation, WhoIsOnTheWayToATargetIsNoneOfItsTwo) {
   std::vector<AllocatedStation> stations{seeing(station_at("a", {-300, 0, 0}, kLeft), 1, false),
