@@ -77,18 +77,6 @@ def ptz(network, tmp_path_factory):
         yield Ptz(folder, running, folder / "config/alfa.toml")
 
 
-def test_the_doctor_turns_it_only_on_request(ptz):
-    def said(*options):
-        doctor = [str(BIN / "ols-doctor"), "--config", str(ptz.config), *options]
-        return subprocess.run(doctor, capture_output=True, text=True, timeout=120).stdout
-
-    assert "turned" not in said()
-    moved = said("--move")
-    for axis in ("pan", "tilt"):
-        turned = rf"(ok|warn) +ptu: {axis} turned [23]\.\d\d of 3\.00 deg, its positions show it"
-        assert re.search(turned, moved), moved
-
-
 def test_it_measures_what_its_position_reports_are_worth(ptz):
     text = ptz.config.read_text()
     wrong = re.sub(r"pan_gain_deg = .*", f"pan_gain_deg = {-1.05 * GAIN_DEG}", text)

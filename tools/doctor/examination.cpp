@@ -21,7 +21,6 @@
 #include "edge/sensors/dpg2/dpg2_kind.h"
 #include "export/export_config.h"
 #include "export/readiness.h"
-#include "geometry/angles.h"
 #include "tools/doctor/bus_listener.h"
 #include "tools/doctor/judge_bridge.h"
 #include "tools/doctor/judge_devices.h"
@@ -76,25 +75,15 @@ Findings examine_camera(const station::ChosenCamera& camera, double patience_s) 
   return {judge(ask_camera(*camera, patience_s))};
 }
 
-// FLIR's units are not turned: that needs their reference, which only a station keeps.
-Findings examine_mount(const station::ChosenMount& mount, const Request& request) {
+Findings examine_mount(const station::ChosenMount& mount, double patience_s) {
   if (const auto* flir = mount.as<ptu::PtuKind>()) return judge(ask_ptu(flir->unit));
-  if (!request.move || !mount->traits().moves)
-    return {judge(ask_mount(*mount, request.patience_s))};
-  constexpr double kConnects_s = 15.0;  // whoever waits for a motion waits for a connection, too
-  const Moved moved = move_mount(*mount, kConnects_s);
-  Findings findings{judge(moved.report)};
-  const auto sd_deg = moved.report.readings.find("ptu_position_sd_deg");
-  if (moved.motions && sd_deg != moved.report.readings.end())
-    append(findings, judge(*moved.motions, radians(sd_deg->second)));
-  return findings;
+  return {judge(ask_mount(*mount, patience_s))};
 }
 
 // Devices that only the station may use while it runs, and the clock, which it reports itself.
-Findings examine_devices(const station::StationSettings& settings, const Request& request) {
-  const double patience_s = request.patience_s;
+Findings examine_devices(const station::StationSettings& settings, double patience_s) {
   Findings findings = examine_camera(settings.camera, patience_s);
-  append(findings, examine_mount(settings.mount, request));
+  append(findings, examine_mount(settings.mount, patience_s));
   if (settings.inclinometer->is_configured()) {
     append(findings, examine_inclinometer(settings.inclinometer, patience_s));
   }
@@ -137,7 +126,7 @@ bool runs_as_service(const std::string& path) {
 }
 
 Findings examine_own(const station::StationSettings& settings, const std::string& path,
-                     const BusHeard& bus, const Request& request) {
+                     const BusHeard& bus, double patience_s) {
   const auto own = bus.stations.find(settings.id);
   if (own != bus.stations.end()) return judge(own->second);
   if (runs_as_service(path)) {
@@ -146,7 +135,7 @@ Findings examine_own(const station::StationSettings& settings, const std::string
   }
   Findings findings{fail("station: " + settings.id + " does not run; its devices are asked now",
                          "systemctl enable --now " + unit_of(path))};
-  append(findings, examine_devices(settings, request));
+  append(findings, examine_devices(settings, patience_s));
   return findings;
 }
 
@@ -170,7 +159,7 @@ Findings examine_station(const std::string& path, const Request& request,
   const BusHeard bus = listen(settings.lcm_url, own_trust(settings), request.listen_s, settings.id);
   for (const auto& [id, station] : bus.stations) statuses[id] = station.text;
   append(findings, judge(bus));
-  append(findings, examine_own(settings, path, bus, request));
+  append(findings, examine_own(settings, path, bus, request.patience_s));
   append(findings, examine_host(settings));
   if (bus.trouble.empty()) append(findings, judge_company(bus, settings.id));
   return findings;

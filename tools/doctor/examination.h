@@ -15,7 +15,6 @@ struct Request {
                                                 // name
   double listen_s = 2.2;                        // two intervals of the slowest sender
   double patience_s = 4.0;                      // for a sensor to become ready
-  bool move = false;                            // turns mounts a little, if no station runs
 };
 
 // The configuration files of this host: `folder`/*.toml.

@@ -1,12 +1,9 @@
 #include "tools/doctor/judge_devices.h"
 
-#include <algorithm>
 #include <cerrno>
-#include <cmath>
 #include <cstring>
 
 #include "conditions/alarms.h"
-#include "geometry/angles.h"
 
 namespace ols::doctor {
 namespace {
@@ -88,36 +85,6 @@ Finding judge(const device::DeviceReport& device) {
                                   ? std::string()
                                   : " (" + device.last_error + ")";
   return fail(words + trouble, advice_on(device.alarms.empty() ? Alarm() : device.alarms.front()));
-}
-
-namespace {
-
-// Too little may be seen of a motion, or the wrong sign.
-Finding judge_axis(const std::string& axis, const AxisMotion& motion, double position_sd_rad) {
-  constexpr double kShare = 0.1, kSds = 3.0;
-  if (motion.ordered_rad == 0.0)
-    return warn("ptu: " + axis + " has no room to turn",
-                "turn it away from the ends of its travel");
-  const std::string ordered = number(degrees(std::abs(motion.ordered_rad)), "%.2f");
-  const std::string turned =
-      number(degrees(motion.turned_rad * (motion.ordered_rad > 0.0 ? 1.0 : -1.0)), "%.2f");
-  std::string words = "ptu: " + axis + " turned " + turned + " of " + ordered + " deg";
-  const double missed_rad = std::abs(motion.turned_rad - motion.ordered_rad);
-  if (missed_rad > std::max(kShare * std::abs(motion.ordered_rad), kSds * position_sd_rad))
-    return fail(words + ", by its positions", advice_on(alarm::ptu_ignores_orders()));
-  if (motion.shown_after_s)
-    words += ", its positions show it after " + number(*motion.shown_after_s, "%.2f") + " s";
-  words += ", came back to within " + number(degrees(std::abs(motion.left_rad)), "%.3f") + " deg";
-  if (std::abs(motion.left_rad) > kSds * position_sd_rad)
-    return warn(words, "position_sd_deg of [mount] is too small for that: ols-calibrate mount");
-  return ok(words);
-}
-
-}  // namespace
-
-Findings judge(const Motions& motions, double position_sd_rad) {
-  return {judge_axis("pan", motions[0], position_sd_rad),
-          judge_axis("tilt", motions[1], position_sd_rad)};
 }
 
 std::optional<Finding> judge_line(const std::string& name, const SerialFacts& serial) {

@@ -3,14 +3,11 @@
 
 #include "tools/doctor/facts.h"
 #include "tools/doctor/finding.h"
-#include "tools/doctor/motion_probe.h"
 
 namespace ols::doctor {
 
 // A device as the station or its own driver reports it.
 Finding judge(const device::DeviceReport& device);
-// What a mount's positions showed of a motion. `position_sd_rad`: their stated error.
-Findings judge(const Motions& motions, double position_sd_rad);
 // nullopt if the line can be used.
 std::optional<Finding> judge_line(const std::string& name, const SerialFacts& serial);
 Findings judge(const PtuAnswers& ptu);

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "base/process/command_line.h"
-#include "base/process/shutdown.h"
 #include "tools/doctor/bundle.h"
 #include "tools/doctor/examination.h"
 
@@ -21,8 +20,7 @@ constexpr const char* kConfiguration = "/etc/ols";
 int main(int argc, char** argv) {
   CLI::App app{
       "Checks a station or the centre and says what to do about each fault. It disturbs no running "
-      "program: it opens a station's devices only if the station is not running, and moves "
-      "nothing without --move. "
+      "program: it opens a station's devices only if the station is not running, and moves no PTU. "
       "Exit status: 0 ok, 1 warnings, 2 failures"};
   app.set_version_flag("--version", OLS_VERSION);
   std::vector<std::string> configs;
@@ -30,25 +28,18 @@ int main(int argc, char** argv) {
   bool json = false;
   app.add_option("--config", configs, "Station's configuration; default: all of /etc/ols");
   app.add_flag("--json", json, "For programs");
-  bool move = false;
-  app.add_flag("--move", move,
-               "Also turn a station's mount by 3 degrees on each axis and back, within its limits, "
-               "to see that it moves, how late and how exact its positions are. For every kind but "
-               "FLIR's units; if the station is not running");
   app.add_option(
       "--bundle", bundle,
       "Also write a bundle for remote support into this file (.tar.gz): findings, "
       "journal, configuration, versions, clock, the stations' statuses; without secrets");
   if (const auto status = ols::parse_command_line(app, argc, argv, "ols-doctor")) return *status;
-  spdlog::set_level(spdlog::level::off);      // the drivers' messages are judged, not shown
-  if (move) ols::install_shutdown_handler();  // a mount in motion is stopped
+  spdlog::set_level(spdlog::level::off);  // the drivers' messages are judged, not shown
   try {
     ols::doctor::Request request = ols::doctor::find_configurations(kConfiguration);
     if (!configs.empty()) {
       request.stations = configs;
       request.programs.clear();
     }
-    request.move = move;
     const ols::doctor::Examination examination = ols::doctor::examine(request);
     const ols::doctor::Findings& findings = examination.findings;
     if (json) {

@@ -1,5 +1,5 @@
-// Probes what the station would use. Probes devices only where no station runs, and moves none but
-// in move_mount(). No function throws: errors are in the answer.
+// Probes what the station would use. Probes devices only where no station runs, and never moves
+// one. No function throws: errors are in the answer.
 #pragma once
 
 #include "edge/camera/aravis/aravis_config.h"
@@ -7,7 +7,6 @@
 #include "edge/process/host_monitor.h"
 #include "edge/ptu/ptu_config.h"
 #include "tools/doctor/facts.h"
-#include "tools/doctor/motion_probe.h"
 
 namespace ols::doctor {
 
@@ -20,13 +19,6 @@ PtuAnswers ask_ptu(const ptu::PtuConfig& config);
 // Asks a mount or a camera of any kind, with the station's own code for it. Returns when the device
 // is well, or after `seconds`.
 device::DeviceReport ask_mount(const mount::MountKind& kind, double seconds);
-// Waits until the mount is well, at most for `seconds`, turns it a little, and stops it, also when
-// the program is to end.
-struct Moved {
-  device::DeviceReport report;     // before it was turned; its state says whether it was
-  std::optional<Motions> motions;  // nullopt: it could not be turned
-};
-Moved move_mount(const mount::MountKind& kind, double seconds);
 device::DeviceReport ask_camera(const camera::CameraKind& kind, double seconds);
 
 // All cameras that answer a broadcast.

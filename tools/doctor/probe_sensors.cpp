@@ -4,7 +4,6 @@
 #include <thread>
 
 #include "base/process/clocks.h"
-#include "base/process/shutdown.h"
 #include "edge/clock/clock_pair.h"
 #include "edge/clock/clock_source.h"
 #include "edge/gpio/gpio_lines.h"
@@ -37,31 +36,6 @@ device::DeviceReport ask_camera(const camera::CameraKind& kind, double seconds) 
 
 device::DeviceReport ask_mount(const mount::MountKind& kind, double seconds) {
   return report_of(*kind.open(), seconds);
-}
-
-Moved move_mount(const mount::MountKind& kind, double seconds) {
-  constexpr auto kTurn = std::chrono::milliseconds(10);
-  const auto mount = kind.open();
-  std::vector<mount::AngleSample> samples;
-  const auto is_known = [&] {
-    samples = mount->take_samples();
-    return mount->limits() && !samples.empty();
-  };
-  wait_until([&] { return is_known() || shutdown_requested(); }, seconds);
-  Moved moved{mount->report(), {}};
-  const auto limits = mount->limits();
-  if (!limits || samples.empty()) return moved;
-  MotionProbe probe(*limits, samples.back().angles);
-  while (!shutdown_requested()) {
-    const auto goal = probe.next(clock_monotonic_s(), mount->take_samples());
-    mount->set_goal(goal);
-    if (!goal) {
-      moved.motions = probe.motions();
-      break;
-    }
-    std::this_thread::sleep_for(kTurn);
-  }
-  return moved;
 }
 
 device::DeviceReport ask_gnss(const sensors::GnssKind& kind, double seconds) {
