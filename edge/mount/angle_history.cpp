@@ -76,7 +76,8 @@ std::optional<AngleAt> AngleHistory::at(double time_s) const {
 
 // Linear between (or beyond) two samples. The errors: those of the two samples, by their weights;
 // that of the time that they share; and that of an unknown acceleration, |a| w (1 - w) T^2 / 2.
-// Beyond the newest sample, the acceleration is no more than what was ordered, if that is known.
+// Beyond the newest sample, an acceleration that the samples do not show is no more than what was
+// ordered, if that is known.
 std::optional<AngleHistory::AxisAt> AngleHistory::axis_at(double time_s, KnotOf knot) const {
   if (samples_.size() < 2 || !(time_s >= knot(samples_.front()).time_s)) return std::nullopt;
   const auto after = std::lower_bound(
@@ -95,10 +96,10 @@ std::optional<AngleHistory::AxisAt> AngleHistory::axis_at(double time_s, KnotOf 
   const double weight = (time_s - a.time_s) / gap_s;  // of b; more than 1 beyond it
   const double rate = (b.angle_rad - a.angle_rad) / gap_s;
   const double lever_s2 = 0.5 * gap_s * gap_s * std::abs(weight * (1.0 - weight));
-  double acceleration2 = square(config_.acceleration_sd_rad_s2) + bend2(right, knot);
+  double unseen2 = square(config_.acceleration_sd_rad_s2);
   if (!interpolated && b.ordered_change_rad_s)
-    acceleration2 = std::min(acceleration2, square(*b.ordered_change_rad_s / gap_s));
-  const double bend = square(lever_s2) * acceleration2;
+    unseen2 = std::min(unseen2, square(*b.ordered_change_rad_s / gap_s));
+  const double bend = square(lever_s2) * (unseen2 + bend2(right, knot));
   const double begun = begun_variance(b, beyond_s);
   const double shared = square(rate * b.shared_time_sd_s);
   return AxisAt{a.angle_rad + weight * gap_s * rate, rate,

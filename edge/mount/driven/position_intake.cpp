@@ -12,8 +12,8 @@ constexpr double kSettled_s = 3.0;  // after a motion
 constexpr int kRestCount = 20;      // positions from which their scatter is known
 constexpr double kMotion = 5.0;     // 1-sigmas of the configuration: no scatter
 constexpr double kSpreadSmoothing = 0.05;
+constexpr double kLeast = 0.01;      // share of the variance that is stated, however little shows
 constexpr double kWorst = 3.0;       // of the variance: at an end of the round trip, never between
-constexpr double kBegins_s = 0.2;    // after an order, the rate changes
 constexpr double kResponds_s = 0.5;  // after an order, a mount still changes its rate
 constexpr double kKept_s = 10.0;     // orders
 constexpr double kSteady = 0.05;     // share of the rate: a smaller change is none
@@ -29,6 +29,9 @@ void PositionIntake::restart() {
   last_.reset();
   rest_count_ = 0;
   moved_ = false;
+  orders_.clear();
+  moved_in_row_ = {};
+  added_s_.reset();
 }
 
 double PositionIntake::interval_s() const { return moved_ ? poll_s_ / (1.0 - old_share_) : 0.0; }
@@ -66,7 +69,6 @@ void PositionIntake::ordered(const std::optional<PanTilt>& rate, double now_s) {
 // By how much the ordered rate has changed since then, with the order in force then; nullopt if one
 // of them is not known.
 std::optional<PanTilt> PositionIntake::ordered_change(double since_s) const {
-  if (orders_.empty()) return std::nullopt;
   PanTilt least, most;
   for (auto order = orders_.rbegin(); order != orders_.rend(); ++order) {
     if (!order->rate) return std::nullopt;
@@ -78,9 +80,10 @@ std::optional<PanTilt> PositionIntake::ordered_change(double since_s) const {
     most = first ? rate
                  : PanTilt{std::max(most.pan_rad, rate.pan_rad),
                            std::max(most.tilt_rad, rate.tilt_rad)};
-    if (order->time_s <= since_s) break;
+    if (order->time_s <= since_s)
+      return PanTilt{most.pan_rad - least.pan_rad, most.tilt_rad - least.tilt_rad};
   }
-  return PanTilt{most.pan_rad - least.pan_rad, most.tilt_rad - least.tilt_rad};
+  return std::nullopt;
 }
 
 // By the axis that turns faster.
@@ -100,12 +103,15 @@ void PositionIntake::learn_spread(const Moved& newest) {
   if (std::abs(rate) * poll_s_ < 2.0 * sd_rad() || *change.*axis > kSteady * std::abs(rate)) return;
   const double first = 1.0 - last, off_rad = turn(x, y, axis) - last * turn(x, z, axis);
   const double weights = 1.0 + first * first + last * last;
-  const double seen_s2 = (off_rad * off_rad - weights * sd_rad() * sd_rad()) / (rate * rate);
-  const double whole_s2 =
-      y.spread_s * y.spread_s + std::pow(first * x.spread_s, 2) + std::pow(last * z.spread_s, 2);
-  if (whole_spread_s2_ == 0.0) seen_spread_s2_ = whole_spread_s2_ = whole_s2;
-  seen_spread_s2_ += kSpreadSmoothing * (seen_s2 - seen_spread_s2_);
-  whole_spread_s2_ += kSpreadSmoothing * (whole_s2 - whole_spread_s2_);
+  // In rad^2: a fast turn shows more of it.
+  const double whole_rad2 =
+      rate * rate *
+      (y.spread_s * y.spread_s + std::pow(first * x.spread_s, 2) + std::pow(last * z.spread_s, 2));
+  const double seen_rad2 =
+      std::min(off_rad * off_rad - weights * sd_rad() * sd_rad(), kWorst * whole_rad2);
+  if (whole_spread_rad2_ == 0.0) seen_spread_rad2_ = whole_spread_rad2_ = whole_rad2;
+  seen_spread_rad2_ += kSpreadSmoothing * (seen_rad2 - seen_spread_rad2_);
+  whole_spread_rad2_ += kSpreadSmoothing * (whole_rad2 - whole_spread_rad2_);
 }
 
 void PositionIntake::add(const PanTilt& angles, double sent_s, double answered_s,
@@ -135,14 +141,16 @@ void PositionIntake::add(const PanTilt& angles, double sent_s, double answered_s
   const double time_s = now_s - config_.delay_s - 0.5 * age_s;
   const double spread_s = std::hypot(trip_s, age_s) / kUniform;
   if (ordered_rad_s > 0.0) learn_spread({time_s, spread_s, angles});
-  const double share =
-      whole_spread_s2_ > 0.0 ? std::clamp(seen_spread_s2_ / whole_spread_s2_, 0.0, kWorst) : 1.0;
+  const double share = whole_spread_rad2_ > 0.0
+                           ? std::clamp(seen_spread_rad2_ / whole_spread_rad2_, kLeast, kWorst)
+                           : 1.0;
   samples_.add({.time_s = time_s,
                 .time_sd_s = std::sqrt(share) * spread_s,
                 .angles = angles,
                 .doubt = {sd_rad(), sd_rad()},
-                .ordered_change = ordered_change(time_s - gap_s - kBegins_s),
+                .ordered_change = ordered_change(added_s_.value_or(time_s) - kResponds_s),
                 .shared_time_sd_s = config_.delay_sd_s});
+  added_s_ = time_s;
 }
 
 }  // namespace ols::mount

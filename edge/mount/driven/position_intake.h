@@ -72,8 +72,9 @@ class PositionIntake {
   std::deque<RateOrder> orders_;  // the last ones, and the one in force before them
   std::array<Moved, 3> moved_in_row_{};
   // Means of the squared distances from straight lines beyond what sd_rad() explains, and of what
-  // the round trips would explain: seconds squared.
-  double seen_spread_s2_ = 0.0, whole_spread_s2_ = 0.0;
+  // the round trips would explain.
+  double seen_spread_rad2_ = 0.0, whole_spread_rad2_ = 0.0;
+  std::optional<double> added_s_;  // time of the last sample
 };
 
 }  // namespace ols::mount

@@ -55,6 +55,7 @@ TEST(PositionIntake, SaysHowMuchTheOrderedRateHasChanged) {
   };
   EXPECT_FALSE(change(1.0));  // what it was ordered before is not known
   intake.ordered(PanTilt{}, 1.0);
+  EXPECT_FALSE(change(1.8));  // nor shortly before the position before this one
   intake.ordered(PanTilt{0.1, -0.2}, 2.0);
   ASSERT_TRUE(change(2.1));
   EXPECT_NEAR(change(2.2)->tilt_rad, 0.2, 1e-12);
