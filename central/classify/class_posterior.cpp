@@ -11,8 +11,6 @@ namespace ols::fusion {
 namespace {
 
 constexpr std::size_t kLeastSizes = 8;  // of a flicker
-// Share of the looks that may be of anything: an outline has run into what is behind the object.
-constexpr double kSpoilt = 0.01;
 constexpr int kKinds = static_cast<int>(std::size(kClassTable));
 
 double log_sum(const double* values, int count) {
@@ -118,12 +116,7 @@ void ClassPosterior::add(std::int64_t utime_us, const ClassLook& look) {
   const double since_s = last_us_ ? 1e-6 * static_cast<double>(utime_us - *last_us_) : 0.0;
   const double kept = std::exp(-since_s / kMemory_s);
   weight_ = weight_ * kept + 1.0;
-  const double of_anything = std::log(kSpoilt) + log_likelihood(kClassTable[kKinds - 1], seen);
-  for (int i = 0; i < kKinds; ++i) {
-    const std::array ways{std::log(1.0 - kSpoilt) + log_likelihood(kClassTable[i], seen),
-                          of_anything};
-    sum_[i] = sum_[i] * kept + log_sum(ways.data(), 2);
-  }
+  for (int i = 0; i < kKinds; ++i) sum_[i] = sum_[i] * kept + log_likelihood(kClassTable[i], seen);
   if (!first_us_) first_us_ = utime_us;
   last_us_ = utime_us;
 }

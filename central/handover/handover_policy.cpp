@@ -99,9 +99,7 @@ void HandoverPolicy::note(const Track& track, std::int64_t now_us) {
   if (known.allowed == false) note_dismissed(known, track);
   if (known.allowed != false && is_designated_there(track)) known.is_designated = true;
   known.last = aim_of(track, config_.acceleration_sd_m_s2);
-  // It keeps its name until it gets another one: a doubt leads nobody back to a bird.
-  const ObjectClass named = appearance_of(track, track.filter.position()).object_class;
-  if (named != ObjectClass::kUnknown) known.object_class = named;
+  known.object_class = appearance_of(track, track.filter.position()).object_class;
   if (is_new) inherit(known, track, now_us);
   if (leads(known)) known.has_led = true;
 }

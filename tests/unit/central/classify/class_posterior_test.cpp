@@ -52,24 +52,6 @@ TEST(ClassPosterior, IsUnknownAtFirstByVagueLooksWithoutSizeAndBetweenTwoClasses
   EXPECT_EQ(doubtful.probability, 0.0);
 }
 
-// For a second or two a drone's outline runs into what is behind it, and jumps. A bird's wings beat
-// longer.
-TEST(ClassPosterior, AFewSpoiltLooksOverturnNothing) {
-  ClassPosterior posterior = after(15.0, look(1.0, 12.0, 2.0, 0.0));
-  ASSERT_EQ(posterior.belief().object_class, ObjectClass::kDrone);
-  std::int64_t next_us = 15'250'000;
-  const auto see_until = [&](double seconds, double flicker) {
-    for (std::int64_t t = next_us; t <= seconds * 1e6; t += 250'000) {
-      posterior.add(t, look(1.0, 12.0, 2.0, flicker));
-      next_us = t + 250'000;
-    }
-  };
-  see_until(17.0, 1.0);
-  EXPECT_EQ(posterior.belief().object_class, ObjectClass::kDrone);
-  see_until(40.0, 0.04);
-  EXPECT_EQ(posterior.belief().object_class, ObjectClass::kBird);
-}
-
 TEST(ClassPosterior, MoreLooksInTheSameTimeSayNoMore) {
   ClassLook seen = look(0.8, 8.5, 0.0, 0.0);
   seen.flicker = {};

@@ -205,18 +205,6 @@ TEST_F(TheHandoverPolicy, AutomaticLeadsAtOnceButNotWhatIsOfAnotherClass) {
   EXPECT_FALSE(handover.is_let_go(1));
 }
 
-TEST_F(TheHandoverPolicy, ATargetKeepsItsNameUntilItGetsAnotherOne) {
-  HandoverPolicy handover(
-      {.mode = HandoverMode::kAutomatic, .classes = {ObjectClass::kUnknown, ObjectClass::kDrone}});
-  handover.settle(kStart, {track_of(1, true)});
-  handover.settle(after(1.0), {of_class(2)});
-  ASSERT_TRUE(handover.is_let_go(1));
-  handover.settle(after(2.0), {track_of(1, true)});
-  EXPECT_TRUE(handover.is_let_go(1)) << "a doubt leads nobody back to a bird";
-  handover.settle(after(3.0), {of_class(1)});
-  EXPECT_FALSE(handover.is_let_go(1));
-}
-
 TEST_F(TheHandoverPolicy, TheOperatorsTargetIsWorthMoreAndADoubtfulOneLess) {
   HandoverPolicy handover = with(HandoverMode::kAutomatic);
   Track doubtful = track_of(2, true);
