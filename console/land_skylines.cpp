@@ -37,7 +37,7 @@ LandSkylines::Answer LandSkylines::answer(const LandTask& task) {
 }
 
 WebResponse LandSkylines::compute(const LandTask& task) const {
-  try {
+  return land_answer([&]() -> Json {
     const land::HorizonMap map(*terrain_, task.camera);
     const int columns = map.config().columns;
     Json elevations = Json::array();
@@ -45,15 +45,10 @@ WebResponse LandSkylines::compute(const LandTask& task) const {
       const auto skyline = map.skyline(2.0 * kPi * column / columns);
       elevations.push_back(skyline ? angle_deg(skyline->elevation_rad) : Json(nullptr));
     }
-    return land_said(200, Json{{"version", version_},
-                               {"camera_ecef_m", ecef_json(ecef_from_geodetic(task.camera))},
-                               {"elevation_deg", std::move(elevations)}}
-                              .dump());
-  } catch (const std::invalid_argument& wrong) {
-    return land_refused(409, outcome::land_does_not_fit(wrong.what()));
-  } catch (const std::exception& wrong) {  // in a thread of its own, where nobody else catches it
-    return land_refused(500, outcome::land_does_not_fit(wrong.what()));
-  }
+    return {{"version", version_},
+            {"camera_ecef_m", ecef_json(ecef_from_geodetic(task.camera))},
+            {"elevation_deg", std::move(elevations)}};
+  });
 }
 
 void LandSkylines::keep(const LandTask& task, WebResponse response) {

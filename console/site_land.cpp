@@ -52,20 +52,16 @@ WebResponse SiteLand::answer(const LandTask& task) {
   using What = LandTask::What;
   if (task.what == What::kAbout) return land_said(200, about().dump());
   if (!folder_.terrain) return no_land();
-  try {
+  return land_answer([&] {
     switch (task.what) {
       case What::kGround:
-        return land_said(200, ground(task).dump());
+        return ground(task);
       case What::kHeights:
-        return land_said(200, heights(task).dump());
+        return heights(task);
       default:
-        return land_said(200, profile(task).dump());
+        return profile(task);
     }
-  } catch (const std::invalid_argument& wrong) {
-    return land_refused(409, outcome::land_does_not_fit(wrong.what()));
-  } catch (const std::exception& wrong) {  // in a thread of its own, where nobody else catches it
-    return land_refused(500, outcome::land_does_not_fit(wrong.what()));
-  }
+  });
 }
 
 Json SiteLand::about() const {

@@ -86,7 +86,6 @@ struct SlewRound {
   // Priority of each target; 1 if absent; a target with 0 leads no station.
   std::map<std::int64_t, double> priority{};
   std::set<std::int64_t> wanted{};                // targets that an operator wants
-  std::set<std::int64_t> dismissed{};             // lost targets that an operator has dismissed
   std::set<std::int64_t> targets{};               // targets to which stations may be led
   Allocation allocation{};                        // of the stations to the targets
   std::set<std::string> bearing_only_stations{};  // stations that have a bearing-only track

@@ -16,8 +16,7 @@ namespace {
 
 constexpr int kStationsABearing = 16;
 constexpr double kStepBack_s = 0.5;
-constexpr double kLongest_s = 10.0;      // of a search along the line of one object
-constexpr double kTurn_s = 5.0;          // of it, before another line has its turn
+constexpr double kTurn_s = 5.0;          // of the search along a line, before another has its turn
 constexpr double kLastTracker_s = 60.0;  // a tracker stays with what was a target
 
 CueRay cue_ray(const BearingOnly& line, const Sighted& seen, std::int64_t now_us) {
@@ -101,8 +100,8 @@ void SlewSchedule::begin(std::int64_t now_us, const StationRegistry& stations,
   round_.cues = cues.aims(now_us);
   std::ranges::move(handover.lost(now_us), std::back_inserter(round_.cues));
   note_targets(tracks);
-  for (const auto& [name, tracklet] : tracklets_) {
-    if (handover.is_dismissed(tracklet.target)) round_.dismissed.insert(tracklet.target);
+  for (auto& [name, tracklet] : tracklets_) {
+    if (handover.is_dismissed(tracklet.target)) tracklet.stays_s = 0.0;
   }
   cue(now_us, lines, all);
   note_search(since_s);
@@ -144,21 +143,25 @@ void SlewSchedule::note_targets(const std::vector<Track>& tracks) {
       for (const BearingMeasurement* own :
            {newest_of(bearings, true, round_.now_us), newest_of(bearings, false, round_.now_us)}) {
         if (own == nullptr || is_wanted(*own)) continue;
-        tracklets_[{station, own->track_id}] = {round_.now_us, round_.now_us,
-                                                leads ? 0.0 : kLongest_s, leads ? track.id : 0};
+        Tracklet& noted = tracklets_[{station, own->track_id}];
+        noted = {round_.now_us, round_.now_us};
+        if (leads) {
+          noted.target = track.id;
+          noted.stays_s = kLastTracker_s;
+        } else {
+          noted.searched_s = kSearched_s;
+        }
       }
     }
   }
 }
 
 // What a led station's tracker has found, and no other station sees. It stays there as long as a
-// line is searched; for longer if that was a target: it may be the last that sees it, or may have
-// slid onto something else.
+// line is searched; for longer, but not for ever, if that was a target: it may be the last that
+// sees it, or may have slid onto something else.
 void SlewSchedule::note_acquired(const BearingMeasurement& line) {
   const Tracklet& known = tracklets_.at({line.station, line.track_id});
-  const bool is_dismissed = round_.dismissed.contains(known.target);
-  const double stays_s = is_dismissed ? 0.0 : known.target != 0 ? kLastTracker_s : kLongest_s;
-  if (seconds(round_.now_us - known.noted_us) < stays_s) {
+  if (seconds(round_.now_us - known.noted_us) < known.stays_s) {
     round_.bearing_only_stations.insert(line.station);
     round_.busy.insert(line.station);
   } else {
@@ -173,7 +176,7 @@ std::optional<int> SlewSchedule::turn_of(const TrackletName& tracklet) {
   const std::int64_t now_us = round_.now_us;
   Tracklet& known = tracklets_.try_emplace(tracklet, Tracklet{now_us}).first->second;
   known.seen_us = now_us;
-  if (seconds(now_us - known.noted_us) < kWait_s || known.searched_s >= kLongest_s) {
+  if (seconds(now_us - known.noted_us) < kWait_s || known.searched_s >= kSearched_s) {
     return std::nullopt;
   }
   return static_cast<int>(known.searched_s / kTurn_s);
@@ -229,7 +232,7 @@ void SlewSchedule::keep_line(std::int64_t now_us, const BearingLines& lines,
   }
   LineKey key = line_->first;
   if (const auto known = tracklets_.find({ray.station, ray.track_id}); known != tracklets_.end()) {
-    if (known->second.searched_s >= kLongest_s) return;
+    if (known->second.searched_s >= kSearched_s) return;
     std::get<1>(key) = static_cast<int>(known->second.searched_s / kTurn_s);
   }
   open.emplace(key, line_->second);

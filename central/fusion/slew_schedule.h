@@ -51,10 +51,12 @@ class SlewSchedule {
   void find_what_is_let_go(const std::vector<Track>& tracks, const HandoverPolicy& handover);
   // A station, and its own id of the tracklet.
   using TrackletName = std::pair<std::string, std::int64_t>;
+  static constexpr double kSearched_s = 10.0;  // the line of one object, at most
   struct Tracklet {
     std::int64_t noted_us = 0, seen_us = 0;
-    double searched_s = 0.0;  // how long stations have been led along its line
-    std::int64_t target = 0;  // the one that it was of, if that leads stations; else 0
+    double searched_s = 0.0;       // how long stations have been led along its line
+    std::int64_t target = 0;       // the one that it was of, if that leads stations; else 0
+    double stays_s = kSearched_s;  // a tracker, after noted_us
   };
   const BearingMeasurement* line_of(const std::string& station,
                                     const std::vector<const BearingMeasurement*>& own);

@@ -267,6 +267,29 @@ TEST_F(SlewScheduleTest, ATrackerLetsGoOfWhatItAcquiredAndNobodyElseSees) {
   EXPECT_EQ(let_go, std::set<std::int64_t>{0}) << "an operator has designated it";
 }
 
+TEST_F(SlewScheduleTest, NobodySearchesForALostTargetThatLedNobody) {
+  for (const char* name : {"a", "b"}) know(name, {0.0, 0.0, 0.0});
+  now_us = confirm_at(tracks, kPlace) + 20'000;
+  BearingMeasurement own = sight_of(0, kPlace, now_us);
+  own.track_id = 5;
+  own.is_tracklet = true;
+  tracks.give(0, own);
+  handover.settle(now_us, tracks.tracks());
+  ASSERT_TRUE(handover.order(1, false));
+  plan();
+  tracks.clear_tracks();
+  const auto led_along = [&](std::int64_t track_id) {
+    std::set<std::string> led;
+    for (const std::int64_t end_us = now_us + 3'000'000; now_us < end_us; now_us += kPeriodUs) {
+      follow(0, track_id, kPlace, true);
+      for (const Slew& slew : plan()) led.insert(slew.station);
+    }
+    return led;
+  };
+  EXPECT_EQ(led_along(5), std::set<std::string>{});
+  EXPECT_EQ(led_along(6), std::set<std::string>{"b"}) << "another object";
+}
+
 // A target of two stations is lost by one of them; the other one's tracker goes on.
 class LastTrackerTest : public SlewScheduleTest {
  protected:

@@ -124,5 +124,19 @@ TEST(AngleHistory, BeyondTheNewestSampleTheOrderedRateSaysHowMuchMayHaveBegun) {
   }
 }
 
+// Without an order to change the rate.
+TEST(AngleHistory, AnAccelerationThatTheSamplesShowCountsBeyondTheNewest) {
+  AngleHistory history({.max_extrapolation_s = 0.3, .acceleration_sd_rad_s2 = 1e-6});
+  constexpr double kAcceleration = 0.5;
+  for (int i = 0; i < 20; ++i) {
+    const double time_s = 0.1 * i;
+    history.add({.time_s = time_s,
+                 .angles = {0.5 * kAcceleration * time_s * time_s, 0.0},
+                 .ordered_change = PanTilt{}});
+  }
+  const double error_rad = 0.5 * kAcceleration * 0.2 * (0.2 + 0.1);  // 0.2 s after the newest
+  EXPECT_NEAR(std::sqrt(history.at(2.1).value().covariance(0, 0)), error_rad, 0.1 * error_rad);
+}
+
 }  // namespace
 }  // namespace ols::mount

@@ -48,8 +48,8 @@ struct Camera {
   }
 };
 
-struct OnvifDrive : ::testing::Test {
-  OnvifDrive() {
+struct DriveTest : ::testing::Test {
+  DriveTest() {
     config.pan = {0.0, radians(180.0), radians(50.0)};
     config.tilt = {0.0, radians(90.0), radians(50.0)};
     config.limits = {radians(-170.0), radians(170.0), radians(-80.0), radians(80.0), {}, {}};
@@ -98,7 +98,7 @@ struct OnvifDrive : ::testing::Test {
   std::deque<std::pair<double, double>> track;  // time, x
 };
 
-TEST_F(OnvifDrive, StopsFirstAndOrdersNoMotionWithoutAGoal) {
+TEST_F(DriveTest, StopsFirstAndOrdersNoMotionWithoutAGoal) {
   camera.velocity = {1.0, 0.0};  // from a process before
   camera.until_s = kForever_s;
   start();
@@ -109,7 +109,7 @@ TEST_F(OnvifDrive, StopsFirstAndOrdersNoMotionWithoutAGoal) {
   EXPECT_EQ(alarms(), "");
 }
 
-TEST_F(OnvifDrive, ReachesAGoalAtRestAndStands) {
+TEST_F(DriveTest, ReachesAGoalAtRestAndStands) {
   for (const bool absolute : {false, true}) {
     if (absolute) moves.absolute = Space{{-1.0, 1.0}, {-1.0, 1.0}};
     start();
@@ -121,7 +121,7 @@ TEST_F(OnvifDrive, ReachesAGoalAtRestAndStands) {
   }
 }
 
-TEST_F(OnvifDrive, FollowsFiveDegreesASecond) {
+TEST_F(DriveTest, FollowsFiveDegreesASecond) {
   start();
   const auto goal = [&](double t) {
     return Goal{t, {radians(5.0 * (t - 100.0)), 0.0}, {radians(5.0), 0.0}, t + 0.5};
@@ -134,7 +134,7 @@ TEST_F(OnvifDrive, FollowsFiveDegreesASecond) {
   EXPECT_EQ(alarms(), "");
 }
 
-TEST_F(OnvifDrive, NoMotionOutlivesItsLeaseOrItsGoal) {
+TEST_F(DriveTest, NoMotionOutlivesItsLeaseOrItsGoal) {
   start();
   run(3.0, [&](double) { return rest(100.0, 0.0); });
   ASSERT_NE(camera.velocity.x, 0.0);
@@ -149,7 +149,7 @@ TEST_F(OnvifDrive, NoMotionOutlivesItsLeaseOrItsGoal) {
   EXPECT_EQ(camera.velocity.x, 0.0);
 }
 
-TEST_F(OnvifDrive, ALostStopIsRepeatedInAnotherWayAndToldAtLast) {
+TEST_F(DriveTest, ALostStopIsRepeatedInAnotherWayAndToldAtLast) {
   camera.ignores_timeout = camera.ignores_stop = true;
   start();
   run(3.0, [&](double) { return rest(100.0, 0.0); });
@@ -164,7 +164,7 @@ TEST_F(OnvifDrive, ALostStopIsRepeatedInAnotherWayAndToldAtLast) {
   EXPECT_NE(alarms().find("ordered to stop, still moves"), std::string::npos) << alarms();
 }
 
-TEST_F(OnvifDrive, AMotionThatNobodyOrderedIsStoppedAndTold) {
+TEST_F(DriveTest, AMotionThatNobodyOrderedIsStoppedAndTold) {
   start();
   run(6.0);
   camera.velocity = {0.3, 0.0};
@@ -176,7 +176,7 @@ TEST_F(OnvifDrive, AMotionThatNobodyOrderedIsStoppedAndTold) {
   EXPECT_NE(alarms().find("moves without an order"), std::string::npos);
 }
 
-TEST_F(OnvifDrive, ACameraThatRebootsIntoItsHomeIsNoticed) {
+TEST_F(DriveTest, ACameraThatRebootsIntoItsHomeIsNoticed) {
   start();
   run(15.0, [&](double) { return rest(30.0, 0.0); });
   run(5.0);
@@ -187,7 +187,7 @@ TEST_F(OnvifDrive, ACameraThatRebootsIntoItsHomeIsNoticed) {
   EXPECT_NE(alarms().find("moves without an order"), std::string::npos);
 }
 
-TEST_F(OnvifDrive, OrdersThatAreNotCarriedOutEnd) {
+TEST_F(DriveTest, OrdersThatAreNotCarriedOutEnd) {
   for (const bool reversed : {false, true}) {
     camera = {};
     (reversed ? camera.reversed : camera.ignores_all) = true;
@@ -202,7 +202,7 @@ TEST_F(OnvifDrive, OrdersThatAreNotCarriedOutEnd) {
   }
 }
 
-TEST_F(OnvifDrive, ATurnBackWithLatePositionsIsNoDisobedience) {
+TEST_F(DriveTest, ATurnBackWithLatePositionsIsNoDisobedience) {
   start();
   late_s = 0.3;
   run(4.0, [&](double) { return rest(-150.0, 0.0); });
@@ -210,7 +210,7 @@ TEST_F(OnvifDrive, ATurnBackWithLatePositionsIsNoDisobedience) {
   EXPECT_EQ(alarms(), "");
 }
 
-TEST_F(OnvifDrive, AnEmergencyStopsAndHoldsUntilItIsCleared) {
+TEST_F(DriveTest, AnEmergencyStopsAndHoldsUntilItIsCleared) {
   start();
   run(3.0, [&](double) { return rest(100.0, 0.0); });
   drive->emergency_halt();
@@ -222,20 +222,6 @@ TEST_F(OnvifDrive, AnEmergencyStopsAndHoldsUntilItIsCleared) {
   drive->clear_emergency();
   run(1.0, [&](double) { return rest(100.0, 0.0); });
   EXPECT_GT(camera.velocities, before);
-}
-
-TEST(OnvifPositions, AnOldPositionInMotionIsNotUsed) {
-  PositionIntake intake({.delay_s = 0.0, .delay_sd_s = 0.001, .sd_rad = radians(0.1)});
-  const double rate = radians(10.0);
-  double worst_s = 0.0;
-  for (int i = 0; i < 100; ++i) {  // asked ten times a second, renewed every 0.3 s
-    const double t = 0.1 * i, renewed_s = 0.3 * std::floor((t + 1e-9) / 0.3);
-    intake.add({rate * renewed_s, 0.0}, t - 0.01, t + 0.01, rate);
-    for (const AngleSample& sample : intake.take())
-      worst_s = std::max(worst_s, std::abs(sample.time_s - sample.angles.pan_rad / rate));
-  }
-  EXPECT_LT(worst_s, 0.11);
-  EXPECT_NEAR(intake.interval_s(), 0.3, 0.1);
 }
 
 }  // namespace

@@ -65,5 +65,19 @@ TEST(PositionIntake, SaysHowMuchTheOrderedRateHasChanged) {
   EXPECT_FALSE(change(3.2));
 }
 
+TEST(PositionIntake, AnOldPositionInMotionIsNotUsed) {
+  PositionIntake intake({.delay_s = 0.0, .delay_sd_s = 0.001, .sd_rad = radians(0.1)});
+  const double rate = radians(10.0);
+  double worst_s = 0.0;
+  for (int i = 0; i < 100; ++i) {  // asked ten times a second, renewed every 0.3 s
+    const double t = 0.1 * i, renewed_s = 0.3 * std::floor((t + 1e-9) / 0.3);
+    intake.add({rate * renewed_s, 0.0}, t - 0.01, t + 0.01, rate);
+    for (const AngleSample& sample : intake.take())
+      worst_s = std::max(worst_s, std::abs(sample.time_s - sample.angles.pan_rad / rate));
+  }
+  EXPECT_LT(worst_s, 0.11);
+  EXPECT_NEAR(intake.interval_s(), 0.3, 0.1);
+}
+
 }  // namespace
 }  // namespace ols::mount
