@@ -1,6 +1,5 @@
 #include "console/land_skylines.h"
 
-#include <stdexcept>
 #include <utility>
 
 #include "console/land_answers.h"

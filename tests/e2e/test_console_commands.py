@@ -134,11 +134,11 @@ def test_one_key_stops_all(page, paper):
     page.keyboard.press("Escape")
     every = {(name, "stop") for name in ("alfa", "bravo", "charlie")}
     wait(lambda: every <= set(paper.commands), "a stop for each")
-    expect(region(page, "Stations").get_by_text("stopped")).to_have_count(3)
+    expect(region(page, "Stations").get_by_text("stopped", exact=True)).to_have_count(3)
     page.keyboard.down("ArrowRight")
     wait(lambda: paper.counters["alfa"].get("refused_stopped"), "a rate that moves nothing")
     page.keyboard.up("ArrowRight")
-    expect(region(page, "Stations").get_by_text("stopped")).to_have_count(3)
+    expect(region(page, "Stations").get_by_text("stopped", exact=True)).to_have_count(3)
 
 
 # Notes what the page says: another notice may take its place before a busy computer looks again.

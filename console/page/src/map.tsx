@@ -6,6 +6,7 @@ import { useEscape, useHeld } from "./escape";
 import { useLand } from "./land";
 import type { Link } from "./link";
 import { measures } from "./measures";
+import { Menu } from "./menu";
 import { Legend, OwnMaps } from "./ownmaps";
 import { SiteMap } from "./sitemap";
 import type { Corner } from "./site";
@@ -46,8 +47,6 @@ function useSiteMap(element: RefObject<HTMLDivElement>, { link, version, theme, 
 type ToolsProps = { map: SiteMap | null; options: Options; isSolid: boolean; hasLand: boolean; onToggle: (name: keyof Options) => void; onSolid: () => void; onAccuracy: (isShown: boolean) => void };
 
 function Tools({ map, options, isSolid, hasLand, onToggle, onSolid, onAccuracy }: ToolsProps) {
-  const [isOpen, setOpen] = useState(false); // the menu of layers
-  useEscape(isOpen, () => setOpen(false));
   const button = (name: keyof Options, text: string) => (
     <button type="button" aria-pressed={options[name]} onClick={() => onToggle(name)}>
       {text}
@@ -66,8 +65,7 @@ function Tools({ map, options, isSolid, hasLand, onToggle, onSolid, onAccuracy }
       </button>
       {button("measuring", t("measure"))}
       {!isSolid && button("placing", t("place"))}
-      <details class="layers" open={isOpen} onToggle={(event) => setOpen(event.currentTarget.open)}>
-        <summary>{t("layers")}</summary>
+      <Menu class="layers" word={t("layers")}>
         <div>
           {isSolid && hasLand && button("terrain", t("terrain"))}
           {button("grid", t("grid"))}
@@ -82,7 +80,7 @@ function Tools({ map, options, isSolid, hasLand, onToggle, onSolid, onAccuracy }
             </fieldset>
           )}
         </div>
-      </details>
+      </Menu>
     </div>
   );
 }

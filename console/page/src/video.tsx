@@ -1,13 +1,12 @@
 // The stations' pictures: the selected one large, the others small.
 
 import { h } from "preact";
-import { useState } from "preact/hooks";
 import { ArrangementChoice, type Arrangement } from "./arrangement";
-import { useEscape } from "./escape";
 import { problemOf } from "./conditions";
 import { Eye } from "./eye";
 import { useLand } from "./land";
 import type { Link } from "./link";
+import { Menu } from "./menu";
 import type { Designate, Point } from "./onpicture";
 import { usePictures } from "./pictures";
 import type { Station } from "./site";
@@ -26,14 +25,11 @@ function mostWanted(stations: Station[], selected: string): string[] {
 
 // What mouse, fingers and keys do in a picture.
 function HandHint() {
-  const [isOpen, setOpen] = useState(false);
-  useEscape(isOpen, () => setOpen(false));
   return (
-    <details class="hint" open={isOpen} onToggle={(event) => setOpen(event.currentTarget.open)}>
-      <summary>{t("mouse_and_keys")}</summary>
+    <Menu class="hint" word={t("mouse_and_keys")}>
       <p>{t("designate_hint")}</p>
       <p>{t("hand_hint")}</p>
-    </details>
+    </Menu>
   );
 }
 
