@@ -17,7 +17,7 @@ bool all_finite(const BearingMeasurement& s) {
          std::isfinite(s.clock_sd_s) && s.sighted.rate_rad_s.allFinite() &&
          s.sighted.rate_covariance.allFinite() && std::isfinite(s.sighted.size_rad) &&
          std::isfinite(s.sighted.size_sd_rad) && std::isfinite(s.sighted.across_rad) &&
-         std::isfinite(s.sighted.signal);
+         std::isfinite(s.sighted.size_noise_rad) && std::isfinite(s.sighted.signal);
 }
 
 // NaN is out of range, too.
@@ -33,8 +33,8 @@ bool sighted_in_range(const Sighted& s) {
   return s.rate_rad_s.norm() <= kGreatestRadS && P(0, 0) >= 0.0 && P(1, 1) >= 0.0 &&
          P(0, 1) * P(0, 1) <= P(0, 0) * P(1, 1) && s.size_rad >= 0.0 && s.size_rad <= kPi &&
          s.size_sd_rad >= 0.0 && s.size_sd_rad <= kPi && s.across_rad >= 0.0 &&
-         s.across_rad <= kPi && s.signal >= 0.0 && s.signal <= kGreatestSignal &&
-         are_probabilities(s.class_probability);
+         s.across_rad <= kPi && s.size_noise_rad >= 0.0 && s.size_noise_rad <= kPi &&
+         s.signal >= 0.0 && s.signal <= kGreatestSignal && are_probabilities(s.class_probability);
 }
 
 bool in_range(const BearingMeasurement& s) {

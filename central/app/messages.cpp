@@ -152,6 +152,7 @@ Sighted sighted_in(const ols_msg::bearing_t& message) {
           .size_rad = message.size_rad,
           .size_sd_rad = message.size_sd_rad,
           .across_rad = message.across_rad,
+          .size_noise_rad = message.size_noise_rad,
           .signal = message.signal,
           .class_probability = message.class_probability};
 }

@@ -21,8 +21,8 @@ struct Habit {
   double climbing;       // share of the time in which it climbs or descends
   Range climb_m_s;       // then; otherwise within a twentieth of its speed, at most 0.5 m/s
   Range across_m_s2;     // when it turns, half of the time
-  double beating;        // share of the time in which its outline beats
-  Range depth, beat_hz;  // share of the outline that the beat takes away
+  double beating;        // share of the time in which its outline beats or sways
+  Range depth, beat_hz;  // share of each side of the outline that this takes away
 };
 
 // Sources. Drones: makers' data from DJI Mini (0.3 m with rotors) to Matrice 350 (1.5 m), 15 to 23
@@ -30,9 +30,10 @@ struct Habit {
 // m/s; Pennycuick, "Wingbeat frequency of birds in steady cruising flight" (1996): 2 to 15 Hz; wing
 // spans of starling (0.4 m) to white stork (2.0 m); circling at 15 to 40 m radius. Aeroplanes: span
 // 10 m (ultralight) to 65 m (Boeing 777), 35 to 250 m/s. Helicopters: rotor 8 m (R22) to 21 m
-// (Mi-8), to 75 m/s. Meteors: 11 to 72 km/s at entry; the streak of a fiftieth of a second.
+// (Mi-8), to 75 m/s. Meteors: 11 to 72 km/s at entry; the streak of a fiftieth of a second. A drone
+// tilts by some 0.15 rad in gusts, at 0.2 to 0.8 Hz: the simulator's drawings change so much then.
 constexpr std::array<Habit, kSimulatedKinds.size()> kHabits = {{
-    {{0.3, 1.5}, 0.3, {2, 20}, 0.3, {-5, 7}, {0.5, 6}, 0.0, {0, 0}, {1, 1}},
+    {{0.3, 1.5}, 0.3, {2, 20}, 0.3, {-5, 7}, {0.5, 6}, 0.7, {0, 0.15}, {0.2, 0.8}},
     {{0.35, 2.0}, 0.0, {7, 20}, 0.3, {-3, 3}, {1, 8}, 0.75, {0.2, 0.6}, {2, 9}},
     {{10, 65}, 0.0, {35, 250}, 0.4, {-12, 15}, {1, 6}, 0.0, {0, 0}, {1, 1}},
     {{8, 21}, 0.15, {15, 75}, 0.3, {-7, 8}, {0.5, 5}, 0.0, {0, 0}, {1, 1}},
@@ -47,6 +48,7 @@ class Object {
     size_m_ = std::exp(within({std::log(habit_.size_m.least), std::log(habit_.size_m.most)}));
     beat_hz_ = within(habit_.beat_hz);
     depth_ = within(habit_.depth);
+    across_depth_ = within(habit_.depth);
     aspect_ = within({0, 2 * std::numbers::pi});
     cruise_m_s_ = within(habit_.speed_m_s);
     heading_ = within({0, 2 * std::numbers::pi});
@@ -69,16 +71,18 @@ class Object {
     return {speed_ * std::cos(heading_), speed_ * std::sin(heading_), climb_};
   }
   // Seen from the side at a changing aspect: at least 0.7 of the largest extent.
-  double size_m() const {
-    const double beat = beats_ ? 1.0 - depth_ * (0.5 + 0.5 * std::sin(phase_)) : 1.0;
-    return size_m_ * beat * (0.85 + 0.15 * std::cos(aspect_));
-  }
+  double size_m() const { return size_m_ * beat(depth_) * (0.85 + 0.15 * std::cos(aspect_)); }
+  // The smaller side.
+  double across_m() const { return 0.4 * size_m_ * beat(across_depth_); }
 
  private:
   double within(Range range) {
     return std::uniform_real_distribution<double>(range.least, range.most)(random_);
   }
   bool chance(double share) { return within({0.0, 1.0}) < share; }
+  double beat(double depth) const {
+    return beats_ ? 1.0 - depth * (0.5 + 0.5 * std::sin(phase_)) : 1.0;
+  }
 
   void choose() {
     const double usual =
@@ -94,7 +98,7 @@ class Object {
 
   const Habit& habit_;
   std::mt19937_64& random_;
-  double size_m_, beat_hz_, depth_, aspect_, cruise_m_s_, heading_;
+  double size_m_, beat_hz_, depth_, across_depth_, aspect_, cruise_m_s_, heading_;
   double wanted_speed_ = 0.0, wanted_climb_ = 0.0, across_ = 0.0, speed_ = 0.0, climb_ = 0.0;
   double phase_ = 0.0;
   bool beats_ = false;
@@ -124,7 +128,8 @@ std::vector<TimedLook> simulate_looks(int kind, double duration_s, const LookNoi
     velocities.push_back(v);
     const double size_m = scale * object.size_m();
     const double sd_m = size_m * noise.size;
-    sizes.push_back({size_m + sd_m * normal(random), sd_m, sd_m});
+    sizes.push_back({size_m + sd_m * normal(random), sd_m, sd_m,
+                     std::max(0.0, scale * object.across_m() + sd_m * normal(random))});
     if (image % kImagesALook != 0 || image <= kImageHz) continue;
     looks.push_back({image * 1'000'000LL / kImageHz,
                      fusion::look_at({sizes.end() - kImageHz, sizes.end()}, v,

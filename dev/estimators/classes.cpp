@@ -14,9 +14,10 @@ namespace {
 using fusion::ObjectClass;
 constexpr int kKinds = static_cast<int>(kSimulatedKinds.size());
 
-// A station's box is off by half a pixel; a track's by a tenth of its size.
+// An outline is off by a tenth of a pixel before a clear sky, and by more where the contrast is
+// lower; a track's by a tenth of its size.
 LookNoise noise_at(double pixels, std::mt19937_64& random) {
-  const double px = std::uniform_real_distribution<double>(0.3, 0.8)(random);
+  const double px = std::uniform_real_distribution<double>(0.1, 0.5)(random);
   const double speed = std::exp(std::uniform_real_distribution<double>(-2.0, 0.5)(random));
   return {.size = px / pixels, .size_bias = 0.1, .speed_m_s = speed};
 }

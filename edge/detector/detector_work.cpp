@@ -13,6 +13,7 @@ Found PictureDetector::look(const Picture& picture) {
       detector_->advance(picture.gray, picture.mid_exposure_s, picture.motion).suspended;
   std::ranges::copy_if(detector_->tracklets(), std::back_inserter(found.confirmed),
                        &Tracklet::confirmed);
+  for (Tracklet& tracklet : found.confirmed) tracklet.measure_outline(picture.gray);
   return found;
 }
 

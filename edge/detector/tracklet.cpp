@@ -125,6 +125,11 @@ void Tracklet::count(const Detection& detection) {
   reach_px_ = std::max(reach_px_, (pixel_ - first_pixel_).norm());
 }
 
+void Tracklet::measure_outline(const cv::Mat& gray) {
+  outline_.reset();
+  if (seen_) outline_ = outline_at(gray, measured_pixel_, measured_size_px_.maxCoeff());
+}
+
 void Tracklet::confirm() {
   confirmed_ = true;
   confirmed_clear_ = confirmed_clear_ || mostly_clear();

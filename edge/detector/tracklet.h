@@ -3,8 +3,10 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <optional>
 
 #include "edge/detector/detection.h"
+#include "edge/detector/outline.h"
 
 namespace ols::detector {
 
@@ -48,6 +50,10 @@ class Tracklet {
   double measured_sd_px() const { return measured_sd_px_; }
   const Eigen::Vector2d& measured_size_px() const { return measured_size_px_; }
   const Eigen::Vector2d& size_px() const { return size_px_; }  // smoothed
+  // Of the newest detection, as measured with measure_outline(); nullopt if it has no clear
+  // outline.
+  const std::optional<Outline>& outline() const { return outline_; }
+  void measure_outline(const cv::Mat& gray);
   double signal_to_noise() const { return signal_to_noise_; }
   bool seen() const { return seen_; }  // whether the newest image shows it
   double unseen_s() const { return unseen_s_; }
@@ -81,6 +87,7 @@ class Tracklet {
   Eigen::Vector2d measured_pixel_;
   double measured_sd_px_;
   Eigen::Vector2d measured_size_px_;
+  std::optional<Outline> outline_;
   double reach_px_ = 0.0;
   double marked_s_ = 0.0, rested_s_ = 0.0;  // how long mark_ and rest_ have been kept
   double path_px_ = 0.0;                    // length up to the mark

@@ -154,6 +154,7 @@ void fill_detected(const DetectedObject& object, ols_msg::bearing_t& message) {
   message.size_rad = object.size_rad;
   message.size_sd_rad = object.size_sd_rad;
   message.across_rad = object.across_rad;
+  message.size_noise_rad = object.size_noise_rad;
   message.signal = object.signal;
 }
 

@@ -34,6 +34,7 @@ DetectedObject object_of(const DetectedPixel& seen, const Eigen::Matrix2d& J) {
   object.size_rad = scale * seen.size_px;
   object.size_sd_rad = scale * seen.size_sd_px;
   object.across_rad = scale * seen.across_px;
+  object.size_noise_rad = scale * seen.size_noise_px;
   object.signal = seen.signal;
   return object;
 }

@@ -69,10 +69,13 @@ namespace {
 
 DetectedPixel outline_of(const detector::Tracklet& tracklet) {
   constexpr double kBlur_px = 2.0, kOutline = 0.25;  // of a point's size; of the size
-  const double size_px = tracklet.measured_size_px().maxCoeff();
+  const auto& outline = tracklet.outline();
+  const Eigen::Vector2d sides_px = outline ? outline->size_px : tracklet.measured_size_px();
+  const double size_px = sides_px.maxCoeff();
   return {.size_px = size_px,
           .size_sd_px = std::hypot(kBlur_px, kOutline * size_px),
-          .across_px = tracklet.measured_size_px().minCoeff(),
+          .across_px = sides_px.minCoeff(),
+          .size_noise_px = outline ? outline->sd_px.maxCoeff() : 0.0,
           .signal = tracklet.signal_to_noise()};
 }
 

@@ -105,6 +105,7 @@ void Lockstep::send(std::size_t station, const station::Bearing& bearing, double
                            .size_rad = object.size_rad,
                            .size_sd_rad = object.size_sd_rad,
                            .across_rad = object.across_rad,
+                           .size_noise_rad = object.size_noise_rad,
                            .signal = object.signal};
   }
   bearings_.send(measurement, time_s);

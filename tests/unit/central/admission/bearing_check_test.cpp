@@ -72,6 +72,8 @@ TEST(BearingCheck, NamesWhatIsWrongWithWhatADetectorSaw) {
   EXPECT_EQ(refusal([](M& m) { m.sighted.size_rad = -1e-3; }), BearingRefusal::kOutOfRange);
   EXPECT_EQ(refusal([](M& m) { m.sighted.size_rad = 4.0; }), BearingRefusal::kOutOfRange);
   EXPECT_EQ(refusal([](M& m) { m.sighted.size_sd_rad = -1e-3; }), BearingRefusal::kOutOfRange);
+  EXPECT_EQ(refusal([](M& m) { m.sighted.size_noise_rad = -1e-3; }), BearingRefusal::kOutOfRange);
+  EXPECT_EQ(refusal([](M& m) { m.sighted.size_noise_rad = kNan; }), BearingRefusal::kNotFinite);
   EXPECT_EQ(refusal([](M& m) { m.sighted.signal = -1.0; }), BearingRefusal::kOutOfRange);
   EXPECT_EQ(refusal([](M& m) { m.sighted.rate_covariance(0, 1) = 2e-6; }),
             BearingRefusal::kOutOfRange);

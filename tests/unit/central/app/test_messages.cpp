@@ -105,6 +105,7 @@ TEST(Messages, ABearingSaysWhatADetectorSaw) {
   message.size_rad = 2e-3;
   message.size_sd_rad = 3e-4;
   message.across_rad = 1e-3;
+  message.size_noise_rad = 1e-4;
   message.acquired = 1;
   message.signal = 9.5;
   message.classes = 2;
@@ -118,6 +119,7 @@ TEST(Messages, ABearingSaysWhatADetectorSaw) {
   EXPECT_EQ(measurement.sighted.size_rad, 2e-3);
   EXPECT_EQ(measurement.sighted.size_sd_rad, 3e-4);
   EXPECT_EQ(measurement.sighted.across_rad, 1e-3);
+  EXPECT_EQ(measurement.sighted.size_noise_rad, 1e-4);
   EXPECT_TRUE(measurement.is_acquired);
   EXPECT_EQ(measurement.sighted.signal, 9.5);
   EXPECT_EQ(measurement.sighted.class_probability, (std::vector{0.25, 0.75}));

@@ -134,6 +134,7 @@ TEST(StationMessages, ABearingOfADetectedObjectSaysSo) {
                                     .size_rad = 0.003,
                                     .size_sd_rad = 0.001,
                                     .across_rad = 0.002,
+                                    .size_noise_rad = 0.0004,
                                     .signal = 12.0};
   const auto message = to_message(bearing, sender(), settings, 1);
   EXPECT_TRUE(message.detected);
@@ -145,6 +146,7 @@ TEST(StationMessages, ABearingOfADetectedObjectSaysSo) {
   EXPECT_EQ(message.size_rad, 0.003);
   EXPECT_EQ(message.size_sd_rad, 0.001);
   EXPECT_EQ(message.across_rad, 0.002);
+  EXPECT_EQ(message.size_noise_rad, 0.0004);
   EXPECT_EQ(message.signal, 12.0);
   bearing.detected->is_tracklet = false;
   EXPECT_FALSE(to_message(bearing, sender(), settings, 1).detected) << "of the followed target";

@@ -56,6 +56,7 @@ TEST_F(BearingQueueTest, OneOfADetectedObjectStatesItsRateAndSize) {
                                     .size_px = 6.0,
                                     .size_sd_px = 2.0,
                                     .across_px = 4.0,
+                                    .size_noise_px = 0.5,
                                     .signal = 9.0,
                                     .image_bearings = 3};
   queue.add(detected);
@@ -69,6 +70,7 @@ TEST_F(BearingQueueTest, OneOfADetectedObjectStatesItsRateAndSize) {
   EXPECT_NEAR(object.size_rad, 6.0 * px_rad, 0.01 * px_rad);
   EXPECT_NEAR(object.size_sd_rad, 2.0 * px_rad, 0.01 * px_rad);
   EXPECT_NEAR(object.across_rad, 4.0 * px_rad, 0.01 * px_rad);
+  EXPECT_NEAR(object.size_noise_rad, 0.5 * px_rad, 0.01 * px_rad);
   EXPECT_EQ(object.signal, 9.0);
   EXPECT_EQ(object.image_bearings, 3);
   EXPECT_EQ(queue.counters().at("tracklet_bearings"), 1.0);

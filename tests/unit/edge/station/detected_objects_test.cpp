@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <opencv2/imgproc.hpp>
+
 #include "geometry/angles.h"
 
 namespace ols::station {
@@ -160,6 +162,20 @@ TEST_F(DetectedObjectsTest, ASizeIsThatOfTheImageAlone) {
   ASSERT_EQ(sent.size(), 1U);
   EXPECT_EQ(sent[0].detected->size_px, 12.0);
   EXPECT_EQ(sent[0].detected->across_px, 4.0);
+  EXPECT_EQ(sent[0].detected->size_noise_px, 0.0) << "unknown: a box has no outline";
+}
+
+TEST_F(DetectedObjectsTest, AnOutlineIsBetterThanABox) {
+  cv::Mat1b gray(480, 640, std::uint8_t{150});
+  cv::circle(gray, {300, 200}, 5, cv::Scalar(50), cv::FILLED);
+  detector::Tracklet round = object(1, 300, 200);
+  round.measure_outline(gray);
+  const auto sent = image(0.1, {round});
+  ASSERT_EQ(sent.size(), 1U);
+  EXPECT_NEAR(sent[0].detected->size_px, 11.0, 1.0);
+  EXPECT_NEAR(sent[0].detected->across_px, sent[0].detected->size_px, 0.01);
+  EXPECT_GT(sent[0].detected->size_noise_px, 0.0);
+  EXPECT_LT(sent[0].detected->size_noise_px, 0.2);
 }
 
 TEST_F(DetectedObjectsTest, OfManyTheLikeliestAreSent) {

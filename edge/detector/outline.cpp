@@ -1,0 +1,130 @@
+#include "edge/detector/outline.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <opencv2/imgproc.hpp>
+#include <vector>
+
+namespace ols::detector {
+namespace {
+
+constexpr int kStrip_px = 2;  // the surroundings: a strip along the edge of the part
+
+// The object's part of the image, reduced so that a large object costs no more than a small one.
+struct Part {
+  cv::Mat1f gray;
+  Eigen::Vector2d centre;  // of the object, in pixels of the part
+  double reduction = 1.0;
+};
+
+std::optional<Part> part_around(const cv::Mat& gray, const Eigen::Vector2d& centre,
+                                double extent_px) {
+  constexpr double kMost_px = 48.0, kMargin_px = 4.0;
+  const int half = static_cast<int>(std::ceil(extent_px + kMargin_px));
+  const cv::Point middle(static_cast<int>(std::lround(centre.x())),
+                         static_cast<int>(std::lround(centre.y())));
+  const cv::Rect square(middle.x - half, middle.y - half, 2 * half + 1, 2 * half + 1);
+  const cv::Rect area = square & cv::Rect({}, gray.size());
+  if (area.size() != square.size()) return std::nullopt;  // the image's edge cuts it
+  Part part;
+  part.reduction = std::max(1.0, std::ceil(extent_px / kMost_px));
+  cv::Mat reduced;
+  cv::resize(gray(area), reduced, {}, 1.0 / part.reduction, 1.0 / part.reduction, cv::INTER_AREA);
+  reduced.convertTo(part.gray, CV_32F);
+  part.centre.setConstant(0.5 * (part.gray.cols - 1));
+  return part;
+}
+
+struct Surroundings {
+  double level = 0.0, noise = 0.0;  // [grey levels]
+};
+
+// By the three quarters of the strip that deviate least from its median: a neighbour does not
+// count.
+Surroundings surroundings_of(const cv::Mat1f& part) {
+  constexpr double kShare = 0.75, kNormal = 1.943;  // by the mean of |z| below its 75 %
+  constexpr double kFloor = 0.5;                    // what the rounding hides
+  const cv::Rect inside(kStrip_px, kStrip_px, part.cols - 2 * kStrip_px, part.rows - 2 * kStrip_px);
+  std::vector<float> levels;
+  for (int y = 0; y < part.rows; ++y) {
+    for (int x = 0; x < part.cols; ++x)
+      if (!inside.contains({x, y})) levels.push_back(part(y, x));
+  }
+  std::ranges::sort(levels);
+  const float median = levels[levels.size() / 2];
+  std::ranges::sort(levels, {}, [&](float level) { return std::abs(level - median); });
+  levels.resize(static_cast<std::size_t>(kShare * static_cast<double>(levels.size())));
+  double sum = 0.0, deviations = 0.0;
+  for (const float level : levels) {
+    sum += level;
+    deviations += std::abs(level - median);
+  }
+  const auto count = static_cast<double>(levels.size());
+  return {sum / count, std::max(kFloor, kNormal * deviations / count)};
+}
+
+// The largest connected area whose mean of 3x3 pixels stands out by 4.5 sigma, near the centre;
+// empty if there is none, or if it reaches the strip.
+cv::Mat1b object_in(const cv::Mat1f& mean, double noise, const Part& part, double extent_px) {
+  constexpr double kThreshold = 1.5;
+  const cv::Mat1b stands_out = cv::abs(mean) > kThreshold * noise;
+  cv::Mat labels, stats, centres;
+  const int count = cv::connectedComponentsWithStats(stands_out, labels, stats, centres);
+  int largest = 0, most = 0;
+  for (int i = 1; i < count; ++i) {
+    const Eigen::Vector2d at(centres.at<double>(i, 0), centres.at<double>(i, 1));
+    const int area = stats.at<int>(i, cv::CC_STAT_AREA);
+    if ((at - part.centre).norm() > 0.75 * extent_px / part.reduction + 2.0 || area <= most)
+      continue;
+    most = area;
+    largest = i;
+  }
+  if (largest == 0) return {};
+  const auto* box = stats.ptr<int>(largest);
+  const cv::Rect found(box[cv::CC_STAT_LEFT], box[cv::CC_STAT_TOP], box[cv::CC_STAT_WIDTH],
+                       box[cv::CC_STAT_HEIGHT]);
+  const cv::Rect inside(kStrip_px, kStrip_px, mean.cols - 2 * kStrip_px, mean.rows - 2 * kStrip_px);
+  if ((found & inside) != found) return {};
+  return labels == largest;
+}
+
+// Of `weights`, whose noise is independent from pixel to pixel.
+Outline moments_of(const cv::Mat1f& weights, const cv::Mat1b& object, double noise) {
+  constexpr double kSide = 4.0;  // of an ellipse, in its standard deviations
+  std::vector<cv::Point> pixels;
+  cv::findNonZero(object, pixels);
+  const auto off = [](const cv::Point& at) { return Eigen::Array2d(at.x, at.y); };
+  double sum = 0.0;
+  Eigen::Array2d first = Eigen::Array2d::Zero(), second = first, spread = first;
+  for (const cv::Point& at : pixels) {
+    sum += weights(at);
+    first += weights(at) * off(at);
+  }
+  first /= sum;
+  for (const cv::Point& at : pixels) second += weights(at) / sum * (off(at) - first).square();
+  for (const cv::Point& at : pixels) spread += ((off(at) - first).square() - second).square();
+  const Eigen::Array2d sd = second.max(1.0 / 12.0).sqrt();  // a pixel's own, at least
+  return {kSide * sd, kSide * (noise / sum * spread.sqrt()) / (2.0 * sd)};
+}
+
+}  // namespace
+
+std::optional<Outline> outline_at(const cv::Mat& gray, const Eigen::Vector2d& centre,
+                                  double extent_px) {
+  const std::optional<Part> part = part_around(gray, centre, extent_px);
+  if (!part) return std::nullopt;
+  const Surroundings around = surroundings_of(part->gray);
+  cv::Mat1f weights = part->gray - around.level, mean;
+  cv::boxFilter(weights, mean, -1, {3, 3});
+  const cv::Mat1b object = object_in(mean, around.noise, *part, extent_px);
+  if (object.empty()) return std::nullopt;
+  // Parts of it may be brighter than the surroundings, and others darker.
+  cv::subtract(cv::Mat1f::zeros(weights.size()), weights, weights, mean < 0.0F);
+  Outline outline = moments_of(weights, object, around.noise);
+  outline.size_px *= part->reduction;
+  outline.sd_px *= part->reduction;
+  return outline;
+}
+
+}  // namespace ols::detector
