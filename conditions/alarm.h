@@ -33,15 +33,17 @@ struct Alarm {
   bool operator==(const Alarm&) const = default;
   friend bool operator==(const Alarm& alarm, std::string_view text) { return alarm.text == text; }
 
-  // The same alarm with one more parameter: the words of a device or library, after the sentence.
+  // The same alarm with the words of a device or library: they are appended to the sentence, and
+  // become the parameter "detail".
   Alarm with_detail(const std::string& detail) const;
   // A key that stays the same while the alarm holds: the id and the subject's parameters
   // ("station_silent s1"). Other parameters may change meanwhile. Without an id: the sentence.
   std::string key() const;
   // The sentence with the values of the subject's parameters; all other parameters appear as "…".
   std::string gist() const;
-  // The words of the table's sentence before its first colon (part(): what it is about, "ptu") and
-  // after it (reason()). Without an id, part() is empty.
+  // The sentence, split at the first colon of the table's sentence. part() is what stands before it
+  // and says what the alarm is about ("ptu"); reason() is the rest. Without an id, part() is empty
+  // and reason() is the whole sentence.
   std::string part() const;
   std::string reason() const;
   // The value of a parameter; empty: the alarm has no parameter of this name.

@@ -13,8 +13,8 @@ struct JournalEvent {
   std::string text{};
   bool bad = false;       // a warning
   event::Id id{};         // the kind of event; empty: none of the listed kinds
-  std::string station{};  // its id
-  std::string device{};   // or the part of a program, or the connection
+  std::string station{};  // the id of the station that the event is about
+  std::string device{};   // the device, the part of a program or the connection that it is about
   std::string reason{};   // why it happened; a part of the text
   std::string alarm{};    // its id in conditions.toml
   std::string action{};   // what a person should do about it

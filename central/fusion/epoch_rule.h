@@ -1,6 +1,6 @@
 // Chooses the epochs: the instants for which targets are published. An epoch is the newest stamp,
-// so that targets are as recent as possible. The filter predicts every target to the epoch, so most
-// stations need not have bearings later than it. Pure.
+// so that targets are as recent as possible. The filter predicts every target to the epoch. Most
+// stations' newest bearings may therefore be older than the epoch. Pure.
 //
 // A station is delivering if it has sent a bearing recently. A delivering station is due if its
 // next frame (one frame interval after its newest) is older than the epoch, so that the frame's

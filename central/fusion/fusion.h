@@ -29,7 +29,7 @@ namespace ols::fusion {
 
 struct FusionConfig {
   std::string estimator = "filter";  // name of the targets' estimator, for make_estimator()
-  double rate_hz = 15.0;             // largest number of targets per second, for each object
+  double rate_hz = 15.0;             // each target is published at most this often
   // Largest number of targets for which the paper's estimate is also computed; 0 for none.
   int paper_targets = 8;
   AdmissionConfig admission{};
@@ -61,7 +61,7 @@ class Fusion {
   // Takes an operator's decision on a cue, or on a target by its number (target_named()). Returns
   // false if there is no such cue or target, or if the site uses neither cues nor hand-over.
   bool allow_cue(const std::string& id, bool allow);
-  // Chooses which targets found by detectors lead stations from now on.
+  // Sets the policy for targets that only detectors have found: which of them lead stations.
   void set_handover(HandoverMode mode) { handover_.set_mode(mode); }
   HandoverMode handover() const { return handover_.mode(); }
   void end_silent_cues(std::int64_t present_us) { cues_.end_silent(present_us); }

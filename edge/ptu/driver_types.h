@@ -26,7 +26,7 @@ struct PtuConfig {
   std::string device;    // serial device, for example /dev/ttyUSB0
   int baud = 38400;      // the rate to use
   int line_baud = 9600;  // the rate of a unit that was just switched on
-  // Interval of the requests for both positions with the servo's commands.
+  // Interval of the polls: each asks for both positions and carries the servo's commands.
   double poll_interval_s = 0.025;
   // After this time without a usable reply the link counts as down, and the driver starts again.
   double reply_timeout_s = 0.5;
@@ -53,7 +53,7 @@ struct PtuCounters {  // these only increase
   std::uint64_t limit_hits = 0;
   // Pairs of readings that contradicted each other or the motion.
   std::uint64_t refused_positions = 0;
-  // Number of times that echo or verbose replies were found on while ready.
+  // Number of times that a unit in service was found to echo or to send verbose replies.
   std::uint64_t echoes = 0;
   std::uint64_t power_cycles = 0;  // power cycles of the unit that the driver noticed
   std::uint64_t homings = 0;       // homings ordered by the driver

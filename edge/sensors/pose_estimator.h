@@ -60,7 +60,8 @@ class PoseEstimator {
     double alarm_sigma = 5.0;  // a reading further off than this is inconsistent
     // Delay of the alarm, so that a gust or an outlier does not raise it.
     double alarm_after_s = 2.0;
-    double restation_s = 300.0;  // after this time of inconsistent readings, the tripod was moved
+    // After this time of inconsistent readings, the alarm asks to set up the station again.
+    double restation_s = 300.0;
     // A new position is adopted after it has held for this long; 0: never.
     double accept_move_s = 0.0;
     // Growth of the position's 1-sigma while no reading is consistent.
@@ -75,7 +76,8 @@ class PoseEstimator {
   // first reading. Its sigmas grow with its age, and an alarm reports it until a sensor confirms
   // it.
   void resume(const PersistedPose& known, double now_s, std::int64_t now_utime_us);
-  // The pose to be saved over a restart: measured, or confirmed by a sensor since the start.
+  // The pose to save for the next start. It has only those parts that are not surveyed and that a
+  // sensor has measured or confirmed since the start.
   PersistedPose to_persist(double now_s, std::int64_t now_utime_us) const;
 
   // Add readings in order of time for each sensor. Readings that are out of order or not finite are

@@ -1,4 +1,5 @@
-// What cameras that are read through GStreamer have in common: its start, and pictures out of it.
+// The common part of all cameras that are read through GStreamer: starting GStreamer, and taking
+// pictures from it.
 #pragma once
 
 #include <gst/gst.h>
@@ -9,11 +10,12 @@
 
 namespace ols::camera {
 
-// Starts GStreamer once; it starts no other program.
+// Starts GStreamer, at the first call only. GStreamer then starts no helper process to find its
+// plugins.
 void start_gstreamer();
 
-// The formats of an appsink whose pictures gst_picture() takes: planes of which the first is gray.
-// With colour: one layout.
+// The caps that an appsink must be given for gst_picture(). In all of these formats the first plane
+// is the gray picture. With colour, only one format is allowed (I420).
 const char* gst_formats(bool with_colour);
 
 struct GstPicture {
@@ -23,7 +25,7 @@ struct GstPicture {
 // nullopt: the sample has no picture in memory.
 std::optional<GstPicture> gst_picture(GstSample* sample, bool with_colour);
 
-// What a device says, for a line of text.
+// A device's text, made fit for one line: without control characters, and at most 120 bytes long.
 std::string printable(std::string text);
 
 }  // namespace ols::camera

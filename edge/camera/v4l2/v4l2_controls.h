@@ -1,7 +1,7 @@
 // The controls of a V4L2 camera: exposure, gain, focus. Pure.
 //
-// GStreamer sets those that the configuration names, and says nothing of a name that the camera
-// does not have. So the names are compared with the camera's own before.
+// GStreamer sets the controls that the configuration names. It silently ignores a control that the
+// camera does not have. The names are therefore first compared with the camera's own.
 #pragma once
 
 #include <string>
