@@ -31,21 +31,34 @@ double log_density(const KindMode& mode, const Features& seen) {
   return log;
 }
 
-double log_likelihood(const Kind& kind, const Features& seen) {
+double log_density(const Kind& kind, const Features& seen) {
   std::array<double, kModes> logs{};
   std::ranges::transform(kind.modes, logs.begin(),
                          [&](const KindMode& mode) { return log_density(mode, seen); });
   return log_sum(logs.data(), kModes);
 }
 
-// The relative variance of one side of the outline beyond that of its noise.
+// One look in a hundred may show anything: an outline that a cloud's edge has joined, for example.
+double log_likelihood(const Kind& kind, const Features& seen) {
+  constexpr double kStray = 0.01;
+  const Kind& anything = std::end(kClassTable)[-1];
+  const std::array<double, 2> logs{std::log(1.0 - kStray) + log_density(kind, seen),
+                                   std::log(kStray) + log_density(anything, seen)};
+  return log_sum(logs.data(), 2);
+}
+
+// The relative variance of one side of the outline beyond that of its noise. Sizes of unknown noise
+// were measured in another way, and do not count.
 Measured flicker_of(const std::vector<SeenSize>& sizes, double SeenSize::*side) {
-  const auto count = static_cast<double>(sizes.size());
+  std::vector<SeenSize> outlines;
+  std::ranges::copy_if(sizes, std::back_inserter(outlines),
+                       [](const SeenSize& one) { return one.noise_m > 0.0; });
+  const auto count = static_cast<double>(outlines.size());
   double sum = 0.0, squares = 0.0, noise = 0.0;
-  for (const SeenSize& one : sizes) sum += one.*side;
+  for (const SeenSize& one : outlines) sum += one.*side;
   const double mean = sum / count;
-  if (sizes.size() < kLeastSizes || mean <= 0.0) return {};
-  for (const SeenSize& one : sizes) {
+  if (outlines.size() < kLeastSizes || mean <= 0.0) return {};
+  for (const SeenSize& one : outlines) {
     squares += std::pow(one.*side / mean - 1.0, 2);
     noise += std::pow(one.noise_m / mean, 2);
   }

@@ -36,8 +36,9 @@ struct Measured {
   double value = 0.0, sd = 0.0;  // 1-sigma; 0 if the value is unknown
 };
 
-// The largest extent of an object in one image [m], its 1-sigma, and the part of that which is new
-// in each image. `across_m`: the smaller side of its upright box, with the same noise; 0: unknown.
+// The largest extent of an object in one image [m], its 1-sigma, and the noise that is new in each
+// image (0: unknown). `across_m`: the smaller side of its upright box, with the same noise; 0:
+// unknown.
 struct SeenSize {
   double value_m = 0.0, sd_m = 0.0, noise_m = 0.0, across_m = 0.0;
 };

@@ -71,11 +71,8 @@ std::vector<SeenSize> best_sizes(const Track& track, const Eigen::Vector3d& p_ec
       if (m.sighted.size_rad <= 0.0 || m.sighted.size_sd_rad <= 0.0) continue;
       const double range_m = (p_ecef - m.sight.origin_ecef).norm();
       const double sd_m = range_m * m.sighted.size_sd_rad;
-      // All of it may be new in each image if nobody says otherwise.
-      const double noise_m =
-          m.sighted.size_noise_rad > 0.0 ? range_m * m.sighted.size_noise_rad : sd_m;
-      sizes.push_back(
-          {range_m * m.sighted.size_rad, sd_m, noise_m, range_m * m.sighted.across_rad});
+      sizes.push_back({range_m * m.sighted.size_rad, sd_m, range_m * m.sighted.size_noise_rad,
+                       range_m * m.sighted.across_rad});
     }
     if (sizes.empty()) continue;
     if (best.empty() || sizes.back().sd_m < best.back().sd_m) best = std::move(sizes);

@@ -37,19 +37,20 @@ std::optional<Part> part_around(const cv::Mat& gray, const Eigen::Vector2d& cent
 }
 
 struct Surroundings {
-  double level = 0.0, noise = 0.0;  // [grey levels]
+  double level = 0.0, sd = 0.0;  // of the means of 3x3 pixels [grey levels]
 };
 
 // By the three quarters of the strip that deviate least from its median: a neighbour does not
-// count.
-Surroundings surroundings_of(const cv::Mat1f& part) {
+// count. The spread of means tells a texture from the noise of single pixels.
+Surroundings surroundings_of(const cv::Mat1f& means) {
   constexpr double kShare = 0.75, kNormal = 1.943;  // by the mean of |z| below its 75 %
-  constexpr double kFloor = 0.5;                    // what the rounding hides
-  const cv::Rect inside(kStrip_px, kStrip_px, part.cols - 2 * kStrip_px, part.rows - 2 * kStrip_px);
+  constexpr double kFloor = 0.17;                   // what the rounding hides
+  const cv::Rect inside(kStrip_px, kStrip_px, means.cols - 2 * kStrip_px,
+                        means.rows - 2 * kStrip_px);
   std::vector<float> levels;
-  for (int y = 0; y < part.rows; ++y) {
-    for (int x = 0; x < part.cols; ++x)
-      if (!inside.contains({x, y})) levels.push_back(part(y, x));
+  for (int y = 0; y < means.rows; ++y) {
+    for (int x = 0; x < means.cols; ++x)
+      if (!inside.contains({x, y})) levels.push_back(means(y, x));
   }
   std::ranges::sort(levels);
   const float median = levels[levels.size() / 2];
@@ -64,11 +65,9 @@ Surroundings surroundings_of(const cv::Mat1f& part) {
   return {sum / count, std::max(kFloor, kNormal * deviations / count)};
 }
 
-// The largest connected area whose mean of 3x3 pixels stands out by 4.5 sigma, near the centre;
-// empty if there is none, or if it reaches the strip.
-cv::Mat1b object_in(const cv::Mat1f& mean, double noise, const Part& part, double extent_px) {
-  constexpr double kThreshold = 1.5;
-  const cv::Mat1b stands_out = cv::abs(mean) > kThreshold * noise;
+// The largest connected area near the centre that stands out from the surroundings; empty if there
+// is none, or if it reaches the strip.
+cv::Mat1b object_in(const cv::Mat1b& stands_out, const Part& part, double extent_px) {
   cv::Mat labels, stats, centres;
   const int count = cv::connectedComponentsWithStats(stands_out, labels, stats, centres);
   int largest = 0, most = 0;
@@ -84,7 +83,8 @@ cv::Mat1b object_in(const cv::Mat1f& mean, double noise, const Part& part, doubl
   const auto* box = stats.ptr<int>(largest);
   const cv::Rect found(box[cv::CC_STAT_LEFT], box[cv::CC_STAT_TOP], box[cv::CC_STAT_WIDTH],
                        box[cv::CC_STAT_HEIGHT]);
-  const cv::Rect inside(kStrip_px, kStrip_px, mean.cols - 2 * kStrip_px, mean.rows - 2 * kStrip_px);
+  const cv::Rect inside(kStrip_px, kStrip_px, labels.cols - 2 * kStrip_px,
+                        labels.rows - 2 * kStrip_px);
   if ((found & inside) != found) return {};
   return labels == largest;
 }
@@ -114,14 +114,22 @@ std::optional<Outline> outline_at(const cv::Mat& gray, const Eigen::Vector2d& ce
                                   double extent_px) {
   const std::optional<Part> part = part_around(gray, centre, extent_px);
   if (!part) return std::nullopt;
-  const Surroundings around = surroundings_of(part->gray);
-  cv::Mat1f weights = part->gray - around.level, mean;
-  cv::boxFilter(weights, mean, -1, {3, 3});
-  const cv::Mat1b object = object_in(mean, around.noise, *part, extent_px);
+  // Below kClear thresholds, much of the object may not stand out.
+  constexpr double kThreshold_sd = 4.5, kClear = 4.0, kPixels = 9.0;
+  cv::Mat1f means;
+  cv::boxFilter(part->gray, means, -1, {3, 3});
+  const Surroundings around = surroundings_of(means);
+  means -= around.level;
+  const cv::Mat1b stands_out = cv::abs(means) > kThreshold_sd * around.sd;
+  const cv::Mat1b object = object_in(stands_out, *part, extent_px);
   if (object.empty()) return std::nullopt;
+  double most = 0.0;
+  cv::minMaxLoc(cv::abs(means), nullptr, &most, nullptr, nullptr, object);
+  if (most < kClear * kThreshold_sd * around.sd) return std::nullopt;
   // Parts of it may be brighter than the surroundings, and others darker.
-  cv::subtract(cv::Mat1f::zeros(weights.size()), weights, weights, mean < 0.0F);
-  Outline outline = moments_of(weights, object, around.noise);
+  cv::Mat1f weights = part->gray - around.level;
+  cv::subtract(cv::Mat1f::zeros(weights.size()), weights, weights, means < 0.0F);
+  Outline outline = moments_of(weights, object, std::sqrt(kPixels) * around.sd);
   outline.size_px *= part->reduction;
   outline.sd_px *= part->reduction;
   return outline;

@@ -45,7 +45,7 @@ TEST(ClassPosterior, IsUnknownAtFirstByVagueLooksWithoutSizeAndBetweenTwoClasses
   ClassLook sizeless = drone;
   sizeless.size_m = {};
   EXPECT_EQ(after(10.0, sizeless).belief().object_class, ObjectClass::kUnknown);
-  ClassLook gliding = look(0.8, 8.5, 0.0, 0.0);  // a drone, or a bird whose beat is not seen
+  ClassLook gliding = look(0.8, 7.0, 0.0, 0.0);  // a drone, or a bird whose beat is not seen
   gliding.flicker = {};
   const ClassBelief doubtful = after(10.0, gliding).belief();
   EXPECT_EQ(doubtful.object_class, ObjectClass::kUnknown);
@@ -72,6 +72,18 @@ TEST(ClassPosterior, FlickerIsWhatTheNoiseDoesNotExplain) {
   EXPECT_NEAR(look_at(steady, {}, {}, 0.0, 1.0).flicker.value, 0.0, 0.001);
   EXPECT_NEAR(look_at(from_the_side, {}, {}, 0.0, 1.0).flicker.value, 0.045 - 0.01, 0.005);
   EXPECT_NEAR(look_at(steady, {}, {}, 0.0, 1.0).size_m.sd, 0.25, 1e-9);
+  const double before = look_at(beating, {}, {}, 0.0, 1.0).flicker.value;
+  beating.push_back({2.0, 0.25, 0.0});
+  EXPECT_EQ(look_at(beating, {}, {}, 0.0, 1.0).flicker.value, before) << "of unknown noise";
+}
+
+TEST(ClassPosterior, AStrayLookMakesNoBirdOfADrone) {
+  ClassLook drone = look(0.5, 0.2, 4.0, 0.0005), stray = drone;
+  drone.flicker.sd = stray.flicker.sd = 1e-4;
+  stray.flicker.value = 0.12;
+  ClassPosterior posterior = after(10.0, drone);
+  posterior.add(10'300'000, stray);
+  EXPECT_EQ(posterior.belief().object_class, ObjectClass::kDrone);
 }
 
 TEST(ClassPosterior, MotionIsSplitByItsPath) {

@@ -111,6 +111,10 @@ TEST(Outline, IsUnknownWithoutClearSurroundings) {
   EXPECT_FALSE(outline_at(with_noise(cv::Mat1f(80, 80, 150.0F), 2.0, random), {40.0, 40.0}, 10.0))
       << "nothing there";
   EXPECT_FALSE(outline_at(with_noise(alone, 2.0, random), {75.0, 40.0}, 10.0)) << "the image ends";
+  cv::Mat1f leaves = with_noise(cv::Mat1f(80, 80, 0.0F) + 128.0F, 30.0, random);
+  cv::GaussianBlur(leaves, leaves, {}, 1.5);
+  const cv::Mat1f before_leaves = alone + (leaves - 128.0F);
+  EXPECT_FALSE(outline_at(with_noise(before_leaves, 2.0, random), {40.0, 40.0}, 10.0));
   cv::Mat1f mast = alone.clone();
   mast.colRange(39, 42).rowRange(40, 80) = 90.0F;
   EXPECT_FALSE(outline_at(with_noise(mast, 2.0, random), {40.0, 40.0}, 10.0)) << "it hangs on more";
