@@ -114,11 +114,14 @@ Features features_of(const ClassLook& look) {
   const double size_m = std::max(look.size_m.value, 1e-3);
   const double speed = 1.0 + std::max(look.speed_m_s.value, 0.0);
   const double across = 1.0 + std::max(look.across_m_s2.value, 0.0);
-  const double climb = look.climb_m_s.value;
+  constexpr double kHeight_m = 10.0;
+  const double climb = look.climb_m_s.value, height = look.height_m.value / kHeight_m;
   return {by(look.size_m, std::log(size_m), 1.0 / size_m),
           by(look.speed_m_s, std::log(speed), 1.0 / speed),
           by(look.climb_m_s, std::asinh(climb), 1.0 / std::hypot(1.0, climb)),
-          by(look.across_m_s2, std::log(across), 1.0 / across), look.flicker};
+          by(look.across_m_s2, std::log(across), 1.0 / across),
+          look.flicker,
+          by(look.height_m, std::asinh(height), 1.0 / (kHeight_m * std::hypot(1.0, height)))};
 }
 
 void ClassPosterior::add(std::int64_t utime_us, const ClassLook& look) {

@@ -1,8 +1,8 @@
 // Estimates what kind of object a target is, from its size and its motion over its life. Pure.
 //
-// Each kind (class_table.h) has a probability density over five features of a look, a mixture of
-// normal distributions. The features are size, speed, climb, acceleration across the path, and
-// flicker. Flicker is the relative variance of the outline's two sides within a second, wings and
+// Each kind (class_table.h) has a probability density over six features of a look, a mixture of
+// normal distributions. The features are size, speed, climb, acceleration across the path, height
+// above the ground, and flicker. Flicker is the relative variance of the outline's two sides within a second, wings and
 // rotors seen as one: a bird's outline changes with its wing beat of 2 to 15 Hz, a rigid body's
 // does not. Seen from the side, wings change only its height. The error of each feature is added to
 // the variance of the density, so that an uncertain look decides little. An unknown feature is left
@@ -48,19 +48,20 @@ struct ClassLook {
   Measured speed_m_s;    // horizontal speed
   Measured climb_m_s;    // vertical speed, positive up
   Measured across_m_s2;  // acceleration across the path
+  Measured height_m;     // above the ground
   // Relative variance of both sides of the outline within a second, with their noise removed.
   Measured flicker;
 };
 
-// A look at a target, from three inputs: the sizes that one station saw within the last second; the
+// A look at a target, but for its height, from three inputs: the sizes that one station saw within the last second; the
 // velocities (east, north, up) now and `apart_s` before; and the velocities' 1-sigma, each axis.
 ClassLook look_at(const std::vector<SeenSize>& sizes, const std::array<double, 3>& velocity_m_s,
                   const std::array<double, 3>& before_m_s, double apart_s, double velocity_sd_m_s);
 
-inline constexpr int kFeatures = 5;
+inline constexpr int kFeatures = 6;
 using Features = std::array<Measured, kFeatures>;
 // The features as the densities use them: ln size, ln(1 + speed), asinh climb, ln(1 + across),
-// flicker.
+// flicker, asinh(height / 10 m).
 Features features_of(const ClassLook& look);
 
 struct ClassBelief {

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
+#include "central/ground/above_ground.h"
 #include "central/measurement/time_span.h"
 #include "geometry/wgs84.h"
 
@@ -80,9 +82,29 @@ std::vector<SeenSize> best_sizes(const Track& track, const Eigen::Vector3d& p_ec
   return best;
 }
 
+// Where the land is unknown, it is taken as flat around the nearest station.
+Measured height_of(const Track& track, const KinematicState& state, const land::Surface* surface) {
+  constexpr double kRise = 0.05, kLeast_m = 5.0;  // 1-sigma of the land, by the distance
+  const Eigen::Vector3d position = state.mean.head<3>();
+  const Eigen::Matrix3d P = state.covariance.topLeftCorner<3, 3>();
+  if (surface != nullptr) {
+    if (const auto above = height_above_ground(*surface, position, P))
+      return {above->height_m, above->sd_m};
+  }
+  std::optional<Eigen::Vector3d> nearest;
+  for (const auto& [station, bearings] : track.bearings) {
+    if (bearings.empty()) continue;
+    const Eigen::Vector3d& there = bearings.back().sight.origin_ecef;
+    if (!nearest || (there - position).norm() < (*nearest - position).norm()) nearest = there;
+  }
+  if (!nearest) return {};
+  return {geodetic_from_ecef(position).height_m - geodetic_from_ecef(*nearest).height_m,
+          std::hypot(kLeast_m, kRise * (*nearest - position).norm(), std::sqrt(P.trace() / 3.0))};
+}
+
 }  // namespace
 
-void look_at_class(Track& track) {
+void look_at_class(Track& track, const land::Surface* surface) {
   constexpr std::int64_t kPause_us = 200'000, kBefore_us = 1'000'000;
   const KinematicState& state = track.filter.summary();
   auto& velocities = track.velocities;
@@ -100,9 +122,10 @@ void look_at_class(Track& track) {
   const double sd = std::sqrt(state.covariance.block<3, 3>(3, 3).trace() / 3.0);
   const std::int64_t apart_us = state.utime_us - before_us;
   // Velocities of a shorter time apart say nothing but noise.
-  track.classes.add(state.utime_us,
-                    look_at(best_sizes(track, position), enu(velocity), enu(before),
-                            apart_us > kBefore_us / 2 ? seconds(apart_us) : 0.0, sd));
+  ClassLook look = look_at(best_sizes(track, position), enu(velocity), enu(before),
+                           apart_us > kBefore_us / 2 ? seconds(apart_us) : 0.0, sd);
+  look.height_m = height_of(track, state, surface);
+  track.classes.add(state.utime_us, look);
 }
 
 Appearance appearance_of(const Track& track, const Eigen::Vector3d& p_ecef) {

@@ -127,7 +127,7 @@ void TrackManager::advance(std::int64_t now_us) {
   for (Track& track : tracks_) {
     if (track.state == TrackState::kDeleted) continue;
     age(track, now_us);
-    if (is_established(track)) look_at_class(track);
+    if (is_established(track)) look_at_class(track, config_.initiation.land.get());
   }
   merge_duplicates();
   for (const Track& track : tracks_) {

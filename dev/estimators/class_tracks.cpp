@@ -23,6 +23,7 @@ struct Habit {
   Range across_m_s2;     // when it turns, half of the time
   double beating;        // share of the time in which its outline beats or sways
   Range depth, beat_hz;  // share of each side of the outline that this takes away
+  Range height_m;        // above the ground; all orders of magnitude are alike
 };
 
 // Sources. Drones: makers' data from DJI Mini (0.3 m with rotors) to Matrice 350 (1.5 m), 15 to 23
@@ -32,14 +33,15 @@ struct Habit {
 // 10 m (ultralight) to 65 m (Boeing 777), 35 to 250 m/s. Helicopters: rotor 8 m (R22) to 21 m
 // (Mi-8), to 75 m/s. Meteors: 11 to 72 km/s at entry; the streak of a fiftieth of a second. A drone
 // tilts by some 0.15 rad in gusts, at 0.2 to 0.8 Hz: the simulator's drawings change so much then.
+// Drones and birds share the lowest 200 m, so their height says nothing between them.
 constexpr std::array<Habit, kSimulatedKinds.size()> kHabits = {{
-    {{0.3, 1.5}, 0.3, {2, 20}, 0.3, {-5, 7}, {0.5, 6}, 0.7, {0, 0.15}, {0.2, 0.8}},
-    {{0.35, 2.0}, 0.0, {7, 20}, 0.3, {-3, 3}, {1, 8}, 0.75, {0.2, 0.6}, {2, 9}},
-    {{10, 65}, 0.0, {35, 250}, 0.4, {-12, 15}, {1, 6}, 0.0, {0, 0}, {1, 1}},
-    {{8, 21}, 0.15, {15, 75}, 0.3, {-7, 8}, {0.5, 5}, 0.0, {0, 0}, {1, 1}},
-    {{1.5, 1.95}, 0.3, {0.7, 4}, 0.0, {0, 0}, {0, 1}, 0.7, {0.05, 0.2}, {1.5, 3}},
-    {{3.5, 18}, 0.1, {3, 37}, 0.0, {0, 0}, {0.3, 3}, 0.0, {0, 0}, {1, 1}},
-    {{200, 1400}, 0.0, {8e3, 65e3}, 1.0, {-40e3, -3e3}, {0, 10}, 0.0, {0, 0}, {1, 1}},
+    {{0.3, 1.5}, 0.3, {2, 20}, 0.3, {-5, 7}, {0.5, 6}, 0.7, {0, 0.15}, {0.2, 0.8}, {2, 200}},
+    {{0.35, 2.0}, 0.0, {7, 20}, 0.3, {-3, 3}, {1, 8}, 0.75, {0.2, 0.6}, {2, 9}, {2, 200}},
+    {{10, 65}, 0.0, {35, 250}, 0.4, {-12, 15}, {1, 6}, 0.0, {0, 0}, {1, 1}, {60, 11e3}},
+    {{8, 21}, 0.15, {15, 75}, 0.3, {-7, 8}, {0.5, 5}, 0.0, {0, 0}, {1, 1}, {20, 1500}},
+    {{1.5, 1.95}, 0.3, {0.7, 4}, 0.0, {0, 0}, {0, 1}, 0.7, {0.05, 0.2}, {1.5, 3}, {1, 1}},
+    {{3.5, 18}, 0.1, {3, 37}, 0.0, {0, 0}, {0.3, 3}, 0.0, {0, 0}, {1, 1}, {1, 1}},
+    {{200, 1400}, 0.0, {8e3, 65e3}, 1.0, {-40e3, -3e3}, {0, 10}, 0.0, {0, 0}, {1, 1}, {7e4, 1.2e5}},
 }};
 
 class Object {
@@ -52,6 +54,7 @@ class Object {
     aspect_ = within({0, 2 * std::numbers::pi});
     cruise_m_s_ = within(habit_.speed_m_s);
     heading_ = within({0, 2 * std::numbers::pi});
+    height_m_ = std::exp(within({std::log(habit_.height_m.least), std::log(habit_.height_m.most)}));
     choose();
     speed_ = wanted_speed_, climb_ = wanted_climb_;
   }
@@ -72,6 +75,7 @@ class Object {
   }
   // Seen from the side at a changing aspect: at least 0.7 of the largest extent.
   double size_m() const { return size_m_ * beat(depth_) * (0.85 + 0.15 * std::cos(aspect_)); }
+  double height_m() const { return height_m_; }
   // The smaller side.
   double across_m() const { return 0.4 * size_m_ * beat(across_depth_); }
 
@@ -98,7 +102,7 @@ class Object {
 
   const Habit& habit_;
   std::mt19937_64& random_;
-  double size_m_, beat_hz_, depth_, across_depth_, aspect_, cruise_m_s_, heading_;
+  double size_m_, beat_hz_, depth_, across_depth_, aspect_, height_m_, cruise_m_s_, heading_;
   double wanted_speed_ = 0.0, wanted_climb_ = 0.0, across_ = 0.0, speed_ = 0.0, climb_ = 0.0;
   double phase_ = 0.0;
   bool beats_ = false;
@@ -112,6 +116,7 @@ std::vector<TimedLook> simulate_looks(int kind, double duration_s, const LookNoi
   Object object(kind, random);
   std::normal_distribution<double> normal;
   const double scale = std::exp(noise.size_bias * normal(random));
+  const double ground_m = noise.ground_m * normal(random);
   std::array<double, 3> error{};
   for (double& axis : error) axis = noise.speed_m_s * normal(random);
   std::vector<fusion::SeenSize> sizes;
@@ -127,7 +132,7 @@ std::vector<TimedLook> simulate_looks(int kind, double duration_s, const LookNoi
     }
     velocities.push_back(v);
     const double size_m = scale * object.size_m();
-    const double sd_m = size_m * noise.size;
+    const double sd_m = std::max(size_m * noise.size, 1e-6);  // 0 would be unknown
     sizes.push_back({size_m + sd_m * normal(random), sd_m, sd_m,
                      std::max(0.0, scale * object.across_m() + sd_m * normal(random))});
     if (image % kImagesALook != 0 || image <= kImageHz) continue;
@@ -135,6 +140,7 @@ std::vector<TimedLook> simulate_looks(int kind, double duration_s, const LookNoi
                      fusion::look_at({sizes.end() - kImageHz, sizes.end()}, v,
                                      velocities[velocities.size() - 1 - kImageHz], 1.0,
                                      std::max(noise.speed_m_s, 1e-6))});
+    looks.back().look.height_m = {object.height_m() + ground_m, std::max(noise.ground_m, 1e-6)};
   }
   return looks;
 }

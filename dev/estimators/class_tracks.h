@@ -30,6 +30,7 @@ struct LookNoise {
   double size = 0.0;       // relative, of one image
   double size_bias = 0.0;  // relative, the same for the whole track, not stated
   double speed_m_s = 0.0;  // of each axis of the velocity, correlated over a second
+  double ground_m = 0.0;   // of the height above the ground, the same for the whole track
 };
 
 struct TimedLook {

@@ -15,11 +15,11 @@ using fusion::ObjectClass;
 constexpr int kKinds = static_cast<int>(kSimulatedKinds.size());
 
 // An outline is off by a tenth of a pixel before a clear sky, and by more where the contrast is
-// lower; a track's by a tenth of its size.
+// lower; a track's by a tenth of its size. The land is unknown, and the object some 300 m away.
 LookNoise noise_at(double pixels, std::mt19937_64& random) {
   const double px = std::uniform_real_distribution<double>(0.1, 0.5)(random);
   const double speed = std::exp(std::uniform_real_distribution<double>(-2.0, 0.5)(random));
-  return {.size = px / pixels, .size_bias = 0.1, .speed_m_s = speed};
+  return {.size = px / pixels, .size_bias = 0.1, .speed_m_s = speed, .ground_m = 15.0};
 }
 
 }  // namespace
@@ -61,7 +61,7 @@ void write_class_looks(const std::string& file, int runs) {
   std::mt19937_64 random(kSeed);
   std::FILE* const out = std::fopen(file.c_str(), "w");
   if (out == nullptr) throw std::runtime_error(file + ": cannot be written");
-  std::fputs("kind,class,size,speed,climb,across,flicker\n", out);
+  std::fputs("kind,class,size,speed,climb,across,flicker,height\n", out);
   for (int kind = 0; kind < kKinds; ++kind) {
     for (int run = 0; run < runs; ++run) {
       for (const auto& seen : simulate_looks(kind, 5.0, {}, random)) {

@@ -40,12 +40,13 @@ TEST(ClassPosterior, NamesWhatIsPlain) {
 TEST(ClassPosterior, IsUnknownAtFirstByVagueLooksWithoutSizeAndBetweenTwoClasses) {
   const ClassLook drone = look(0.5, 0.2, 4.0, 0.0);
   EXPECT_EQ(after(0.75, drone).belief().object_class, ObjectClass::kUnknown);
-  const ClassLook vague{{0.5, 5.0}, {0.2, 30.0}, {4.0, 30.0}, {0.5, 50.0}, {0.0, 0.3}};
+  const ClassLook vague{{0.5, 5.0},  {0.2, 30.0},   {4.0, 30.0},
+                        {0.5, 50.0}, {50.0, 300.0}, {0.0, 0.3}};
   EXPECT_EQ(after(10.0, vague).belief().object_class, ObjectClass::kUnknown);
   ClassLook sizeless = drone;
   sizeless.size_m = {};
   EXPECT_EQ(after(10.0, sizeless).belief().object_class, ObjectClass::kUnknown);
-  ClassLook gliding = look(0.8, 7.0, 0.0, 0.0);  // a drone, or a bird whose beat is not seen
+  ClassLook gliding = look(0.8, 8.5, 0.0, 0.0);  // a drone, or a bird whose beat is not seen
   gliding.flicker = {};
   const ClassBelief doubtful = after(10.0, gliding).belief();
   EXPECT_EQ(doubtful.object_class, ObjectClass::kUnknown);

@@ -7,6 +7,7 @@
 #include "central/tracking/appearance.h"
 #include "central/tracking/target_appearance.h"
 #include "tests/unit/central/flight.h"
+#include "tests/unit/central/ground/lands.h"
 #include "tests/unit/central/scene.h"
 
 namespace ols::fusion {
@@ -136,9 +137,10 @@ TEST(TargetAppearance, ClassesOfBothStationsMultiply) {
 
 // Of what is 35 m long, by five seconds of this velocity; the size is that of the station that sees
 // it best.
-Appearance flown(const Eigen::Vector3d& velocity_enu_m_s) {
-  Track track =
-      seen_by_two({.size_rad = 0.35, .size_sd_rad = 0.02}, {.size_rad = 0.01, .size_sd_rad = 0.3});
+Appearance flown(const Eigen::Vector3d& velocity_enu_m_s, double size_rad = 0.35,
+                 const land::Surface* land = nullptr) {
+  Track track = seen_by_two({.size_rad = size_rad, .size_sd_rad = 0.06 * size_rad},
+                            {.size_rad = 0.01, .size_sd_rad = 0.3});
   const Eigen::Vector3d there = test::site().to_ecef(kThere_enu);
   EXPECT_EQ(appearance_of(track, there).object_class, ObjectClass::kUnknown);
   for (int i = 0; i <= 25; ++i) {
@@ -148,8 +150,8 @@ Appearance flown(const Eigen::Vector3d& velocity_enu_m_s) {
          .v_ecef = test::site().to_ecef(velocity_enu_m_s) - test::site().to_ecef({0.0, 0.0, 0.0}),
          .position_sd_m = 1.0,
          .velocity_sd_m_s = 1.0});
-    look_at_class(track);
-    look_at_class(track);  // again at once: no look
+    look_at_class(track, land);
+    look_at_class(track, land);  // again at once: no look
   }
   EXPECT_EQ(track.velocities.size(), 6u);
   return appearance_of(track, there);
@@ -161,6 +163,14 @@ TEST(TargetAppearance, ClassIsThatOfTheTracksLifeWhereverItFlies) {
   EXPECT_GE(east.class_probability, kSure);
   EXPECT_NEAR(north.class_probability, east.class_probability, 1e-6);
   EXPECT_GT(std::abs(flown({0.0, 0.0, 150.0}).class_probability - east.class_probability), 1e-5);
+}
+
+// 9 m long, at 20 m/s.
+TEST(TargetAppearance, WhatDrivesOnAHillIsNoHelicopter) {
+  const Land hill([](double, double) { return 349.0; }, 1.0, test::site().origin());
+  const Eigen::Vector3d velocity(20.0, 0.0, 0.0);
+  EXPECT_EQ(flown(velocity, 0.09).object_class, ObjectClass::kAircraft) << "100 m above a station";
+  EXPECT_EQ(flown(velocity, 0.09, &hill).object_class, ObjectClass::kOther);
 }
 
 TEST(TargetAppearance, NothingSeenIsUnknown) {
