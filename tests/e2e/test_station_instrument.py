@@ -101,8 +101,12 @@ def station(network, tmp_path_factory):
         listener.wait_for_status("tool")
         # Its last state is unknown: it has just been set up.
         listener.wait_for_state(ols_msg.station_status_t.STATE_STOPPED)
-        listener.command(ols_msg.ptu_command_t.COMMAND_RELEASE)
-        listener.wait_for_state(ols_msg.station_status_t.STATE_IDLE)
+
+        def released():  # again and again: on a busy machine an order may be stale when it is heard
+            listener.command(ols_msg.ptu_command_t.COMMAND_RELEASE)
+            return listener.state() == ols_msg.station_status_t.STATE_IDLE
+
+        listener.wait(released, "the release")
         yield listener
 
 
