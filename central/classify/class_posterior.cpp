@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <numbers>
+#include <string_view>
 
 #include "central/classify/class_table.h"
 
@@ -12,6 +13,8 @@ namespace {
 
 constexpr std::size_t kLeastSizes = 8;  // of a flicker
 constexpr int kKinds = static_cast<int>(std::size(kClassTable));
+constexpr const Kind& kAnything = kClassTable[kKinds - 1];
+static_assert(std::string_view(kAnything.name) == "anything");
 
 double log_sum(const double* values, int count) {
   const double most = *std::max_element(values, values + count);
@@ -41,14 +44,13 @@ double log_density(const Kind& kind, const Features& seen) {
 // One look in a hundred may show anything: an outline that a cloud's edge has joined, for example.
 double log_likelihood(const Kind& kind, const Features& seen) {
   constexpr double kStray = 0.01;
-  const Kind& anything = std::end(kClassTable)[-1];
   const std::array<double, 2> logs{std::log(1.0 - kStray) + log_density(kind, seen),
-                                   std::log(kStray) + log_density(anything, seen)};
+                                   std::log(kStray) + log_density(kAnything, seen)};
   return log_sum(logs.data(), 2);
 }
 
-// The relative variance of one side of the outline beyond that of its noise. Sizes of unknown noise
-// were measured in another way, and do not count.
+// The relative variance of one side of the outline beyond that of its noise, which is the same
+// share of both sides. Sizes of unknown noise were measured in another way, and do not count.
 Measured flicker_of(const std::vector<SeenSize>& sizes, double SeenSize::*side) {
   std::vector<SeenSize> outlines;
   std::ranges::copy_if(sizes, std::back_inserter(outlines),
@@ -60,7 +62,7 @@ Measured flicker_of(const std::vector<SeenSize>& sizes, double SeenSize::*side) 
   if (outlines.size() < kLeastSizes || mean <= 0.0) return {};
   for (const SeenSize& one : outlines) {
     squares += std::pow(one.*side / mean - 1.0, 2);
-    noise += std::pow(one.noise_m / mean, 2);
+    noise += std::pow(one.noise_m / one.value_m, 2);
   }
   const double own = noise / count, flicker = squares / (count - 1.0) - own;
   const double variance = own * own + 2.0 * own * std::max(flicker, 0.0);

@@ -2,11 +2,11 @@
 //
 // Each kind (class_table.h) has a probability density over six features of a look, a mixture of
 // normal distributions. The features are size, speed, climb, acceleration across the path, height
-// above the ground, and flicker. Flicker is the relative variance of the outline's two sides within a second, wings and
-// rotors seen as one: a bird's outline changes with its wing beat of 2 to 15 Hz, a rigid body's
-// does not. Seen from the side, wings change only its height. The error of each feature is added to
-// the variance of the density, so that an uncertain look decides little. An unknown feature is left
-// out.
+// above the ground, and flicker. Flicker is the relative variance of the outline's two sides within
+// a second, wings and rotors seen as one: a bird's outline changes with its wing beat of 2 to 15
+// Hz, a rigid body's does not. Seen from the side, wings change only the shorter side. The error of
+// each feature is added to the variance of the density, so that an uncertain look decides little.
+// An unknown feature is left out.
 //
 // Looks at one track are correlated: a drone that hovers now still hovers a tenth of a second
 // later. Their log-likelihoods are therefore averaged, and the average counts as 1 + t /
@@ -37,8 +37,8 @@ struct Measured {
 };
 
 // The largest extent of an object in one image [m], its 1-sigma, and the noise that is new in each
-// image (0: unknown). `across_m`: the smaller side of its upright box, with the same noise; 0:
-// unknown.
+// image (0: unknown). `across_m`: the smaller side of its upright box, with the same relative
+// noise; 0: unknown.
 struct SeenSize {
   double value_m = 0.0, sd_m = 0.0, noise_m = 0.0, across_m = 0.0;
 };
@@ -53,8 +53,9 @@ struct ClassLook {
   Measured flicker;
 };
 
-// A look at a target, but for its height, from three inputs: the sizes that one station saw within the last second; the
-// velocities (east, north, up) now and `apart_s` before; and the velocities' 1-sigma, each axis.
+// A look at a target, but for its height, from three inputs: the sizes that one station saw within
+// the last second; the velocities (east, north, up) now and `apart_s` before; and the velocities'
+// 1-sigma, each axis.
 ClassLook look_at(const std::vector<SeenSize>& sizes, const std::array<double, 3>& velocity_m_s,
                   const std::array<double, 3>& before_m_s, double apart_s, double velocity_sd_m_s);
 

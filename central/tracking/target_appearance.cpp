@@ -82,24 +82,30 @@ std::vector<SeenSize> best_sizes(const Track& track, const Eigen::Vector3d& p_ec
   return best;
 }
 
-// Where the land is unknown, it is taken as flat around the nearest station.
+// Where the land is unknown, it is taken as flat around the nearest station. An object below that
+// is not: then nothing is known of its height.
 Measured height_of(const Track& track, const KinematicState& state, const land::Surface* surface) {
-  constexpr double kRise = 0.05, kLeast_m = 5.0;  // 1-sigma of the land, by the distance
+  constexpr double kRise = 0.2, kLeast_m = 5.0;  // 1-sigma of the land, by the distance
   const Eigen::Vector3d position = state.mean.head<3>();
   const Eigen::Matrix3d P = state.covariance.topLeftCorner<3, 3>();
   if (surface != nullptr) {
     if (const auto above = height_above_ground(*surface, position, P))
       return {above->height_m, above->sd_m};
   }
+  const LocalFrame below(geodetic_from_ecef(position));
   std::optional<Eigen::Vector3d> nearest;
   for (const auto& [station, bearings] : track.bearings) {
     if (bearings.empty()) continue;
-    const Eigen::Vector3d& there = bearings.back().sight.origin_ecef;
-    if (!nearest || (there - position).norm() < (*nearest - position).norm()) nearest = there;
+    const Eigen::Vector3d there = below.to_enu(bearings.back().sight.origin_ecef);
+    if (!nearest || there.norm() < nearest->norm()) nearest = there;
   }
   if (!nearest) return {};
-  return {geodetic_from_ecef(position).height_m - geodetic_from_ecef(*nearest).height_m,
-          std::hypot(kLeast_m, kRise * (*nearest - position).norm(), std::sqrt(P.trace() / 3.0))};
+  const Eigen::Vector3d up = below.R_ecef_enu().transpose().col(2);
+  const double height_m = -nearest->z();
+  const double sd_m =
+      std::hypot(kLeast_m, kRise * nearest->head<2>().norm(), std::sqrt(up.dot(P * up)));
+  if (height_m < -sd_m) return {};
+  return {height_m, sd_m};
 }
 
 }  // namespace

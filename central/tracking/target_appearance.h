@@ -23,8 +23,8 @@ struct Appearance {
 // these.
 Appearance appearance_of(const Track& track, const Eigen::Vector3d& p_ecef);
 
-// Lets the track's classifier take a look, at most five times a second. surface: of the land; may be
-// null.
+// Lets the track's classifier take a look, at most five times a second. surface: of the land; may
+// be null.
 void look_at_class(Track& track, const land::Surface* surface);
 
 }  // namespace ols::fusion

@@ -33,10 +33,10 @@ struct Habit {
 // 10 m (ultralight) to 65 m (Boeing 777), 35 to 250 m/s. Helicopters: rotor 8 m (R22) to 21 m
 // (Mi-8), to 75 m/s. Meteors: 11 to 72 km/s at entry; the streak of a fiftieth of a second. A drone
 // tilts by some 0.15 rad in gusts, at 0.2 to 0.8 Hz: the simulator's drawings change so much then.
-// Drones and birds share the lowest 200 m, so their height says nothing between them.
+// Drones and birds share the lowest 2000 m, so that the height says nothing between them.
 constexpr std::array<Habit, kSimulatedKinds.size()> kHabits = {{
-    {{0.3, 1.5}, 0.3, {2, 20}, 0.3, {-5, 7}, {0.5, 6}, 0.7, {0, 0.15}, {0.2, 0.8}, {2, 200}},
-    {{0.35, 2.0}, 0.0, {7, 20}, 0.3, {-3, 3}, {1, 8}, 0.75, {0.2, 0.6}, {2, 9}, {2, 200}},
+    {{0.3, 1.5}, 0.3, {2, 20}, 0.3, {-5, 7}, {0.5, 6}, 0.7, {0, 0.15}, {0.2, 0.8}, {2, 2000}},
+    {{0.35, 2.0}, 0.0, {7, 20}, 0.3, {-3, 3}, {1, 8}, 0.75, {0.2, 0.6}, {2, 9}, {2, 2000}},
     {{10, 65}, 0.0, {35, 250}, 0.4, {-12, 15}, {1, 6}, 0.0, {0, 0}, {1, 1}, {60, 11e3}},
     {{8, 21}, 0.15, {15, 75}, 0.3, {-7, 8}, {0.5, 5}, 0.0, {0, 0}, {1, 1}, {20, 1500}},
     {{1.5, 1.95}, 0.3, {0.7, 4}, 0.0, {0, 0}, {0, 1}, 0.7, {0.05, 0.2}, {1.5, 3}, {1, 1}},
@@ -134,7 +134,7 @@ std::vector<TimedLook> simulate_looks(int kind, double duration_s, const LookNoi
     const double size_m = scale * object.size_m();
     const double sd_m = std::max(size_m * noise.size, 1e-6);  // 0 would be unknown
     sizes.push_back({size_m + sd_m * normal(random), sd_m, sd_m,
-                     std::max(0.0, scale * object.across_m() + sd_m * normal(random))});
+                     scale * object.across_m() * (1.0 + sd_m / size_m * normal(random))});
     if (image % kImagesALook != 0 || image <= kImageHz) continue;
     looks.push_back({image * 1'000'000LL / kImageHz,
                      fusion::look_at({sizes.end() - kImageHz, sizes.end()}, v,

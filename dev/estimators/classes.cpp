@@ -19,7 +19,7 @@ constexpr int kKinds = static_cast<int>(kSimulatedKinds.size());
 LookNoise noise_at(double pixels, std::mt19937_64& random) {
   const double px = std::uniform_real_distribution<double>(0.1, 0.5)(random);
   const double speed = std::exp(std::uniform_real_distribution<double>(-2.0, 0.5)(random));
-  return {.size = px / pixels, .size_bias = 0.1, .speed_m_s = speed, .ground_m = 15.0};
+  return {.size = px / pixels, .size_bias = 0.1, .speed_m_s = speed, .ground_m = 60.0};
 }
 
 }  // namespace

@@ -15,9 +15,9 @@ from pathlib import Path
 import numpy as np
 
 TARGET = Path(__file__).resolve().parents[2] / "central" / "classify" / "class_table.h"
-MODES, SEED = 6, 1
+MODES, TRIES, SEED = 8, 8, 1
 FEATURES = ("size", "speed", "climb", "across", "flicker", "height")
-LEAST_SD = np.array([0.1, 0.1, 0.1, 0.15, 0.001, 0.2])
+LEAST_SD, LEAST_HEIGHT_SD = np.array([0.1, 0.1, 0.1, 0.15, 0.001]), 0.2
 SHARE_OF_ANYTHING = 0.02
 CLASSES = ["kUnknown", "kDrone", "kBird", "kAircraft", "kOther"]
 # What none of the kinds explains: a wide density.
@@ -39,28 +39,33 @@ struct KindMode {
 
 
 def fit(x: np.ndarray) -> list[tuple[float, np.ndarray, np.ndarray]]:
+    """The likeliest of several mixtures: expectation and maximisation find a local one each."""
     random = np.random.default_rng(SEED)
-    mean = x[random.choice(len(x), MODES, replace=False)]
-    sd = np.tile(np.maximum(x.std(0), LEAST_SD[:-1]), (MODES, 1))
+    found = [fit_from(x, x[random.choice(len(x), MODES, replace=False)]) for _ in range(TRIES)]
+    return max(found, key=lambda one: one[0])[1]
+
+
+def fit_from(x: np.ndarray, mean: np.ndarray) -> tuple[float, list]:
+    sd = np.tile(np.maximum(x.std(0), LEAST_SD), (MODES, 1))
     share = np.full(MODES, 1 / MODES)
     for _ in range(200):
         off = (x[:, None, :] - mean) / sd
         log = np.log(share) - 0.5 * (off**2).sum(2) - np.log(sd).sum(1)
-        part = np.exp(log - log.max(1, keepdims=True))
-        part /= part.sum(1, keepdims=True)
+        total = np.logaddexp.reduce(log, axis=1, keepdims=True)
+        part = np.exp(log - total)
         weight = part.sum(0) + 1e-9
         share = np.maximum(weight / len(x), 1e-3)
         share /= share.sum()
         mean = part.T @ x / weight[:, None]
         variance = part.T @ x**2 / weight[:, None] - mean**2
-        sd = np.maximum(np.sqrt(np.maximum(variance, 0)), LEAST_SD[:-1])
-    return list(zip(share, mean, sd, strict=True))
+        sd = np.maximum(np.sqrt(np.maximum(variance, 0)), LEAST_SD)
+    return total.sum(), list(zip(share, mean, sd, strict=True))
 
 
 def with_height(looks: np.ndarray) -> list[tuple[float, np.ndarray, np.ndarray]]:
     """The height, the last feature, does not depend on the others."""
     height = looks[:, -1]
-    sd = max(height.std(), LEAST_SD[-1])
+    sd = max(height.std(), LEAST_HEIGHT_SD)
     return [
         (share, np.append(mean, height.mean()), np.append(mode_sd, sd))
         for share, mean, mode_sd in fit(looks[:, :-1])

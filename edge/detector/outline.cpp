@@ -9,7 +9,9 @@
 namespace ols::detector {
 namespace {
 
-constexpr int kStrip_px = 2;  // the surroundings: a strip along the edge of the part
+// The surroundings: a strip along the edge of the part, one pixel away from it, where the means of
+// 3x3 pixels are still whole.
+constexpr int kEdge_px = 1, kStrip_px = 3;
 
 // The object's part of the image, reduced so that a large object costs no more than a small one.
 struct Part {
@@ -20,7 +22,7 @@ struct Part {
 
 std::optional<Part> part_around(const cv::Mat& gray, const Eigen::Vector2d& centre,
                                 double extent_px) {
-  constexpr double kMost_px = 48.0, kMargin_px = 4.0;
+  constexpr double kMost_px = 48.0, kMargin_px = 5.0;
   const int half = static_cast<int>(std::ceil(extent_px + kMargin_px));
   const cv::Point middle(static_cast<int>(std::lround(centre.x())),
                          static_cast<int>(std::lround(centre.y())));
@@ -48,8 +50,8 @@ Surroundings surroundings_of(const cv::Mat1f& means) {
   const cv::Rect inside(kStrip_px, kStrip_px, means.cols - 2 * kStrip_px,
                         means.rows - 2 * kStrip_px);
   std::vector<float> levels;
-  for (int y = 0; y < means.rows; ++y) {
-    for (int x = 0; x < means.cols; ++x)
+  for (int y = kEdge_px; y < means.rows - kEdge_px; ++y) {
+    for (int x = kEdge_px; x < means.cols - kEdge_px; ++x)
       if (!inside.contains({x, y})) levels.push_back(means(y, x));
   }
   std::ranges::sort(levels);
@@ -89,23 +91,25 @@ cv::Mat1b object_in(const cv::Mat1b& stands_out, const Part& part, double extent
   return labels == largest;
 }
 
-// Of `weights`, whose noise is independent from pixel to pixel.
-Outline moments_of(const cv::Mat1f& weights, const cv::Mat1b& object, double noise) {
+// Of `weights`, whose noise is independent from pixel to pixel; nullopt if most of them cancel.
+std::optional<Outline> moments_of(const cv::Mat1f& weights, const cv::Mat1b& object, double noise) {
   constexpr double kSide = 4.0;  // of an ellipse, in its standard deviations
   std::vector<cv::Point> pixels;
   cv::findNonZero(object, pixels);
   const auto off = [](const cv::Point& at) { return Eigen::Array2d(at.x, at.y); };
-  double sum = 0.0;
+  double sum = 0.0, all = 0.0;
   Eigen::Array2d first = Eigen::Array2d::Zero(), second = first, spread = first;
   for (const cv::Point& at : pixels) {
     sum += weights(at);
+    all += std::abs(weights(at));
     first += weights(at) * off(at);
   }
+  if (sum <= 0.5 * all) return std::nullopt;
   first /= sum;
   for (const cv::Point& at : pixels) second += weights(at) / sum * (off(at) - first).square();
   for (const cv::Point& at : pixels) spread += ((off(at) - first).square() - second).square();
   const Eigen::Array2d sd = second.max(1.0 / 12.0).sqrt();  // a pixel's own, at least
-  return {kSide * sd, kSide * (noise / sum * spread.sqrt()) / (2.0 * sd)};
+  return Outline{kSide * sd, kSide * (noise / sum * spread.sqrt()) / (2.0 * sd)};
 }
 
 }  // namespace
@@ -129,9 +133,10 @@ std::optional<Outline> outline_at(const cv::Mat& gray, const Eigen::Vector2d& ce
   // Parts of it may be brighter than the surroundings, and others darker.
   cv::Mat1f weights = part->gray - around.level;
   cv::subtract(cv::Mat1f::zeros(weights.size()), weights, weights, means < 0.0F);
-  Outline outline = moments_of(weights, object, std::sqrt(kPixels) * around.sd);
-  outline.size_px *= part->reduction;
-  outline.sd_px *= part->reduction;
+  std::optional<Outline> outline = moments_of(weights, object, std::sqrt(kPixels) * around.sd);
+  if (!outline) return std::nullopt;
+  outline->size_px *= part->reduction;
+  outline->sd_px *= part->reduction;
   return outline;
 }
 

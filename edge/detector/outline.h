@@ -16,8 +16,8 @@ struct Outline {
 };
 
 // `gray`: 8-bit, one channel. `centre`, `extent_px`: where the object is, and its largest side as
-// far as it is known. nullopt if nothing there stands out from its surroundings, or if it is
-// connected with what is further away than that side.
+// far as it is known. nullopt if it hardly stands out from its surroundings, if it is connected
+// with what is further away than that side, or if the edge of the image is that near.
 std::optional<Outline> outline_at(const cv::Mat& gray, const Eigen::Vector2d& centre,
                                   double extent_px);
 

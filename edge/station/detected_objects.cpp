@@ -71,11 +71,12 @@ DetectedPixel outline_of(const detector::Tracklet& tracklet) {
   constexpr double kBlur_px = 2.0, kOutline = 0.25;  // of a point's size; of the size
   const auto& outline = tracklet.outline();
   const Eigen::Vector2d sides_px = outline ? outline->size_px : tracklet.measured_size_px();
-  const double size_px = sides_px.maxCoeff();
+  Eigen::Index larger = 0;
+  const double size_px = sides_px.maxCoeff(&larger);
   return {.size_px = size_px,
           .size_sd_px = std::hypot(kBlur_px, kOutline * size_px),
           .across_px = sides_px.minCoeff(),
-          .size_noise_px = outline ? outline->sd_px.maxCoeff() : 0.0,
+          .size_noise_px = outline ? outline->sd_px(larger) : 0.0,
           .signal = tracklet.signal_to_noise()};
 }
 

@@ -5,13 +5,13 @@ from pathlib import Path
 
 import lcm
 import pytest
-from ols_msg import bearing_t, bearing_v2_t, slew_t
+from ols_msg import bearing_t, bearing_v2_t, bearing_v3_t, slew_t
 
 LOG = Path(__file__).parent / "messages" / "grown.lcmlog"
 # By channel: what wrote it, what reads it, and its last field.
 MESSAGES = {
     "BEARING_V2": (bearing_v2_t, bearing_t, "class_probability"),
-    "BEARING": (bearing_t, bearing_t, "acquired"),
+    "BEARING": (bearing_v3_t, bearing_t, "acquired"),
     "SLEW": (slew_t, slew_t, "let_go_track_id"),
 }
 

@@ -55,11 +55,13 @@ TEST(Outline, IsThatOfAnEllipseToAFractionOfAPixel) {
 
 TEST(Outline, StatesTheScatterThatTheNoiseCauses) {
   std::mt19937 random(2);
+  std::uniform_real_distribution<double> within(-0.5, 0.5);
   for (const double contrast : {25.0, 100.0}) {
     Eigen::Array2d squares = Eigen::Array2d::Zero(), told = squares;
     const Eigen::Vector2d sides(12.0, 7.0);
     std::vector<Eigen::Array2d> seen;
     for (int i = 0; i < 200; ++i) {
+      const Eigen::Vector2d centre(40.0 + within(random), 40.0 + within(random));
       const auto outline = outline_at(
           with_noise(sky_with({40.0, 40.0}, sides, contrast), 2.0, random), {40.0, 40.0}, 12.0);
       ASSERT_TRUE(outline);
@@ -94,6 +96,25 @@ TEST(Outline, OfARigidBodyStaysAndOfBeatingWingsChanges) {
   EXPECT_LT(folded->size_px.x() / least, 0.9);
 }
 
+TEST(Outline, MayBeBrighterThanTheSkyAndDarkerInPlaces) {
+  std::mt19937 random(7);
+  const Eigen::Vector2d sides(14.0, 10.0);
+  const cv::Mat1f bright = sky_with({40.0, 40.0}, sides, -60.0);
+  const auto outline = outline_at(with_noise(bright, 2.0, random), {40.0, 40.0}, 14.0);
+  ASSERT_TRUE(outline);
+  EXPECT_LT((outline->size_px - sides).cwiseAbs().maxCoeff(), 0.3);
+  cv::Mat1f mixed = bright.clone();  // its left half
+  mixed.colRange(0, 40) = 2.0 * kSky - mixed.colRange(0, 40);
+  const auto both = outline_at(with_noise(mixed, 2.0, random), {40.0, 40.0}, 14.0);
+  ASSERT_TRUE(both);
+  EXPECT_LT((both->size_px - sides).cwiseAbs().maxCoeff(), 1.0);
+  cv::Mat1f stripes(80, 80, static_cast<float>(kSky));
+  for (int x = 34; x < 46; ++x)
+    stripes.col(x).rowRange(35, 45) = kSky + (x % 2 == 0 ? 100.0 : -100.0);
+  const auto fine = outline_at(with_noise(stripes, 1.0, random), {40.0, 40.0}, 12.0);
+  if (fine) EXPECT_GT(fine->sd_px.minCoeff(), 0.0);
+}
+
 TEST(Outline, OfALargeObjectIsMeasuredInAReducedImage) {
   std::mt19937 random(4);
   const cv::Mat1b sky =
@@ -123,7 +144,7 @@ TEST(Outline, IsUnknownWithoutClearSurroundings) {
 TEST(Outline, LeavesANeighbourOut) {
   std::mt19937 random(6);
   cv::Mat1f two = sky_with({40.0, 40.0}, {10.0, 6.0}, 60.0);
-  two = cv::min(two, sky_with({51.0, 40.0}, {4.0, 4.0}, 100.0));
+  two = cv::min(two, sky_with({49.3, 40.0}, {4.0, 4.0}, 100.0));
   const auto outline = outline_at(with_noise(two, 2.0, random), {40.0, 40.0}, 10.0);
   ASSERT_TRUE(outline);
   EXPECT_NEAR(outline->size_px.x(), 10.0, 0.3);
