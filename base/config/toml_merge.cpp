@@ -23,6 +23,7 @@ class Lines {
   std::string cut(const toml::source_region& place) const {
     return line(place.begin.line).substr(place.begin.column - 1, length(place));
   }
+  char character(const toml::source_position& at) const { return line(at.line).at(at.column - 1); }
   void replace(const toml::source_region& place, const std::string& with) {
     lines_.at(place.begin.line - 1).replace(place.begin.column - 1, length(place), with);
   }
@@ -55,6 +56,16 @@ std::size_t last_line(const toml::table& table) {
   return last;
 }
 
+// Whether a table has no header of its own, only those of tables within it: [calibration.sd] alone
+// makes a table `calibration`.
+bool is_implied(const toml::table& table, const Lines& lines) {
+  const toml::source_position at = table.source().begin;
+  const bool is_header = at && lines.character(at) == '[';
+  return is_header && std::ranges::any_of(table, [&](const auto& entry) {
+           return entry.second.is_table() && entry.second.source().begin == at;
+         });
+}
+
 std::string with_value(const std::string& text, const std::string& table_path,
                        const std::string& key, const std::string& value) {
   const toml::table root = toml::parse(text);
@@ -63,7 +74,7 @@ std::string with_value(const std::string& text, const std::string& table_path,
   Lines lines(text);
   if (const toml::node* old = table[key].node()) {
     lines.replace(old->source(), value);
-  } else if (table.is_table()) {
+  } else if (table.is_table() && !is_implied(*table.as_table(), lines)) {
     lines.insert_after(last_line(*table.as_table()), key + " = " + value);
   } else {
     lines.append("");

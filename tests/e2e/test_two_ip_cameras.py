@@ -88,6 +88,15 @@ class Eyes:
         rows, columns = np.nonzero(white)
         return np.array([np.median(columns), np.median(rows)])
 
+    def turned(self, station, pan_deg):
+        """Waits until the camera has turned there."""
+        listener = self._listener
+
+        def is_there():
+            return abs(np.degrees(listener.observer.status[station].pan_rad) - pan_deg) < 0.5
+
+        listener.wait(is_there, f"{station} at pan {pan_deg:.1f}")
+
     def settled(self, look, what):
         """What is seen when it is at the same place in two pictures that follow each other."""
         before = None
@@ -260,6 +269,7 @@ def set_up(page, laptop):
     alfa = page.next("toml")
     laptop.write("alfa.toml", alfa)
     said = laptop.run(page.next("sh"), status=2)
+    assert "several ONVIF cameras answer: choose one by station.mount.url" in said
     for address in ("127.0.0.11", "127.0.0.12"):
         assert f"http://{address}:8080/onvif/device_service" in said
     kind = 'kind = "onvif"\n'
@@ -325,6 +335,7 @@ def sight(laptop, eyes, station, viewer, mark, commands):
     manual, centre, status = (line.replace("alfa", station) for line in commands)
     pan, tilt = eyes.towards(station, eyes.place("mark", mark))
     laptop.run(manual, PAN=f"{pan:.1f}", TILT=f"{tilt:.1f}")
+    eyes.turned(station, pan)
 
     def is_on_it():
         seen = eyes.settled(lambda: eyes.sign(viewer), f"{mark} in the picture of {station}")
@@ -347,6 +358,7 @@ def designate(page, laptop, eyes, listener):
         place = eyes._frame.to_enu(np.array(listener.observer.truth.position_ecef_m))
         pan, tilt = eyes.towards(station, place)
         laptop.run(manual, PAN=f"{pan:.1f}", TILT=f"{tilt:.1f}")
+        eyes.turned(station, pan)
         seen = wait(
             lambda station=station: listener.bus.handle(0.02) or eyes.drone(station), "the drone"
         )

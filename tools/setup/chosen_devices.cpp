@@ -26,12 +26,12 @@ std::string one_of(const std::vector<std::string>& found, const std::string& wha
   if (found.empty() && asks) {
     return ask_text(std::cin, std::cout, "No " + what + " answers. What is to be " + key + "?");
   }
-  if (found.empty()) throw std::runtime_error("no " + what + " answers: say " + key);
+  if (found.empty()) throw std::runtime_error("no " + what + " answers: state " + key);
   if (found.size() == 1) return found.front();
   if (asks) return ask_which(std::cin, std::cout, "Which " + what + "?", found);
   std::string all;
   for (const std::string& one : found) all += "\n  " + one;
-  throw std::runtime_error("several times " + what + ": say which one by " + key + all);
+  throw std::runtime_error("several " + what + "s answer: choose one by " + key + all);
 }
 
 // Of several streams, a person chooses; a file names one by its profile, otherwise the first that

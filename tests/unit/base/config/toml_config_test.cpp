@@ -91,6 +91,14 @@ TEST(TomlMerge, ChangesValuesAndNothingElse) {
             "mount_z_deg = 0.5\n");
 }
 
+// As ols-setup writes a station's file.
+TEST(TomlMerge, AddsTheTableThatOnlyInnerHeadersImply) {
+  EXPECT_EQ(toml_merged("[calibration.sd]  # 1-sigma\nheading_deg = 90\n[lens]\nfx_px = 900\n",
+                        "[calibration]\nid = 1\n[calibration.sd]\nheading_deg = 0.1\n"),
+            "[calibration.sd]  # 1-sigma\nheading_deg = 0.1\n[lens]\nfx_px = 900\n"
+            "\n[calibration]\nid = 1\n");
+}
+
 TEST(TomlMerge, RefusesAFormThatItWouldSpoil) {
   EXPECT_THROW(toml_merged("sd = { heading_deg = 2.0 }\nx = 1\n", "[sd]\ntilt_deg = 1.0\n"),
                std::runtime_error);
