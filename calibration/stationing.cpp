@@ -21,6 +21,7 @@ using Eigen::Vector3d;
 
 // Of PoseCovariance.
 constexpr std::array<int, 6> kPose{kHeading, kTiltX, kTiltY, kMountZ, kMountX, kMountY};
+constexpr std::array<int, 3> kPosition{kEast, kNorth, kUp};
 // Of Stationing::stated_w.
 constexpr std::array<int, 8> kStated{kTiltX, kTiltY, kMountZ, kMountX, kMountY, kEast, kNorth, kUp};
 
@@ -299,6 +300,8 @@ Stationing station_by_landmarks(const StationGeometry& rough,
       result.scaled_by * result.scaled_by *
       fit.covariance.topLeftCorner<kStationParameters, kStationParameters>();
   result.covariance = covariance(kPose, kPose);
+  result.position = adjusted.position;
+  result.position_sd_m = std::sqrt(covariance(kPosition, kPosition).diagonal().maxCoeff());
   result.station.sd.mount_roll_rad = std::sqrt(covariance(kMountX, kMountX));
   cover(result, covariance, highest_rad);
   check_heading(result);

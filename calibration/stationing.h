@@ -3,9 +3,10 @@
 // They also correct its tilt (from an inclinometer) and its camera's mounting (from rectification).
 //
 // The method is maximum a posteriori. The heading has no prior. Tilts, mounting and position have
-// the station's stated deviations as priors. The position is a nuisance parameter and is not
-// changed. A turn of the mounting about the vertical looks like a turn of the heading: at the
-// horizon only their sum is observable, and only their sum is needed.
+// the station's stated deviations as priors. The position is a nuisance parameter: the station
+// keeps its own, and the improved one is given beside it. A turn of the mounting about the vertical
+// looks like a turn of the heading: at the horizon only their sum is observable, and only their sum
+// is needed.
 //
 // The adjustment is tested by geodetic methods (W. Baarda, A Testing Procedure for Use in Geodetic
 // Networks, 1968; P. Teunissen, Testing Theory): data snooping finds mistaken landmarks
@@ -124,6 +125,9 @@ struct Stationing {
   // normal; 0 for a prior without a deviation.
   std::array<double, 8> stated_w{};
   double scaled_by = 1.0;  // factor by which the deviations were enlarged after the global test
+  // The station's position as far as the landmarks improve it, and the 1-sigma of its worst axis.
+  Geodetic position;
+  double position_sd_m = 0.0;
   // For the directions in which the landmarks determine the tilt best and worst.
   HorizonSd best, worst;
 };

@@ -111,6 +111,15 @@ def test_finds_heading_and_tilt(survey):
         assert f"#   {name}: " in result.stdout
 
 
+def test_improves_a_position_read_on_a_map(survey):
+    change(survey / "station.toml", "latitude_deg = 49.2\n", "latitude_deg = 49.20003\n")
+    change(survey / "station.toml", "mount_deg = 0.1", "mount_deg = 0.1\nposition_m = 3.0")
+    assert "latitude_deg" not in tomllib.loads(run(survey).stdout)["pose"]
+    found = tomllib.loads(run(survey, "--find-position").stdout)
+    assert abs(found["pose"]["latitude_deg"] - 49.2) < 2e-6
+    assert found["calibration"]["sd"]["position_m"] < 0.5
+
+
 def test_is_what_a_station_reads(survey):
     """In the place of the configuration's own tables; the position is that of the mark."""
     output = survey / "found.toml"

@@ -28,6 +28,8 @@ MARKS = ("spire", "mast", "gable", "chimney", "barn")
 VIDEO = {"alfa": "127.0.0.1:7790", "bravo": "127.0.0.1:7791"}
 MIDDLE_PX = np.array([319.5, 239.5])
 ON_IT_PX = 3.0  # the cross on a landmark
+STANDS_PX, MARGIN_PX = 5.0, 4.0  # of a drone's box
+PATIENCE_S = 5.0  # before the next attempt
 LOOKS_S = 10.0  # how long fixes are judged
 MOST_M = 3.0
 # What a person does beside the commands, and the test does in no time.
@@ -67,9 +69,12 @@ class Eyes:
         (one,) = (one for one in self._scenario[kind] if one["id"] == name)
         return np.array(one["position_enu_m"])
 
+    def enu(self, ecef_m):
+        return self._frame.to_enu(np.array(ecef_m))
+
     def east_north_up(self, latitude_deg, longitude_deg, height_m):
         place = geodetic(latitude_deg, longitude_deg, height_m)
-        return self._frame.to_enu(ols.ecef_from_geodetic(place))
+        return self.enu(ols.ecef_from_geodetic(place))
 
     def towards(self, station, place):
         """Pan and tilt as a person finds them by turning to what they look for."""
@@ -110,14 +115,14 @@ class Eyes:
         return before
 
     def drone(self, station):
-        """Its box in the newest picture."""
-        view = self._listener.observer.view_before(station, 0.2)
-        status = self._listener.observer.status[station]
-        if view is None or not view.visible or status.state != status.STATE_MANUAL:
+        """Its box, drawn by hand, in a picture that stands; None: it is not there, or not yet."""
+        views = [self._listener.observer.view_before(station, age_s) for age_s in (0.2, 0.9)]
+        if any(view is None or not view.visible for view in views):
             return None
-        near_edge = np.abs(np.array(view.centre_px) - MIDDLE_PX) > 0.8 * MIDDLE_PX
-        resting = self._listener.observer.turning_rad_s.get(station, 1.0) < np.radians(0.3)
-        return view.box_px if resting and not near_edge.any() else None
+        now, before = (np.array(view.box_px) for view in views)
+        if np.abs(now - before).max() > STANDS_PX:
+            return None
+        return now + np.array([-1, -1, 2, 2]) * MARGIN_PX
 
 
 class Laptop:
@@ -355,20 +360,29 @@ def designate(page, laptop, eyes, listener):
     commands = lines(page.next("sh"))
     for station, manual, box in zip(VIDEO, commands[::2], commands[1::2], strict=True):
         listener.wait(lambda: listener.observer.truth is not None, "the drone")
-        place = eyes._frame.to_enu(np.array(listener.observer.truth.position_ecef_m))
+        place = eyes.enu(listener.observer.truth.position_ecef_m)
         pan, tilt = eyes.towards(station, place)
         laptop.run(manual, PAN=f"{pan:.1f}", TILT=f"{tilt:.1f}")
         eyes.turned(station, pan)
-        seen = wait(
-            lambda station=station: listener.bus.handle(0.02) or eyes.drone(station), "the drone"
-        )
-        x, y, w, h = (f"{value:.0f}" for value in seen)
-        laptop.run(box, X=x, Y=y, W=w, H=h)
-        listener.wait(
-            lambda station=station: listener.observer.state(station) == "tracking",
-            f"{station} tracking",
-        )
+        draw_box(laptop, eyes, listener, station, box)
     return BOX_MIN * len(VIDEO)
+
+
+def draw_box(laptop, eyes, listener, station, command):
+    """Until the station follows what is in it."""
+    drawn_s = -np.inf
+
+    def follows():
+        nonlocal drawn_s
+        if listener.observer.state(station) == "tracking":
+            return True
+        seen = eyes.drone(station)
+        if seen is not None and time.monotonic() > drawn_s + PATIENCE_S:
+            laptop.run(command, **{k: f"{v:.0f}" for k, v in zip("XYWH", seen, strict=True)})
+            drawn_s = time.monotonic()
+        return False
+
+    listener.wait(follows, f"{station} follows the drone")
 
 
 def errors_of_fixes(listener, eyes):
@@ -390,8 +404,10 @@ def errors_of_fixes(listener, eyes):
         ahead_s = 1e-6 * (fix.utime - truth.utime)
         true = np.array(truth.position_ecef_m) + ahead_s * np.array(truth.velocity_ecef_m_s)
         found = eyes.east_north_up(fix.latitude_deg, fix.longitude_deg, fix.height_m)
-        east, north, up = found - eyes._frame.to_enu(true)
+        east, north, up = found - eyes.enu(true)
         errors_m.append(np.hypot(east, north))
+        variances = fix.position_covariance_enu_m2
+        stated_m.append(np.sqrt(variances[0] + variances[3]))
         print(f"{east:.2f} east, {north:.2f} north, {up:.2f} up")
     assert len(errors_m) > LOOKS_S, "at least one each second"
     return errors_m, stated_m

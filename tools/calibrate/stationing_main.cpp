@@ -16,7 +16,7 @@ namespace {
 struct Options {
   ols::calibration::StationingOptions stationing;
   std::string output;  // empty: the standard output
-  bool in_place = false;
+  bool in_place = false, find_position = false;
 };
 
 void add_options(CLI::App& app, Options& options) {
@@ -32,6 +32,9 @@ void add_options(CLI::App& app, Options& options) {
       ->required();
   app.add_option("--at", o.at,
                  "the landmark where the station's GROUND is; else [pose] says where");
+  app.add_flag("--find-position", options.find_position,
+               "improve the position, too: for one read on a map, which calibration.sd.position_m "
+               "says how well is known");
   app.add_option("--pixel-sd", o.pixel_sd_px, "[px] 1-sigma of each coordinate")
       ->check(CLI::Range(1e-3, 1e3))
       ->capture_default_str();
@@ -78,12 +81,16 @@ void run(const Options& options) {
                      {{"--output", options.output}});
   const ols::calibration::StationingCase before =
       ols::calibration::read_stationing(options.stationing);
-  const ols::calibration::Stationing found =
+  ols::calibration::Stationing found =
       ols::calibration::find_station(before, ols::radians(options.stationing.highest_deg));
   for (const std::string& warning : ols::calibration::stationing_warnings(before, found)) {
     std::cerr << "ols-stationing: " << warning << '\n';
   }
-  const bool with_position = !options.stationing.at.empty();
+  if (options.find_position) {
+    found.station.position = found.position;
+    found.station.sd.position_m = found.position_sd_m;
+  }
+  const bool with_position = options.find_position || !options.stationing.at.empty();
   if (options.output.empty()) {
     std::ostringstream text;
     ols::calibration::write_stationing(text, before, found, with_position);

@@ -163,6 +163,26 @@ TEST(Stationing, IsAsWrongAsItSays) {
   EXPECT_LT(up, 1.1);
 }
 
+TEST(Stationing, ImprovesAPositionThatWasReadOnAMap) {
+  constexpr int kDraws = 100;
+  StationGeometry rough = crooked_station().rough;
+  rough.sd = {.tilt_rad = radians(0.05), .mount_rad = radians(0.1), .position_m = 2.0};
+  std::mt19937_64 generator(6);
+  double square_m2 = 0.0, by_stated = 0.0;
+  for (int i = 0; i < kDraws; ++i) {
+    const Drawn d = draw(rough, generator);
+    const Stationing found = station_by_landmarks(rough, d.sightings, kHighest_rad);
+    EXPECT_EQ(found.station.position.latitude_rad, rough.position.latitude_rad);
+    const Vector3d off = ecef_from_geodetic(found.position) - ecef_from_geodetic(d.truth.position);
+    square_m2 += off.squaredNorm() / (3.0 * kDraws);
+    by_stated += off.squaredNorm() / (3.0 * std::pow(found.position_sd_m, 2) * kDraws);
+  }
+  EXPECT_LT(std::sqrt(square_m2), 0.5);
+  // The worst axis is stated for all.
+  EXPECT_GT(by_stated, 0.2);
+  EXPECT_LT(by_stated, 1.1);
+}
+
 TEST(Stationing, LandmarksTakeInTheMountingAndTheMoreTheNearerToTheHorizon) {
   Case c = crooked_station();
   // A tilt or a roll would show the mounting about the vertical.
