@@ -26,7 +26,7 @@ from PIL import Image
 PAGE = ROOT / "docs/two-ip-cameras.md"
 SCENARIO = ROOT / "sim/scenarios/two_ip_cameras.toml"
 FRAMES_HZ = 8.0
-MARKS = ("spire", "mast", "gable", "chimney", "barn")
+MARKS = ("barn", "spire", "mast", "gable", "chimney")  # as the cameras turn
 VIDEO = {"alfa": "127.0.0.1:7790", "bravo": "127.0.0.1:7791"}
 MIDDLE_PX = np.array([319.5, 239.5])
 ON_IT_PX = 3.0  # the cross on a landmark
@@ -323,23 +323,27 @@ def measure_mounts(page, laptop):
         laptop.run(line)
     with ThreadPoolExecutor() as terminals:
         for ended in [terminals.submit(laptop.run, line) for line in lines(page.next("sh"))]:
-            ended.result()
+            said = ended.result()
+            gains = [float(gain) for gain in re.findall(r"gain (\S+) ", said)]
+            assert len(gains) == 2 and min(gains) > 0.98 and max(gains) < 1.02
+            assert "ms earlier than configured" in said  # these tell no position late
     laptop.run(*lines(page.next("sh")))
 
 
 def find_headings(page, laptop, eyes, listener):
-    marks = page.next("csv")
-    laptop.write("landmarks.csv", marks)
+    laptop.write("landmarks.csv", page.next("csv"))
     manual, centre, status = lines(page.next("sh"))
-    header = lines(page.next("csv"))[0]
-    for station in VIDEO:
-        viewer = VideoViewer(VIDEO[station])
-        rows = [header]
-        for mark in MARKS:
-            seen = sight(laptop, eyes, station, viewer, mark, (manual, centre, status))
-            rows.append(f"{mark},{seen[0]},{seen[1]}")
-        laptop.write(f"{station}-sightings.csv", "\n".join(rows) + "\n")
-        viewer.close()
+    rows = dict.fromkeys(VIDEO, page.next("csv").splitlines()[0])
+    for mark in MARKS:
+        for station in VIDEO:
+            pan, tilt = eyes.towards(station, eyes.place("mark", mark))
+            laptop.run(of(station, manual), PAN=f"{pan:.1f}", TILT=f"{tilt:.1f}")
+        for station in VIDEO:
+            put_cross_on(mark, laptop, eyes, station, of(station, centre))
+            pan, tilt = angles_of(station, laptop.run(of(station, status)))
+            rows[station] += f"\n{mark},{pan},{tilt}"
+    for station, text in rows.items():
+        laptop.write(f"{station}-sightings.csv", f"{text}\n")
     *stationing, restart = lines(page.next("sh"))
     for line in stationing:
         assert "REJECTED" not in laptop.run(line)
@@ -347,11 +351,13 @@ def find_headings(page, laptop, eyes, listener):
     return SIGHTING_MIN * len(MARKS) * len(VIDEO)
 
 
-def sight(laptop, eyes, station, viewer, mark, commands):
-    manual, centre, status = (line.replace("alfa", station) for line in commands)
-    pan, tilt = eyes.towards(station, eyes.place("mark", mark))
-    laptop.run(manual, PAN=f"{pan:.1f}", TILT=f"{tilt:.1f}")
-    eyes.turned(station, pan)
+def of(station, command):
+    return command.replace(" alfa ", f" {station} ")
+
+
+def put_cross_on(mark, laptop, eyes, station, centre):
+    eyes.turned(station, eyes.towards(station, eyes.place("mark", mark))[0])
+    viewer = VideoViewer(VIDEO[station])
 
     def is_on_it():
         seen = eyes.settled(lambda: eyes.sign(viewer), f"{mark} in the picture of {station}")
@@ -361,7 +367,11 @@ def sight(laptop, eyes, station, viewer, mark, commands):
         return False
 
     wait(is_on_it, f"the cross on {mark}")
-    said = laptop.run(status)
+    viewer.close()
+
+
+def angles_of(station, said):
+    """As `status` shows them."""
     assert "pan deg tilt deg" in said
     (row,) = (row.split() for row in said.splitlines() if row.startswith(f"{station} "))
     return row[5:7]
@@ -414,6 +424,9 @@ def errors_of_fixes(listener, eyes):
         truth = min(truths, key=lambda one: abs(one.utime - fix.utime))
         ahead_s = 1e-6 * (fix.utime - truth.utime)
         true = np.array(truth.position_ecef_m) + ahead_s * np.array(truth.velocity_ecef_m_s)
+        for station in VIDEO:
+            away_m = np.linalg.norm(eyes.enu(true) - eyes.place("station", station))
+            assert away_m == pytest.approx(300.0, abs=40.0)
         found = eyes.east_north_up(fix.latitude_deg, fix.longitude_deg, fix.height_m)
         east, north, up = found - eyes.enu(true)
         errors_m.append(np.hypot(east, north))

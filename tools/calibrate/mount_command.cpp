@@ -31,11 +31,11 @@ std::string said(const std::string& axis, const AxisResult& of) {
         axis, of.found, of.pictures);
   const MountFit& fit = *of.fit;
   return fmt::format(
-      "{}: gain {:.4f} +- {:.4f}, positions {:.0f} +- {:.0f} ms later than configured, backlash "
+      "{}: gain {:.4f} +- {:.4f}, positions {:.0f} +- {:.0f} ms {} than configured, backlash "
       "{:.3f} +- {:.3f} deg, positions +- {:.3f} deg ({} pictures at rest, {} in motion)",
-      axis, fit.gain.value, fit.gain.sd, 1e3 * fit.delay_s.value, 1e3 * fit.delay_s.sd,
-      degrees(fit.backlash_rad.value), degrees(fit.backlash_rad.sd), degrees(fit.position_sd_rad),
-      fit.rests, fit.moves);
+      axis, fit.gain.value, fit.gain.sd, 1e3 * std::abs(fit.delay_s.value), 1e3 * fit.delay_s.sd,
+      fit.delay_s.value < 0.0 ? "earlier" : "later", degrees(fit.backlash_rad.value),
+      degrees(fit.backlash_rad.sd), degrees(fit.position_sd_rad), fit.rests, fit.moves);
 }
 
 double number_in(const setup::Values& values, const std::string& key, double otherwise) {
