@@ -87,6 +87,15 @@ void see_sizes(const std::vector<SeenSize>& sizes, ClassLook& look) {
   look.flicker = {along.value + across.value, std::hypot(along.sd, across.sd)};
 }
 
+// Its error may be as large as the height: half the span from 1-sigma below to 1-sigma above.
+Measured height_feature(const Measured& height_m) {
+  constexpr double kScale_m = 10.0;
+  const auto at = [&](double sigmas) {
+    return std::asinh((height_m.value + sigmas * height_m.sd) / kScale_m);
+  };
+  return {at(0.0), 0.5 * (at(1.0) - at(-1.0))};
+}
+
 }  // namespace
 
 ClassLook look_at(const std::vector<SeenSize>& sizes, const std::array<double, 3>& velocity_m_s,
@@ -116,14 +125,13 @@ Features features_of(const ClassLook& look) {
   const double size_m = std::max(look.size_m.value, 1e-3);
   const double speed = 1.0 + std::max(look.speed_m_s.value, 0.0);
   const double across = 1.0 + std::max(look.across_m_s2.value, 0.0);
-  constexpr double kHeight_m = 10.0;
-  const double climb = look.climb_m_s.value, height = look.height_m.value / kHeight_m;
+  const double climb = look.climb_m_s.value;
   return {by(look.size_m, std::log(size_m), 1.0 / size_m),
           by(look.speed_m_s, std::log(speed), 1.0 / speed),
           by(look.climb_m_s, std::asinh(climb), 1.0 / std::hypot(1.0, climb)),
           by(look.across_m_s2, std::log(across), 1.0 / across),
           look.flicker,
-          by(look.height_m, std::asinh(height), 1.0 / (kHeight_m * std::hypot(1.0, height)))};
+          height_feature(look.height_m)};
 }
 
 void ClassPosterior::add(std::int64_t utime_us, const ClassLook& look) {

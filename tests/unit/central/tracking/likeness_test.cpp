@@ -173,6 +173,25 @@ TEST(TargetAppearance, WhatDrivesOnAHillIsNoHelicopter) {
   EXPECT_EQ(flown(velocity, 0.09, &hill).object_class, ObjectClass::kOther);
 }
 
+TEST(TargetAppearance, BelowAStationOnAHillTheHeightIsUnknown) {
+  const Eigen::Vector3d there = test::site().to_ecef(kThere_enu);
+  Track track(TrackFilter({}, 1, {.p_ecef = there}));
+  BearingMeasurement seen =
+      test::measurement_of(test::ray_to("hill", {0.0, 0.0, 350.0}, kThere_enu), 1);
+  seen.sighted = {.size_rad = 0.002, .size_sd_rad = 0.0002};
+  track.bearings["hill"].push_back(seen);
+  for (int i = 0; i <= 25; ++i) {
+    track.filter = TrackFilter(
+        {}, 1 + i * 200'000LL,
+        {.p_ecef = there,
+         .v_ecef = test::site().to_ecef({1.0, 0.0, 4.0}) - test::site().to_ecef({0.0, 0.0, 0.0}),
+         .position_sd_m = 1.0,
+         .velocity_sd_m_s = 0.3});
+    look_at_class(track, nullptr);
+  }
+  EXPECT_EQ(appearance_of(track, there).object_class, ObjectClass::kDrone);
+}
+
 TEST(TargetAppearance, NothingSeenIsUnknown) {
   const Appearance seen = appearance({}, {});
   EXPECT_EQ(seen.size_m, 0.0);
