@@ -96,6 +96,13 @@ Measured height_feature(const Measured& height_m) {
   return {at(0.0), 0.5 * (at(1.0) - at(-1.0))};
 }
 
+// Size, speed and height; the others are unknown.
+Features lasting_of(const Features& seen) {
+  Features lasting{};
+  for (const int i : {0, 1, 5}) lasting[i] = seen[i];
+  return lasting;
+}
+
 }  // namespace
 
 ClassLook look_at(const std::vector<SeenSize>& sizes, const std::array<double, 3>& velocity_m_s,
@@ -142,7 +149,10 @@ void ClassPosterior::add(std::int64_t utime_us, const ClassLook& look) {
   const double since_s = last_us_ ? 1e-6 * static_cast<double>(utime_us - *last_us_) : 0.0;
   const double kept = std::exp(-since_s / kMemory_s);
   weight_ = weight_ * kept + 1.0;
-  for (int i = 0; i < kKinds; ++i) sum_[i] = sum_[i] * kept + log_likelihood(kClassTable[i], seen);
+  for (int i = 0; i < kKinds; ++i) {
+    sum_[i] = sum_[i] * kept + log_likelihood(kClassTable[i], seen);
+    lasting_[i] = lasting_[i] * kept + log_likelihood(kClassTable[i], lasting_of(seen));
+  }
   if (!first_us_) first_us_ = utime_us;
   last_us_ = utime_us;
 }
@@ -154,7 +164,8 @@ std::array<double, kObjectClasses> ClassPosterior::posterior() const {
   const double looks = std::min(1.0 + seen_s / kCorrelation_s, kMostLooks);
   std::array<double, kKinds> log{};
   for (int i = 0; i < kKinds; ++i)
-    log[i] = std::log(kClassTable[i].prior) + looks * sum_[i] / weight_;
+    log[i] =
+        std::log(kClassTable[i].prior) + (lasting_[i] + looks * (sum_[i] - lasting_[i])) / weight_;
   const double all = log_sum(log.data(), kKinds);
   for (int i = 0; i < kKinds; ++i)
     of_classes[static_cast<int>(kClassTable[i].object_class)] += std::exp(log[i] - all);

@@ -8,10 +8,11 @@
 // each feature is added to the variance of the density, so that an uncertain look decides little.
 // An unknown feature is left out.
 //
-// Looks at one track are correlated: a drone that hovers now still hovers a tenth of a second
-// later. Their log-likelihoods are therefore averaged, and the average counts as 1 + t /
-// kCorrelation_s independent looks after t seconds, at most kMostLooks. Looks are forgotten within
-// kMemory_s, so that the class changes when a track passes to another object.
+// Looks at one track are correlated. Their log-likelihoods are therefore averaged. What an object
+// keeps for its life (size, cruising speed, height) counts as one look. The rest, given that,
+// counts as 1 + t / kCorrelation_s independent looks after t seconds, at most kMostLooks: a bird
+// that glides now still glides a tenth of a second later. Looks are forgotten within kMemory_s, so
+// that the class changes when a track passes to another object.
 //
 // A target is 'unknown' until it has been looked at for a second and one class has a posterior of
 // at least 0.9. A look without a size does not count: by motion alone a balloon, a hovering drone
@@ -84,7 +85,8 @@ class ClassPosterior {
   static constexpr int kMostKinds = 12;
   std::optional<std::int64_t> first_us_, last_us_;
   double weight_ = 0.0;
-  std::array<double, kMostKinds> sum_{};  // weighted sum of the log-likelihoods, for each kind
+  // Weighted sums of the log-likelihoods for each kind: of all features, and of the lasting ones.
+  std::array<double, kMostKinds> sum_{}, lasting_{};
 };
 
 }  // namespace ols::fusion
