@@ -141,6 +141,11 @@ RtspServer::Impl::~Impl() {
   changed_.notify_all();
   exposing_.join();
   in_loop([](Impl& self) { self.hang_up(); });
+  {  // Its threads call this object until then.
+    constexpr double kDeadline_s = 5.0;
+    std::unique_lock lock(mutex_);
+    time_source().wait(lock, changed_, kDeadline_s, [this] { return media_ == nullptr; });
+  }
   g_main_loop_quit(loop_);
   serving_.join();
   g_object_unref(server_);
@@ -258,6 +263,7 @@ void RtspServer::Impl::on_unprepared(GstRTSPMedia* media) {
   gst_object_unref(source_);
   source_ = nullptr;
   media_ = nullptr;
+  changed_.notify_all();
 }
 
 // The instant of the newest picture by the camera's clock, and its stamp.
