@@ -254,6 +254,7 @@ def changed(text, differing):
     return text
 
 
+@pytest.mark.night  # three minutes in which both cameras' pictures must not be late
 def test_the_page_leads_to_positions(laptop):
     page, began_s = Page(PAGE.read_text()), time.monotonic()
     listener = Listener()
