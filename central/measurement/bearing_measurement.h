@@ -21,9 +21,9 @@ struct Sighted {
   Eigen::Matrix2d rate_covariance = Eigen::Matrix2d::Zero();
   double size_rad = 0.0, size_sd_rad = 0.0;  // largest extent
   double across_rad = 0.0;                   // smaller side of its upright box
-  double size_noise_rad =
-      0.0;              // 1-sigma of the largest extent that is new in each image; 0: unknown
-  double signal = 0.0;  // signal-to-noise ratio in one image
+  // 1-sigma of the largest extent that is new in each image; 0: unknown.
+  double size_noise_rad = 0.0;
+  double signal = 0.0;                      // signal-to-noise ratio in one image
   std::vector<double> class_probability{};  // in the order of target_t's CLASS_*
 
   bool has_rate() const { return rate_covariance.trace() > 0.0; }

@@ -22,8 +22,8 @@ struct DetectedPixel {
   double velocity_sd_px_s = 0.0;                            // 1-sigma, each axis
   double size_px = 0.0, size_sd_px = 0.0;                   // largest extent
   double across_px = 0.0;                                   // smaller side of its upright box
-  double size_noise_px =
-      0.0;                 // 1-sigma of the largest extent that is new in each image; 0: unknown
+  // 1-sigma of the largest extent that is new in each image; 0: unknown.
+  double size_noise_px = 0.0;
   double signal = 0.0;     // signal-to-noise ratio
   int image_bearings = 0;  // as in DetectedObject
 };

@@ -42,8 +42,8 @@ struct DetectedObject {
   Eigen::Matrix2d rate_covariance = Eigen::Matrix2d::Zero();  // [rad^2/s^2]
   double size_rad = 0.0, size_sd_rad = 0.0;                   // largest extent
   double across_rad = 0.0;                                    // smaller side of its upright box
-  double size_noise_rad =
-      0.0;              // 1-sigma of the largest extent that is new in each image; 0: unknown
+  // 1-sigma of the largest extent that is new in each image; 0: unknown.
+  double size_noise_rad = 0.0;
   double signal = 0.0;  // signal-to-noise ratio
 };
 

@@ -62,8 +62,8 @@ TEST(Outline, StatesTheScatterThatTheNoiseCauses) {
     std::vector<Eigen::Array2d> seen;
     for (int i = 0; i < 200; ++i) {
       const Eigen::Vector2d centre(40.0 + within(random), 40.0 + within(random));
-      const auto outline = outline_at(
-          with_noise(sky_with({40.0, 40.0}, sides, contrast), 2.0, random), {40.0, 40.0}, 12.0);
+      const auto outline = outline_at(with_noise(sky_with(centre, sides, contrast), 2.0, random),
+                                      {40.0, 40.0}, 12.0);
       ASSERT_TRUE(outline);
       seen.emplace_back(outline->size_px);
       told += outline->sd_px.array().square();
@@ -112,7 +112,7 @@ TEST(Outline, MayBeBrighterThanTheSkyAndDarkerInPlaces) {
   for (int x = 34; x < 46; ++x)
     stripes.col(x).rowRange(35, 45) = kSky + (x % 2 == 0 ? 100.0 : -100.0);
   const auto fine = outline_at(with_noise(stripes, 1.0, random), {40.0, 40.0}, 12.0);
-  if (fine) EXPECT_GT(fine->sd_px.minCoeff(), 0.0);
+  EXPECT_FALSE(fine) << "its parts cancel";
 }
 
 TEST(Outline, OfALargeObjectIsMeasuredInAReducedImage) {
