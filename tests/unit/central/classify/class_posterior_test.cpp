@@ -62,6 +62,13 @@ TEST(ClassPosterior, MoreLooksInTheSameTimeSayNoMore) {
   for (int i = 0; i < kObjectClasses; ++i) EXPECT_NEAR(often.posterior()[i], seldom[i], 1e-9);
 }
 
+TEST(ClassPosterior, WhatAnObjectKeepsForItsLifeCountsOnce) {
+  ClassLook lasting = look(0.8, 12.0, 0.0, 0.0);
+  lasting.climb_m_s = lasting.across_m_s2 = lasting.flicker = {};
+  const auto early = after(2.0, lasting).posterior(), late = after(16.0, lasting).posterior();
+  for (int i = 0; i < kObjectClasses; ++i) EXPECT_NEAR(early[i], late[i], 1e-9);
+}
+
 TEST(ClassPosterior, FlickerIsWhatTheNoiseDoesNotExplain) {
   std::vector<SeenSize> beating, steady, from_the_side;
   for (int i = 0; i < 20; ++i) {
