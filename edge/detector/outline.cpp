@@ -1,9 +1,11 @@
 #include "edge/detector/outline.h"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <opencv2/imgproc.hpp>
+#include <span>
 #include <vector>
 
 namespace ols::detector {
@@ -12,6 +14,7 @@ namespace {
 // The surroundings: a strip along the edge of the part, one pixel away from it, where the means of
 // 3x3 pixels are still whole.
 constexpr int kEdge_px = 1, kStrip_px = 3;
+constexpr double kPixels = 9.0;  // of a mean
 
 // The object's part of the image, reduced so that a large object costs no more than a small one.
 struct Part {
@@ -38,33 +41,68 @@ std::optional<Part> part_around(const cv::Mat& gray, const Eigen::Vector2d& cent
   return part;
 }
 
+// A plane, because clouds and haze are brighter to one side.
 struct Surroundings {
-  double level = 0.0, sd = 0.0;  // of the means of 3x3 pixels [grey levels]
+  Eigen::Vector3d plane;  // grey level: its product with x, y and 1
+  double sd = 0.0;        // of the means of 3x3 pixels around the plane [grey levels]
 };
 
-// By the three quarters of the strip that deviate least from its median: a neighbour does not
-// count. The spread of means tells a texture from the noise of single pixels.
+struct Sample {
+  Eigen::Vector3d at;  // x, y and 1
+  double level = 0.0, deviation = 0.0;
+};
+
+std::vector<Sample> strip_of(const cv::Mat1f& means) {
+  const cv::Rect inside(kStrip_px, kStrip_px, means.cols - 2 * kStrip_px,
+                        means.rows - 2 * kStrip_px);
+  std::vector<Sample> strip;
+  for (int y = kEdge_px; y < means.rows - kEdge_px; ++y) {
+    for (int x = kEdge_px; x < means.cols - kEdge_px; ++x)
+      if (!inside.contains({x, y})) strip.push_back({{x, y, 1.0}, means(y, x)});
+  }
+  return strip;
+}
+
+Eigen::Vector3d plane_through(std::span<const Sample> samples) {
+  Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d b = Eigen::Vector3d::Zero();
+  for (const Sample& sample : samples) {
+    A += sample.at * sample.at.transpose();
+    b += sample.level * sample.at;
+  }
+  return A.ldlt().solve(b);
+}
+
+// By the three quarters of the strip that deviate least: a neighbour does not count. The spread of
+// means tells a texture from the noise of single pixels.
 Surroundings surroundings_of(const cv::Mat1f& means) {
   constexpr double kShare = 0.75, kNormal = 1.943;  // by the mean of |z| below its 75 %
   constexpr double kFloor = 0.17;                   // what the rounding hides
-  const cv::Rect inside(kStrip_px, kStrip_px, means.cols - 2 * kStrip_px,
-                        means.rows - 2 * kStrip_px);
-  std::vector<float> levels;
-  for (int y = kEdge_px; y < means.rows - kEdge_px; ++y) {
-    for (int x = kEdge_px; x < means.cols - kEdge_px; ++x)
-      if (!inside.contains({x, y})) levels.push_back(means(y, x));
+  constexpr int kPasses = 3;
+  std::vector<Sample> strip = strip_of(means);
+  const auto kept =
+      std::span(strip).first(static_cast<std::size_t>(kShare * static_cast<double>(strip.size())));
+  Surroundings around{plane_through(strip)};
+  for (int pass = 0; pass < kPasses; ++pass) {
+    for (Sample& sample : strip)
+      sample.deviation = std::abs(sample.level - around.plane.dot(sample.at));
+    std::ranges::sort(strip, {}, &Sample::deviation);
+    around.plane = plane_through(kept);
   }
-  std::ranges::sort(levels);
-  const float median = levels[levels.size() / 2];
-  std::ranges::sort(levels, {}, [&](float level) { return std::abs(level - median); });
-  levels.resize(static_cast<std::size_t>(kShare * static_cast<double>(levels.size())));
-  double sum = 0.0, deviations = 0.0;
-  for (const float level : levels) {
-    sum += level;
-    deviations += std::abs(level - median);
+  double deviations = 0.0;
+  for (const Sample& sample : kept) deviations += sample.deviation;
+  // Nine means share a pixel, and the plane takes three degrees of freedom.
+  const double count = static_cast<double>(kept.size()), independent = count / kPixels;
+  const double unbiased = std::sqrt(independent / (independent - 3.0));
+  around.sd = std::max(kFloor, kNormal * unbiased * deviations / count);
+  return around;
+}
+
+void subtract(const Eigen::Vector3d& plane, cv::Mat1f& image) {
+  for (int y = 0; y < image.rows; ++y) {
+    for (int x = 0; x < image.cols; ++x)
+      image(y, x) -= static_cast<float>(plane.dot(Eigen::Vector3d(x, y, 1.0)));
   }
-  const auto count = static_cast<double>(levels.size());
-  return {sum / count, std::max(kFloor, kNormal * deviations / count)};
 }
 
 // The largest connected area near the centre that stands out from the surroundings; empty if there
@@ -119,11 +157,11 @@ std::optional<Outline> outline_at(const cv::Mat& gray, const Eigen::Vector2d& ce
   const std::optional<Part> part = part_around(gray, centre, extent_px);
   if (!part) return std::nullopt;
   // Below kClear thresholds, much of the object may not stand out.
-  constexpr double kThreshold_sd = 4.5, kClear = 4.0, kPixels = 9.0;
+  constexpr double kThreshold_sd = 4.5, kClear = 4.0;
   cv::Mat1f means;
   cv::boxFilter(part->gray, means, -1, {3, 3});
   const Surroundings around = surroundings_of(means);
-  means -= around.level;
+  subtract(around.plane, means);
   const cv::Mat1b stands_out = cv::abs(means) > kThreshold_sd * around.sd;
   const cv::Mat1b object = object_in(stands_out, *part, extent_px);
   if (object.empty()) return std::nullopt;
@@ -131,7 +169,8 @@ std::optional<Outline> outline_at(const cv::Mat& gray, const Eigen::Vector2d& ce
   cv::minMaxLoc(cv::abs(means), nullptr, &most, nullptr, nullptr, object);
   if (most < kClear * kThreshold_sd * around.sd) return std::nullopt;
   // Parts of it may be brighter than the surroundings, and others darker.
-  cv::Mat1f weights = part->gray - around.level;
+  cv::Mat1f weights = part->gray;
+  subtract(around.plane, weights);
   cv::subtract(cv::Mat1f::zeros(weights.size()), weights, weights, means < 0.0F);
   std::optional<Outline> outline = moments_of(weights, object, std::sqrt(kPixels) * around.sd);
   if (!outline) return std::nullopt;

@@ -115,6 +115,19 @@ TEST(Outline, MayBeBrighterThanTheSkyAndDarkerInPlaces) {
   EXPECT_FALSE(fine) << "its parts cancel";
 }
 
+// Without the plane, the slope would count as a texture, and hide most of the object.
+TEST(Outline, StandsOutBeforeASlopeOfGreyLevels) {
+  std::mt19937 random(8);
+  const Eigen::Vector2d sides(14.0, 10.0);
+  cv::Mat1f sloping = sky_with({40.0, 40.0}, sides, 60.0);
+  for (int y = 0; y < sloping.rows; ++y) {
+    for (int x = 0; x < sloping.cols; ++x) sloping(y, x) += 0.8F * (x - 40) + 0.4F * (y - 40);
+  }
+  const auto outline = outline_at(with_noise(sloping, 1.0, random), {40.0, 40.0}, 14.0);
+  ASSERT_TRUE(outline);
+  EXPECT_LT((outline->size_px - sides).cwiseAbs().maxCoeff(), 0.3);
+}
+
 TEST(Outline, OfALargeObjectIsMeasuredInAReducedImage) {
   std::mt19937 random(4);
   const cv::Mat1b sky =
