@@ -2,12 +2,13 @@
 // so that targets are as recent as possible. The filter predicts every target to the epoch. Most
 // stations' newest bearings may therefore be older than the epoch. Pure.
 //
-// A station is delivering if it has sent a bearing recently. A delivering station is due if its
-// next frame (one frame interval after its newest) is older than the epoch, so that the frame's
-// bearing must still be on its way. An epoch is published as soon as fewer than half of the
-// delivering stations are due. All stations that expose together are therefore included, and
-// stations that expose in turn cause no delay. After a station has missed a frame, no epoch waits
-// for it until it delivers again. No epoch waits for more than 20 ms of message time.
+// A station is delivering if it has sent a bearing recently. A delivering station is due if a frame
+// of this instant must be on its way: its next frame (one frame interval after its newest) is at
+// most 20 ms older than the epoch, or at most 5 ms (and a quarter of the interval) newer. An epoch
+// is published as soon as fewer than half of the delivering stations are due. All stations that
+// expose together are therefore included, and stations that expose in turn cause no delay. After a
+// station has missed a frame, no epoch waits for it until it delivers again. No epoch waits for
+// more than 20 ms of message time.
 #pragma once
 
 #include <cstddef>
