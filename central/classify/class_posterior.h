@@ -9,10 +9,10 @@
 // An unknown feature is left out.
 //
 // Looks at one track are correlated. Their log-likelihoods are therefore averaged. What an object
-// keeps for its life (size, cruising speed, height) counts as one look. The rest, given that,
-// counts as 1 + t / kCorrelation_s independent looks after t seconds, at most kMostLooks: a bird
-// that glides now still glides a tenth of a second later. Looks are forgotten within kMemory_s, so
-// that the class changes when a track passes to another object.
+// keeps for its life (size, cruising speed, height) counts as one look. The other features, given
+// these, count as 1 + t / kCorrelation_s independent looks after t seconds, at most kMostLooks: a
+// bird that glides now still glides a tenth of a second later. The weight of a look falls to 37 %
+// in kMemory_s, so that the class changes when a track passes to another object.
 //
 // A target is 'unknown' until it has been looked at for a second and one class has a posterior of
 // at least 0.9. A look without a size does not count: by motion alone a balloon, a hovering drone
