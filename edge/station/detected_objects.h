@@ -44,9 +44,9 @@ class DetectedObjects {
   std::vector<PixelMeasurement> on_found(detector::Found found,
                                          const std::function<std::int64_t()>& new_track_id,
                                          double now_s);
-  // What the newest picture shows of the followed target, each picture once. nullopt if it shows
-  // nothing, or if that picture's target had another id. The size changes with a bird's wings; the
-  // tracker's box does not.
+  // What the newest picture shows of the followed target; returned once for each picture. nullopt
+  // if it shows nothing, or if the target followed in that picture had another id. The size changes
+  // with a bird's wings; the tracker's box does not.
   std::optional<DetectedPixel> take_look_at(std::int64_t track_id);
   // Call when angles from now on are not comparable with earlier ones.
   void forget_angles();

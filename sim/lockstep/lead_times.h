@@ -13,10 +13,10 @@ namespace ols::sim {
 
 // Seconds after the event, by station. A station that did not get this far is missing.
 struct LeadTimes {
-  std::map<std::string, double> in_picture;  // the target is in its picture,
-  std::map<std::string, double> acquired;    // it tries a detected object,
-  std::map<std::string, double> follows;     // it tracks the target, which is in its picture
-  std::map<std::string, int> acquisitions;   // number of tried objects, until the end
+  std::map<std::string, double> in_picture;  // until the target is in its picture
+  std::map<std::string, double> acquired;    // until it tries a detected object
+  std::map<std::string, double> follows;     // until it tracks the target in its picture
+  std::map<std::string, int> acquisitions;   // number of objects tried so far
   std::optional<double> located;             // the fusion has a position
   std::size_t stations = 0;                  // number of stations that are to follow
 
@@ -26,7 +26,7 @@ struct LeadTimes {
 void note(LeadTimes& times, Lockstep& lockstep, const std::string& id, double after_s);
 void note_position(LeadTimes& times, const Lockstep& lockstep, double after_s);
 
-// The same flight, beginning by_s later.
+// The same flight, of which the first by_s are left out.
 Scenario later(Scenario scenario, double by_s);
 Fidelity nobody_designates(const Scenario& scenario);
 

@@ -8,10 +8,10 @@
 namespace ols::sim {
 
 struct PtzFaults {           // of an ONVIF PTZ
-  double late_s = 0.0;       // its positions are those of this long ago
+  double late_s = 0.0;       // age of the positions that it reports
   double step_deg = 0.0;     // its positions are whole multiples of this; 0: exact
-  bool frozen = false;       // it tells the position that it had when this began
-  bool no_position = false;  // it tells none
+  bool frozen = false;       // it keeps reporting the position that it had when this began
+  bool no_position = false;  // it reports none
   bool ignores_timeout = false, ignores_stop = false;
   double clock_off_s = 0.0;  // its clock against UTC
   double lost_share = 0.0;   // of requests, lost together with their connections

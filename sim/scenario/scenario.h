@@ -78,8 +78,9 @@ struct Errors {
   } frames;
 };
 
-// What turns a station's camera: a pan-tilt unit, an ONVIF PTZ camera, or a telescope mount behind
-// an INDI server, aligned with the pole by the station's heading and tilt (both live only).
+// What turns a station's camera: a pan-tilt unit; in the live simulation also an ONVIF PTZ camera
+// or a telescope mount behind an INDI server, aligned with the pole by the station's heading and
+// tilt.
 enum class MountModel { kPtu, kOnvif, kIndi };
 
 struct StationScenario {
@@ -88,12 +89,12 @@ struct StationScenario {
       Eigen::Vector3d::Zero();  // [m] of GROUND in the site's frame, as surveyed
   ChainParameters chain;        // as calibrated
   std::string camera_address;
-  bool rtsp = false;      // its camera sends video by RTSP, no GigE Vision
+  bool rtsp = false;      // its camera sends video by RTSP instead of GigE Vision
   std::string ptu_line;   // file name of the pty's link
   bool overview = false;  // driven by a person, with a zoom lens
   ZoomScenario zoom;
   std::optional<PanTilt> fixed;  // the camera stands still at these angles; empty: a PTU
-  // Where it looks while nobody wants its unit: the middle, and the field's width and height.
+  // The field that it watches while nothing else uses its unit: the middle; width and height.
   std::optional<AzimuthElevation> watch;
   Eigen::Vector2d watch_size_rad = Eigen::Vector2d::Zero();
   MountModel mount = MountModel::kPtu;
@@ -199,7 +200,7 @@ struct Scenario {
 };
 
 // Switches an error off by its name in the file ("heading", "tilt", ...). Throws
-// std::invalid_argument, with the names, for an unknown one.
+// std::invalid_argument, listing all names, for an unknown one.
 void switch_off(Errors& errors, const std::string& name);
 
 // "drawn", "each-other" or "landmarks". Throws std::invalid_argument, with these words, for another

@@ -1,8 +1,8 @@
 // Keeps the data about a stream's pictures from its RTP packets, until the pictures leave the
 // decoder. Pure.
 //
-// All packets of one picture have the same stamp. After a lost packet, all pictures are broken up
-// to the next one that does not depend on another.
+// All packets of one picture have the same stamp. After a lost packet, all pictures are broken
+// until the next one that does not depend on another.
 #pragma once
 
 #include <cstdint>

@@ -23,12 +23,12 @@ class LineProtocol {
   virtual std::string stop() const = 0;
   // Shares of the greatest speeds, -1..1; positive: left, up.
   virtual std::string velocity(double pan, double tilt) const = 0;
-  // In the units of its positions.
+  // Orders a move to a position in the head's units.
   virtual std::string place(double pan, double tilt) const = 0;
 
   // Takes received bytes, in any pieces. Bytes that form no message are counted.
   virtual void receive(std::string_view bytes) = 0;
-  // In the head's units; empty until an answer has come since restart().
+  // In the head's units; empty until an answer has arrived after restart().
   struct Position {
     std::optional<double> pan, tilt;
   };
