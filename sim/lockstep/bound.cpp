@@ -56,9 +56,9 @@ Matrix2d pixel_covariance(const World& world, const StationTruth& station, const
                           const TargetTruth& target, const MeasurementNoise& noise, bool is_fixed) {
   const Errors& e = world.scenario().errors;
   const StationGeometry& g = station.truth;
-  Matrix2d R =
-      (std::pow(e.designation.told_px(), 2) + noise.white_share * std::pow(noise.pixel_sd_px, 2)) *
-      Matrix2d::Identity();
+  Matrix2d R = (std::pow(e.designation.stated_sd_px(), 2) +
+                noise.white_share * std::pow(noise.pixel_sd_px, 2)) *
+               Matrix2d::Identity();
   const double k1_sd = e.distortion.on ? e.distortion.residual_k1_sd : 0.0;
   for (const Unknown& unknown : unknowns(station.nominal.sd, k1_sd)) {
     R += outer(unknown.sd * slope(unknown.step, [&](double d) {

@@ -76,7 +76,7 @@ void LockstepOperator::designate_seen(double time_s) {
   }
   auto box = marked(*frame);
   if (!box) return;
-  const double sd_px = world_.scenario().errors.designation.told_px();
+  const double sd_px = world_.scenario().errors.designation.stated_sd_px();
   box->x += sd_px * noise_.gaussian();
   box->y += sd_px * noise_.gaussian();
   designated_ =

@@ -21,7 +21,7 @@ station::StationConfig station_config(const World& world, std::size_t index, boo
   station::StationConfig config;
   config.geometry = calibration ? calibration->model.geometry : world.stations()[index].nominal;
   config.calibration = calibration;
-  config.designation_sd_px = world.scenario().errors.designation.told_px();
+  config.designation_sd_px = world.scenario().errors.designation.stated_sd_px();
   config.overview = world.scenario().stations[index].overview;
   config.detection.enabled = pictures && world.scenario().detector_on;
   const StationScenario& scenario = world.scenario().stations[index];

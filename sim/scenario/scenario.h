@@ -45,7 +45,7 @@ struct Errors {
   } position;
   struct Designation : Switch {  // in the lockstep simulation
     double sd_px = 1.0;          // of the operator's box, each axis
-    double told_px() const { return on ? sd_px : 0.0; }
+    double stated_sd_px() const { return on ? sd_px : 0.0; }
   } designation;
   struct Encoder : Switch {
     double step_arcsec = 11.5714;
