@@ -32,7 +32,7 @@ bool EpochRule::Station::is_due(std::int64_t by_us) const {
   return ahead_us <= std::min(kStampUs, interval_us / 4) && ahead_us >= -kArrivalUs;
 }
 
-bool EpochRule::most_are_heard() const {
+bool EpochRule::most_have_arrived() const {
   std::size_t delivering = 0, due = 0;
   for (const auto& [name, station] : stations_) {
     if (seconds(newest_us_ - station.newest_us) > Activity::kDeliversS) continue;
@@ -49,7 +49,7 @@ std::optional<std::int64_t> EpochRule::after(const std::optional<std::int64_t>& 
   if (is_due(last_us, newest_us_ - kArrivalUs, rate_hz)) return newest_us_;
   if (changes_ <= stations_.size() / kMany) return std::nullopt;
   changes_ = 0;
-  return most_are_heard() ? std::optional(newest_us_) : std::nullopt;
+  return most_have_arrived() ? std::optional(newest_us_) : std::nullopt;
 }
 
 }  // namespace ols::fusion

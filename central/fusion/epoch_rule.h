@@ -45,7 +45,7 @@ class EpochRule {
 
     bool is_due(std::int64_t by_us) const;
   };
-  bool most_are_heard() const;
+  bool most_have_arrived() const;
 
   std::map<std::string, Station> stations_;
   std::int64_t newest_us_ = 0;
