@@ -53,7 +53,7 @@ SlewStation SlewSchedule::station_of(const std::string& name, const KnownStation
 }
 
 // The stations that see a target and have been given to another one, or to a line.
-void SlewSchedule::find_who_is_lent(std::int64_t now_us, const StationRegistry& stations) {
+void SlewSchedule::find_lent_stations(std::int64_t now_us, const StationRegistry& stations) {
   lent_.clear();
   for (const auto& [name, station] : stations.all()) {
     const std::int64_t seen = station.follows(now_us);
@@ -110,7 +110,7 @@ void SlewSchedule::begin(std::int64_t now_us, const StationRegistry& stations,
     narrow_by_cue();
   }
   planner_.allocate(round_, all, tracks);
-  find_who_is_lent(now_us, stations);
+  find_lent_stations(now_us, stations);
   find_what_is_let_go(tracks, handover);
   if (round_.ray) share_out(all);
 }

@@ -47,7 +47,7 @@ class SlewSchedule {
              const HandoverPolicy& handover);
   SlewStation station_of(const std::string& name, const KnownStation& station,
                          std::int64_t now_us) const;
-  void find_who_is_lent(std::int64_t now_us, const StationRegistry& stations);
+  void find_lent_stations(std::int64_t now_us, const StationRegistry& stations);
   void find_what_is_let_go(const std::vector<Track>& tracks, const HandoverPolicy& handover);
   // A station, and its own id of the tracklet.
   using TrackletName = std::pair<std::string, std::int64_t>;
