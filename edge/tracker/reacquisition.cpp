@@ -106,7 +106,7 @@ void Reacquisition::force_onto_movers(std::vector<Particle>& particles, Random& 
   }
 }
 
-bool Reacquisition::may_be_it(const Particle& particle) const {
+bool Reacquisition::may_be_target(const Particle& particle) const {
   if (!region_ || region_->told || near_prediction(particle)) return true;
   const cv::Rect2d box = box_of(particle.pixel, particle.size_px);
   return std::any_of(movers_.begin(), movers_.end(),

@@ -69,7 +69,7 @@ class Reacquisition {
   // Whether the particle can be the target. After a loss, a stationary object away from the
   // prediction is not accepted, even if it looks similar, because it is probably a twig, a window
   // or a reticle.
-  bool may_be_it(const Particle& particle) const;
+  bool may_be_target(const Particle& particle) const;
   // Divides the probability of identity among candidates. An object found elsewhere may be any of
   // the similar movers, visible or hidden, and nothing distinguishes them.
   void identify(const Particle& found, const Scene& scene, const TargetModel& target,

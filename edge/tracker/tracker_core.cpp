@@ -134,7 +134,7 @@ bool TrackerCore::recognise(const TrackerInput& frame) {
   if (searching) places.push_back(believed.pixel);
   const auto found = recognition_.appearance().find(frame, places, target_.usual_size_px(),
                                                     searching ? kFoundAgain : kFollowed);
-  if (!found || !reacquisition_.may_be_it({*found, {0.0, 0.0}, last_.size_px})) return false;
+  if (!found || !reacquisition_.may_be_target({*found, {0.0, 0.0}, last_.size_px})) return false;
   constexpr double kGain = 0.5;  // of an alpha-beta filter for the velocity
   Eigen::Vector2d moved_px = *found - unmoved_px();
   const bool by_other =
@@ -295,7 +295,7 @@ void TrackerCore::weigh_particles(const Scene& scene) {
     const double out = target_.standing_out(scene, particle.pixel, particle.size_px);
     const double alike =
         target_.log_likelihood(likeness, scene.background_similarity, out, particle.size_px);
-    return reacquisition_.may_be_it(particle) ? alike : alike - kStill;
+    return reacquisition_.may_be_target(particle) ? alike : alike - kStill;
   });
 }
 
@@ -348,7 +348,7 @@ void TrackerCore::judge(const Scene& scene) {
   const bool leapt = followed() && beyond_reach(last_.pixel) && !told_by_look;
   if (leapt) reacquisition_.start(reach_px());
   velocity_ = Velocity::kEstimated;
-  const bool elsewhere = !reacquisition_.may_be_it(last_) && !is_new && !told_by_look;
+  const bool elsewhere = !reacquisition_.may_be_target(last_) && !is_new && !told_by_look;
   if (target_.empty() || leapt || elsewhere) belief_.doubt();
   reacquisition_.identify(last_, scene, target_, belief_);
 }
