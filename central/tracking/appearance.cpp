@@ -52,8 +52,8 @@ bool agree_in_brightness(const Sighted& a, double range_a_m, const Sighted& b, d
 
 }  // namespace
 
-bool may_be_one(const BearingMeasurement& a, double range_a_m, const BearingMeasurement& b,
-                double range_b_m, const Eigen::Vector3d& plane_normal) {
+bool may_be_same_object(const BearingMeasurement& a, double range_a_m, const BearingMeasurement& b,
+                        double range_b_m, const Eigen::Vector3d& plane_normal) {
   return agree_in_size(a.sighted, range_a_m, b.sighted, range_b_m) &&
          agree_in_brightness(a.sighted, range_a_m, b.sighted, range_b_m) &&
          agree_in_speed(a, range_a_m, b, range_b_m, plane_normal);

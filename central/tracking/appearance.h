@@ -13,8 +13,8 @@ namespace ols::fusion {
 // must hold. The speeds perpendicular to the plane of both rays agree (`plane_normal`: the plane's
 // unit normal, ECEF). The sizes agree to within a factor of 4 and are 0.05 to 80 m. The
 // brightnesses (signal times range squared) agree to within a factor of 30.
-bool may_be_one(const BearingMeasurement& a, double range_a_m, const BearingMeasurement& b,
-                double range_b_m, const Eigen::Vector3d& plane_normal);
+bool may_be_same_object(const BearingMeasurement& a, double range_a_m, const BearingMeasurement& b,
+                        double range_b_m, const Eigen::Vector3d& plane_normal);
 
 // The squared normalised difference between the angular rates of a bearing and of a target (2
 // degrees of freedom); 0 for a bearing without a rate.

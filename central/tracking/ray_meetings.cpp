@@ -57,7 +57,7 @@ Solution RayMeetings::meet(const LookedAt& a, const LookedAt& b, const BiasModel
   const double miss_m =
       s * gate_rad(a.measurement, dt_s, s, errors) + t * gate_rad(b.measurement, 0.0, t, errors);
   if (off_m > miss_m) return Solution::kRaysMiss;
-  if (!may_be_one(a.measurement, s, b.measurement, t, base.cross(u).normalized()))
+  if (!may_be_same_object(a.measurement, s, b.measurement, t, base.cross(u).normalized()))
     return Solution::kRaysMiss;
   meeting = {(on_a + on_b) / 2.0, std::min(s, t), a.measurement.station, b.measurement.station,
              off_m / miss_m};

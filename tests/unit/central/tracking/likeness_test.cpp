@@ -64,7 +64,7 @@ const Eigen::Vector3d kA(-300.0, 10.0, 0.0), kB(100.0, 0.0, 20.0);
 bool are_one(const BearingMeasurement& a, const BearingMeasurement& b) {
   const Eigen::Vector3d normal =
       (b.sight.origin_ecef - a.sight.origin_ecef).cross(direction_ecef(a.sight)).normalized();
-  return may_be_one(a, (kObject - kA).norm(), b, (kObject - kB).norm(), normal);
+  return may_be_same_object(a, (kObject - kA).norm(), b, (kObject - kB).norm(), normal);
 }
 
 TEST(Appearance, OfOneObjectAgrees) { EXPECT_TRUE(are_one(seen_from(kA), seen_from(kB))); }
