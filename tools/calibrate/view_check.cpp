@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 void announce(ProcedureRunner& runner, bool aborted, const ViewStage& looked) {
   using M = ols_msg::procedure_t;
   if (aborted) return runner.announce(M::STATE_ABORTED, "aborted: no result");
-  runner.announce(looked.can_tell() ? M::STATE_ACCEPTED : M::STATE_FAILED, looked.verdict());
+  runner.announce(looked.is_conclusive() ? M::STATE_ACCEPTED : M::STATE_FAILED, looked.verdict());
 }
 
 fs::path panorama_of(const ProcedureOptions& options, const CalibrationStore& store) {

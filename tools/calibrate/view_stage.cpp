@@ -114,9 +114,9 @@ void ViewStage::step() {
 
 // Nothing is said that a second round does not confirm.
 void ViewStage::end_round() {
-  can_tell_ = offsets_.size() >= kFewest;
+  is_conclusive_ = offsets_.size() >= kFewest;
   const bool look_again =
-      can_tell_ && watch_.add(station::find_drift(offsets_, station::motor_steps(model_)));
+      is_conclusive_ && watch_.add(station::find_drift(offsets_, station::motor_steps(model_)));
   if (!look_again || again_) return;
   remark("something differs: all views are taken once more before anything is reported");
   again_ = true;
@@ -130,11 +130,11 @@ double ViewStage::progress() const {
 }
 
 bool ViewStage::stands() const {
-  return can_tell_ && watch_.heading_doubt_rad() == 0.0 && watch_.tilt_doubt_rad() == 0.0;
+  return is_conclusive_ && watch_.heading_doubt_rad() == 0.0 && watch_.tilt_doubt_rad() == 0.0;
 }
 
 std::string ViewStage::verdict() const {
-  if (!can_tell_) return "No result: fewer than three views could be compared";
+  if (!is_conclusive_) return "No result: fewer than three views could be compared";
   if (watch_.level() == station::DriftLevel::kNone)
     return "The tripod stands as when it was calibrated";
   const bool red = watch_.level() == station::DriftLevel::kRed;

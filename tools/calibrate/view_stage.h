@@ -37,7 +37,7 @@ class ViewStage : public Stage {
 
   // At the end: whether enough views could be compared, and whether the station has stayed in
   // place.
-  bool can_tell() const { return can_tell_; }
+  bool is_conclusive() const { return is_conclusive_; }
   bool stands() const;
   std::string verdict() const;
 
@@ -50,7 +50,7 @@ class ViewStage : public Stage {
   double angle_sd_rad_;
   std::size_t at_ = 0;
   bool again_ = false;  // a second round, to confirm the first
-  bool can_tell_ = false;
+  bool is_conclusive_ = false;
   std::vector<station::ViewOffset> offsets_;  // of this round
   station::DriftWatch watch_{{}, 0};
 };

@@ -63,7 +63,7 @@ TEST_F(ViewStageTest, ATripodThatStandsIsLookedAtOnce) {
 TEST_F(ViewStageTest, AKnockIsSaidAfterASecondRound) {
   ViewStage knocked = stage();
   EXPECT_EQ(look(knocked, {4.3, 4.3, 4.3, 4.3}), 8);
-  EXPECT_TRUE(knocked.can_tell());
+  EXPECT_TRUE(knocked.is_conclusive());
   EXPECT_FALSE(knocked.stands());
   EXPECT_EQ(knocked.verdict().find("RED: calibration: the tripod has moved"), 0U)
       << knocked.verdict();
@@ -90,7 +90,7 @@ TEST_F(ViewStageTest, TwoViewsTellNothing) {
       few.taken(picture);
     }
   }
-  EXPECT_FALSE(few.can_tell());
+  EXPECT_FALSE(few.is_conclusive());
   EXPECT_FALSE(few.stands());
   EXPECT_NE(few.verdict().find("No result"), std::string::npos);
 }
