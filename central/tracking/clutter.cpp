@@ -66,7 +66,7 @@ Clutter::Density Clutter::density_of(const Station& station) {
     rate += t.rate_rad_s.squaredNorm() / (2.0 * n);
   }
   const double variance = std::max(0.0, squares - mean_rad * mean_rad);
-  return {.born_per_s = n / watched_s,
+  return {.new_per_s = n / watched_s,
           .life_s = life_s,
           .present = n * life_s / watched_s,
           .height_rad = std::sqrt(12.0 * variance),
@@ -81,7 +81,7 @@ double Clutter::pairs_a_day(const std::string& a, const std::string& b, double a
   if (one == stations_.end() || other == stations_.end()) return 0.0;
   const Density da = density_of(one->second), db = density_of(other->second);
   if (da.life_s == 0.0 || db.life_s == 0.0) return 0.0;
-  const double began = kDayS * (da.born_per_s * db.present + db.born_per_s * da.present);
+  const double began = kDayS * (da.new_per_s * db.present + db.new_per_s * da.present);
   const double gate_rad = 2.0 * kGate * std::sqrt(one->second.variance + other->second.variance);
   const double height_rad = std::max({da.height_rad, db.height_rad, gate_rad});
   const double drift_rad_s = 2.0 * gate_rad / agreed_s;

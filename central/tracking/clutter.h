@@ -45,7 +45,7 @@ class Clutter {
   };
   // The density of a station's clutter.
   struct Density {
-    double born_per_s = 0.0, life_s = 0.0, present = 0.0;
+    double new_per_s = 0.0, life_s = 0.0, present = 0.0;
     double height_rad = 0.0;     // height of the region of the sky in which it appears
     double rate_variance = 0.0;  // variance of the rate, on one axis
   };
