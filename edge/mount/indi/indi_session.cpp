@@ -105,7 +105,7 @@ void IndiSession::run(mount::SharedDrive& shared, device::DeviceThread& thread,
   heard_ = connect(link, shared, stop);
   if (stop.stop_requested()) return;
   const mount::Moves moves = moves_of(heard_, config_.drive.limits);
-  goes_s_.reset();
+  slews_since_s_.reset();
   {
     const std::lock_guard lock(shared.mutex);
     shared.drive.connected(moves);
@@ -137,9 +137,9 @@ void IndiSession::serve(IndiLink& link, mount::SharedDrive& shared, device::Devi
       take_position(link, shared, now_s);
       if (!is_put_away(now) || shared.drive.in_emergency()) order = shared.drive.next(now_s);
     }
-    if (goes_s_ && !now.slews && now_s - *goes_s_ > kGoToBegins_s) {
+    if (slews_since_s_ && !now.slews && now_s - *slews_since_s_ > kGoToBegins_s) {
       link.stop();  // it would follow the stars from there
-      goes_s_.reset();
+      slews_since_s_.reset();
     }
     if (order.act != mount::Act::kWait && order.act != mount::Act::kStatus) {
       carry_out(link, order, now_s);
@@ -165,8 +165,8 @@ void IndiSession::judge(const Heard& now, mount::SharedDrive& shared) {
   const std::uint64_t positions = now.positions_refused - heard_.positions_refused;
   if (motions > 0) shared.drive.failed({mount::Act::kVelocity, {}}, now_s);
   if (stops > 0) shared.drive.failed({mount::Act::kStop, {}}, now_s);
-  if (positions > 0 && goes_s_) {
-    goes_s_.reset();
+  if (positions > 0 && slews_since_s_) {
+    slews_since_s_.reset();
     shared.drive.failed({mount::Act::kAbsolute, {}}, now_s);
   }
   shared.errors += motions + stops + positions;
@@ -202,10 +202,10 @@ void IndiSession::take_position(const IndiLink& link, mount::SharedDrive& shared
 void IndiSession::carry_out(IndiLink& link, const mount::Order& order, double now_s) {
   const PanTilt vector{order.vector.x, order.vector.y};
   const bool stands = vector.pan_rad == 0.0 && vector.tilt_rad == 0.0;
-  goes_s_.reset();
+  slews_since_s_.reset();
   if (order.act == mount::Act::kAbsolute) {
     link.go_to(equatorial_of(config_.axes, vector, *heard_.observer, utc_s(now_s)));
-    goes_s_ = now_s;
+    slews_since_s_ = now_s;
   } else if (order.act == mount::Act::kStop || stands) {
     link.stop();
   } else {

@@ -35,8 +35,8 @@ class IndiSession : public mount::MountSession {
   std::string pier_side_;      // as configured, or the first one reported
   bool was_unparked_ = false;  // once, at the first connection
   Heard heard_;
-  double taken_s_ = 0.0;          // the newest position that the drive has
-  std::optional<double> goes_s_;  // since when it slews to an ordered position
+  double taken_s_ = 0.0;                 // the newest position that the drive has
+  std::optional<double> slews_since_s_;  // since when it slews to an ordered position
 };
 
 }  // namespace ols::indi
