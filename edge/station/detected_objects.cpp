@@ -95,7 +95,7 @@ void DetectedObjects::note_followed(const Look& look) {
   }
 }
 
-std::optional<DetectedPixel> DetectedObjects::take_look_at(std::int64_t track_id) {
+std::optional<DetectedPixel> DetectedObjects::take_detection_of(std::int64_t track_id) {
   if (track_id != followed_id_) return std::nullopt;
   return std::exchange(of_followed_, std::nullopt);
 }

@@ -47,7 +47,7 @@ class DetectedObjects {
   // What the newest picture shows of the followed target; returned once for each picture. nullopt
   // if it shows nothing, or if the target followed in that picture had another id. The size changes
   // with a bird's wings; the tracker's box does not.
-  std::optional<DetectedPixel> take_look_at(std::int64_t track_id);
+  std::optional<DetectedPixel> take_detection_of(std::int64_t track_id);
   // Call when angles from now on are not comparable with earlier ones.
   void forget_angles();
 

@@ -97,7 +97,7 @@ void Station::track(const camera::Frame& frame) {
                    .track_id = target_.track_id(),
                    .designation_sd_px = target_.centring_sd_px(),
                    .acquired = !target_.is_designated(),
-                   .detected = detected_.take_look_at(target_.track_id())});
+                   .detected = detected_.take_detection_of(target_.track_id())});
   }
 }
 

@@ -143,12 +143,12 @@ TEST_F(DetectedObjectsTest, TheFollowedTargetIsNotSentAgain) {
   const auto sent = image(0.1, {object(1, 302, 199), object(2, 330, 199)}, followed);
   ASSERT_EQ(sent.size(), 1U);
   EXPECT_EQ(sent[0].pixel.x(), 330.0);
-  EXPECT_FALSE(objects_->take_look_at(6)) << "of another target";
-  const auto seen = objects_->take_look_at(7);
+  EXPECT_FALSE(objects_->take_detection_of(6)) << "of another target";
+  const auto seen = objects_->take_detection_of(7);
   ASSERT_TRUE(seen);
   EXPECT_EQ(seen->size_px, 6.0);
   EXPECT_FALSE(seen->is_tracklet);
-  EXPECT_FALSE(objects_->take_look_at(7)) << "a second time";
+  EXPECT_FALSE(objects_->take_detection_of(7)) << "a second time";
   EXPECT_EQ(image(0.2, {object(1, 302, 199)}).size(), 1U) << "it is lost";
 }
 
