@@ -157,7 +157,7 @@ Packets MqttEncoder::encode(const Target& target) {
 Packets MqttEncoder::encode(const Station& station) {
   Packets packets;
   const std::string word = topic_word(station.name);
-  if (told_stations_.size() < kMostStations && told_stations_.insert(word).second) {
+  if (announced_stations_.size() < kMostStations && announced_stations_.insert(word).second) {
     packets = discover_station(settings_, site_, word, station.name);
   }
   packets.push_back(retained(prefix_ + "/station/" + word, json_of(station)));
@@ -174,7 +174,7 @@ Packets MqttEncoder::encode_incident(const Incident& incident) {
 }
 
 bool MqttEncoder::is_free_slot_due(std::int64_t utime_us) const {
-  if (!slots_are_told_) return true;
+  if (!slots_are_announced_) return true;
   if (settings_.stale_s <= 0.0) return false;
   // A clock that was set back must not silence them.
   const double early_s = 1e-6 * static_cast<double>(free_due_us_ - utime_us);
@@ -185,7 +185,7 @@ Packets MqttEncoder::turn(std::int64_t utime_us) {
   Packets packets;
   if (!is_free_slot_due(utime_us)) return packets;
   free_due_us_ = utime_us + std::llround(1e6 * settings_.stale_s / kSaidInTime);
-  const bool is_new = !std::exchange(slots_are_told_, true);
+  const bool is_new = !std::exchange(slots_are_announced_, true);
   for (std::size_t slot = 0; slot < slots_.count(); ++slot) {
     if (is_new) {
       for (Packet& packet : discover_slot(settings_, site_, slot)) {
@@ -198,8 +198,8 @@ Packets MqttEncoder::turn(std::int64_t utime_us) {
 }
 
 void MqttEncoder::begin_again() {
-  slots_are_told_ = false;
-  told_stations_.clear();
+  slots_are_announced_ = false;
+  announced_stations_.clear();
 }
 
 }  // namespace ols::exports

@@ -40,9 +40,9 @@ class MqttEncoder : public Encoder {
   MqttSettings settings_;
   std::string site_, prefix_;
   TargetSlots slots_;
-  bool slots_are_told_ = false;
+  bool slots_are_announced_ = false;
   std::int64_t free_due_us_ = 0;  // when the free slots are repeated
-  std::set<std::string> told_stations_;
+  std::set<std::string> announced_stations_;
 };
 
 // The beginning of the site's topics.
