@@ -47,7 +47,7 @@ bool in_range(const BearingMeasurement& s) {
          is_a_stations_place(s.sight.origin_ecef, s.sight.origin_sd_enu_m);
 }
 
-// Determinant; of an asymmetric matrix, with the worse of its two off-diagonal elements.
+// A received matrix may be asymmetric: uses the larger of its two off-diagonal elements.
 double determinant(const Eigen::Matrix2d& m) {
   const double off = std::max(std::abs(m(0, 1)), std::abs(m(1, 0)));
   return m(0, 0) * m(1, 1) - off * off;
@@ -58,7 +58,7 @@ bool variances_within(const Eigen::Matrix2d& m, double least_rad2) {
   return m.diagonal().minCoeff() >= least_rad2 && m.diagonal().maxCoeff() <= kGreatestRad2;
 }
 
-// The bounds are far beyond those of any camera; beyond them, one bearing would make the whole fit
+// Real cameras stay far inside these bounds. A bearing outside them would make the whole fit
 // ill-conditioned.
 bool covariances_hold(const LineOfSight& sight) {
   constexpr double kLeastWhiteRad2 = 1e-18;

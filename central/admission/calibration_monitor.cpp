@@ -15,7 +15,7 @@ constexpr double kArcsec = kPi / 648000.0;
 
 Alarm calibration_alarm(const std::string& station, const StatedCalibration& stated,
                         const FoundBias& found) {
-  // One that doubts itself has stated that already.
+  // A station that doubts its own calibration reports that itself.
   if (stated.state != CalibrationState::kInUse) return {};
   bool beyond = false;
   for (int axis = 0; axis < 2; ++axis) {

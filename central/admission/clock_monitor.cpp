@@ -11,7 +11,7 @@
 namespace ols::fusion {
 namespace {
 
-constexpr double kTighter = 0.7;  // of the limits, to end the quarantine
+constexpr double kTighter = 0.7;  // of the limits; a quarantine ends only within this share
 constexpr std::size_t kLeastStationsToCompare = 3;
 
 }  // namespace

@@ -10,9 +10,9 @@ namespace ols::fusion {
 
 namespace {
 
-constexpr double kReadout_s = 0.025;  // less than from one image to the next
+constexpr double kReadout_s = 0.025;  // less than the interval between images
 
-// Behind a rolling shutter, each object of an image has the time of its own row.
+// With a rolling shutter, each object has the time of its own image row.
 bool is_of(const ImageBearings& image, const BearingMeasurement& measurement, double readout_s) {
   const BearingMeasurement& first = image.front();
   if (first.utime_us == measurement.utime_us) return true;

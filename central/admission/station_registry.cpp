@@ -8,9 +8,9 @@ namespace {
 
 constexpr double kForgottenS = 10.0;  // silent for longer: any other station may replace it
 
-// Foreign stations must not displace one that has delivered and still does.
+// Foreign stations must not displace one that keeps delivering.
 bool is_evictable(const std::string& name, const KnownStation& station, const MessageTime& time) {
-  constexpr std::int64_t kAtHome = 10;  // bearings
+  constexpr std::int64_t kAtHome = 10;  // fewer bearings: any other station may replace it
   return station.bearings < kAtHome || time.silent_s(name) > kForgottenS;
 }
 
@@ -24,8 +24,8 @@ bool StationRegistry::full(const std::string& station) const {
   return stations_.size() >= static_cast<std::size_t>(most_) && !stations_.contains(station);
 }
 
-// By messages, not by stamps: a station's clock may be wrong. Stations without a bearing come
-// first.
+// Silence is counted in messages, not by stamps, because a station's clock may be wrong. Stations
+// without a bearing come first.
 StationRegistry::Entry StationRegistry::longest_silent(const MessageTime& time) {
   return std::ranges::min_element(stations_, {}, [&](const auto& entry) {
     const KnownStation& station = entry.second;

@@ -12,7 +12,7 @@ namespace ols::fusion {
 namespace {
 
 constexpr int kWaitMs = 50;
-constexpr std::size_t kChannels = 1000;  // with their own sequence
+constexpr std::size_t kChannels = 1000;  // max number with a sequence of their own
 
 }  // namespace
 

@@ -14,7 +14,7 @@
 namespace ols::fusion {
 namespace {
 
-// A recording is verified by `ols-key verify`: its time is not the present.
+// The signatures of a recording are too old to be accepted here: `ols-key verify` verifies them.
 std::shared_ptr<trust::BusTrust> open_trust(const FusionSettings& settings,
                                             const FusionProcessOptions& options) {
   if (options.replay) return nullptr;
@@ -57,7 +57,7 @@ void FusionProcess::subscribe(LcmBus& bus) {
   bus.subscribe(std::string(kCueChannel), [this](const BusMessage& message) { on_cue(message); });
   bus.subscribe(std::string(kCueOrderChannel),
                 [this](const BusMessage& message) { on_cue_order(message); });
-  // A recording contains the status messages of the fusion that ran then.
+  // A recording has statuses of the fusion that ran at the time. That is no second fusion.
   if (options_.replay) return;
   bus.subscribe(std::string(kFusionStatusChannel),
                 [this](const BusMessage& message) { on_fusion_status(message); });
@@ -117,7 +117,7 @@ void FusionProcess::on_fusion_status(const BusMessage& message) {
   errors_.last = others_.alarm(now_s);
 }
 
-// A recording's is that of its messages.
+// In a replay, the present is the time of the messages.
 std::int64_t FusionProcess::present_us() const {
   return options_.replay ? std::max(cue_message_us_, fusion_.now_us()) : clock_utime_us();
 }
@@ -144,7 +144,7 @@ void FusionProcess::on_cue_order(const BusMessage& message) {
                                          bus_.next_stamp(kCueReplyChannel), clock_utime_us()));
 }
 
-// Each order counts once and only while it is fresh, so that a recorded one has no effect.
+// Each order counts once and only while it is fresh, so that replaying it has no effect.
 std::string FusionProcess::obey(const CueOrder& order) {
   constexpr double kLongestLease_s = 5.0;
   const double age_s =
@@ -157,7 +157,7 @@ std::string FusionProcess::obey(const CueOrder& order) {
     refuse(MessageRefusal::kOutOfRange, std::string(kCueOrderChannel));
     return is_fresh ? "replayed" : "stale";
   }
-  constexpr std::size_t kSenders = 1000;  // forged ones bring any number
+  constexpr std::size_t kSenders = 1000;  // forged messages may name any number of senders
   if (cue_orders_.size() >= kSenders) cue_orders_.clear();
   cue_orders_[order.boot_id] = order.sequence;
   if (order.handover) {
@@ -224,8 +224,8 @@ void FusionProcess::publish(const std::vector<Slew>& slews) {
   }
 }
 
-// In message time, so that a replay at any speed gives the same; in host time when no messages
-// arrive.
+// Due by message time, so that replays at any speed give the same output; by host time if no
+// messages arrive.
 void FusionProcess::publish_status_when_due() {
   const double interval_s = settings_.status_interval_s;
   const double now_s = clock_monotonic_s();
@@ -238,7 +238,7 @@ void FusionProcess::publish_status_when_due() {
   FusionHealth health = watched_health();
   health.last_error = errors_.newest(health.last_error);
   alarms_.look(health.alarms, now_s);
-  // Without bearings "now" stands still, and what is old is not believed where messages are signed.
+  // Without bearings, message time stands still. On a signed bus, receivers reject an old time.
   if (is_silent) health.now_us = present_us();
   bus_.send(kFusionStatusChannel,
             to_message(health, latency_.median_s(), bus_.next_stamp(kFusionStatusChannel)));

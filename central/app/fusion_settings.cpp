@@ -130,13 +130,13 @@ Section handover_section(HandoverConfig& c) {
                          "wait for an operator."),
        config::texts("staring", c.staring, "Stations that are never led anywhere."),
        config::number("seek_s", c.seek_s, {0.0, 60.0}, "s",
-                      "A lost target is looked for this long where it must be by then."),
+                      "A lost target is searched for this long, at its predicted position."),
        config::number("remember_s", c.remember_s, {0.0, 60.0}, "s",
                       "A target that is found again within this time, under another number, keeps "
-                      "the operator's word."),
+                      "the operator's decision."),
        config::number("acceleration_sd_m_s2", c.acceleration_sd_m_s2, {0.0, 100.0}, "m/s^2",
-                      "1-sigma of a lost target's acceleration: how fast it becomes "
-                      "uncertain where it is.")}};
+                      "1-sigma of a lost target's acceleration: how fast its "
+                      "predicted position becomes uncertain.")}};
 }
 
 Section land_section(FusionSettings& s) {

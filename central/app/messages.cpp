@@ -116,8 +116,8 @@ static_assert(code(CalibrationState::kDoubted) == ols_msg::station_status_t::CAL
 static_assert(code(StationClock::kUnsynchronised) == ols_msg::bearing_t::CLOCK_UNSYNCHRONISED);
 static_assert(code(CueState::kForbidden) == ols_msg::fusion_status_t::CUE_FORBIDDEN);
 
-// As many as fit into a datagram with texts of maximum length. The next message carries the next
-// ones.
+// The stations that this status reports. With texts of maximum length, no more fit into a datagram;
+// the next status reports the next ones.
 std::span<const StationHealth> in_turn(const std::vector<StationHealth>& all,
                                        std::int64_t sequence) {
   constexpr std::size_t kMost = 250;
@@ -195,7 +195,7 @@ std::variant<StationPlace, MessageRefusal> station_place_from(const std::string&
   place.traits.calibration = {
       from_code(message.calibration_state, CalibrationState::kDoubted, CalibrationState::kNone),
       message.calibration_utime, message.calibration_sd_rad};
-  // An overview station is driven by a person, a fixed one by nobody.
+  // An overview station is steered by a person, and a fixed one does not move.
   place.traits.commandable =
       commandable(message.state) && message.kind == ols_msg::station_status_t::KIND_TRACKING;
   if (message.position_source == ols_msg::station_status_t::POSE_NONE) {
@@ -233,7 +233,7 @@ std::variant<std::int64_t, MessageRefusal> fusion_boot_from(const void* data, in
 std::variant<Cue, MessageRefusal> cue_from(const void* data, int bytes) {
   ols_msg::cue_t message;
   if (const auto refusal = decode(kCueChannel, kCueChannel, data, bytes, message)) return *refusal;
-  // A number is the name of a target: an operator's word on it would never reach the cue.
+  // A number is the name of a target: an operator's order for such a cue would go to the target.
   if (message.id.size() > kLongestId || target_named(message.id)) return MessageRefusal::kMalformed;
   Cue cue;
   cue.id = plain_text(message.id);

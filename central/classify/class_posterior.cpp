@@ -11,7 +11,7 @@
 namespace ols::fusion {
 namespace {
 
-constexpr std::size_t kLeastSizes = 8;  // of a flicker
+constexpr std::size_t kLeastSizes = 8;  // fewer determine no flicker
 constexpr int kKinds = static_cast<int>(std::size(kClassTable));
 constexpr const Kind& kAnything = kClassTable[kKinds - 1];
 static_assert(std::string_view(kAnything.name) == "anything");
@@ -41,7 +41,7 @@ double log_density(const Kind& kind, const Features& seen) {
   return log_sum(logs.data(), kModes);
 }
 
-// One look in a hundred may show anything: an outline that a cloud's edge has joined, for example.
+// One look in a hundred may be an outlier: for example, an outline that has merged with a cloud.
 double log_likelihood(const Kind& kind, const Features& seen) {
   constexpr double kStray = 0.01;
   const std::array<double, 2> logs{std::log(1.0 - kStray) + log_density(kind, seen),
@@ -49,8 +49,8 @@ double log_likelihood(const Kind& kind, const Features& seen) {
   return log_sum(logs.data(), 2);
 }
 
-// The relative variance of one side of the outline beyond that of its noise, which is the same
-// share of both sides. Sizes of unknown noise were measured in another way, and do not count.
+// Relative variance of one side of the outline, minus that of its noise. The relative noise of both
+// sides is the same. Sizes without a noise were measured in another way, and are left out.
 Measured flicker_of(const std::vector<SeenSize>& sizes, double SeenSize::*side) {
   std::vector<SeenSize> outlines;
   std::ranges::copy_if(sizes, std::back_inserter(outlines),
@@ -69,7 +69,7 @@ Measured flicker_of(const std::vector<SeenSize>& sizes, double SeenSize::*side) 
   return {flicker, std::max(std::sqrt(2.0 / (count - 1.0) * variance), 1e-6)};
 }
 
-// The size is the mean of a second: the outline's own changes remain.
+// The sizes are those of one second. Their mean is the object's size, their variation its flicker.
 void see_sizes(const std::vector<SeenSize>& sizes, ClassLook& look) {
   const auto count = static_cast<double>(sizes.size());
   if (sizes.empty()) return;
@@ -87,7 +87,8 @@ void see_sizes(const std::vector<SeenSize>& sizes, ClassLook& look) {
   look.flicker = {along.value + across.value, std::hypot(along.sd, across.sd)};
 }
 
-// Its error may be as large as the height: half the span from 1-sigma below to 1-sigma above.
+// The error may be as large as the height, so the slope at the height would not do: half the span
+// from 1 sigma below to 1 sigma above.
 Measured height_feature(const Measured& height_m) {
   constexpr double kScale_m = 10.0;
   const auto at = [&](double sigmas) {
@@ -96,7 +97,7 @@ Measured height_feature(const Measured& height_m) {
   return {at(0.0), 0.5 * (at(1.0) - at(-1.0))};
 }
 
-// Size, speed and height; the others are unknown.
+// Only size, speed and height, which persist from look to look; the others stay unknown.
 Features lasting_of(const Features& seen) {
   Features lasting{};
   for (const int i : {0, 1, 5}) lasting[i] = seen[i];

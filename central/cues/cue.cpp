@@ -6,7 +6,7 @@
 
 namespace ols::fusion {
 
-// Straight on, for the few seconds until its source speaks again.
+// At constant velocity: the source reports again within seconds.
 KinematicState CueAim::at(std::int64_t utime_us) const {
   const double dt_s = seconds(utime_us - cue.state_us);
   const Eigen::Matrix3d R = R_ecef_enu(cue.place);

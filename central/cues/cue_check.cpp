@@ -59,7 +59,7 @@ CueRefusal check(const Cue& cue, std::int64_t present_us, const CueConfig& confi
   const auto age_s = [&](std::int64_t utime_us) {
     return 1e-6 * (static_cast<double>(present_us) - static_cast<double>(utime_us));
   };
-  // How old its source's knowledge may be is one thing; a message that is late itself another.
+  // The position may be old when its source sends it; the message itself must not be delayed.
   if (age_s(cue.state_us) > config.max_age_s || age_s(cue.utime_us) > kLongestWay_s) {
     return CueRefusal::kStale;
   }

@@ -8,10 +8,10 @@
 namespace ols::fusion {
 namespace {
 
-constexpr double kHold_s = 2.0;    // a cue that is not sent again for so long is over
-constexpr double kGate = 16.3;     // of the squared distance in three dimensions: 0.1 % beyond
-constexpr double kSettle_s = 0.1;  // between two looks at which target is where
-constexpr double kLeap = 100.0;    // of the squared distance: no motion of the one that was allowed
+constexpr double kHold_s = 2.0;    // a cue that is not repeated within this time ends
+constexpr double kGate = 16.3;     // squared, in sigmas; 0.1 % of true matches exceed it
+constexpr double kSettle_s = 0.1;  // between two searches for the target at each cue
+constexpr double kLeap = 100.0;    // squared, in sigmas; a longer jump is another object
 
 bool leaps(const CueAim& before, const Cue& cue) {
   const KinematicState expected = before.at(cue.state_us), now = CueAim{cue, 0.0}.at(cue.state_us);
@@ -49,7 +49,7 @@ bool CueRegistry::is_silent(const Live& live, std::int64_t present_us) const {
          seconds(present_us - live.cue.state_us) > config_.max_age_s + kHold_s;
 }
 
-// A known cue needs no new place, and an ended one leaves its own.
+// Only a new cue needs a free place, and silent cues give up theirs first.
 CueRefusal CueRegistry::take(const Cue& cue, std::int64_t present_us,
                              const StationRegistry& stations) {
   const CueRefusal refusal = check(cue, present_us, config_);
@@ -59,9 +59,9 @@ CueRefusal CueRegistry::take(const Cue& cue, std::int64_t present_us,
   const bool is_new = !cues_.contains(cue.id);
   if (is_new && cues_.size() >= static_cast<std::size_t>(config_.most)) return CueRefusal::kTooMany;
   Live& live = cues_[cue.id];
-  // Overtaken on the way.
+  // Overtaken by a newer message.
   if (!is_new && cue.state_us < live.cue.state_us) return CueRefusal::kStale;
-  // The operator allowed the cue that was shown, not any other under the same name.
+  // The operator allowed the object shown then, not another one under the same id.
   if (!is_new && live.allowed == true && leaps(CueAim{live.cue, config_.acceleration_sd_m_s2}, cue))
     live.allowed.reset();
   live.cue = cue;

@@ -24,8 +24,8 @@ double seconds_between(std::int64_t later_us, std::int64_t earlier_us) {
   return static_cast<double>(later_us - earlier_us) * 1e-6;
 }
 
-// The bearings in a window of the given span, which ends as late as possible but is at most
-// centred.
+// The bearings in a window of the given span. The window is centred on the epoch, or ends at the
+// newest bearing if that is earlier.
 std::span<const BearingMeasurement> window_of(std::span<const BearingMeasurement> all,
                                               std::int64_t epoch_us, double window_s) {
   const auto span_us = static_cast<std::int64_t>(std::llround(window_s * 1e6));
@@ -80,8 +80,8 @@ Eigen::Matrix<double, 3, 2> coefficients(const std::vector<Sample>& samples,
   return A_inverse * right;
 }
 
-// Variance of the prior of the quadratic coefficient: the target's acceleration, and the curvature
-// of the data beyond noise.
+// Prior variance of the quadratic coefficient: from the target's acceleration, plus the curvature
+// of the data beyond their noise.
 double quadratic_variance(const std::vector<Sample>& samples, const Eigen::Matrix3d& A,
                           double range_m, const AlignmentConfig& config) {
   const double physics = std::pow(config.acceleration_sd_m_s2 / (2.0 * range_m), 2.0);

@@ -127,7 +127,7 @@ double greatest_crossing(const std::vector<FilterStation>& stations,
   return greatest;
 }
 
-// The report on the stations whose bearings currently make the position.
+// Reports only the stations whose bearings currently determine the position.
 void tell_geometry(const TrackFilter& filter, std::int64_t utime_us, Estimate& estimate) {
   std::vector<FilterStation> stations = filter.stations();
   std::erase_if(stations, [&](const FilterStation& station) {

@@ -21,7 +21,7 @@ using Matrix23 = Eigen::Matrix<double, 2, 3>;
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-// All rays relative to their centroid: coordinates of millions of metres would cost digits.
+// All rays relative to their centroid: coordinates of millions of metres would cost precision.
 struct Problem {
   const std::vector<Ray>& rays;
   std::vector<RayFrame> frames;
@@ -123,7 +123,7 @@ Normal normal_at(const Problem& problem, const std::vector<double>& weights,
   return normal;
 }
 
-// Moves an initial point that is behind a camera. Nearly parallel rays may put it there by chance.
+// Why the initial point is behind a camera: nearly parallel rays may put it there by chance.
 Solution why_behind(const Problem& problem, const std::vector<double>& weights) {
   std::vector<RayUse> use(weights.size());
   for (std::size_t i = 0; i < weights.size(); ++i) use[i].used = weights[i] > 0.0;
@@ -202,7 +202,7 @@ Fit fit_weighted(const Problem& problem, std::vector<double> weights,
   return fit;
 }
 
-// chi^2 over its limit: up to 1 the rays are consistent.
+// chi^2 divided by its limit: up to 1, the rays are consistent.
 double disagreement(const Fit& fit, const LeastSquaresConfig& config) {
   if (fit.solution != Solution::kOk) return kNever;
   return fit.chi2 / chi_square_critical(normal_level(config.gate_sigma), fit.degrees);
@@ -229,8 +229,8 @@ std::optional<Fit> set_aside(const Problem& problem, const LeastSquaresConfig& c
   return std::nullopt;
 }
 
-// No subset of the rays is consistent: all of them, weighted by Huber's function, with an inflated
-// covariance.
+// If no subset of the rays is consistent, all are used: weighted by Huber's function, with an
+// inflated covariance.
 Fit fit_robustly(const Problem& problem, Fit fit, const LeastSquaresConfig& config) {
   constexpr int kRounds = 10;
   for (int round = 0; round < kRounds && fit.solution == Solution::kOk; ++round) {

@@ -35,7 +35,7 @@ Vector3d unweighted_centroid(const std::vector<PaperBase>& bases) {
 }
 
 // Gradient of normal_component(baseline, target) by the target: it is the sine of the angle between
-// the baseline a and the line r to the target. Zero where that is along the baseline.
+// the baseline a and the line r to the target. Zero where r runs along the baseline.
 Vector3d gradient_of_normal_component(const Baseline& baseline, const Vector3d& target) {
   const Vector3d a = (baseline.second - baseline.first).normalized();
   const Vector3d to_target = target - 0.5 * (baseline.first + baseline.second);
@@ -73,8 +73,8 @@ void choose_best_baseline(const Vector3d& T0, PaperPairing& pairing) {
   pairing.position_ecef = best.point;
 }
 
-// A view in cylindrical coordinates about the baseline m: its angle theta from it, and the angle
-// about it, in which e points.
+// A view's direction relative to the baseline m: theta is its angle from m, and e is where it
+// points across m.
 struct AboutBaseline {
   double cosine, sine;  // of theta
   Vector3d e;           // unit, across m
@@ -99,9 +99,10 @@ struct PairDerivative {
   Matrix3d by_first, by_second;
 };
 
-// Of the intersection W of two views. In their common plane, whose angle about the baseline is the
-// views' own, weighted by the beliefs, W is at the distance s = L sin(theta2) / sin(theta2 -
-// theta1) from the first and t = L sin(theta1) / sin(theta2 - theta1) from the second centre.
+// Derivatives of the intersection W of two views. Both rays are turned into a common plane, whose
+// angle about the baseline is the mean of the views' angles, weighted by their beliefs. In that
+// plane, W is at the distance s = L sin(theta2) / sin(theta2 - theta1) from the first centre, and t
+// = L sin(theta1) / sin(theta2 - theta1) from the second.
 PairDerivative derivative_of(const PaperView& first, const PaperView& second, const Vector3d& W,
                              const PaperConfig& config) {
   const Vector3d m = (second.centre_ecef - first.centre_ecef).normalized();

@@ -35,7 +35,7 @@ PaperPoint intersect_in_plane(const PaperView& first, const PaperView& second,
   return {Solution::kOk, first.centre_ecef + s * u};
 }
 
-// The axes at each ray's origin: they cost more than all else that a ray needs.
+// The axes at each ray's origin, computed once: nothing else about a ray costs as much.
 std::vector<Eigen::Matrix3d> axes_of(const std::vector<Ray>& rays) {
   std::vector<Eigen::Matrix3d> axes;
   for (const Ray& ray : rays) axes.push_back(R_ecef_enu(ray.sight.origin_ecef));

@@ -9,7 +9,7 @@
 namespace ols::fusion {
 namespace {
 
-// How far the arrivals of two frames of one instant may be apart, and their stamps.
+// Greatest differences between two frames of one instant: of their arrivals, and of their stamps.
 constexpr std::int64_t kArrivalUs = 20'000, kStampUs = 5'000;
 
 }  // namespace

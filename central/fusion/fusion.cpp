@@ -79,7 +79,8 @@ FusionOutput Fusion::add(const BearingMeasurement& measurement) {
   if (output.refusal == BearingRefusal::kNone) output.refusal = take(measurement, used);
   note_refusal(output.refusal, measurement, admitted);
   const std::int64_t now = now_us();
-  // After a silence "now" is old until most stations have sent again: nothing is published by it.
+  // After a silence, "now" stays old until most stations have sent again. Nothing is published for
+  // such a time.
   if (now == 0 || admission_.is_future(measurement.utime_us)) return output;
   if (targets_.epoch_us() && seconds(*targets_.epoch_us() - now) > kStepBackS) begin_time_line();
   for (const ImageBearings& image : used) targets_.hear(image.front(), now);
@@ -100,8 +101,8 @@ std::vector<Slew> Fusion::slews_at(std::int64_t now_us) {
   return slews;
 }
 
-// Without bearings nothing else would slew a station, and "now" is the present of this host. With
-// bearings it is theirs: two clocks in turn would begin rounds and searches again.
+// Without bearings, only cues cause slews, and "now" is this host's time. With bearings, "now" is
+// message time: alternating between two clocks would restart rounds and searches.
 std::vector<Slew> Fusion::add(const Cue& cue, std::int64_t present_us) {
   constexpr double kTogether_s = 0.5;
   const CueRefusal refusal = cues_.take(cue, present_us, admission_.stations());
@@ -130,8 +131,8 @@ bool Fusion::allow_cue(const std::string& id, bool allow) {
   return taken;
 }
 
-// An offset from the others' clocks adds to the stated clock error. `used`: the images of which a
-// bearing was used.
+// An offset from the other stations' clocks is added to the stated clock error. `used` gets the
+// images of which a bearing was used.
 BearingRefusal Fusion::take(const BearingMeasurement& measurement,
                             std::vector<ImageBearings>& used) {
   BearingMeasurement judged = measurement;
@@ -210,7 +211,7 @@ void Fusion::note_refusal(BearingRefusal refusal, const BearingMeasurement& meas
   constexpr int kManyUntimely = 10;  // fewer are normal while stations begin or the network stalls
   if (refusal == BearingRefusal::kNone) return;
   log_.count(to_string(refusal));
-  // A normal condition, or already reported when it began.
+  // Low belief is normal, and a quarantine is reported when it begins.
   if (refusal == BearingRefusal::kLowBelief || refusal == BearingRefusal::kQuarantine) return;
   const int untimely = admitted.station == nullptr ? 0 : admitted.station->untimely;
   if (untimely > 0 && untimely < kManyUntimely) return;

@@ -7,7 +7,7 @@
 namespace ols::fusion {
 namespace {
 
-// Observable: the variance is at most half of that before the first bearing.
+// Observable: the sigma has fallen to at most this share of that before the first bearing.
 constexpr double kSeen = 0.5;
 
 std::map<std::string, double> all_counters(const FusionLog& log, const TrackManager& tracks) {

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kStep_s = 0.1;
 constexpr int kSteps = 120;
-// The land is wrong by some metres, so a target may vanish earlier than expected.
+// The land model is wrong by some metres, so a target may vanish earlier than expected.
 constexpr double kLead_s = 1.0;
 
 std::vector<Position> path_of(const Track& track, std::int64_t now_us) {
@@ -23,7 +23,7 @@ std::vector<Position> path_of(const Track& track, std::int64_t now_us) {
   return path;
 }
 
-// It holds until the target is out with certainty, and until the next one has arrived.
+// A notice is valid until the target has surely reappeared, and until the next notice has arrived.
 double holds_for(const Occlusion& occlusion) {
   constexpr double kNext_s = 0.5, kLongest_s = kOcclusionHolds_s, kSigmas = 3.0;
   if (!occlusion.exit) return kNext_s;

@@ -22,7 +22,7 @@ void turn(Slew& slew, const Eigen::Vector2d& offset_rad) {
   d.elevation_rad = elevation;
 }
 
-// Its tracker, if it has one there, coasts for less than a second.
+// A tracker there, even a coasting one, has had a bearing within the last second.
 bool sees_by_detector(const Track& track, const std::string& station, std::int64_t now_us) {
   return track.bearings.contains(station) && tracker_of(track, station, now_us) == nullptr;
 }
@@ -82,7 +82,7 @@ Slew slew_to(const KinematicState& target, const StationTraits& station, const S
   return slew;
 }
 
-// "Now" may fall back a little.
+// "Now" may step back a little.
 double SlewPlanner::Search::searched_s(std::int64_t now_us) const {
   return std::max(0.0, seconds(now_us - begun_us));
 }
@@ -161,8 +161,9 @@ const Track* SlewPlanner::target_for(SlewRound& round, const SlewStation& statio
   return *target;
 }
 
-// The one that it is being led to, else the one to which the fewest are; instead of a target only
-// where others see that.
+// The cue that the station is already led to, else the one with the fewest stations. A station with
+// a target gets a cue only if two others see that target, and while fewer than two stations are led
+// to the cue.
 const CueAim* SlewPlanner::cue_for(const SlewRound& round, const SlewStation& station,
                                    const Track* target) {
   if (round.cues.empty() || round.bearing_only_stations.contains(station.station)) return nullptr;
@@ -183,7 +184,7 @@ const CueAim* SlewPlanner::cue_for(const SlewRound& round, const SlewStation& st
   return led_to(*fewest) < 2 && others >= 2 ? fewest : nullptr;
 }
 
-// A search ends with its cue: should that come back, it begins anew.
+// A search ends with its cue. If the cue comes back, a new search begins.
 void SlewPlanner::count_searches(SlewRound& round) {
   round.led_to.clear();
   for (const CueAim& aim : round.cues) round.led_to[aim.cue.id] = 0;
@@ -222,12 +223,13 @@ void SlewPlanner::search_around(Slew& slew, const SlewStation& station, double s
   turn(slew, step_rad * spiral_point(k));
 }
 
-// Whether whatever moves evenly counts (slew_t.line): where the cue's motion is not known, and
-// where its places are so uncertain that they jump, other than the target's own. What stands is
-// never found that way: of a cue that stands the direction is all there is.
+// Whether the station is to acquire anything that moves evenly (slew_t.line), instead of what is at
+// the direction. So it is where the cue's velocity is not known, and where the cue's positions are
+// so uncertain that they jump more than the target does. Nothing that stands still is found that
+// way, so a standing cue is searched by its direction alone.
 bool SlewPlanner::is_by_motion(const CueAim& aim, const SlewStation& station,
                                std::int64_t now_us) const {
-  constexpr double kKnown_rad_s = 0.03;  // a station's acquisition bears so much
+  constexpr double kKnown_rad_s = 0.03;  // error of the rate that a station's acquisition tolerates
   const KinematicState state = aim.at(now_us);
   const double range_m = (state.mean.head<3>() - station.traits.camera_ecef).norm();
   if (aim.cue.velocity_sd_m_s > kKnown_rad_s * range_m) return true;
@@ -235,8 +237,8 @@ bool SlewPlanner::is_by_motion(const CueAim& aim, const SlewStation& station,
   return moves && is_wide(aim, station, now_us);
 }
 
-// Other than to a target of ours, a station comes from anywhere: the search begins when it is
-// there.
+// A station is usually near its own target, but may be turned far away from a cue: the search
+// begins when it has arrived.
 Slew SlewPlanner::towards(const CueAim& aim, const SlewStation& station, std::int64_t now_us) {
   const std::int64_t effect_us = effect_of(station.traits, now_us);
   Slew slew = slew_to(aim.at(effect_us), station.traits, config_);
@@ -254,7 +256,7 @@ Slew SlewPlanner::towards(const CueAim& aim, const SlewStation& station, std::in
   return slew;
 }
 
-// Whether it takes more than one look.
+// Whether the cue's uncertainty exceeds the field of view.
 bool SlewPlanner::is_wide(const CueAim& cue, const SlewStation& station,
                           std::int64_t now_us) const {
   const KinematicState state = cue.at(now_us);
@@ -308,8 +310,8 @@ std::optional<Slew> SlewPlanner::slew_of(SlewRound& round, const SlewStation& st
   return std::nullopt;
 }
 
-// Nothing wants the station: it only has to let go, and not to look there for another object. Of no
-// other slew without a target and a line is the direction exact.
+// No target needs the station: it only has to let its object go, and not to acquire another one
+// there. Among slews without a target and a line, only this one has an exact direction.
 Slew SlewPlanner::stay(const SlewStation& station, std::int64_t now_us) const {
   Slew slew;
   slew.lease_s = config_.lease_s;

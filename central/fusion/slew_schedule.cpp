@@ -16,8 +16,8 @@ namespace {
 
 constexpr int kStationsABearing = 16;
 constexpr double kStepBack_s = 0.5;
-constexpr double kTurn_s = 5.0;          // of the search along a line, before another has its turn
-constexpr double kLastTracker_s = 60.0;  // a tracker stays with what was a target
+constexpr double kTurn_s = 5.0;          // a line is searched so long before another has its turn
+constexpr double kLastTracker_s = 60.0;  // a tracker stays so long with what was a target
 
 CueRay cue_ray(const BearingOnly& line, const Sighted& seen, std::int64_t now_us) {
   const RayFrame frame = ray_frame(line.sight);
@@ -33,12 +33,12 @@ CueRay cue_ray(const BearingOnly& line, const Sighted& seen, std::int64_t now_us
           seen.size_sd_rad};
 }
 
-// An operator has designated what it is of.
+// An operator has designated the object.
 bool is_wanted(const BearingMeasurement& line) { return !line.is_tracklet && !line.is_acquired; }
 
 }  // namespace
 
-// A target that leads nobody is as if the station did not see it.
+// A station whose target leads nobody counts as seeing no target.
 SlewStation SlewSchedule::station_of(const std::string& name, const KnownStation& station,
                                      std::int64_t now_us) const {
   const std::int64_t seen = station.follows(now_us);
@@ -52,7 +52,7 @@ SlewStation SlewSchedule::station_of(const std::string& name, const KnownStation
           let_go == let_go_.end() ? 0 : let_go->second};
 }
 
-// The stations that see a target and have been given to another one, or to a line.
+// The stations that see a target, but are given to another one or to a line.
 void SlewSchedule::find_lent_stations(std::int64_t now_us, const StationRegistry& stations) {
   lent_.clear();
   for (const auto& [name, station] : stations.all()) {
@@ -63,8 +63,8 @@ void SlewSchedule::find_lent_stations(std::int64_t now_us, const StationRegistry
   }
 }
 
-// A station's tracker stays with its target until somebody says otherwise. What an operator has
-// designated, only an operator's dismissal takes from it.
+// A tracker stays with its target until a slew lets it go. What an operator has designated is let
+// go only if an operator dismisses it.
 void SlewSchedule::find_what_is_let_go(const std::vector<Track>& tracks,
                                        const HandoverPolicy& handover) {
   for (const Track& track : tracks) {
@@ -115,8 +115,8 @@ void SlewSchedule::begin(std::int64_t now_us, const StationRegistry& stations,
   if (round_.ray) share_out(all);
 }
 
-// A station's line: of what an operator has designated, else of the object that has been searched
-// for the fewest turns, of these the oldest. Null: none.
+// The line of this station that may be searched: that of a designated object, else the one searched
+// for the fewest turns, else the oldest. Null: none.
 const BearingMeasurement* SlewSchedule::line_of(const std::string& station,
                                                 const std::vector<const BearingMeasurement*>& own) {
   const auto told = std::ranges::find_if(own, [](const auto* line) { return is_wanted(*line); });
@@ -133,8 +133,8 @@ const BearingMeasurement* SlewSchedule::line_of(const std::string& station,
   return best;
 }
 
-// What targets have is no object without a position. Should such a target be lost, the search for
-// it begins then; but not if it leads nobody.
+// The object of a target needs no search for its position. If the target is lost, a search may
+// begin then, unless the target leads nobody.
 void SlewSchedule::note_targets(const std::vector<Track>& tracks) {
   for (const Track& track : tracks) {
     if (!is_established(track)) continue;
@@ -156,9 +156,10 @@ void SlewSchedule::note_targets(const std::vector<Track>& tracks) {
   }
 }
 
-// What a led station's tracker has found, and no other station sees. It stays there as long as a
-// line is searched; for longer, but not for ever, if that was a target: it may be the last that
-// sees it, or may have slid onto something else.
+// An object that a led station's tracker has acquired and no other station sees. The tracker stays
+// with it for the time of a line search. If the object was a target, the tracker stays longer,
+// because it may be the last to see it; but not for ever, because it may have slid onto something
+// else.
 void SlewSchedule::note_acquired(const BearingMeasurement& line) {
   const Tracklet& known = tracklets_.at({line.station, line.track_id});
   if (seconds(round_.now_us - known.noted_us) < known.stays_s) {
@@ -169,8 +170,8 @@ void SlewSchedule::note_acquired(const BearingMeasurement& line) {
   }
 }
 
-// Not at once: the other stations may be about to see the object where they look. And not for ever:
-// it may be of anything, and of something that no other station can see.
+// A search waits at first: other stations may be about to see the object where they look. It also
+// ends: the object may be anything, and hidden from all other stations.
 std::optional<int> SlewSchedule::turn_of(const TrackletName& tracklet) {
   constexpr double kWait_s = 0.7;
   const std::int64_t now_us = round_.now_us;
@@ -182,13 +183,13 @@ std::optional<int> SlewSchedule::turn_of(const TrackletName& tracklet) {
   return static_cast<int>(known.searched_s / kTurn_s);
 }
 
-// The first is an operator's, then those that have been searched for the fewest turns. Of these
-// come first the lines of stations that are never led: what a station sees alone where others look,
-// too, is beyond the site. The line of the round before stays while no other is ahead of it,
-// because another one would begin all searches anew.
+// Designated objects come first, then those searched for the fewest turns. Among these, lines of
+// stations that are never led come first: what a led station sees alone, although others look there
+// too, is beyond the site. The line of the previous round stays unless another one is ahead of it,
+// because a change restarts all searches.
 void SlewSchedule::cue(std::int64_t now_us, const BearingLines& lines,
                        const std::vector<SlewStation>& stations) {
-  constexpr double kForget_s = 2.0;  // of a tracklet that has ended, or that a target has taken
+  constexpr double kForget_s = 2.0;  // after a tracklet has ended, or a target has taken it
   std::map<LineKey, SearchedLine> open;
   for (const std::string& station : lines.stations(now_us)) {
     const BearingMeasurement* own = line_of(station, lines.of(station, now_us));
@@ -218,8 +219,7 @@ void SlewSchedule::cue(std::int64_t now_us, const BearingLines& lines,
   round_.bearing_only_stations.insert(round_.ray->station);
 }
 
-// A detector misses its object now and then: the search goes on meanwhile, along the line where it
-// must be by then.
+// A detector misses its object now and then. Meanwhile the search goes on along the predicted line.
 void SlewSchedule::keep_line(std::int64_t now_us, const BearingLines& lines,
                              std::map<LineKey, SearchedLine>& open) const {
   constexpr double kGap_s = 1.0;
@@ -244,7 +244,7 @@ void SlewSchedule::note_search(double since_s) {
   if (searched != tracklets_.end()) searched->second.searched_s += since_s;
 }
 
-// By the object's size, and over the circle that the stations make.
+// From the object's size, and from where the stations stand.
 void SlewSchedule::expect_range(const std::vector<SlewStation>& stations) {
   const CueRay& ray = *round_.ray;
   std::vector<Eigen::Vector3d> places;
@@ -280,7 +280,7 @@ void SlewSchedule::share_out(const std::vector<SlewStation>& stations) {
   for (auto& [name, share] : round_.shares) share.of = static_cast<int>(round_.shares.size());
 }
 
-// Of a ray that passes a cue, the cue says how far out the target is.
+// If the ray passes a cue, the cue tells the range.
 void SlewSchedule::narrow_by_cue() {
   constexpr double kSigmas = 3.0, kLeastSd_m = 10.0;
   const CueRay& ray = *round_.ray;
@@ -300,7 +300,7 @@ void SlewSchedule::narrow_by_cue() {
 std::vector<Slew> SlewSchedule::plan(std::int64_t now_us, const StationRegistry& stations,
                                      const BearingLines& lines, const std::vector<Track>& tracks,
                                      const CueRegistry& cues, const HandoverPolicy& handover) {
-  // Cues come with another clock than bearings.
+  // Cues have another clock than bearings.
   if (begun_us_ && seconds(*begun_us_ - now_us) > kStepBack_s) {
     begun_us_.reset();
     next_.reset();

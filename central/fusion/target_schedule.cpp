@@ -27,8 +27,8 @@ FusedTarget target_of(std::int64_t epoch_us, const Track& track, const char* est
   return target;
 }
 
-// The paper's estimate beside another one: with more stations its cost, which grows with their
-// square, would delay the targets and slews.
+// Max stations of the paper's estimate when it accompanies another one. Its cost grows with their
+// square, and would delay targets and slews.
 constexpr int kPaperStations = 100;
 
 EstimatorConfig beside(EstimatorConfig config) {
@@ -55,8 +55,8 @@ void TargetSchedule::hear(const BearingMeasurement& measurement, std::int64_t no
   rule_.hear(measurement.station, measurement.utime_us, now_us);
 }
 
-// The estimators without memory would extrapolate to the newest stamp: theirs is "now", which half
-// of the stations have passed.
+// Estimators without memory would have to extrapolate to the newest stamp. Their epoch is "now",
+// which half of the stations have passed.
 std::optional<std::int64_t> TargetSchedule::next_epoch(std::int64_t now_us) {
   if (predicts(config_.estimator)) return rule_.after(epoch_.utime_us, config_.rate_hz);
   return is_due(epoch_.utime_us, now_us, config_.rate_hz) ? std::optional(now_us) : std::nullopt;
@@ -133,8 +133,8 @@ FusedTarget TargetSchedule::locate(const Track& track, bool by_paper, const Trac
   return target;
 }
 
-// A located target's height above the ground. If the site has said that it stands there, the ground
-// improves its position.
+// The height above ground of a located target. If its stations are configured to see only objects
+// on the ground, the ground improves its position.
 void TargetSchedule::use_land(FusedTarget& target) const {
   if (!config_.land.surface) return;
   const land::Surface& surface = *config_.land.surface;
@@ -153,8 +153,8 @@ void TargetSchedule::use_land(FusedTarget& target) const {
       height_above_ground(surface, estimate.position_ecef, estimate.covariance_ecef);
 }
 
-// A bearing-only track of an object that stands on the ground has a position, where its line of
-// sight ends.
+// A bearing-only track of an object on the ground has a position: where its line of sight meets the
+// ground.
 void TargetSchedule::end_in_ground(FusedTarget& target) const {
   if (target.target_id == 0) return;
   const auto point = ground_point(*config_.land.surface, target.bearing_only->sight);
@@ -169,8 +169,8 @@ void TargetSchedule::end_in_ground(FusedTarget& target) const {
   target.above_ground = HeightAboveGround{kMiddle_m, kMiddleSd_m};
 }
 
-// Without an object: the reason, or the single bearing-only track. Also the bearing-only track of
-// each station that follows an object other than the targets.
+// Without a located target, reports the reason or the single bearing-only track. Also reports the
+// bearing-only track of each station that follows an object other than the targets.
 void TargetSchedule::report_bearing_only(TrackManager& tracks, const PointingMonitor& pointing,
                                          FusionOutput& output) {
   epoch_.bearing_only_reported = true;

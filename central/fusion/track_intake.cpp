@@ -6,7 +6,7 @@ namespace ols::fusion {
 
 namespace {
 
-// What a tracklet that no track explains is off says nothing about the pose: it may be anything.
+// A tracklet that no track explains may be anything, so its offset says nothing about the pose.
 void report(const BearingMeasurement& measurement, const TrackManager& tracks, bool believed,
             PointingMonitor& pointing, Associated& associated) {
   if (associated.result.kind == Association::Kind::kAmbiguous) return;

@@ -15,15 +15,15 @@
 namespace ols::fusion {
 namespace {
 
-constexpr double kFar = 6.0;  // sigmas from the ground at which no target is
+constexpr double kFar = 6.0;  // sigmas; no target is farther from the ground
 
 // The line at one range.
 struct Node {
   double range_m = 0.0;
   Eigen::Vector3d p_ecef = Eigen::Vector3d::Zero();
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  // ECEF, unit
-  double above_m = 0.0;  // the line above the middle of an object that stands there
-  double clear_m = 0.0;  // the line above the top of the land
+  double above_m = 0.0;  // height of the line above the middle of an object that stands there
+  double clear_m = 0.0;  // height of the line above the top of the land
   double top_sd_m = 0.0;
   double ground_m2 = 0.0;  // variance of that middle's height
   double line_m2 = 0.0;    // variance of the line's height
@@ -59,7 +59,7 @@ std::optional<Node> node_at(const land::Surface& surface, const LineOfSight& sig
 
 constexpr double kShortest_m = 0.5;
 
-// Far from the ground in big steps; near it, some for each sigma.
+// Long steps far from the ground; several per sigma near it.
 double step_m(const Node& node, double slope) {
   constexpr double kOfASigma = 0.25;
   const double longest_m = 5.0 + 0.004 * node.range_m;
@@ -69,14 +69,15 @@ double step_m(const Node& node, double slope) {
   return std::clamp(kOfASigma * sd_m / std::max(1e-6, std::abs(slope)), kShortest_m, longest_m);
 }
 
-// Whether so much happens to the height between the two that something belongs in between.
+// Whether the height changes so much between two nodes that another one is needed in between.
 bool is_gap(const Node& before, const Node& after) {
   const bool is_far = std::min(before.sigmas(), after.sigmas()) > kFar;
   const double sd_m = std::sqrt(after.variance_m2());
   return !is_far && std::abs(after.above_m - before.above_m) > sd_m;
 }
 
-// Until the line is so far below the ground that nothing behind is seen. Empty if it never is.
+// Nodes along the line, until it is so far below the ground that nothing behind can be seen. Empty
+// if it never gets there, or where the land is unknown.
 std::vector<Node> walk(const land::Surface& surface, const LineOfSight& sight, const Errors& errors,
                        double max_range_m) {
   const Eigen::Vector3d along = direction_ecef(sight);
@@ -93,7 +94,7 @@ std::vector<Node> walk(const land::Surface& surface, const LineOfSight& sight, c
       }
       slope = (node->above_m - nodes.back().above_m) / gap_m;
       if (gap_m <= kShortest_m && nodes.back().above_m > 0.0 && node->above_m < 0.0) {
-        Node wall = nodes.back();  // it ends there, whatever the errors are
+        Node wall = nodes.back();  // the line ends at a wall, whatever the errors are
         wall.above_m = 0.0;
         wall.range_m += gap_m / 2.0;
         nodes.push_back(wall);
@@ -106,8 +107,8 @@ std::vector<Node> walk(const land::Surface& surface, const LineOfSight& sight, c
   return !nodes.empty() && nodes.back().sigmas() < -3.0 ? nodes : std::vector<Node>{};
 }
 
-// The line's clearance above tops of one sigma, by range: the lower convex hull of what was added,
-// the nearest first. So the least clearance of a tilted line is found in few steps.
+// The line's clearance above land tops of one sigma: the lower convex hull over range, nearest
+// first. It gives the least clearance of a tilted line in few steps.
 class Clearance {
  public:
   void add(const Node& node) {
@@ -120,7 +121,7 @@ class Clearance {
     hull_.push_back(p);
   }
 
-  // Over a line that rises by `rise` per metre of range.
+  // The least clearance above a line that rises by `rise` per metre of range.
   double least_m(double rise) const {
     std::size_t low = 0, high = hull_.size() - 1;
     while (low < high) {
@@ -140,9 +141,10 @@ class Clearance {
 };
 using Clearances = std::map<double, Clearance>;  // by the 1-sigma of the tops [m]
 
-// The probability that nothing nearer hides a target here, never zero. If the target is there, line
-// or ground are off by the height that separates them there, each by its share of the variance: the
-// line by an angle, the ground everywhere.
+// The probability that nothing nearer hides a target at this node; never zero. If a target is
+// there, the height between line and ground is an error: of the line and of the ground, in
+// proportion to their variances. The line's part is an angle; the ground's part is the same at all
+// ranges.
 double seen(const Clearances& nearer, const Node& target) {
   constexpr double kLeast = 1e-3;
   const double of_line_m = target.above_m * target.line_m2 / target.variance_m2();

@@ -13,7 +13,7 @@
 namespace ols::fusion {
 namespace {
 
-// Three of the position, one of the land's height, one of the places of its outlines.
+// Three for the position, one for the land's height, one for the places of its outlines.
 constexpr int kDimensions = 5, kSamples = 64, kFirstLook = 8;
 using Samples = Eigen::Matrix<double, kDimensions, kSamples>;
 
@@ -32,10 +32,10 @@ Samples draw_samples() {
 
 struct Look {  // of one sample at one instant
   AzimuthElevation direction;
-  double above_rad = 0.0;  // the horizon before it; negative: hidden
+  double above_rad = 0.0;  // above the horizon in front of it; negative: hidden
 };
 
-// The path from one camera, one row an instant, one column a sample.
+// The path as seen from one camera: a row for each instant, a column for each sample.
 class Looks {
  public:
   Looks(LandHorizon& horizon, std::span<const Position> path)
@@ -51,7 +51,8 @@ class Looks {
 
   void look(int from, int to) {
     for (std::size_t i = 0; i < path_.size(); ++i) {
-      // Beside the edge of a house the mean path has only what is behind it, not so the samples.
+      // Beside a house the mean path has only the land behind the house, but samples may have the
+      // house itself. So the nearest horizon around counts.
       constexpr std::size_t kBeside = 20;
       const auto from_i = i < kBeside ? 0 : i - kBeside;
       const auto to_i = std::min(path_.size(), i + kBeside + 1);
@@ -110,8 +111,9 @@ class Looks {
   std::vector<double> crests_m_;  // distance of the horizon below the mean path
 };
 
-// The instant at which it is hidden most surely, of the first time that begins before `lead`. A
-// station asks only once it no longer sees the target: then what is unlikely beforehand is likely.
+// The instant at which the target is most probably hidden, in the first occlusion that begins
+// before `lead`. A low probability suffices: a station uses the answer only once it no longer sees
+// the target, and then an unlikely occlusion has become likely.
 std::optional<std::size_t> midst(const Looks& looks, std::size_t lead) {
   constexpr double kPossible = 0.05;
   std::size_t first = 0;
@@ -146,7 +148,7 @@ std::optional<Out> out_after(const Looks& looks, int sample, std::size_t midst, 
 }
 
 std::optional<Emergence> emergence(const Looks& looks, std::size_t midst, double step_s) {
-  constexpr double kEnough = 0.9;  // of the samples come out within the path
+  constexpr double kEnough = 0.9;  // share of the samples that come out within the path
   const AzimuthElevation reference = looks.at(midst, 0).direction;
   std::vector<Out> outs;
   int hidden = 0;
@@ -182,7 +184,7 @@ std::optional<Occlusion> occlusion_ahead(LandHorizon& horizon, std::span<const P
   if (path.empty()) return std::nullopt;
   Looks looks(horizon, path);
   const auto lead = static_cast<std::size_t>(lead_s / step_s) + 1;
-  // Few samples tell a target that is nowhere near the horizon.
+  // A few samples show whether a target is anywhere near the horizon.
   looks.look(0, kFirstLook);
   bool any = false;
   for (std::size_t i = 0; i < std::min(lead, path.size()); ++i) {

@@ -15,19 +15,19 @@ double visibility(const land::Surface& surface, const Eigen::Vector3d& camera_ec
                   const Eigen::Vector3d& target_ecef, const Eigen::Matrix3d& covariance_ecef) {
   constexpr double kBeside_m = 10.0;  // around camera and target, where the line meets the ground
   constexpr double kLeastStep_m = 5.0, kLeastSd_m = 0.1;
-  constexpr double kNoBuilding_m = 100.0;  // higher above the land only slopes count
+  constexpr double kNoBuilding_m = 100.0;  // no building is so high above the land
   const Eigen::Vector3d line = target_ecef - camera_ecef;
   const double range_m = line.norm();
   const Eigen::Vector3d along = line / range_m;
   const Eigen::Matrix3d R = R_ecef_enu(target_ecef);
   const double along_sd_m = std::sqrt(along.dot(covariance_ecef * along));
-  // What remains of the error along the line moves the target on it, not the line.
+  // An error along the line moves the target on the line, not the line itself.
   const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - along * along.transpose();
   const Eigen::Vector3d up = across * R.col(2);
   const double up_variance_m2 = up.dot(covariance_ecef * up);
   const double end_m = range_m - 3.0 * along_sd_m - kBeside_m;
   double least = std::numeric_limits<double>::infinity();
-  bool is_out = false;  // of what covers the camera
+  bool is_out = false;  // the line has left what covers the camera
   for (double at_m = kBeside_m; at_m < end_m;) {
     const Geodetic place = geodetic_from_ecef(camera_ecef + at_m * along);
     const auto top = surface.top(place.latitude_rad, place.longitude_rad);

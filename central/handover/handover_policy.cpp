@@ -21,7 +21,7 @@ bool is_designated_there(const Track& track) {
   });
 }
 
-// Where a target is and will be, as of a cue.
+// The target's predicted motion, in the form of a cue.
 CueAim aim_of(const Track& track, double acceleration_sd_m_s2) {
   const std::int64_t then_us = track.filter.utime_us();
   const KinematicState state = track.filter.at(then_us);
@@ -74,7 +74,7 @@ void HandoverPolicy::settle(std::int64_t now_us, const std::vector<Track>& track
   });
 }
 
-// An operator who designates what has been dismissed has changed his mind.
+// An operator who designates a dismissed object again wants it back.
 void HandoverPolicy::note_dismissed(Known& known, const Track& track) {
   std::set<std::pair<std::string, std::int64_t>> there, designated;
   for (const auto& [station, bearings] : track.bearings) {
@@ -104,8 +104,8 @@ void HandoverPolicy::note(const Track& track, std::int64_t now_us) {
   if (leads(known)) known.has_led = true;
 }
 
-// A lost target that is where this one is has been found: it is sought no more, and the word on it
-// passes on, once.
+// A lost target at the position of this track has been found again: its search ends, and the
+// operator's decision passes to this track, once.
 void HandoverPolicy::inherit(Known& known, const Track& track, std::int64_t now_us) {
   for (auto other = targets_.begin(); other != targets_.end();) {
     const bool is_it = !other->second.is_live && is_there(other->second.last, track, now_us);
@@ -136,7 +136,7 @@ bool HandoverPolicy::leads_by_itself(ObjectClass object_class) const {
          std::ranges::find(config_.classes, object_class) != config_.classes.end();
 }
 
-// A target that is not known yet is judged as it is.
+// A target that is not known yet leads only if it is designated.
 double HandoverPolicy::priority(const Track& track) const {
   const auto found = targets_.find(track.id);
   const bool is_designated =

@@ -39,7 +39,7 @@ LinePrior combined(const LinePrior& first, const LinePrior& second) {
 
 SweepStart sweep_start(const LinePrior& prior, const LineShare& share,
                        const LineSearchConfig& config) {
-  constexpr double kAlone = 0.25;  // what is nearer takes too long to sweep first
+  constexpr double kAlone = 0.25;  // beginning nearer would delay what is farther for too long
   const bool outwards = 2 * share.rank >= share.of || share.of == 1;
   const double quantile =
       share.of > 1 ? static_cast<double>(share.rank + (outwards ? 0 : 1)) / share.of : kAlone;
@@ -50,7 +50,7 @@ SweepStart sweep_start(const LinePrior& prior, const LineShare& share,
 
 double turning_s(double angle_rad, const LineSearchConfig& config) {
   const double a = config.acceleration_rad_s2, v = config.speed_rad_s;
-  const double to_speed_rad = v * v / a;  // to its speed and back to rest
+  const double to_speed_rad = v * v / a;  // angle in which it reaches full speed and brakes again
   const double turning =
       angle_rad < to_speed_rad ? 2.0 * std::sqrt(angle_rad / a) : v / a + angle_rad / v;
   return turning + config.settle_s;
@@ -58,13 +58,14 @@ double turning_s(double angle_rad, const LineSearchConfig& config) {
 
 SweepPlace to_and_fro(double begin_rad, double swept_rad, double way_rad, bool up_first) {
   if (way_rad <= 0.0) return {0.0, up_first};
-  // On the way to and fro: 0 .. way upwards, way .. 2 way downwards.
+  // On the round trip: 0 .. way upwards, way .. 2 way downwards.
   const double from = up_first ? begin_rad : 2.0 * way_rad - begin_rad;
   const double within = std::fmod(from + swept_rad, 2.0 * way_rad);
   return within <= way_rad ? SweepPlace{within, true} : SweepPlace{2.0 * way_rad - within, false};
 }
 
-// The line as seen from a station: directions in its plane, by their angle from the near end.
+// The line as seen from a station: directions in the plane of both, by their angle from the near
+// end.
 struct LineSweep::Plane {
   Plane(const CueRay& seen, const Eigen::Vector3d& from, const LineSearchConfig& config)
       : ray(seen),
@@ -86,7 +87,7 @@ struct LineSweep::Plane {
   Eigen::Vector3d along(double angle_rad) const {
     return -std::sin(angle_rad) * u + std::cos(angle_rad) * v;
   }
-  // From the ray's origin to where it meets this direction.
+  // Range along the ray where it meets this direction.
   double range_at(const Eigen::Vector3d& direction, const LineSearchConfig& config) const {
     const Eigen::Vector3d base = camera - ray.origin_ecef;
     const double c = ray.direction_ecef.dot(direction);

@@ -15,10 +15,10 @@
 namespace ols::fusion {
 namespace {
 
-constexpr double kKeep = 1.5;          // the score of the present target over its own
-constexpr double kReact_s = 0.5;       // of every hand-over, besides the turn
-constexpr double kGoodSine = 0.34;     // of two lines that cross at 20 degrees,
-constexpr double kOfBest = 0.5;        // or of the pair that sees a distant target best
+constexpr double kKeep = 1.5;          // factor on the score of the present target
+constexpr double kReact_s = 0.5;       // for every hand-over, besides the turn
+constexpr double kGoodSine = 0.34;     // lines cross well from 20 degrees on,
+constexpr double kOfBest = 0.5;        // or from this share of the best pair's sine
 constexpr std::size_t kCompared = 64;  // free stations, and targets in need, that are compared
 
 class Allocator {
@@ -64,7 +64,8 @@ class Allocator {
     }
   }
 
-  // Where it has to stay; else it is free, or may be lent by the target that it sees.
+  // Gives the station to the target that it sees. It stays movable if it is free, or if that target
+  // may lend it.
   void keep(std::size_t k) {
     const AllocatedStation& station = stations_[k];
     const std::size_t seen = seen_by(k);
@@ -83,7 +84,8 @@ class Allocator {
     return line(one, target).cross(line(other, target)).norm();
   }
 
-  // Of a distant target no two lines may cross well: then it is the best that the site has.
+  // All lines to a distant target may cross at small angles. Then the best pair of the site is the
+  // measure.
   double good_sine(std::size_t target) const {
     std::optional<double>& known = good_sine_[target];
     if (known) return *known;
@@ -100,7 +102,7 @@ class Allocator {
     return *known;
   }
 
-  // Whether two of these see it under a good angle.
+  // Whether the lines of two of these stations cross well at the target.
   bool cross_well(std::span<const std::size_t> stations, std::size_t target) const {
     const auto all = stations.first(std::min(stations.size(), kCompared));
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -111,16 +113,16 @@ class Allocator {
     return false;
   }
 
-  // Whether two of the stations that it has, or that are on their way to it, are enough. `with`:
-  // and this one; kNone: no other.
+  // Whether the stations at the target, or on their way to it, locate it well. `with`: an
+  // additional one.
   bool is_served(std::size_t target, std::size_t with = kNone) const {
     std::vector<std::size_t> all = held_by_[target];
     if (with != kNone) all.push_back(with);
     return cross_well(all, target);
   }
 
-  // Whether the target that the station sees can spare it: others that are there, not on their way,
-  // are enough, or what needs the station is worth more.
+  // Whether the target that the station sees can spare it: other stations that already see that
+  // target are enough, or the station is needed for a target that is worth more.
   bool may_go(std::size_t station, double priority = 0.0) const {
     const std::size_t seen = seen_by(station);
     if (seen == kNone || priority > kKeep * targets_[seen].priority) return true;
@@ -140,7 +142,7 @@ class Allocator {
     return kReact_s + turning_s(turn_rad, unit_);
   }
 
-  // Who is on the way counts as being there: else what was taken from a target would go back to it
+  // A station on its way counts as arrived. Otherwise a station taken from a target would go back
   // at once, because its camera still looks there.
   double score(std::size_t k, std::size_t target) const {
     const auto& [id, p_ecef, priority, keeps_trackers] = targets_[target];
@@ -170,8 +172,8 @@ class Allocator {
     return all;
   }
 
-  // First by the stations that can be spared, then by those of targets that are worth less. Who has
-  // to give a station up comes again, after those that are worth more.
+  // First from the stations that can be spared, then from those of targets that are worth less. A
+  // target that loses a station is served again, after those that are worth more.
   void serve_needs() {
     std::set<std::size_t> moved;
     while (serve_once(false, moved)) {
@@ -196,8 +198,8 @@ class Allocator {
     return has_moved;
   }
 
-  // One is enough: with the station whose line it is they are two. It is the one that searches
-  // already, else one without a target, else the one that is there soonest.
+  // One station is enough: with the station whose line it is, they are two. Preferred is one that
+  // searches already, then one without a target, then the one that arrives soonest.
   void serve_line(const Eigen::Vector3d& line_ecef) {
     std::size_t best = kNone;
     const auto cost = [&](std::size_t k) {

@@ -32,7 +32,7 @@ class Separation {
         ordered_(ordered),
         labels_(ordered.size(), 0) {}
 
-  // The image that begins with this bearing; returns the first bearing of the next one.
+  // Adds the image that begins with this bearing; returns the index of the next image's first.
   std::size_t add_image(std::size_t first) {
     std::vector<BearingMeasurement> image;
     std::size_t next = first;
@@ -66,8 +66,7 @@ class Separation {
     }
   }
 
-  // When it is confirmed, a track has bearings that were given to it, or kept, while it had no
-  // identity.
+  // A track that becomes confirmed has bearings from when it had no identity yet.
   void label_all_of(const Track& track, std::size_t newest) {
     for (const auto& [station, bearings] : track.bearings) {
       auto own = bearings.rbegin();
@@ -110,7 +109,7 @@ SeparatedBearings separate_objects(const MutableBearings& measurements, const Fu
   separated.low_belief = std::erase_if(ordered, [&](const BearingMeasurement* m) {
     return m->belief < config.admission.min_belief;
   });
-  // Not std::ranges::unique: clang 14 cannot read what it returns.
+  // Not std::ranges::unique: clang 14 does not compile the range that it returns.
   const auto doubled = std::unique(ordered.begin(), ordered.end(),
                                    [](const BearingMeasurement* a, const BearingMeasurement* b) {
                                      return exposure_and_direction(a) == exposure_and_direction(b);

@@ -17,7 +17,7 @@
 namespace ols::fusion {
 namespace {
 
-// Those that are used, in order of time, then of station.
+// The bearings that are used, sorted by time, then by station.
 BearingPointers in_order(const BearingPointers& measurements, double min_belief,
                          UnusedBearings& unused) {
   BearingPointers used;
@@ -29,7 +29,7 @@ BearingPointers in_order(const BearingPointers& measurements, double min_belief,
     return std::tie(m->utime_us, m->station);
   };
   std::ranges::stable_sort(used, {}, exposure);
-  // Not std::ranges::unique: clang 14 cannot read what it returns.
+  // Not std::ranges::unique: clang 14 does not compile the range that it returns.
   const auto doubled = std::unique(used.begin(), used.end(),
                                    [&](const BearingMeasurement* a, const BearingMeasurement* b) {
                                      return exposure(a) == exposure(b);
@@ -141,7 +141,7 @@ struct Fixes {
 
 using Beside = std::map<std::string, std::string>;
 
-// The filter's state some time after the instant, taken back to it.
+// Runs the filter some time past the instant, and predicts back to it.
 Beside filtered(const BearingPointers& bearings, const std::vector<std::int64_t>& epochs,
                 Estimator& estimator, const OfflineConfig& config, Fixes fixes) {
   Recording recording(config);

@@ -17,14 +17,15 @@ struct Whole {
   Eigen::MatrixXd covariance;
 };
 
-// Added so that it can be inverted: 10 ns, 10 nrad, 10 nm.
+// Least variance, so that matrices can be inverted: 10 ns, 10 nrad, 10 nm.
 constexpr double kLeast = 1e-16;
 
-// Instants of which both runs are stored, beside the backward run at the end of each block: so many
-// that least is stored in all.
+// Instants per block. Stored are both runs at each instant of a block, and the backward run at the
+// end of each block: this length makes the total smallest.
 std::size_t block_of(std::size_t epochs) {
   constexpr std::size_t kLeastBlock = 128;
-  // A whole run (72 kB of four stations, its recent bearings among it) beside both at an instant.
+  // Size of a run (72 kB for four stations, with its recent bearings) over that of both at an
+  // instant.
   constexpr double kRunOverInstant = 3.0;
   return std::max(kLeastBlock, static_cast<std::size_t>(
                                    std::sqrt(kRunOverInstant * static_cast<double>(epochs))));
@@ -61,8 +62,8 @@ Whole spread(const TrackFilter& filter, const FilterGaussian& mixed, const Order
   return whole;
 }
 
-// The models expect no acceleration, in both runs: the prior is taken from one run only, or it
-// would count twice.
+// Both runs contain the prior that no acceleration is expected. It is removed from one of them, or
+// it would count twice.
 void forget_acceleration(Whole& whole) {
   constexpr double kUnknown = 1e12;
   whole.mean.segment<3>(6).setZero();
@@ -71,7 +72,7 @@ void forget_acceleration(Whole& whole) {
   whole.covariance.diagonal().segment<3>(6).setConstant(kUnknown);
 }
 
-// The target's nine states if the stations' are these.
+// The target's nine states, given these biases.
 Whole given(const Eigen::VectorXd& biases, const Whole& whole) {
   const Eigen::Index n = whole.mean.size() - 9;
   const Eigen::MatrixXd cross = whole.covariance.bottomLeftCorner(n, 9);
@@ -92,7 +93,7 @@ std::optional<Whole> join(const Whole& a, const Whole& b) {
   return Whole{a.mean + joint.solve(Pb.solve(b.mean - a.mean)), joint.solve(one)};
 }
 
-// What is needed of a run at an instant.
+// What is kept of a run at an instant.
 struct Passed {
   std::optional<TrackFilter> filter;  // nothing: no position
   bool is_initiated = false;
@@ -107,8 +108,8 @@ struct Passed {
   }
 };
 
-// A track that still rests on two rays, one of which may be wrong, is not joined: it is used alone,
-// and only if the other is no better.
+// A track that still rests on two rays is not joined, because one of them may be wrong: the other
+// run's track is used alone. If both rest on two rays, the one from the past is used.
 void leave_worth_joining(Passed& past, Passed& future) {
   if (!past.filter || !future.filter) return;
   if (!future.is_initiated) {
@@ -131,8 +132,8 @@ struct Side {
   }
 };
 
-// The filter that knows more of the stations' errors. How fast biases change is the least known of
-// all, and a bias that is constant over some seconds is the same before and after.
+// The filter that knows the biases better. Both runs are given its biases: how fast biases change
+// is known worst of all, and a bias that is constant over seconds is the same before and after.
 const Side& surer(const std::optional<Side>& from_past, const std::optional<Side>& from_future) {
   if (!from_past) return *from_future;
   if (!from_future) return *from_past;
@@ -204,7 +205,7 @@ class Smoother {
 
  private:
   static TrackManagerConfig same_states(TrackManagerConfig config) {
-    config.filter.place_share = 0.0;  // the same states at both ends
+    config.filter.place_share = 0.0;  // both runs have the same states
     return config;
   }
   Eigen::Index states() const { return has_places_ ? kStationStates : kPoseStates; }
@@ -253,8 +254,8 @@ Eigen::VectorXd Smoother::prior(const Order& held, const Eigen::Vector3d& p_ecef
   return variance;
 }
 
-// The target's states at the instant for the biases of the surer filter, which both have in common:
-// how the other's differ shows how biases change, not what they are.
+// The target's states at the instant, with both runs given the biases of the surer filter. Where
+// the other filter's biases differ, they show how biases change, not what they are.
 Whole Smoother::both(const std::optional<Side>& from_past, const std::optional<Side>& from_future,
                      const Eigen::Vector3d& p_ecef) const {
   const Order held = held_by(from_past, from_future);
@@ -302,7 +303,8 @@ Smoothed Smoother::at(std::int64_t epoch_us, Passed& past, Passed& future) const
   const TrackFilter& any = past.filter ? *past.filter : *future.filter;
   const Whole joint = both(from_past, from_future, any.position());
   KinematicState state{any.utime_us(), joint.mean.head<9>(), joint.covariance};
-  // What the biases are uncertain by, and clocks the velocity.
+  // The position gets the biases' uncertainty; the velocity's covariance already has that of the
+  // clocks.
   const Side& side = surer(from_past, from_future);
   const SystematicPart part = side.systematic();
   state.covariance.topLeftCorner<3, 3>() += part.all_m2;

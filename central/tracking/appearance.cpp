@@ -34,7 +34,8 @@ bool agree_in_speed(const BearingMeasurement& a, double range_a_m, const Bearing
          kSigmas * std::sqrt(one.variance + other.variance);
 }
 
-// A size is within two sigmas. That of a point is about its sigma: it may be any smaller one.
+// Each size is within two sigmas. The size of a mere point is about its sigma: the object may be
+// arbitrarily small.
 bool agree_in_size(const Sighted& a, double range_a_m, const Sighted& b, double range_b_m) {
   if (a.size_rad == 0.0 || b.size_rad == 0.0) return true;
   const auto least = [](const Sighted& s) { return std::max(0.0, s.size_rad - 2 * s.size_sd_rad); };
@@ -59,7 +60,7 @@ bool may_be_same_object(const BearingMeasurement& a, double range_a_m, const Bea
          agree_in_speed(a, range_a_m, b, range_b_m, plane_normal);
 }
 
-// A tracklet's rate is that of its last moments: a target that manoeuvres has another by now.
+// A tracklet's rate is that of its last moments. A manoeuvring target may have another by now.
 double rate_nis(const BearingMeasurement& measurement, const KinematicState& target) {
   constexpr double kManoeuvredM_s = 2.0;
   if (!measurement.sighted.has_rate()) return 0.0;

@@ -12,7 +12,7 @@ namespace ols::fusion {
 namespace {
 
 constexpr double kMemoryS = 120.0;  // clutter changes with wind and light
-constexpr double kEndedS = 1.0;     // unseen for so long
+constexpr double kEndedS = 1.0;     // a tracklet unseen for this long has ended
 constexpr double kOldS = 5.0;       // another station would have seen it by now
 constexpr std::size_t kMost = 512;
 
@@ -46,7 +46,8 @@ void Clutter::claimed(const BearingMeasurement& measurement) {
   if (own != stations_.end()) own->second.open.erase(measurement.track_id);
 }
 
-// An open one may yet become a target's, unless it is old and nothing else fits it.
+// An open tracklet may still prove to be a target's, and does not count, unless it is old and
+// nothing else fits it.
 Clutter::Density Clutter::density_of(const Station& station) {
   std::vector<Tracklet> all(station.ended.begin(), station.ended.end());
   for (const auto& [id, tracklet] : station.open) {
@@ -73,8 +74,8 @@ Clutter::Density Clutter::density_of(const Station& station) {
           .rate_variance = rate};
 }
 
-// A pair begins when one of the two appears while the other is there. Their lines of sight then
-// meet within the gate, and stay in it for so long, as far as both live.
+// A pair begins when one tracklet appears while the other is there. It agrees if their lines of
+// sight meet within the gate, and stay in it for `agreed_s` while both live.
 double Clutter::pairs_a_day(const std::string& a, const std::string& b, double agreed_s) const {
   constexpr double kDayS = 86'400.0, kGate = 5.0;  // sigmas
   const auto one = stations_.find(a), other = stations_.find(b);

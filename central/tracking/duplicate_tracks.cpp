@@ -60,7 +60,7 @@ void DuplicateTracks::count(Pair& pair, const BearingMeasurement& measurement, b
 
 bool DuplicateTracks::are_same(const Pair& pair) const {
   if (seconds(pair.newest_us - pair.since_us) < config_.long_s) return false;
-  constexpr double kLeast = 3.0;  // exposures by which a station is judged
+  constexpr double kLeast = 3.0;  // exposures; with fewer a station is not judged
   double single = 0.0, apart = 0.0;
   int judged = 0, agree = 0;
   for (const auto& [station, own] : pair.stations) {

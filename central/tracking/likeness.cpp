@@ -7,7 +7,7 @@
 namespace ols::fusion {
 namespace {
 
-// Probability with which two estimates of one object are taken for two.
+// Probability that two estimates of one object count as two objects.
 constexpr double kSamePlaceLevel = 0.01, kSameMotionLevel = 0.001;
 
 }  // namespace

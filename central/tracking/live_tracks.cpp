@@ -44,7 +44,7 @@ std::vector<LiveTracks::Candidate> LiveTracks::candidates(const BearingMeasureme
 
 namespace {
 
-// For each row its column, or -1, and whether another column serves about as well.
+// For each row: its column, or -1; and whether another column fits about as well.
 struct Choice {
   std::vector<int> column;
   std::vector<bool> is_ambiguous;
@@ -172,12 +172,12 @@ Association LiveTracks::initiate(const BearingMeasurement& measurement) {
   Track& begun = begin(std::move(start->track));
   if (measurement.is_tracklet) begun.existence.begin();
   consider(begun);
-  // It may be one of a station that has waited for its search.
+  // The searched bearing may be another station's, which has waited for its search.
   return begun.has_taken(measurement) ? Association{Association::Kind::kTrack, begun.id}
                                       : Association{};
 }
 
-// Of the image of a detector. A target that hardly anybody sees is not judged: it coasts.
+// Judges by a detector's image. A target that fewer than two other stations see coasts unjudged.
 void LiveTracks::judge_existence(std::span<const BearingMeasurement> image) {
   constexpr std::int64_t kRows_us = 25'000;  // of a rolling shutter, from one object to another
   const BearingMeasurement& any = image.front();
@@ -200,7 +200,8 @@ double LiveTracks::visible(const BearingMeasurement& in_image, const Track& trac
                     there.covariance.topLeftCorner<3, 3>());
 }
 
-// Two other stations see it, it is in the field of view, and as bright as there it would be found.
+// Two other stations see it, it is in the field of view, and at its brightness the detector would
+// find it.
 bool LiveTracks::should_show(const BearingMeasurement& in_image, const Track& track) const {
   constexpr double kFound = 8.0;  // signal
   const Eigen::Vector3d p_ecef = track.filter.at(in_image.utime_us).mean.head<3>();
@@ -244,7 +245,8 @@ bool LiveTracks::has_rival(const Track& track) const {
   return rivals_of(first, second) || rivals_of(second, first);
 }
 
-// Whether that happens oftener than may be published, with as long an agreement as theirs.
+// Whether clutter causes such pairs, with an agreement as long as theirs, more often than may be
+// published.
 bool LiveTracks::may_agree_by_chance(const Track& track) const {
   const double agreed_s = seconds(track.filter.utime_us() - track.initiated_us);
   if (!track.existence.is_judged() || agreed_s < config_.confirm_s) return false;
@@ -282,8 +284,8 @@ bool LiveTracks::is_tentative_lost(double unseen_s) const {
   return unseen_s > config_.tentative_delete_s || unseen_s > config_.drop_s;
 }
 
-// One station alone gives a position only for a short time; less, if its bearings disagree with the
-// others' although the covariance was inflated.
+// A track that one station alone sees is kept for a short time; for less if its bearings disagree
+// with the others' although the covariance was inflated.
 bool LiveTracks::is_lost(const Track& track, double unseen_s, std::int64_t now_us) const {
   const bool parted = unseen_s > config_.coast_s &&
                       consecutive_rejections(track.filter, now_us) >= 2 * kMaxConsecutiveRejections;
@@ -312,7 +314,7 @@ void LiveTracks::merge(std::int64_t older, std::int64_t younger) {
   other->id = 0;
   other->state = TrackState::kDeleted;
   identities_.merge(older, younger);
-  constexpr std::size_t kKeptMerged = 64;  // live, nobody takes them
+  constexpr std::size_t kKeptMerged = 64;  // in live use, nobody takes them
   if (merged_.size() == kKeptMerged) merged_.erase(merged_.begin());
   merged_.emplace_back(older, younger);
   ++counts_.merged;

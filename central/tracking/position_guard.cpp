@@ -19,9 +19,9 @@ double may_be_off(const TrackFilter& filter, const FilterStation& station) {
   return states_pose ? 0.0 : filter.config().undeclared_sd_rad;
 }
 
-// A station that declares its errors counts. Any other counts as long as its contribution to the
-// others' biases may hold, and not by a single bearing where others have more: with two rays that
-// intersected far from the truth, a single bearing proves nothing yet seems certain.
+// A station that declares its errors counts. Any other counts only while its bearings may still
+// correct the others' biases, and not with a single bearing if others have more: if two rays have
+// intersected far from the truth, a single bearing seems certain but proves nothing.
 std::vector<const FilterStation*> that_count(const TrackFilter& filter) {
   constexpr int kTwice = 2;
   std::vector<const FilterStation*> found;
@@ -36,8 +36,9 @@ std::vector<const FilterStation*> that_count(const TrackFilter& filter) {
   return found;
 }
 
-// Two rays that cross at less than their undeclared errors, over the min range accuracy, do not
-// determine a range, however small its variance: their residuals only show the undeclared errors.
+// Two rays determine no range, however small its variance, if they cross at a smaller angle than
+// their undeclared errors divided by the required accuracy of the range: their residuals only show
+// the undeclared errors.
 bool crosses_widely(const TrackFilter& filter, const Eigen::Vector3d& p_ecef) {
   const std::vector<const FilterStation*> stations = that_count(filter);
   for (std::size_t i = 0; i < stations.size(); ++i) {

@@ -12,7 +12,8 @@ namespace {
 
 constexpr double kDoubtS = 1.0;  // after a wrong pair, before two other rays begin a track
 
-// Two stations see the same object, however large the correction of their headings.
+// A recording has one object, so two stations always see the same one, however large the correction
+// of their headings.
 FilterConfig filter_of(const TrackManagerConfig& config) {
   FilterConfig filter = config.filter;
   filter.two_stations_nis = std::numeric_limits<double>::infinity();
@@ -63,7 +64,8 @@ void RecordedTrack::note(const BearingMeasurement& measurement, bool used) {
   own.share += ((used ? 1.0 : 0.0) - own.share) / kMemory;
 }
 
-// Recently delivering stations; the track explains most of their bearings, or does not.
+// Counts the stations that recently delivered: those of whose bearings the track explains at least
+// half, or the others.
 int RecordedTrack::stations(bool explained) const {
   std::int64_t now_us = 0;
   for (const auto& [name, own] : explains_) now_us = std::max(now_us, own.newest_us);
@@ -87,8 +89,8 @@ void RecordedTrack::take_back(std::int64_t utime_us) {
   advance(utime_us);
 }
 
-// Searches an initial state on which the bearings of several stations agree: for a track on trial,
-// for one with which most stations disagree, or if there is no track.
+// Searches for an initial state on which the bearings of several stations agree: for a track on
+// trial, for one with which most stations disagree, or if there is no track.
 void RecordedTrack::confirm_by_initiation(const BearingMeasurement& measurement) {
   const bool none = tracks_.empty(), on_trial = !none && !proved_;
   const auto doubt_us = static_cast<std::int64_t>(kDoubtS * 1e6);
@@ -117,8 +119,8 @@ bool RecordedTrack::is_better(const Track& start) const {
   return !proved_ || static_cast<int>(start.hits.size()) > stations(true);
 }
 
-// What one station alone sees has no range: the motion models would make one up, with false
-// certainty, and a wrong one would reject the second station when that returns.
+// One station alone determines no range. The motion models would invent one with false certainty,
+// and with a wrong range the second station's bearings would be rejected when it returns.
 bool RecordedTrack::is_lost(const Track&, double unseen_s, std::int64_t) const {
   return unseen_s > config_.drop_s;
 }

@@ -82,8 +82,8 @@ std::vector<SeenSize> best_sizes(const Track& track, const Eigen::Vector3d& p_ec
   return best;
 }
 
-// Where the land is unknown, it is taken as flat around the nearest station. An object below that
-// is not: then nothing is known of its height.
+// Where the land is unknown, it is taken as flat around the nearest station. If the object is below
+// that level, the land is not flat, and nothing is known of the object's height.
 Measured height_of(const Track& track, const KinematicState& state, const land::Surface* surface) {
   constexpr double kRise = 0.2, kLeast_m = 5.0;  // 1-sigma of the land, by the distance
   const Eigen::Vector3d position = state.mean.head<3>();
@@ -127,7 +127,7 @@ void look_at_class(Track& track, const land::Surface* surface) {
   };
   const double sd = std::sqrt(state.covariance.block<3, 3>(3, 3).trace() / 3.0);
   const std::int64_t apart_us = state.utime_us - before_us;
-  // Velocities of a shorter time apart say nothing but noise.
+  // Velocities that are closer in time differ only by noise.
   ClassLook look = look_at(best_sizes(track, position), enu(velocity), enu(before),
                            apart_us > kBefore_us / 2 ? seconds(apart_us) : 0.0, sd);
   look.height_m = height_of(track, state, surface);

@@ -9,7 +9,8 @@ bool Track::has_taken(const BearingMeasurement& measurement, std::int64_t within
   if (own == bearings.end()) return false;
   const auto& taken = own->second;
   const std::int64_t from_us = measurement.utime_us - within_us;
-  // Most bearings are newer than all; to search each station's would fetch many from memory.
+  // Most bearings are newer than all taken ones. This avoids a search, which would fetch many
+  // bearings from memory.
   if (taken.empty() || taken.back().utime_us < from_us) return false;
   const auto at = std::ranges::lower_bound(taken, from_us, {}, &BearingMeasurement::utime_us);
   return at->utime_us <= measurement.utime_us + within_us;

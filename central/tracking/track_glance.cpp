@@ -19,7 +19,7 @@ constexpr double kGenerous = 8.0, kLeastRad = 0.02;
 
 }  // namespace
 
-// Within this many sigmas of all possible errors.
+// The largest angle by which a bearing may be off its target.
 double may_be_off_rad(const LineOfSight& sight) {
   return kLeastRad + kGenerous * std::sqrt(sight.covariance_white.trace() +
                                            sight.covariance_systematic.trace());

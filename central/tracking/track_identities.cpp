@@ -17,7 +17,7 @@ bool is_alive(std::int64_t id, const std::vector<Track>& tracks) {
 
 void TrackIdentities::confirm(Track& track, const std::vector<Track>& tracks) {
   const KinematicState own = track.filter.at(track.filter.utime_us());
-  // An identity of a deleted track whose predicted position is here.
+  // A deleted track that is predicted to be here passes on its identity.
   const auto before = std::ranges::find_if(deleted_, [&](const Track& old) {
     return !same_place_ || is_same_place(own, old.filter.at(own.utime_us));
   });

@@ -92,7 +92,7 @@ void TrackManager::confirm(Track& track) {
   on_confirmed(track);
 }
 
-// Where another track has the station, too, what was learnt of it remains.
+// What was learnt of a station remains if another track has the station, too.
 void TrackManager::forget_what_it_taught(const Track& track) {
   const auto has_another = [&](const std::string& station) {
     return std::ranges::any_of(tracks_, [&](const Track& other) {
