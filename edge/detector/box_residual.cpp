@@ -38,7 +38,7 @@ void BoxResidual::start(int width) {
   }
 }
 
-// `y`: of the residual; the outer box begins in the padded image's row of this number.
+// `y` is a row of the residual. Its outer box begins in the same row of the padded image.
 void BoxResidual::advance(int y) {
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const int above = kReach - kSides.at(i) / 2;

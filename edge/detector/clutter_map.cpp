@@ -6,7 +6,7 @@
 namespace ols::detector {
 namespace {
 
-// What is believed of a tile that was not seen yet: as if a second had been watched.
+// The prior of a tile weighs as much as one second of images.
 constexpr double kPriorImages = 30.0;
 constexpr double kPriorDetections = 0.6;
 constexpr double kPriorSeconds = 1.0;
@@ -24,7 +24,7 @@ ClutterMap::ClutterMap(const cv::Size& image)
 void ClutterMap::next_image(double interval_s) {
   const double kept = std::exp(-interval_s / kMemory_s);
   for (Tile& tile : tiles_) {
-    // The prior stays: what is forgotten makes room for it again.
+    // What is forgotten is replaced by the prior.
     tile.detections = kept * tile.detections + (1.0 - kept) * kPriorDetections;
     tile.starts = kept * tile.starts + (1.0 - kept) * kPriorStarts;
   }

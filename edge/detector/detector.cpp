@@ -10,7 +10,7 @@ namespace {
 constexpr int kMotionWidth_px = 640;  // of the image for ego-motion, maximum
 constexpr int kMoverWidth_px = 400;   // of the image for movers, maximum
 
-// A spot's place is the better one: a mover of about its size there is the same object.
+// Adds the movers that are no spots: of an object that is both, the spot has the better position.
 void join(std::vector<Detection>& spots, const std::vector<Detection>& movers) {
   const std::size_t count = spots.size();
   for (const Detection& mover : movers) {
@@ -25,8 +25,8 @@ void join(std::vector<Detection>& spots, const std::vector<Detection>& movers) {
   }
 }
 
-// Of the likeliest object before the sky, with a margin. Its corners are often the only ones there,
-// and would make the scene move along with it.
+// The box of the likeliest object in front of the sky, with a margin. Its corners are often the
+// only ones there, and would make the scene seem to move along with it.
 cv::Rect2d clearest_box(const std::vector<Tracklet>& tracklets) {
   constexpr double kMargin_px = 8.0;
   const Tracklet* clearest = nullptr;

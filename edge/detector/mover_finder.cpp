@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kTile = 32;  // [px of the reduced image]
 
-// The root mean square of the lower nine tenths of a tile: its usual difference. A target that
+// The usual difference of a tile: the root mean square of its lower nine tenths. A target that
 // fills less than a tenth does not raise it.
 float usual_difference(const cv::Mat& tile) {
   std::array<int, 256> histogram{};
@@ -28,8 +28,8 @@ float usual_difference(const cv::Mat& tile) {
   return static_cast<float>(std::max(1.0, std::sqrt(squares / std::max(1.0, count))));
 }
 
-// By tile; a tile takes the median of itself and its neighbours, so that a mover that fills it does
-// not hide itself.
+// The noise of each tile. A tile takes the median of itself and its neighbours, so that a mover
+// that fills it does not hide itself.
 cv::Mat tile_noise(const cv::Mat& difference) {
   const int columns = std::max(1, difference.cols / kTile);
   const int rows = std::max(1, difference.rows / kTile);
@@ -57,7 +57,7 @@ cv::Mat outside(const cv::Mat& image, const SceneBackground::Range& range) {
 
 }  // namespace
 
-// Half of the tiles usually differ by as much as a mover has to.
+// Whether half of the tiles usually differ by more than a mover has to.
 bool MoverFinder::everything_changed(const cv::Mat& noise) const {
   std::vector<float> tiles(noise.begin<float>(), noise.end<float>());
   const auto middle = tiles.begin() + static_cast<std::ptrdiff_t>(tiles.size() / 2);
@@ -75,8 +75,9 @@ cv::Mat MoverFinder::exceedances(const cv::Mat& difference, const cv::Mat& noise
   return mask;
 }
 
-// Where a mover was in most of the earlier images, the median shows it and the present image does
-// not: its ghost. `fresh` is where the present image differs from each of them; a ghost has none.
+// If a mover was in one place in most of the earlier images, the median shows it and the present
+// image does not: a ghost. `fresh` marks where the present image differs from each earlier one; a
+// ghost has no such pixels.
 std::vector<Detection> MoverFinder::parts(const cv::Mat& mask, const cv::Mat& fresh,
                                           const cv::Mat& difference,
                                           const tracker::ReducedFrame& frame) const {

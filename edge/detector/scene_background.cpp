@@ -12,7 +12,7 @@
 namespace ols::detector {
 namespace {
 
-// An earlier image as the camera would see it now, and where it shows anything.
+// Warps an earlier image to the present view; `seen` marks the pixels that it covers.
 void bring(const cv::Mat& earlier, const Eigen::Matrix3d& to_present, cv::Mat& image,
            cv::Mat& seen) {
   const double moved = (to_present - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();

@@ -126,8 +126,8 @@ struct Extent {
   Eigen::Vector2d centre, size;
 };
 
-// The connected pixels beyond two fifths of the peak. Empty where they reach the ring's outer edge:
-// the end of a branch or a mast hangs on what is larger.
+// The connected pixels beyond two fifths of the peak. Empty if they reach the ring's outer edge:
+// then the spot is part of something larger, such as a branch or a mast.
 std::optional<Extent> island_at(const cv::Mat& level, const cv::Point& at, double surroundings,
                                 double peak) {
   const cv::Rect inside({}, level.size());
@@ -215,8 +215,9 @@ void SpotFinder::find_in(const cv::Mat& gray, const cv::Mat& level, int reductio
   }
 }
 
-// White noise that just reaches `threshold_sd` is 20 times its residual's median: a fifth of that
-// rejects most of a texture's peaks at little cost, and none of a target's.
+// In white noise, a peak that just reaches `threshold_sd` is 20 times the median of the residual.
+// To require a fifth of that rejects most of a texture's peaks at little cost, and none of a
+// target's.
 void SpotFinder::find_peaks(int column, int row) {
   constexpr std::int16_t kTimesUsual = 4;
   const cv::Mat& residual = residual_.image();

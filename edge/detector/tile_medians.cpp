@@ -29,7 +29,7 @@ std::int16_t TileMedians::largest_nearby(const cv::Point& pixel) {
   return largest;
 }
 
-// Of every third pixel of every third row.
+// Samples every third pixel of every third row.
 std::int16_t TileMedians::median(int column, int row) {
   auto& known = medians_.at(static_cast<std::size_t>(row * columns_ + column));
   if (known) return *known;

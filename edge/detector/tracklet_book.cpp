@@ -34,11 +34,11 @@ std::vector<int> TrackletBook::assign(const std::vector<Detection>& detections) 
   return ols::assign(cost, 4.0 * kGate);
 }
 
-// A shaken camera, or one whose motion is not known, throws a target out of its prediction. Before
-// a clear sky there is nothing to mistake it for: a confirmed object goes on at the only spot
-// nearby that nobody else claims, if it looks alike.
+// If the camera shakes, or its motion is unknown, a target leaves its prediction. In front of a
+// clear sky there is little to confuse it with: a confirmed object continues at the only free spot
+// nearby, if that looks alike.
 void TrackletBook::leap(const std::vector<Detection>& detections, std::vector<bool>& taken) {
-  constexpr double kReach = 0.05;  // of the image's width, for an image
+  constexpr double kReach = 0.05;  // of the image's width per image
   for (Tracklet& tracklet : tracklets_) {
     if (tracklet.seen() || !tracklet.confirmed_clear()) continue;
     const double reach_px = kReach * image_.width;
@@ -53,8 +53,8 @@ void TrackletBook::leap(const std::vector<Detection>& detections, std::vector<bo
   }
 }
 
-// By Wald: of the tracklets of clutter, at most exp(-bound) pass. As many begin in a tile as the
-// clutter map says, and each tile has the same share of the false ones that are allowed.
+// Wald's bound: at most exp(-bound) of the clutter's tracklets pass. The clutter map says how many
+// begin in a tile, and each tile may have the same share of the allowed false ones.
 double TrackletBook::needed(const Tracklet& tracklet) const {
   const double allowed = config_.false_an_hour / (ClutterMap::kColumns * ClutterMap::kRows);
   return std::max(3.0, std::log(clutter_.starts_an_hour(tracklet.pixel()) / allowed));
@@ -83,8 +83,8 @@ bool TrackletBook::belongs_to_scene_or_camera(const Tracklet& tracklet) const {
   return tracklet.way_px() < kTold_px / 2.0 + kAlong * shift_px || tracklet.reach_px() < kFixed_px;
 }
 
-// What stays where it is before the ground is a part of it: foliage, a stone, an edge of a
-// misaligned image. A spot before clear sky needs not move.
+// What stands still in front of the ground is a part of it: foliage, a stone, an edge of a
+// misaligned image. A spot in front of a clear sky need not move.
 bool TrackletBook::moves_or_flies(const Tracklet& tracklet) const {
   if (belongs_to_scene_or_camera(tracklet)) return false;
   if (tracklet.mostly_clear()) return true;

@@ -76,8 +76,8 @@ std::optional<AngleAt> AngleHistory::at(double time_s) const {
 
 // Linear between (or beyond) two samples. The errors: those of the two samples, by their weights;
 // that of the time that they share; and that of an unknown acceleration, |a| w (1 - w) T^2 / 2.
-// Beyond the newest sample, an acceleration that the samples do not show is no more than what was
-// ordered, if that is known.
+// Beyond the newest sample, an acceleration not yet seen is at most what was ordered, if that is
+// known.
 std::optional<AngleHistory::AxisAt> AngleHistory::axis_at(double time_s, KnotOf knot) const {
   if (samples_.size() < 2 || !(time_s >= knot(samples_.front()).time_s)) return std::nullopt;
   const auto after = std::lower_bound(
@@ -108,8 +108,9 @@ std::optional<AngleHistory::AxisAt> AngleHistory::axis_at(double time_s, KnotOf 
                 interpolated};
 }
 
-// The unit may have begun to accelerate: half of the maximum is taken as a standard deviation, or
-// that the ordered rate has changed at any instant.
+// The unit may have begun to accelerate after the newest sample: with half of the maximum as
+// standard deviation; or, if the ordered change of rate is known, by that change at an unknown
+// instant.
 double AngleHistory::begun_variance(const Knot& newest, double beyond_s) const {
   if (!newest.ordered_change_rad_s)
     return square(0.5 * config_.acceleration_max_rad_s2 * 0.5 * square(beyond_s));
@@ -127,7 +128,7 @@ double AngleHistory::bend2(std::size_t b, KnotOf knot) const {
   return std::max({before, behind, square(knot(samples_[b]).acceleration_rad_s2)});
 }
 
-// From three samples in a row: the change of the rate against its noise.
+// The squared acceleration that three samples in a row show beyond their noise.
 double AngleHistory::bend2_at(std::size_t middle, KnotOf knot) const {
   const Knot x = knot(samples_[middle - 1]);
   const Knot y = knot(samples_[middle]);

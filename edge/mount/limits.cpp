@@ -8,7 +8,7 @@
 namespace ols::mount {
 namespace {
 
-// How far it is to go there; nothing: no way.
+// The length of the way to `to`; nullopt if there is none.
 std::optional<double> way_length(const Limits& limits, const PanTilt& now, const PanTilt& to) {
   if (to.pan_rad < limits.pan_min_rad || to.pan_rad > limits.pan_max_rad) return std::nullopt;
   if (limits.keep_out.empty()) return std::abs(to.pan_rad - now.pan_rad);

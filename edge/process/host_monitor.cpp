@@ -18,7 +18,7 @@
 namespace ols::station {
 namespace {
 
-constexpr double kSlowTurn_s = 0.5;  // of the control loop, which takes some ms; counted
+constexpr double kSlowTurn_s = 0.5;  // slower turns of the control loop are counted
 
 // The hottest zone: zone names differ between kernels.
 std::optional<double> hottest_degC(const std::string& folder) {

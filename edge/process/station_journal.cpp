@@ -5,7 +5,7 @@
 namespace ols::station {
 namespace {
 
-constexpr double kStart_s = 8.0;  // devices answer within: later it is an alarm that they do not
+constexpr double kStart_s = 8.0;  // a device that has not answered by then is an alarm
 
 FaultLog::State state_of(StationState state) {
   const bool emergency = state == StationState::kEmergency;
@@ -22,8 +22,8 @@ FaultLog::State state_of(const device::DeviceReport& device) {
   return state;
 }
 
-// A stop that cannot be read is no device that comes up, and a unit that answers has its emergency
-// stop and its reference.
+// Not GPIO: a stop that cannot be read is an alarm at once. Not a PTU that answers: its emergency
+// stop and its reference matter from then on.
 bool is_only_starting(const device::DeviceReport& device) {
   if (device.last_good_s || device.name == "gpio") return false;
   const bool starts = device.state == device::DeviceState::kStarting && device.name != "ptu";

@@ -16,7 +16,8 @@ namespace {
 
 constexpr double kFrameWait_s = 0.004;
 
-// A receiver that has never had a fix keeps starting; the station needs only camera and PTU.
+// A receiver without a first fix stays in the state "starting"; the station needs only camera and
+// PTU.
 gpio::LedPattern led_pattern(const StationReport& report) {
   if (report.snapshot.state == StationState::kEmergency) return gpio::LedPattern::kEmergency;
   if (!all_alarms(report).empty()) return gpio::LedPattern::kTrouble;
@@ -92,7 +93,8 @@ void StationProcess::turn() {
   const StationOutput output = station_.step(now.monotonic_s);
   for (const Bearing& bearing : output.bearings) {
     bus_.send(bearing);
-    // A sighting tells no focal length, and a calibration uses what was designated.
+    // A sighting has no focal length, so none is sent with a zoom; and calibrations use designated
+    // objects only.
     if (settings().station.zoom || bearing.is_tracklet()) continue;
     const std::int64_t utime_us = clock_.utime_us(bearing.mid_exposure_s);
     for (const Sighting& sighting : frames_.sightings(bearing, utime_us)) bus_.send(sighting);
@@ -111,7 +113,7 @@ clock::ClockPair StationProcess::look_at_clocks() {
   return now;
 }
 
-// If the operator stopped the station before it ended, it stays stopped: a restart does not permit
+// A station that was stopped when its process ended stays stopped: a restart does not permit
 // motion.
 void StationProcess::resume_hold(double now_s) {
   devices_.mount().restore_doubt(persisted_.doubt());
@@ -211,7 +213,7 @@ void StationProcess::take_angles() {
   const mount::Reference before = devices_.mount().reference();
   station_.set_reference(before);
   const auto samples = devices_.mount().take_samples();
-  // A homing that begins or ends meanwhile: whose the samples are is unknown.
+  // If homing begins or ends meanwhile, the reference of these samples is unknown.
   const bool trusted =
       before == mount::Reference::kTrusted && devices_.mount().reference() == before;
   frames_.service().set_trusted(trusted);
@@ -221,8 +223,7 @@ void StationProcess::take_angles() {
   }
 }
 
-// A check of the reference views has the unit only while nobody else wants it; it comes before the
-// watch.
+// A check of the reference views gets the unit only while no goal needs it, but before the watch.
 std::optional<mount::Goal> StationProcess::goal(const StationOutput& output, double now_s) {
   const auto newest = station_.reported_angles();
   const bool free = settings().station.moves && station_.state() == StationState::kIdle &&
@@ -247,7 +248,7 @@ void StationProcess::trigger_camera(double now_s) {
   if (by_line) devices_.gpio()->trigger();
 }
 
-// A few parts in a turn: a frame of a megabyte is on its way for some tens of milliseconds.
+// Few parts per turn: sending a frame of a megabyte takes tens of milliseconds.
 void StationProcess::send_requested_frames(const clock::ClockPair& now) {
   constexpr int kParts = 2;
   frames_.look(now);
@@ -308,8 +309,8 @@ StationReport StationProcess::report(const clock::ClockPair& now) {
   return report;
 }
 
-// Devices that are open say whose calibration is not their own. One that was accepted meanwhile is
-// taken up while the station is idle.
+// Refuses a calibration that is not that of the open devices. Once the station is idle, adopts one
+// that was accepted meanwhile.
 void StationProcess::check_calibration(const StationReport& report, double now_s) {
   const PanTilt count = report.limits_known ? report.limits.count : PanTilt{};
   const bool idle = report.snapshot.state == StationState::kIdle;
@@ -321,8 +322,8 @@ void StationProcess::check_calibration(const StationReport& report, double now_s
   station_.set_pose(pose_->pose(now_s));
 }
 
-// Told as a device, not by a field of its own: logs and programs of before would not know the
-// message any more.
+// A device and no new field: a new field would change the message's type, and older logs and
+// programs would no longer match.
 device::DeviceReport StationProcess::software() const {
   device::DeviceReport report;
   report.name = "software";

@@ -8,7 +8,7 @@
 namespace ols::station {
 namespace {
 
-// 2x2: the motion of the direction on its tangent plane for a pixel's [rad/px].
+// Derivative of the direction, on its tangent plane, by the pixel [rad/px].
 std::optional<Eigen::Matrix2d> radians_of_pixels(const PixelSight& pixel, const LineOfSight& line,
                                                  const UnitAngles& angles,
                                                  const PointingModel& pointing) {
@@ -41,8 +41,8 @@ DetectedObject object_of(const DetectedPixel& seen, const Eigen::Matrix2d& J) {
 
 }  // namespace
 
-// An image of the detector is older than the tracker's newest: it need not wait for that one's
-// angles.
+// Bearings are taken in any order: a detector's image is older than the tracker's newest frame, and
+// need not wait for that frame's angles.
 std::vector<MadeBearing> BearingQueue::take(const PointingModel& pointing, double now_s) {
   std::vector<MadeBearing> bearings;
   std::erase_if(waiting_, [&](const PixelMeasurement& measured) {

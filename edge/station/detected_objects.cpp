@@ -19,7 +19,7 @@ bool is_in(const cv::Rect2d& box, const detector::Tracklet& tracklet) {
   return (off.array() < 0.5 * sides.array() + kMargin_px).all();
 }
 
-// By the sequential test; among those beyond its bound, the one that has been followed longest, so
+// By the sequential test. Among tracklets at its upper limit, the one followed longest wins, so
 // that the choice does not change from image to image.
 bool is_likelier(const detector::Tracklet* a, const detector::Tracklet* b) {
   return std::pair(a->log_ratio(), a->age_s()) > std::pair(b->log_ratio(), b->age_s());
@@ -29,15 +29,15 @@ bool is_likelier(const detector::Tracklet* a, const detector::Tracklet* b) {
 
 void DetectedObjects::on_frame(const camera::Frame& frame,
                                const std::optional<FollowedBox>& followed, double now_s) {
-  constexpr double kEarly = 0.25;  // of a period: the frames' own jitter
+  constexpr double kEarly = 0.25;  // share of a period, for the frames' own jitter
   if (!config_.enabled) return;
   const double period_s = 1.0 / config_.rate_hz;
   const double mid_s = frame.mid_exposure_s;
   const bool is_due = mid_s >= due_s_ - kEarly * period_s;
-  // At that rate on average; after a pause it begins anew.
+  // At this rate on average, without catching up after a pause.
   if (is_due) due_s_ = (mid_s > due_s_ + period_s ? mid_s : due_s_) + period_s;
   if (is_due && waiting_) counters_["detector_images_dropped"] += 1;
-  // While the last picture is looked at, every newer frame is the better one.
+  // While the detector is busy, a newer frame replaces the waiting one.
   if (is_due || (waiting_ && looks_)) waiting_ = Look{frame, followed, now_s};
 }
 
@@ -68,7 +68,8 @@ std::int64_t DetectedObjects::track_id(long tracklet,
 namespace {
 
 DetectedPixel outline_of(const detector::Tracklet& tracklet) {
-  constexpr double kBlur_px = 2.0, kOutline = 0.25;  // of a point's size; of the size
+  constexpr double kBlur_px = 2.0, kOutline = 0.25;  // 1-sigma of the size: constant, and by the
+                                                     // size
   const auto& outline = tracklet.outline();
   const Eigen::Vector2d sides_px = outline ? outline->size_px : tracklet.measured_size_px();
   Eigen::Index larger = 0;
@@ -82,7 +83,7 @@ DetectedPixel outline_of(const detector::Tracklet& tracklet) {
 
 }  // namespace
 
-// Of several parts of the target, the largest.
+// If the target shows in several parts, the largest counts.
 void DetectedObjects::note_followed(const Look& look) {
   of_followed_.reset();
   if (!look.followed) return;
@@ -102,7 +103,7 @@ std::optional<DetectedPixel> DetectedObjects::take_detection_of(std::int64_t tra
 
 PixelMeasurement DetectedObjects::measured(const detector::Tracklet& tracklet,
                                            const Look& look) const {
-  constexpr double kCentring = 0.1;  // of the size: the visible part's centre
+  constexpr double kCentring = 0.1;  // by the size: only the visible part's centre is measured
   PixelMeasurement pixel;
   pixel.stamp_sd_s = look.frame.stamp_sd_s;
   pixel.stamp_source = look.frame.stamp_source;

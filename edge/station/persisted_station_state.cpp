@@ -58,7 +58,7 @@ void PersistedStationState::remember(StationState state,
   } else {
     hold_.set(kFree);
   }
-  // Without a unit, its last known state stays.
+  // Without a unit, the last known doubt stays stored.
   if (doubt) {
     doubt_.set(mount::to_word(doubt));
   } else if (reference == mount::Reference::kTrusted) {

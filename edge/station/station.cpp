@@ -10,7 +10,7 @@
 namespace ols::station {
 namespace {
 
-// Beyond the error of a time stamp that is still of use.
+// More than the error of any usable time stamp.
 constexpr double kFuture_s = 0.2;
 
 }  // namespace
@@ -33,7 +33,7 @@ void Station::on_frame(const camera::Frame& frame, double now_s) {
     counters_["frames_too_old"] += 1;
     return;
   }
-  // The mount would follow the track's extrapolation, without pictures, until that time has come.
+  // Until that time has come, the mount would follow the track's extrapolation without pictures.
   if (frame.mid_exposure_s > now_s + kFuture_s) {
     counters_["frames_in_future"] += 1;
     return;
@@ -77,7 +77,7 @@ void Station::track(const camera::Frame& frame) {
   }
   const auto output = target_.track(frame, pointing_);
   if (!output) return;
-  // A hidden target may come out elsewhere; if others see it, the slew says where it is.
+  // A hidden target may reappear elsewhere; if other stations see it, the slew says where.
   const auto is_at = [&](const std::optional<SlewCommand>& slew) {
     return search_.is_where_slewed(frame, *output, pointing_, slew);
   };
@@ -152,7 +152,7 @@ void Station::look_along_slew(const camera::Frame& frame) {
   follow_since(found->frame->mid_exposure_s);
 }
 
-// What began in an older frame is followed through those since then.
+// What began in an older frame is tracked through the frames since then.
 void Station::follow_since(double mid_exposure_s) {
   for (const camera::Frame* frame : frames_.since(mid_exposure_s)) {
     if (follows_target()) track(*frame);
@@ -224,7 +224,7 @@ Refusal Station::designate(const DesignateCommand& command, double now_s) {
 Refusal Station::slew(const SlewCommand& command, double now_s) {
   pass_time(now_s);
   const Refusal refusal = judge(command, situation(now_s));
-  // What it cannot reach it lets go of all the same.
+  // The station lets go of its object even if it cannot reach the direction.
   const bool frees = refusal == Refusal::kNone || refusal == Refusal::kUnreachable;
   if (refusal == Refusal::kNone && command.leads()) slew_.give(command, now_s_);
   if (frees && target_.let_go(command.let_go_track_id)) {
@@ -383,7 +383,7 @@ StationOutput Station::step(double now_s) {
   return output;
 }
 
-// Also when the target has been lost for so long that nobody looks for it any more.
+// Also if the target has been lost for so long that nothing searches for it any more.
 std::optional<mount::Goal> Station::watch(double now_s) {
   constexpr double kLost_s = 15.0, kNewest_s = 1.0;
   const bool free = mode_.reference() == mount::Reference::kTrusted &&

@@ -12,22 +12,22 @@ namespace {
 constexpr double kWindow_s = 0.6;  // over which reported positions show a motion
 constexpr double kLeastMotion_rad = radians(0.2);
 constexpr double kStopAgain_s = 0.4;    // until a stop that changed nothing is repeated
-constexpr double kBrakes_s = 0.2;       // after a stop: no motion that contradicts it
-constexpr double kComesToRest_s = 1.6;  // after a stop, with the window
-constexpr double kRested_s = 3.0;       // after a stop: where it is now it stays
-constexpr double kAfterOrder_s = 10.0;  // a motion after that has nothing to do with the last order
-constexpr double kOldPosition_s = 1.0;  // no motion is ordered on an older one
-constexpr double kAhead_s = 0.5;        // as far the ordered rate carries a position on
-constexpr double kTravel_s = 2.0;       // of motion into one direction, before it is judged
-constexpr double kTurns_s = 0.5;        // of motion into one direction, before it counts
-constexpr double kContrary_s = 0.7;     // if it goes the wrong way
+constexpr double kBrakes_s = 0.2;       // after a stop: the mount may still be braking
+constexpr double kComesToRest_s = 1.6;  // after a stop, with kWindow_s
+constexpr double kRested_s = 3.0;       // after a stop: from then on the mount must not move
+constexpr double kAfterOrder_s = 10.0;  // a later motion has nothing to do with the last order
+constexpr double kOldPosition_s = 1.0;  // with an older position there is no motion
+constexpr double kAhead_s = 0.5;        // longest extrapolation by the ordered rate
+constexpr double kTravel_s = 2.0;       // of motion in one direction, before it is judged
+constexpr double kTurns_s = 0.5;        // of motion in one direction, before it counts
+constexpr double kContrary_s = 0.7;     // the same if it goes the wrong way
 constexpr double kTravel_rad = radians(3.0);
 constexpr double kTravelShare = 0.1;  // of the ordered travel that must be seen
-constexpr double kRefused_s = 10.0;   // no motion after ignored orders
+constexpr double kRefused_s = 10.0;   // without motion, after ignored orders
 constexpr double kAlarm_s = 30.0;     // an alarm stays after its cause was last seen
 constexpr double kRateStep_rad_s = radians(0.1);
-constexpr double kRateShare = 0.05;   // a smaller change of rate waits for the lease
-constexpr double kRenew = 1.0 / 3.0;  // of the lease
+constexpr double kRateShare = 0.05;   // a smaller change of rate waits for the renewal
+constexpr double kRenew = 1.0 / 3.0;  // of the lease: a motion is then renewed
 constexpr double kLastPiece_rad = radians(2.0);
 constexpr double kAbsoluteAgain_s = 5.0;  // a place that was not reached is ordered again
 
@@ -138,11 +138,11 @@ PanTilt Drive::angles_now(double now_s) const {
           newest.angles.tilt_rad + rate_.tilt_rad * ahead_s};
 }
 
-// Nothing: no motion is wanted or permitted.
+// nullopt: no motion is wanted or permitted.
 std::optional<PanTilt> Drive::wanted_rate(double now_s) const {
   if (!goal_ || now_s < refused_until_s_ || !offered_.continuous) return std::nullopt;
   Goal goal = *goal_;
-  goal.rests = false;  // proportional: the answers are too late for the shortest braking
+  goal.rests = false;  // proportional: answers are too late for the shortest braking
   const PanTilt now = angles_now(now_s);
   const auto command = ptu::servo_step(config_.servo, limits_, goal, now, now_s, rate_);
   if (!command) return std::nullopt;
@@ -156,7 +156,7 @@ std::optional<PanTilt> Drive::wanted_rate(double now_s) const {
       rate(command->position.tilt_rad, now.tilt_rad, command->speed.tilt_rad, goal.rate.tilt_rad)};
 }
 
-// To a goal at rest, near enough to go there without a lease.
+// To a goal at rest that is near enough to go there without a lease.
 std::optional<Order> Drive::last_piece(double now_s) const {
   if (!goal_ || !goal_->rests || goal_->rate_only || !offered_.absolute) return std::nullopt;
   if (now_s > goal_->valid_until_s || now_s < refused_until_s_) return std::nullopt;
@@ -226,7 +226,7 @@ void Drive::done(const Order& order, double now_s) {
   intake_.ordered(motion_ == Motion::kVelocity ? std::optional(rate_) : std::nullopt, now_s);
 }
 
-// A motion that was refused may be on its way all the same.
+// A refused motion may be under way all the same.
 void Drive::failed(const Order& order, double now_s) {
   if (order.act == Act::kStop) {
     ++stops_;
@@ -278,7 +278,7 @@ void Drive::judge_travel(const Travel& travel, double angle_rad, double now_s) {
   stops_ = 0;
 }
 
-// Without an order it stays where it came to rest.
+// Without an order, the mount must stay where it came to rest.
 void Drive::judge_rest(double now_s) {
   if (motion_ != Motion::kNone || !rests_since_s_) return;
   const double rested_s = now_s - *rests_since_s_;

@@ -30,7 +30,7 @@ Traits driven_traits(const DriveConfig& config) {
   traits.may_home = false;
   traits.limits = config.limits;
   traits.angles.step_rad = kVirtualCount_rad;
-  // A mount that renews its position less often than it is asked leaves gaps.
+  // A mount that renews its position less often than it is polled leaves gaps.
   traits.angles.max_gap_s = std::max(1.0, 5.0 * config.poll_s);
   traits.angles.max_extrapolation_s = std::max(0.4, 2.0 * config.poll_s + config.positions.delay_s);
   return traits;

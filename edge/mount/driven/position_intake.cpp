@@ -6,17 +6,17 @@
 namespace ols::mount {
 namespace {
 
-constexpr double kSmoothing = 0.1;  // of what is averaged over answers
-constexpr double kOftenOld = 0.2;   // share of old positions from which the age of new ones counts
+constexpr double kSmoothing = 0.1;  // weight of a new answer in averages
+constexpr double kOftenOld = 0.2;   // share of old positions above which the age of new ones counts
 constexpr double kSettled_s = 3.0;  // after a motion
-constexpr int kRestCount = 20;      // positions from which their scatter is known
-constexpr double kMotion = 5.0;     // 1-sigmas of the configuration: no scatter
+constexpr int kRestCount = 20;      // positions that determine their scatter
+constexpr double kMotion = 5.0;     // in configured sigmas; more is no scatter
 constexpr double kSpreadSmoothing = 0.05;
-constexpr double kLeast = 0.01;      // share of the variance that is stated, however little shows
-constexpr double kWorst = 3.0;       // of the variance: at an end of the round trip, never between
-constexpr double kResponds_s = 0.5;  // after an order, a mount still changes its rate
-constexpr double kKept_s = 10.0;     // orders
-constexpr double kSteady = 0.05;     // share of the rate: a smaller change is none
+constexpr double kLeast = 0.01;           // of the variance; at least this much is stated
+constexpr double kWorst = 3.0;            // of the variance: all at one end of the round trip
+constexpr double kResponds_s = 0.5;       // after an order, a mount still changes its rate
+constexpr double kKept_s = 10.0;          // so long, orders are kept
+constexpr double kSteady = 0.05;          // share of the rate; a smaller change does not count
 const double kUniform = std::sqrt(12.0);  // width over 1-sigma of a uniform distribution
 
 }  // namespace
@@ -47,7 +47,7 @@ void PositionIntake::measure_rest(const PanTilt& angles, double now_s, double or
     rest_count_ = 0;
   }
   if (now_s - rests_since_s_ < kSettled_s) return;
-  // A camera that moves without an order does not scatter.
+  // A larger deviation is no scatter: the camera has moved without an order.
   if (rest_count_ > 0 && distance(angles, rest_mean_) > kMotion * config_.sd_rad) rest_count_ = 0;
   if (rest_count_ == 0) {
     rest_mean_ = angles;
@@ -103,7 +103,7 @@ void PositionIntake::learn_spread(const Moved& newest) {
   if (std::abs(rate) * poll_s_ < 2.0 * sd_rad() || *change.*axis > kSteady * std::abs(rate)) return;
   const double first = 1.0 - last, off_rad = turn(x, y, axis) - last * turn(x, z, axis);
   const double weights = 1.0 + first * first + last * last;
-  // In rad^2: a fast turn shows more of it.
+  // Averaged in rad^2, because fast turns show the spread best.
   const double whole_rad2 =
       rate * rate *
       (y.spread_s * y.spread_s + std::pow(first * x.spread_s, 2) + std::pow(last * z.spread_s, 2));

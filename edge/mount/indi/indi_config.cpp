@@ -24,7 +24,7 @@ void check(ConfigTable& table, const IndiConfig& c) {
   if (c.device.empty()) throw table.error("device", "must name the telescope");
 }
 
-// The library waits for a name for ever.
+// The library would wait for a name to be resolved for ever.
 void check_host(const std::string& host) {
   static const std::regex kAddress(R"([0-9]{1,3}(\.[0-9]{1,3}){3})");
   if (host != "localhost" && !std::regex_match(host, kAddress))

@@ -37,7 +37,7 @@ bool is_on(INDI::Property& property, const char* element) {
   return widget != nullptr && widget->getState() == ISS_ON;
 }
 
-// What both axes allow in both directions.
+// The rate that both axes allow in both directions.
 double fastest_in(INDI::Property& property) {
   double fastest_arcsec_s = std::numeric_limits<double>::max();
   for (const auto& axis : *property.getNumber())
@@ -52,8 +52,8 @@ bool is_stop(std::string_view name) {
   return name == "TELESCOPE_TRACK_STATE" || name == "TELESCOPE_ABORT_MOTION";
 }
 
-// A driver that cannot read its telescope sends the old position in alert; one that answers an
-// order sends it again.
+// A driver that cannot read its telescope repeats the old position in state ALERT; one that answers
+// an order repeats it, too. Neither is a new measurement.
 void take_position(Heard& heard, INDI::Property& property) {
   const Equatorial seen{number_in(property, "RA") * kHour_rad, radians(number_in(property, "DEC"))};
   heard.slews = property.getState() == IPS_BUSY;
@@ -101,8 +101,7 @@ void take_switches(Heard& heard, INDI::Property& property) {
 
 }  // namespace
 
-// The library's shared properties are written by its thread: orders are made of properties of their
-// own.
+// The library's thread writes its shared properties, so orders have properties of their own.
 class IndiLink::Client : public INDI::BaseClient {
  public:
   Client(std::string host, int port, std::string device)
@@ -183,7 +182,7 @@ IndiLink::IndiLink(std::string host, int port, std::string device)
     : client_(std::make_unique<Client>(std::move(host), port, std::move(device))) {}
 IndiLink::~IndiLink() = default;
 
-// The library writes to a socket that may be closed: no program may die of it.
+// The library may write to a closed socket: SIGPIPE must not end the program.
 void IndiLink::open() {
   std::signal(SIGPIPE, SIG_IGN);
   if (!client_->connectServer()) throw IndiError("no INDI server at " + client_->place());
@@ -204,8 +203,8 @@ void IndiLink::stop() {
   client_->choose("TELESCOPE_TRACK_STATE", "TRACK_OFF");
 }
 
-// INDI refuses a rate into the other direction while a telescope tracks. Some drivers take a rate
-// only while it tracks: the new one is ordered again then, or the telescope would go on as before.
+// INDI refuses to reverse a rate while the telescope tracks. Some drivers take a rate only while it
+// tracks, so the rate is ordered again afterwards; otherwise the old one would stay in force.
 void IndiLink::track(const TrackRate& rate) {
   const bool reverses = ordered_ && (ordered_->hour_angle_rad_s * rate.hour_angle_rad_s < 0.0 ||
                                      ordered_->dec_rad_s * rate.dec_rad_s < 0.0);

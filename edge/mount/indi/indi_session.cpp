@@ -13,7 +13,7 @@ namespace ols::indi {
 namespace {
 
 constexpr double kTurn_s = 0.005;
-constexpr double kPatience_s = 10.0;  // for what is needed of a telescope
+constexpr double kPatience_s = 10.0;  // until all that is needed of a telescope is known
 constexpr double kGoToBegins_s = 1.0;
 constexpr double kStops_s = 1.0;                   // for a stop at the end
 constexpr double kLeastRate_rad_s = radians(0.1);  // a slower telescope cannot follow anything
@@ -51,7 +51,7 @@ double utc_s(double monotonic_s) {
   return 1e-9 * static_cast<double>(clock_utc_ns()) + monotonic_s - clock_monotonic_s();
 }
 
-// A person has parked it, or the weather has: it is left alone.
+// A telescope that was parked, by a person or because of the weather, is left alone.
 bool is_put_away(const Heard& heard) { return heard.is_parked || heard.parks; }
 
 bool wait_until(const IndiLink& link, mount::SharedDrive& shared, double within_s,
@@ -66,7 +66,7 @@ bool wait_until(const IndiLink& link, mount::SharedDrive& shared, double within_
 
 }  // namespace
 
-// Until all is known that a station needs of it.
+// Returns when all is known that a station needs of the telescope.
 Heard IndiSession::connect(IndiLink& link, mount::SharedDrive& shared,
                            const std::stop_token& stop) {
   link.open();
@@ -77,7 +77,7 @@ Heard IndiSession::connect(IndiLink& link, mount::SharedDrive& shared,
   need("the server has no such device", [](const Heard& h) { return h.has_device; });
   if (!link.heard().is_connected) link.connect_telescope();
   need("the driver does not reach the telescope", [](const Heard& h) { return h.is_connected; });
-  // What it can do and whether it is parked, it defines in the same breath, in any order.
+  // A driver announces together, in any order, what the telescope can do and whether it is parked.
   wait_until(link, shared, kStops_s, stop,
              [](const Heard& h) { return h.can_stop_tracking && h.fastest_rad_s; });
   if (!is_put_away(link.heard())) link.stop();
@@ -138,7 +138,7 @@ void IndiSession::serve(IndiLink& link, mount::SharedDrive& shared, device::Devi
       if (!is_put_away(now) || shared.drive.in_emergency()) order = shared.drive.next(now_s);
     }
     if (slews_since_s_ && !now.slews && now_s - *slews_since_s_ > kGoToBegins_s) {
-      link.stop();  // it would follow the stars from there
+      link.stop();  // or it would follow the stars from there
       slews_since_s_.reset();
     }
     if (order.act != mount::Act::kWait && order.act != mount::Act::kStatus) {
@@ -180,8 +180,8 @@ void IndiSession::judge(const Heard& now, mount::SharedDrive& shared) {
   if (other_side) shared.alarms.push_back(alarm::ptu_other_pier_side());
 }
 
-// Drivers report a position only when it has changed by about this: one that tracks at nearly the
-// rate of the stars is silent, and is where it was. The caller holds the mutex.
+// Drivers report a position only when it has changed by about this much. A telescope that tracks at
+// nearly the sidereal rate is silent, and its last position holds. The caller holds the mutex.
 void IndiSession::take_position(const IndiLink& link, mount::SharedDrive& shared, double now_s) {
   constexpr double kSilentRa_rad = radians(1.5 / 3600.0), kSilentDec_rad = radians(0.1 / 3600.0);
   constexpr double kSidereal_rad_s = radians(15.041067 / 3600.0);

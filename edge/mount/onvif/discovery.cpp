@@ -70,7 +70,7 @@ bool is_usable(const std::string& url) {
   return url.size() <= kLongestUrl;
 }
 
-// At another host, the person's password would go there.
+// An address at another host is not used: the user's password would go there.
 std::string address_at(const std::string& sender, const std::vector<std::string>& addresses) {
   if (addresses.empty()) throw AnswerError("no XAddrs");
   for (const std::string& url : addresses) {
@@ -126,7 +126,7 @@ void Discovery::refuse(const std::string& sender, const std::string& why) {
     refused_.push_back(text);
 }
 
-// A camera answers each probe, and on each of its networks.
+// A camera answers each probe, on each of its networks.
 void Discovery::add(FoundCamera camera) {
   for (const FoundCamera& known : cameras_) {
     if (known.id == camera.id && known.url == camera.url) return;

@@ -22,7 +22,7 @@ namespace {
 
 constexpr const char* kGroup = "239.255.255.250";
 constexpr std::uint16_t kPort = 3702;
-constexpr double kAgain_s = 0.5;  // a datagram may be lost: asked once more
+constexpr double kAgain_s = 0.5;  // asked once more, because a datagram may be lost
 constexpr std::size_t kLargestDatagram = 65536;
 
 std::system_error failed(const char* what) {

@@ -64,9 +64,10 @@ config::Section onvif_section(OnvifConfig& c) {
                    "to read it."),
       config::text("profile", c.profile,
                    "Token of the media profile to steer; empty: the first with PTZ."),
-      config::text("pinned_key", c.pinned_key,
-                   "Of an https camera with a certificate of its own: sha256// and the hash of its "
-                   "public key; empty: an authority of the system must vouch for it.")};
+      config::text(
+          "pinned_key", c.pinned_key,
+          "Public key of an https camera whose certificate is its own: sha256// and the key's "
+          "hash; empty: an authority that this system trusts must have signed it.")};
   for (auto more : {axis_rows(c.drive.pan, "pan"), axis_rows(c.drive.tilt, "tilt"),
                     mount::drive_rows(c.drive), request_rows(c)})
     std::ranges::move(more, std::back_inserter(rows));

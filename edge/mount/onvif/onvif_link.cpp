@@ -14,7 +14,7 @@ namespace {
 constexpr long kOk = 200, kUnauthorized = 401;
 constexpr std::size_t kNonce = 16;
 
-// Throws where the answer is the refusal of a request; a refused login is found by login_refused().
+// Refusals of other kinds are left to the reader of the answer.
 bool login_refused(const HttpLink::Answer& answer, const Request& request) {
   if (answer.status == kUnauthorized) return true;
   if (answer.status == kOk) return false;
@@ -59,7 +59,7 @@ OnvifLink::Exchange OnvifLink::ask(const std::string& url, const Request& reques
     if (login_ == Login::kNone && !credentials_.user.empty()) {
       login_ = answer.offers_digest ? Login::kDigest : Login::kToken;
       if (!exchanged()) throw LoginRefused(request.name() + ": user or password refused");
-    } else if (logged_in_) {  // it has started anew, or its clock was set
+    } else if (logged_in_) {  // the camera has restarted, or its clock was set
       throw HttpError(request.name() + ": the login has expired");
     } else {
       throw LoginRefused(request.name() + (credentials_.user.empty()
@@ -68,7 +68,7 @@ OnvifLink::Exchange OnvifLink::ask(const std::string& url, const Request& reques
     }
   }
   logged_in_ = login_ != Login::kNone;
-  // A fault has words of its own, which the reader of the answer throws.
+  // If there is a fault, the reader of the answer throws its text.
   if (answer.status != kOk && answer.body.find("Fault") == std::string::npos)
     throw AnswerError(request.name() + ": HTTP status " + std::to_string(answer.status));
   exchange.answer = std::move(answer.body);
@@ -79,7 +79,7 @@ void OnvifLink::read_clock() {
   const Exchange exchange = ask(url_, get_system_date_and_time());
   clock_ahead_s_.reset();
   if (const auto utc_s = date_and_time(exchange.answer)) {
-    constexpr double kHalfSecond = 0.5;  // it says whole ones
+    constexpr double kHalfSecond = 0.5;  // the clock tells whole seconds
     clock_ahead_s_ =
         static_cast<double>(*utc_s) + kHalfSecond - 1e-9 * static_cast<double>(clock_utc_ns());
   }
@@ -97,7 +97,7 @@ std::vector<Profile> OnvifLink::read_profiles() {
 std::string OnvifLink::read_device() {
   try {
     return device_information(ask(url_, get_device_information()).answer);
-  } catch (const AnswerError&) {  // only a name
+  } catch (const AnswerError&) {  // it gives only a name
     return {};
   }
 }
@@ -123,7 +123,7 @@ Offer OnvifLink::offer() {
     try {
       if (has_ptz_ && !profile.configuration.empty())
         stream.ptz = options(ask_ptz(get_options(profile.configuration)).answer);
-    } catch (const AnswerError&) {  // it sees, at least
+    } catch (const AnswerError&) {  // a stream is enough
     }
     offer.streams.push_back(std::move(stream));
   }

@@ -14,8 +14,8 @@ namespace {
 
 using mount::Act;
 
-constexpr double kTurn_s = 0.005;     // until it is looked again whether something is to be asked
-constexpr double kPatience_s = 10.0;  // without a position: connected anew
+constexpr double kTurn_s = 0.005;     // between checks whether to ask something
+constexpr double kPatience_s = 10.0;  // without a position, before the camera is connected anew
 
 Request request_of(const mount::Order& order, const Learnt& learnt, double lease_s) {
   const std::string& profile = learnt.profile.token;
@@ -53,7 +53,7 @@ std::string words_of(const Learnt& learnt, const std::optional<double>& clock_ah
 
 }  // namespace
 
-// What is on its way is broken off: a stop goes over a new connection.
+// Breaks off the exchange under way: the stop goes over a new connection.
 void OnvifSession::interrupt() {
   const std::lock_guard lock(mutex_);
   if (link_ != nullptr) link_->http().interrupt();
@@ -75,7 +75,7 @@ void OnvifSession::run(mount::SharedDrive& shared, device::DeviceThread& thread,
   publish(&open);
   try {
     serve(open, shared, thread, stop);
-  } catch (const Interrupted&) {  // before anything was ordered: from the beginning
+  } catch (const Interrupted&) {  // nothing was ordered yet: begins again
   } catch (const LoginRefused&) {
     {
       const std::lock_guard lock(shared.mutex);

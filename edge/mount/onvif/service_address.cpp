@@ -15,7 +15,7 @@ bool is_port(const std::string& text) {
          std::all_of(text.begin() + 1, text.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
-// No scheme: it is no such address.
+// Without a scheme, it is no such address.
 Parts parts_of(const std::string& url) {
   Parts parts;
   for (const std::string scheme : {"http://", "https://", "rtsp://", "rtsps://"}) {
@@ -50,7 +50,7 @@ std::string service_address(const std::string& configured, const std::string& st
 }
 
 std::string stream_address(const std::string& configured, const std::string& stated) {
-  // A user and password before the host are not needed: the station has its own.
+  // User and password before the host are left out: the station has its own.
   const std::size_t at = stated.find('@'), path = stated.find('/', stated.find("//") + 2);
   const std::string scheme = stated.substr(0, std::min(stated.find("//") + 2, stated.size()));
   const Parts said = parts_of(at < path ? scheme + stated.substr(at + 1) : stated);

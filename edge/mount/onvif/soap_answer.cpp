@@ -55,7 +55,7 @@ class Answer {
     return number(value.value(), std::string(local(node.name())) + " " + name);
   }
 
-  // Ends that are not numbers, as INF, are as good as none.
+  // A limit that is no number, such as INF, is refused like a missing one.
   Span span(const Node& node) const {
     const Span span{number(text_of(required(node, "Min")), "Min"),
                     number(text_of(required(node, "Max")), "Max")};
@@ -101,7 +101,7 @@ std::optional<Space> first_space(const Answer& answer, const Node& spaces, const
   return answer.space(node);
 }
 
-// "PT1M0.5S"; days and more are more than a motion takes.
+// "PT1M0.5S"; no motion takes days.
 std::optional<double> seconds(std::string_view text) {
   if (!text.starts_with("PT")) return std::nullopt;
   double sum = 0.0;

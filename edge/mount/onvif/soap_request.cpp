@@ -58,7 +58,7 @@ std::string pan_tilt(const Vector& vector) {
   return text.data();
 }
 
-// Cameras read fractions of a second badly, so that only what is no whole number has some.
+// Some cameras do not read fractions of a second, so whole numbers have none.
 std::string duration(double seconds) {
   std::array<char, 40> text{};
   std::snprintf(text.data(), text.size(), std::floor(seconds) == seconds ? "PT%.0fS" : "PT%.1fS",

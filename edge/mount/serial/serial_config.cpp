@@ -10,7 +10,6 @@ namespace ols::serial_mount {
 using config::number;
 using station::in_degrees;
 
-// One full turn, because a head on a serial line says nothing of its travel.
 SerialConfig::SerialConfig() {
   drive.servo.gain_hz = 1.0;
   drive.positions = {.delay_s = 0.05, .delay_sd_s = 0.05, .sd_rad = radians(0.1)};
@@ -38,7 +37,8 @@ std::vector<config::Row> line_rows(SerialConfig& c, Language language) {
           .required(),
       config::one_of("baud", c.baud, {2400, 4800, 9600, 19200, 38400}, "", "Rate of the line.")};
   if (language == Language::kPelcoD)
-    rows.push_back(config::integer("address", c.address, 1, 255, "", "Of the head on the line."));
+    rows.push_back(
+        config::integer("address", c.address, 1, 255, "", "Address of the head on the line."));
   rows.push_back(number("timeout_s", c.timeout_s, {0.05, 5.0}, "s",
                         "A question without an answer for so long is asked again."));
   return rows;

@@ -12,9 +12,9 @@ namespace {
 
 constexpr double kTurn_s = 0.005;
 constexpr double kRead_s = 0.01;
-constexpr double kPatience_s = 3.0;  // without an answer: opened anew
+constexpr double kPatience_s = 3.0;  // without an answer, before the line is opened anew
 
-// As the head counts: a position may be on the other side of a full turn.
+// In the head's counts: a position may be on the other side of a full turn.
 mount::Space places(const mount::DriveConfig& drive) {
   const auto span = [](const mount::AxisScale& scale, double min_rad, double max_rad) {
     const auto [low, high] = std::minmax({(min_rad - scale.zero_rad) / scale.per_unit_rad,
