@@ -14,9 +14,9 @@ constexpr double kWidestBox_deg = 3.0;
 constexpr double kGreatestHeight_m = 50'000.0;
 constexpr double kWorst_m = 1e5;
 constexpr std::size_t kMostStations = 32;
-constexpr double kOtherwiseWhite_rad = 1e-4;  // of a station that has not said its field of view
+constexpr double kOtherwiseWhite_rad = 1e-4;  // for a station that states no field of view
 
-// A number of a station; nothing where it is unknown.
+// nullopt: not known.
 std::optional<double> number(const Json& station, const char* field) {
   const auto found = station.find(field);
   if (found == station.end() || !found->is_number()) return std::nullopt;

@@ -41,8 +41,8 @@ ChainParameters level_of(const Json& station) {
 
 }  // namespace
 
-// The zeros of the unit's angles and the camera's mounting are not in a status. They are the same
-// in the direction in which the axis points now, so that they cancel out of the way from there.
+// A status has neither the zeros of the unit's angles nor the camera's mounting. Both are the same
+// in the direction in which the axis points now, so they cancel out of the way from there.
 std::optional<PanTilt> aim_at_place(const Json& station, const Geodetic& place) {
   const Eigen::Vector3d camera_ecef{value_of(station, "camera_ecef_m", 0),
                                     value_of(station, "camera_ecef_m", 1),

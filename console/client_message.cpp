@@ -20,7 +20,7 @@ constexpr std::size_t kMostNameBytes = 64;
 constexpr double kMostPixels = 1e5;
 constexpr double kMostRecord_s = 3600.0;
 
-// What is wrong with a message, in words; the parser's own.
+// What is wrong with a message, in words. Only the parser throws and catches it.
 class FormError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -68,7 +68,7 @@ void refuse_unknown(const Json& message, Keys known, Keys more = kNoKeys) {
   }
 }
 
-// Of a command, besides what each has.
+// Refuses keys that are neither this command's own nor common to all commands.
 void refuse_others(const Json& message, Keys own) {
   refuse_unknown(message, {"do", "number", "station", "command", "heard_us"}, own);
 }
@@ -255,7 +255,7 @@ AnswerRequest read_answer(const Json& message, std::int64_t of_browser) {
   return request;
 }
 
-// Of people: any text; where it is shown it cannot do harm.
+// A person's text: any, made harmless for where it is shown.
 std::string words_of(const Json& message, const char* key, std::size_t most) {
   const Json& value = field(message, key);
   if (!value.is_string() || value.get_ref<const std::string&>().size() > most) {
@@ -271,7 +271,7 @@ NameRequest read_name(const Json& message, std::int64_t number) {
   return {number, text(message, "target"), words_of(message, "name", kMostBytes)};
 }
 
-// Cues have the names that others give them: any text without control characters.
+// Other systems name cues, so the name is any text.
 CueRequest read_cue(const Json& message, std::int64_t number) {
   refuse_unknown(message, {"do", "number", "cue", "allow", "heard_us"});
   const Json& cue = field(message, "cue");
@@ -293,7 +293,7 @@ CueRequest read_handover(const Json& message, std::int64_t number) {
   return {number, {.cue = {}, .allow = mode != "off", .handover = mode}, heard(message)};
 }
 
-// The area itself is read where it is kept.
+// The area is parsed where it is kept.
 AreaRequest read_area(const Json& message, std::int64_t number) {
   refuse_unknown(message, {"do", "number", "area"});
   const Json& area = field(message, "area");

@@ -12,7 +12,7 @@ namespace ols::console {
 namespace {
 
 constexpr double kHeartbeat_s = 1.0;
-// A link that was cut delivers late what was sent while it was: the hand has let go since.
+// After an interruption, a link delivers old commands: the operator may have let go since.
 constexpr std::int64_t kLateRate_us = 1'500'000;
 constexpr std::int64_t kLateCommand_us = 3'000'000;
 constexpr const char* kAll = "all";
@@ -80,14 +80,14 @@ void Console::show_areas() {
   site_.set_areas(areas);
 }
 
-// The track is long, and asked for by itself.
+// The track is long, so the page asks for it separately.
 void Console::show_incident(const Incident& incident) {
   Json fields = json_of(incident);
   fields.erase("track");
   site_.set_incident(incident.number, fields);
 }
 
-// Nobody controls a station by having it record.
+// To make a station record, nobody needs control of it.
 void Console::look_at_incidents(const Now& now) {
   incidents_.turn(now.monotonic_s,
                   [this](const std::string& station) { return pictures_.newest(station); });
@@ -161,8 +161,8 @@ void Console::act(std::uint64_t id, const AnswerRequest& request, const Now& now
   const Viewer& viewer = viewers_.at(id);
   const std::string& station = request.answer.station;
   Outcome refusal = change_refusal(id);
-  // Answers turn the unit: they need control as commands do, and may be as late, but for the one
-  // that ends it all.
+  // Answers turn the unit: like commands, they need control and must not be late. Only "abort" is
+  // exempt.
   const bool ends = request.answer.choice == "abort";
   if (refusal.empty()) refusal = bus_trouble_;
   if (refusal.empty() && !ends && is_late(request.heard_utime_us, now, kLateCommand_us)) {
@@ -254,7 +254,7 @@ void Console::act(std::uint64_t id, const NameRequest& request, const Now& now) 
 void Console::act(std::uint64_t id, const WatchRequest& request, const Now&) {
   LatestPictures::View& view = viewers_.at(id).view;
   view.watched = {request.stations.begin(), request.stations.end()};
-  // A browser that begins with a stream has had nothing of it.
+  // A browser that begins with a stream has no part of it yet.
   if (view.codec != request.codec) view.sent.clear();
   std::erase_if(view.sent,
                 [&view](const auto& sent) { return !view.watched.contains(sent.first); });
@@ -300,7 +300,7 @@ void Console::act(std::uint64_t id, const CommandRequest& request, const Now& no
   Outcome refusal = change_refusal(id, order.station);
   if (refusal.empty() && is_late(request.heard_utime_us, now, late_us))
     refusal = outcome::came_too_late();
-  // Neither is history: it would push out what has happened.
+  // Such refusals are not recorded: they would push real events out of the history.
   if (!refusal.empty()) return viewers_.answer(id, request.number, order.station, refusal);
   if (request.place) {
     const auto angles = aim_at_place(*site_.fields_of(order.station), *request.place);
@@ -440,7 +440,7 @@ std::optional<Outgoing> Console::next(std::uint64_t id, const Now& now) {
   return std::nullopt;
 }
 
-// The time that is shown: of a replay that of the recording.
+// The time that is shown: in a replay, that of the recording.
 void Console::add_time(Json& message, const Now& now) const {
   message["local_minute"] = now.minute_of_day;
   message["time_us"] = is_replay() ? replay_.state.at("at_us") : Json(now.utime_us);

@@ -124,7 +124,7 @@ std::string serving_problem(const ConsoleConfig& config, bool has_users) {
 bool is_own_host(const ConsoleConfig& config, const std::string& host) {
   const std::string name = host_of(host);
   if (name.empty()) return false;
-  // A name that somebody else controls is no IP address.
+  // Only a name, not an IP address, may be in somebody else's control.
   const bool is_v4 =
       std::ranges::all_of(name, [](unsigned char c) { return std::isdigit(c) != 0 || c == '.'; });
   const bool is_v6 = host.starts_with('[');

@@ -16,13 +16,13 @@ std::string without_numbers(std::string text) {
   return text;
 }
 
-// Alarms have their keys; other events are the same whatever their numbers.
+// Alarms are identified by their keys; other events by their texts without the numbers.
 std::string key_of(const Event& event) {
   const bool is_alarm = event.kind == "alarm" && !event.said.empty();
   return is_alarm ? event.said.key() : without_numbers(event.text);
 }
 
-// Whether an error is an alarm's sentence, or of the part that the alarm is about.
+// Whether an error repeats an alarm, or comes from the part that the alarm is about.
 bool is_about(const Event& error, const Event& alarm) {
   const std::string part = alarm.said.part();
   return without_numbers(error.text) == without_numbers(alarm.text) ||
@@ -44,8 +44,8 @@ std::deque<EventList::Kept>::iterator EventList::repeated(const Event& event,
   });
 }
 
-// Stations report a new alarm as their last error too, and what their device said of it; and why
-// they have refused a command.
+// Whether the error says nothing new. A station's last error may repeat a new alarm, what a device
+// said of it, or the reason why a command was refused.
 bool EventList::explains_another(const Event& error) const {
   if (error.kind != "error") return false;
   return std::ranges::any_of(events_, [&](const Kept& kept) {

@@ -27,7 +27,7 @@ WebResponse land_answer(const std::function<Json()>& made) {
     return land_said(200, made().dump());
   } catch (const std::invalid_argument& wrong) {
     return refused(409, wrong.what());
-  } catch (const std::exception& wrong) {  // in a thread of its own, where nobody else catches it
+  } catch (const std::exception& wrong) {  // in its own thread, nobody else would catch it
     return refused(500, wrong.what());
   }
 }

@@ -10,7 +10,7 @@
 namespace ols::console {
 namespace {
 
-constexpr std::size_t kMostSkylines = 200;  // as stations
+constexpr std::size_t kMostSkylines = 200;  // as many as stations
 
 WebResponse being_computed() { return land_said(202, Json{{"computing", true}}.dump()); }
 
@@ -52,9 +52,9 @@ WebResponse LandSkylines::compute(const LandTask& task) const {
 
 void LandSkylines::keep(const LandTask& task, WebResponse response) {
   const auto known = kept_.find(task.station);
-  // Unless another one has been asked for meanwhile.
+  // Dropped if a skyline from another place was asked for meanwhile.
   if (known == kept_.end() || known->second.camera_ecef != ecef_from_geodetic(task.camera)) return;
-  if (response.status == 500) {  // this time; the next one who asks may have it
+  if (response.status == 500) {  // it may succeed for the next one who asks
     kept_.erase(known);
   } else {
     known->second.response = std::move(response);

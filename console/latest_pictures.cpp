@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::int64_t kVideoIsAlive_us = 3'000'000;
 
-// Pictures of the video are larger and more; the preview is for stations without.
+// Video frames are larger and more frequent; the preview is for stations without video.
 bool is_preview_beside_video(const Picture& picture, const Picture& newest) {
   if (picture.is_video || !newest.is_video) return false;
   return utime_us(picture) - utime_us(newest) < kVideoIsAlive_us;

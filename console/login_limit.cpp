@@ -13,7 +13,7 @@ bool LoginLimit::Bucket::take(double most, double regained_s, double now_s) {
 }
 
 bool LoginLimit::admit(const std::string& address, double now_s) {
-  // Those that could try as often as a new one need not be remembered.
+  // An address that has regained all its tries is like a new one, and is forgotten.
   std::erase_if(addresses_, [now_s](const auto& known) {
     return now_s - known.second.at_s > kTries * kRegained_s;
   });

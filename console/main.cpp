@@ -128,7 +128,7 @@ class LiveSite : public Shown {
  private:
   using IncidentStore = ols::console::IncidentStore;
 
-  // Written here and now: they are rare, and small.
+  // Written at once and in this thread: incidents are rare and small.
   void keep_incidents(const ols::console::Now& now) {
     const ols::console::IncidentBook::News& news = console_.incident_news();
     const ols::console::IncidentBook& book = console_.incidents();
@@ -148,7 +148,7 @@ class LiveSite : public Shown {
   ols::AlarmJournal journal_;
 };
 
-// It has no bus: nothing that is said in a browser can reach a station.
+// A recording has no bus: nothing that is said in a browser can reach a station.
 class RecordedSite : public Shown {
  public:
   RecordedSite(const Arguments& arguments, ols::console::Console& console)
@@ -241,7 +241,8 @@ int main(int argc, char** argv) {
   auto* add = app.add_option("--add-user", arguments.add_user,
                              "Enter this user into the file of users, with a password from the "
                              "terminal or from standard input, and end");
-  app.add_option("--role", arguments.role, "Of that user: viewer, operator or admin")->needs(add);
+  app.add_option("--role", arguments.role, "Role of that user: viewer, operator or admin")
+      ->needs(add);
   if (const auto status = ols::parse_command_line(app, argc, argv, "ols-console")) return *status;
   return ols::run_service("ols-console", ols::InvalidArgument::kBadInput,
                           [&arguments] { return act(arguments); });

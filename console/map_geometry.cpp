@@ -84,7 +84,7 @@ Json grid_of(const std::vector<double>& box) {
   Span easting, northing;
   for (const double latitude : {box[1], (box[1] + box[3]) / 2, box[3]}) {
     for (const double longitude : {box[0], (box[0] + box[2]) / 2, box[2]}) {
-      // The zone's neighbours are gridded as this zone, by the difference from its middle.
+      // Corners in another zone do not count: only this zone is gridded.
       const Utm corner = utm_from_geodetic(geodetic(latitude, longitude)).position;
       if (corner.zone != middle.zone || corner.northern != middle.northern) continue;
       easting.add(corner.easting_m);

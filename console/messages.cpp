@@ -247,7 +247,7 @@ std::optional<std::pair<std::string, Json>> bearing_from(const BusMessage& messa
   const auto heard = wire::read<ols_msg::bearing_t>(kBearingChannel, message);
   if (!heard) return std::nullopt;
   const ols_msg::bearing_t& b = *heard;
-  if (b.detected) return std::nullopt;  // a station's line is that of the target that it follows
+  if (b.detected) return std::nullopt;  // a station's line is that of its followed target
   const double variance = (b.covariance_white_rad2[0] + b.covariance_systematic_rad2[0] +
                            b.covariance_white_rad2[2] + b.covariance_systematic_rad2[2]) /
                           2;

@@ -42,7 +42,7 @@ Message message_of(const Incident& incident) {
 
 bool IncidentSender::send(LcmBus& bus, const IncidentWatch& watch, const IncidentBook::News& news,
                           std::int64_t utime_us) {
-  // A clock that was set back must not silence them.
+  // A clock that was set back must not stop the repetition.
   const bool is_again = std::llabs(utime_us - repeated_us_) >= kAgain_us;
   if (is_again) repeated_us_ = utime_us;
   bool is_sent = true;

@@ -71,7 +71,7 @@ std::vector<std::uint8_t> encoded(const Message& message) {
 bool begins_a_stream(std::span<const std::uint8_t> unit) {
   constexpr std::array<std::uint8_t, 3> kStart{0, 0, 1};
   constexpr int kTypeBits = 0x1f, kSequenceParameters = 7;
-  // Not std::ranges::search: clang 14 cannot read what it returns.
+  // Not std::ranges::search: clang 14 does not compile the range that it returns.
   const auto found = std::search(unit.begin(), unit.end(), kStart.begin(), kStart.end());
   if (unit.end() - found <= std::ssize(kStart)) return false;
   return (found[std::ssize(kStart)] & kTypeBits) == kSequenceParameters;

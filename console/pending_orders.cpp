@@ -14,7 +14,7 @@ void PendingOrders::hear(const std::string& station, bool is_stopped) {
   stopped_[station] = is_stopped;
 }
 
-// A stop is confirmed when the unit stands, not before: it may cross another order.
+// A stop is confirmed only when the unit stands: it may have crossed another order on the way.
 void PendingOrders::hear(const wire::Reply& reply) {
   const auto known = stopped_.find(reply.station);
   if (known == stopped_.end()) return;
@@ -104,7 +104,7 @@ std::vector<wire::Order> PendingOrders::due(double now_s) {
   for (Pending& pending : pending_) {
     const bool is_stop = pending.order.kind == Kind::kStop;
     const bool again = is_stop && now_s >= pending.sent_s + wire::kStopAgain_s;
-    // The answer to the rate before leaves the one that has replaced it to be sent.
+    // A reply to the previous rate must not keep its replacement from being sent.
     const bool is_sent = pending.sent_s >= 0.0;
     if (pending.is_watched || (is_sent && (pending.reply || !again))) continue;
     pending.sent_s = now_s;
@@ -115,7 +115,7 @@ std::vector<wire::Order> PendingOrders::due(double now_s) {
   return orders;
 }
 
-// Those who have joined a stop later wait for longer.
+// Each has its own time-out, so those who join a stop later wait for longer.
 std::vector<Verdict> PendingOrders::finished(double now_s) {
   std::vector<Verdict> verdicts;
   std::erase_if(pending_, [&](Pending& pending) {

@@ -117,7 +117,7 @@ Json SiteLand::profile(const LandTask& task) const {
                       height_of(folder_.terrain->top(at.latitude_rad, at.longitude_rad)),
                       rounded(at.height_m, 1)});
   }
-  // By the map of this direction alone: as the fusion and the skyline see it.
+  // With a map of this direction only, as the fusion and the skyline have it.
   constexpr double kSector_rad = radians(0.2);
   const land::HorizonMap map(*folder_.terrain, task.camera,
                              {.reach_m = sight.distance_m,

@@ -86,8 +86,8 @@ void SiteState::set_incident(std::uint64_t number, const Json& incident) {
   incidents_.set(id, incident, 0.0, revision_);
 }
 
-// Ids of another process mean other objects. One that speaks while the fusion is still heard is no
-// restarted one: a second, or a forged one.
+// The ids of another fusion process mean other objects. A process that appears while the known
+// fusion is still heard is a second or a forged one, and no restarted fusion.
 bool SiteState::is_of_fusion(std::int64_t boot_id, const Now& now) {
   const bool is_heard = now.monotonic_s < fusion_heard_s_ + kFusionGone_s;
   if (boot_id != fusion_boot_ && fusion_boot_ != 0 && is_heard) return false;

@@ -21,7 +21,7 @@ void UnitChain::add(const Picture& unit, std::uint64_t number) {
 std::string UnitChain::message_after(std::uint64_t had) const {
   const auto had_one =
       std::ranges::find_if(units_, [had](const Unit& unit) { return unit.number == had; });
-  // A number of another chain: from the key frame on.
+  // If the number is of another chain, all from the key frame on.
   const auto first = had_one == units_.end() ? units_.begin() : std::next(had_one);
   Json header = header_, units = Json::array();
   std::string bytes;

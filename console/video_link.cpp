@@ -13,8 +13,8 @@ namespace asio = boost::asio;
 namespace {
 
 constexpr double kRetry_s = 1.0;
-// For a frame that the camera has not exposed yet; one that is gone costs a new connection now and
-// then.
+// Long enough for a frame that the camera has not exposed yet. A peer that is gone costs a new
+// connection each time.
 constexpr double kPatience_s = 10.0;
 constexpr std::uint32_t kLargestAnswer_bytes = 8U << 20U;
 

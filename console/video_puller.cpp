@@ -30,7 +30,7 @@ struct VideoPuller::Impl {
     thread = std::jthread([this] { io.run(); });
   }
 
-  // --- of the pulling thread
+  // --- used by the pulling thread only
 
   void follow(const WatchedVideos& addresses) {
     std::erase_if(links, [&](auto& pulled) {
@@ -69,7 +69,7 @@ struct VideoPuller::Impl {
     std::vector<Picture>& kept = newest[video];
     const bool is_full = kept.size() >= UnitChain::kMostUnits;
     if (video.codec == Codec::kJpeg || is_full) kept.clear();
-    // Without these the next ones mean nothing: another connection begins with a key frame.
+    // The next frames cannot be decoded without these: a new connection begins with a key frame.
     if (video.codec == Codec::kH264 && is_full) return std::nullopt;
     kept.push_back(std::move(*picture));
     return utime_us;

@@ -20,7 +20,7 @@ WebResponse json(int status, const Json& body) {
 
 WebResponse refused(int status, const std::string& why) { return json(status, {{"error", why}}); }
 
-// What the page says by its row of the table.
+// A refusal whose words the page has in its own language.
 WebResponse refused(int status, const Outcome& why) {
   return json(status, {{"error", why.text}, {"refusal", why}});
 }
@@ -56,7 +56,7 @@ WebResponse incident(const Console& console, std::string_view path) {
   return {200, "image/jpeg", *jpeg, {{"Cache-Control", "no-store"}}};
 }
 
-// What of a path stands behind escapes, as %20.
+// Decodes escapes, such as %20.
 std::optional<std::string> unescaped(std::string_view text) {
   std::string plain;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -75,7 +75,7 @@ std::optional<std::string> unescaped(std::string_view text) {
   return plain;
 }
 
-// "/ZOOM/COLUMN/ROW" off the end of a path.
+// Takes "/ZOOM/COLUMN/ROW" off the end of a path.
 bool take_tile(std::string_view& path, TileAddress& tile) {
   for (int* number : {&tile.row, &tile.column, &tile.zoom}) {
     const auto slash = path.rfind('/');
@@ -136,7 +136,7 @@ std::optional<Session> WebApi::who(const WebRequest& request, const Now& now) co
   return sessions_.find(token_in(request.cookies), now.monotonic_s);
 }
 
-// Browsers name the page that a request comes from; programs that are none do not.
+// Browsers state the page that a request comes from; other programs do not.
 std::optional<WebResponse> WebApi::foreign(const WebRequest& request) const {
   if (!is_own_host(config_, request.host)) {
     return refused(403, "this console is not called " + request.host +
@@ -261,7 +261,7 @@ WebAnswer WebApi::post(const WebRequest& request, const Now& now) {
   if (request.path == "/api/users") return enter_user(request, now);
   if (request.path != "/api/stop") return refused(404, "there is no " + request.path);
   if (console_.is_replay()) return refused(409, console_.bus_trouble());
-  // The page says which browser it is in; whatever it says, the stop is carried out.
+  // The page says which browser it is in. The stop is carried out whatever it says.
   const Json body = Json::parse(request.body, nullptr, false);
   const Json viewer = body.is_object() ? body.value("viewer", Json(0)) : Json(0);
   const Person by =
@@ -274,7 +274,7 @@ WebAnswer WebApi::post(const WebRequest& request, const Now& now) {
   return json(200, said);
 }
 
-// Why this person may not say who logs in; empty: may.
+// Why this person may not manage users; empty: may.
 Outcome WebApi::admin_problem(const WebRequest& request, const Now& now) const {
   if (is_open()) return outcome::no_users_yet();
   const auto session = who(request, now);
@@ -318,7 +318,7 @@ WebAnswer WebApi::enter_user(const WebRequest& request, const Now& now) {
   return task;
 }
 
-// The sessions of whom it is about end.
+// Also ends the sessions of the user who is changed.
 WebResponse WebApi::change_users(Users users, const std::string& by, const std::string& of,
                                  const Alarm& what, const Now& now) {
   if (const auto problem = users_problem(users); !problem.empty()) return refused(409, problem);
@@ -339,7 +339,7 @@ WebResponse WebApi::finish(const UserTask& task, const std::string& hash, const 
   return change_users(std::move(users), task.by, task.name, note::enters_user(task.name), now);
 }
 
-// A session, one's own; a user; or all sessions of a user.
+// Removes the caller's session, a user, or all sessions of a user.
 WebAnswer WebApi::remove(const WebRequest& request, const Now& now) {
   if (request.path == "/api/session") {
     sessions_.end(token_in(request.cookies));
@@ -373,7 +373,7 @@ WebAnswer WebApi::answer(const WebRequest& request, const Now& now) {
   if (request.method == "GET" || request.method == "HEAD") return get(request, now);
   if (request.method == "DELETE") return remove(request, now);
   if (request.method != "POST") return refused(405, "this method is not known here");
-  // A form of a foreign page could send other types without the browser asking first.
+  // A form on a foreign page could send other types without a preflight request.
   if (!request.content_type.starts_with("application/json")) {
     return refused(415, "the content must be application/json");
   }

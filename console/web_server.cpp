@@ -63,11 +63,11 @@ struct WebServer::Shared {
   MapLibrary maps;        // of the thread of `readers`
   LandSkylines skylines;  // computed in the thread of `skyliners`
   SiteLand land;          // of the thread of `surveyors`
-  // Last: they end before what their tasks use.
+  // Declared last, so that they end before what their tasks use.
   net::thread_pool hashers{1}, readers{1}, surveyors{1}, skyliners{1};
 
   void accept();
-  // Computes elsewhere, then calls back here. False if too many wait already.
+  // Computes in another thread, then calls back in this one. False if too many wait already.
   template <class Work, class Done>
   bool hash(Work work, Done done) {
     if (hashing >= kMostHashing) return false;
@@ -80,7 +80,7 @@ struct WebServer::Shared {
     });
     return true;
   }
-  // At once; what is not known yet is computed elsewhere.
+  // Answers at once; a skyline that is not known yet is computed in another thread.
   WebResponse skyline(const LandTask& task) {
     auto answer = skylines.answer(task);
     if (!answer.begins) return std::move(answer.response);
@@ -218,7 +218,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection<Stream
     if (!is_begun) refuse(503, "too many maps and heights are asked for");
   }
 
-  // In the words of the other refusals; the connection ends.
+  // Answers in the form of the other refusals, and ends the connection.
   void refuse(int status, const std::string& why) {
     keep_alive_ = false;
     respond({status, "application/json", Json{{"error", why}}.dump(), {}});

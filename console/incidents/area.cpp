@@ -23,7 +23,7 @@ constexpr int kMostClasses = 20;
 constexpr double kMostLatitude_deg = 85.0;  // that of the map
 constexpr double kMostExtent_deg = 10.0;
 constexpr double kLeastHeight_m = -1000.0, kMostHeight_m = 100'000.0;
-// Below every real deviation; keeps the whitening of a covariance of zero finite.
+// Smaller than any real variance; keeps the whitening of a covariance of zero finite.
 constexpr double kLeastVariance_m2 = 1e-4;
 
 [[noreturn]] void refuse(const std::string& what) { throw std::invalid_argument(what); }
@@ -40,7 +40,7 @@ double number(const Json& value, const std::string& what, double least, double g
   refuse(what + " must be a number within " + Json(least).dump() + " and " + Json(greatest).dump());
 }
 
-// Also with a space inside: it is for people.
+// Spaces inside are allowed: people read the name.
 std::string name_of(const Json& value) {
   const std::string name = value.is_string() ? value.get<std::string>() : "";
   const bool is_good = !name.empty() && name.size() <= kMostNameBytes && plain_text(name) == name &&

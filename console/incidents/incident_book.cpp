@@ -35,7 +35,7 @@ std::string sentence(const Incident& incident) {
 
 }  // namespace
 
-// A tentative one may be none.
+// Tentative targets are not watched: they may not exist.
 std::optional<WatchedTarget> watched(const TargetHeard& target) {
   const Json& fields = target.fields;
   if (target.what != TargetHeard::What::kPosition || fields.value("state", "") == "tentative") {
@@ -90,7 +90,7 @@ void IncidentBook::turn(double now_s,
   }
 }
 
-// One that begins has no picture yet; the station's next one will do.
+// An incident begins without a picture, and gets the next one of its stations.
 void IncidentBook::add_pictures(const std::function<const Picture*(const std::string&)>& newest) {
   for (const auto& [number, incident] : watch_.incidents()) {
     if (!incident.is_inside() || !incident.picture.is_null()) continue;

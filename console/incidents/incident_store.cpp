@@ -39,7 +39,7 @@ std::string text_of(const char* key, Json part) {
          "\n";
 }
 
-// Of NUMBER.json; 0: it is no incident's.
+// The number of a file NUMBER.json; 0 for any other file.
 std::uint64_t number_of(const fs::path& file) {
   const std::string stem = file.stem().string();
   std::uint64_t number = 0;
@@ -120,7 +120,7 @@ void IncidentStore::keep(const IncidentBook& book, const IncidentBook::News& new
   if (unsaved_.areas && is_written([&] { write(book.watch().areas()); })) unsaved_.areas = false;
   std::erase_if(unsaved_.forgotten,
                 [&](std::uint64_t number) { return is_written([&] { remove(number); }); });
-  // What has been forgotten meanwhile is done, too.
+  // An incident that was forgotten meanwhile needs no file.
   std::erase_if(unsaved_.pictures, [&](std::uint64_t number) {
     const std::string* jpeg = book.picture(number);
     return jpeg == nullptr ||

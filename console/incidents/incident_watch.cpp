@@ -163,7 +163,8 @@ void IncidentWatch::set_picture(std::uint64_t number, const nlohmann::json& pict
   changes_.changed.insert(number);
 }
 
-// The oldest of those that matter least: it is over, then dismissed, then confirmed.
+// Forgets the oldest of those that matter least: those that are over before the others, and of
+// these the dismissed, then the confirmed ones.
 void IncidentWatch::forget_one() {
   const auto worth = [](const auto& entry) {
     const Incident& incident = entry.second;

@@ -44,7 +44,7 @@ Json corners(const Json& polygon, double sd_m, std::size_t feature) {
   return cell;
 }
 
-// The parts of a cell: two of one across the date line; none of a station.
+// A cell's polygons: two if it crosses the date line; none for a station.
 Json polygons(const Json& feature, std::size_t index) {
   const auto geometry = feature.find("geometry");
   if (geometry == feature.end() || !geometry->is_object()) refuse(index, "has no geometry");

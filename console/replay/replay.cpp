@@ -20,8 +20,8 @@ constexpr double kMostTurn_s = 0.5;         // a process that was stopped goes o
 
 Now of_log(std::int64_t utime_us) { return {static_cast<double>(utime_us) * 1e-6, utime_us}; }
 
-// What the log has is shown as the console hears it on the bus.
-// Whether it is understood.
+// Passes a recorded message to the console as if it came from the bus; returns whether it was
+// understood.
 bool hear(Console& console, const BusMessage& message, Timeline* timeline) {
   const Now now = of_log(message.received_utime_us);
   if (const auto station = station_from(message)) {
@@ -56,7 +56,7 @@ bool is_shown(const std::string& channel) {
          std::ranges::any_of(kShown, [&](std::string_view c) { return channel.starts_with(c); });
 }
 
-// Ages and outcomes, at each tenth of a second.
+// Updates ages and outcomes at each tenth of a second.
 void turn_if_due(Console& console, std::int64_t before_us, std::int64_t now_us) {
   constexpr std::int64_t kPeriod_us = 100'000;
   if (before_us / kPeriod_us != now_us / kPeriod_us)
@@ -140,7 +140,7 @@ void Replay::play(double elapsed_s) {
     return;
   }
   if (!playback_.is_playing) return;
-  // Where a machine cannot keep up with the speed, time waits for it.
+  // If the machine cannot keep up with the speed, the time of the replay waits.
   if (waiting_ && waiting_->received_utime_us <= now_us) {
     if (!catch_up(console_, now_us)) return;
   }
