@@ -33,7 +33,7 @@ void BusInbox::put(std::span<const std::uint8_t> datagram, std::int64_t utime_us
     return;
   }
   const auto& whole = std::get<BusDatagram>(parsed);
-  // A station would else verify the bearings of all others.
+  // Otherwise a station would verify the bearings of all other stations.
   if (!is_wanted(whole.channel)) return;
   // Not under the lock: to verify takes longer than to queue, and the owner must not wait for it.
   const trust::Judgement judgement = judge(whole, utime_us);

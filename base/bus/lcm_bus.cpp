@@ -38,7 +38,7 @@ std::unique_ptr<MulticastSocket> open_socket(const std::string& url) {
 // As multicast does, it gives a sender its own messages too.
 class LcmBus::InProcess {
  public:
-  // Null: of no name.
+  // Null if the name is empty.
   static std::shared_ptr<InProcess> of(const std::string& name) {
     static std::mutex mutex;
     static std::map<std::string, std::weak_ptr<InProcess>> all;
@@ -180,7 +180,7 @@ int LcmBus::handle(int timeout_ms) {
   return handled;
 }
 
-// The sequence must grow within the boot, also over a new connection.
+// The time is the sequence, which must grow within a boot, also over a new connection.
 void LcmBus::tell_what_is_signed() {
   if (trust_ == nullptr) return;
   const std::int64_t utime_us = clock_utime_us();

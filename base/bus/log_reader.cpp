@@ -95,7 +95,7 @@ std::optional<BusMessage> LogReader::take(std::int64_t utime_us, BusMessage mess
   message_offset_ = offset();
   begin_ += bytes;
   ++records_;
-  is_cut_off_ = false;  // the record before claimed too much, but this one is behind it
+  is_cut_off_ = false;  // the previous record claimed too much, but another one follows
   utime_us_ = is_timeline ? std::max(utime_us, utime_us_) : utime_us;
   if (!message.channel.starts_with(kOurChannels)) return std::nullopt;
   message.received_utime_us = utime_us_;
@@ -103,7 +103,7 @@ std::optional<BusMessage> LogReader::take(std::int64_t utime_us, BusMessage mess
   return message;
 }
 
-// Another file is not to look like a log in which nothing happened.
+// A file of another kind must not pass for a log in which nothing happened.
 void LogReader::check_end() const {
   if (messages_ > 0) return;
   if (records_ > 0) {

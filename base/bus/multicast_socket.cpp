@@ -82,7 +82,7 @@ std::optional<std::span<const std::uint8_t>> MulticastSocket::receive(
   return buffer.first(static_cast<std::size_t>(bytes));
 }
 
-// The kernel tells its count with each datagram, once it has dropped one.
+// Once it has dropped a datagram, the kernel reports its count with each one.
 void MulticastSocket::count_dropped(msghdr& message) {
   const cmsghdr* told = CMSG_FIRSTHDR(&message);
   if (told == nullptr || told->cmsg_level != SOL_SOCKET || told->cmsg_type != SO_RXQ_OVFL) return;

@@ -78,7 +78,7 @@ Row kind_row(const Section& section) {
   return word_row(kKind, 0, kinds, section.choose, "Its kind, on which the other keys depend.");
 }
 
-// The section as one of its forms has it.
+// The section in one of its forms.
 Section formed(const Section& section, std::size_t form) {
   Section whole = section.forms.at(form);
   whole.name = section.name;
@@ -94,7 +94,7 @@ std::size_t form_of(const Section& section, const std::string& kind) {
   return form == section.forms.end() ? 0 : static_cast<std::size_t>(form - section.forms.begin());
 }
 
-// As it is called in this table.
+// The section's name in this table: the present or the former one.
 std::string name_in(const Section& section, const ConfigTable& parent) {
   if (section.former_name.empty() || !parent.has(section.former_name)) return section.name;
   if (parent.has(section.name)) {
@@ -128,7 +128,7 @@ bool any_below(const Values& values, const std::string& path) {
 void rows_as_example(std::ostream& out, const Section& section, const std::string& path,
                      Values& values);
 
-// In the form that the values have.
+// In the form to which the values belong.
 void form_as_example(std::ostream& out, const Section& section, const std::string& path,
                      Values& values) {
   const std::string former = full_path(path, section.former_name);

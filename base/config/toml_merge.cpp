@@ -47,7 +47,7 @@ class Lines {
   std::vector<std::string> lines_;
 };
 
-// The last line that a table's own values stand in; its header's where it has none.
+// The last line of a table's own values, or of its header if it has none.
 std::size_t last_line(const toml::table& table) {
   std::size_t last = table.source().begin.line;
   for (const auto& [key, node] : table) {

@@ -44,7 +44,7 @@ std::string link_target(const std::string& path) {
   return target.string();
 }
 
-// A device or a pipe would be replaced by a file.
+// Refuses devices and pipes: a file would replace them.
 std::string replaceable(const std::string& path) {
   std::error_code none;
   if (fs::exists(path, none) && !fs::is_regular_file(path, none)) {
@@ -63,7 +63,7 @@ void keep_owner_and_mode(const std::string& old_path, const std::string& new_pat
   static_cast<void>(::chmod(new_path.c_str(), old.st_mode & kPermissions));
 }
 
-// Read by a signal handler: names without a free entry are left to their destructor.
+// Read by a signal handler. Without a free entry, only its destructor removes a file.
 std::array<std::atomic<const char*>, 16> temporary_files;
 static_assert(std::atomic<const char*>::is_always_lock_free);
 

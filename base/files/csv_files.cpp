@@ -64,8 +64,8 @@ SightedRow sighted_row(const Row<5>& row) {
   return sighted;
 }
 
-// Seconds or milliseconds of any year to come would be microseconds of the 1970s, before there
-// was a GPS to measure them.
+// Seconds or milliseconds would be read as microseconds of the 1970s, before there was a GPS to
+// measure them.
 std::int64_t utime_of(const Row<7>& row) {
   constexpr std::int64_t kGreatest = 9'000'000'000'000'000;  // differences do not overflow
   constexpr std::int64_t kLeast = 315'964'800'000'000;       // 1980-01-06

@@ -1,4 +1,4 @@
-// The fields say what a place in the source does not.
+// The fields of an event say more than a place in the source.
 #define SD_JOURNAL_SUPPRESS_LOCATION
 #include "base/journal/journal.h"
 
@@ -14,7 +14,7 @@
 namespace ols {
 namespace {
 
-// Who started the program may have given it another standard error output than systemd gave itself.
+// Whoever started the program may have redirected the standard error that systemd provided.
 bool is_stderr_the_journal() {
   const char* stream = std::getenv("JOURNAL_STREAM");
   struct stat file {};

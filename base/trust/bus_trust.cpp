@@ -17,7 +17,7 @@ namespace ols::trust {
 namespace {
 
 constexpr auto kLook = std::chrono::seconds(1);
-constexpr int kKeepEvery = 5;  // looks
+constexpr int kKeepEvery = 5;  // looks, from one writing of the marks to the next
 constexpr std::size_t kLargestFile = 20'000'000;
 
 std::string from_environment(const char* name) {
@@ -76,7 +76,7 @@ SiteSettings settings_at_start(const TrustConfig& config, const Environment& env
     const MemberKey key = read_member_key(key_path(config, environment, name));
     return SiteKeeper(key.root, site_files(config, environment, name), check).settings();
   } catch (const std::exception&) {
-    return {};  // BusTrust::open() says it
+    return {};  // BusTrust::open() reports it
   }
 }
 
@@ -201,8 +201,9 @@ BusTrust::Learned BusTrust::judge_and_learn(std::string_view channel, Bytes mess
   return {verdict, list_.number};
 }
 
-// Whoever has the site's secret may tell the list, because that is believed by the root's signature
-// alone. A new member knows nobody yet; one that was off knows nobody whose key was exchanged.
+// Anybody who has the site's secret may pass the list on, because only the root's signature on it
+// counts. A new member knows no other member yet, and one that was off knows no key that was
+// exchanged since.
 bool BusTrust::is_of_site(std::string_view channel, Bytes message) const {
   const auto split = split_trailer(message);
   return split && has_site_tag(key_.file.site_key, channel, *split);
@@ -232,7 +233,8 @@ Judgement BusTrust::judge(std::string_view channel, Bytes message, std::int64_t 
   return judgement;
 }
 
-// A member's is said when no root has signed it; a stranger's is counted as its message is.
+// A list that no root has signed is reported if its sender is a member; a stranger's is only
+// counted, with its message.
 bool BusTrust::hear_list(Bytes payload, bool from_member, double now_s) {
   const auto text = list_from(payload);
   if (!text) return false;
@@ -346,7 +348,7 @@ void BusTrust::look_at_file() {
     if (text != files_.read) offer(text, files_.list);
     files_.read = text;
   } catch (const std::system_error& problem) {
-    // One that never was there: the list is heard instead.
+    // If the file never existed, the list is received from the bus instead.
     if (!files_.read.empty()) trouble = problem.what();
   } catch (const std::exception& problem) {
     trouble = problem.what();

@@ -14,8 +14,8 @@ constexpr double kFrameParts_Hz = 2000.0;  // a whole frame is sent as fast as t
 constexpr double kSite_Hz = 20'000.0;      // slews to a thousand stations
 constexpr double kTargets_Hz = 2000.0;
 constexpr double kHand_Hz = 200.0;  // of a person's orders, to all stations together
-// To one station. The fusion is configured for 100 slews/s at most; a joystick sends ten orders a
-// second, to the unit and to the lens; a person clicks.
+// To one station. The fusion is configured for 100 slews/s at most. A joystick sends ten orders a
+// second, to the unit and to the lens. A person's clicks are fewer.
 constexpr double kSlew_Hz = 120.0, kJoystick_Hz = 50.0, kClick_Hz = 20.0;
 constexpr double kCues_Hz = 2000.0;
 constexpr double kSimulator_Hz = 20'000.0;
@@ -51,7 +51,7 @@ constexpr auto kRules = numbered(std::array{
     command(kDesignateChannel, Role::kOperator, kHand_Hz, kClick_Hz),
     command(kRecordChannel, Role::kOperator, kHand_Hz, kClick_Hz),
     command(kFrameRequestChannel, Role::kOperator, kHand_Hz, kClick_Hz),
-    // Between a procedure and its person: the station takes no part.
+    // Between a procedure and its operator: the station takes no part.
     ChannelRule{kProcedureChannel, true, Role::kOperator, HeadForm::kStationFirst, false, true,
                 kPictures_Hz},
     ChannelRule{kProcedureAnswerChannel, true, Role::kOperator, HeadForm::kBootFirst, false, true,
@@ -60,7 +60,7 @@ constexpr auto kRules = numbered(std::array{
     of_fusion(kPaperTargetChannel, kTargets_Hz),
     of_fusion(kFusionStatusChannel, kStatus_Hz),
     ChannelRule{kCueChannel, false, Role::kCue, HeadForm::kBootFirst, false, true, kCues_Hz},
-    // To the fusion, which needs no boot named: an allowance ends with its cue.
+    // Orders to the fusion name no boot: an allowance ends with its cue anyway.
     ChannelRule{kCueOrderChannel, false, Role::kOperator, HeadForm::kBootFirst, false, true,
                 kHand_Hz},
     ChannelRule{kCueReplyChannel, false, Role::kFusion, HeadForm::kStationFirst, false, true,

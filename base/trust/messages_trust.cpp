@@ -17,7 +17,7 @@ Message telling(const std::string& text, std::int64_t boot_id, std::int64_t sequ
   return message;
 }
 
-// As decode_exactly() of base/bus/lcm_bus.h, which stands above this.
+// Like decode_exactly() of base/bus/lcm_bus.h, which this library cannot include.
 template <class Message>
 bool decode(Bytes payload, Message& message) {
   const int size = static_cast<int>(payload.size());

@@ -34,7 +34,7 @@ std::int64_t SiteKeeper::number() const {
   return settings_.number;
 }
 
-// Throws ConfigError with the reason for which the settings in force stay.
+// Throws ConfigError with the reason why the settings in force stay.
 void SiteKeeper::offer(const std::string& text, const std::string& name) {
   {
     const std::lock_guard lock(mutex_);
@@ -56,7 +56,8 @@ void SiteKeeper::offer(const std::string& text, const std::string& name) {
   text_ = text;
 }
 
-// Those in force are told every two seconds: a refusal must outlast a few of them to be seen.
+// The settings in force are repeated every two seconds. A refusal of others must outlast a few
+// repetitions to be seen.
 void SiteKeeper::hear(const std::string& text) {
   constexpr int kCalm = 5;
   std::string trouble;
@@ -79,7 +80,7 @@ void SiteKeeper::read_given() {
     read_ = text;
     offer(text, files_.given);
   } catch (const std::system_error& problem) {
-    // One that never was there: the settings are heard instead.
+    // If the file never existed, the settings are received from the bus instead.
     const bool never_was = problem.code() == std::errc::no_such_file_or_directory && read_.empty();
     if (!never_was) trouble = problem.what();
   } catch (const ConfigError& problem) {

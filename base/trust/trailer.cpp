@@ -7,7 +7,7 @@ namespace ols::trust {
 namespace {
 
 constexpr std::string_view kDomain = "OLS-bus-v1";
-// Version, flags, two zeros, magic: all that no signature covers has one valid value.
+// Version, flags, two zeros, magic. No signature covers them, so only one value is valid.
 constexpr std::array<std::uint8_t, 8> kEnd{1, 0, 0, 0, 'O', 'L', 'S', 'T'};
 
 void append(std::vector<std::uint8_t>& bytes, Bytes more) {

@@ -32,7 +32,7 @@ Member read_member(ConfigTable& table) {
   member.name = read_name(table, "name");
   const std::string word = read_name(table, "role");
   member.role = role_from(word).value_or(Role::kUnknown);
-  // A newer list must stay readable: who is revoked in it matters more than who is new.
+  // A list of a newer version must stay readable: its revocations matter more than its new roles.
   if (member.role == Role::kUnknown) member.unknown_role = word;
   member.key = read_hex(table, "key");
   member.revoked = table.boolean("revoked", false);
@@ -52,7 +52,7 @@ TrustList read_body(const std::string& body, const std::string& name) {
   for (ConfigTable* table : root.tables("member")) {
     list.members.push_back(read_member(*table));
     const Member& member = list.members.back();
-    // One that lost its key has a revoked entry and a new one.
+    // A member that has lost its key has a revoked entry and a new one.
     if (!member.revoked && !names.insert(member.name).second) {
       throw table->error("name", "\"" + member.name + "\" is there twice");
     }

@@ -8,7 +8,7 @@
 namespace ols::trust {
 namespace {
 
-constexpr double kStops_Hz = 500.0;  // each who stops a station repeats it 50 times a second
+constexpr double kStops_Hz = 500.0;  // each person who stops a station repeats it 50 times a second
 
 std::vector<RateLimit> fresh_rates() {
   std::vector<RateLimit> rates;
@@ -16,7 +16,7 @@ std::vector<RateLimit> fresh_rates() {
   return rates;
 }
 
-// Whether a station whose clock may be wrong speaks of itself: of its state, or of an order.
+// Whether a station reports of itself, of its state or of an order, where its clock may be wrong.
 bool is_own_account(const ChannelRule& rule) {
   return rule.name == kStatusChannel || rule.name == kReplyChannel;
 }
@@ -56,7 +56,7 @@ struct Verifier::Judged {
   std::string_view channel_name;
   Arrival arrival;
   SignedMessage message{};
-  std::vector<std::uint8_t> text{};  // that is signed, and the signature: what the tag covers
+  std::vector<std::uint8_t> text{};  // the signed text and the signature: what the tag covers
   Known* sender = nullptr;
   Channel channel{};
   MessageHead head{};
@@ -115,8 +115,8 @@ std::optional<Distrust> Verifier::judge_origin(Judged& judged) {
   return std::nullopt;
 }
 
-// An order may name no boot when its sender has not heard the station yet. The station obeys stops
-// alone of these, and answers the others: from the answer the sender learns the boot.
+// An order may name no boot if its sender has not heard the station yet. Of these, the station
+// obeys only stops. It answers the others, and the answer tells the sender the boot.
 std::optional<Distrust> Verifier::judge_address(Judged& judged) const {
   const bool mine = judged.channel.rule->is_command && !config_.station.empty() &&
                     judged.channel.station == config_.station;
@@ -133,7 +133,7 @@ bool Verifier::is_fresh(const Judged& judged) const {
          std::abs(judged.head.utime_us - judged.arrival.utime_us) <= config_.clock_tolerance_us;
 }
 
-// What names this boot is fresh by that; its lease is the station's to judge.
+// An order that names this boot is fresh by that; the station judges its lease.
 std::optional<Distrust> Verifier::judge_time(const Judged& judged) const {
   const ChannelRule& rule = *judged.channel.rule;
   const bool may_be_stale =
@@ -152,9 +152,9 @@ bool Verifier::stops(const Judged& judged) const {
          config_.is_stop(judged.message.payload);
 }
 
-// Each run of ols-ctl is a boot, so that boots are soon forgotten; a stop of now must not be
-// refused for what a forgotten one may have said later. Nor the status of a station without its
-// clock.
+// Each run of ols-ctl is a boot, so boots are soon forgotten. A stop must not be refused because a
+// forgotten boot may have sent something later; nor must the status of a station whose clock is not
+// set.
 bool Verifier::is_replayed(const Judged& judged) const {
   const KeyId& key = judged.message.trailer.key;
   const std::string channel(judged.channel_name);
@@ -164,16 +164,16 @@ bool Verifier::is_replayed(const Judged& judged) const {
   return !may_be_earlier || marks_.is_heard(key, channel, judged.head);
 }
 
-// The stamp of a station whose clock is not set says nothing of time: once its boot is forgotten, a
-// stamp from the future must not make later messages look stale.
+// The stamp of a station whose clock is not set means nothing: once its boot is forgotten, a stamp
+// from the future must not make later messages look stale.
 void Verifier::note(const Judged& judged) {
   MessageHead head = judged.head;
   if (is_own_account(*judged.channel.rule) && !is_fresh(judged)) head.utime_us = 0;
   marks_.note(judged.message.trailer.key, std::string(judged.channel_name), head);
 }
 
-// That its sender must keep: of the kind, and towards the station. Stops have a limit of their own,
-// so that no flood of other orders uses it up.
+// The rate limits that the message counts for: that of its kind, and that towards its station.
+// Stops have a limit of their own, so that a flood of other orders does not use it up.
 std::vector<RateLimit*> Verifier::rates_of(const Judged& judged) const {
   const ChannelRule& rule = *judged.channel.rule;
   RateLimit& of_kind = judged.sender->rates[rule.index];
