@@ -30,8 +30,8 @@ std::string word(const Json& object, const char* key) {
   return text;
 }
 
-// The bound of 95 % that a category stands for (ICAO Doc 9871; RTCA DO-260B, NACp) is 2.45 sigmas
-// of an axis.
+// The bound of 95 % that a category stands for (ICAO Doc 9871; RTCA DO-260B, NACp) is 2.45 times
+// the sigma of one axis.
 std::optional<double> sd_of_category(const std::optional<double>& nac_p) {
   static constexpr std::array<double, 12> kBound_m{0.0,   18520.0, 7408.0, 3704.0, 1852.0, 926.0,
                                                    555.6, 185.2,   92.6,   30.0,   10.0,   3.0};
@@ -47,7 +47,7 @@ std::array<double, 3> velocity(double speed_kt, double track_deg, double climb_f
 
 std::string place_less(const Json& one) { return word(one, "hex") + ": no height"; }
 
-// Nothing where no place is known; those are most of a busy receiver's.
+// nullopt: no position; so it is for most aircraft of a busy receiver.
 std::optional<Reading> reading_of(const Json& one, double now_s) {
   const auto latitude = number(one, "lat"), longitude = number(one, "lon"),
              seen_s = number(one, "seen_pos");

@@ -30,7 +30,7 @@ struct Event {
 
 using Attributes = std::map<std::string, std::string, std::less<>>;
 
-// The elements that count, wherever in the event they stand.
+// The elements that count, wherever they are in the event.
 struct Elements {
   std::map<std::string, Attributes, std::less<>> first;
   XML_Parser parser = nullptr;
@@ -46,7 +46,7 @@ void take_element(void* user, const XML_Char* name, const XML_Char** attributes)
   }
 }
 
-// Entities of its own are nothing that an event needs.
+// No event needs entities of its own.
 void refuse_doctype(void* user, const XML_Char*, const XML_Char*, const XML_Char*, int) {
   XML_StopParser(static_cast<Elements*>(user)->parser, XML_FALSE);
 }

@@ -21,8 +21,8 @@ bool Framer::next_line(std::string& message) {
   return true;
 }
 
-// An event may also end with "/>", but one without a <point> is of no use to us: it goes with the
-// next one, which is then malformed.
+// An event may also end with "/>", but then it has no <point> and is of no use. It is joined to the
+// next one, which then is malformed.
 bool Framer::next_event(std::string& message) {
   const auto end = rest().find(kEnd);
   if (end == std::string_view::npos) return false;
@@ -31,7 +31,7 @@ bool Framer::next_event(std::string& message) {
   return true;
 }
 
-// The magic byte, the length as a varint, the message; it is handed on as a datagram's would be.
+// The magic byte, the length as a varint, the message. It is passed on in the form of a datagram.
 bool Framer::next_tak_message(std::string& message) {
   const std::string_view rest = this->rest();
   std::uint64_t length = 0;

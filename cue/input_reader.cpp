@@ -10,7 +10,7 @@
 namespace ols::cues {
 namespace {
 
-// What comes by datagram or from a file is whole.
+// A datagram or a file is one whole message.
 Framing framing_of(Format format, bool is_stream) {
   if (!is_stream) return Framing::kWhole;
   if (format == Format::kSapient) return Framing::kSapient;

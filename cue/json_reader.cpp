@@ -35,7 +35,7 @@ std::int64_t time_of(const Json& value, const std::string& key) {
   return std::llround(1e6 * time_s);
 }
 
-// A key that is misspelt would be a deviation that nobody stated.
+// Unknown keys are refused: a misspelt deviation would otherwise count as not stated.
 void read(Report& report, const std::string& key, const Json& value) {
   if (key == "id") {
     report.name = text_of(value, key);

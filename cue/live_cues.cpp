@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kLongestName = 60;
 constexpr double kFuture_s = 1.0;  // by which clocks may differ
 
-// It goes into messages, tables and terminals.
+// The text goes into messages, tables and terminals.
 std::string plain(const std::string& text) {
   std::string result = text.substr(0, kLongestName);
   for (char& c : result) {
@@ -24,7 +24,7 @@ std::string plain(const std::string& text) {
   return result;
 }
 
-// As plain() does, but what differs stays different: FNV-1a of the whole is put behind it.
+// Like plain(), but different names stay different: the FNV-1a hash of the whole is appended.
 std::string plain_name(const std::string& name) {
   std::string result = plain(name);
   if (result == name) return result;

@@ -29,11 +29,11 @@ namespace {
 namespace cues = ols::cues;
 
 constexpr int kTurn_ms = 20;
-constexpr double kReading_s = 0.02;  // of a turn: a flood must not keep the loop
+constexpr double kReading_s = 0.02;  // longest in a turn: a flood must not hold up the loop
 constexpr double kStatus_s = 1.0;
 constexpr double kSend_s = 0.2;  // the fusion ends a cue that has been silent for two seconds
 
-// Without a grid, heights above the geoid are refused one by one, and others are not.
+// Without a grid, only reports with heights above the geoid are refused.
 cues::GeoidHeight geoid_of(const cues::CueConfig& config) {
   try {
     return [geoid = std::make_shared<const ols::land::Geoid>(config.geoid)](double latitude_deg,

@@ -35,9 +35,9 @@ bool has_own(const Informations& informations) {
       informations, [](const auto& one) { return one.type().starts_with(exports::kSapientOwn); });
 }
 
-// The standard has deviations in the units of what they belong to; some nodes write metres. From
-// one on they can only be metres. What is less is taken as the standard has it: at the worst a cue
-// is too uncertain to be led to, never surer than its sensor.
+// By the standard, deviations have the units of their quantities, but some nodes write metres. From
+// 1 on, they can only be metres. Less is read by the standard: at worst, the cue is too uncertain
+// to be searched, but never more certain than its sensor.
 std::optional<double> angular_sd_m(double error, double metres_per_unit) {
   constexpr double kMetres = 1.0;
   if (!std::isfinite(error) || error <= 0.0) return std::nullopt;
@@ -125,7 +125,7 @@ std::optional<Units> units_of(const RangeBearing& sight) {
   }
 }
 
-// "lost", "lostInView": it says where its target was, not where it is.
+// "lost", "lostInView": the report says where the target was, not where it is.
 bool is_lost(const DetectionReport& report) {
   return report.state().starts_with("lost") || report.state().starts_with("Lost");
 }
@@ -226,7 +226,7 @@ void SapientReader::note_registration(Node& node, const sapient::Registration& r
   }
 }
 
-// Where a place cannot be used, none is known: the former one may be far from where it is now.
+// If a place cannot be used, none is known: the node may be far from the previous one.
 void SapientReader::note_place(Node& node, const sapient::Location& where) {
   Report at;
   node.place.reset();
@@ -234,7 +234,7 @@ void SapientReader::note_place(Node& node, const sapient::Location& where) {
   node.place = Geodetic{radians(at.latitude_deg), radians(at.longitude_deg), at.height_m};
 }
 
-// Null: a newcomer beyond as many as are kept, who must not push out who is known.
+// Null: too many nodes. A newcomer must not push out a known one.
 SapientReader::Node* SapientReader::node(const std::string& id) {
   const auto known = nodes_.find(id);
   if (known != nodes_.end()) return &known->second;

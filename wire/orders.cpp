@@ -36,7 +36,7 @@ std::int8_t ptu_command(Kind kind) {
   }
 }
 
-// Not a joystick's rates: they come ten times a second.
+// Not a joystick's rates, which come ten times a second.
 std::optional<Kind> kind_of(std::int8_t command) {
   for (const Kind kind : {Kind::kPoint, Kind::kStop, Kind::kRelease, Kind::kRearm, Kind::kHome,
                           Kind::kReferenceOk, Kind::kCentre}) {

@@ -14,7 +14,7 @@ namespace ols::wire {
 using Target = ols_msg::target_t;
 
 std::optional<Target> heard_target(const BusMessage& message) {
-  // Not of the paper's estimator, whose channel begins with the same name.
+  // Not the paper's estimates, whose channel begins with the same name.
   if (message.channel != kTargetChannel) return std::nullopt;
   auto target = read<Target>(kTargetChannel, message);
   if (!target) return std::nullopt;

@@ -42,7 +42,7 @@ void PollInlet::look_again(std::chrono::milliseconds after) {
   });
 }
 
-// The same text again is nothing new, but that its writer lives.
+// The same text again is no news; it only shows that its writer is alive.
 void PollInlet::take(const std::string& text) {
   opened();
   if (text == last_) return;
@@ -65,7 +65,7 @@ void PollInlet::read_file() {
   look_again(poll_);
 }
 
-// A connection each: the servers that write such files close theirs as they like.
+// Each request has its own connection: servers of such files close connections as they like.
 void PollInlet::ask() {
   Error no_address;
   const auto address = boost::asio::ip::make_address(source_.host, no_address);

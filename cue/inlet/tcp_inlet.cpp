@@ -16,7 +16,7 @@ namespace asio = boost::asio;
 using Error = boost::system::error_code;
 
 constexpr auto kPatience = std::chrono::seconds(3);
-constexpr std::size_t kPiece_bytes = 4096;  // what is read of it takes a few milliseconds at most
+constexpr std::size_t kPiece_bytes = 4096;  // parsed in a few milliseconds
 
 }  // namespace
 
@@ -40,7 +40,7 @@ void TcpInlet::give_patience() {
   });
 }
 
-// All look-ups share one thread, which a silent DNS server blocks: an address needs none.
+// All look-ups share one thread, which a silent DNS server blocks. An IP address needs no look-up.
 void TcpInlet::open() {
   Error no_address;
   const auto address = asio::ip::make_address(source_.host, no_address);

@@ -54,7 +54,7 @@ void UdpInlet::open() {
   join_again_when_silent();
 }
 
-// A group is left without a word when the network device goes by which it was joined.
+// Membership of a group ends silently when the network device goes through which it was joined.
 void UdpInlet::join_again_when_silent() {
   if (!ip::make_address(source_.host).is_multicast()) return;
   timer_.expires_after(kJoinAgain);
