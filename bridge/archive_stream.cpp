@@ -49,7 +49,7 @@ bool is_ours(const jsStreamInfo& info, const BridgeConfig& config) {
   return is_same_stream(config, subjects, sources);
 }
 
-// Makes the stream, or has it kept as planned.
+// Makes the stream, or changes the existing one to the plan.
 natsStatus make(jsCtx* js, const StreamPlan& plan, const BridgeConfig& config,
                 Held<jsStreamInfo>& info) {
   std::vector<const char*> subjects;
@@ -86,7 +86,7 @@ natsStatus make(jsCtx* js, const StreamPlan& plan, const BridgeConfig& config,
     info.reset(made);
     return status;
   }
-  // It is there, kept otherwise; or it is another one, which is left alone.
+  // The stream exists with other settings. If it is somebody else's, it is left alone.
   jsStreamInfo* there = nullptr;
   if (js_GetStreamInfo(&there, js, plan.name.c_str(), nullptr, nullptr) != NATS_OK) return status;
   const Held<jsStreamInfo> known(there);
@@ -157,7 +157,7 @@ ArchiveReport ArchiveStream::look() {
   is_made_ = status == NATS_OK;
   if (!is_made_) {
     seen.trouble =
-        status == NATS_ILLEGAL_STATE ? plan_.name + " keeps what is not of here" : words(status);
+        status == NATS_ILLEGAL_STATE ? plan_.name + " is not this bridge's stream" : words(status);
     return seen;
   }
   seen.is_kept = true;

@@ -13,7 +13,7 @@ void check_name(const std::string& name) {
   if (!is_name(name)) throw std::invalid_argument("must be 1 to 40 letters, digits, - or _");
 }
 
-// _ separates them in the name of a stream: a and b_c must not be a_b and c.
+// In the name of a stream, _ separates region and site: a and b_c must not be a_b and c.
 void check_place(const std::string& name) {
   if (!is_name(name) || name.find('_') != std::string::npos) {
     throw std::invalid_argument("must be 1 to 40 letters, digits or -");
@@ -28,7 +28,6 @@ void check_server(const std::string& url) {
   }
 }
 
-// Runs a check of one word on all of a list.
 template <class Check>
 void check_all(ConfigTable& table, const char* key, const std::vector<std::string>& words,
                Check check) {
@@ -39,7 +38,7 @@ void check_all(ConfigTable& table, const char* key, const std::vector<std::strin
   }
 }
 
-// A server of nats:// would be spoken to in plain text whatever else is stated.
+// With nats://, everything would be plain text, whatever else is configured.
 void check_tls(const ConfigTable& table, const NatsConfig& n) {
   const auto tls = std::ranges::count_if(n.servers, is_tls);
   if (tls != 0 && tls != std::ssize(n.servers)) {

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kTurn_ms = 20;
 constexpr double kStatus_s = 1.0, kStep_s = 0.05;
-constexpr double kShortest_s = 3.0;  // of a link, so that a server that refuses us is not flooded
+constexpr double kShortest_s = 3.0;  // of a link: a server that refuses us is not flooded
 constexpr double kStanding_s = 30.0;
 
 Now now() { return {clock_utime_us(), clock_monotonic_s()}; }
@@ -24,8 +24,8 @@ std::string name_of(const BridgeConfig& config) {
   return "ols-bridge " + config.region + (config.role == Role::kSite ? "." + config.site : "");
 }
 
-// Targets are owned by a fusion and its start: one that starts again does not know what it had. It
-// becomes part of a key of the store.
+// An owner is a fusion and its start, because a fusion that starts again does not know what it
+// owned. The name becomes part of a key of the store.
 std::optional<Ownership> make_ownership(const BridgeConfig& config) {
   if (!config.ownership.is_on) return std::nullopt;
   OwnershipRules rules;
@@ -47,7 +47,7 @@ std::unique_ptr<ArchiveStream> make_archive(NatsLink& link, const BridgeConfig& 
   return plan ? std::make_unique<ArchiveStream>(link, *plan, config) : nullptr;
 }
 
-// What counts, of connections before and of the one now.
+// The counts of earlier connections, and of the present one.
 LinkReport sum(const LinkReport& before, LinkReport now) {
   now.openings += before.openings;
   now.losses += before.losses;
@@ -80,8 +80,8 @@ BridgeProcess::Remote::Remote(BridgeProcess& bridge, const BridgeConfig& config)
   store = std::make_unique<OwnerStore>(link, config.ownership.domain, bridge.ears());
 }
 
-// A connection that has ended is made anew. All else stays: who is where, whom stations obey, what
-// this fusion owns, and every count.
+// A connection that has ended is made anew. Everything else stays: where stations are, whom they
+// obey, what this fusion owns, and every count.
 void BridgeProcess::renew_link(double now_s) {
   const LinkReport link = remote_->link.report();
   if (link.is_open) tried_anew_.clear();
@@ -129,15 +129,15 @@ OwnerStore::Ears BridgeProcess::ears() {
   return ears;
 }
 
-// Asked under the lock, of each target, and of each command that concerns one, that is to go out.
+// Called under the lock, for each outgoing target, and for each outgoing command that concerns one.
 Owned BridgeProcess::owned() {
   if (!ownership_) return {};
   return [this](Kind kind, Bytes payload) -> std::optional<Grant> {
     const auto target = target_id_of(kind, payload);
     if (!target) return std::nullopt;
     if (*target == 0) {
-      // A search leads to no target that another one could own; that there is none, each region
-      // would say.
+      // A search concerns no target that another fusion could own. That there is no target does not
+      // go out: every region would say so.
       return kind == Kind::kCommand ? std::optional(Grant{}) : std::nullopt;
     }
     if (kind == Kind::kTarget) {
@@ -147,7 +147,7 @@ Owned BridgeProcess::owned() {
   };
 }
 
-// What another owner publishes: by it is known where its target is, and since when it owns it.
+// What other owners publish tells where their targets are, and the epochs of their ownership.
 void BridgeProcess::hear_owner(std::string_view subject, const Headers& headers, Bytes bytes) {
   const auto sighting = sighting_from(headers, trust::without_trailer(bytes));
   if (!ownership_ || !sighting) return;
@@ -203,7 +203,7 @@ void BridgeProcess::describe_archive(BridgeStatus& status, std::map<std::string,
   status.archive.trouble = seen.trouble;
   status.archive.messages = seen.messages;
   status.archive.bytes = seen.bytes;
-  // The first messages of a site take a moment to be copied.
+  // The first messages of a site take a moment until they are copied.
   std::erase_if(live_since_s_, [&heard](const auto& one) { return !heard.contains(one.first); });
   std::erase_if(heard, [this, now_s](const auto& one) {
     const double since_s = live_since_s_.try_emplace(one.first, now_s).first->second;

@@ -14,7 +14,7 @@ bool EpochFence::passes(const std::string& station, const Claim& claim, double n
   Station* const one = station_of(station, now_s);
   if (one == nullptr) return false;
   const bool is_led = now_s - one->by.heard_s <= kSilence_s && one->by.epoch > 0;
-  // Which of its targets a station sees is for their owner to say.
+  // An owner may lead a station from one of its targets to another.
   const bool is_its_owner = claim.epoch > 0 && !claim.owner.empty() && claim.owner == one->by.owner;
   if (claim.epoch < one->by.epoch && is_led && !is_its_owner) return false;
   if (claim.epoch > 0 && !is_greatest_of_its_target(*one, claim, now_s)) return false;
@@ -54,7 +54,7 @@ bool EpochFence::is_greatest_of_its_target(Station& station, const Claim& claim,
   if (at != targets.end() && claim.epoch < at->second.epoch) return false;
   targets[claim.target] = {claim.epoch, now_s};
   if (targets.size() > kMostTargets) {
-    // The lowest: that began longest ago.
+    // Forgets the lowest epoch, which began first.
     targets.erase(std::ranges::min_element(targets, {},
                                            [](const auto& target) { return target.second.epoch; }));
   }

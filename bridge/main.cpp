@@ -22,7 +22,7 @@ struct Arguments : ols::ServiceOptions {
   std::string make_key;
 };
 
-// The seed goes into a new file for its owner alone, the public key is said.
+// Writes the seed into a new file for its owner alone, and prints the public key.
 void make_key(const std::string& path) {
   const ols::trust::Seed seed = ols::trust::draw_secret();
   const bridge::NatsKey key = bridge::nats_key(seed, ols::trust::SigningKey(seed).public_key());

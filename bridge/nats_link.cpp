@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::int64_t kRetry_ms = 500, kPing_ms = 2000, kWrite_ms = 300;
 constexpr int kPingsOut = 2;
-constexpr double kRefusal_s = 60.0;        // a publication that was refused is of interest so long
+constexpr double kRefusal_s = 60.0;        // a refused publication is reported for so long
 constexpr std::size_t kLongestText = 200;  // a server may say anything
 constexpr int kMostPending = 20'000;
 constexpr std::array kKnownHeaders{kTargetHeader, kEpochHeader, kUnconfirmedHeader, kOwnerHeader};
@@ -29,7 +29,7 @@ void require(natsStatus status, const std::string& what) {
 
 const char* or_null(const std::string& text) { return text.empty() ? nullptr : text.c_str(); }
 
-// As systemd hands it over.
+// Default: the credential that systemd provides.
 std::string seed_of(const NatsConfig& config) {
   if (!config.seed.empty()) return config.seed;
   const char* folder = std::getenv("CREDENTIALS_DIRECTORY");
@@ -73,7 +73,7 @@ void NatsLink::configure(const NatsConfig& config, const std::string& name) {
   require(natsOptions_SetPingInterval(options_, kPing_ms), "servers");
   require(natsOptions_SetMaxPingsOut(options_, kPingsOut), "servers");
   require(natsOptions_SetWriteDeadline(options_, kWrite_ms), "servers");
-  // Nothing waits for a connection.
+  // Nothing is buffered while there is no connection.
   require(natsOptions_SetReconnectBufSize(options_, 1), "servers");
   require(natsOptions_SetFailRequestsOnDisconnect(options_, true), "servers");
   require(natsOptions_SetNoEcho(options_, true), "servers");
@@ -81,7 +81,7 @@ void NatsLink::configure(const NatsConfig& config, const std::string& name) {
   require(natsOptions_SetDisconnectedCB(options_, on_loss, this), "servers");
   require(natsOptions_SetRetryOnFailedConnect(options_, true, on_open, this), "servers");
   require(natsOptions_SetClosedCB(options_, on_closed, this), "servers");
-  // Its own type stands in no header of ours.
+  // A lambda, because our header does not know the library's type of a status.
   const natsErrHandler refused = [](natsConnection* connection, natsSubscription* subscription,
                                     natsStatus status, void* self) {
     on_refusal(connection, subscription, static_cast<int>(status), self);
@@ -95,7 +95,7 @@ void NatsLink::configure(const NatsConfig& config, const std::string& name) {
     require(natsOptions_SetNKeyFromSeed(options_, config.nkey.c_str(), seed_of(config).c_str()),
             "nkey");
   }
-  // The address alone would leave it to the server whether anything is encrypted.
+  // With the address alone, the server would decide whether anything is encrypted.
   if (is_over_tls(config)) require(natsOptions_SetSecure(options_, true), "servers");
   if (!config.authority.empty()) {
     require(natsOptions_LoadCATrustedCertificates(options_, config.authority.c_str()), "authority");
@@ -121,14 +121,15 @@ void NatsLink::connect(const std::vector<std::string>& servers) {
     note("no server answers, or it refuses this user");
     return;
   }
-  // What answered is no server of NATS, or one without TLS: the library does not go on by itself.
+  // What answered is no server of NATS, or one without TLS: the library does not try again by
+  // itself.
   note(natsStatus_GetText(status));
   has_ended_ = true;
 }
 
-// What comes faster than it is handled is displaced, not kept.
+// Messages that come faster than they are handled are displaced, not kept.
 void NatsLink::hear(const std::string& subject, std::size_t most_bytes) {
-  // What went wrong with the link may have ended it meanwhile, in a thread of the library.
+  // A thread of the library may have closed the link meanwhile.
   const auto holds = [this, &subject](natsStatus status) {
     if (status != NATS_CONNECTION_CLOSED && status != NATS_INVALID_SUBSCRIPTION) {
       require(status, "subject " + subject);
@@ -153,7 +154,7 @@ void NatsLink::hear(const std::string& subject, std::size_t most_bytes) {
 void NatsLink::close() {
   if (connection_ != nullptr) natsConnection_Close(connection_);
   {
-    // The library closes in threads of its own: what it still has to say, it says after Close().
+    // The library closes in threads of its own, which still call back after Close().
     std::unique_lock lock(mutex_);
     ended_.wait(lock, [this] { return callers_ == 0; });
   }
@@ -208,7 +209,7 @@ void NatsLink::begin_callbacks() {
   ++callers_;
 }
 
-// Told under the lock: nothing of this object is used once the waiting thread has it.
+// Notified under the lock: once the waiting thread has the lock, nothing of this object is used.
 void NatsLink::end_callbacks() {
   const std::lock_guard lock(mutex_);
   --callers_;
@@ -263,18 +264,18 @@ void NatsLink::on_refusal(natsConnection* connection, natsSubscription*, int sta
   link->said_.refused_s = clock_monotonic_s();
 }
 
-// The last that the library calls for the connection, after the loss.
+// The library's last call for the connection, after the loss.
 void NatsLink::on_closed(natsConnection* connection, void* self) {
   auto* link = static_cast<NatsLink*>(self);
   const char* why = nullptr;
-  // That there is no server says less than what was said before.
+  // That there is no server says less than the trouble before.
   const bool says_more = natsConnection_GetLastError(connection, &why) != NATS_NO_SERVER;
   if (says_more && why != nullptr && *why != '\0') link->note(why);
   link->has_ended_ = true;
   link->end_callbacks();
 }
 
-// The last for a subscription.
+// The library's last call for a subscription.
 void NatsLink::on_complete(void* self) { static_cast<NatsLink*>(self)->end_callbacks(); }
 
 }  // namespace ols::bridge

@@ -13,15 +13,15 @@ namespace {
 
 constexpr const char* kBucket = "OLS_OWNERS";
 constexpr std::int64_t kPatience_ms = 500, kWatch_ms = 200;
-constexpr std::int64_t kKept_ns = 600'000'000'000;  // a record that nobody renews
+constexpr std::int64_t kKept_ns = 600'000'000'000;  // a record that nobody renews is then removed
 constexpr std::size_t kMostRequests = 2000;
-// A watcher dies without a word when its server starts anew behind another one. While targets are
-// owned, something changes five times a lease.
+// A watcher ends silently if its server restarts behind another one. While targets are owned, there
+// are five changes per lease.
 constexpr double kDeaf_s = 3.0;
 constexpr auto kProbe = std::chrono::milliseconds(300);
 constexpr std::string_view kTarget = "target.", kWish = "wish.";
 
-// Whatever says that it is not as expected; all else is no answer.
+// kRefused: any status that says that the record is not as expected. All else is no answer.
 StoreAnswer answer_of(natsStatus status) {
   switch (status) {
     case NATS_OK:
@@ -153,8 +153,8 @@ void OwnerStore::carry_out(const StoreRequest& request) {
   ears_.answer(request, answer, revision);
 }
 
-// Another one has written there, or the answer to what we wrote was lost: what is there now is told
-// before the refusal. Not by the watcher: it may have heard nothing of it.
+// Another fusion has written there, or the answer to our own write was lost. The present record is
+// reported before the refusal, because the watcher may not have heard of it.
 StoreAnswer OwnerStore::look_again(const StoreRequest& request) {
   const std::string key = std::string(kTarget) + request.target;
   kvEntry* entry = nullptr;
@@ -166,7 +166,7 @@ StoreAnswer OwnerStore::look_again(const StoreRequest& request) {
     answer = StoreAnswer::kNone;  // it is as it was, so the refusal had another reason
   } else if (status == NATS_OK) {
     const char* value = kvEntry_ValueString(entry);
-    // What cannot be read is nobody's, and may be replaced.
+    // A record that cannot be read is nobody's, and may be replaced.
     const auto record = parse_record(value == nullptr ? "" : value);
     ears_.learn(request.target, record.value_or(OwnerRecord{}), kvEntry_Revision(entry));
   }

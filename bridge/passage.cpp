@@ -29,7 +29,7 @@ std::string regex_of(const std::vector<std::string>& names) {
   return regex + ")";
 }
 
-// A boot's bearings, statuses and replies are counted each by itself, and one stream holds them.
+// A boot numbers its bearings, statuses and replies separately, and one stream holds them all.
 std::string id_of(const Content& content, const trust::MessageHead& head) {
   const std::string who = content.kind == Kind::kTarget ? "target" : content.station;
   const std::string id =
@@ -39,7 +39,7 @@ std::string id_of(const Content& content, const trust::MessageHead& head) {
                                         : id;
 }
 
-// Of a bridge: the name of a fusion, its start, a number.
+// A bridge's word: the name of a fusion with its start, or a number.
 bool is_word(const std::string& text) {
   return text.size() <= kLongestWord && std::ranges::all_of(text, [](unsigned char c) {
            return std::isalnum(c) != 0 || c == '-' || c == '_' || c == '=';
@@ -60,7 +60,8 @@ void count(Counts& counts, const std::optional<Refusal>& refusal, std::string_vi
     return;
   }
   ++counts.refused.at(static_cast<std::size_t>(*refusal));
-  // A bus gives back what was put onto it, and a fusion goes on with targets that another one owns.
+  // Both are normal: a bus gives back what was put onto it, and a fusion goes on with targets that
+  // another one owns.
   if (*refusal == Refusal::kOwn || *refusal == Refusal::kNotOwned) return;
   counts.last_refusal =
       std::string(what.substr(0, 120)) + ": " + refusal_words(to_string(*refusal), "bridge_");
@@ -68,7 +69,7 @@ void count(Counts& counts, const std::optional<Refusal>& refusal, std::string_vi
 
 }  // namespace
 
-// Anybody may have written them.
+// Anybody may have written the headers.
 std::optional<Claim> claim_of(const Headers& headers) {
   const auto text_of = [&headers](const char* name) {
     const auto at = headers.find(name);
@@ -139,7 +140,7 @@ Passage::Judged Passage::judge_out(std::string_view channel, Bytes bytes, const 
   if (const Judged refusal = judge_form(*content, channel, bytes, head)) return refusal;
   if (!settles(subject, now)) return Refusal::kName;
   if (const Judged refusal = judge_rate(*content, channel, now)) return refusal;
-  // What is live may be late on its way out: the server's stream keeps all of it.
+  // Live messages may be late on their way out, because the server's stream keeps all of them.
   const bool is_command = content->kind == Kind::kCommand;
   if (const Judged refusal = is_command ? judge_age(*content, head, now) : Judged()) return refusal;
   const bool is_owned = content->kind == Kind::kTarget || concerns_target(content->command);
@@ -148,7 +149,7 @@ Passage::Judged Passage::judge_out(std::string_view channel, Bytes bytes, const 
     if (!grant) return Refusal::kNotOwned;
     put(*grant, outgoing.headers);
   }
-  // A command is never stored, so it needs no number by which it were stored once.
+  // Commands are never stored, so they need no id against storing them twice.
   if (!is_command) outgoing.headers[kIdHeader] = id_of(*content, head);
   outgoing.subject = to_text(subject);
   return std::nullopt;
@@ -176,7 +177,7 @@ Passage::Judged Passage::address(const Content& content, const Now& now, Subject
              : Judged();
 }
 
-// Before anything is remembered of it.
+// Before anything of the message is remembered.
 Passage::Judged Passage::judge_form(const Content& content, std::string_view channel, Bytes bytes,
                                     trust::MessageHead& head) {
   if (bytes.size() > (content.kind == Kind::kStatus ? kLargestStatus : kLargest)) {
@@ -192,7 +193,7 @@ Passage::Judged Passage::judge_form(const Content& content, std::string_view cha
   return std::nullopt;
 }
 
-// A station's name is its place's, or becomes it.
+// Whether the station's name belongs to this place; a new name does from now on.
 bool Passage::settles(const Subject& subject, const Now& now) {
   if (subject.kind == Kind::kCommand || subject.kind == Kind::kTarget) return true;
   return places_.settle(subject.station, subject.region, subject.site, now.monotonic_s);
@@ -206,8 +207,8 @@ Passage::Judged Passage::judge_rate(const Content& content, std::string_view cha
   return rates.passes(channel, limit_hz, now.monotonic_s) ? Judged() : Refusal::kRate;
 }
 
-// Whatever buffer has held it: of a link, a server or a system. A stamp ahead of this host's clock
-// matters in a command only; the fusion judges that of a bearing.
+// The age counts whatever buffer has held the message: of a link, a server or a system. A stamp
+// ahead of this host's clock matters only in a command; the fusion judges those of bearings.
 Passage::Judged Passage::judge_age(const Content& content, const trust::MessageHead& head,
                                    const Now& now) {
   // In floating point: a hostile stamp must not overflow.

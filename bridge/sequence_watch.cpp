@@ -4,8 +4,8 @@ namespace ols::bridge {
 namespace {
 
 constexpr std::uint64_t kWindow = 64;
-constexpr std::uint64_t kAll = ~std::uint64_t{0};  // what was before the first is not missed
-// What is silent for a minute is forgotten when there are more.
+constexpr std::uint64_t kAll = ~std::uint64_t{0};  // nothing is missed before the first
+// If there are more, what has been silent for a minute is forgotten.
 constexpr std::size_t kMost = 40'000;
 constexpr double kSilent_s = 60.0, kSweep_s = 1.0;
 constexpr std::uint64_t kLongestGap = 100'000;  // beyond it is no gap, but nonsense
@@ -22,7 +22,7 @@ void SequenceWatch::hear(const std::string& stream, std::int64_t boot_id, std::i
   if (marks_.size() >= kMost && now_s - swept_s_ >= kSweep_s) forget_silent(now_s);
   Mark& mark = marks_[stream];
   mark.heard_s = now_s;
-  // A station that starts anew begins anew.
+  // A station that restarts begins a new sequence.
   if (mark.heard == 0 || mark.boot_id != boot_id) {
     mark = {boot_id, sequence, kAll, now_s};
     return;

@@ -24,7 +24,7 @@ bool StationPlaces::settle(const std::string& station, const std::string& region
   const bool is_there =
       at != places_.end() && at->second.region == region && at->second.site == site;
   if (!is_there && !has_room(there, now_s)) return false;
-  // To make room, its old place may have been forgotten.
+  // has_room() may have forgotten its old place.
   const auto [place, is_new] = places_.try_emplace(station);
   if (!is_there) {
     if (!is_new) --counts_[{place->second.region, place->second.site}];

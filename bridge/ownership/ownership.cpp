@@ -8,22 +8,22 @@
 namespace ols::bridge {
 namespace {
 
-constexpr double kTrack_s = 0.6;    // a fusion that says nothing of a target has lost it
-constexpr double kFresh_s = 0.25;   // it may have another number now
+constexpr double kTrack_s = 0.6;    // a fusion silent about a target has lost it
+constexpr double kFresh_s = 0.25;   // after longer silence, a target may have another number
 constexpr double kForget_s = 60.0;  // of a target that nobody has
 constexpr double kWish_s = 0.4, kWishHolds_s = 1.5;
-constexpr double kOutside_s = 1.0;  // a new target is first its own region's to own
+constexpr double kOutside_s = 1.0;  // at first, only its own region may take a new target
 constexpr double kUnanswered_s = 3.0;
 constexpr double kDouble_s = 1.0;
-constexpr double kSlack_m = 20.0, kSlack_m_s = 10.0;  // of two fusions' estimates, and of a turn
+constexpr double kSlack_m = 20.0, kSlack_m_s = 10.0;  // between two fusions' estimates; a turn
 constexpr double kOldest_s = 10.0;                    // extrapolated no further
-constexpr const char* kNobody = "-";                  // successor of a record that was one too many
+constexpr const char* kNobody = "-";                  // successor of a duplicate record
 
-// An owner that died is replaced within the lease. It is the same for all: with leases of their own
-// two fusions could own a target at the same instant.
+// A dead owner is replaced within the lease. The lease is no setting: with different leases, two
+// fusions could own a target at the same instant.
 constexpr double kLease_s = 2.0;
-// Parts of the lease: an owner counts on the least, another fusion waits for the most; what is left
-// is for the store to write it, on a disk, and for the next fix.
+// Shares of the lease. An owner counts on kHeld, and another fusion waits for kInside or kOutside:
+// the time between is for the store's write to a disk, and for the next fix.
 constexpr double kHeld = 0.65, kInside = 0.7, kOutside = 0.775, kRenewed = 0.2;
 
 double distance_m(const Vector& a, const Vector& b) {
@@ -63,8 +63,9 @@ void Ownership::hear(const TargetReport& sighting, const Now& now) {
   Entry& entry = at->second;
   entry.place = sighting;
   entry.seen_s = now.monotonic_s;
-  // Whom the store has just confirmed nobody has replaced, whatever a header says. That it has been
-  // replaced is for the store to say: its next answer ends the doubt, or the ownership.
+  // An owner that the store has just confirmed has not been replaced, whatever a header says. After
+  // that, a greater epoch puts the ownership in doubt: the store's next answer ends the doubt, or
+  // the ownership.
   const bool is_confirmed = now.monotonic_s < entry.held_until_s;
   if (entry.is_mine && !is_confirmed && sighting.epoch > entry.epoch) entry.is_doubted = true;
 }
@@ -82,7 +83,7 @@ void Ownership::learn(const std::string& target, const OwnerRecord& record, std:
   entry.place.target = target;
   keep(entry, record, revision, now);
   const bool is_own = record.owner == rules_.name;
-  // Its answer was lost, or is still on its way.
+  // The answer to our own request was lost, or is still on its way.
   if (is_own && entry.request.record.beat == record.beat) settle(entry, revision);
   if (!is_own && entry.is_mine) {
     entry.is_mine = false;
@@ -123,7 +124,7 @@ void Ownership::settle(Entry& entry, std::uint64_t revision) {
   if (!entry.is_mine) {
     entry.is_mine = true;
     entry.epoch = revision;
-    // To an owner before.
+    // These wishes were for the previous owner.
     entry.wished_by.clear();
     entry.old_revision = entry.next_old_revision = revision;
     ++counts_.taken;
@@ -137,14 +138,14 @@ void Ownership::answer(const StoreRequest& request, StoreAnswer answer, std::uin
   if (at == entries_.end()) return;
   Entry& entry = at->second;
   if (entry.request.what == Asked::kNothing || entry.request.record.beat != request.record.beat) {
-    // To one that was given up meanwhile: what it wrote is a record as any other.
+    // The answer is to a request that was given up: its record counts like any other.
     if (answer == StoreAnswer::kDone) learn(request.target, request.record, revision, now);
     return;
   }
   const Asked what = std::exchange(entry.request.what, Asked::kNothing);
   if (answer != StoreAnswer::kDone) {
-    // That another one has written there ends an ownership at once. What it wrote may be known by
-    // now, and may be an earlier record of our own whose answer was lost.
+    // Another fusion has written there. If its record is not known yet, the ownership is in doubt
+    // at once. A known one may be an earlier record of our own whose answer was lost.
     if (answer == StoreAnswer::kRefused && entry.revision == request.revision) {
       entry.is_doubted = true;
     }
@@ -196,7 +197,7 @@ std::vector<StoreRequest> Ownership::step(const Now& now) {
   return requests;
 }
 
-// What the fusion has lost, another one may have still.
+// Another fusion may still see a target that this one has lost.
 void Ownership::let_go(const Now& now, Requests& requests) {
   for (auto at = tracks_.begin(); at != tracks_.end();) {
     Seen& seen = at->second;
@@ -205,7 +206,7 @@ void Ownership::let_go(const Now& now, Requests& requests) {
       continue;
     }
     const auto entry = entries_.find(seen.target);
-    // Also one that it is about to take is then to be given up.
+    // The answer comes first: a target that was about to be taken must then be given up, too.
     if (entry != entries_.end() && entry->second.request.what != Asked::kNothing) {
       ++at;
       continue;
@@ -225,8 +226,8 @@ bool Ownership::is_bound(const std::string& target, double now_s) const {
   });
 }
 
-// Which of the known targets each track is. It stays with its own; a target whose track has just
-// fallen silent may be that of a new one, as when a fusion starts again.
+// Finds the known target of each track. A track keeps its target. A new track may be that of a
+// target whose track has just fallen silent, as when a fusion starts again.
 void Ownership::bind(const Now& now) {
   for (auto& [id, seen] : tracks_) {
     if (!seen.target.empty() && !entries_.contains(seen.target)) seen.target.clear();
@@ -262,8 +263,8 @@ std::string Ownership::nearest(const Seen& seen, const Now& now) const {
   return best;
 }
 
-// Two fusions that see a new target at once would both make a record of it: each waits for another
-// time, drawn by its name.
+// Two fusions that see a new target at once would both make a record of it, so each waits for a
+// time of its own, computed from its name.
 double Ownership::delay_s() const {
   return kFresh_s + 0.1 +
          0.35 * static_cast<double>(std::hash<std::string>{}(rules_.name) % 1000) / 1000.0;
@@ -296,8 +297,8 @@ void Ownership::own(Entry& entry, const Seen& seen, const Now& now, Requests& re
   entry.due_s = now_s + kRenewed * kLease_s;
 }
 
-// Another fusion has a record of the same target, which is none of this one's other targets: that
-// of the lesser name stays.
+// Whether another fusion has a record of the same target that is to stay: that of the lesser name
+// does.
 bool Ownership::is_double(Entry& entry, const Seen& seen, const Now& now) const {
   const std::string other = nearest(seen, now);
   const auto at = entries_.find(other);
@@ -320,7 +321,7 @@ bool Ownership::may_take(const Entry& entry, double depth_m, double now_s) const
     return silent_s > (depth_m < 0.0 ? kOutside : kInside) * kLease_s;
   }
   if (record.successor == rules_.name) return true;
-  // First whom it was released to, then whose region it is in, then anybody.
+  // First comes the fusion to which it was released, then the one whose region it is in, then any.
   const double wait_s = (record.successor.empty() ? 0.0 : 0.15) + (depth_m < 0.0 ? 0.15 : 0.0);
   return silent_s >= wait_s;
 }
@@ -345,7 +346,7 @@ void Ownership::stand_by(Entry& entry, const Seen& seen, const Now& now, Request
 void Ownership::ask(Entry& entry, Asked what, OwnerRecord record, double now_s,
                     Requests& requests) {
   entry.request = {what, std::move(record), now_s};
-  // From here on nothing is certain: the answer may be lost, and the release done.
+  // From here on nothing is certain: the answer may be lost although the release is done.
   if (what == Asked::kRelease) entry.held_until_s = now_s;
   requests.push_back({entry.place.target, entry.request.record, entry.revision, false});
 }
