@@ -13,7 +13,7 @@ namespace {
 struct SchemeRow {
   Scheme scheme;
   const char* name;
-  int port;  // where none is named; 0: one must be
+  int port;  // the default; 0: there is none
 };
 constexpr std::array<SchemeRow, 6> kSchemes{{{Scheme::kUdp, "udp", 0},
                                              {Scheme::kTcp, "tcp", 0},

@@ -94,7 +94,7 @@ void read_log(const std::string& path, const SiteContext& site, Recording& recor
   recording.report().damage = log.damage();
 }
 
-// An empty or a shortened file is not to be taken for what happened.
+// An empty or shortened file must not pass for what happened.
 void check(const ConversionReport& report, const Conversion& conversion,
            const ExportConfig& config) {
   const std::string& input = conversion.log.empty() ? conversion.fixes : conversion.log;

@@ -8,7 +8,7 @@
 namespace ols::exports {
 namespace {
 
-// A second of many targets: a file that is written must not cost any.
+// One second of many targets, so that none is lost while a file is written.
 constexpr QueueLimits kTargetLimits{.messages = 10'000, .bytes = 16'000'000};
 
 }  // namespace

@@ -42,7 +42,7 @@ void check_topic(const std::string& topic) {
   if (!is_good) throw std::invalid_argument("is not a prefix of MQTT topics");
 }
 
-// Of an event's type: it goes into XML as it is.
+// An event's type goes into XML as it is.
 void check_cot_type(const std::string& type) {
   const bool is_good =
       !type.empty() && type.size() <= 60 &&
@@ -145,7 +145,7 @@ config::Section courageous_section(CourageousSettings& c) {
       }};
 }
 
-// A file of which the format demands a place that nobody states is never written.
+// This format demands the system's place: without one, the file would never be written.
 void check_places(const ExportConfig& config, ConfigTable& root) {
   for (const OutputConfig& output : config.outputs) {
     if (output.format != Format::kCourageous || config.courageous.has_place()) continue;

@@ -20,11 +20,11 @@ Target target_of(const csv::Row<8>& row, const SiteContext& site) {
   target.utime_us = row.number<std::int64_t>(0, 0, kGreatestUtime);
   const std::string name = row.text(1);
   const char* const end = name.data() + name.size();
-  // A name that is no number has none; the whole name identifies the target.
+  // A name that is no number gives no id; the whole name identifies the target.
   if (std::from_chars(name.data(), end, target.id).ptr != end) target.id = 0;
   target.uid = site.site + ".target." + name;
   target.place.latitude_deg = row.number<double>(2, -90.0, 90.0);
-  // As the fusion says it, and as areas have it.
+  // From -180 to 180, as the fusion and areas have it.
   target.place.longitude_deg = std::remainder(row.number<double>(3, -180.0, 360.0), 360.0);
   target.place.height_m = row.number<double>(4, -1e5, 1e6);
   target.place.geoid_m = site.geoid_m(target.place.latitude_deg, target.place.longitude_deg);

@@ -6,7 +6,8 @@ namespace ols::exports {
 namespace {
 
 constexpr std::size_t kMostRemembered = 10'000;
-// Records that come at a multiple of the rate jitter: the one that is a little early is the one.
+// The records' own rate jitters: if it is a multiple of this one, the right record may be a little
+// early.
 constexpr double kEarly = 0.9;
 
 }  // namespace

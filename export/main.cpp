@@ -131,11 +131,12 @@ void add_conversion(CLI::App& app, Arguments& arguments) {
   log->needs(format)->needs(output)->excludes(fixes);
   fixes->needs(format)->needs(output);
   output->needs(format);
-  app.add_option("--rate", arguments.rate_hz, "[Hz] with --log or --fixes: of each object, at most")
+  app.add_option("--rate", arguments.rate_hz,
+                 "[Hz] with --log or --fixes: maximum rate of each object")
       ->check(CLI::Range(0.01, 1000.0))
       ->capture_default_str();
-  app.add_flag("--lines", arguments.lines, "with --log: what stations saw, too");
-  app.add_flag("--tentative", arguments.tentative, "with --log: unconfirmed targets, too");
+  app.add_flag("--lines", arguments.lines, "with --log: also the stations' lines of sight");
+  app.add_flag("--tentative", arguments.tentative, "with --log: also unconfirmed targets");
   app.add_flag("--skip-damage", arguments.conversion.skips_damage,
                "with --log: write what is left of a damaged or cut-off log");
   app.add_flag("!--no-stations", arguments.stations, "with --log: no stations");

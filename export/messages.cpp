@@ -112,7 +112,7 @@ std::optional<Station> station_from(const BusMessage& message, const SiteContext
 
 std::optional<Line> line_from(const BusMessage& message, const SiteContext& site) {
   const auto content = wire::read<Bearing>(kBearingChannel, message);
-  if (!content || content->detected) return std::nullopt;  // nobody has said that it is a target
+  if (!content || content->detected) return std::nullopt;  // nobody has designated it
   const Bearing& b = *content;
   const Eigen::Vector3d camera(b.camera_ecef_m[0], b.camera_ecef_m[1], b.camera_ecef_m[2]);
   if (!(camera.cwiseAbs().maxCoeff() < kMostEarth_m) || !std::isfinite(b.azimuth_rad) ||

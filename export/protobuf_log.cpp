@@ -11,7 +11,7 @@ namespace {
 std::atomic<std::uint64_t> warnings{0};
 google::protobuf::LogHandler* said_before = nullptr;
 
-// A fatal one ends the process, and must say why.
+// A fatal message ends the process, and must say why.
 void count(google::protobuf::LogLevel level, const char* file, int line, const std::string& text) {
   ++warnings;
   if (level == google::protobuf::LOGLEVEL_FATAL && said_before != nullptr) {

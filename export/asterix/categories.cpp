@@ -31,7 +31,7 @@ bool has_velocity(const Target& target) {
   return std::isfinite(target.velocity_enu_m_s[0] + target.velocity_enu_m_s[1]);
 }
 
-// I062/080: of several sensors, the geometric height the better one, from triangulation.
+// I062/080: several sensors; the geometric height is the better one, and comes from triangulation.
 std::string track_status(TrackState state) {
   constexpr unsigned kBetterGeometric = 0x20U, kTriangulation = 3U << 2U, kTentative = 0x02U;
   constexpr unsigned kMore = 0x01U, kLastMessage = 0x40U, kCoasted = 0x80U;

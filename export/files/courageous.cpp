@@ -32,13 +32,14 @@ std::uint64_t milliseconds(std::int64_t utime_us) {
   return static_cast<std::uint64_t>(std::max<std::int64_t>(utime_us, 0) / 1000);
 }
 
-// The format asks for a number that the fusion does not have; what is confirmed is certain.
+// The format asks for a certainty, which the fusion does not have: confirmed targets count as
+// certain.
 Json alarm(TrackState state) {
   const bool is_confirmed = state == TrackState::kConfirmed || state == TrackState::kEnded;
   return {{"active", state != TrackState::kTentative}, {"certainty", is_confirmed ? 1.0 : 0.5}};
 }
 
-// The format knows no birds and no aircraft.
+// The format has no birds and no aircraft: they become others.
 const char* classification(ObjectClass object_class) {
   const bool is_named =
       object_class == ObjectClass::kUnknown || object_class == ObjectClass::kDrone;
@@ -80,8 +81,8 @@ Json place_of_system(const Picture& picture, const CourageousSettings& settings)
   return position(picture.lines().begin()->second.points.front().camera);
 }
 
-// A number that another target, of another run of the fusion, does not have, and that stays the
-// same in each file. No longer than readers with floating-point numbers can tell apart.
+// A number that no other target has, not even of another run of the fusion, and that is the same in
+// each file. Short enough for readers with floating-point numbers to tell them apart.
 std::uint64_t uas_id(const std::string& uid) {
   constexpr std::uint64_t kMost = (std::uint64_t{1} << 53U) - 1U;
   return fnv1a(uid) & kMost;

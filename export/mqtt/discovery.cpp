@@ -29,7 +29,7 @@ Packet entity(const Device& device, const std::string& component, const std::str
       {"availability_topic", status_topic(device.settings, device.site)},
       {"device", {{"identifiers", {device.id}}, {"name", device.name}, {"manufacturer", "OLS"}}}};
   config.update(more);
-  // Home Assistant knows no such thing of places on the map.
+  // Home Assistant does not let places on the map expire.
   if (device.settings.stale_s > 0.0 && component != "device_tracker") {
     config["expire_after"] = std::llround(device.settings.stale_s);
   }

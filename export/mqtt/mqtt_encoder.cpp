@@ -15,7 +15,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kMostStations = 500;
-constexpr double kSaidInTime = 3.0;  // times before it is stale: one may be lost
+constexpr double kSaidInTime = 3.0;  // times before it is stale, because one may be lost
 
 Json number(double value, int decimals) {
   if (!std::isfinite(value)) return nullptr;
@@ -176,7 +176,7 @@ Packets MqttEncoder::encode_incident(const Incident& incident) {
 bool MqttEncoder::is_free_slot_due(std::int64_t utime_us) const {
   if (!slots_are_announced_) return true;
   if (settings_.stale_s <= 0.0) return false;
-  // A clock that was set back must not silence them.
+  // A clock that was set back must not stop the repetition.
   const double early_s = 1e-6 * static_cast<double>(free_due_us_ - utime_us);
   return early_s <= 0.0 || early_s > settings_.stale_s / kSaidInTime;
 }

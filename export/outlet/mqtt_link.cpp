@@ -29,13 +29,13 @@ std::string first_line(const std::string& path) {
   }
 }
 
-// All that a broker has to say to a client without subscriptions, each with its length: that the
-// log-in is taken, and that it is alive.
+// All that a broker says to a client without subscriptions, each with its length: that the log-in
+// is accepted, and that it is alive.
 constexpr unsigned char kLoginAnswer = 0x20, kAlive = 0xd0;
 using Head = std::array<unsigned char, 4>;
 
-// How many bytes of it are there, without taking them; < 0: the library is to go on, or to say what
-// is wrong.
+// The number of bytes that have arrived, without taking them; < 0: the library must go on, or
+// report what is wrong.
 int peek(mosquitto* session, Head& head) {
   auto* const tls = static_cast<SSL*>(mosquitto_ssl_get(session));
   if (tls != nullptr) {
@@ -75,7 +75,7 @@ struct MqttLink::Client {
 
   mosquitto* session;
   std::optional<int> answer;  // of the broker to our log-in
-  std::string error;          // the library's last: of TLS its results do not say what is wrong
+  std::string error;          // the library's last; its results do not say what is wrong with TLS
 };
 
 MqttLink::MqttLink(const Address& address, TlsFiles files, MqttLogin login)
@@ -134,7 +134,7 @@ void MqttLink::log_in() {
   send({"", "online", login_.status_topic, true});
 }
 
-// The library would keep a message of up to 256 MB in memory, whether anybody subscribed or not.
+// The library would keep a message of up to 256 MB in memory, even one that nobody subscribed to.
 int MqttLink::take() {
   constexpr int kMostAtOnce = 100;
   for (int i = 0; i < kMostAtOnce; ++i) {
@@ -167,8 +167,8 @@ void MqttLink::send(const Packet& packet) {
   write_all();
 }
 
-// The library would keep in memory what the broker does not read. One that reads a little now and
-// then has no more time.
+// The library would keep in memory what the broker does not read. A broker that reads little by
+// little gets no more time.
 void MqttLink::write_all() {
   const double end_s = clock_monotonic_s() + kPatience_s;
   while (mosquitto_want_write(client_->session)) {
@@ -193,8 +193,7 @@ void MqttLink::wait(int wake_fd, double seconds) {
   check(result, "keep alive");
 }
 
-// Without a farewell that would keep the last will from being sent: "offline" is said by the
-// broker.
+// Without a farewell, which would cancel the last will: by it, the broker reports "offline".
 void MqttLink::close() { client_.reset(); }
 
 }  // namespace ols::exports

@@ -59,7 +59,7 @@ void QueuedOutlet::note_failure(const std::string& why) {
   ++report_.failures;
 }
 
-// What is put after the queue was found empty sets the wakeup again.
+// A packet that is put after the queue was found empty sets the wakeup again.
 std::optional<Packet> QueuedOutlet::next() {
   const auto taken = [this] {
     const std::lock_guard lock(mutex_);
@@ -70,7 +70,7 @@ std::optional<Packet> QueuedOutlet::next() {
   return taken();
 }
 
-// New packets do not end it: they wake the thread, which then waits for the rest.
+// New packets do not shorten it.
 void QueuedOutlet::pause(double seconds) {
   constexpr double kStep_s = 0.05;
   for (double waited_s = 0.0; waited_s < seconds && !ends_; waited_s += kStep_s) {

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kTroubled_s = 10.0;  // after a complaint
 constexpr int kNoWakeup = -1;
-// To what is heard at once: each waits for a receiver that reads slowly.
+// Answers to what is received at once: each may wait for a receiver that reads slowly.
 constexpr std::size_t kMostAnswers = 16;
 
 }  // namespace
@@ -36,7 +36,7 @@ void SapientLink::say_goodbye() {
   StreamLink::send({"", sapient_goodbye(settings_, clock_utime_us())});
 }
 
-// What the receiver has to say it says to a busy sender too.
+// Also hears the receiver, because a busy sender does not wait for anything.
 void SapientLink::send(const Packet& packet) {
   StreamLink::send(packet);
   wait(kNoWakeup, 0.0);

@@ -44,7 +44,8 @@ struct StreamLink::Tls {
       : context(SSL_CTX_new(TLS_client_method())) {
     SSL_CTX_set_min_proto_version(context.get(), TLS1_2_VERSION);
     SSL_CTX_set_verify(context.get(), SSL_VERIFY_PEER, nullptr);
-    // A receiver that asks for it and then says nothing would keep the writer busy for ever.
+    // A receiver that asks for renegotiation and then says nothing would keep the writer busy for
+    // ever.
     SSL_CTX_set_options(context.get(), SSL_OP_NO_RENEGOTIATION);
     SSL_CTX_set_mode(context.get(),
                      SSL_MODE_ENABLE_PARTIAL_WRITE | SSL_MODE_ACCEPT_MOVING_WRITE_BUFFER);
@@ -54,14 +55,14 @@ struct StreamLink::Tls {
       expect(X509_VERIFY_PARAM_set1_ip_asc(SSL_get0_param(session.get()), host.c_str()), host);
     } else {
       expect(SSL_set1_host(session.get(), host.c_str()), host);
-      // The macro of this has a cast in C's style.
+      // The library's macro for this has a cast in C's style.
       SSL_ctrl(session.get(), SSL_CTRL_SET_TLSEXT_HOSTNAME, TLSEXT_NAMETYPE_host_name,
                const_cast<char*>(host.c_str()));
     }
     SSL_set_fd(session.get(), fd);
   }
 
-  // Without the name in it the certificate of any receiver would do.
+  // Without a check of the name, the certificate of any receiver would do.
   static void expect(int result, const std::string& host) {
     if (result != 1) throw LinkError(host + ": its certificate cannot be checked");
   }
@@ -92,7 +93,7 @@ struct StreamLink::Tls {
         return 0;
     }
   }
-  // Why the receiver is not believed; empty: it is.
+  // Why the receiver's certificate is refused; empty: it is not.
   std::string certificate_trouble() const {
     const long verdict = SSL_get_verify_result(session.get());
     if (verdict == X509_V_OK) return {};
@@ -162,7 +163,7 @@ void StreamLink::send(const Packet& packet) {
   }
 }
 
-// All that is decoded: the socket does not tell of it any more.
+// Reads all that is decoded already, because the socket no longer reports it.
 void StreamLink::drain_tls() {
   std::array<char, 4096> bytes{};
   do {

@@ -12,7 +12,7 @@ namespace ip = boost::asio::ip;
 
 namespace {
 
-constexpr double kRefusal_s = 3.0;  // for so long it means that nobody listens
+constexpr double kRefusal_s = 3.0;  // for so long after a refusal, nobody seems to listen
 
 }  // namespace
 
@@ -56,7 +56,7 @@ void UdpOutlet::put(Packets packets) {
     boost::system::error_code bad;
     const auto send = [&] { return socket_->send(boost::asio::buffer(packet.bytes), 0, bad); };
     std::size_t bytes = send();
-    // That an earlier datagram was refused; this one has not been sent yet.
+    // An earlier datagram was refused; this one has not been sent yet.
     if (bad == boost::asio::error::connection_refused) {
       refused_s_ = clock_monotonic_s();
       ++report_.failures;

@@ -9,7 +9,7 @@
 namespace ols::exports {
 namespace {
 
-// Drawn once; every name of ours is in it.
+// The namespace of all our names, drawn once.
 constexpr boost::uuids::uuid kNamespace{{0x6f, 0x1d, 0x0c, 0x5e, 0x93, 0x42, 0x4a, 0x8b, 0xb7, 0x25,
                                          0x0e, 0x61, 0xd4, 0x8f, 0x3a, 0x19}};
 

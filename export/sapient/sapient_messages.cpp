@@ -32,7 +32,7 @@ void set_place(Location& location, double latitude_deg, double longitude_deg, do
   location.set_datum(sapient::LOCATION_DATUM_WGS84_E);
 }
 
-// How long a degree is there.
+// The length of a degree at a place.
 struct Degree {
   double east_m = 0.0, north_m = 0.0;
 };
@@ -47,7 +47,7 @@ Degree degree_at(const Place& place) {
           (ecef(place.latitude_deg + kStep_deg, place.longitude_deg) - here).norm() / kStep_deg};
 }
 
-// Deviations are in the units of what they belong to: degrees, degrees, metres.
+// Deviations have the units of their quantities: degrees, degrees, metres.
 void set_errors(Location& location, const Covariance& enu, const Degree& degree) {
   const double east_m = sd(enu[0]), north_m = sd(enu[3]), up_m = sd(enu[5]);
   if (std::isfinite(east_m) && degree.east_m > 0.0) location.set_x_error(east_m / degree.east_m);
@@ -55,7 +55,7 @@ void set_errors(Location& location, const Covariance& enu, const Degree& degree)
   if (std::isfinite(up_m)) location.set_z_error(up_m);
 }
 
-// Where it is at another instant, some hundredths of a second away.
+// Where the target is at another instant, some hundredths of a second away.
 Place moved(const Target& target, const Degree& degree, double seconds) {
   Place place = target.place;
   const auto& [east, north, up] = target.velocity_enu_m_s;
@@ -140,7 +140,7 @@ void add_station(StatusReport& report, const Station& station) {
   if (!is_well) report.set_system(StatusReport::SYSTEM_WARNING);
 }
 
-// It is new each time: a heartbeat that says everything fits whatever its receiver knows.
+// Each report is a new one: a heartbeat that says everything fits whatever its receiver knows.
 StatusReport& begin_report(SapientMessage& message, const SapientSettings& settings,
                            const char* kind, std::int64_t utime_us) {
   StatusReport& report = *message.mutable_status_report();

@@ -3,7 +3,7 @@
 namespace ols::exports {
 namespace {
 
-// What is older than the scan by more than this shows that the scan's instant was wrong.
+// A target that is older than the scan by more than this shows that the scan's instant was wrong.
 constexpr double kBack_s = 1.0;
 
 }  // namespace

@@ -38,8 +38,8 @@ std::string stations_of(const Target& target) {
   return names;
 }
 
-// Something in the air that is a drone has a type of its own. There is none for birds, and those of
-// aircraft tell civil from military ones, which nobody has seen.
+// A drone in the air has a type of its own. Birds have none, and the types of aircraft distinguish
+// civil from military ones, which no station can.
 std::string target_type(const CotSettings& settings, bool is_drone) {
   const bool is_air = settings.target_type.size() == 5 && settings.target_type.ends_with("-A");
   return settings.target_type + (is_drone && is_air ? "-M-F-Q" : "");
