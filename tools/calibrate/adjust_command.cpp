@@ -19,7 +19,7 @@ constexpr const char* kDetectable = "detectable ";
 
 bool is_limit(const Finding& one) { return one.judgement == Finding::Judgement::kBad; }
 
-// The rejected landmark that is furthest beside the others; empty: none.
+// The rejected landmark that deviates most from the others; empty: none.
 std::string rejected_landmark(const Adjusted& adjusted) {
   std::string worst;
   double highest = 0.0;
@@ -34,7 +34,7 @@ std::string rejected_landmark(const Adjusted& adjusted) {
   return worst;
 }
 
-// What has been sighted, and what has not been, but could be.
+// The landmarks that have been sighted, and those that could be.
 std::vector<Place> landmarks(const Adjusted& adjusted) {
   std::vector<Place> places;
   for (const auto& [name, reference] : adjusted.what.problem.references) {
@@ -44,7 +44,8 @@ std::vector<Place> landmarks(const Adjusted& adjusted) {
   return places;
 }
 
-// Which landmark's sighting, once more from both sides, would leave least, and how much.
+// The landmarks whose sighting, once more from both sides, would leave the smallest error; and that
+// error.
 std::vector<Foretold> next_best(const Adjusted& adjusted) {
   constexpr int kBothSides = 2;
   const Problem& problem = adjusted.what.problem;
@@ -62,7 +63,7 @@ std::vector<Foretold> next_best(const Adjusted& adjusted) {
 
 constexpr double kArcsec = EIGEN_PI / 648000.0;
 
-// What the paper's targets are good for.
+// What the paper's targets can reach.
 constexpr double kMostOfAngle_arcsec = 40.0;
 
 bool is_known(const RectifiedAngle& angle) { return angle.sd_rad <= kMostOfAngle_arcsec * kArcsec; }
@@ -78,7 +79,7 @@ std::string sentence_of(const RectifiedAngle& angle) {
   return text;
 }
 
-// Of the scenery: whether lens and gears are what the calibration in use says.
+// Of the scenery: whether lens and gears agree with the calibration in use.
 std::string scenery_for_person(const Adjusted& adjusted) {
   const bool is_new = adjusted.what.options.instruments.empty();
   std::string text = std::string("Lens and gears against ") +
@@ -108,7 +109,7 @@ Calibration calibrated(const Problem& problem, const Adjustment& adjustment,
   }
 }
 
-// Nothing tells a heading: the instrument alone is the result.
+// Nothing determines a heading: the instrument alone is the result.
 AdjustedResult instrument_for_person(const Adjusted& adjusted) {
   AdjustedResult result;
   const bool has_scenery =
@@ -174,7 +175,7 @@ AdjustedResult result_for_person(const Adjusted& adjusted) {
   if (result.worst.empty() && !next.empty()) result.worst = next.front().name;
   std::string good, other;
   for (const Finding& one : adjusted.acceptance.findings) {
-    // A reference that is good in itself is no news on one screen.
+    // Good references are left out: one screen has room for the rest only.
     const bool is_minor = one.judgement == Finding::Judgement::kGood &&
                           (one.name.starts_with(kDetectable) || one.name.starts_with("without_"));
     if (is_minor) continue;

@@ -32,7 +32,7 @@ constexpr const char* kNoPosition = "no position with a height above the ellipso
 constexpr const char* kNoMessage =
     "no message of this format in it: it is empty, compressed or of another --format";
 
-// By this host's clock a position gets its time, or is judged.
+// This host's clock gives positions their time, or judges it.
 void check_clock() {
   constexpr double kPatience_s = 5.0;  // chronyd answers within two
   clock::ClockSource source;
@@ -51,7 +51,7 @@ void check_clock() {
                            "--clock-is-right if you know that it is right");
 }
 
-// How many bytes of all inputs have come.
+// Counts the bytes that have come from all inputs.
 class Received {
  public:
   Received(const std::vector<std::string>& inputs, const TellSteps& tell)
@@ -67,7 +67,7 @@ class Received {
   const TellSteps& tell_;
 };
 
-// One input's bytes to positions.
+// Makes positions of one input's bytes.
 class Feed {
  public:
   explicit Feed(const AircraftOptions& options) : options_(options) {}
@@ -84,7 +84,7 @@ class Feed {
     text_.append(bytes.begin(), bytes.end());
     if (options_.format == "sbs") take_lines();
   }
-  // What has come so far is from a receiver that is live: of its clock.
+  // Judges the clock of a live receiver by what has come so far.
   void check_receiver() const {
     if (!delay_.least_us() || options_.clock_is_right) return;
     const std::string trouble = receiver_clock_trouble(*delay_.least_us());
@@ -112,7 +112,7 @@ class Feed {
   bool has_messages = false;
 
  private:
-  // Its time is that since the first frame, until the end tells when that was.
+  // Times count from the first frame, whose own time is known only at the end.
   void take_frame(const BeastFrames::Frame& frame, std::int64_t arrival_utime_us) {
     has_messages = true;
     const std::int64_t since_us = ticks_.take(frame.ticks, arrival_utime_us);
@@ -166,7 +166,7 @@ class Connection {
   Connection(const Connection&) = delete;
   Connection& operator=(const Connection&) = delete;
 
-  // For so long. False: the other end has closed before.
+  // Reads for so long. False: the other end has closed the connection before.
   bool read(double duration_s, Feed& feed, Received& received) const {
     using Clock = std::chrono::steady_clock;
     const auto end = Clock::now() + std::chrono::duration<double>(duration_s);
@@ -249,8 +249,8 @@ void check(const AircraftOptions& options) {
 }  // namespace
 
 std::string receiver_clock_trouble(std::int64_t least_delay_us) {
-  // An aircraft.json is written once a second. What is slower than this would be the latency of
-  // every pass alike, of which the adjustment supposes one second, and each by itself.
+  // An aircraft.json is written once a second. A longer delay would be common to all passes, but
+  // the adjustment assumes one of a second, independent for each pass.
   constexpr double kLate_s = 2.0;
   constexpr double kAhead_s = 2.0 * kClock_s;
   const double late_s = 1e-6 * static_cast<double>(least_delay_us);

@@ -130,7 +130,7 @@ AircraftSnapshot aircraft_json(const std::string& text) {
       position.latitude_deg = one.at("lat").get<double>();
       position.longitude_deg = one.at("lon").get<double>();
       position.height_m = one.at("alt_geom").get<double>() * kFoot_m;
-      // A name of another receiver's making would be written to other files as it is.
+      // The name is written to other files as it is, so it must be plain.
       const bool is_plain = std::ranges::all_of(
           position.icao, [](unsigned char c) { return std::isalnum(c) != 0 || c == '~'; });
       if (is_plain && !position.icao.empty() &&

@@ -11,7 +11,7 @@ namespace {
 
 using Message = ols_msg::procedure_answer_t;
 
-// A person who pressed a key long ago did not mean this question, whatever the sender's lease.
+// An old answer was not meant for this question, whatever the sender's lease.
 bool is_old(const Message& answer, std::int64_t now_utime_us) {
   constexpr double kLongestLease_s = 10.0, kClocks_s = 0.5;
   const double age_s =
@@ -20,7 +20,7 @@ bool is_old(const Message& answer, std::int64_t now_utime_us) {
   return !has_lease || !(std::abs(age_s) <= std::min(answer.lease_s, kLongestLease_s) + kClocks_s);
 }
 
-// As for what is typed; the numbers of another machine may be anything.
+// The limits of typed answers; the numbers of another machine may be anything.
 bool is_in_range(const Message& answer) {
   constexpr double kMostTurn_deg = 360.0, kMost_px = 1e6;
   const auto within = [](const double(&pair)[2], double most) {

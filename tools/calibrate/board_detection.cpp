@@ -83,8 +83,8 @@ double plane_misfit(const BoardView& view) {
   return cv::norm(there, view.pixels, cv::NORM_L2) / std::sqrt(static_cast<double>(flat.size()));
 }
 
-// Printers of tags number them from the top or from the bottom, and their first corner is not
-// everybody's: of all ways the one that lies in a plane.
+// Printers of tags number them from the top or from the bottom, and begin at different corners. The
+// right arrangement is the one that lies in a plane.
 BoardView best_arrangement(const std::vector<Tag>& tags, const BoardShape& shape) {
   constexpr double kFlat = 0.1;  // of a tag's edge: the lens bends a plane by less
   BoardView best;

@@ -18,7 +18,7 @@ constexpr Index kOwn = 9;   // fx, fy, cx, cy, k1, k2, p1, p2, k3
 constexpr Index kPose = 6;  // of a board
 constexpr int kDistortions = 5;
 
-// The normal equations of the camera's own nine, every board's pose eliminated.
+// The normal equations of the camera's nine parameters, with every board's pose eliminated.
 MatrixXd reduced(const std::vector<BoardView>& views, const cv::Mat& K, const cv::Mat& distortion,
                  const std::vector<cv::Mat>& turns, const std::vector<cv::Mat>& shifts) {
   MatrixXd N = MatrixXd::Zero(kOwn, kOwn);

@@ -13,8 +13,8 @@
 namespace ols::calibration {
 namespace {
 
-// A stepper of 0.9 degrees behind a worm: a step is a whole fraction of a turn of the worm, so that
-// the rounded resolution that a unit prints tells the exact one.
+// A stepper of 0.9 degrees behind a worm: a step is a whole fraction of a turn of the worm, so the
+// exact resolution follows from the rounded one that a unit prints.
 void set_resolution(Instrument& instrument, double resolution_arcsec) {
   constexpr double kTurn_arcsec = 1296000.0;
   constexpr int kStepsOfMotor = 400;
@@ -62,7 +62,7 @@ void read_sky(const CaseOptions& options, Case& what) {
   }
 }
 
-// False detections go: they are observations of nothing.
+// Removes false detections, which are observations of nothing.
 void identify(Case& what) {
   const NamedStars named = name_stars(what.problem);
   what.warnings.insert(what.warnings.end(), named.remarks.begin(), named.remarks.end());

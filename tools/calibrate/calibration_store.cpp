@@ -35,7 +35,8 @@ void sync(const fs::path& path) {
   if (!synced) fail(path);
 }
 
-// With everything that is in it: after a loss of power a name may else stand for an empty file.
+// Syncs everything in the folder: otherwise a name may stand for an empty file after a loss of
+// power.
 void sync_tree(const fs::path& folder) {
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
     if (entry.is_directory() || entry.is_regular_file()) sync(entry.path());
@@ -88,7 +89,7 @@ std::vector<fs::path> CalibrationStore::lock() {
   return dead;
 }
 
-// What a loss of power cut short: the history's last line says what a person decided.
+// Completes what a loss of power cut short: the history's last line says what a person decided.
 void CalibrationStore::complete() const {
   const auto lines = history();
   if (lines.empty()) return;
@@ -226,8 +227,8 @@ std::vector<HistoryLine> CalibrationStore::history() const {
 std::optional<std::string> CalibrationStore::previous() const {
   const auto now = current();
   const auto lines = history();
-  // The last procedure that brought the current one says what was before it. Where a revert came
-  // from is no way back: two would lead to and fro.
+  // The procedure that brought the current calibration says which was before it. Reverts do not
+  // count, because two of them would lead to and fro.
   for (auto line = lines.rbegin(); line != lines.rend(); ++line) {
     if (line->event != "accepted" || line->id != now) continue;
     if (line->previous.empty() || line->previous == now || !has(line->previous))

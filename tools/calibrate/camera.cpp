@@ -75,7 +75,7 @@ Boards read_boards(const CameraOptions& options) {
   return found;
 }
 
-// Of a view whose corners do not fit to those of the others.
+// Remarks on the views whose corners do not fit those of the others.
 std::vector<std::string> suspects(const Boards& boards, const BoardCamera& camera) {
   constexpr double kSuspect_px = 0.3;
   std::vector<std::string> said;

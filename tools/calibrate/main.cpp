@@ -69,7 +69,7 @@ void add_aircraft_options(CLI::App& app, calibration::AircraftOptions& o) {
 }
 
 void add_camera_options(CLI::App& app, calibration::CameraOptions& o) {
-  app.add_option("--pictures", o.pictures, "of one board, ten and more, from all sides")
+  app.add_option("--pictures", o.pictures, "pictures of one board: ten or more, from all sides")
       ->required();
   app.add_option("--board", o.shape.kind, "chessboard, charuco or apriltag")
       ->check(CLI::IsMember({"chessboard", "charuco", "apriltag"}));
@@ -80,7 +80,7 @@ void add_camera_options(CLI::App& app, calibration::CameraOptions& o) {
   app.add_option("--square", o.shape.square_m, "[m] edge of a square; from one tag to the next")
       ->check(CLI::Range(1e-4, 10.0));
   app.add_option("--marker", o.shape.marker_m, "[m] edge of a ChArUco's marker, of a tag");
-  app.add_option("--lens", o.model, "its model: pinhole, fisheye or polynomial")
+  app.add_option("--lens", o.model, "model of the lens: pinhole, fisheye or polynomial")
       ->transform(CLI::CheckedTransformer(
           std::map<std::string, ols::LensModel>{{"pinhole", ols::LensModel::kPinhole},
                                                 {"fisheye", ols::LensModel::kFisheye},
@@ -101,7 +101,7 @@ void add_tracks_options(CLI::App& app, calibration::TracksOptions& o) {
   app.add_option("--aircraft", o.aircraft,
                  "CSV of `ols-calibrate aircraft`: what flew as one of them becomes its sightings")
       ->check(CLI::ExistingFile);
-  app.add_option("--least-belief", o.log.least_belief, "of the tracker, 0 to 1")
+  app.add_option("--least-belief", o.log.least_belief, "lowest belief of the tracker, 0 to 1")
       ->capture_default_str()
       ->check(CLI::Range(0.0, 1.0));
   app.add_option("--output", o.output, "JSON lines for --observations; it must be new")->required();
@@ -111,7 +111,7 @@ constexpr const char* kExitStatus =
     "Exit status: 0 the result is within its limits and made of everything that was given; 1 it is "
     "not, or was not accepted, and the messages say why; 2 there is no result.";
 
-// Nothing that stands there is overwritten: another calibration, an input.
+// Nothing is overwritten: neither another calibration nor an input.
 fs::path output_folder(const calibration::CaseOptions& o) {
   if (o.output.empty()) return calibration::checked_folder(o.output);
   std::vector<ols::NamedFile> inputs{{"--references", o.references}, {"--predict", o.predict}};
@@ -122,7 +122,7 @@ fs::path output_folder(const calibration::CaseOptions& o) {
   return calibration::checked_folder(o.output);
 }
 
-// The results are there all the same: what to do about a limit is for a person to decide.
+// The results are written in any case: what to do about a limit is for a person to decide.
 int adjust(const calibration::CaseOptions& options) {
   ols::Progress progress("ols-calibrate", "adjustments");
   std::size_t done = 0;

@@ -83,12 +83,12 @@ setup::Values corrected(setup::Values values, const MountResult& result) {
     if (!fit) continue;
     fits.push_back(&*fit);
     set_axis(values, axis, *fit);
-    // What comes of backlash, an error of half of it to either side, is not told from noise.
+    // Backlash, an error of half of it to either side, cannot be told from noise.
     position_sd_rad =
         std::max(position_sd_rad, std::hypot(fit->position_sd_rad, 0.5 * fit->backlash_rad.value));
   }
   const Measured delay = common_delay(fits);
-  // Less than nothing: the pictures' own delay is taken for too long.
+  // A negative delay: the configured delay of the pictures is too long.
   const double delay_s = number_in(values, "mount.delay_s", kDelay_s) + delay.value;
   const double short_s = std::max(0.0, -delay_s);
   if (short_s > 3.0 * delay.sd)

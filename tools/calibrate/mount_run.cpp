@@ -48,7 +48,7 @@ MountRun::MountRun(const StationFiles& station, LcmBus& bus)
             status->tilt_limits_rad[1]}};
 }
 
-// The home is where it stands: two statuses that follow each other agree.
+// Home is where the mount stands: two statuses that follow each other agree.
 void MountRun::wait_until_it_stands() {
   constexpr double kStands_rad = radians(0.05);
   const double end_s = clock_monotonic_s() + kPatience_s;
@@ -130,12 +130,12 @@ void MountRun::take_at(const PanTilt& place, const Axis& axis) {
   }
 }
 
-// With pictures of the way.
+// Turns there, and takes pictures on the way.
 void MountRun::pass(const Axis& axis, const PanTilt& to, double rate_rad_s) {
   PanTilt rate;
   rate.*axis.of = rate_rad_s;
   const double end_s = clock_monotonic_s() + kPatience_s;
-  // A picture whenever it has turned this far; what does not turn gives none.
+  // A picture whenever it has turned this far; a mount that stands gives none.
   const double apart_rad = std::abs(to.*axis.of - home_.*axis.of) / kPicturesOfPass + 1e-3;
   double sent_s = -1e9, asked_s = -1e9, turned_s = clock_monotonic_s();
   std::optional<double> pictured_rad;

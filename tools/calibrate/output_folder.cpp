@@ -23,7 +23,8 @@ void note(int signal) {
 
 }  // namespace
 
-// A mask would hold them from this thread alone: any other would take them, OpenCV's as well.
+// A mask would hold the signals back from this thread only: any other would take them, even
+// OpenCV's.
 SignalsWait::SignalsWait() {
   struct sigaction action {};
   action.sa_handler = note;

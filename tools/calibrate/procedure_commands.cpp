@@ -134,7 +134,7 @@ void tell_dead(const std::vector<fs::path>& dead, Person& person) {
   }
 }
 
-// The folder that is wanted, among those that were set aside.
+// The wanted folder among the interrupted ones.
 fs::path interrupted_folder(const std::string& wanted, const std::string& procedure,
                             const CalibrationStore& store) {
   const auto all = store.interrupted();

@@ -10,7 +10,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Sets it aside; where it is, and what can be done with it.
+// Sets the session aside; returns where it is, and how to go on with it.
 std::string set_aside(const ProcedureSession& session, CalibrationStore& store) {
   const fs::path kept = store.interrupt(session.folder());
   const bool can_go_on = fs::exists(kept / kSessionFile);

@@ -23,7 +23,7 @@ constexpr double kSilent_s = 6.0;     // without a status the station is gone
 constexpr double kWait_s = 0.1;       // before a stage that waits is asked again
 constexpr double kLive_s = 0.7;       // from one picture of a live question to the next
 
-// Into one datagram.
+// Makes the picture small enough for one datagram.
 void add_picture(const Question& question, M& message) {
   constexpr std::size_t kMost_bytes = 55000;
   message.full_width_px = question.picture.cols;
@@ -69,7 +69,7 @@ void ProcedureRunner::check_station() const {
   }
 }
 
-// A camera that came back with another window or binning counts its pixels otherwise.
+// A camera that came back with another window or binning has other pixels.
 void ProcedureRunner::check_size(const cv::Mat& picture) {
   if (size_.empty()) size_ = picture.size();
   if (picture.size() == size_) return;
@@ -110,7 +110,8 @@ Outcome ProcedureRunner::run(FieldProcedure& procedure, const Adjust& adjust) {
   return procedure.outcome();
 }
 
-// Once for each time that the procedure was interrupted; at the end for this one.
+// Tells the procedure of each earlier interruption, and at the end of the replay of the present
+// one.
 bool ProcedureRunner::still_replays(FieldProcedure& procedure) {
   while (session_->take_resumed()) procedure.resumed();
   if (session_->is_replaying()) return true;
@@ -120,7 +121,7 @@ bool ProcedureRunner::still_replays(FieldProcedure& procedure) {
   return false;
 }
 
-// What came of an order then; it is not carried out again.
+// Repeats what came of an order then, without carrying it out again.
 void ProcedureRunner::replay(FieldProcedure& procedure, const Order& order) {
   turn();
   const JournalEntry entry = session_->replayed(order);
@@ -136,10 +137,10 @@ void ProcedureRunner::replay(FieldProcedure& procedure, const Order& order) {
   }
 }
 
-// From where the last motion to the shot has the wanted direction in both axes.
+// The position from which the last motion to the shot has the wanted direction in both axes.
 PanTilt ProcedureRunner::before_approach(const Shot& shot) const {
   constexpr double kRunUp_rad = 0.007;  // 0.4 degrees: more than any backlash
-  // Where a side is not known, the unit runs up whatever the way.
+  // If the side of approach is not known, the unit always runs up.
   const PanTilt here = here_ && sides_known_ ? *here_ : shot.angles;
   const auto from = [](double now, double to, int approach) {
     return (to - now) * approach >= kRunUp_rad ? to : to - approach * kRunUp_rad;
@@ -190,7 +191,7 @@ std::optional<FrameFile> ProcedureRunner::picture_of(FieldProcedure& procedure, 
   return frame;
 }
 
-// A picture whose side of approach the station does not know is none: the backlash is never
+// A picture whose side of approach the station does not know is not used: the backlash is never
 // guessed. The unit runs up once more; the station forgets the side when it homes.
 void ProcedureRunner::shoot(FieldProcedure& procedure, const Order& order) {
   const std::string why = keep_away_ ? keep_away_(order.shot.angles) : "";
@@ -210,7 +211,7 @@ void ProcedureRunner::shoot(FieldProcedure& procedure, const Order& order) {
   procedure.taken(taken);
 }
 
-// With the time of the order: where the sun stood then decides what an order was.
+// Notes the time of the order, too: the sun's place at that time decided what was ordered.
 void ProcedureRunner::note(JournalEntry entry) {
   entry.ordered_utime_us = ordered_utime_us_;
   if (session_) session_->note(entry);
@@ -234,7 +235,7 @@ void ProcedureRunner::show(const Question& question) {
   publish();
 }
 
-// A new picture for a live question; what it says replaces what was asked.
+// A new picture for a live question replaces what was asked.
 void ProcedureRunner::keep_live(FieldProcedure& procedure, LiveQuestion& live) {
   const double now_s = clock_monotonic_s();
   if (const auto frame = station_.take_frame()) {
@@ -254,8 +255,8 @@ void ProcedureRunner::keep_live(FieldProcedure& procedure, LiveQuestion& live) {
   live.due_s = now_s + kAskAgain_s;
 }
 
-// A question may wait for so long that the sun comes into the picture. Again and again, until the
-// unit says that it stands elsewhere: a command may be lost.
+// A question may wait for so long that the sun comes into the picture. The command is repeated
+// until the unit stands elsewhere, because one may be lost.
 void ProcedureRunner::turn_away() {
   const auto stands = station_.angles();
   const double now_s = clock_monotonic_s();

@@ -19,7 +19,8 @@ namespace {
 
 constexpr const char* kJournal = "journal.jsonl";
 
-// A file's lines. What a loss of power has cut is taken off it: the next line would go on with it.
+// The lines of a file. A line that a loss of power has cut is removed, or the next one would be
+// joined to it.
 std::string whole_lines(const fs::path& path) {
   if (!fs::exists(path)) return {};
   std::ifstream file(path);
@@ -148,7 +149,7 @@ fs::path ProcedureSession::next_result() {
 
 void ProcedureSession::take_result() const {
   const fs::path result = folder_ / ("result-" + std::to_string(results_));
-  // Over an earlier result, of a procedure that was interrupted between its end and its storing.
+  // Over an earlier result, if the procedure was interrupted between its end and its storing.
   constexpr auto kHow = fs::copy_options::recursive | fs::copy_options::overwrite_existing;
   for (const auto& entry : fs::directory_iterator(result)) {
     fs::copy(entry.path(), folder_ / entry.path().filename(), kHow);

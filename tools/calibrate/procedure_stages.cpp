@@ -35,7 +35,7 @@ fs::path store_of(const ProcedureOptions& options, const station::StationSetting
   return fs::path(settings.state_folder) / "calibrations" / settings.id;
 }
 
-// Of the calibration in use, unless something else is wanted.
+// The instrument of the calibration in use, unless another one is wanted.
 std::string instrument_of(const ProcedureOptions& options, const fs::path& store) {
   if (options.instrument == "new") return "";
   if (!options.instrument.empty()) return options.instrument;
@@ -61,8 +61,8 @@ SweepPlanOptions sweep_options(const ProcedureOptions& options, const StationFil
   return plan;
 }
 
-// The reference that a message is about, so that it can be sighted again. The longest name that is
-// in it: "sign 10" is not "sign 1".
+// The reference that a message is about, so that it can be sighted again. The longest name in it
+// counts: "sign 10" is not "sign 1".
 std::string named_in(const std::string& text, const ReferenceFeed& references) {
   std::string named;
   for (const Landmark& one : references.landmarks()) {
@@ -72,7 +72,7 @@ std::string named_in(const std::string& text, const ReferenceFeed& references) {
   return named;
 }
 
-// While an interrupted procedure is told what happened in it, the sun stands where it stood then.
+// While an interrupted procedure is replayed, the sun stands where it stood then.
 SunKeepOut::UtcNow clock_of(const ProcedureSession& session) {
   return [&session] { return session.replayed_utime_us().value_or(clock_utime_us()); };
 }
@@ -169,7 +169,7 @@ class Plan {
   std::vector<std::unique_ptr<Stage>> stages_;
 };
 
-// With absolute paths: it may be gone on with from elsewhere.
+// With absolute paths, because it may be resumed from another folder.
 ProcedureOptions as_begun(ProcedureOptions options, const StationFiles& station) {
   if (!options.references.empty()) options.references = fs::absolute(options.references).string();
   options.instrument =
@@ -177,7 +177,7 @@ ProcedureOptions as_begun(ProcedureOptions options, const StationFiles& station)
   return options;
 }
 
-// Whose source is gone is gone on with from its copy.
+// If the source is gone, a resumed procedure uses its copy.
 std::shared_ptr<ReferenceFeed> references_of(const ProcedureOptions& options,
                                              const fs::path& folder) {
   if (options.references.empty()) return nullptr;

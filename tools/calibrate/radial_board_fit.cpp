@@ -31,9 +31,9 @@ struct Fit {
   std::vector<Eigen::Isometry3d> poses;  // camera by board
 };
 
-// A focal length with which the outermost corner is at this angle: OpenCV 4.6 fails with its own
-// first guess, by which wide pictures reach beyond 90 degrees. Measured: from 50 to 85 degrees all
-// guesses end at the same lens.
+// The first guess of the focal length puts the outermost corner at this angle. OpenCV 4.6 fails
+// with its own guess, by which wide pictures reach beyond 90 degrees. Measured: from 50 to 85
+// degrees, all guesses end at the same lens.
 constexpr double kOutermost_rad = radians(70.0);
 
 double guessed_focal_px(const std::vector<BoardView>& views, const cv::Point2f& middle) {

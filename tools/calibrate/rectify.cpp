@@ -9,8 +9,8 @@
 namespace ols::calibration {
 namespace {
 
-// What the station knows of its own level: the roll and the elevation of the camera are seen
-// against the horizon, and belong to the unit only as far as that is level.
+// What the station knows of its own level. The camera's roll and elevation are seen against the
+// horizon; they are relative to the unit only as far as the unit is level.
 std::vector<Observation> level_of(const ols_msg::station_status_t& status) {
   using M = ols_msg::station_status_t;
   constexpr double kReading_rad = 5e-6;
@@ -23,7 +23,7 @@ std::vector<Observation> level_of(const ols_msg::station_status_t& status) {
   return {level};
 }
 
-// Nothing to be done: what was read before the first picture.
+// A stage without orders: its observations were read before the first picture.
 class ReadBefore : public Stage {
  public:
   explicit ReadBefore(std::vector<Observation> observations)

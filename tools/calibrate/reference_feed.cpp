@@ -17,7 +17,7 @@ ReferenceFeed::ReferenceFeed(fs::path source, fs::path copy)
   take();
 }
 
-// Lines that are whole: the last one may be at work.
+// Takes whole lines only: the last one may still be in the making.
 void ReferenceFeed::take() {
   std::ifstream file(source_, std::ios::binary);
   std::string text(std::istreambuf_iterator<char>(file), {});

@@ -33,8 +33,8 @@ Json parameters_of(const StationResult& result) {
 
 using AzimuthRow = Eigen::Matrix<double, 1, kStationParameters>;
 
-// The mean azimuth of the horizon, all around, by the parameters: the deviation of the heading
-// alone says little, because its error is spread over the mounting, too.
+// Derivative of the mean azimuth of the horizon, all around, by the parameters. The heading's
+// deviation alone says little, because its error is shared with the mounting.
 AzimuthRow mean_azimuth(const StationModel& model) {
   constexpr int kPans = 12;
   constexpr double kTurn = 5.0 / 6.0;  // pan -150..150 degrees

@@ -112,7 +112,7 @@ std::int64_t StationLink::command(std::int8_t what, const PanTilt& angles) {
   return message.sequence;
 }
 
-// By when it arrived: it may have waited in the queue while something was computed.
+// By its time of arrival: it may have waited in the queue while something was computed.
 double StationLink::status_age_s() const {
   return 1e-6 * static_cast<double>(clock_utime_us() - arrived_utime_us_);
 }

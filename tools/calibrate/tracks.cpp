@@ -28,8 +28,8 @@ void note(std::vector<std::string>& said, std::size_t count, const char* what) {
   if (count > 0) said.push_back(std::to_string(count) + " sightings " + what);
 }
 
-// The tracker's doubts and a unit that turns round are of every flight; a station that contributes
-// nothing, a clock that is wrong and a damaged recording are not.
+// Notes are normal in every flight: the tracker's doubts, a unit that turns round. Faults are not:
+// a station that contributes nothing, a wrong clock, a damaged recording.
 CommandReport report_on(const SightingLog& log, const Instants& instants,
                         const FollowedObservations& found, const std::vector<std::string>& names) {
   CommandReport report{found.remarks, {}, log.damage};

@@ -35,7 +35,7 @@ int run_check(const ProcedureOptions& options, const StationFiles& station,
               CalibrationStore& store) {
   const fs::path calibration = panorama_of(options, store);
   Person person(options.script);
-  // Else two procedures would drive one unit.
+  // Otherwise two procedures would drive one unit.
   for (const fs::path& dead : store.lock()) {
     person.tell("! a procedure was interrupted; its observations are kept in " + dead.string());
   }

@@ -30,7 +30,7 @@ std::vector<StoredView> all_views(const fs::path& calibration) {
     const auto object = nlohmann::json::parse(line, nullptr, false);
     StoredView view;
     try {
-      // Stars, the sun behind its filter and a drone are no scenery that stays.
+      // Stars, the sun behind its filter and a drone are no permanent scenery.
       if (!object.value("is_view", true)) continue;
       view.file = (calibration / object.at("file").get<std::string>()).string();
       view.angles = {object.at("pan_rad").get<double>(), object.at("tilt_rad").get<double>()};
@@ -112,7 +112,7 @@ void ViewStage::step() {
   if (++at_ == views_.size()) end_round();
 }
 
-// Nothing is said that a second round does not confirm.
+// A difference is reported only if a second round confirms it.
 void ViewStage::end_round() {
   is_conclusive_ = offsets_.size() >= kFewest;
   const bool look_again =

@@ -67,7 +67,7 @@ class ZoomRun {
   }
   void end() { link_.release(); }
 
-  // Nothing: said why.
+  // nullopt: the reason has been printed.
   std::optional<ZoomPoint> measure(double position) {
     const auto arrived = move_lens(position);
     if (!arrived) return complain(position, "the lens does not get there");
@@ -110,7 +110,7 @@ class ZoomRun {
     link_.check_not_stopped();
     if (shutdown_requested()) throw std::runtime_error("interrupted");
   }
-  // Where it says that it stands: two statuses that follow each other agree.
+  // Returns the position where two statuses that follow each other agree.
   std::optional<double> move_lens(double position) {
     const double end_s = clock_monotonic_s() + kPatience_s;
     double sent_s = -1e9, before = std::numeric_limits<double>::quiet_NaN();
@@ -130,7 +130,7 @@ class ZoomRun {
     }
     return std::nullopt;
   }
-  // From one side to the other: all are approached alike, so that no backlash is between them.
+  // From one side to the other: all are approached alike, so backlash does not matter.
   std::vector<PanTilt> poses(const StationGeometry& known) const {
     const double view_rad = field_of_view(known.camera).x();
     const double step_rad = std::min(kStepOfView * view_rad, kLargestStep_rad);
@@ -162,12 +162,12 @@ class ZoomRun {
           clock_monotonic_s() > std::max(*asked_s, link_.awaited().part_heard_s()) + kAskAgain_s;
       if (!due || !link_.may_point()) continue;
       link_.point();
-      link_.ask_frame(arrival, false);  // points are found as well, and a picture comes at once
+      link_.ask_frame(arrival, false);  // compressed: enough for points, and fast
       asked_s = clock_monotonic_s();
     }
     return std::nullopt;
   }
-  // A count's rounding, and as much again for what a worm leaves over a few degrees.
+  // A count's rounding, and as much again for the worm's error over a few degrees.
   double angle_sd_rad() const {
     const double count_rad = link_.count() ? link_.count()->pan_rad : 1e-4;
     return std::sqrt(2.0 / 12.0) * count_rad;
@@ -220,7 +220,7 @@ CLI::App* add_zoom(CLI::App& app, ZoomOptions& o) {
   zoom->add_option("--lcm-url", o.lcm_url, "bus of the site; else the station's")
       ->envname("LCM_DEFAULT_URL");
   trust::add_trust_options(*zoom, o.trust);
-  zoom->add_option("--positions", o.positions, "of the zoom, from widest to longest")
+  zoom->add_option("--positions", o.positions, "positions of the zoom, from widest to longest")
       ->check(CLI::Range(2, 40))
       ->capture_default_str();
   zoom->add_option("--output", o.output, "TOML: the points of [lens_motor]")->required();

@@ -82,7 +82,7 @@ std::optional<wire::Reply> Operator::wait_for_reply(wire::OrderId order) {
 
 std::optional<std::string> Operator::give(wire::Order order) {
   auto reply = wait_for_reply(send(order));
-  // An order must name the station's start, which a first answer tells where no status has.
+  // An order must name the station's boot. If no status has told it, the first answer does.
   if (reply && reply->reason == "other_boot") reply = wait_for_reply(send(order));
   if (!reply) return "no answer";
   return reply->is_accepted ? std::nullopt : std::optional(wire::refusal_in_words(*reply).text);

@@ -45,7 +45,7 @@ std::string line_without_secrets(const std::string& text) {
   return line;
 }
 
-// A folder of its own, gone with this object.
+// A temporary folder, which is removed with this object.
 class Folder {
  public:
   Folder() {
@@ -60,14 +60,14 @@ class Folder {
   Folder(const Folder&) = delete;
   Folder& operator=(const Folder&) = delete;
 
-  // The only ways in: nothing gets there as it was.
+  // The only ways into the folder: each removes secrets.
   void put(const std::string& name, const std::string& text) const {
     std::ofstream(path_ / name) << without_secrets(text);
   }
   void put_toml(const std::string& name, const std::string& text) const {
     std::ofstream(path_ / name) << without_secrets_of_toml(text);
   }
-  // Each text by itself: of the JSON a line would lose its end.
+  // Each text by itself: in JSON, a line would lose its end with a secret.
   void put(const std::string& name, Findings findings) const {
     for (Finding& finding : findings) {
       finding.what = line_without_secrets(finding.what);

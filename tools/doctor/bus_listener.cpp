@@ -26,7 +26,7 @@ constexpr int kPoll_ms = 50;
 constexpr double kCommand_s = 2.0;
 constexpr std::size_t kMostBoots = 100;  // limits the memory that forged messages can use
 
-// By the examined process's own key, as root: it only listens.
+// Uses the key of the examined process, as root: it only listens.
 std::shared_ptr<trust::BusTrust> open_trust(const trust::TrustConfig& config,
                                             const std::string& name) {
   trust::Self self;
@@ -71,7 +71,7 @@ StationHeard station_from(const ols_msg::station_status_t& status) {
   return station;
 }
 
-// Without a list everybody is a stranger: what is heard until then says nothing.
+// Without a trust list everybody is a stranger, so nothing can be concluded before it comes.
 void wait_for_list(LcmBus& bus, const trust::BusTrust& signatures) {
   const double end_s = clock_monotonic_s() + 2.0 * trust::BusTrust::kTell_s;
   while (signatures.list_number() == 0 && clock_monotonic_s() < end_s) bus.handle(kPoll_ms);

@@ -46,7 +46,7 @@ Finding refused(const std::string& path, const ConfigError& error) {
   return fail(what, "correct that line; docs/configuration.md lists every key");
 }
 
-// Of a sensor on a serial line the line is looked at first.
+// If the sensor is on a serial line, the line is examined first.
 Findings examine_inclinometer(const station::ChosenInclinometer& inclinometer, double patience_s) {
   Findings findings;
   if (const auto* dpg2 = inclinometer.as<sensors::Dpg2Kind>()) {
@@ -139,7 +139,7 @@ Findings examine_own(const station::StationSettings& settings, const std::string
   return findings;
 }
 
-// A tripod has no list but the one that its station has heard and kept.
+// A tripod has only the list that its station has received and stored.
 trust::TrustConfig own_trust(const station::StationSettings& settings) {
   trust::Environment environment = station::trust_environment(settings);
   if (environment.state.empty()) environment.state = "/var/lib/ols";
@@ -260,7 +260,7 @@ Findings examine_bridge(const std::string& path) {
   }
 }
 
-// Of the exporter the state of its service alone is examined.
+// Of the exporter, only the state of its service is examined.
 Findings examine_program(const std::string& name, const std::string& path, const Request& request,
                          std::map<std::string, std::string>& statuses) {
   if (name == "fusion") return examine_fusion(path, request, statuses);

@@ -45,8 +45,8 @@ std::optional<Finding> judge_frames(const StationHeard& station) {
               "60-ols.conf");
 }
 
-// Without one nothing is wrong: the configuration says how little is known. What its checks found
-// is an alarm of the station.
+// No calibration is no fault: the configuration says how little is known. What the checks of a
+// calibration found is an alarm of the station.
 std::optional<Finding> judge_calibration(const StationHeard::Calibration& calibration) {
   constexpr double kArcsecondsPerRad = 648000.0 / 3.14159265358979323846, kDay_s = 86400.0;
   if (!calibration.in_use) return std::nullopt;

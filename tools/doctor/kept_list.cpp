@@ -11,7 +11,7 @@
 namespace ols::doctor {
 namespace {
 
-// Where the tripod is new to a site, its station ignores the list of the former one, too.
+// A station that is new to a site ignores the list of its former site, and so does this.
 bool is_of_site(const std::string& list, const std::string& key) {
   try {
     const std::string text = read_small_file(list, trust::kLargestList);

@@ -41,7 +41,7 @@ std::string without_unnamed(const std::string& line) {
   return std::regex_replace(result, kUrl, std::string("$1") + kRemoved + "@");
 }
 
-// What must still come before a value that begins in this line is over; empty: it is over.
+// What ends a value that begins in this line and goes on behind it; empty: the value ends here.
 std::string end_awaited(const std::string& value) {
   for (const std::string quote : {"\"\"\"", "'''"}) {
     if (value.starts_with(quote)) return value.find(quote, 3) == value.npos ? quote : "";

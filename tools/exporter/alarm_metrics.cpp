@@ -6,7 +6,7 @@ namespace ols::exporter {
 
 void add_alarms(MetricCollection& all, const std::string& program, const std::string& station,
                 const std::vector<Alarm>& alarms) {
-  std::set<std::string> told;  // a sample is told once
+  std::set<std::string> told;  // each sample may appear only once
   for (const Alarm& alarm : alarms) {
     const AlarmRow& row = alarm.row();
     if (!told.insert(alarm.gist()).second) continue;

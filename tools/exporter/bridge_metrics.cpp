@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-// Not all senders' faults: also what is another site's, or another owner's.
+// Not all are their senders' faults: some are of another site, or of another owner.
 void add_direction(MetricCollection& all, const std::string& direction, const Json& counts) {
   all.counter("ols_bridge_messages_total", "Messages that passed.", {{"direction", direction}},
               counts.at("passed").get<double>());

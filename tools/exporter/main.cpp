@@ -30,7 +30,7 @@ namespace {
 constexpr int kTurn_ms = 200;
 constexpr double kStatus_s = 60.0;  // the line of status does not change
 
-// Heard by the main thread, told by those of the web server.
+// Written by the main thread, read by those of the web server.
 class Told : public prometheus::Collectable {
  public:
   explicit Told(std::string bridge_status) : bridge_status_(std::move(bridge_status)) {}

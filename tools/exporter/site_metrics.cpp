@@ -36,7 +36,7 @@ void add_state(MetricCollection& all, const std::string& id, const station_statu
             s.clock_error_s);
 }
 
-// One at a time for each station: after an update the former is not told any more.
+// One version for each station: after an update the previous one is gone.
 void add_version(MetricCollection& all, const std::string& id, const station_status_t& s) {
   all.gauge("ols_station_build_info", "1; the version of the station's program.",
             {{"station", id}, {"version", wire::software(s)}}, 1.0);

@@ -10,15 +10,15 @@
 namespace ols::key {
 namespace {
 
-// Of a log that anybody may have written to: more channels are counted together.
+// Anybody may have written to the log, so further channels are counted together.
 constexpr std::size_t kMostChannels = 10'000;
 constexpr const char* kOtherChannels = "(others)";
 
-// Of recordings: their time is not the present.
+// For recordings, whose time is not the present.
 const trust::Verifier::Config kRecorded{
     .clock_tolerance_us = 30'000'000, .takes_stale_statuses = true, .is_stop = trust::is_stop};
 
-// Which known list it is, whoever tells it.
+// The number of the known list in the message, whoever sent it.
 std::optional<std::int64_t> number_in(const Lists& lists, std::string_view channel,
                                       trust::Bytes message) {
   if (channel != trust::kTrustChannel) return std::nullopt;
@@ -51,8 +51,8 @@ LogCheck::LogCheck(Lists lists, std::int64_t first)
       in_force_{first},
       verifier_(kRecorded, std::nullopt, lists_.at(first)) {}
 
-// As the programs of the site did when they heard it: from a member, or from one that the newer
-// list itself makes known. Never an older one, by which a revoked key would come back.
+// Follows a list as the site's programs did: if it came from a member, or from one that the newer
+// list itself makes a member. Never an older one, by which a revoked key would come back.
 bool LogCheck::follow_list(std::string_view channel, trust::Bytes message, bool believed) {
   const auto number =
       believed ? number_in(lists_, channel, message) : told_number(lists_, channel, message);

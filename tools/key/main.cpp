@@ -34,7 +34,7 @@ struct Words {
 
 ols::key::SiteFiles files_of(const Words& words) { return {words.root, words.list}; }
 
-// The change itself is made, even if the stick cannot be written.
+// The change itself stays, even if the stick cannot be written.
 void keep_copy(const Words& words) {
   try {
     const std::string copy = ols::key::copy_list(files_of(words));
@@ -115,7 +115,7 @@ void revoke(const Words& words) {
   say_list(words, ols::key::revoke_in(files_of(words), words.name));
 }
 
-// As every station will read them.
+// Reads the settings as every station will.
 void check_settings(const trust::SiteSettings& site, const std::string& name) {
   ols::ConfigFile file(site.body, name);
   ols::station::StationSettings station;
@@ -156,7 +156,7 @@ ols::key::Lists lists_in(const fs::path& folder, const Words& words) {
   return lists;
 }
 
-// Until `look` has seen enough; what is damaged up to there, in words.
+// Reads until `look` has seen enough; returns what is damaged up to there, in words.
 template <class Look>
 std::string read_log(const std::string& path, Look look) {
   ols::LogReader log(path, ols::LogTimes::kAsRecorded);

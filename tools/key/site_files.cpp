@@ -29,7 +29,7 @@ void copy_text(const std::string& from, const std::string& to) {
   file.commit();
 }
 
-// Empty: none is needed.
+// The path of the copy; empty: none is needed.
 std::string copy_path(const SiteFiles& files) {
   namespace fs = std::filesystem;
   const fs::path root = fs::absolute(files.root);
@@ -57,7 +57,7 @@ trust::TrustList read_site(const SiteFiles& files, const trust::RootKey& root) {
 
 namespace {
 
-// To be changed: a change of an older list than the copy's would undo what was revoked since.
+// For a change of the list: to change an older list than the copy would undo later revocations.
 trust::TrustList read_newest(const SiteFiles& files, const trust::RootKey& root) {
   const trust::TrustList list = read_site(files, root);
   const std::string copy = copy_path(files);

@@ -10,7 +10,7 @@ namespace {
 using trust::Member;
 using trust::TrustList;
 
-// Whether there was one.
+// Revokes the member's keys; returns whether there was one.
 bool revoke_in(TrustList& list, const std::string& name) {
   bool found = false;
   for (Member& member : list.members) {

@@ -21,7 +21,7 @@ namespace {
 constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
 constexpr double kPerLevel_m = 3.0;
 constexpr double kTallest_m = 900.0;  // of what people have built; trees stay below 120 m
-// 1-sigma: a height that was measured or estimated by eye, of a storey, of a tree's share.
+// 1-sigma: of a stated height, for each storey, and of a wood as a share of its height.
 constexpr double kStatedSd_m = 1.0, kPerLevelSd_m = 0.5, kWoodSd = 0.2;
 
 // Why features are left out: how many, and the first.

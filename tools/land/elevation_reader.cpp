@@ -175,7 +175,7 @@ struct BandMeaning {
   double scale = 1.0, offset = 0.0;  // to metres
 };
 
-// What is void becomes NaN, and what no land of the Earth has, with a note.
+// Voids become NaN; so do heights that no land of the Earth has, with a note.
 void interpret(Raster& raster, const BandMeaning& band, std::vector<std::string>& notes) {
   std::size_t voids = 0, absurd = 0, first_absurd = 0;
   float absurd_m = 0.0F;

@@ -25,7 +25,7 @@ std::string name_of(const std::string& path) {
   return std::filesystem::path(path).filename().string();
 }
 
-// SRTM and DTED define it: EGM96.
+// Heights of SRTM and DTED are above EGM96 by definition.
 std::string heights_of(const std::string& path, const std::string& stated) {
   if (!stated.empty()) return stated;
   const std::string name = name_of(path);
@@ -122,7 +122,7 @@ class Import {
     return text.str();
   }
 
-  // The site's ground must be known; what is not known around it is told.
+  // The site's ground must be known; how much is known around it is reported.
   void check_cover(const Mosaic& mosaic) {
     std::vector<HeightGrid> grids;
     for (const NewGrid& grid : mosaic.grids)
@@ -166,7 +166,7 @@ class Import {
   Bounds bounds_;
   Manifest manifest_;
   std::vector<Raster> rasters_;
-  double heights_ = 0.0;  // in them
+  double heights_ = 0.0;  // in rasters_
   std::vector<Covering> coverings_;
   std::map<std::string, std::unique_ptr<const Geoid>> geoids_;
 };

@@ -160,7 +160,7 @@ int main(int argc, char** argv) {
   profile->add_option("--azimuth", view.azimuth_deg, "Clockwise from true north, in degrees")
       ->required();
   profile->add_option("--elevation", elevation_deg,
-                      "Of a line of sight in degrees: says where it meets the land");
+                      "Elevation of a line of sight in degrees: says where it meets the land");
   profile->add_option("--step", step_m, "Metres between rows")
       ->check(CLI::Range(0.1, 10'000.0))
       ->capture_default_str();

@@ -160,8 +160,8 @@ class Sheet {
     }
   }
 
-  // Where files touch without sharing heights: the step from one to the other beyond what the
-  // slopes on both sides let expect.
+  // Where files touch without sharing heights: the step from one to the other, beyond what the
+  // slopes on both sides explain.
   void step_across(int down, int right) {
     for (int row = down; row + 2 * down < grid_.rows; ++row) {
       for (int column = right; column + 2 * right < grid_.columns; ++column) {

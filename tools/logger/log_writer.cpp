@@ -41,7 +41,7 @@ void LogWriter::write(const BusMessage& message) {
   std::vector<std::uint8_t> bytes = message.payload;
   bytes.insert(bytes.end(), message.trailer.begin(), message.trailer.end());
   event.datalen = static_cast<std::int32_t>(bytes.size());
-  // It only reads it.
+  // LCM only reads the name.
   event.channel = const_cast<char*>(message.channel.c_str());
   event.data = bytes.data();
   errno = 0;

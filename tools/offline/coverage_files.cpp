@@ -50,7 +50,7 @@ std::vector<Column> columns_of(const Coverage& coverage) {
   return columns;
 }
 
-// Of one band or more in memory, georeferenced; made into a file by CreateCopy.
+// A georeferenced raster in memory; CreateCopy makes a file of it.
 Dataset raster(const Lattice& lattice, int bands, GDALDataType type) {
   GDALAllRegister();
   GDALDriver* memory = GetGDALDriverManager()->GetDriverByName("MEM");

@@ -146,7 +146,7 @@ ols::fusion::OfflineConfig config_of(const Options& options) {
   return config;
 }
 
-// How far the filters are, over all their runs.
+// Progress of the filters, over all their runs.
 class Steps {
  public:
   Steps(std::size_t bearings, std::size_t runs) : bearings_(bearings), runs_(runs) {}
@@ -255,7 +255,7 @@ std::size_t run(const Options& options) {
   for (const auto& target : targets) set_clocks(options, target.bearings);
   if (separates) {
     targets = separated(targets.front(), config, unused);
-    // Of all objects together a station's bearings seem to jump.
+    // Clocks need separate objects: over all of them, a station's bearings seem to jump.
     for (const auto& target : targets) set_clocks(options, target.bearings);
   }
   Output output(options.output, targets.size() > 1);

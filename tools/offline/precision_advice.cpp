@@ -53,12 +53,12 @@ class Ground {
   std::optional<double> at(const Geodetic& place) const {
     return land_ ? land_->ground_m(place) : level_m_;
   }
-  // Of a camera that stands there.
+  // The ellipsoidal height of a camera that stands there.
   std::optional<double> camera_m(const Geodetic& place) const {
     const auto ground_m = at(place);
     return ground_m ? std::optional(*ground_m + mast_m_) : std::nullopt;
   }
-  // From then on the station sees of these targets what the land does not hide.
+  // Makes the land hide some of the targets from the station.
   void hide(const std::string& name, const std::vector<PlannedTarget>& area,
             PlannedStation& station) const {
     if (!land_) return;
@@ -241,9 +241,9 @@ void add_advice(CLI::App& app) {
   auto o = std::make_shared<AdviceOptions>();
   command
       ->add_option("--places", o->places,
-                   "that can be used: CSV as stations.csv, or GeoJSON with points or polygons")
+                   "usable places: CSV as stations.csv, or GeoJSON with points or polygons")
       ->required();
-  command->add_option("--area", o->area, "to protect: GeoJSON with a polygon")->required();
+  command->add_option("--area", o->area, "area to protect: GeoJSON with a polygon")->required();
   command->add_option("--stations", o->stations, "how many to place")
       ->check(CLI::Range(1, 100))
       ->capture_default_str();
@@ -270,7 +270,7 @@ void add_advice(CLI::App& app) {
       ->check(CLI::Range(1e-3, 1e6));
   command->add_flag("--mean", o->mean,
                     "minimise the mean error over the area instead of the worst point's");
-  command->add_option("--seed", o->seed, "of the search")->capture_default_str();
+  command->add_option("--seed", o->seed, "seed of the search")->capture_default_str();
   command->add_option("--output", o->output, "CSV as stations.csv: the places to use")->required();
   add_measurement_options(*command, o->measurement);
   command->callback([o] { write_advice(*o); });

@@ -61,7 +61,7 @@ Geodetic middle_of(const std::vector<StationRow>& rows) {
   return geodetic_from_ecef(frame.to_ecef(sum / static_cast<double>(rows.size())));
 }
 
-// To the farthest corner of a square of 2 `reach_m` around `middle`.
+// Each view reaches to the farthest corner of a square of 2 `reach_m` around `middle`.
 std::vector<LandView> views_of(const SiteOptions& o, const std::vector<StationRow>& rows,
                                const Geodetic& middle, const PlannedLand& land,
                                const MeasurementOptions& measurement) {

@@ -289,7 +289,7 @@ void add_map(CLI::App& app) {
       ->capture_default_str();
   command->add_option("--margin", o->margin_m, "[m] around the stations; default: half the site")
       ->check(CLI::Range(0.1, 1e7));
-  command->add_option("--cells", o->cells, "along the longer side")
+  command->add_option("--cells", o->cells, "cells along the longer side")
       ->check(CLI::Range(2, 1000))
       ->capture_default_str();
   command->add_option("--output", o->output, "CSV; tools/precision-plot makes a PNG of it")

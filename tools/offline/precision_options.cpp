@@ -21,7 +21,8 @@ void add_measurement_options(CLI::App& app, MeasurementOptions& o) {
   add("--position-sd-m", o.position_sd_m, "[m] of each axis, stays", 0.0, 1e4);
   add("--clock-sd-ms", o.clock_sd_ms, "[ms] stays; counts with --speed", 0.0, 1e5);
   add("--speed", o.speed_m_s, "[m/s] of the target, in any direction", 0.0, 1e5);
-  add("--exposures", o.exposures, "that are averaged; systematic errors are not reduced", 1.0, 1e9);
+  add("--exposures", o.exposures, "exposures that are averaged; systematic errors are not reduced",
+      1.0, 1e9);
 }
 
 PlannedStation planned_station(const Geodetic& place, const MeasurementOptions& o) {

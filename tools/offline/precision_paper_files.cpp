@@ -53,7 +53,7 @@ void add_length(CLI::App& command, const char* name, double& value, const char* 
 }
 
 void add_steps(CLI::App& command, PaperOptions& o) {
-  command.add_option("--steps", o.steps, "along each axis of the grid")
+  command.add_option("--steps", o.steps, "steps along each axis of the grid")
       ->check(CLI::Range(2, 2000))
       ->capture_default_str();
 }

@@ -16,7 +16,7 @@ namespace {
 constexpr double kDegree_rad = kPi / 180.0;
 const std::string kOnlyTarget = "1";
 
-// Each station's, without a direction.
+// Each station's place, in a line of sight without a direction.
 std::map<std::string, LineOfSight> places_of(const std::vector<StationRow>& stations) {
   std::map<std::string, LineOfSight> places;
   for (const StationRow& station : stations) {
@@ -78,8 +78,7 @@ RecordedBearings recorded(const std::string& path, const std::vector<StationRow>
   return recording;
 }
 
-// Guesses the recording's clocks, which whoever uses it sets anyway: a copy would double its
-// memory.
+// Changes the recording's clocks, which its user sets anyway: a copy would double the memory.
 std::size_t instants_with_position(RecordedBearings& recording) {
   std::size_t count = 0;
   for (const RecordedTarget& target : targets_of(recording)) {

@@ -58,7 +58,7 @@ void declare(CLI::App& app, Arguments& arguments) {
          "turns")
       ->needs(detect);
   app.add_option("--false-alarms", arguments.false_an_hour,
-                 "with --detect: objects an hour that are none, which are allowed")
+                 "with --detect: allowed false objects per hour")
       ->check(CLI::Range(1e-3, 1e4))
       ->needs(detect)
       ->capture_default_str();
@@ -73,7 +73,8 @@ void declare(CLI::App& app, Arguments& arguments) {
       ->check(CLI::IsMember({"paper", "full"}));
   app.add_option("--timing", arguments.timing,
                  "also write the milliseconds of each stage of each frame to this CSV file");
-  app.add_option("--seed", arguments.seed, "of the random numbers: equal seeds give equal boxes")
+  app.add_option("--seed", arguments.seed,
+                 "seed of the random numbers: equal seeds give equal boxes")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   app.add_option(
@@ -100,7 +101,7 @@ class State {
     if (output.belief < kBelieved) row.state = coasting_or_lost(time_s);
     return row;
   }
-  // Of a frame that the tracker could not use.
+  // The row of a frame that the tracker could not use.
   ols::offline::BoxRow row(long frame, double time_s) {
     return {frame, std::nullopt, 0.0, coasting_or_lost(time_s)};
   }

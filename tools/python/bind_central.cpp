@@ -26,7 +26,7 @@ void bind_results(py::module_& m) {
       .value("AMBIGUOUS", fusion::Solution::kAmbiguous);
 
   data_class<fusion::RayUse>(m, "RayUse", "What became of one ray.")
-      .def_readwrite("used", &fusion::RayUse::used, "False: set aside as an outlier.")
+      .def_readwrite("used", &fusion::RayUse::used, "False: rejected as an outlier.")
       .def_readwrite("weight", &fusion::RayUse::weight, "0..1, robust weight.")
       .def_readwrite("squared", &fusion::RayUse::squared, "Squared normalised residual.")
       .def_readwrite("expected", &fusion::RayUse::expected, "Its expectation.")

@@ -1,5 +1,4 @@
-// Recordings as columns of numpy: what the objects of Python would cost for each bearing is more
-// than the filter takes for it.
+// Recordings as columns of numpy: Python objects would cost more for each bearing than the filter.
 #include <pybind11/stl.h>
 
 #include <algorithm>
@@ -27,8 +26,8 @@ using Reals = py::array_t<double, py::array::c_style | py::array::forcecast>;
 using Integers = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>;
 using Counts = std::map<std::string, std::int64_t>;
 
-// By its shape: from a count alone, Debian's pybind11 2.10 takes the strides from where numpy 1 had
-// them.
+// Made from a shape: from a mere count, Debian's pybind11 2.10 takes the strides from where numpy 1
+// had them.
 Integers integers(const std::vector<std::int64_t>& values) {
   return Integers(std::vector<py::ssize_t>{static_cast<py::ssize_t>(values.size())}, values.data());
 }

@@ -1,5 +1,5 @@
-// The messages of the bus, live and from logs, as bytes: the readers that the programs use, which a
-// damaged log or a hostile datagram does not stop.
+// The messages of the bus and of logs, as bytes, by the readers of the programs: neither a damaged
+// log nor a hostile datagram stops them.
 #include <pybind11/functional.h>
 #include <pybind11/stl.h>
 
@@ -37,7 +37,7 @@ void subscribe(LcmBus& bus, const std::string& channels, const py::function& han
                 {messages, bytes});
 }
 
-// What has not been let in, by reason.
+// Messages that were not let in, by reason.
 std::map<std::string, std::uint64_t> refused(const LcmBus& bus) {
   const BusTraffic traffic = bus.traffic();
   std::map<std::string, std::uint64_t> counts{{"fragments", traffic.fragments},

@@ -20,7 +20,7 @@ namespace {
 
 constexpr const char* kSiteBus = "\"udpm://239.255.76.67:7667?ttl=1\"";
 
-// In the forms of a section: of every kind that has such a key.
+// Makes the key optional in every form of the section that has it.
 void make_optional(config::Section& section, const std::string& inner, const std::string& key) {
   for (config::Section& candidate : section.sections) {
     if (candidate.name != inner) continue;
@@ -42,7 +42,7 @@ std::string required_text(ConfigTable& table, const char* key, const char* what)
   return text;
 }
 
-// It becomes a word of another program's file.
+// The address becomes a word in another program's file.
 void check_address(const ConfigTable& root, const std::string& address) {
   try {
     parse_endpoint(address.find(':') == std::string::npos ? address + ":123"
@@ -52,7 +52,7 @@ void check_address(const ConfigTable& root, const std::string& address) {
   }
 }
 
-// Likewise.
+// The word becomes one in another program's file.
 void check_word(const ConfigTable& root, const char* key, const std::string& word) {
   const bool is_plain = std::ranges::all_of(word, [](unsigned char c) {
     return std::isalnum(c) != 0 || std::string_view("-_.:/@+").find(c) != std::string_view::npos;

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 constexpr double kPatience_s = 600.0;
 constexpr std::string_view kEnabled = "etc/systemd/system/multi-user.target.wants/";
-// Below the root. Of a pattern's last part only the beginning is given.
+// Paths below the root; the last part may be the beginning of a name.
 constexpr std::array<std::string_view, 10> kParts{
     "etc/ols/",
     "etc/credstore/ols-",
@@ -34,7 +34,8 @@ constexpr std::array<std::string_view, 10> kParts{
     "etc/udev/rules.d/61-ols-site.rules",
     "var/lib/ols/calibration",
     "var/lib/ols-setup/"};
-// Its files are states. Its other folders are maps, exports, and what else a person put there.
+// The files here are persisted states. Other folders here are maps, exports, and what a person put
+// there.
 constexpr std::string_view kStates = "var/lib/ols/";
 
 std::vector<std::string> present(const std::string& root) {
@@ -74,7 +75,7 @@ std::vector<std::string> members_of(const std::string& file) {
   return members;
 }
 
-// The file with the time's keys is not the site's alone, so it is in no backup: the site's is made
+// The file of the time keys is not the site's alone, so no backup has it. The site's key is made
 // again, from a member's key.
 void restore_time_key(const Host& host, const std::vector<std::string>& members) {
   for (const std::string& member : members) {

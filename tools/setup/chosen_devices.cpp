@@ -20,7 +20,7 @@
 namespace ols::setup {
 namespace {
 
-// The only one; a person chooses among several, and names one where none answers.
+// The only one that is found. A person chooses among several, or names one if none answers.
 std::string one_of(const std::vector<std::string>& found, const std::string& what,
                    const std::string& key, bool asks) {
   if (found.empty() && asks) {
@@ -72,8 +72,8 @@ Learnt learn_as_stated(const std::string& url, const Host& host, const Values& v
   return {learn_onvif(url, {user, password}, stated(values, "pinned_key")), user, file};
 }
 
-// Until the camera takes what is typed. Cameras lock an account after a few tries, so each try is
-// a person's own.
+// Asks until the camera takes what is typed. Cameras lock an account after a few tries, so a person
+// makes each of them.
 Learnt learn_with_a_person(const std::string& url, const Host& host, const Answers& answers) {
   for (;;) {
     std::printf("The login goes to %s\n", plain_text(url).c_str());

@@ -46,7 +46,7 @@ std::string as_value(Form form, const std::string& typed) {
   return "[" + list + "]";
 }
 
-// As TOML.
+// Returns the answer as TOML.
 std::string ask(std::istream& in, std::ostream& out, const Question& question, const Values& known,
                 const Check& refused) {
   const std::string* before = find(known, question.key);
@@ -131,7 +131,7 @@ std::string ask_which(std::istream& in, std::ostream& out, const std::string& wh
 
 namespace {
 
-// It has no 045 and no .5.
+// TOML has no 045 and no .5.
 bool is_toml(const std::string& value) {
   try {
     return !flat("x = " + value).empty();

@@ -22,7 +22,7 @@ namespace {
 constexpr double kLook_s = 2.0, kPatience_s = 5.0;
 constexpr const char* kNobody = "none";
 
-// The terminal, without what is typed.
+// Hides what is typed at the terminal.
 class Unseen {
  public:
   Unseen() : changed_(::tcgetattr(STDIN_FILENO, &before_) == 0) {
@@ -80,7 +80,7 @@ std::string keep_password(const Host& host, const std::string& station,
                           const std::string& password) {
   const std::string path = "/etc/ols/" + station + ".camera-password";
   host.folder("/etc/ols", 0755);
-  // The file that is replaced has the mode and the group.
+  // First an empty file with mode and group: AtomicFile keeps both.
   constexpr mode_t kOwnerAndGroup = 0640;
   const int file = ::open(host.path(path).c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, kOwnerAndGroup);
   if (file < 0) throw std::system_error(errno, std::generic_category(), host.path(path));

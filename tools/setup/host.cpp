@@ -68,7 +68,7 @@ std::vector<std::string> Host::write(const std::vector<PlannedFile>& files) cons
       replace(there, *now.text);
       changed.push_back(file.path);
     }
-    // Only of what is in place by now: else the next run would find nothing to change.
+    // Only if the file is in place by now: otherwise the next run would find nothing to change.
     if (now.text || last) replace(record, file.text);
     std::printf("%s: %s\n", there.c_str(), now.note.c_str());
   }
@@ -97,7 +97,7 @@ int run(const std::vector<std::string>& command) {
 std::vector<std::string> start(const std::vector<std::string>& units) {
   run({"systemctl", "daemon-reload"});
   std::vector<std::string> failed;
-  // One by one: systemctl starts none of several when one is not installed.
+  // One by one: if one of several is not installed, systemctl starts none of them.
   for (const std::string& unit : units) {
     if (run({"systemctl", "enable", "--now", unit}) != 0) failed.push_back(unit);
   }

@@ -52,7 +52,7 @@ void take_known_devices(const setup::Host& host, setup::Answers& answers) {
   }
 }
 
-// Until what was typed can be used.
+// Asks until what was typed can be used.
 setup::Answers ask_person(const setup::Host& host) {
   const std::string kept = host.path(kTyped);
   std::string text = fs::exists(kept) ? ols::read_small_file(kept, kLargestAnswers) : "";
@@ -122,7 +122,7 @@ int start(const Words& words, const setup::Host& host, const Done& done) {
     std::printf("\n");
     return 0;
   }
-  // A restore replaces the files of all.
+  // A restore replaces the files of all services.
   const std::vector<std::string> running = setup::running(units);
   say_restart(words.restore.empty() ? setup::readers(running, done.changed) : running);
   const std::vector<std::string> not_started = setup::start(units);

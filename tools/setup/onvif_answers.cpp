@@ -43,7 +43,7 @@ void add_mount(Values& values, const std::string& url, const onvif::Offer::Strea
   add(values, "station.mount.kind", "onvif");
   add(values, "station.mount.url", url);
   add(values, "station.mount.profile", stream.profile.token);
-  // By the standard it counts pan to the right.
+  // By the standard, pan counts to the right.
   constexpr double kPan_deg = 180.0, kTilt_deg = 90.0, kPan_deg_s = 60.0, kTilt_deg_s = 40.0;
   using mount::Space;
   add_number(values, "station.mount.pan_gain_deg", -scale(can.absolute, &Space::x, kPan_deg));
