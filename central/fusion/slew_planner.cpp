@@ -224,9 +224,9 @@ void SlewPlanner::search_around(Slew& slew, const SlewStation& station, double s
 }
 
 // Whether the station is to acquire anything that moves evenly (slew_t.line), instead of what is at
-// the direction. So it is where the cue's velocity is not known, and where the cue's positions are
-// so uncertain that they jump more than the target does. Nothing that stands still is found that
-// way, so a standing cue is searched by its direction alone.
+// the direction. True where the cue's velocity is not known, and where the cue's positions are so
+// uncertain that they jump more than the target does. Nothing that stands still is found that way,
+// so a standing cue is searched by its direction alone.
 bool SlewPlanner::is_by_motion(const CueAim& aim, const SlewStation& station,
                                std::int64_t now_us) const {
   constexpr double kKnown_rad_s = 0.03;  // error of the rate that a station's acquisition tolerates

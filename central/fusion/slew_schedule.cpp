@@ -115,8 +115,8 @@ void SlewSchedule::begin(std::int64_t now_us, const StationRegistry& stations,
   if (round_.ray) share_out(all);
 }
 
-// The line of this station that may be searched: that of a designated object, else the one searched
-// for the fewest turns, else the oldest. Null: none.
+// The line of this station to be searched: that of a designated object, else the one searched for
+// the fewest turns, of these the oldest. Null: none.
 const BearingMeasurement* SlewSchedule::line_of(const std::string& station,
                                                 const std::vector<const BearingMeasurement*>& own) {
   const auto told = std::ranges::find_if(own, [](const auto* line) { return is_wanted(*line); });

@@ -133,8 +133,8 @@ FusedTarget TargetSchedule::locate(const Track& track, bool by_paper, const Trac
   return target;
 }
 
-// The height above ground of a located target. If its stations are configured to see only objects
-// on the ground, the ground improves its position.
+// The height above ground of a located target. If it is seen by a station whose objects stand on
+// the ground by the configuration, the ground improves its position.
 void TargetSchedule::use_land(FusedTarget& target) const {
   if (!config_.land.surface) return;
   const land::Surface& surface = *config_.land.surface;

@@ -177,7 +177,8 @@ Association LiveTracks::initiate(const BearingMeasurement& measurement) {
                                       : Association{};
 }
 
-// Judges by a detector's image. A target that fewer than two other stations see coasts unjudged.
+// Judges by a detector's image. A target that the image does not show, and need not show, is not
+// judged: it coasts.
 void LiveTracks::judge_existence(std::span<const BearingMeasurement> image) {
   constexpr std::int64_t kRows_us = 25'000;  // of a rolling shutter, from one object to another
   const BearingMeasurement& any = image.front();

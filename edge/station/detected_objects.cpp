@@ -68,8 +68,7 @@ std::int64_t DetectedObjects::track_id(long tracklet,
 namespace {
 
 DetectedPixel outline_of(const detector::Tracklet& tracklet) {
-  constexpr double kBlur_px = 2.0, kOutline = 0.25;  // 1-sigma of the size: constant, and by the
-                                                     // size
+  constexpr double kBlur_px = 2.0, kOutline = 0.25;  // fixed and relative part of the error
   const auto& outline = tracklet.outline();
   const Eigen::Vector2d sides_px = outline ? outline->size_px : tracklet.measured_size_px();
   Eigen::Index larger = 0;

@@ -235,7 +235,7 @@ void ProcedureRunner::show(const Question& question) {
   publish();
 }
 
-// A new picture for a live question replaces what was asked.
+// A new picture for a live question updates what was asked.
 void ProcedureRunner::keep_live(FieldProcedure& procedure, LiveQuestion& live) {
   const double now_s = clock_monotonic_s();
   if (const auto frame = station_.take_frame()) {

@@ -80,7 +80,7 @@ std::string keep_password(const Host& host, const std::string& station,
                           const std::string& password) {
   const std::string path = "/etc/ols/" + station + ".camera-password";
   host.folder("/etc/ols", 0755);
-  // First an empty file with mode and group: AtomicFile keeps both.
+  // First the file with its mode and group: AtomicFile keeps both.
   constexpr mode_t kOwnerAndGroup = 0640;
   const int file = ::open(host.path(path).c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, kOwnerAndGroup);
   if (file < 0) throw std::system_error(errno, std::generic_category(), host.path(path));
