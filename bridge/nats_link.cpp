@@ -246,7 +246,7 @@ void NatsLink::on_loss(natsConnection* connection, void* self) {
   if (link->is_open_.exchange(false)) ++link->tally_.losses;
 }
 
-// Of an open connection: a publication or a subscription that the user has no right to.
+// An error of an open connection: the user has no right to a publication or a subscription.
 void NatsLink::on_refusal(natsConnection* connection, natsSubscription*, int status, void* self) {
   if (status == NATS_SLOW_CONSUMER) return;  // counted as displaced
   auto* link = static_cast<NatsLink*>(self);

@@ -255,7 +255,7 @@ AnswerRequest read_answer(const Json& message, std::int64_t of_browser) {
   return request;
 }
 
-// A person's text: any, made harmless for where it is shown.
+// A person's text: any, made harmless for display.
 std::string words_of(const Json& message, const char* key, std::size_t most) {
   const Json& value = field(message, key);
   if (!value.is_string() || value.get_ref<const std::string&>().size() > most) {

@@ -132,7 +132,7 @@ Json ellipse95(double ee, double en, double nn) {
   const double least = middle - half;
   if (!std::isfinite(middle + half) || !(least >= 0.0)) return nullptr;
   static const double kScale = std::sqrt(chi_square_critical(0.05, 2));
-  // Of the eigenvector of the larger eigenvalue, clockwise from north.
+  // The azimuth of the eigenvector of the larger eigenvalue, clockwise from north.
   const double azimuth_rad = 0.5 * std::atan2(2 * en, nn - ee);
   return {{"semi_major_m", kScale * std::sqrt(middle + half)},
           {"semi_minor_m", kScale * std::sqrt(least)},

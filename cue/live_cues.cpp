@@ -13,7 +13,7 @@ namespace ols::cues {
 namespace {
 
 constexpr std::size_t kLongestName = 60;
-constexpr double kFuture_s = 1.0;  // by which clocks may differ
+constexpr double kFuture_s = 1.0;  // clocks may differ by this much
 
 // The text goes into messages, tables and terminals.
 std::string plain(const std::string& text) {
@@ -74,7 +74,7 @@ std::optional<Refusal> fault_of(const LiveCue& cue) {
   return std::nullopt;
 }
 
-// `cue`: what is made of the report.
+// `cue` is made of the report.
 std::optional<Refusal> refusal_of(const Report& report, const LiveCue& cue, const InputRules& rules,
                                   std::int64_t now_us) {
   if (report.name.size() > kLongestName) return Refusal::kMalformed;

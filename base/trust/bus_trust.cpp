@@ -127,7 +127,7 @@ void BusTrust::begin() {
     const std::string kept = text_if_any(files_.kept_list);
     if (!kept.empty()) offer(kept, files_.kept_list);
   } catch (const ConfigError&) {
-    // Of another site, or damaged: written again with the next list.
+    // A list of another site, or a damaged one: the next list replaces it.
   }
   files_.number = list_.number;
   marks_file_.read(verifier_->marks());

@@ -14,8 +14,8 @@ constexpr double kFrameParts_Hz = 2000.0;  // a whole frame is sent as fast as t
 constexpr double kSite_Hz = 20'000.0;      // slews to a thousand stations
 constexpr double kTargets_Hz = 2000.0;
 constexpr double kHand_Hz = 200.0;  // of a person's orders, to all stations together
-// To one station. The fusion is configured for 100 slews/s at most. A joystick sends ten orders a
-// second, to the unit and to the lens. A person's clicks are fewer.
+// Orders to one station. The fusion is configured for 100 slews/s at most. A joystick sends ten
+// orders a second, to the unit and to the lens. A person's clicks are fewer.
 constexpr double kSlew_Hz = 120.0, kJoystick_Hz = 50.0, kClick_Hz = 20.0;
 constexpr double kCues_Hz = 2000.0;
 constexpr double kSimulator_Hz = 20'000.0;

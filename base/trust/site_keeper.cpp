@@ -16,7 +16,7 @@ SiteKeeper::SiteKeeper(const PublicKey& root, SiteFiles files, SettingsCheck che
   try {
     if (!files_.kept.empty()) offer(read_small_file(files_.kept, kLargestSettings), files_.kept);
   } catch (const std::system_error&) {
-    // None was heard yet.
+    // No settings were heard yet.
   } catch (const ConfigError& problem) {
     heard_trouble_ = problem.what();
   }

@@ -64,8 +64,8 @@ Solution RayMeetings::meet(const LookedAt& a, const LookedAt& b, const BiasModel
   return Solution::kOk;
 }
 
-// Of a station's bearings near in time to another one: the one nearest to the intersection, or the
-// latest without an intersection. -1: none.
+// Among a station's bearings that are near in time to another one: the nearest to the intersection,
+// or the latest if there is no intersection. -1: none.
 std::ptrdiff_t RayMeetings::nearest(const UnassociatedBearings::Station& own,
                                     const BearingMeasurement& to, const RayMeeting* meeting,
                                     const BiasModel& errors) const {

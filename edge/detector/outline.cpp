@@ -129,7 +129,8 @@ cv::Mat1b object_in(const cv::Mat1b& stands_out, const Part& part, double extent
   return labels == largest;
 }
 
-// Of `weights`, whose noise is independent from pixel to pixel; nullopt if most of them cancel.
+// The outline by the moments of `weights`, whose noise is independent from pixel to pixel; nullopt
+// if most of them cancel.
 std::optional<Outline> moments_of(const cv::Mat1f& weights, const cv::Mat1b& object, double noise) {
   constexpr double kSide = 4.0;  // of an ellipse, in its standard deviations
   std::vector<cv::Point> pixels;

@@ -34,7 +34,7 @@ std::int16_t greatest(const cv::Mat& residual, int y, int from, int to) {
   return value;
 }
 
-// Of the 5x5 pixels around it.
+// In the 5x5 pixels around it.
 bool is_greatest_nearby(const cv::Mat& residual, const cv::Point& at) {
   const auto value = residual.at<std::int16_t>(at);
   for (int y = -2; y <= 2; ++y) {
@@ -92,7 +92,7 @@ class Ring {
   }
   int median() const { return median_; }
   double clutter() const { return order(deviations_, 0.95); }
-  // Of the lower three quarters of the deviations. Their median would be a whole grey level: a
+  // From the lower three quarters of the deviations. Their median would be a whole grey level: a
   // noise of 1 and one of 2 could not be told apart.
   double noise() const {
     constexpr double kShare = 0.75, kNormal = 1.943;  // by the mean of |z| below its 75 %

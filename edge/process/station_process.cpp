@@ -133,7 +133,7 @@ void StationProcess::heed_emergency_stop(double now_s) {
   halted_ = halted_ || station_.state() == StationState::kEmergency;
 }
 
-// By the re-arm button, or by a user logged in on the station's computer.
+// Re-arming is by the button, or by a user logged in on the station's computer.
 void StationProcess::heed_rearming(double now_s) {
   const bool button = devices_.stop().take_rearm();
   const bool signal = take_rearm_signal();

@@ -132,7 +132,7 @@ std::string cat015(const Line& line, int sensor, const AsterixSettings& settings
   using Subfields = std::map<int, std::string>;
   Subfields azimuth{{0, asterix_unsigned(line.azimuth_deg, kAzimuthUnit_deg, 2)}};
   Subfields elevation{{0, asterix_signed(line.elevation_deg, kElevationUnit_deg, 2)}};
-  // One that is not known is left out: 0 would claim that there is no error.
+  // A deviation that is not known is left out: 0 would claim that there is no error.
   if (std::isfinite(azimuth_sd_deg))
     azimuth[2] = asterix_deviation(azimuth_sd_deg, kDeviationUnit_deg, 2);
   if (std::isfinite(line.elevation_sd_deg))

@@ -10,7 +10,7 @@
 namespace ols::exports {
 namespace {
 
-// A target has ended by then; a station tells of itself at 0.01 Hz at least.
+// A target has ended by then; a station reports at 0.01 Hz at least.
 constexpr auto kLive_us = static_cast<std::int64_t>(1e6 * (PresentTargets::kSilent_s + 2.0));
 constexpr std::int64_t kStationGone_us = 300'000'000;
 constexpr std::int64_t kEver_us = std::numeric_limits<std::int64_t>::max();

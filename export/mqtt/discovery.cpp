@@ -61,7 +61,7 @@ Packet one_of(const Device& device, const std::string& field, const std::string&
   return entity(device, "sensor", field, name, std::move(config));
 }
 
-// Of a slot; "none" while it is free.
+// The states of a slot; "none" while it is free.
 std::vector<std::string> states_of_targets() {
   return {"none", to_string(TrackState::kTentative), to_string(TrackState::kConfirmed),
           to_string(TrackState::kCoasted)};

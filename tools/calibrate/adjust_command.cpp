@@ -79,7 +79,7 @@ std::string sentence_of(const RectifiedAngle& angle) {
   return text;
 }
 
-// Of the scenery: whether lens and gears agree with the calibration in use.
+// The result of the scenery: whether lens and gears agree with the calibration in use.
 std::string scenery_for_person(const Adjusted& adjusted) {
   const bool is_new = adjusted.what.options.instruments.empty();
   std::string text = std::string("Lens and gears against ") +

@@ -202,7 +202,7 @@ void read_file(const std::string& path, Feed& feed, Received& received) {
   if (file.bad()) throw std::runtime_error(path + ": cannot be read to its end");
 }
 
-// What is missing of it, as a sentence; empty: nothing.
+// Returns what is missing of it, as a sentence; empty: nothing.
 std::string read_input(const std::string& input, const AircraftOptions& options, Feed& feed,
                        Received& received) {
   std::string trouble;

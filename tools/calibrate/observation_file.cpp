@@ -129,7 +129,7 @@ void read_level(const Line& line, Observation& one) {
   one.zero_sd_rad = radians(line.number_or("zero_sd_deg", kNewZero_deg, 1e-6, 45.0));
 }
 
-// Of a rectification target, what a person has stated of it.
+// Reads what a person has stated of a rectification target.
 void read_target(const Line& line, Observation& one) {
   constexpr double kLevel_deg = 30.0 / 3600.0, kCross_m = 0.003, kRuler_m = 0.001;
   TargetFacts& target = one.target;

@@ -149,7 +149,7 @@ fs::path ProcedureSession::next_result() {
 
 void ProcedureSession::take_result() const {
   const fs::path result = folder_ / ("result-" + std::to_string(results_));
-  // Over an earlier result, if the procedure was interrupted between its end and its storing.
+  // Replaces an earlier result, if the procedure was interrupted between its end and its storing.
   constexpr auto kHow = fs::copy_options::recursive | fs::copy_options::overwrite_existing;
   for (const auto& entry : fs::directory_iterator(result)) {
     fs::copy(entry.path(), folder_ / entry.path().filename(), kHow);

@@ -108,7 +108,7 @@ class Plan {
              reach.allowed(at);
     };
   }
-  // By everything that the procedure has observed at that moment.
+  // Advises by everything that the procedure has observed at that moment.
   Adviser adviser(int times) const {
     Problem problem;
     problem.names = {name_};

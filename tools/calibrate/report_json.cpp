@@ -111,7 +111,7 @@ Json groups_of(const Adjustment& adjustment, const Calibration& found) {
   return all;
 }
 
-// By observation.
+// Indexed by observation.
 std::vector<bool> rejected_observations(const Adjustment& adjustment, const Calibration& found) {
   std::vector<bool> rejected(found.residuals.size(), false);
   for (std::size_t g = 0; g < found.tests.size(); ++g) {

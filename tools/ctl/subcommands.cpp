@@ -116,7 +116,7 @@ void add_ptu_commands(CLI::App& app, Words& words) {
          wire::Kind::kReferenceOk);
 }
 
-// Of the fusion, not of a station.
+// Commands to the fusion, not to a station.
 void add_cue_commands(CLI::App& app, Words& words) {
   const auto of_fusion = [&words](const char* name) {
     words.cues = true;

@@ -35,7 +35,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Of the file at `path`.
+// Why the file at `path` is refused, and what to do.
 Finding refused(const std::string& path, const ConfigError& error) {
   const std::string what = std::string("configuration: ") + error.what();
   if (::access(path.c_str(), F_OK) != 0) {

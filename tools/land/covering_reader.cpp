@@ -47,7 +47,7 @@ class LeftOut {
   std::size_t count_ = 0;
 };
 
-// Of a field, or of OSM's other tags: "key"=>"value".
+// The value of a field, or of one of OSM's other tags: "key"=>"value".
 std::string attribute(const OGRFeature& feature, const std::string& name) {
   const int field = feature.GetFieldIndex(name.c_str());
   if (field >= 0 && feature.IsFieldSetAndNotNull(field)) return feature.GetFieldAsString(field);

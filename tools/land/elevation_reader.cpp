@@ -65,8 +65,8 @@ bool is_wgs84(OGRSpatialReference system, double latitude_deg, double longitude_
          std::abs(y - latitude_deg) < 1e-5;
 }
 
-// To a lattice of latitude and longitude whose heights are at multiples of its own resolution, so
-// that neighbouring files of one model have the same lattice.
+// Resamples to a lattice of latitude and longitude whose heights are at multiples of its own
+// resolution, so that neighbouring files of one model have the same lattice.
 Dataset resample(GDALDataset& source, const Bounds& bounds, const std::string& path) {
   OGRSpatialReference wgs84;
   wgs84.importFromEPSG(4326);

@@ -30,7 +30,7 @@ std::map<std::string, LineOfSight> places_of(const std::vector<StationRow>& stat
   return places;
 }
 
-// One that stands further from all others cannot see what they see.
+// A station that is far from all others cannot see what they see, so its place must be wrong.
 void require_neighbours(const std::string& path, const std::vector<StationRow>& stations) {
   std::vector<Geodetic> places;
   for (const StationRow& s : stations)

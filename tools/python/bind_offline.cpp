@@ -109,7 +109,7 @@ Reals rows_of(const std::vector<double>& values, std::size_t rows) {
   return Reals(shape, values.data());
 }
 
-// One of the columns: what `take` appends for each row.
+// A column of what `take` appends for each row.
 template <typename Take>
 Reals reals_of(const Bearings& bearings, Take take) {
   std::vector<double> values;

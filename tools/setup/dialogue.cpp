@@ -25,7 +25,7 @@ std::string read_line(std::istream& in) {
 
 constexpr const char* kNone = "none";
 
-// A value as it is typed.
+// A TOML value as a person types it.
 std::string shown(const std::string& toml) {
   const auto list = texts_in(toml);
   if (!list) return text_in(toml).value_or(toml);
@@ -34,7 +34,7 @@ std::string shown(const std::string& toml) {
   return text.empty() ? kNone : text;
 }
 
-// What was typed as a value.
+// What a person typed, as a TOML value.
 std::string as_value(Form form, const std::string& typed) {
   if (form == Form::kNumber) return typed;
   if (form == Form::kText) return toml_text(typed);
@@ -101,7 +101,7 @@ std::string ask_all(std::istream& in, std::ostream& out, const Values& known,
   for (const Question& question : questions(role)) {
     answers.emplace_back(question.key, ask(in, out, question, known, refused));
   }
-  // What only a file says stays.
+  // Keeps what only a file can state.
   const std::string* before = find(known, "role");
   const bool same_role = before == nullptr || shown(*before) == role;
   for (const auto& [key, value] : known) {

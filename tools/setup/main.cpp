@@ -36,7 +36,7 @@ struct Words {
   bool no_start = false;
 };
 
-// A running station holds its devices: those of the last run are taken as they are.
+// A running station holds its devices, so those of the last run are taken as they are.
 void take_known_devices(const setup::Host& host, setup::Answers& answers) {
   const std::string path = host.path("/etc/ols/" + answers.station + ".toml");
   if (!fs::exists(path)) return;

@@ -156,7 +156,7 @@ std::optional<PanTilt> Drive::wanted_rate(double now_s) const {
       rate(command->position.tilt_rad, now.tilt_rad, command->speed.tilt_rad, goal.rate.tilt_rad)};
 }
 
-// To a goal at rest that is near enough to go there without a lease.
+// A move to a goal at rest that is near enough to need no lease.
 std::optional<Order> Drive::last_piece(double now_s) const {
   if (!goal_ || !goal_->rests || goal_->rate_only || !offered_.absolute) return std::nullopt;
   if (now_s > goal_->valid_until_s || now_s < refused_until_s_) return std::nullopt;

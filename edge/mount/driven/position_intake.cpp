@@ -66,8 +66,8 @@ void PositionIntake::ordered(const std::optional<PanTilt>& rate, double now_s) {
   while (orders_.size() > 1 && orders_[1].time_s < now_s - kKept_s) orders_.pop_front();
 }
 
-// By how much the ordered rate has changed since then, with the order in force then; nullopt if one
-// of them is not known.
+// The change of the ordered rate since then, from the order that was in force then; nullopt if one
+// of the orders is not known.
 std::optional<PanTilt> PositionIntake::ordered_change(double since_s) const {
   PanTilt least, most;
   for (auto order = orders_.rbegin(); order != orders_.rend(); ++order) {
@@ -86,7 +86,7 @@ std::optional<PanTilt> PositionIntake::ordered_change(double since_s) const {
   return std::nullopt;
 }
 
-// By the axis that turns faster.
+// Learns from the axis that turns faster.
 void PositionIntake::learn_spread(const Moved& newest) {
   moved_in_row_ = {moved_in_row_[1], moved_in_row_[2], newest};
   const auto& [x, y, z] = moved_in_row_;

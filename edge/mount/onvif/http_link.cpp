@@ -70,7 +70,7 @@ struct HttpLink::Impl {
       throw HttpError("libcurl refuses an option");
   }
 
-  // Until the exchange has ended.
+  // Runs until the exchange has ended.
   CURLcode run() {
     for (;;) {
       int running = 0, left = 0;
