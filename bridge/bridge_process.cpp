@@ -47,7 +47,6 @@ std::unique_ptr<ArchiveStream> make_archive(NatsLink& link, const BridgeConfig& 
   return plan ? std::make_unique<ArchiveStream>(link, *plan, config) : nullptr;
 }
 
-// The counts of earlier connections, and of the present one.
 LinkReport sum(const LinkReport& before, LinkReport now) {
   now.openings += before.openings;
   now.losses += before.losses;

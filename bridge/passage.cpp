@@ -155,7 +155,6 @@ Passage::Judged Passage::judge_out(std::string_view channel, Bytes bytes, const 
   return std::nullopt;
 }
 
-// Where it goes, if it goes at all.
 Passage::Judged Passage::address(const Content& content, const Now& now, Subject& subject) {
   if (content.kind == Kind::kTarget) {
     subject = {Kind::kTarget, config_.region};
@@ -257,7 +256,6 @@ Passage::Judged Passage::judge_in(std::string_view text, const Headers& headers,
   return judge_age(content, head, now);
 }
 
-// Whether it may come in.
 Passage::Judged Passage::take(const Subject& subject, const Now& now) {
   const bool is_here = subject.region == config_.region && subject.site == config_.site;
   if (subject.kind == Kind::kCommand) {

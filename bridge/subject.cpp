@@ -23,7 +23,6 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kCommands
      {kDesignateChannel, "designate"},
      {kRecordChannel, "record"}}};
 
-// What a station says.
 struct Report {
   Kind kind;
   std::string_view channel, word;

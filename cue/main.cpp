@@ -46,7 +46,6 @@ cues::GeoidHeight geoid_of(const cues::CueConfig& config) {
   }
 }
 
-// The inputs with their readers, which feed the cues.
 class Inputs {
  public:
   Inputs(const cues::CueConfig& config, cues::LiveCues& cues) : cues_(cues) {

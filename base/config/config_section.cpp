@@ -78,7 +78,6 @@ Row kind_row(const Section& section) {
   return word_row(kKind, 0, kinds, section.choose, "Its kind, on which the other keys depend.");
 }
 
-// The section in one of its forms.
 Section formed(const Section& section, std::size_t form) {
   Section whole = section.forms.at(form);
   whole.name = section.name;

@@ -20,7 +20,6 @@ std::system_error file_error(const std::string& path) {
   return {errno == 0 ? EIO : errno, std::generic_category(), path};
 }
 
-// Flushes a file or a folder to the disk.
 void sync(const std::string& path) {
   errno = 0;
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);

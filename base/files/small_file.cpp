@@ -10,7 +10,6 @@
 namespace ols {
 namespace {
 
-// Closes what it holds.
 class Descriptor {
  public:
   explicit Descriptor(int number) : number_(number) {}

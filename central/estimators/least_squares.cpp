@@ -155,7 +155,6 @@ Solution iterate(const Problem& problem, const LeastSquaresConfig& config, Fit& 
   return Solution::kNotConverged;
 }
 
-// The checks of a converged fit.
 Solution judge(const Problem& problem, const LeastSquaresConfig& config, const Fit& fit) {
   double nearest_m = kNever;
   for (std::size_t i = 0; i < fit.weights.size(); ++i) {

@@ -161,7 +161,6 @@ std::map<std::string, Explained> explain(const std::vector<Frame>& frames, Track
   return stations;
 }
 
-// Summary of the stations that agree on a hypothesis.
 struct Agreement {
   int hits = 0, frames = 0;
   double misfit = 0.0;

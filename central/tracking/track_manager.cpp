@@ -65,7 +65,6 @@ void TrackManager::keep(Track& track, const BearingMeasurement& measurement) con
   if (kept - own.begin() >= kTogether) own.erase(own.begin(), kept);
 }
 
-// Whether it is the same object as a confirmed one.
 bool TrackManager::is_duplicate(const Track& track) const {
   return std::ranges::any_of(tracks_, [&](const Track& other) {
     return &other != &track && is_established(other) && are_duplicates(track.filter, other.filter);

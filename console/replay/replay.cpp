@@ -47,7 +47,6 @@ bool hear(Console& console, const BusMessage& message, Timeline* timeline) {
   return true;
 }
 
-// Channels whose messages are shown.
 bool is_shown(const std::string& channel) {
   constexpr std::array kShown{kStatusChannel, kBearingChannel,  kPreviewChannel,
                               kPtuChannel,    kReplyChannel,    kDesignateChannel,

@@ -70,7 +70,7 @@ std::optional<Packet> QueuedOutlet::next() {
   return taken();
 }
 
-// New packets do not shorten it.
+// New packets do not shorten the pause.
 void QueuedOutlet::pause(double seconds) {
   constexpr double kStep_s = 0.05;
   for (double waited_s = 0.0; waited_s < seconds && !ends_; waited_s += kStep_s) {

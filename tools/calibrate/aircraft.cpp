@@ -51,7 +51,6 @@ void check_clock() {
                            "--clock-is-right if you know that it is right");
 }
 
-// Counts the bytes that have come from all inputs.
 class Received {
  public:
   Received(const std::vector<std::string>& inputs, const TellSteps& tell)

@@ -73,7 +73,6 @@ void identify(Case& what) {
   }
 }
 
-// File and line of an observation.
 std::string place_of(const Case& what, std::size_t observation) {
   return what.files[observation] + ":" +
          std::to_string(what.problem.observations[observation].line);

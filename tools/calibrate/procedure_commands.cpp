@@ -134,7 +134,6 @@ void tell_dead(const std::vector<fs::path>& dead, Person& person) {
   }
 }
 
-// The wanted folder among the interrupted ones.
 fs::path interrupted_folder(const std::string& wanted, const std::string& procedure,
                             const CalibrationStore& store) {
   const auto all = store.interrupted();

@@ -77,7 +77,6 @@ SunKeepOut::UtcNow clock_of(const ProcedureSession& session) {
   return [&session] { return session.replayed_utime_us().value_or(clock_utime_us()); };
 }
 
-// Puts the stages together.
 class Plan {
  public:
   Plan(Procedure& procedure, const StationFiles& station, const ols_msg::station_status_t& status,

@@ -16,7 +16,6 @@ namespace {
 
 constexpr auto kPoll = std::chrono::milliseconds(50);
 
-// Polls until `well` or the time is over.
 template <typename Well>
 void wait_until(Well well, double seconds) {
   const double end_s = clock_monotonic_s() + seconds;

@@ -86,7 +86,6 @@ void ask_axis(Questions& unit, ptu::PtuAxis axis, PtuAxisAnswers& facts, PtuAnsw
   facts.greatest = ask_number(unit, axis, ptu::PtuQuantity::kMaxPosition, answers);
 }
 
-// Whether a unit answers at this rate.
 bool ask_at(int baud, PtuAnswers& answers) {
   Questions unit(answers.serial.device, baud);
   const auto version = unit.ask(ptu::PtuRequest().plain("V"));

@@ -25,7 +25,6 @@ bool is_picture(const fs::path& path) {
   return std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
 }
 
-// The digits that `text` begins with.
 std::string_view leading_digits(std::string_view text) {
   return text.substr(0, std::min(text.find_first_not_of("0123456789"), text.size()));
 }

@@ -42,7 +42,7 @@ std::string required_text(ConfigTable& table, const char* key, const char* what)
   return text;
 }
 
-// The address becomes a word in another program's file.
+// The address goes into another program's file, as one word.
 void check_address(const ConfigTable& root, const std::string& address) {
   try {
     parse_endpoint(address.find(':') == std::string::npos ? address + ":123"
@@ -52,7 +52,7 @@ void check_address(const ConfigTable& root, const std::string& address) {
   }
 }
 
-// The word becomes one in another program's file.
+// The word goes into another program's file.
 void check_word(const ConfigTable& root, const char* key, const std::string& word) {
   const bool is_plain = std::ranges::all_of(word, [](unsigned char c) {
     return std::isalnum(c) != 0 || std::string_view("-_.:/@+").find(c) != std::string_view::npos;
