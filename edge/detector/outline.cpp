@@ -73,8 +73,8 @@ Eigen::Vector3d plane_through(std::span<const Sample> samples) {
   return A.ldlt().solve(b);
 }
 
-// By the three quarters of the strip that deviate least from the plane, so that a neighbour does not
-// count. The spread of the means tells a texture from the noise of single pixels.
+// By the three quarters of the strip that deviate least from the plane, so that a neighbour does
+// not count. The spread of the means tells a texture from the noise of single pixels.
 Surroundings surroundings_of(const cv::Mat1f& means) {
   constexpr double kShare = 0.75, kNormal = 1.943;  // by the mean of |z| below its 75 %
   constexpr double kFloor = 0.17;                   // what the rounding hides
