@@ -154,7 +154,7 @@ SPOKEN = (
         "edge/calibration/reference_views.cpp",
         "edge/gpio/*.cpp",
     ),
-    *("edge/lens/*.cpp", "edge/ptu/*.cpp", "edge/recorder/*.cpp", "edge/sensors/*.cpp"),
+    *("edge/lens/*.cpp", "edge/ptu/*.cpp", "edge/recorder/*.cpp", "edge/sensors/**/*.cpp"),
     *(
         "edge/serial/*.cpp",
         "edge/device/*.cpp",
