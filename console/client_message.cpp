@@ -338,8 +338,8 @@ ClientMessage read(const Json& message, std::int64_t number) {
     return ControlRequest{number, text(message, "station"), what == "take", heard(message)};
   }
   throw FormError(
-      "do must be command, stop_all, take, give_up, watch, taken, answer, cue, name, acknowledge, "
-      "area, remove_area, judge or replay");
+      "do must be command, stop_all, take, give_up, watch, taken, answer, cue, handover, name, "
+      "acknowledge, area, remove_area, judge or replay");
 }
 
 }  // namespace

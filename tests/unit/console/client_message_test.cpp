@@ -160,9 +160,10 @@ TEST(ClientMessage, WhatIsWrongIsSaid) {
   EXPECT_EQ(refusal("{"), "not JSON");
   EXPECT_EQ(refusal("[]"), "not a JSON object");
   EXPECT_EQ(refusal("{}"), "do is missing");
-  EXPECT_EQ(refusal(R"({"do":"dance"})"),
-            "do must be command, stop_all, take, give_up, watch, taken, answer, cue, name, "
-            "acknowledge, area, remove_area, judge or replay");
+  EXPECT_EQ(
+      refusal(R"({"do":"dance"})"),
+      "do must be command, stop_all, take, give_up, watch, taken, answer, cue, handover, name, "
+      "acknowledge, area, remove_area, judge or replay");
   EXPECT_EQ(refusal(R"({"do":"stop_all","station":"a"})"), "unknown key \"station\"");
   EXPECT_EQ(refusal(R"({"do":"command","station":"a","command":"fly"})"), "unknown command");
   EXPECT_EQ(refusal(R"({"do":"command","station":"a b","command":"stop"})"),
