@@ -18,18 +18,20 @@ namespace ols::fusion {
 // The effect of a station's own states on its bearing, on the tangent plane.
 struct StationPart {
   Eigen::Index first = 0;  // index of the first of the station's states
-  bool has_place = false;
+  bool has_place = false;  // whether the states contain its position
   Eigen::Matrix<double, 2, 3> by_rotation;
   Eigen::Matrix3d R_ecef_enu;
 };
 
-// One model's prediction compared with one bearing: H consists of [J, ahead J, curved J] for the
-// target, and of the columns for the station's pose and position.
+// One model's prediction compared with one bearing. The measurement matrix H has the columns
+// [J, ahead_s J, curved_s2 J] for the target's position, velocity and acceleration, then by_pose
+// and by_place for the station.
 struct ModelInnovation {
   double depth_m = 0.0;
   Eigen::Vector2d residual = Eigen::Vector2d::Zero();
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  // of the residual, without noise
   Eigen::Matrix<double, 2, 3> J = Eigen::Matrix<double, 2, 3>::Zero();
+  // From the filter's time to the bearing's. curved_s2: half its square; 0 for constant velocity.
   double ahead_s = 0.0, curved_s2 = 0.0;
   // A clock error moves the bearing in proportion to this velocity.
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();

@@ -15,7 +15,7 @@
 
 namespace ols::fusion {
 
-// The object is a short-lived view of the current state.
+// A short-lived view of the tracks and monitors that it was made from.
 class BearingLines {
  public:
   BearingLines(const TrackManager& tracks, const PointingMonitor& pointing,
@@ -24,14 +24,14 @@ class BearingLines {
 
   // Stations that have recently sent an unassociated bearing and are not quarantined.
   std::vector<std::string> stations(std::int64_t epoch_us) const;
-  // The newest bearing of each local track that no target takes, smallest track ids first (most
-  // trackers assign ids in ascending order). Returns only the first four, unless tracklets are
-  // included.
+  // The newest bearing of each of the station's tracks that no target takes, sorted by track id
+  // (most trackers assign ids in ascending order). Returns only the first four, unless tracklets
+  // are included.
   std::vector<const BearingMeasurement*> of(const std::string& station,
                                             std::int64_t epoch_us) const;
   // The newest bearing of a station that stations() has returned.
   const BearingMeasurement* newest_of(const std::string& station) const;
-  // Whether a target has taken a bearing of the same object lately.
+  // Whether a target has recently used a bearing of the same object.
   bool is_taken(const BearingMeasurement& of, std::int64_t epoch_us) const;
   std::optional<BearingOnly> at(const BearingMeasurement& newest, std::int64_t epoch_us) const;
 

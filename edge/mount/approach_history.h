@@ -8,7 +8,7 @@
 
 namespace ols::mount {
 
-// 1 or -1: sign of the last motion in counts; 0 if the axis has not moved since the samples began.
+// 1 or -1: sign of the last motion in counts; 0 if the axis has not moved since the first sample.
 struct Approach {
   int pan = 0, tilt = 0;
 };
@@ -25,7 +25,7 @@ class ApproachHistory {
   void add(double time_s, const PanTilt& reported);
   void clear();
 
-  // The approach at this instant; after the newest sample, the newest one.
+  // The approach at this instant. For an instant after the newest sample: that of the newest.
   Approach at(double time_s) const;
 
  private:

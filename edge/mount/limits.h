@@ -9,7 +9,7 @@
 
 namespace ols::mount {
 
-// The size of a count for a mount without an encoder, because a station reports angles in counts.
+// A station reports angles in counts. For a mount without an encoder, a count has this size.
 inline constexpr double kVirtualCount_rad = radians(1e-4);
 
 struct Limits {  // [rad]

@@ -23,10 +23,10 @@ class Person {
   void tell(const std::string& line);
   // A line that replaces the previous progress line.
   void progress(const std::string& line);
-  // Input from before this question is no answer to it, except an abort.
+  // Shows a question. What was typed before it is discarded, except "abort".
   void ask(const Question& question);
-  // Shows the same question with another picture: input so far remains an answer. Of the text, only
-  // the last line, with the measured value, is shown again.
+  // For another picture of the same question: shows only the last line of the text, with the
+  // measured value, again. Earlier input still counts as an answer.
   void ask_again(const Question& question);
   // The answer to the question; nullopt: there is none yet. An invalid line is reported, and the
   // question stays.

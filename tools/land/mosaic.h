@@ -15,9 +15,10 @@ struct Mosaic {
   std::vector<std::string> notes;  // how files differ where they meet
 };
 
-// `rasters`: heights above the ellipsoid, with 1-sigma `sd_m`. Where two files overlap, the first
-// is used. If they differ there by more than three sigmas on the whole, throws std::runtime_error
-// naming both files and a place; with `accept_seams` this is only noted.
+// `rasters`: heights above the ellipsoid, with 1-sigma `sd_m`. Where files of one lattice overlap,
+// the first is used. If two files or grids differ on average by more than three sigmas where they
+// meet or overlap, throws std::runtime_error naming both files and a place; with `accept_seams`
+// this is only noted.
 Mosaic join(const std::vector<Raster>& rasters, double sd_m, bool accept_seams);
 
 }  // namespace ols::land

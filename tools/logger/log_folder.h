@@ -20,8 +20,9 @@ class LogFolder {
   // Lists the logs. Creates a missing folder. Throws std::system_error if it is no folder, or not
   // writable.
   void survey();
-  // Removes the oldest logs until they leave `headroom_bytes` of the quota, and of the disk above
-  // its reserve; never removes `keep`. Throws std::system_error if a file cannot be removed.
+  // Removes the oldest logs until the quota and the disk (beyond its reserve) have room for
+  // `headroom_bytes` more. Never removes the file `keep`. Throws std::system_error if a file cannot
+  // be removed.
   void remove_oldest(double quota_bytes, double reserve_bytes, double headroom_bytes,
                      const std::string& keep);
 

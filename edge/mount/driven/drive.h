@@ -137,12 +137,12 @@ class Drive {
   PanTilt rate_;              // [rad/s] the ordered rate
   PanTilt absolute_;          // the ordered position
   double ordered_s_ = 0.0;    // when the last motion was ordered
-  double moved_for_s_ = 0.0;  // time of the position on which the last motion was based
+  double moved_for_s_ = 0.0;  // time of the newest position when the last motion was ordered
   double asked_s_ = -1e9;     // when the position was last requested
   bool stop_wanted_ = true;
   int stops_ = 0;                        // number of stops since the last motion
   double stop_s_ = -1e9;                 // when the last stop was ordered
-  std::optional<double> rests_since_s_;  // when a stop was accepted; no motion ordered since
+  std::optional<double> rests_since_s_;  // time of the accepted stop; reset by a new motion
   std::optional<PanTilt> rest_;          // position at which it came to rest
 
   std::deque<Seen> seen_;  // positions of the last second
@@ -150,7 +150,8 @@ class Drive {
   bool distrusted_ = false;        // the positions did not follow an order, and have not done so
                                    // since
   double refused_until_s_ = -1e9;  // no motion until then: an order was refused or ignored
-  std::optional<double> unordered_s_, unstopped_s_, ignored_s_;  // when each was last seen
+  // When the mount was last seen to move without an order, not to stop, to ignore an order.
+  std::optional<double> unordered_s_, unstopped_s_, ignored_s_;
   Counters counters_;
 };
 

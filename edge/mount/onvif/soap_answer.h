@@ -28,7 +28,8 @@ struct SoapFault : AnswerError {
 using mount::Space;
 using mount::Span;
 
-// Each move is in the first space of its kind, which the camera uses by default.
+// The camera may offer several coordinate spaces for a move. Only the first of each kind is used:
+// it is the camera's default.
 struct PtzOptions : mount::Moves {
   std::optional<Space> relative;
   std::optional<Span> zoom;     // of absolute moves
@@ -36,9 +37,9 @@ struct PtzOptions : mount::Moves {
 };
 
 struct Profile {
-  std::string token, configuration;  // the latter of its PTZ; empty: it has none
-  std::string encoding;              // of its video: "H264"; empty: it does not say
-  // Of its pictures; 0: it does not say.
+  std::string token, configuration;  // `configuration`: token of its PTZ part; empty: none
+  std::string encoding;              // of its video, such as "H264"; empty: not stated
+  // Size and rate of its pictures; 0: not stated.
   int width_px = 0, height_px = 0;
   double frame_rate_hz = 0.0;
 };
