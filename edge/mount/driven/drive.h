@@ -142,7 +142,7 @@ class Drive {
   bool stop_wanted_ = true;
   int stops_ = 0;                        // number of stops since the last motion
   double stop_s_ = -1e9;                 // when the last stop was ordered
-  std::optional<double> rests_since_s_;  // time of the accepted stop; reset by a new motion
+  std::optional<double> rests_since_s_;  // time of the first accepted stop since the last motion
   std::optional<PanTilt> rest_;          // position at which it came to rest
 
   std::deque<Seen> seen_;  // positions of the last second
