@@ -15,7 +15,8 @@ test("it closes what was opened last, one thing with each press, and stops then"
   const closed: string[] = [];
   opened.add(() => closed.push("menu"));
   opened.add(() => closed.push("drag"));
-  assert.deepEqual([1, 2, 3].map(() => press(KEY, opened, null)), ["closed", "closed", "stop"]);
+  const pressed = [1, 2, 3].map(() => [press(KEY, opened, null), opened.isEmpty]);
+  assert.deepEqual(pressed, [["closed", false], ["closed", true], ["stop", true]]);
   assert.deepEqual(closed, ["drag", "menu"]);
 });
 

@@ -132,7 +132,7 @@ export function Console({ session, look, onLoggedOut }: Props) {
   const orders = useMemo(() => new Orders(link, notices), []);
   const version = useNews(link, orders, onLoggedOut);
   const stopAll = () => void orders.stopAll();
-  useEscapeKey(stopAll, () => notices.say(t(link.replay ? "closed" : "escape_closed"), false));
+  useEscapeKey(stopAll, (isAll) => notices.say(t(isAll && !link.replay ? "escape_closed" : "closed"), false));
   const mayCommand = session.role !== "viewer" && !link.replay;
   const pick = (what: string) => {
     if (what.startsWith("station:")) return setStation(what.slice(8));

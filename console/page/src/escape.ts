@@ -16,6 +16,10 @@ export class Opened {
     return () => void (this.closes = this.closes.filter((one) => one !== entry));
   }
 
+  get isEmpty(): boolean {
+    return this.closes.length === 0;
+  }
+
   // False: nothing was open.
   closeNewest(): boolean {
     const newest = this.closes.pop();
@@ -67,8 +71,8 @@ function fieldInFocus(): HTMLElement | null {
   return focused instanceof HTMLElement && focused.matches("input, select, textarea") ? focused : null;
 }
 
-// Wherever on the page it is pressed.
-export function useEscapeKey(onStop: () => void, onClosed: () => void) {
+// Wherever on the page it is pressed. `isAll`: the next press stops the site.
+export function useEscapeKey(onStop: () => void, onClosed: (isAll: boolean) => void) {
   const now = useRef({ onStop, onClosed });
   now.current = { onStop, onClosed };
   useEffect(() => {
@@ -77,7 +81,7 @@ export function useEscapeKey(onStop: () => void, onClosed: () => void) {
       if (meant === "stop") now.current.onStop();
       if (meant !== "closed") return;
       event.preventDefault();
-      now.current.onClosed();
+      now.current.onClosed(opened.isEmpty && !fieldInFocus());
     };
     window.addEventListener("keydown", key, { capture: true });
     return () => window.removeEventListener("keydown", key, { capture: true });
