@@ -41,6 +41,9 @@ struct LineOfSight {
   Eigen::Matrix2d covariance_white = Eigen::Matrix2d::Zero();       // independent in every frame
   Eigen::Matrix2d covariance_systematic = Eigen::Matrix2d::Zero();  // the same in every frame
   Eigen::Vector3d origin_sd_enu_m = Eigen::Vector3d::Zero();        // [m] the same in every frame
+  // The part of covariance_systematic that comes from the aim, 1-sigma of each axis. The aim is the
+  // offset of the followed point from the target's middle: constant in metres, not as an angle.
+  double aim_sd_rad = 0.0;
 };
 
 // Unit vector of a line of sight in ECEF.

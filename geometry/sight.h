@@ -32,8 +32,9 @@ struct StationGeometry {
 struct PixelSight {
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
   Eigen::Matrix2d covariance_px2 = Eigen::Matrix2d::Zero();  // white
-  // The same in every frame (from the designation)
+  // The same in every frame: from the lens; and 1-sigma of each coordinate from the designation
   Eigen::Matrix2d covariance_systematic_px2 = Eigen::Matrix2d::Zero();
+  double aim_sd_px = 0.0;
   PanTilt angles;
   Eigen::Matrix2d angles_covariance_rad2 = Eigen::Matrix2d::Zero();  // white, (pan, tilt)
 };

@@ -52,7 +52,7 @@ std::optional<LineOfSight> sight(const StationCalibration& calibration,
   PixelSight pixel;
   pixel.pixel = measurement.pixel;
   pixel.covariance_px2 = measurement.covariance_px2;
-  pixel.covariance_systematic_px2 = measurement.covariance_systematic_px2;
+  pixel.aim_sd_px = measurement.aim_sd_px;
   pixel.angles = corrected_angles(calibration.model, measurement.reading);
   pixel.angles_covariance_rad2 =
       measurement.angles_covariance_rad2 +

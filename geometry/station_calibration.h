@@ -21,8 +21,7 @@ struct StationCalibration {
 struct CountedSight {
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
   Eigen::Matrix2d covariance_px2 = Eigen::Matrix2d::Zero();  // white
-  // The same in every frame (from the designation)
-  Eigen::Matrix2d covariance_systematic_px2 = Eigen::Matrix2d::Zero();
+  double aim_sd_px = 0.0;  // 1-sigma of each coordinate, from the designation
   // If `approach` is 0 (unknown), the backlash is part of the systematic covariance.
   UnitReading reading;
   Eigen::Matrix2d angles_covariance_rad2 = Eigen::Matrix2d::Zero();  // white, (pan, tilt)

@@ -12,7 +12,7 @@ namespace {
 bool all_finite(const BearingMeasurement& s) {
   return s.sight.origin_ecef.allFinite() && s.sight.origin_sd_enu_m.allFinite() &&
          s.sight.covariance_white.allFinite() && s.sight.covariance_systematic.allFinite() &&
-         std::isfinite(s.sight.direction.azimuth_rad) &&
+         std::isfinite(s.sight.aim_sd_rad) && std::isfinite(s.sight.direction.azimuth_rad) &&
          std::isfinite(s.sight.direction.elevation_rad) && std::isfinite(s.belief) &&
          std::isfinite(s.clock_sd_s) && s.sighted.rate_rad_s.allFinite() &&
          s.sighted.rate_covariance.allFinite() && std::isfinite(s.sighted.size_rad) &&
@@ -65,8 +65,10 @@ bool covariances_hold(const LineOfSight& sight) {
   constexpr double kWorstCondition = 1e8;  // white part: largest eigenvalue over smallest
   const Eigen::Matrix2d& white = sight.covariance_white;
   const Eigen::Matrix2d& stays = sight.covariance_systematic;
+  const double aim = sight.aim_sd_rad * sight.aim_sd_rad;
   const double slack = 1e-9 * stays(0, 0) * stays(1, 1);  // rounding of a singular matrix
   return variances_within(white, kLeastWhiteRad2) && variances_within(stays, 0.0) &&
+         sight.aim_sd_rad >= 0.0 && aim <= stays.trace() &&
          determinant(white) >= white.trace() * white.trace() / kWorstCondition &&
          determinant(stays) >= -slack;
 }

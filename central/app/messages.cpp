@@ -178,6 +178,7 @@ std::variant<BearingMeasurement, MessageRefusal> measurement_from(const std::str
   measurement.sight.direction = {message.azimuth_rad, message.elevation_rad};
   measurement.sight.covariance_white = symmetric(message.covariance_white_rad2);
   measurement.sight.covariance_systematic = symmetric(message.covariance_systematic_rad2);
+  measurement.sight.aim_sd_rad = message.aim_sd_rad;
   measurement.sight.origin_sd_enu_m = Eigen::Vector3d(message.camera_position_sd_m);
   measurement.is_tracklet = message.detected != 0;
   measurement.is_acquired = message.acquired != 0;

@@ -32,6 +32,18 @@ Eigen::Array3d rotation_variance(const Eigen::Array2d& bias_rad2, double camera,
 
 }  // namespace
 
+// The offset is constant on the target, and other lines of sight see it from another side. How far
+// it reaches along the line nobody states.
+Eigen::Matrix3d place_covariance(const LineOfSight& sight, double range_m) {
+  constexpr double kAlong = 0.1;  // its variance along the line, over that across
+  const Eigen::Matrix<double, 3, 2> across = tangent_basis(sight.direction);
+  Eigen::Matrix3d aim = (1.0 - kAlong) * across * across.transpose();
+  aim.diagonal().array() += kAlong;
+  Eigen::Matrix3d all = std::pow(sight.aim_sd_rad * range_m, 2) * aim;
+  all.diagonal().array() += sight.origin_sd_enu_m.array().square();
+  return all;
+}
+
 BiasModel BiasModel::evidence_on(const BiasModel& known) {
   BiasModel evidence(known.config_);
   evidence.known_ = &known;
@@ -147,8 +159,9 @@ BiasPrior BiasModel::prior(const std::string& station, const LineOfSight& sight,
   const Eigen::Array2d noise = sight.covariance_white.diagonal();
   const bool declared = states_anything(stated);
   const Eigen::Array2d more = (learnt(station, stated, noise) - stated).max(0.0);
-  const Eigen::Array2d pose =
-      position_states ? sight.covariance_systematic.diagonal().array() : stated;
+  const Eigen::Array2d pose = position_states ? sight.covariance_systematic.diagonal().array() -
+                                                    std::pow(sight.aim_sd_rad, 2)
+                                              : stated;
   const double least = config_.least_over_noise * config_.least_over_noise;
   const double elevation_rad = sight.direction.elevation_rad;
   prior.covariance.diagonal().array() += more;
@@ -163,7 +176,7 @@ BiasPrior BiasModel::prior(const std::string& station, const LineOfSight& sight,
   prior.empirical = (1.0 - unseen / prior.rotation.max(kNone)).max(0.0);
   prior.time_s = declared ? config_.stated_time_s : config_.undeclared_time_s;
   prior.place_time_s = config_.stated_time_s;
-  if (position_states) prior.place_m2 = sight.origin_sd_enu_m.array().square();
+  if (position_states) prior.place_m2 = place_covariance(sight, range_m);
   return prior;
 }
 

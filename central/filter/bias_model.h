@@ -63,20 +63,25 @@ struct BiasModelConfig {
 
 // The prior of one station's bias in the direction of a target, and of its causes: a small rotation
 // of the station (about east, north, up: two equal tilts and a heading); an elevation error that is
-// fixed in the camera (from its mounting, and from the point on the target that it follows); and,
-// with position_states, an error of the station's position. The cross-elevation error of the camera
-// counts as heading, because at low elevations the two are the same.
+// fixed in the camera, from its mounting; and, with position_states, an error of the station's
+// position and its aim (LineOfSight). Both move the line of sight by metres at the target, and so
+// share their states. The cross-elevation error of the camera counts as heading, because at low
+// elevations the two are the same.
 struct BiasPrior {
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  // [rad^2] stationary, on the tangent plane
   Eigen::Array3d rotation = Eigen::Array3d::Zero();      // [rad^2] stationary variances
   double camera = 0.0;  // [rad^2] stationary variance of the elevation error fixed in the camera
   double time_s = 1.0;  // correlation time of the rotation
-  bool position_states = false;  // if false, the rotation includes the position error
-  Eigen::Array3d place_m2 = Eigen::Array3d::Zero();  // stationary variances: east, north, up
-  double place_time_s = 1.0;                         // correlation time of the position error
+  bool position_states = false;  // if false, the rotation includes position error and aim
+  // Stationary covariance of position error and aim: east, north, up.
+  Eigen::Matrix3d place_m2 = Eigen::Matrix3d::Zero();
+  double place_time_s = 1.0;  // their correlation time
   // The part of the rotation's variances that the station does not declare and only residuals show.
   Eigen::Array3d empirical = Eigen::Array3d::Zero();
 };
+
+// That covariance, for a target at range_m.
+Eigen::Matrix3d place_covariance(const LineOfSight& sight, double range_m);
 
 // A station's bias [rad] (cross-elevation, elevation), and each axis's posterior and prior
 // variance.

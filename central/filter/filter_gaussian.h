@@ -16,8 +16,8 @@ namespace ols::fusion {
 
 inline constexpr int kFilterStations = 12;  // largest number of stations with states of their own
 // States of a station: its rotation about east, north and up, its clock's offset, the elevation
-// error that is fixed in its camera, and, where relevant, the error of its position (east, north,
-// up).
+// error that is fixed in its camera, and, where relevant, the error of its position together with
+// its aim (east, north, up).
 inline constexpr int kPoseStates = 5, kPlaceStates = 3;
 inline constexpr int kClockState = 3, kCameraState = 4;
 inline constexpr int kStationStates = kPoseStates + kPlaceStates;

@@ -40,7 +40,8 @@ StationPart TrackFilter::part_of(int station, const RayFrame& frame) const {
 bool TrackFilter::place_matters(const LineOfSight& sight) const {
   const double range_m = (models_[0].mean.head<3>() - sight.origin_ecef).norm();
   const double all = stated_covariance(sight, range_m).trace();
-  const double of_place = all - sight.covariance_systematic.trace();
+  const double of_place =
+      all - sight.covariance_systematic.trace() + 2.0 * std::pow(sight.aim_sd_rad, 2);
   return of_place > 0.0 && of_place >= config_.place_share * all;
 }
 
@@ -84,7 +85,8 @@ void TrackFilter::enter(int station, const BearingMeasurement& measurement,
     model.covariance.diagonal().segment<3>(at) = prior.rotation;
     model.covariance(at + kCameraState, at + kCameraState) = prior.camera;
     if (!prior.position_states) continue;
-    model.covariance.diagonal().segment<kPlaceStates>(at + kPoseStates) = prior.place_m2;
+    model.covariance.block<kPlaceStates, kPlaceStates>(at + kPoseStates, at + kPoseStates) =
+        prior.place_m2;
   }
 }
 
@@ -148,9 +150,13 @@ void TrackFilter::reset_bias(int station, std::int64_t track_id) {
   stations_[static_cast<std::size_t>(station)].track_id = track_id;
   const BiasPrior& prior = priors_[static_cast<std::size_t>(station)];
   for (FilterGaussian& model : models_.each()) {
-    auto variance = model.covariance.diagonal().segment<kPoseStates>(first_of(station)).array();
+    auto variance =
+        model.covariance.diagonal().segment(first_of(station), states_of(prior)).array();
     variance.head<3>() = variance.head<3>().max(prior.rotation);
     variance(kCameraState) = std::max(variance(kCameraState), prior.camera);
+    if (!prior.position_states) continue;
+    variance.tail<kPlaceStates>() =
+        variance.tail<kPlaceStates>().max(prior.place_m2.diagonal().array());
   }
 }
 
@@ -359,16 +365,13 @@ void TrackFilter::add_position_states(int station) {
   if (prior.position_states) return;
   const Eigen::Index first = first_of(station) + kPoseStates;
   prior.position_states = true;
-  prior.place_m2 =
-      stations_[static_cast<std::size_t>(station)].sight.origin_sd_enu_m.array().square();
+  const LineOfSight& sight = stations_[static_cast<std::size_t>(station)].sight;
+  prior.place_m2 = place_covariance(sight, (position() - sight.origin_ecef).norm());
   for (FilterGaussian& model : models_.each()) {
     insert_states(first, kPlaceStates, model);
-    model.covariance.diagonal().segment<kPlaceStates>(first) = prior.place_m2;
+    model.covariance.block<kPlaceStates, kPlaceStates>(first, first) = prior.place_m2;
   }
 }
-
-// The point that a tracker follows moves on the target; a tripod hardly moves.
-constexpr double kCameraHaste = 6.0;
 
 // Each of the stations' states decays, and gets the noise that keeps its prior variance.
 void TrackFilter::fade_biases(double dt_s, double clock_time_s) {
@@ -378,12 +381,12 @@ void TrackFilter::fade_biases(double dt_s, double clock_time_s) {
   for (std::size_t i = 0; i < stations_.size(); ++i) {
     const BiasPrior& prior = priors_[i];
     rate.segment<kPoseStates>(at) << Eigen::Array3d::Constant(1.0 / prior.time_s),
-        1.0 / clock_time_s, kCameraHaste / prior.time_s;
+        1.0 / clock_time_s, 1.0 / prior.time_s;
     variance.segment<kPoseStates>(at) << prior.rotation, std::pow(stations_[i].clock_sd_s, 2),
         prior.camera;
     if (prior.position_states) {
       rate.segment<kPlaceStates>(at + kPoseStates).setConstant(1.0 / prior.place_time_s);
-      variance.segment<kPlaceStates>(at + kPoseStates) = prior.place_m2;
+      variance.segment<kPlaceStates>(at + kPoseStates) = prior.place_m2.diagonal();
     }
     at += states_of(prior);
   }

@@ -3,10 +3,11 @@
 //
 // State: position, velocity, acceleration (ECEF components). For each contributing station: the
 // rotation error of its pose (about its east, north, up), its clock's offset and, where relevant,
-// the error of its position. The rotation and the position error are constant while the tripod
-// stands; the bias on the tangent plane changes with the direction. All are Gauss-Markov processes
-// with the prior of BiasModel. Observable errors are estimated; the others are only considered
-// (Schmidt). The position's covariance contains both kinds, so averaging does not remove them.
+// the error of its position together with its aim. The rotation and the position error are constant
+// while the tripod stands, the aim until the next designation; the bias on the tangent plane
+// changes with the direction. All are Gauss-Markov processes with the prior of BiasModel.
+// Observable errors are estimated; the others are only considered (Schmidt). The position's
+// covariance contains both kinds, so averaging does not remove them.
 //
 // A newer bearing propagates the state to its own instant. A late bearing is compared with the
 // target's position at the bearing's own instant, extrapolated by velocity and acceleration. A far
@@ -53,8 +54,8 @@ struct FilterConfig {
   // If only two stations deliver: the largest squared correction, normalised by stated bias and
   // noise. If it is larger, the two are an inconsistent pair.
   double two_stations_nis = 25.0;
-  // A station's position error gets states of its own when it makes up at least this share of the
-  // stated bias's variance.
+  // A station's position error and aim get states of their own when they make up at least this
+  // share of the stated bias's variance.
   double place_share = 0.005;
   // Variance of the error common to all stations, relative to the empirical part of the systematic
   // variance. Such an error moves the target, and no residual shows it.

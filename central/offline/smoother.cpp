@@ -185,7 +185,7 @@ class Smoother {
     learnt_.set_errors(known.errors);
     for (const std::string& station : beside_) learnt_.forget_station(station);
     has_places_ = std::ranges::any_of(bearings, [](const BearingMeasurement* measurement) {
-      return !measurement->sight.origin_sd_enu_m.isZero(0.0);
+      return !measurement->sight.origin_sd_enu_m.isZero(0.0) || measurement->sight.aim_sd_rad > 0.0;
     });
     for (const BearingMeasurement* measurement : bearings) {
       sights_.try_emplace(measurement->station, *measurement);
@@ -222,7 +222,7 @@ class Smoother {
   const SmootherOutput& output_;
   std::set<std::string> beside_;
   RecordedTrack learnt_;     // empty, with the learnt errors of the stations
-  bool has_places_ = false;  // some station states an error of its position
+  bool has_places_ = false;  // some station states an error of its position or its aim
   std::map<std::string, BearingMeasurement> sights_;  // the first of each station
 };
 
@@ -249,7 +249,10 @@ Eigen::VectorXd Smoother::prior(const Order& held, const Eigen::Vector3d& p_ecef
     const double clock_scale = learnt_.errors().clock_scale(station);
     variance(at + kClockState) = std::max(kLeast, clock_scale * own.clock_sd_s * own.clock_sd_s);
     variance(at + kCameraState) = std::max(kLeast, bias.camera);
-    if (has_places_) variance.segment<kPlaceStates>(at + kPoseStates) = bias.place_m2.max(kLeast);
+    if (has_places_) {
+      variance.segment<kPlaceStates>(at + kPoseStates) =
+          bias.place_m2.diagonal().array().max(kLeast);
+    }
   }
   return variance;
 }

@@ -121,9 +121,8 @@ std::optional<LineOfSight> PointingModel::sight(PixelSight pixel, const UnitAngl
         Eigen::Matrix2d::Identity() * (zoom->centre_sd_px * zoom->centre_sd_px);
     return ols::sight(geometry, pixel);
   }
-  return ols::sight(unit_->calibration(),
-                    {pixel.pixel, pixel.covariance_px2, pixel.covariance_systematic_px2,
-                     unit.reading, pixel.angles_covariance_rad2});
+  return ols::sight(unit_->calibration(), {pixel.pixel, pixel.covariance_px2, pixel.aim_sd_px,
+                                           unit.reading, pixel.angles_covariance_rad2});
 }
 
 std::optional<video::CameraView> PointingModel::camera_at(double time_s) const {

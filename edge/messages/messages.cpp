@@ -175,6 +175,7 @@ ols_msg::bearing_t to_message(const Bearing& bearing, const Sender& sender,
   message.elevation_rad = bearing.sight.direction.elevation_rad;
   symmetric(bearing.sight.covariance_white, message.covariance_white_rad2);
   symmetric(bearing.sight.covariance_systematic, message.covariance_systematic_rad2);
+  message.aim_sd_rad = bearing.sight.aim_sd_rad;
   message.calibration_id =
       calibration_id(settings.calibration_id, sender.boot_id, bearing.pose_revision);
   message.clock_state = code(sender.clock.state);

@@ -68,8 +68,7 @@ std::optional<MadeBearing> BearingQueue::make(const PixelMeasurement& measured,
   PixelSight pixel;
   pixel.pixel = measured.pixel;
   pixel.covariance_px2 = measured.covariance_px2;
-  const double sd = measured.designation_sd_px;
-  pixel.covariance_systematic_px2 = Eigen::Matrix2d::Identity() * (sd * sd);
+  pixel.aim_sd_px = measured.designation_sd_px;
   // The frame's own stamp adds to the time jitter of the angles.
   const Eigen::Vector2d rate(angles->rate.pan_rad, angles->rate.tilt_rad);
   pixel.angles_covariance_rad2 =

@@ -56,6 +56,7 @@ FORMER = {
     "bearing_v1": "31ee93e4",
     "bearing_v2": "696644f9",
     "bearing_v3": "15819c4e",
+    "bearing_v4": "dc0b16cc",
     "cue_order_v1": "b07b09c1",
     "fusion_status_v1": "5eae55e2",
     "fusion_status_v2": "bc400360",

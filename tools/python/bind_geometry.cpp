@@ -72,6 +72,10 @@ void bind_direction(py::module_& m) {
                      "(2, 2) [rad^2], (cross-elevation, elevation): new with every frame.")
       .def_readwrite("covariance_systematic", &LineOfSight::covariance_systematic,
                      "(2, 2) [rad^2], (cross-elevation, elevation): stays.")
+      .def_readwrite(
+          "aim_sd_rad", &LineOfSight::aim_sd_rad,
+          "1-sigma of the followed point against the target's middle, of each axis; part "
+          "of covariance_systematic.")
       .def_readwrite("origin_sd_enu_m", &LineOfSight::origin_sd_enu_m,
                      "(3,) east, north, up [m]: 1-sigma of the origin, stays.");
   m.def("direction_ecef", &direction_ecef, arg("sight"),

@@ -81,6 +81,8 @@ void take_sights(const py::kwargs& given, Bearings& bearings) {
   const auto place_sd = column<Reals>(given, "camera_position_sd_m", n, 3);
   const auto belief = column<Reals>(given, "belief", n, 1);
   const auto clock = column<Reals>(given, "clock_error_s", n, 1);
+  const bool has_aims = given.contains("aim_sd_rad");
+  const Reals aim = has_aims ? column<Reals>(given, "aim_sd_rad", n, 1) : Reals();
   for (std::size_t i = 0; i < n; ++i) {
     fusion::BearingMeasurement& row = bearings.rows[i];
     row.sight.origin_ecef = Eigen::Vector3d(centre.data() + 3 * i);
@@ -88,6 +90,7 @@ void take_sights(const py::kwargs& given, Bearings& bearings) {
     row.sight.covariance_white = symmetric(white.data() + 3 * i);
     row.sight.covariance_systematic = symmetric(systematic.data() + 3 * i);
     row.sight.origin_sd_enu_m = Eigen::Vector3d(place_sd.data() + 3 * i);
+    if (has_aims) row.sight.aim_sd_rad = aim.data()[i];
     row.belief = belief.data()[i];
     row.clock_sd_s = clock.data()[i];
   }
@@ -155,6 +158,7 @@ py::dict columns_of(const Bearings& bearings) {
       [](const Row& r) { return triangle(r.sight.covariance_white); });
   put(columns, "covariance_systematic_rad2",
       [](const Row& r) { return triangle(r.sight.covariance_systematic); });
+  put(columns, "aim_sd_rad", [](const Row& r) { return std::array{r.sight.aim_sd_rad}; });
   return columns;
 }
 
@@ -302,7 +306,8 @@ void bind_offline(py::module_& m) {
            "station: list of n names. By keyword, with bearing_t's names and units: utime, "
            "boot_id, track_id, calibration_id, azimuth_rad, elevation_rad, belief, clock_error_s, "
            "each (n,); camera_ecef_m, camera_position_sd_m, (n, 3); covariance_white_rad2, "
-           "covariance_systematic_rad2, (n, 3): xx, xy, yy of (cross-elevation, elevation).")
+           "covariance_systematic_rad2, (n, 3): xx, xy, yy of (cross-elevation, elevation); and, "
+           "unless it is unknown, aim_sd_rad, (n,).")
       .def("columns", &columns_of, "{name: (n,) or (n, 3) array}, as they were given.")
       .def("__len__", [](const Bearings& bearings) { return bearings.rows.size(); });
   m.def("read_bearings", &read_bearings, arg("stations"), arg("bearings"),

@@ -100,6 +100,18 @@ TEST(Sight, PixelCovarianceByHand) {
   EXPECT_TRUE(near(line->covariance_systematic / (px_rad * px_rad), systematic, 1e-6));
 }
 
+// The designation is told apart from the other systematic errors, of which it is a part.
+TEST(Sight, TellsTheAimApart) {
+  PixelSight measurement = at_pixel(kCentre);
+  measurement.covariance_systematic_px2 = Vector2d(1.0, 16.0).asDiagonal();
+  measurement.aim_sd_px = 2.0;
+  const auto line = sight(plain_station(), measurement);
+  const double px_rad = 3.75e-6 / 50e-3;
+  EXPECT_NEAR(line->aim_sd_rad, 2.0 * px_rad, 1e-6 * px_rad);
+  const Eigen::Matrix2d systematic = Vector2d(5.0, 20.0).asDiagonal();
+  EXPECT_TRUE(near(line->covariance_systematic / (px_rad * px_rad), systematic, 1e-6));
+}
+
 // A direction at 70 degrees off the axis of an equidistant lens: f pixels a radian outwards, and
 // f theta / sin(theta) around.
 TEST(Sight, PixelCovarianceFarOffTheAxisOfAWideLens) {

@@ -105,10 +105,12 @@ TEST(StationCalibration, SightKeepsTheKindsOfErrorsApart) {
   EXPECT_TRUE(near(plain->covariance_systematic,
                    *systematic_covariance(calibration, measured.reading, kPixel), 1e-18));
   EXPECT_NEAR(plain->origin_sd_enu_m.y(), 0.02, 1e-12);
-  measured.covariance_systematic_px2 = Eigen::Matrix2d::Identity();
+  measured.aim_sd_px = 1.0;
   calibration.angle_sd_rad = 1e-4;
   const auto more = sight(calibration, measured);
   EXPECT_GT((more->covariance_systematic - plain->covariance_systematic).trace(), 1e-9);
+  EXPECT_NEAR(2.0 * std::pow(more->aim_sd_rad, 2),
+              (more->covariance_systematic - plain->covariance_systematic).trace(), 1e-12);
   EXPECT_GT((more->covariance_white - plain->covariance_white).trace(), 0.9e-8);
 }
 

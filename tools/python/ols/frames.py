@@ -33,6 +33,9 @@ TRIPLES = (
     "covariance_systematic_rad2",
 )
 
+# Bearings recorded before it was stated lack it, and zero is unknown.
+AIM = "aim_sd_rad"
+
 EARTH_RADIUS_M = 6.37e6
 
 
@@ -155,6 +158,8 @@ def bearings_of(frame: pd.DataFrame) -> "ols.Bearings":
         if any(len(value) != 3 for value in values):
             raise ValueError(f"column {name}: each row must have three numbers")
         columns[name] = np.array(values, float).reshape(-1, 3)
+    if AIM in frame:
+        columns[AIM] = frame[AIM].fillna(0.0).to_numpy(float)
     return ols.Bearings(frame["station"].to_list(), **columns)
 
 

@@ -4,11 +4,12 @@ import contextlib
 import fcntl
 import os
 import re
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 
+import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 
@@ -102,14 +103,18 @@ def read(
     columns: list[str] | None = None,
     utime_us: tuple[int, int] | None = None,
     schema: pa.Schema | None = None,
+    later: Collection[str] = (),
 ) -> pa.Table:
     """Damaged if anything of what is read is not as it was written, or, with a schema, not of its
-    columns and types. utime_us: only the rows from the first instant up to the second one."""
+    columns and types. utime_us: only the rows from the first instant up to the second one. later:
+    columns that a file may lack; they are zero."""
     if schema is None:
         return read_rows(path, columns, utime_us)
     with named_if_damaged(path):
         table = read_rows(path, schema.names, utime_us)
         for name in schema.names:
+            if name in later and name not in table.column_names:
+                table = table.append_column(name, pa.array(np.zeros(len(table))))
             if name not in table.column_names:
                 raise ValueError(f"no column {name}")
             if table[name].null_count:

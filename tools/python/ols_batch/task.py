@@ -27,7 +27,9 @@ NEEDED = (
     *("station", "channel", "utime", "boot_id", "sequence", "track_id", "calibration_id"),
     *("azimuth_rad", "elevation_rad", "belief", "clock_error_s", "camera_ecef_m"),
     *("camera_position_sd_m", "covariance_white_rad2", "covariance_systematic_rad2"),
+    "aim_sd_rad",
 )
+LATER = {"aim_sd_rad"}  # files of before lack it: unknown, which is zero
 TRIPLES = {
     *("camera_ecef_m", "camera_position_sd_m", "covariance_white_rad2"),
     "covariance_systematic_rad2",
@@ -114,7 +116,7 @@ def bearings_around(settings: Settings, hour: Hour, result: Result) -> pa.Table:
     for one in settings.inputs(hour):
         try:
             path = file_of(settings.archive, "bearing", one)
-            tables.append(read(path, None, window, READ))
+            tables.append(read(path, None, window, READ, LATER))
         except FileNotFoundError:
             continue
         except Damaged as error:

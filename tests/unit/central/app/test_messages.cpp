@@ -34,6 +34,7 @@ ols_msg::bearing_t bearing() {
   message.covariance_white_rad2[1] = 1e-8;
   message.covariance_white_rad2[2] = 2e-8;
   message.covariance_systematic_rad2[2] = 3e-8;
+  message.aim_sd_rad = 1e-4;
   message.camera_position_sd_m[1] = 0.5;
   message.clock_error_s = 1e-3;
   return message;
@@ -90,6 +91,7 @@ TEST(Messages, BearingBecomesAMeasurement) {
   EXPECT_EQ(measurement.sight.covariance_white(1, 0), 1e-8);
   EXPECT_EQ(measurement.sight.covariance_white(1, 1), 2e-8);
   EXPECT_EQ(measurement.sight.covariance_systematic(1, 1), 3e-8);
+  EXPECT_EQ(measurement.sight.aim_sd_rad, 1e-4);
   EXPECT_EQ(measurement.sight.origin_sd_enu_m, Eigen::Vector3d(0, 0.5, 0));
   EXPECT_EQ(check(measurement), BearingRefusal::kNone);
 }

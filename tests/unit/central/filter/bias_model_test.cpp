@@ -154,8 +154,22 @@ TEST(BiasModel, APlaceIsPartOfTheRotationOrApart) {
   const BiasPrior apart = BiasModel().prior("a", line, 500.0, true);
   EXPECT_NEAR(within.rotation(0) + within.camera, 1e-6 + 1.0 / (500.0 * 500.0), 1e-12);
   EXPECT_NEAR(apart.rotation(0) + apart.camera, 1e-6, 1e-12);
-  EXPECT_TRUE(apart.place_m2.isApproxToConstant(1.0, 1e-12));
+  EXPECT_TRUE(apart.place_m2.isApprox(Eigen::Matrix3d::Identity(), 1e-12));
   EXPECT_TRUE(within.covariance.isApprox(apart.covariance, 1e-12));
+}
+
+// Metres across the line of sight, and less along it; the rest is as without it.
+TEST(BiasModel, AnAimIsMetresAtTheTarget) {
+  constexpr double kAim = 4e-4, kRangeM = 500.0, kRest = 1e-6;
+  LineOfSight line = stated(0.0, kRest + kAim * kAim, kRest + kAim * kAim);
+  line.direction.azimuth_rad = 0.0;
+  line.aim_sd_rad = kAim;
+  const BiasPrior apart = BiasModel().prior("a", line, kRangeM, true);
+  const Eigen::Vector3d aim_m2 = 0.2 * 0.2 * Eigen::Vector3d(1.0, 0.1, 1.0);
+  EXPECT_TRUE(apart.place_m2.isApprox(Eigen::Matrix3d(aim_m2.asDiagonal()), 1e-9));
+  EXPECT_NEAR(apart.rotation(0) + apart.camera, kRest, 1e-12);
+  const BiasPrior within = BiasModel().prior("a", line, kRangeM);
+  EXPECT_NEAR(within.rotation(0) + within.camera, kRest + kAim * kAim, 1e-12);
 }
 
 // What is stated and does not show as noise is still there, as a bias that nothing shows.

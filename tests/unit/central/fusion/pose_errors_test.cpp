@@ -4,7 +4,13 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <map>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "central/offline/offline_fusion.h"
 #include "dev/estimators/bearing_world.h"
@@ -39,11 +45,35 @@ void rename_each(std::vector<BearingMeasurement>& measurements) {
   for (BearingMeasurement& measurement : measurements) measurement.track_id = ++name;
 }
 
+// Each station follows a point of the target, up to metres off its middle: constant across its
+// line.
+void follow_points(double sd_m, const Path& path, std::vector<BearingMeasurement>& measurements,
+                   std::mt19937_64& random) {
+  std::normal_distribution<double> normal;
+  std::map<std::string, std::pair<Eigen::Vector2d, double>> followed;  // offset, first range [m]
+  for (BearingMeasurement& measurement : measurements) {
+    LineOfSight& sight = measurement.sight;
+    const double time_s = 1e-6 * static_cast<double>(measurement.utime_us - kStartUs);
+    const double range_m = (site().to_ecef(at(path, time_s).p_enu) - sight.origin_ecef).norm();
+    const double right_m = sd_m * normal(random), up_m = sd_m * normal(random);
+    const auto& [offset_m, first_range_m] =
+        followed.try_emplace(measurement.station, Eigen::Vector2d(right_m, up_m), range_m)
+            .first->second;
+    AzimuthElevation& direction = sight.direction;
+    direction.azimuth_rad += offset_m.x() / (range_m * std::cos(direction.elevation_rad));
+    direction.elevation_rad += offset_m.y() / range_m;
+    sight.aim_sd_rad = sd_m / first_range_m;
+    sight.covariance_systematic.diagonal().array() += sight.aim_sd_rad * sight.aim_sd_rad;
+  }
+}
+
 struct Result {
   double nees = 0.0, error_m = 0.0;
 };
 
-Result fly(const WorldConfig& world, const OfflineConfig& config, bool renamed = false) {
+using Change = std::function<void(std::vector<BearingMeasurement>&, std::mt19937_64&)>;
+
+Result fly(const WorldConfig& world, const OfflineConfig& config, const Change& change = {}) {
   constexpr int kRuns = 12;
   constexpr double kSettledS = 10.0;
   const Path path = circling();
@@ -52,7 +82,7 @@ Result fly(const WorldConfig& world, const OfflineConfig& config, bool renamed =
   for (std::uint64_t seed = 1; seed <= kRuns; ++seed) {
     std::mt19937_64 random(seed);
     std::vector<BearingMeasurement> measurements = measure(world, {path}, kDurationS, random);
-    if (renamed) rename_each(measurements);
+    if (change) change(measurements, random);
     for (const FusedTarget& target : fuse_offline(measurements, config)) {
       const double time_s = 1e-6 * static_cast<double>(target.utime_us - kStartUs);
       if (time_s < kSettledS) continue;
@@ -100,8 +130,24 @@ TEST(PoseErrors, APlaceThatIsOffIsNotTakenForARotation) {
 }
 
 TEST(PoseErrors, WhoChangesItsMindWithEachFrameIsNotBelievedMore) {
-  EXPECT_LT(fly(world_of(5e-4, 1e-3, 0.0), {}, true).nees, 1.3);
-  EXPECT_LT(fly(world_of(5e-4, 1e-3, 1.0), {}, true).nees, 1.6);
+  const auto renamed = [](auto& measurements, std::mt19937_64&) { rename_each(measurements); };
+  EXPECT_LT(fly(world_of(5e-4, 1e-3, 0.0), {}, renamed).nees, 1.3);
+  EXPECT_LT(fly(world_of(5e-4, 1e-3, 1.0), {}, renamed).nees, 1.6);
+}
+
+TEST(PoseErrors, APointOfTheTargetIsSeenUnderAnAngleThatGrowsAsItComesNearer) {
+  const WorldConfig world = world_of(5e-5, 1e-4, 0.0);
+  const auto points = [](auto& measurements, std::mt19937_64& random) {
+    follow_points(0.3, circling(), measurements, random);
+  };
+  const double nees = fly(world, {}, points).nees;
+  EXPECT_GT(nees, 0.5);
+  EXPECT_LT(nees, 1.6);
+  const auto taken_as_angles = [&](auto& measurements, std::mt19937_64& random) {
+    points(measurements, random);
+    for (BearingMeasurement& measurement : measurements) measurement.sight.aim_sd_rad = 0.0;
+  };
+  EXPECT_GT(fly(world, {}, taken_as_angles).nees, 3.0 * nees) << "and this is why";
 }
 
 // Far away a position error is small compared with a heading error; nearby it dominates.
@@ -209,6 +255,29 @@ TEST(PoseErrors, ItIsNeverLessCertainThanStated) {
     const StationBias bias = filter.bias(i);
     EXPECT_LT(bias.covariance_rad2.trace(), 1.01 * bias.prior_rad2.trace());
   }
+}
+
+// With another designation the station follows another point.
+TEST(PoseErrors, ANewDesignationMayBeOfAnotherPoint) {
+  constexpr double kFlightS = 30.0, kAgainS = 20.0;
+  const Path path = circling();
+  std::mt19937_64 random(4);
+  std::vector<BearingMeasurement> seen =
+      measure(world_of(1e-6, 1e-6, 0.0), {path}, kFlightS, random);
+  follow_points(1.0, path, seen, random);
+  TrackFilter filter = filter_on(path);
+  BiasModel errors;
+  double known_m2 = 0.0, again_m2 = 0.0;
+  for (BearingMeasurement& measurement : seen) {
+    const double time_s = 1e-6 * static_cast<double>(measurement.utime_us - kStartUs);
+    measurement.track_id = time_s > kAgainS ? 2 : 1;
+    test::feed(filter, measurement, errors);
+    const double place_m2 = filter.mixed().covariance.bottomRightCorner<3, 3>().trace();
+    if (measurement.track_id == 1) known_m2 = place_m2;
+    if (measurement.track_id == 2) again_m2 = std::max(again_m2, place_m2);
+  }
+  EXPECT_LT(known_m2, 1.2) << "of two square metres and a tenth";
+  EXPECT_GT(again_m2, 1.8);
 }
 
 }  // namespace

@@ -106,6 +106,12 @@ TEST(StationMessages, TheClocksQualityIsInEveryBearing) {
   EXPECT_EQ(bearing.clock_error_s, 2.5) << "the error of the frame's stamp is in it";
 }
 
+TEST(StationMessages, ABearingStatesItsAim) {
+  Bearing bearing;
+  bearing.sight.aim_sd_rad = 7e-5;
+  EXPECT_EQ(to_message(bearing, sender(), StationSettings{}, 1).aim_sd_rad, 7e-5);
+}
+
 TEST(StationMessages, AnotherPoseIsAnotherCalibration) {
   StationSettings settings;
   settings.calibration_id = 42;
