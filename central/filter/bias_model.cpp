@@ -35,10 +35,10 @@ Eigen::Array3d rotation_variance(const Eigen::Array2d& bias_rad2, double camera,
 // The offset is constant on the target, and other lines of sight see it from another side. How far
 // it reaches along the line nobody states.
 Eigen::Matrix3d place_covariance(const LineOfSight& sight, double range_m) {
-  constexpr double kAlong = 0.1;  // its variance along the line, over that across
+  constexpr double kAlong = 0.2;  // its 1-sigma along the line, over that across
   const Eigen::Matrix<double, 3, 2> across = tangent_basis(sight.direction);
-  Eigen::Matrix3d aim = (1.0 - kAlong) * across * across.transpose();
-  aim.diagonal().array() += kAlong;
+  Eigen::Matrix3d aim = (1.0 - kAlong * kAlong) * across * across.transpose();
+  aim.diagonal().array() += kAlong * kAlong;
   Eigen::Matrix3d all = std::pow(sight.aim_sd_rad * range_m, 2) * aim;
   all.diagonal().array() += sight.origin_sd_enu_m.array().square();
   return all;

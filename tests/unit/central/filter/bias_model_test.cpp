@@ -165,7 +165,7 @@ TEST(BiasModel, AnAimIsMetresAtTheTarget) {
   line.direction.azimuth_rad = 0.0;
   line.aim_sd_rad = kAim;
   const BiasPrior apart = BiasModel().prior("a", line, kRangeM, true);
-  const Eigen::Vector3d aim_m2 = 0.2 * 0.2 * Eigen::Vector3d(1.0, 0.1, 1.0);
+  const Eigen::Vector3d aim_m2 = 0.2 * 0.2 * Eigen::Vector3d(1.0, 0.04, 1.0);
   EXPECT_TRUE(apart.place_m2.isApprox(Eigen::Matrix3d(aim_m2.asDiagonal()), 1e-9));
   EXPECT_NEAR(apart.rotation(0) + apart.camera, kRest, 1e-12);
   const BiasPrior within = BiasModel().prior("a", line, kRangeM);

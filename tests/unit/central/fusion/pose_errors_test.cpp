@@ -276,7 +276,7 @@ TEST(PoseErrors, ANewDesignationMayBeOfAnotherPoint) {
     if (measurement.track_id == 1) known_m2 = place_m2;
     if (measurement.track_id == 2) again_m2 = std::max(again_m2, place_m2);
   }
-  EXPECT_LT(known_m2, 1.2) << "of two square metres and a tenth";
+  EXPECT_LT(known_m2, 1.2) << "of two square metres";
   EXPECT_GT(again_m2, 1.8);
 }
 
