@@ -34,10 +34,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   attempt([&] { static_cast<void>(onvif::device_information(answer)); });
   attempt([&] { static_cast<void>(onvif::services(answer)); });
   attempt([&] { static_cast<void>(onvif::profiles(answer)); });
-  attempt([&] {
-    const onvif::PtzOptions options = onvif::options(answer);
-    for (const auto& space : {options.absolute, options.relative, options.continuous}) check(space);
-  });
+  for (const auto& read : {onvif::options, onvif::node_options})
+    attempt([&] {
+      const onvif::PtzOptions options = read(answer);
+      for (const auto& space : {options.absolute, options.relative, options.continuous})
+        check(space);
+    });
   attempt([&] {
     const onvif::PtzStatus status = onvif::status(answer);
     ols::fuzz::require(

@@ -102,6 +102,16 @@ std::string OnvifLink::read_device() {
   }
 }
 
+// Some cameras answer GetConfigurationOptions with another answer, or not at all.
+PtzOptions OnvifLink::read_options(const Profile& profile) {
+  try {
+    return options(ask_ptz(get_options(profile.configuration)).answer);
+  } catch (const AnswerError&) {
+    if (profile.node.empty()) throw;
+  }
+  return node_options(ask_ptz(get_node(profile.node)).answer);
+}
+
 Learnt OnvifLink::learn(const std::string& wanted) {
   const auto all = read_profiles();
   if (!has_ptz_) throw AnswerError("the camera has no PTZ service");
@@ -111,7 +121,7 @@ Learnt OnvifLink::learn(const std::string& wanted) {
   if (found == all.end() || found->configuration.empty())
     throw AnswerError(wanted.empty() ? "the camera has no profile with PTZ"
                                      : "the camera has no profile " + wanted + " with PTZ");
-  return {read_device(), *found, options(ask_ptz(get_options(found->configuration)).answer)};
+  return {read_device(), *found, read_options(*found)};
 }
 
 Offer OnvifLink::offer() {
@@ -121,8 +131,7 @@ Offer OnvifLink::offer() {
     Offer::Stream stream{profile, stream_address(url_, stated), {}};
     if (stream.url.empty()) continue;
     try {
-      if (has_ptz_ && !profile.configuration.empty())
-        stream.ptz = options(ask_ptz(get_options(profile.configuration)).answer);
+      if (has_ptz_ && !profile.configuration.empty()) stream.ptz = read_options(profile);
     } catch (const AnswerError&) {  // a stream is enough
     }
     offer.streams.push_back(std::move(stream));

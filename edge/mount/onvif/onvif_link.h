@@ -67,6 +67,7 @@ class OnvifLink {
   void read_clock();
   std::vector<Profile> read_profiles();
   std::string read_device();
+  PtzOptions read_options(const Profile& profile);
 
   HttpLink http_;
   const std::string url_;

@@ -163,7 +163,11 @@ namespace {
 
 Profile profile(const Answer& answer, const Node& node) {
   const Node ptz = child(node, "PTZConfiguration");
-  Profile profile{answer.token(node), ptz ? answer.token(ptz) : "", "", 0, 0, 0.0};
+  Profile profile;
+  profile.token = answer.token(node);
+  if (ptz) profile.configuration = answer.token(ptz);
+  profile.node = text_of(child(ptz, "NodeToken"));
+  if (profile.node.size() > kLongestToken) profile.node.clear();
   const Node video = child(node, "VideoEncoderConfiguration");
   profile.encoding = words(text_of(child(video, "Encoding")));
   const auto stated = [&](const Node& parent, const char* name) {
@@ -198,18 +202,33 @@ std::string stream_uri(const std::string& text) {
   return uri;
 }
 
-PtzOptions options(const std::string& text) {
-  const Answer answer(text, "GetConfigurationOptions");
-  const Node options = answer.required(answer.response(), "PTZConfigurationOptions");
-  const Node spaces = answer.required(options, "Spaces");
+namespace {
+
+PtzOptions moves(const Answer& answer, const Node& spaces) {
   PtzOptions result{{first_space(answer, spaces, "AbsolutePanTiltPositionSpace"),
                      first_space(answer, spaces, "ContinuousPanTiltVelocitySpace")},
                     first_space(answer, spaces, "RelativePanTiltTranslationSpace"),
                     {},
-                    timeouts(options)};
+                    {}};
   if (const Node zoom = child(spaces, "AbsoluteZoomPositionSpace"))
     result.zoom = answer.span(answer.required(zoom, "XRange"));
   return result;
+}
+
+}  // namespace
+
+PtzOptions options(const std::string& text) {
+  const Answer answer(text, "GetConfigurationOptions");
+  const Node options = answer.required(answer.response(), "PTZConfigurationOptions");
+  PtzOptions result = moves(answer, answer.required(options, "Spaces"));
+  result.timeout = timeouts(options);
+  return result;
+}
+
+PtzOptions node_options(const std::string& text) {
+  const Answer answer(text, "GetNode");
+  const Node node = answer.required(answer.response(), "PTZNode");
+  return moves(answer, answer.required(node, "SupportedPTZSpaces"));
 }
 
 PtzStatus status(const std::string& text) {

@@ -38,6 +38,7 @@ struct PtzOptions : mount::Moves {
 
 struct Profile {
   std::string token, configuration;  // `configuration`: token of its PTZ part; empty: none
+  std::string node;                  // token of that part's node; empty: not stated
   std::string encoding;              // of its video, such as "H264"; empty: not stated
   // Size and rate of its pictures; 0: not stated.
   int width_px = 0, height_px = 0;
@@ -60,6 +61,8 @@ Services services(const std::string& answer);
 std::vector<Profile> profiles(const std::string& answer);
 std::string stream_uri(const std::string& answer);
 PtzOptions options(const std::string& answer);
+// The same of a node, which states no time-outs.
+PtzOptions node_options(const std::string& answer);
 PtzStatus status(const std::string& answer);
 // Checks the answer to a request that returns no data, such as "Stop".
 void check_done(const std::string& answer, const std::string& request);

@@ -123,6 +123,9 @@ Request get_options(const std::string& configuration) {
   return request(kPtz, "GetConfigurationOptions",
                  element("ConfigurationToken", escaped(configuration)));
 }
+Request get_node(const std::string& node) {
+  return request(kPtz, "GetNode", element("NodeToken", escaped(node)));
+}
 Request get_status(const std::string& profile) { return of_profile("GetStatus", profile); }
 Request stop(const std::string& profile) {
   return of_profile("Stop", profile, element("PanTilt", "true") + element("Zoom", "true"));

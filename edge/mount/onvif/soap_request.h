@@ -29,6 +29,8 @@ Request get_capabilities();
 Request get_profiles();
 Request get_stream_uri(const std::string& profile);
 Request get_options(const std::string& configuration);
+// The PTZ node, by the token that the configuration names.
+Request get_node(const std::string& node);
 Request get_status(const std::string& profile);
 Request stop(const std::string& profile);
 // `timeout_s`: the camera must stop by itself after this time.

@@ -32,6 +32,7 @@ const std::string kRefused =
 struct Body {
   std::mutex mutex;
   std::string position = R"(x="0" y="0")";
+  bool answers_options = true;  // else with another answer, as ipycam does
 
   std::string answer(const std::string& name, const std::string& request) {
     const std::lock_guard lock(mutex);
@@ -51,10 +52,19 @@ struct Body {
           "<Capabilities><Media><XAddr>http://192.168.1.9/m</XAddr></Media><PTZ><XAddr>"
           "http://192.168.1.9/p</XAddr></PTZ></Capabilities>";
     if (name == "GetProfiles")
-      content = "<Profiles token=\"a\"><PTZConfiguration token=\"c\"/></Profiles>";
-    if (name == "GetConfigurationOptions")
-      content = "<PTZConfigurationOptions><Spaces>" + space("AbsolutePanTiltPositionSpace") +
-                space("ContinuousPanTiltVelocitySpace") + "</Spaces></PTZConfigurationOptions>";
+      content =
+          "<Profiles token=\"a\"><PTZConfiguration token=\"c\"><NodeToken>n</NodeToken>"
+          "</PTZConfiguration></Profiles>";
+    const std::string spaces =
+        space("AbsolutePanTiltPositionSpace") + space("ContinuousPanTiltVelocitySpace");
+    if (name == "GetConfigurationOptions") {
+      if (!answers_options) return "<GetConfigurationsResponse/>";
+      content =
+          "<PTZConfigurationOptions><Spaces>" + spaces + "</Spaces></PTZConfigurationOptions>";
+    }
+    if (name == "GetNode")
+      content =
+          "<PTZNode token=\"n\"><SupportedPTZSpaces>" + spaces + "</SupportedPTZSpaces></PTZNode>";
     if (name == "GetStatus")
       content = "<PTZStatus><Position><PanTilt " + position + "/></Position></PTZStatus>";
     if (name == "AbsoluteMove") {
@@ -120,6 +130,16 @@ TEST_F(OnvifMountTest, LogsInStopsFirstGoesToAGoalAndStopsAtTheEnd) {
   }
   EXPECT_EQ(camera.names().back(), "Stop");
   EXPECT_THAT(camera.all_bytes(), Not(HasSubstr(kPassword)));
+}
+
+TEST_F(OnvifMountTest, ACameraThatAnswersForItsNodeAloneIsAMountToo) {
+  body.answers_options = false;
+  FakeCamera camera([&](const std::string& name, const FakeCamera::Request& request) {
+    return by_digest(body, name, request);
+  });
+  mount::DrivenMount mount(config(camera).drive, std::make_unique<OnvifSession>(config(camera)));
+  EXPECT_TRUE(eventually([&] { return mount.limits().has_value(); }));
+  EXPECT_THAT(mount.report().text, HasSubstr("absolute continuous"));
 }
 
 TEST_F(OnvifMountTest, ARefusedPasswordIsTriedOnceUntilTheFileChanges) {
