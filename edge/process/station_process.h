@@ -14,6 +14,7 @@
 #include "edge/process/device_set.h"
 #include "edge/process/host_monitor.h"
 #include "edge/process/kept_pose.h"
+#include "edge/process/skyline_thread.h"
 #include "edge/process/station_clock.h"
 #include "edge/process/station_journal.h"
 #include "edge/station/persisted_station_state.h"
@@ -24,13 +25,14 @@ namespace ols::station {
 struct Outside {
   OpenDevices open_devices;
   TimeService time_service;
+  std::shared_ptr<const land::Surface> land = nullptr;  // null: no land is known
 };
 
 class StationProcess {
  public:
   // Works without network and devices; it keeps trying to reach those that are absent.
   StationProcess(const StationSettings& configured, std::int64_t boot_id,
-                 Outside outside = {open_chosen_devices, host_time_service()});
+                 Outside outside = {open_chosen_devices, host_time_service(), nullptr});
 
   // Runs until `ends` returns true. Notifies systemd. It is ready after the first turn, whichever
   // devices are present.
@@ -49,6 +51,7 @@ class StationProcess {
   void receive_commands();
   double take_frame();  // returns how long it waited for a frame [s]
   void show_frame(const camera::Frame& frame);
+  void compare_skyline(const camera::Frame& frame);
   void detect(double now_s);
   void take_zoom();
   void take_angles();
@@ -84,6 +87,7 @@ class StationProcess {
   StationJournal journal_;
   DeviceSet devices_;
   std::optional<DetectorThread> detector_;  // empty if not enabled
+  std::optional<SkylineThread> skyline_;    // empty if no land is known
   FrameDesk frames_;
   std::optional<camera::Frame> newest_;
   bool halted_ = false;  // the mount refuses to move until the station is re-armed

@@ -1,0 +1,170 @@
+#include "edge/skyline/skyline_heading.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/angles.h"
+#include "land/column_march.h"
+
+namespace ols::skyline {
+namespace {
+
+constexpr int kUnknowns = 8;
+using Unknowns = Eigen::Matrix<double, kUnknowns, 1>;
+using Design =
+    Eigen::Matrix<double, Eigen::Dynamic, kUnknowns + 1>;  // the last column: differences
+using Normal = Eigen::Matrix<double, kUnknowns + 1, kUnknowns + 1>;
+
+constexpr int kLeastPlaces = 100;
+
+// One place of the seen skyline beside the model.
+struct Place {
+  Eigen::Matrix<double, 1, kUnknowns + 1> row;
+  Eigen::Vector2d crest_m;  // where the land's skyline is: east, north
+  double model_sd_rad = 0.0;
+  double white_rad2 = 0.0;  // variance of what neighbours do not share
+};
+
+std::optional<Place> place_of(const SeenPlace& seen, const land::HorizonMap& map, double turn_rad) {
+  constexpr double kStep_rad = radians(0.1);
+  // Of the model's error: trees, and what is between its heights. Of each place anew.
+  constexpr double kRough = 0.3;
+  const double azimuth_rad = seen.direction.azimuth_rad + turn_rad;
+  const auto skyline = map.skyline(azimuth_rad);
+  const auto left = map.skyline(azimuth_rad - kStep_rad);
+  const auto right = map.skyline(azimuth_rad + kStep_rad);
+  if (!skyline || !left || !right) return std::nullopt;
+  const double slope = (right->elevation_rad - left->elevation_rad) / (2.0 * kStep_rad);
+  const double s = std::sin(azimuth_rad), c = std::cos(azimuth_rad);
+  const double d = std::max(1.0, skyline->distance_m), rise = std::tan(skyline->elevation_rad);
+  const double refraction = land::refraction_slope(1.0, d);
+  Place place;
+  place.row << slope, 1.0, s, c, (slope * c + rise * s) / d, (-slope * s + rise * c) / d, -1.0 / d,
+      refraction, seen.direction.elevation_rad - skyline->elevation_rad;
+  place.crest_m = d * Eigen::Vector2d(s, c);
+  const double bent_rad = map.config().refraction_k_sd * refraction;
+  const double sd_rad = skyline->elevation_sd_rad;
+  place.model_sd_rad = std::sqrt(std::max(0.0, sd_rad * sd_rad - bent_rad * bent_rad));
+  place.white_rad2 = seen.variance_rad2 + std::pow(kRough * place.model_sd_rad, 2);
+  return place;
+}
+
+std::vector<Place> places_of(const std::vector<SeenPlace>& seen, const land::HorizonMap& map,
+                             double turn_rad) {
+  std::vector<Place> places;
+  for (const SeenPlace& one : seen) {
+    if (auto place = place_of(one, map, turn_rad)) places.push_back(*std::move(place));
+  }
+  return places;
+}
+
+// B^T W B, where W is the inverse of the covariance of the differences and B their design with the
+// differences themselves: K along the skyline, and white noise beside it. By Woodbury's identity,
+// because the inverse of K is tridiagonal. `weights` of 0 leave places out.
+Normal normal_matrix(const std::vector<Place>& places, const Eigen::VectorXd& weights) {
+  const auto n = static_cast<Eigen::Index>(places.size());
+  Design B(n, kUnknowns + 1), C(n, kUnknowns + 1);
+  Eigen::VectorXd diagonal = Eigen::VectorXd::Ones(n), beside = Eigen::VectorXd::Zero(n);
+  Normal normal = Normal::Zero();
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Place& place = places[static_cast<std::size_t>(i)];
+    const double weight = weights(i) / place.white_rad2;
+    B.row(i) = place.row;
+    C.row(i) = weight * place.model_sd_rad * place.row;
+    normal += weight * place.row.transpose() * place.row;
+    diagonal(i) += weight * place.model_sd_rad * place.model_sd_rad;
+    if (i == 0) continue;
+    const double gap_m = (place.crest_m - places[static_cast<std::size_t>(i - 1)].crest_m).norm();
+    const double alike = std::min(0.9999, std::exp(-gap_m / land::kLowered_m));
+    const double other = alike * alike / (1.0 - alike * alike);
+    diagonal(i - 1) += other;
+    diagonal(i) += other;
+    beside(i) = -alike / (1.0 - alike * alike);
+  }
+  // The tridiagonal matrix is L D L^T; `C` becomes L^-1 C.
+  for (Eigen::Index i = 1; i < n; ++i) {
+    const double factor = beside(i) / diagonal(i - 1);
+    diagonal(i) -= factor * beside(i);
+    C.row(i) -= factor * C.row(i - 1);
+  }
+  return normal - C.transpose() * diagonal.cwiseInverse().asDiagonal() * C;
+}
+
+struct Solution {
+  Unknowns x;
+  Eigen::Matrix<double, kUnknowns, kUnknowns> covariance;
+  double misfit = 0.0;  // squared, of all places
+};
+
+Solution solve(const Normal& normal, const Unknowns& prior_sd) {
+  Eigen::Matrix<double, kUnknowns, kUnknowns> A = normal.topLeftCorner<kUnknowns, kUnknowns>();
+  A.diagonal() += prior_sd.cwiseAbs2().cwiseInverse();
+  Solution solution;
+  solution.covariance = A.ldlt().solve(Eigen::Matrix<double, kUnknowns, kUnknowns>::Identity());
+  const Unknowns right = normal.topRightCorner<kUnknowns, 1>();
+  solution.x = solution.covariance * right;
+  solution.misfit = normal(kUnknowns, kUnknowns) - solution.x.dot(right);
+  return solution;
+}
+
+// A tree, a house or a cloud counts less, the farther it is from the rest.
+Eigen::VectorXd weights_of(const std::vector<Place>& places, const Unknowns& x) {
+  constexpr double kUsual = 2.5;  // sigmas
+  Eigen::VectorXd weights(static_cast<Eigen::Index>(places.size()));
+  for (Eigen::Index i = 0; i < weights.size(); ++i) {
+    const Place& place = places[static_cast<std::size_t>(i)];
+    const double off_rad = place.row(kUnknowns) - place.row.head<kUnknowns>().dot(x);
+    const double sd_rad = std::sqrt(place.white_rad2 + std::pow(place.model_sd_rad, 2));
+    weights(i) = std::pow(std::min(1.0, kUsual * sd_rad / std::abs(off_rad)), 2);
+  }
+  return weights;
+}
+
+// The variance of the heading if parts of the horizon are left out in turn (the jackknife): it also
+// contains errors whose correlation is not as assumed.
+double left_out_variance(const std::vector<Place>& places, const Eigen::VectorXd& weights,
+                         const Unknowns& prior_sd) {
+  constexpr int kParts = 12;
+  const auto n = weights.size();
+  Eigen::Array<double, kParts, 1> headings;
+  for (int part = 0; part < kParts; ++part) {
+    Eigen::VectorXd others = weights;
+    const auto from = n * part / kParts, to = n * (part + 1) / kParts;
+    others.segment(from, to - from).setZero();
+    headings(part) = solve(normal_matrix(places, others), prior_sd).x(0);
+  }
+  return (headings - headings.mean()).square().sum() * (kParts - 1) / kParts;
+}
+
+}  // namespace
+
+std::optional<SkylineHeading> skyline_heading(const std::vector<SeenPlace>& seen,
+                                              const land::HorizonMap& map, double place_sd_m) {
+  constexpr int kIterations = 6;
+  constexpr double kAny_rad = radians(2.0), kStep_rad = radians(0.2);
+  Unknowns prior_sd;
+  prior_sd << kAny_rad, kAny_rad, kAny_rad, kAny_rad, place_sd_m, place_sd_m, place_sd_m,
+      map.config().refraction_k_sd;
+  double turn_rad = 0.0;  // of the seen directions, to those of the model
+  Unknowns others = Unknowns::Zero();
+  for (int i = 0;; ++i) {
+    const auto places = places_of(seen, map, turn_rad);
+    if (places.size() < kLeastPlaces) return std::nullopt;
+    const Eigen::VectorXd weights = weights_of(places, others);
+    const Solution solution = solve(normal_matrix(places, weights), prior_sd);
+    others = solution.x;
+    if (i < kIterations) {
+      turn_rad += std::clamp(solution.x(0), -kStep_rad, kStep_rad);
+      others(0) = 0.0;
+      continue;
+    }
+    const double excess =
+        std::max(1.0, solution.misfit / (static_cast<double>(places.size()) - kUnknowns));
+    const double variance =
+        std::max(excess * solution.covariance(0, 0), left_out_variance(places, weights, prior_sd));
+    return SkylineHeading{-(turn_rad + solution.x(0)), std::sqrt(variance)};
+  }
+}
+
+}  // namespace ols::skyline

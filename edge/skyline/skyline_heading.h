@@ -1,0 +1,35 @@
+// The error of a station's heading, from the skyline that it has seen and the land's. Pure.
+//
+// What differs between the two, for one azimuth:
+//
+//   seen - modelled elevation = slope * heading error          (moves the skyline along itself)
+//     + level, tilt towards east and north                     (of the station)
+//     + offset of the camera in the model: east, north, up     (seen under distance)
+//     + refraction
+//     + error of the model there + error of the pictures
+//
+// The model's error has the sigma that the land states. It is about the same along a crest, over
+// kLowered_m on the ground, and independent on another ridge: so many pictures of one crest say
+// little more than one, and a whole horizon much more. The error is a first-order Markov process
+// along the skyline, so all of it is solved exactly, in time proportional to the number of places.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "edge/skyline/seen_horizon.h"
+#include "land/horizon_map.h"
+
+namespace ols::skyline {
+
+struct SkylineHeading {
+  double error_rad = 0.0;  // the station's heading minus the skyline's
+  double sd_rad = 0.0;     // 1-sigma, the model's error included
+};
+
+// `place_sd_m`: 1-sigma of each coordinate of the camera relative to the model as a whole. nullopt
+// if too little has been seen.
+std::optional<SkylineHeading> skyline_heading(const std::vector<SeenPlace>& seen,
+                                              const land::HorizonMap& map, double place_sd_m);
+
+}  // namespace ols::skyline

@@ -1,0 +1,57 @@
+// A station among made hills, as they are and as a model with errors has them.
+#pragma once
+
+#include <cmath>
+
+#include "geometry/angles.h"
+#include "geometry/wgs84.h"
+#include "land/horizon_map.h"
+#include "sim/world/relief.h"
+#include "tests/unit/land/made_land.h"
+
+namespace ols::skyline {
+
+inline constexpr double kModelSd_m = 4.0;
+
+class MadeSite {
+ public:
+  explicit MadeSite(unsigned seed)
+      : far_(120.0, 3000.0, 10 * seed),
+        near_(25.0, 700.0, 10 * seed + 1),
+        error_(kModelSd_m, 600.0, 10 * seed + 2) {}
+
+  land::MadeLand truth() const {
+    return land::MadeLand([this](double lat, double lon) { return height_m(at(lat, lon)); });
+  }
+  land::MadeLand model() const {
+    return land::MadeLand(
+        [this](double lat, double lon) { return height_m(at(lat, lon)) + error_.at(at(lat, lon)); },
+        kModelSd_m);
+  }
+  // 15 m above the true ground.
+  Geodetic camera() const {
+    Geodetic camera = kCentre;
+    camera.height_m = height_m(Eigen::Vector2d::Zero()) + 15.0;
+    return camera;
+  }
+
+  static inline const Geodetic kCentre{radians(46.0), radians(9.0), 0.0};
+
+ private:
+  static Eigen::Vector2d at(double latitude_rad, double longitude_rad) {
+    constexpr double kRadius_m = 6'371'000.0;
+    return kRadius_m *
+           Eigen::Vector2d((longitude_rad - kCentre.longitude_rad) * std::cos(kCentre.latitude_rad),
+                           latitude_rad - kCentre.latitude_rad);
+  }
+  double height_m(const Eigen::Vector2d& place_m) const {
+    return 500.0 + far_.at(place_m) + near_.at(place_m);
+  }
+
+  sim::Waves far_, near_, error_;
+};
+
+// Coarse, so that it is quick.
+inline land::HorizonMapConfig quick_map() { return {.columns = 1440, .reach_m = 8'000.0}; }
+
+}  // namespace ols::skyline
