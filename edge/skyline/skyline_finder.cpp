@@ -13,7 +13,7 @@ constexpr double kSlack_px = 12;  // searched beyond three sigmas of the expecte
 // The logarithm of the density of a normal distribution, but for a constant. Limited, so that a
 // bird or a lamp counts as unlikely, not as impossible.
 double log_normal(double value, double sd) {
-  constexpr double kLeast = -6.0;
+  constexpr double kLeast = -12.0;
   return std::max(kLeast, -0.5 * (value / sd) * (value / sd)) - std::log(sd);
 }
 

@@ -29,7 +29,7 @@ struct Place {
 std::optional<Place> place_of(const SeenPlace& seen, const land::HorizonMap& map, double turn_rad) {
   constexpr double kStep_rad = radians(0.1);
   // Of the model's error: trees, and what is between its heights. Of each place anew.
-  constexpr double kRough = 0.3;
+  constexpr double kRough = 0.5;
   const double azimuth_rad = seen.direction.azimuth_rad + turn_rad;
   const auto skyline = map.skyline(azimuth_rad);
   const auto left = map.skyline(azimuth_rad - kStep_rad);
@@ -116,7 +116,7 @@ Eigen::VectorXd weights_of(const std::vector<Place>& places, const Unknowns& x) 
     const Place& place = places[static_cast<std::size_t>(i)];
     const double off_rad = place.row(kUnknowns) - place.row.head<kUnknowns>().dot(x);
     const double sd_rad = std::sqrt(place.white_rad2 + std::pow(place.model_sd_rad, 2));
-    weights(i) = std::pow(std::min(1.0, kUsual * sd_rad / std::abs(off_rad)), 2);
+    weights(i) = std::pow(std::min(1.0, kUsual * sd_rad / std::abs(off_rad)), 4);
   }
   return weights;
 }

@@ -28,7 +28,7 @@ bool SkylineWatch::has_map(const Geodetic& camera) {
   map_.reset();
   why_none_.clear();
   try {
-    map_.emplace(*surface_, camera);
+    map_.emplace(*surface_, camera, config_);
     place_sd_m_ = surface_->ground(camera.latitude_rad, camera.longitude_rad)->sd_m;
   } catch (const std::invalid_argument& reason) {
     why_none_ = reason.what();

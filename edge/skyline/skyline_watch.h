@@ -18,8 +18,9 @@ namespace ols::skyline {
 
 class SkylineWatch {
  public:
-  explicit SkylineWatch(std::shared_ptr<const land::Surface> surface)
-      : surface_(std::move(surface)) {}
+  explicit SkylineWatch(std::shared_ptr<const land::Surface> surface,
+                        const land::HorizonMapConfig& config = {})
+      : surface_(std::move(surface)), config_(config) {}
 
   // A picture with the pose that the station states for it. If the camera has been moved, all
   // earlier pictures are forgotten.
@@ -38,6 +39,7 @@ class SkylineWatch {
   bool has_map(const Geodetic& camera);
 
   std::shared_ptr<const land::Surface> surface_;
+  land::HorizonMapConfig config_;
   std::optional<Geodetic> place_;  // of the map, also if the land does not fit there
   std::optional<land::HorizonMap> map_;
   std::string why_none_;

@@ -16,8 +16,8 @@ inline constexpr double kModelSd_m = 4.0;
 class MadeSite {
  public:
   explicit MadeSite(unsigned seed)
-      : far_(120.0, 3000.0, 10 * seed),
-        near_(25.0, 700.0, 10 * seed + 1),
+      : far_(200.0, 5000.0, 10 * seed),
+        near_(20.0, 1200.0, 10 * seed + 1),
         error_(kModelSd_m, 600.0, 10 * seed + 2) {}
 
   land::MadeLand truth() const {
@@ -28,10 +28,10 @@ class MadeSite {
         [this](double lat, double lon) { return height_m(at(lat, lon)) + error_.at(at(lat, lon)); },
         kModelSd_m);
   }
-  // 15 m above the true ground.
+  // 80 m above the true ground.
   Geodetic camera() const {
     Geodetic camera = kCentre;
-    camera.height_m = height_m(Eigen::Vector2d::Zero()) + 15.0;
+    camera.height_m = height_m(Eigen::Vector2d::Zero()) + 80.0;
     return camera;
   }
 
@@ -52,6 +52,6 @@ class MadeSite {
 };
 
 // Coarse, so that it is quick.
-inline land::HorizonMapConfig quick_map() { return {.columns = 1440, .reach_m = 8'000.0}; }
+inline land::HorizonMapConfig quick_map() { return {.columns = 720, .reach_m = 10'000.0}; }
 
 }  // namespace ols::skyline

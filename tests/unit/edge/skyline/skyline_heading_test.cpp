@@ -41,7 +41,7 @@ SkylineHeading heading_by(const SeenHorizon& seen, const Maps& maps) {
 }
 
 TEST(SkylineHeadingTest, WholeHorizonGivesTheErrorWithAnHonestSigma) {
-  constexpr int kSites = 12;
+  constexpr int kSites = 6;
   double nees = 0.0;
   for (unsigned seed = 1; seed <= kSites; ++seed) {
     const Maps maps(seed);
@@ -49,14 +49,11 @@ TEST(SkylineHeadingTest, WholeHorizonGivesTheErrorWithAnHonestSigma) {
     SeenHorizon seen;
     seen.add(picture(maps.truth, 0.0, 360.0, wrong_rad, seed));
     const SkylineHeading heading = heading_by(seen, maps);
-    std::printf("seed %u: %.4f %.4f\n", seed, degrees(heading.error_rad - wrong_rad),
-                degrees(heading.sd_rad));
     EXPECT_LT(std::abs(heading.error_rad - wrong_rad), 4.0 * heading.sd_rad) << "seed " << seed;
-    EXPECT_LT(heading.sd_rad, radians(0.04)) << "seed " << seed;
+    EXPECT_LT(heading.sd_rad, radians(0.035)) << "seed " << seed;
     nees += std::pow((heading.error_rad - wrong_rad) / heading.sd_rad, 2) / kSites;
   }
-  std::printf("nees %.2f\n", nees);
-  EXPECT_GT(nees, 0.2);
+  EXPECT_GT(nees, 0.3);
   EXPECT_LT(nees, 1.8);
 }
 

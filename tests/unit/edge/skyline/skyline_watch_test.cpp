@@ -35,7 +35,7 @@ class SkylineWatchTest : public ::testing::Test {
       : site_(4),
         truth_(site_.truth(), site_.camera(), quick_map()),
         panorama_(landscape(), wide_camera(), sim::slopes_texture(landscape(), wide_camera()), 4),
-        watch_(std::make_shared<land::MadeLand>(site_.model())) {
+        watch_(std::make_shared<land::MadeLand>(site_.model()), quick_map()) {
     panorama_.raise([this](double azimuth_rad) {
       const auto skyline = truth_.skyline(azimuth_rad);
       return skyline ? skyline->elevation_rad : -0.5;
@@ -79,7 +79,7 @@ TEST_F(SkylineWatchTest, AWrongHeadingIsNoticedAndARightOneIsNot) {
 
 TEST_F(SkylineWatchTest, APlaceUnderTheGroundIsSaid) {
   Geodetic under = site_.camera();
-  under.height_m -= 60.0;
+  under.height_m -= 120.0;
   turn_around(0.0, under);
   EXPECT_NE(watch_.alarm().text.find("under the ground"), std::string::npos);
   turn_around(0.0, site_.camera());  // a right position is taken
