@@ -135,9 +135,37 @@ Eigen::Matrix3d R_enu_cam(double azimuth_rad, double elevation_rad) {
 }
 
 struct Tally {
-  int strips = 0, found = 0;
+  int strips = 0, found = 0, far = 0;
   double off2_px2 = 0.0;
 };
+
+std::vector<double> true_rows(const Site& site, const skyline::PictureView& view) {
+  std::vector<double> rows;
+  for (int strip = 0; strip < skyline::strips_of(view.camera.width_px); ++strip) {
+    double y_px = view.camera.cy_px;
+    for (int i = 0; i < 6; ++i) {
+      const auto ray = unproject(view.camera, {skyline::strip_x_px(strip), y_px});
+      const auto at = azimuth_elevation_from_enu(view.R_enu_cam * *ray);
+      y_px += (at.elevation_rad - site.panorama->ridge_rad(at.azimuth_rad)) * view.camera.fy_px;
+    }
+    rows.push_back(y_px);
+  }
+  return rows;
+}
+
+// Only strips that show the skyline count; errors are across the skyline, which may be steep.
+void score(const skyline::Rows& found, const std::vector<double>& rows, Tally& tally) {
+  for (std::size_t i = 4; i + 4 < rows.size(); ++i) {
+    if (rows[i] < 20.0 || rows[i] > 940.0) continue;
+    ++tally.strips;
+    if (!found[i]) continue;
+    ++tally.found;
+    const double slope = (rows[i + 4] - rows[i - 4]) / (8 * skyline::kStrip_px);
+    const double off_px = (found[i]->at_px - rows[i]) / std::hypot(1.0, slope);
+    tally.off2_px2 += off_px * off_px;
+    if (std::abs(off_px) > 5.0) ++tally.far;
+  }
+}
 
 // One picture, in a direction that the station takes for another by `wrong_rad`.
 void look(Site& site, double azimuth_rad, double wrong_rad, std::mt19937_64& generator,
@@ -155,14 +183,7 @@ void look(Site& site, double azimuth_rad, double wrong_rad, std::mt19937_64& gen
                                       site.camera};
   const skyline::PictureView actual{R_enu_cam(azimuth_rad, elevation_rad), site.camera};
   const auto found = skyline::find_skyline(gray, skyline::expected_rows(*site.known, believed));
-  for (const auto& point : skyline::directions(found, actual)) {
-    const double off_px =
-        (point.direction.elevation_rad - site.panorama->ridge_rad(point.direction.azimuth_rad)) *
-        site.camera.fy_px;
-    tally.off2_px2 += off_px * off_px;
-    ++tally.found;
-  }
-  tally.strips += static_cast<int>(found.size());
+  score(found, true_rows(site, actual), tally);
   seen.add(skyline::directions(found, believed));
 }
 
@@ -213,7 +234,9 @@ int main(int argc, char** argv) {
       if (heading) worst = std::max(worst, std::abs(heading->error_rad / heading->sd_rad));
     }
     if (options.pictures > 0) std::printf("  worst of all %.1f", worst);
-    std::printf("  (%.3f found, %.2f px)\n", static_cast<double>(tally.found) / tally.strips,
+    std::printf("  (%.3f found, %.4f of them far off, %.2f px)\n",
+                static_cast<double>(tally.found) / tally.strips,
+                static_cast<double>(tally.far) / tally.found,
                 std::sqrt(tally.off2_px2 / tally.found));
     std::fflush(stdout);
   }

@@ -108,8 +108,8 @@ void Panorama::set_camera(const CameraIntrinsics& camera) {
 void Panorama::raise(const std::function<double(double azimuth_rad)>& skyline_rad) {
   constexpr std::size_t kColumn = 4;  // texels: some tenths of a milliradian
   for (std::size_t u = 0; u < ridge_.size(); u += kColumn) {
-    const auto near =
-        static_cast<float>(skyline_rad(static_cast<double>(u) / texels_per_rad_) * texels_per_rad_);
+    const double middle = static_cast<double>(u) + 0.5 * kColumn;
+    const auto near = static_cast<float>(skyline_rad(middle / texels_per_rad_) * texels_per_rad_);
     for (std::size_t i = u; i < std::min(u + kColumn, ridge_.size()); ++i) {
       ridge_[i] = std::max(ridge_[i], near);
     }
