@@ -20,7 +20,6 @@
 #include "edge/messages/messages_bus.h"
 #include "edge/process/station_process.h"
 #include "geometry/angles.h"
-#include "land/terrain_folder.h"
 
 namespace {
 
@@ -51,10 +50,7 @@ int run(const std::string& config, const StationSettings& own) {
   const StationSettings settings =
       load(config, ols::trust::settings_at_start(own.trust, trust_environment(own), own.id,
                                                  ols::station::site_check(config)));
-  ols::station::StationProcess process(
-      settings, ols::draw_boot_id(),
-      {ols::station::open_chosen_devices, ols::station::host_time_service(),
-       ols::land::read_configured_land(settings.land_folder).terrain});
+  ols::station::StationProcess process(settings, ols::draw_boot_id());
   ols::write_to_journal(
       {.text = fmt::format("station {} ready: camera {}, PTU {}, bus {}", settings.id,
                            settings.camera->address(), settings.mount->words(), settings.lcm_url),

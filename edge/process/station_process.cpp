@@ -59,7 +59,6 @@ StationProcess::StationProcess(const StationSettings& configured, std::int64_t b
       frames_(settings().station.angles) {
   const DetectionConfig& detection = settings().station.detection;
   if (detection.enabled) detector_.emplace(detection.detector);
-  if (outside.land) skyline_.emplace(outside.land);
   const double now_s = clock_monotonic_s();
   station_.set_pose(pose_->pose(now_s));
   resume_hold(now_s);
@@ -183,7 +182,6 @@ double StationProcess::take_frame() {
   station_.on_frame(*frame, clock_monotonic_s());
   calibration_.see(*frame);
   devices_.camera().set_region(station_.target_box());
-  compare_skyline(*frame);
   show_frame(*frame);
   newest_ = std::move(frame);
   return waited_s;
@@ -196,13 +194,6 @@ void StationProcess::show_frame(const camera::Frame& frame) {
   if (!shown) return;
   shown->utime_us = clock_.utime_us(frame.mid_exposure_s);
   video->offer(std::move(*shown));
-}
-
-void StationProcess::compare_skyline(const camera::Frame& frame) {
-  const auto reported = station_.reported_angles();
-  if (!skyline_ || !reported || !skyline_->wants(frame.mid_exposure_s, *reported)) return;
-  auto picture = station_.video_frame(frame.mid_exposure_s);
-  if (picture && picture->camera) skyline_->give(*std::move(picture));
 }
 
 void StationProcess::detect(double now_s) {
@@ -226,7 +217,6 @@ void StationProcess::take_angles() {
   const bool trusted =
       before == mount::Reference::kTrusted && devices_.mount().reference() == before;
   frames_.service().set_trusted(trusted);
-  if (skyline_ && !trusted) skyline_->forget();
   for (const mount::AngleSample& sample : samples) {
     station_.on_angles(sample);
     frames_.service().on_angles(sample);
@@ -310,9 +300,6 @@ StationReport StationProcess::report(const clock::ClockPair& now) {
   for (const Alarm& alarm : ActiveCalibration::other_devices(settings().serials, report.devices)) {
     report.alarms.push_back(alarm);
   }
-  if (Alarm alarm = skyline_ ? skyline_->alarm() : Alarm(); !alarm.empty()) {
-    report.alarms.push_back(std::move(alarm));
-  }
   for (const Alarm& alarm : persisted_.alarms()) report.alarms.push_back(alarm);
   for (const Alarm& alarm : bus_.alarms()) report.alarms.push_back(alarm);
   add_pose_and_clock(now.monotonic_s, report);
@@ -330,7 +317,6 @@ void StationProcess::check_calibration(const StationReport& report, double now_s
   const bool other = calibration_.adopts(now_s, idle, report.devices, count) ||
                      calibration_.refuses(count) || calibration_.refuses(report.devices);
   if (!other) return;
-  if (skyline_) skyline_->forget();
   station_.use(settings().station.geometry, settings().station.calibration);
   pose_.emplace(settings(), now_s);
   station_.set_pose(pose_->pose(now_s));

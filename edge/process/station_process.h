@@ -14,7 +14,6 @@
 #include "edge/process/device_set.h"
 #include "edge/process/host_monitor.h"
 #include "edge/process/kept_pose.h"
-#include "edge/process/skyline_thread.h"
 #include "edge/process/station_clock.h"
 #include "edge/process/station_journal.h"
 #include "edge/station/persisted_station_state.h"
@@ -25,14 +24,13 @@ namespace ols::station {
 struct Outside {
   OpenDevices open_devices;
   TimeService time_service;
-  std::shared_ptr<const land::Surface> land = nullptr;  // null: no land is known
 };
 
 class StationProcess {
  public:
   // Works without network and devices; it keeps trying to reach those that are absent.
   StationProcess(const StationSettings& configured, std::int64_t boot_id,
-                 Outside outside = {open_chosen_devices, host_time_service(), nullptr});
+                 Outside outside = {open_chosen_devices, host_time_service()});
 
   // Runs until `ends` returns true. Notifies systemd. It is ready after the first turn, whichever
   // devices are present.
@@ -51,7 +49,6 @@ class StationProcess {
   void receive_commands();
   double take_frame();  // returns how long it waited for a frame [s]
   void show_frame(const camera::Frame& frame);
-  void compare_skyline(const camera::Frame& frame);
   void detect(double now_s);
   void take_zoom();
   void take_angles();
@@ -87,7 +84,6 @@ class StationProcess {
   StationJournal journal_;
   DeviceSet devices_;
   std::optional<DetectorThread> detector_;  // empty if not enabled
-  std::optional<SkylineThread> skyline_;    // empty if no land is known
   FrameDesk frames_;
   std::optional<camera::Frame> newest_;
   bool halted_ = false;  // the mount refuses to move until the station is re-armed
