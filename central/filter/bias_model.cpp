@@ -159,9 +159,11 @@ BiasPrior BiasModel::prior(const std::string& station, const LineOfSight& sight,
   const Eigen::Array2d noise = sight.covariance_white.diagonal();
   const bool declared = states_anything(stated);
   const Eigen::Array2d more = (learnt(station, stated, noise) - stated).max(0.0);
-  const Eigen::Array2d pose = position_states ? sight.covariance_systematic.diagonal().array() -
-                                                    std::pow(sight.aim_sd_rad, 2)
-                                              : stated;
+  Eigen::Array2d pose = stated;
+  if (position_states) {
+    pose = sight.covariance_systematic.diagonal().array() - std::pow(sight.aim_sd_rad, 2);
+    pose = pose.max(0.0);
+  }
   const double least = config_.least_over_noise * config_.least_over_noise;
   const double elevation_rad = sight.direction.elevation_rad;
   prior.covariance.diagonal().array() += more;

@@ -1,6 +1,7 @@
 #include "central/filter/track_filter.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -9,6 +10,16 @@
 #include "geometry/wgs84.h"
 
 namespace ols::fusion {
+namespace {
+
+// Without the directions in which it is negative. Reads the lower triangle.
+Eigen::Matrix3d positive_part(const Eigen::Matrix3d& difference) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(difference);
+  const Eigen::Vector3d values = axes.eigenvalues().cwiseMax(0.0);
+  return axes.eigenvectors() * values.asDiagonal() * axes.eigenvectors().transpose();
+}
+
+}  // namespace
 
 TrackFilter::TrackFilter(const FilterConfig& config, std::int64_t utime_us,
                          const FilterStart& start)
@@ -64,6 +75,12 @@ int TrackFilter::claim_station_states(const BearingMeasurement& measurement) {
   return station;
 }
 
+BiasPrior TrackFilter::prior_of(const BearingMeasurement& measurement, const BiasModel& priors,
+                                bool position_states) const {
+  const double range_m = (models_[0].mean.head<3>() - measurement.sight.origin_ecef).norm();
+  return priors.prior(measurement.station, measurement.sight, range_m, position_states);
+}
+
 void TrackFilter::enter(int station, const BearingMeasurement& measurement,
                         const BiasModel& priors) {
   stations_[static_cast<std::size_t>(station)] = {
@@ -75,8 +92,7 @@ void TrackFilter::enter(int station, const BearingMeasurement& measurement,
       .calibration_id = measurement.calibration_id,
       .track_id = measurement.track_id};
   BiasPrior& prior = priors_[static_cast<std::size_t>(station)];
-  const double range_m = (models_[0].mean.head<3>() - measurement.sight.origin_ecef).norm();
-  prior = priors.prior(measurement.station, measurement.sight, range_m, prior.position_states);
+  prior = prior_of(measurement, priors, prior.position_states);
   const Eigen::Index at = first_of(station), n = states_of(prior);
   for (FilterGaussian& model : models_.each()) {
     model.mean.segment(at, n).setZero();
@@ -110,13 +126,12 @@ Innovation TrackFilter::innovation(const BearingMeasurement& measurement,
   Eigen::Matrix2d more =
       measurement.sight.covariance_white * priors.noise_scale(measurement.station);
   if (station < 0) {
-    const double range_m = (position() - measurement.sight.origin_ecef).norm();
-    more += priors.prior(measurement.station, measurement.sight, range_m).covariance;
+    more += prior_of(measurement, priors, false).covariance;
   } else {  // its bias may be that of another pose or of another point of the target
     const FilterStation& known = stations_[static_cast<std::size_t>(station)];
     const bool same = known.calibration_id == measurement.calibration_id &&
                       known.track_id == measurement.track_id;
-    if (!same) more += priors_[static_cast<std::size_t>(station)].covariance;
+    if (!same) more += prior_of(measurement, priors, false).covariance;
   }
   for (std::size_t m = 0; m < models_.size(); ++m) {
     const ModelInnovation& own = seen.models[m];
@@ -143,20 +158,23 @@ FilterUpdate TrackFilter::update(const BearingMeasurement& measurement, const Bi
 }
 
 // The target was designated again at the station, which now follows another point of it: its bias
-// variance returns to the prior, but the correlation with the other states stays. Otherwise a
-// station that changes the point with each frame would seem to have a new bias each time, and it
-// would average out.
-void TrackFilter::reset_bias(int station, std::int64_t track_id) {
-  stations_[static_cast<std::size_t>(station)].track_id = track_id;
-  const BiasPrior& prior = priors_[static_cast<std::size_t>(station)];
+// variance returns to the prior of the new designation, but the correlation with the other states
+// stays. Otherwise a station that changes the point with each frame would seem to have a new bias
+// each time, and it would average out.
+void TrackFilter::reset_bias(int station, const BearingMeasurement& measurement,
+                             const BiasModel& priors) {
+  stations_[static_cast<std::size_t>(station)].track_id = measurement.track_id;
+  BiasPrior& prior = priors_[static_cast<std::size_t>(station)];
+  prior = prior_of(measurement, priors, prior.position_states);
+  const Eigen::Index at = first_of(station);
   for (FilterGaussian& model : models_.each()) {
-    auto variance =
-        model.covariance.diagonal().segment(first_of(station), states_of(prior)).array();
+    auto variance = model.covariance.diagonal().segment<kPoseStates>(at).array();
     variance.head<3>() = variance.head<3>().max(prior.rotation);
     variance(kCameraState) = std::max(variance(kCameraState), prior.camera);
     if (!prior.position_states) continue;
-    variance.tail<kPlaceStates>() =
-        variance.tail<kPlaceStates>().max(prior.place_m2.diagonal().array());
+    auto place =
+        model.covariance.block<kPlaceStates, kPlaceStates>(at + kPoseStates, at + kPoseStates);
+    place += positive_part(prior.place_m2 - place);
   }
 }
 
@@ -172,7 +190,7 @@ int TrackFilter::station_of(const BearingMeasurement& measurement, const BiasMod
     enter(station, measurement, priors);
     ++state_;
   } else if (known.track_id != measurement.track_id) {
-    reset_bias(station, measurement.track_id);
+    reset_bias(station, measurement, priors);
     ++state_;
   }
   FilterStation& entry = stations_[static_cast<std::size_t>(station)];

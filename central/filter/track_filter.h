@@ -139,8 +139,10 @@ class TrackFilter {
   }
   bool place_matters(const LineOfSight& sight) const;
   int claim_station_states(const BearingMeasurement& measurement);
+  BiasPrior prior_of(const BearingMeasurement& measurement, const BiasModel& priors,
+                     bool position_states) const;
   void enter(int station, const BearingMeasurement& measurement, const BiasModel& priors);
-  void reset_bias(int station, std::int64_t track_id);
+  void reset_bias(int station, const BearingMeasurement& measurement, const BiasModel& priors);
   void add_position_states(int station);
   int station_of(const BearingMeasurement& measurement, const BiasModel& priors);
   Innovation compare(const BearingMeasurement& measurement, int station) const;

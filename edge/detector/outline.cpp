@@ -82,7 +82,8 @@ Surroundings surroundings_of(const cv::Mat1f& means) {
   std::vector<Sample> strip = strip_of(means);
   const auto kept =
       std::span(strip).first(static_cast<std::size_t>(kShare * static_cast<double>(strip.size())));
-  Surroundings around{plane_through(strip)};
+  std::ranges::nth_element(strip, strip.begin() + std::ssize(strip) / 2, {}, &Sample::level);
+  Surroundings around{{0.0, 0.0, strip[strip.size() / 2].level}};
   for (int pass = 0; pass < kPasses; ++pass) {
     for (Sample& sample : strip)
       sample.deviation = std::abs(sample.level - around.plane.dot(sample.at));

@@ -102,7 +102,7 @@ std::string OnvifLink::read_device() {
   }
 }
 
-// Some cameras answer GetConfigurationOptions with another answer, or not at all.
+// Some cameras answer GetConfigurationOptions with another message or with a fault.
 PtzOptions OnvifLink::read_options(const Profile& profile) {
   try {
     return options(ask_ptz(get_options(profile.configuration)).answer);

@@ -267,17 +267,24 @@ TEST(PoseErrors, ANewDesignationMayBeOfAnotherPoint) {
   follow_points(1.0, path, seen, random);
   TrackFilter filter = filter_on(path);
   BiasModel errors;
-  double known_m2 = 0.0, again_m2 = 0.0;
+  double known_m2 = 0.0, again_m2 = 0.0, across_m2 = 0.0;
   for (BearingMeasurement& measurement : seen) {
     const double time_s = 1e-6 * static_cast<double>(measurement.utime_us - kStartUs);
     measurement.track_id = time_s > kAgainS ? 2 : 1;
     test::feed(filter, measurement, errors);
-    const double place_m2 = filter.mixed().covariance.bottomRightCorner<3, 3>().trace();
-    if (measurement.track_id == 1) known_m2 = place_m2;
-    if (measurement.track_id == 2) again_m2 = std::max(again_m2, place_m2);
+    const Eigen::Matrix3d place = filter.mixed().covariance.bottomRightCorner<3, 3>();
+    if (measurement.track_id == 1) known_m2 = place.trace();
+    if (measurement.track_id == 1 || measurement.station != filter.stations().back().station)
+      continue;
+    again_m2 = std::max(again_m2, place.trace());
+    // The line of sight has turned since the first designation.
+    const Eigen::Matrix<double, 3, 2> across = tangent_basis(measurement.sight.direction);
+    const Eigen::Matrix2d seen_m2 = across.transpose() * place * across;
+    across_m2 = std::max(across_m2, seen_m2.diagonal().minCoeff());
   }
   EXPECT_LT(known_m2, 1.2) << "of two square metres";
   EXPECT_GT(again_m2, 1.8);
+  EXPECT_GT(across_m2, 0.7) << "of one square metre";
 }
 
 }  // namespace
