@@ -18,7 +18,7 @@ onvif::Offer::Stream stream(double greatest) {
   const mount::Space space{{-greatest, greatest}, {-greatest, greatest}};
   onvif::PtzOptions can;
   can.absolute = can.continuous = space;
-  return {{"main", "c", "H264", 1280, 720, 25.0}, "rtsp://10.0.0.5/video", can};
+  return {{"main", "c", "n", "H264", 1280, 720, 25.0}, "rtsp://10.0.0.5/video", can};
 }
 
 std::string file(Values values) {
