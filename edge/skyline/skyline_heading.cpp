@@ -121,22 +121,6 @@ Eigen::VectorXd weights_of(const std::vector<Place>& places, const Unknowns& x) 
   return weights;
 }
 
-// The variance of the heading if parts of the horizon are left out in turn (the jackknife): it also
-// contains errors whose correlation is not as assumed.
-double left_out_variance(const std::vector<Place>& places, const Eigen::VectorXd& weights,
-                         const Unknowns& prior_sd) {
-  constexpr int kParts = 12;
-  const auto n = weights.size();
-  Eigen::Array<double, kParts, 1> headings;
-  for (int part = 0; part < kParts; ++part) {
-    Eigen::VectorXd others = weights;
-    const auto from = n * part / kParts, to = n * (part + 1) / kParts;
-    others.segment(from, to - from).setZero();
-    headings(part) = solve(normal_matrix(places, others), prior_sd).x(0);
-  }
-  return (headings - headings.mean()).square().sum() * (kParts - 1) / kParts;
-}
-
 }  // namespace
 
 std::optional<SkylineHeading> skyline_heading(const std::vector<SeenPlace>& seen,
@@ -161,9 +145,8 @@ std::optional<SkylineHeading> skyline_heading(const std::vector<SeenPlace>& seen
     }
     const double excess =
         std::max(1.0, solution.misfit / (static_cast<double>(places.size()) - kUnknowns));
-    const double variance =
-        std::max(excess * solution.covariance(0, 0), left_out_variance(places, weights, prior_sd));
-    return SkylineHeading{-(turn_rad + solution.x(0)), std::sqrt(variance)};
+    return SkylineHeading{-(turn_rad + solution.x(0)),
+                          std::sqrt(excess * solution.covariance(0, 0))};
   }
 }
 

@@ -133,20 +133,6 @@ std::vector<Smoothed> smooth_twenty(double heading_sd_rad) {
   return fixes;
 }
 
-// The stations state no error of their positions: their aims alone have states.
-TEST(Smoother, OfStationsThatStateOnlyTheirAims) {
-  constexpr double kAim = 1e-4;
-  auto bearings = flight(4.0, kNoise, kNoise);
-  for (BearingMeasurement& measurement : bearings) {
-    measurement.sight.aim_sd_rad = kAim;
-    measurement.sight.covariance_systematic = kAim * kAim * Eigen::Matrix2d::Identity();
-  }
-  Unlocated unlocated;
-  const auto fixes = smooth(bearings, every_tenth_of(3.9), {}, nothing_known(), unlocated);
-  ASSERT_EQ(fixes.size(), 39U);
-  EXPECT_LT(score_of(fixes).over_stated, 2.0);
-}
-
 // What the surer filter has no states for is known from the other one.
 TEST(Smoother, OfTwentyStationsWithHeadingsOff) {
   const Score score = score_of(smooth_twenty(5e-3));
