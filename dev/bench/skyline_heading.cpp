@@ -12,6 +12,7 @@
 #include <opencv2/core.hpp>
 #include <random>
 
+#include "dev/bench/program.h"
 #include "edge/skyline/expected_skyline.h"
 #include "edge/skyline/seen_horizon.h"
 #include "geometry/angles.h"
@@ -199,18 +200,22 @@ void print(const char* what, const skyline::SkylineHeading& heading) {
               degrees(heading.sd_rad), heading.error_rad / heading.sd_rad);
 }
 
-}  // namespace
+// The largest error of the heading, over its sigma, while more pictures with the right heading are
+// added.
+double worst_of_more(Site& site, int pictures, std::mt19937_64& generator,
+                     skyline::SeenHorizon& seen, Tally& tally) {
+  std::uniform_real_distribution<double> azimuth_rad(0.0, 2.0 * kPi);
+  double worst = 0.0;
+  for (int picture = 0; picture < pictures; ++picture) {
+    look(site, azimuth_rad(generator), 0.0, generator, seen, tally);
+    if (picture % 10 != 0) continue;
+    const auto heading = skyline::skyline_heading(seen.places(), *site.known, site.place_sd_m);
+    if (heading) worst = std::max(worst, std::abs(heading->error_rad / heading->sd_rad));
+  }
+  return worst;
+}
 
-int main(int argc, char** argv) {
-  Options options;
-  CLI::App app("Headings by the skyline in rendered pictures");
-  app.add_option("--land", options.folder, "Folder of ols-land import")->required();
-  app.add_option("--sites", options.sites);
-  app.add_option("--wrong", options.wrong_deg, "Error of the wrong heading [deg]");
-  app.add_option("--length", options.length_m, "Wavelength of the land's errors [m]");
-  app.add_option("--pictures", options.pictures, "More pictures at each site");
-  app.add_option("--seed", options.seed);
-  CLI11_PARSE(app, argc, argv);
+void run(const Options& options) {
   const land::TerrainFolder folder = land::read_terrain_folder(options.folder);
   Tally tally;
   double nees = 0.0;
@@ -220,20 +225,14 @@ int main(int argc, char** argv) {
     std::mt19937_64 generator(seed);
     skyline::SeenHorizon wrong, right;
     std::printf("site %d:", i);
-    const auto with_wrong = sweep(site, radians(options.wrong_deg), generator, wrong, tally);
+    print("wrong", sweep(site, radians(options.wrong_deg), generator, wrong, tally));
     const auto with_right = sweep(site, 0.0, generator, right, tally);
-    print("wrong", with_wrong);
     print("right", with_right);
     nees += std::pow(with_right.error_rad / with_right.sd_rad, 2) / options.sites;
-    std::uniform_real_distribution<double> azimuth_rad(0.0, 2.0 * kPi);
-    double worst = 0.0;
-    for (int picture = 0; picture < options.pictures; ++picture) {
-      look(site, azimuth_rad(generator), 0.0, generator, right, tally);
-      if (picture % 10 != 0) continue;
-      const auto heading = skyline::skyline_heading(right.places(), *site.known, site.place_sd_m);
-      if (heading) worst = std::max(worst, std::abs(heading->error_rad / heading->sd_rad));
+    if (options.pictures > 0) {
+      std::printf("  worst of all %.1f",
+                  worst_of_more(site, options.pictures, generator, right, tally));
     }
-    if (options.pictures > 0) std::printf("  worst of all %.1f", worst);
     std::printf("  (%.3f found, %.4f of them far off, %.2f px)\n",
                 static_cast<double>(tally.found) / tally.strips,
                 static_cast<double>(tally.far) / tally.found,
@@ -241,4 +240,18 @@ int main(int argc, char** argv) {
     std::fflush(stdout);
   }
   std::printf("NEES of the right headings %.2f\n", nees);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  CLI::App app("Headings by the skyline in rendered pictures.", "ols-bench-skyline");
+  app.add_option("--land", options.folder, "Folder of ols-land import")->required();
+  app.add_option("--sites", options.sites);
+  app.add_option("--wrong", options.wrong_deg, "Error of the wrong heading [deg]");
+  app.add_option("--length", options.length_m, "Wavelength of the land's errors [m]");
+  app.add_option("--pictures", options.pictures, "More pictures at each site");
+  app.add_option("--seed", options.seed);
+  return bench::run_program(app, argc, argv, [&] { run(options); });
 }
