@@ -109,12 +109,11 @@ std::optional<LineOfSight> sight(const StationGeometry& station, const PixelSigh
   line.covariance_white =
       transformed(tangent_by_pixel, measurement.covariance_px2) +
       transformed(tangent_by_angles(station.chain, ray), measurement.angles_covariance_rad2);
-  const double aim_px2 = measurement.aim_sd_px * measurement.aim_sd_px;
-  line.covariance_systematic =
-      transformed(tangent_by_pixel,
-                  measurement.covariance_systematic_px2 + aim_px2 * Eigen::Matrix2d::Identity()) +
-      calibration_covariance(station, ray);
   line.aim_sd_rad = measurement.aim_sd_px * tangent_by_pixel.norm() / std::sqrt(2.0);
+  line.covariance_systematic =
+      transformed(tangent_by_pixel, measurement.covariance_systematic_px2) +
+      line.aim_sd_rad * line.aim_sd_rad * Eigen::Matrix2d::Identity() +
+      calibration_covariance(station, ray);
   return line;
 }
 

@@ -65,10 +65,11 @@ bool covariances_hold(const LineOfSight& sight) {
   constexpr double kWorstCondition = 1e8;  // white part: largest eigenvalue over smallest
   const Eigen::Matrix2d& white = sight.covariance_white;
   const Eigen::Matrix2d& stays = sight.covariance_systematic;
-  const double aim = sight.aim_sd_rad * sight.aim_sd_rad;
-  const double slack = 1e-9 * stays(0, 0) * stays(1, 1);  // rounding of a singular matrix
+  constexpr double kRounding = 1e-9;
+  const double aim = (1.0 - kRounding) * sight.aim_sd_rad * sight.aim_sd_rad;
+  const double slack = kRounding * stays(0, 0) * stays(1, 1);  // rounding of a singular matrix
   return variances_within(white, kLeastWhiteRad2) && variances_within(stays, 0.0) &&
-         sight.aim_sd_rad >= 0.0 && aim <= stays.trace() &&
+         sight.aim_sd_rad >= 0.0 && aim <= stays.diagonal().minCoeff() &&
          determinant(white) >= white.trace() * white.trace() / kWorstCondition &&
          determinant(stays) >= -slack;
 }

@@ -1,5 +1,6 @@
 #include "edge/station/followed_target.h"
 
+#include <cmath>
 #include <map>
 #include <string>
 
@@ -21,12 +22,15 @@ tracker::TrackerInput input_of(const camera::Frame& frame) {
   return {frame.gray, frame.mid_exposure_s, std::nullopt, colour_of(frame)};
 }
 
+double size_px(const cv::Rect2d& box) { return std::sqrt(box.area()); }
+
 }  // namespace
 
-void FollowedTarget::begin(Kind kind, double time_s) {
+void FollowedTarget::begin(Kind kind, double time_s, const cv::Rect2d& box) {
   kind_ = kind;
   track_id_ = new_track_id();
   tracked_s_ = time_s;
+  first_size_px_ = size_px(box);
   last_output_.reset();
 }
 
@@ -34,7 +38,7 @@ std::optional<tracker::TrackerError> FollowedTarget::designate(const camera::Fra
                                                                const cv::Rect2d& box) {
   const auto error = tracker_->initialise(input_of(frame), box);
   if (error) return error;
-  begin(Kind::kDesignated, frame.mid_exposure_s);
+  begin(Kind::kDesignated, frame.mid_exposure_s, box);
   own_.reset();
   return std::nullopt;
 }
@@ -46,8 +50,8 @@ bool FollowedTarget::try_found(const camera::Frame& frame, const cv::Rect2d& box
     if (has_own) tracker_->take_back();
     return false;
   }
-  if (has_own) own_ = Own{kind_, track_id_, tracked_s_};
-  begin(Kind::kUnproven, frame.mid_exposure_s);
+  if (has_own) own_ = Own{kind_, track_id_, tracked_s_, first_size_px_};
+  begin(Kind::kUnproven, frame.mid_exposure_s, box);
   found_s_ = frame.mid_exposure_s;
   counters_["acquisitions"] += 1;
   return true;
@@ -70,6 +74,7 @@ FollowedTarget::Dropped FollowedTarget::drop_unproven(double time_s) {
   kind_ = own_->kind;
   track_id_ = own_->track_id;
   tracked_s_ = own_->tracked_s;
+  first_size_px_ = own_->first_size_px;
   own_.reset();
   last_output_.reset();
   return Dropped::kBackToOwn;
@@ -118,7 +123,10 @@ void FollowedTarget::forget_angles() {
 }
 
 double FollowedTarget::centring_sd_px() const {
-  return kind_ == Kind::kDesignated ? config_.designation_sd_px : config_.acquisition_sd_px;
+  const double first_sd_px =
+      kind_ == Kind::kDesignated ? config_.designation_sd_px : config_.acquisition_sd_px;
+  if (!last_output_) return first_sd_px;
+  return first_sd_px * size_px(last_output_->box) / first_size_px_;
 }
 
 }  // namespace ols::station

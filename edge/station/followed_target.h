@@ -49,7 +49,9 @@ class FollowedTarget {
   std::int64_t track_id() const { return track_id_; }
   // A new id for another object of this station; no two objects share an id.
   std::int64_t new_track_id() { return ++last_track_id_; }
-  double centring_sd_px() const;  // 1-sigma of the box's centre on the target
+  // 1-sigma of the box's centre on the target in the newest frame. The centre is a point fixed on
+  // the target, so its distance from the target's middle grows in the image as the target does.
+  double centring_sd_px() const;
   const std::optional<tracker::TrackerOutput>& last_output() const { return last_output_; }
   // The tracker's result for exactly this frame; null if it has not processed this frame.
   const tracker::TrackerOutput* output_of(double mid_exposure_s) const {
@@ -65,8 +67,9 @@ class FollowedTarget {
     Kind kind = Kind::kNone;
     std::int64_t track_id = 0;
     std::optional<double> tracked_s;
+    double first_size_px = 0.0;
   };
-  void begin(Kind kind, double time_s);
+  void begin(Kind kind, double time_s, const cv::Rect2d& box);
   void compare_motion(const tracker::TrackerOutput& output);
 
   const StationConfig config_;
@@ -74,6 +77,7 @@ class FollowedTarget {
   Kind kind_ = Kind::kNone;
   std::int64_t track_id_ = 0, last_track_id_ = 0;
   std::optional<double> tracked_s_;  // mid-exposure of the last tracked frame
+  double first_size_px_ = 0.0;       // of the box with which the target began
   double found_s_ = 0.0;             // mid-exposure of the frame in which the trial began
   std::optional<Own> own_;
   std::optional<tracker::TrackerOutput> last_output_;

@@ -114,6 +114,19 @@ TEST(Sight, TellsTheAimApart) {
 
 // A direction at 70 degrees off the axis of an equidistant lens: f pixels a radian outwards, and
 // f theta / sin(theta) around.
+// Where a pixel is not as wide as it is high, an aim is the same across the line of sight.
+TEST(Sight, AnAimIsRound) {
+  StationGeometry station = plain_station();
+  station.camera.fy_px = 2.0 * station.camera.fx_px;
+  PixelSight measurement = at_pixel(kCentre);
+  measurement.aim_sd_px = 2.0;
+  const auto line = sight(station, measurement);
+  const double variance = line->aim_sd_rad * line->aim_sd_rad;
+  EXPECT_NEAR(variance, 0.5 * (4.0 + 1.0) * std::pow(3.75e-6 / 50e-3, 2), 1e-6 * variance);
+  const Eigen::Matrix2d rest = line->covariance_systematic - variance * Eigen::Matrix2d::Identity();
+  EXPECT_LT(rest.norm(), 1e-9 * variance);
+}
+
 TEST(Sight, PixelCovarianceFarOffTheAxisOfAWideLens) {
   StationGeometry station = plain_station();
   station.camera.model = LensModel::kFisheye;

@@ -47,7 +47,12 @@ TEST(BearingCheck, NamesWhatIsWrong) {
   EXPECT_EQ(refusal([](M& m) { m.sight.covariance_systematic(1, 1) = -1e-9; }), kCovariance);
   EXPECT_EQ(refusal([](M& m) { m.sight.aim_sd_rad = kNan; }), kNotFinite);
   EXPECT_EQ(refusal([](M& m) { m.sight.aim_sd_rad = -1e-9; }), kCovariance);
-  EXPECT_EQ(refusal([](M& m) { m.sight.aim_sd_rad = 1.0; }), kCovariance) << "a part of it";
+  EXPECT_EQ(refusal([](M& m) {
+              m.sight.covariance_systematic.diagonal() << 4e-8, 9e-8;
+              m.sight.aim_sd_rad = 2.5e-4;
+            }),
+            kCovariance)
+      << "it is a part of each axis";
   for (const double rad2 : {1e308, 11.0}) {
     EXPECT_EQ(refusal([&](M& m) { m.sight.covariance_systematic(0, 0) = rad2; }), kCovariance);
   }

@@ -140,6 +140,54 @@ TEST(Smoother, OfTwentyStationsWithHeadingsOff) {
   EXPECT_LT(score.over_stated, 1.5);
 }
 
+// Each station follows a point of the target that is fixed in metres; another one after half of the
+// time, when it is designated again.
+std::vector<BearingMeasurement> of_points(double seconds, double sd_m, std::uint64_t seed) {
+  constexpr int kStations = 4;
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> normal;
+  std::array<std::array<Eigen::Vector3d, 2>, kStations> points;
+  for (std::size_t i = 0; i < kStations; ++i) {
+    for (const std::size_t designation : {0, 1}) {
+      const Eigen::Vector3d point =
+          sd_m * Eigen::Vector3d(normal(random), normal(random), normal(random));
+      const Eigen::Vector3d along = (path(0.5 * seconds * designation) - square()[i]).normalized();
+      points[i][designation] = point - 0.8 * along.dot(point) * along;
+    }
+  }
+  std::vector<BearingMeasurement> bearings;
+  for (int i = 0; i < static_cast<int>(seconds * 15.0) * kStations; ++i) {
+    const auto station = static_cast<std::size_t>(i % kStations);
+    const double t_s = i / (15.0 * kStations);
+    const std::size_t designation = t_s < 0.5 * seconds ? 0 : 1;
+    Ray ray = ray_to(std::to_string(station), square()[station],
+                     path(t_s) + points[station][designation], kNoise);
+    ray = turned(ray, kNoise * normal(random), kNoise * normal(random));
+    ray.sight.origin_sd_enu_m.setZero();
+    ray.sight.aim_sd_rad = sd_m / (path(t_s) - square()[station]).norm();
+    ray.sight.covariance_systematic.diagonal().array() += std::pow(ray.sight.aim_sd_rad, 2);
+    bearings.push_back(measurement_of(ray, kStart + std::llround(t_s * 1e6)));
+    bearings.back().track_id = static_cast<std::int64_t>(designation + 1);
+  }
+  return bearings;
+}
+
+TEST(Smoother, APointOfTheTargetIsFollowedUntilTheNextDesignation) {
+  constexpr double kSeconds = 8.0;
+  constexpr int kSeeds = 20;
+  Score mean;
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    Unlocated unlocated;
+    const Score score = score_of(smooth(of_points(kSeconds, 0.5, seed), every_tenth_of(kSeconds),
+                                        {}, nothing_known(), unlocated));
+    mean.squared_m2 += score.squared_m2 / kSeeds;
+    mean.over_stated += score.over_stated / kSeeds;
+  }
+  EXPECT_LT(std::sqrt(mean.squared_m2), 0.45);
+  EXPECT_GT(mean.over_stated, 0.7);
+  EXPECT_LT(mean.over_stated, 1.3);
+}
+
 // To and fro, and once more block by block where not all instants are one block.
 TEST(Smoother, SaysHowOftenItRunsOverTheBearings) {
   EXPECT_EQ(smoother_runs(1), 2U);

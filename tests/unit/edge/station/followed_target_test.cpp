@@ -96,6 +96,18 @@ TEST_F(FollowedTargetTest, TheBoxIsAsGoodAsItsOrigin) {
   EXPECT_EQ(target_.centring_sd_px(), config_.acquisition_sd_px) << "also when it is confirmed";
 }
 
+TEST_F(FollowedTargetTest, ItsCentreIsFixedOnATargetThatComesNearer) {
+  target_.designate(frame_at(1.0), box_);
+  script_.size_px = 3.0 * box_.width;
+  target_.track(frame_at(1.1), pointing_);
+  EXPECT_DOUBLE_EQ(target_.centring_sd_px(), 3.0 * config_.designation_sd_px);
+  target_.try_found(frame_at(5.0), {0, 0, 60, 60});
+  target_.drop_unproven(5.0 + kTrial_s);
+  target_.track(frame_at(6.1), pointing_);
+  EXPECT_DOUBLE_EQ(target_.centring_sd_px(), 3.0 * config_.designation_sd_px)
+      << "the size of another's box says nothing of the own target";
+}
+
 TEST_F(FollowedTargetTest, OnlyConsecutiveFramesContradictTheAngles) {
   target_.designate(frame_at(0.0), box_);
   double now_s = 0.0;

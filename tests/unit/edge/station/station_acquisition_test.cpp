@@ -63,8 +63,9 @@ TEST_F(AcquisitionBySlewTest, FindsTheTargetTracksItAndIsHonestAboutTheBox) {
   ASSERT_FALSE(bearings_.empty());
   EXPECT_EQ(bearings_.back().track_id, 1);
   EXPECT_TRUE(bearings_.back().acquired);
+  const double grown = script_.size_px / std::sqrt(script_.first_box.area());
   EXPECT_NEAR(std::sqrt(bearings_.back().sight.covariance_systematic(0, 0)),
-              std::hypot(radians(0.02), config().acquisition_sd_px * 75e-6), 2e-6);
+              std::hypot(radians(0.02), grown * config().acquisition_sd_px * 75e-6), 2e-6);
 }
 
 TEST_F(AcquisitionBySlewTest, FindsNothingWhereNothingIs) {

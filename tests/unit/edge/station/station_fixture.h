@@ -18,6 +18,7 @@ struct ScriptedTracker : tracker::TargetTracker {
   struct Script {
     double belief = 0.9;
     Eigen::Vector2d pixel{639.5, 479.5};
+    double size_px = 20.0;  // of its box
     bool accept = true, prediction_dropped = false;
     std::optional<double> prediction_error_px;
     int initialised = 0, searches = 0, tracked = 0, set_aside = 0, taken_back = 0;
@@ -38,7 +39,8 @@ struct ScriptedTracker : tracker::TargetTracker {
     s.last = input;
     tracker::TrackerOutput output;
     output.pixel = s.pixel;
-    output.box = {s.pixel.x() - 10, s.pixel.y() - 10, 20, 20};
+    output.box = {s.pixel.x() - 0.5 * s.size_px, s.pixel.y() - 0.5 * s.size_px, s.size_px,
+                  s.size_px};
     output.covariance_px2 = Eigen::Matrix2d::Identity() * 0.25;
     output.belief = s.belief;
     output.prediction_error_px = s.prediction_error_px;
