@@ -20,7 +20,7 @@ using ols::sim::JudgedExit;
 
 struct Arguments {
   std::string scenario = "sim/scenarios/ridge.toml";
-  int seeds = 20;
+  int seeds = 20, first_seed = 1;
   double seconds = 110.0;
   std::vector<std::string> stations;
   bool verbose = false;
@@ -28,9 +28,10 @@ struct Arguments {
 
 void declare(CLI::App& app, Arguments& arguments) {
   app.add_option("--scenario", arguments.scenario, "scenario file (TOML)")->capture_default_str();
-  app.add_option("--seeds", arguments.seeds, "runs with the seeds 1 to this one")
+  app.add_option("--seeds", arguments.seeds, "number of runs, each with the next seed")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
+  app.add_option("--first-seed", arguments.first_seed)->capture_default_str();
   app.add_option("--seconds", arguments.seconds, "[s] of each run")
       ->check(CLI::Range(10.0, 3600.0))
       ->capture_default_str();
@@ -122,7 +123,8 @@ int main(int argc, char** argv) {
     }
     for (const bool land_model : {true, false}) {
       std::vector<HiddenSpan> all;
-      for (int seed = 1; seed <= arguments.seeds; ++seed) {
+      for (int i = 0; i < arguments.seeds; ++i) {
+        const int seed = arguments.first_seed + i;
         const auto spans = run(arguments, scenario, seed, land_model);
         all.insert(all.end(), spans.begin(), spans.end());
         for (const HiddenSpan& span : spans) {
