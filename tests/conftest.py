@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from xdist.scheduler import LoadScopeScheduling
 
 ROOT = Path(__file__).resolve().parents[1]
 BIN = Path(os.environ.get("OLS_BIN", ROOT / "build/release/bin"))
@@ -39,25 +40,44 @@ STATIONS = [
 ]
 
 
-# The longest modules: they begin first, so that the workers end together.
-LONGEST = [
+# Modules in which simulated stations draw, track and steer in real time, the longest first. Each
+# needs most of a core, so no more of them run at once than the machine has cores.
+REAL_TIME = [
     "test_two_ip_cameras.py",
-    "test_calibrate_field.py",
-    "test_site.py",
-    "test_faults.py",
+    "test_onvif_station.py",
     "test_attacks.py",
-    "test_console_station.py",
-    "test_hardware_in_the_loop.py",
-    "test_console_cut_link.py",
-    "test_console_maps.py",
-    "test_console_map.py",
-    "test_console_by_hand.py",
-    "test_batch.py",
+    "test_calibrate_field.py",
+    "test_faults.py",
+    "test_mixed.py",
     "test_doctor.py",
-    "test_station_instrument.py",
-    "test_station_alone.py",
-    "test_cues.py",
+    "test_console_thin_link.py",
+    "test_console_station.py",
+    "test_site.py",
+    "test_rtsp.py",
+    "test_setup.py",
+    "test_logger.py",
+    "test_sensors.py",
+    "test_hardware_in_the_loop.py",
+    "test_onvif.py",
+    "test_video.py",
 ]
+
+
+class Scheduling(LoadScopeScheduling):
+    """A module is one worker's, because it has fixtures of its own. So are all modules in real
+    time that share a core."""
+
+    def _split_scope(self, nodeid: str) -> str:
+        module = nodeid.split("::", 1)[0]
+        name = module.rsplit("/", 1)[-1]
+        if name not in REAL_TIME:
+            return module
+        return f"real time {REAL_TIME.index(name) % (os.cpu_count() or 1)}"
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> LoadScopeScheduling:
+    return Scheduling(config, log)
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
@@ -65,8 +85,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    places = {name: place for place, name in enumerate(LONGEST)}
-    items.sort(key=lambda item: places.get(item.path.name, len(places)))
+    items.sort(key=lambda item: item.path.name not in REAL_TIME)
     if config.getoption("--all"):
         return
     night = [item for item in items if item.get_closest_marker("night")]
