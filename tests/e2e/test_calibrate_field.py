@@ -27,6 +27,7 @@ def accepted(tripod):
     seen = []
 
     def decide(state):
+        assert "accept" in state.choice, state.text
         seen.append(state)
         return "accept"
 

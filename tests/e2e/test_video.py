@@ -7,7 +7,7 @@ import socket
 import numpy as np
 import ols_msg
 import pytest
-from conftest import BIN, SCENARIO
+from conftest import BIN, SCENARIO, wait
 from helpers import DEADLINE_S, Listener, VideoViewer, at_frame_rate
 from ols_demo.site import Site
 from ols_demo.wiring import Wiring
@@ -59,8 +59,12 @@ def test_a_region_comes_in_full_resolution(viewer):
 
 
 def test_a_picture_says_where_the_camera_looked(site, viewer):
-    status = site.wait_for_status(STATION)
-    frame = viewer.picture()
+    def looked():
+        status, frame = site.wait_for_status(STATION), viewer.picture()
+        known = np.isfinite([status.azimuth_rad, *frame.camera_from_ecef]).all()
+        return (status, frame) if known else None
+
+    status, frame = wait(looked, "status and picture with the unit's angles")
     assert frame.camera_ecef_m == pytest.approx(status.camera_ecef_m, abs=1e-6)
     to_camera = np.reshape(frame.camera_from_ecef, (3, 3))
     latitude, longitude = np.radians([status.latitude_deg, status.longitude_deg])

@@ -105,7 +105,7 @@ void MountRun::rest_at(const PanTilt& place) {
   double pointed_s = -1e9;
   while (clock_monotonic_s() < end_s) {
     turn();
-    if (!link_.refusal().empty()) throw std::runtime_error(link_.refusal());
+    if (link_.is_refused_for_good()) break;
     const auto here = link_.angles();
     if (here &&
         std::hypot(here->pan_rad - place.pan_rad, here->tilt_rad - place.tilt_rad) < kArrived_rad)
@@ -114,7 +114,8 @@ void MountRun::rest_at(const PanTilt& place) {
     link_.point();
     pointed_s = clock_monotonic_s();
   }
-  throw std::runtime_error("the mount does not get to where it is sent");
+  throw std::runtime_error(link_.refusal().empty() ? "the mount does not get to where it is sent"
+                                                   : link_.refusal());
 }
 
 // A status may be older than the picture.

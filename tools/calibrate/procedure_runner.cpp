@@ -161,7 +161,7 @@ std::optional<FrameFile> ProcedureRunner::picture_at(FieldProcedure& procedure,
       return frame;
     }
     const double now_s = clock_monotonic_s();
-    if (!station_.refusal().empty()) break;
+    if (station_.is_refused_for_good()) break;
     if (now_s > station_.awaited().progress_s() + kPatience_s) break;
     // All messages of the meantime are handled first: a stop that has arrived must count.
     const bool due =

@@ -100,6 +100,7 @@ void StationLink::hear(const wire::Reply& reply) {
   if (reply.order.sequence != pointed_sequence_) return;
   if (reply.is_accepted) hold_.accept();
   refusal_ = reply.is_accepted ? "" : wire::refusal_in_words(reply).text;
+  unit_may_come_back_ = reply.reason == "no_unit";
 }
 
 std::int64_t StationLink::command(std::int8_t what, const PanTilt& angles) {

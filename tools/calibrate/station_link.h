@@ -64,6 +64,8 @@ class StationLink {
   void turn_at(const PanTilt& rate_rad_s);
   // Why the station refused to turn there, in words; empty: it has not refused.
   const std::string& refusal() const { return refusal_; }
+  // Whether asking again is pointless. A unit whose line is interrupted may come back.
+  bool is_refused_for_good() const { return !refusal_.empty() && !unit_may_come_back_; }
   // Releases the unit, if this link has pointed it and a fresh status still shows manual operation.
   // Otherwise a release would end a person's stop or another operator's hold. Waits for the answer.
   // Returns false if the unit was not released.
@@ -110,6 +112,7 @@ class StationLink {
   std::int64_t pointed_sequence_ = 0, released_sequence_ = 0;  // sequence numbers of the last such
                                                                // commands
   std::string refusal_;
+  bool unit_may_come_back_ = false;
   std::optional<bool> released_;  // the station's answer to the release
   std::optional<FrameFile> frame_;
   AnswerBox answers_;

@@ -153,7 +153,7 @@ class ZoomRun {
     if (!sun.empty()) throw std::runtime_error(sun);
     link_.set_out(at);
     std::optional<double> asked_s;
-    while (link_.refusal().empty() &&
+    while (!link_.is_refused_for_good() &&
            clock_monotonic_s() < link_.awaited().progress_s() + kPatience_s) {
       turn();
       if (auto frame = link_.take_frame()) return std::move(frame->taken);

@@ -62,6 +62,23 @@ TEST(FieldInSimulatedTime, ANewUnitLooksAfterwardsWhereItBelieves) {
   }
 }
 
+TEST(FieldInSimulatedTime, ALineThatIsCutForSecondsCostsNoPicture) {
+  SimulatedTripod tripod(SimulatedTripod::scenario());
+  ProcedureOptions brief = field(tripod);
+  brief.rounds = 1;
+  brief.sweep_poses = 0;
+  std::optional<double> cut_s;
+  tripod.time.at_each_step([&](double) {
+    if (!cut_s && tripod.state.step.find("mast: driving") == 0) cut_s = tripod.time.now_s();
+    sim::StationFaults faults;
+    faults.ptu.line_cut = cut_s && tripod.time.now_s() < *cut_s + 8.0;
+    tripod.station->set_faults(faults);
+  });
+  EXPECT_EQ(tripod.run(brief, SimulatedTripod::point_and_accept), 0) << tripod.said;
+  EXPECT_TRUE(cut_s);
+  EXPECT_THAT(tripod.said, testing::Not(HasSubstr("no picture")));
+}
+
 TEST(SweepInSimulatedTime, WhatWasInterruptedGoesOnToAnInstrumentAndIsComparedWith) {
   SimulatedTripod tripod(SimulatedTripod::scenario());
   ASSERT_EQ(tripod.run(field(tripod), SimulatedTripod::point_and_accept), 0) << tripod.said;

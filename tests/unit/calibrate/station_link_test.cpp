@@ -67,6 +67,22 @@ TEST_F(StationLinkTest, ARefusalIsToldUntilTheUnitIsWantedElsewhere) {
   EXPECT_FALSE(link.release()) << "the station has refused it";
 }
 
+TEST_F(StationLinkTest, AUnitThatIsGoneMayComeBack) {
+  const auto ordered = [this](const char* refusal) {
+    station.refusal = refusal;
+    link.point();
+    handle();
+  };
+  link.set_out({});
+  ordered("no_unit");
+  EXPECT_NE(link.refusal(), "");
+  EXPECT_FALSE(link.is_refused_for_good());
+  ordered("unreachable");
+  EXPECT_TRUE(link.is_refused_for_good());
+  ordered("");
+  EXPECT_FALSE(link.is_refused_for_good());
+}
+
 TEST_F(StationLinkTest, WithoutAStatusNothingMoves) { EXPECT_FALSE(link.may_point()); }
 
 }  // namespace
