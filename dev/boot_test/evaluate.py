@@ -129,6 +129,7 @@ def doctor(measure: str, name: str, expected: set[str], evidence: Evidence) -> R
 
 def reported(evidence: Evidence) -> list[Row]:
     lone = evidence.read("status-text-lone.txt")
+    nice = evidence.read("nice-alfa.txt")
     no_network = evidence.read("no-network.txt")
     explained = evidence.read("explained-lone.txt")
     route_s = evidence.mark("route-back") - evidence.mark("route-gone")
@@ -139,6 +140,7 @@ def reported(evidence: Evidence) -> list[Row]:
         said("station with nothing attached runs", evidence.read("status-lone.txt"), "running"),
         said("and says that the camera is missing", lone, r"camera[^;,]*"),
         said("and says that the PTU is missing", lone, r"ptu[^;,]*"),
+        said("threads of a station are behind its loop", nice, r"(?m)^10$"),
         within("a route of the bus that goes comes back", route_s, 10.0),
         within("station starts without a network", took(evidence, "no-network-started"), 10.0),
         said("and says so", no_network, r"no bus"),

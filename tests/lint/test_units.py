@@ -99,6 +99,38 @@ def test_a_program_is_watched_and_comes_back():
         assert "time-sync.target" not in text and "network-online.target" not in text, name
 
 
+def allowed_calls(unit: Path) -> set[str]:
+    """The system calls that are left by its filters, which apply in the order of their lines."""
+    sets: dict[str, set[str]] = {}
+    for line in finished("systemd-analyze", "syscall-filter").stdout.splitlines():
+        if line.startswith("@"):
+            members = sets.setdefault(line.strip(), set())
+        elif line.startswith("    ") and not line.lstrip().startswith("#"):
+            members.add(line.strip())
+
+    def expanded(name: str) -> set[str]:
+        if not name.startswith("@"):
+            return {name}
+        return set().union(*(expanded(member) for member in sets[name]))
+
+    calls: set[str] = set()
+    for line in re.findall(r"^SystemCallFilter=(.*)$", unit.read_text(), flags=re.M):
+        names = set().union(*(expanded(name) for name in line.lstrip("~").split()))
+        calls = calls - names if line.startswith("~") else calls | names
+    return calls
+
+
+@needs_analyze
+def test_the_station_can_put_threads_behind_its_control_loop():
+    """Else pictures and disks compete with the loop, and nobody is told."""
+    source = (ROOT / "edge/device/behind_control_loop.cpp").read_text()
+    calls = set(re.findall(r"(?<!\w)::(\w+)\(", source))
+    assert "setpriority" in calls
+    allowed = allowed_calls(FOLDER / "units/ols-station@.service")
+    assert calls <= allowed
+    assert not {"sched_setscheduler", "setrlimit", "mount", "ptrace"} & allowed
+
+
 @needs_analyze
 def test_the_clock_can_be_asked_by_the_station():
     """ProtectClock=, and a filter without these calls, would make every clock look bad."""
