@@ -1,10 +1,11 @@
-// The skyline in rendered pictures, and the heading that a station finds by it, at many sites. A
-// site is a place in an imported folder of land. What the camera sees is that land with an error
-// field of the stated size added, and trees on its crests; what the station knows is the folder.
-// For each site: a sweep with the right heading and one with a wrong one. With --pictures, many
-// more pictures with the right heading, as of a week.
-#include "edge/skyline/skyline_heading.h"
-
+// The heading of a station and the skyline of the land, at many sites, as the station compares them
+// (SkylineWatch). A site is a place in an imported folder of land. What the camera sees is that
+// land with errors of the size and the length that the station assumes, and trees on its crests;
+// what the station knows is the folder. Its position and heading have the errors that it states.
+//
+// At each site: a round with the heading wrong by --wrong, whether that is noticed, and how well
+// the heading is found; then --days with the right heading, each under another sky, with --rounds
+// of 36 pictures.
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
@@ -12,10 +13,13 @@
 #include <opencv2/core.hpp>
 #include <random>
 
+#include "dev/bench/drawn_skyline.h"
 #include "dev/bench/program.h"
 #include "edge/skyline/expected_skyline.h"
-#include "edge/skyline/seen_horizon.h"
+#include "edge/skyline/skyline_watch.h"
 #include "geometry/angles.h"
+#include "geometry/direction.h"
+#include "land/column_march.h"
 #include "land/terrain_folder.h"
 #include "sim/world/panorama.h"
 #include "sim/world/relief.h"
@@ -24,14 +28,11 @@ namespace {
 
 using namespace ols;
 
-// The land with errors: long waves and short ones.
+// The land with errors.
 class TrueLand : public land::Surface {
  public:
   TrueLand(const land::Surface& model, const Geodetic& centre, double length_m, unsigned seed)
-      : model_(model),
-        frame_(centre),
-        long_(0.9, length_m, seed),
-        short_(0.44, length_m / 4, seed + 1) {}
+      : model_(model), frame_(centre), errors_(1.0, length_m, seed) {}
 
   std::optional<land::SurfaceHeight> ground(double latitude_rad,
                                             double longitude_rad) const override {
@@ -40,7 +41,7 @@ class TrueLand : public land::Surface {
     if (!known || known->height_m < kSea_m) return known;
     const Eigen::Vector2d at =
         frame_.to_enu(ecef_from_geodetic({latitude_rad, longitude_rad, 0.0})).head<2>();
-    known->height_m += known->sd_m * (long_.at(at) + short_.at(at));
+    known->height_m += known->sd_m * errors_.at(at);
     known->sd_m = 0.0;
     return known;
   }
@@ -51,18 +52,11 @@ class TrueLand : public land::Surface {
  private:
   const land::Surface& model_;
   LocalFrame frame_;
-  sim::Waves long_, short_;
+  sim::ErrorField errors_;
 };
 
-constexpr int kTrees = 2400;
-
-struct Site {
-  CameraIntrinsics camera;
-  std::unique_ptr<land::HorizonMap> known, truth;
-  std::unique_ptr<sim::Panorama> panorama;
-  std::vector<double> trees_rad;  // around the horizon
-  double place_sd_m = 0.0;
-};
+constexpr int kTrees = 2400, kRound = 36;
+constexpr double kInterval_s = 5.0;  // from picture to picture
 
 // Quicker than the usual one.
 const land::HorizonMapConfig kMap{.columns = 3600, .reach_m = 20'000.0};
@@ -76,55 +70,78 @@ CameraIntrinsics camera_of() {
 
 struct Options {
   std::string folder;
-  int sites = 20, pictures = 0;
-  double wrong_deg = 0.1, length_m = 600.0;
+  int sites = 20, days = 0, rounds = 4;
+  double wrong_deg = 0.1, heading_sd_deg = 0.01, position_sd_m = 0.5;
+  double length_m = land::kLowered_m;
   unsigned seed = 1;
 };
 
-Site make_site(const land::TerrainFolder& folder, const Options& options, unsigned seed) {
-  std::mt19937_64 generator(seed);
+struct Site {
+  CameraIntrinsics camera;
+  Geodetic stated;  // the camera's position, with its error
+  std::unique_ptr<land::HorizonMap> known, truth;
+  std::vector<double> trees_rad;  // around the horizon
+  std::mt19937_64 generator;
+};
+
+// A station stands where it sees far: on the highest of some places.
+Geodetic place_of(const land::TerrainFolder& folder, std::mt19937_64& generator) {
+  constexpr double kWithin_rad = radians(0.12);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-  Site site;
-  site.camera = camera_of();
-  const double latitude_rad = radians(folder.manifest.latitude_deg);
-  // A station stands where it sees far: on the highest of some places.
   Geodetic place;
   std::optional<land::SurfaceHeight> ground;
   for (int i = 0; i < 8; ++i) {
-    constexpr double kWithin_rad = radians(0.12);
-    const Geodetic other{latitude_rad + kWithin_rad * uniform(generator),
-                         radians(folder.manifest.longitude_deg) + kWithin_rad * uniform(generator),
-                         0.0};
-    const auto there = folder.terrain->ground(other.latitude_rad, other.longitude_rad);
+    const double latitude_rad =
+        radians(folder.manifest.latitude_deg) + kWithin_rad * uniform(generator);
+    const double longitude_rad =
+        radians(folder.manifest.longitude_deg) + kWithin_rad * uniform(generator);
+    const auto there = folder.terrain->ground(latitude_rad, longitude_rad);
     if (!there || (ground && there->height_m < ground->height_m)) continue;
     ground = there;
-    place = other;
+    place = {latitude_rad, longitude_rad, 0.0};
   }
+  return place;
+}
+
+Site make_site(const land::TerrainFolder& folder, const Options& options, unsigned seed) {
+  Site site;
+  site.generator.seed(seed);
+  site.camera = camera_of();
+  Geodetic place = place_of(folder, site.generator);
   const TrueLand truth(*folder.terrain, place, options.length_m, seed);
   place.height_m = truth.ground(place.latitude_rad, place.longitude_rad)->height_m + 5.0;
-  site.place_sd_m = ground->sd_m;
+  std::normal_distribution<double> normal(0.0, options.position_sd_m);
+  const Eigen::Vector3d off_m(normal(site.generator), normal(site.generator),
+                              normal(site.generator));
+  site.stated = geodetic_from_ecef(LocalFrame(place).to_ecef(off_m));
   site.truth = std::make_unique<land::HorizonMap>(truth, place, kMap);
-  site.known = std::make_unique<land::HorizonMap>(*folder.terrain, place, kMap);
-  sim::Landscape landscape;
-  landscape.ridge_mean_rad = radians(-30.0);
-  landscape.ridge_relief_rad = 0.0;
-  landscape.cloudiness = 1.0 + uniform(generator);
-  landscape.haze = 0.4 + 0.4 * uniform(generator);
-  landscape.seed = static_cast<int>(seed);
-  site.panorama = std::make_unique<sim::Panorama>(
-      landscape, site.camera, sim::slopes_texture(landscape, site.camera), seed);
+  site.known = std::make_unique<land::HorizonMap>(*folder.terrain, site.stated, kMap);
   std::uniform_real_distribution<double> tree_m(0.0, 3.0);
   for (int i = 0; i < kTrees; ++i) {
     const auto skyline = site.truth->skyline(2.0 * kPi * i / kTrees);
     const bool wooded = skyline && skyline->distance_m > 1000.0 && skyline->distance_m < 15'000.0;
-    site.trees_rad.push_back(wooded ? tree_m(generator) / skyline->distance_m : 0.0);
+    site.trees_rad.push_back(wooded ? tree_m(site.generator) / skyline->distance_m : 0.0);
   }
-  site.panorama->raise([&](double azimuth_rad) {
+  return site;
+}
+
+// Each under its own sky.
+std::unique_ptr<sim::Panorama> panorama_of(Site& site, unsigned seed) {
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  sim::Landscape landscape;
+  landscape.ridge_mean_rad = radians(-30.0);
+  landscape.ridge_relief_rad = 0.0;
+  landscape.cloudiness = 1.0 + uniform(site.generator);
+  landscape.haze = 0.4 + 0.4 * uniform(site.generator);
+  landscape.seed = static_cast<int>(seed);
+  auto panorama = std::make_unique<sim::Panorama>(
+      landscape, site.camera, sim::slopes_texture(landscape, site.camera), seed);
+  panorama->raise([&site](double azimuth_rad) {
     const auto skyline = site.truth->skyline(azimuth_rad);
     const auto tree = static_cast<std::size_t>(wrap_two_pi(azimuth_rad) / (2.0 * kPi) * kTrees);
     return (skyline ? skyline->elevation_rad : -0.5) + site.trees_rad[tree % kTrees];
   });
-  return site;
+  return panorama;
 }
 
 Eigen::Matrix3d R_enu_cam(double azimuth_rad, double elevation_rad) {
@@ -140,20 +157,6 @@ struct Tally {
   double off2_px2 = 0.0;
 };
 
-std::vector<double> true_rows(const Site& site, const skyline::PictureView& view) {
-  std::vector<double> rows;
-  for (int strip = 0; strip < skyline::strips_of(view.camera.width_px); ++strip) {
-    double y_px = view.camera.cy_px;
-    for (int i = 0; i < 6; ++i) {
-      const auto ray = unproject(view.camera, {skyline::strip_x_px(strip), y_px});
-      const auto at = azimuth_elevation_from_enu(view.R_enu_cam * *ray);
-      y_px += (at.elevation_rad - site.panorama->ridge_rad(at.azimuth_rad)) * view.camera.fy_px;
-    }
-    rows.push_back(y_px);
-  }
-  return rows;
-}
-
 // Only strips that show the skyline count; errors are across the skyline, which may be steep.
 void score(const skyline::Rows& found, const std::vector<double>& rows, Tally& tally) {
   for (std::size_t i = 4; i + 4 < rows.size(); ++i) {
@@ -168,78 +171,125 @@ void score(const skyline::Rows& found, const std::vector<double>& rows, Tally& t
   }
 }
 
-// One picture, in a direction that the station takes for another by `wrong_rad`.
-void look(Site& site, double azimuth_rad, double wrong_rad, std::mt19937_64& generator,
-          skyline::SeenHorizon& seen, Tally& tally) {
-  const auto at = site.truth->skyline(azimuth_rad);
-  const double elevation_rad = at ? at->elevation_rad : 0.0;
-  cv::Mat gray, noise(site.camera.height_px, site.camera.width_px, CV_16S), noisy;
-  site.panorama->draw(R_enu_cam(azimuth_rad, elevation_rad), gray);
-  cv::theRNG().state = generator();
-  cv::randn(noise, 0.0, 2.0);
-  gray.convertTo(noisy, CV_16S);
-  noisy += noise;
-  noisy.convertTo(gray, CV_8U);
-  const skyline::PictureView believed{R_enu_cam(azimuth_rad + wrong_rad, elevation_rad),
-                                      site.camera};
-  const skyline::PictureView actual{R_enu_cam(azimuth_rad, elevation_rad), site.camera};
-  const auto found = skyline::find_skyline(gray, skyline::expected_rows(*site.known, believed));
-  score(found, true_rows(site, actual), tally);
-  seen.add(skyline::directions(found, believed));
-}
+// A station at a site, whose heading is off by `wrong_rad`.
+class Watcher {
+ public:
+  Watcher(Site& site, const land::TerrainFolder& folder, const Options& options, double wrong_rad)
+      : site_(site),
+        options_(options),
+        wrong_rad_(wrong_rad),
+        R_ecef_enu_(LocalFrame(site.stated).R_ecef_enu()),
+        watch_(folder.terrain, kMap) {}
 
-skyline::SkylineHeading sweep(Site& site, double wrong_rad, std::mt19937_64& generator,
-                              skyline::SeenHorizon& seen, Tally& tally) {
-  for (int i = 0; i < 36; ++i) look(site, radians(10.0 * i), wrong_rad, generator, seen, tally);
-  return skyline::skyline_heading(seen.places(), *site.known, site.place_sd_m)
-      .value_or(skyline::SkylineHeading{0.0, 9.9});
-}
-
-void print(const char* what, const skyline::SkylineHeading& heading) {
-  std::printf("  %s %+.4f +- %.4f (%.1f)", what, degrees(heading.error_rad),
-              degrees(heading.sd_rad), heading.error_rad / heading.sd_rad);
-}
-
-// The largest error of the heading, over its sigma, while more pictures with the right heading are
-// added.
-double worst_of_more(Site& site, int pictures, std::mt19937_64& generator,
-                     skyline::SeenHorizon& seen, Tally& tally) {
-  std::uniform_real_distribution<double> azimuth_rad(0.0, 2.0 * kPi);
-  double worst = 0.0;
-  for (int picture = 0; picture < pictures; ++picture) {
-    look(site, azimuth_rad(generator), 0.0, generator, seen, tally);
-    if (picture % 10 != 0) continue;
-    const auto heading = skyline::skyline_heading(seen.places(), *site.known, site.place_sd_m);
-    if (heading) worst = std::max(worst, std::abs(heading->error_rad / heading->sd_rad));
+  void look(sim::Panorama& panorama, double azimuth_rad) {
+    const auto at = site_.truth->skyline(azimuth_rad);
+    const double elevation_rad = at ? at->elevation_rad : 0.0;
+    skyline::StatedPicture picture;
+    picture.mid_exposure_s = time_s_ += kInterval_s;
+    picture.gray = noisy_picture(panorama, azimuth_rad, elevation_rad);
+    const Eigen::Matrix3d R_believed = R_enu_cam(azimuth_rad + wrong_rad_, elevation_rad);
+    picture.camera = {ecef_from_geodetic(site_.stated), (R_ecef_enu_ * R_believed).transpose(),
+                      site_.camera};
+    picture.azimuth_sd_rad = radians(options_.heading_sd_deg);
+    picture.position_sd_enu_m.setConstant(options_.position_sd_m);
+    watch_.look(picture);
+    const skyline::PictureView view{R_believed, site_.camera, picture.azimuth_sd_rad, 0.0};
+    const auto rows = bench::drawn_rows(panorama);
+    score(skyline::find_skyline(picture.gray, skyline::expected_rows(*site_.known, view)), rows,
+          tally_);
+    alarms_ += watch_.disagrees() && !disagreed_ ? 1 : 0;
+    disagreed_ = watch_.disagrees();
+    if (!watch_.heading()) return;
+    worst_ = std::max(worst_, std::abs(sigmas()));
   }
-  return worst;
+  void round(sim::Panorama& panorama, double from_rad) {
+    for (int i = 0; i < kRound; ++i) look(panorama, from_rad + 2.0 * kPi * i / kRound);
+  }
+  // So long that all is forgotten.
+  void pause(double seconds) { time_s_ += seconds; }
+
+  // The difference of the headings, over its 1-sigma.
+  double sigmas() const { return watch_.heading()->error_rad / watch_.difference_sd_rad(); }
+  const skyline::SkylineWatch& watch() const { return watch_; }
+  const Tally& tally() const { return tally_; }
+  int alarms() const { return alarms_; }  // that have begun
+  double worst() const { return worst_; }
+
+ private:
+  cv::Mat noisy_picture(sim::Panorama& panorama, double azimuth_rad, double elevation_rad) {
+    cv::Mat gray, noise(site_.camera.height_px, site_.camera.width_px, CV_16S), noisy;
+    panorama.draw(R_enu_cam(azimuth_rad, elevation_rad), gray);
+    cv::theRNG().state = site_.generator();
+    cv::randn(noise, 0.0, 2.0);
+    gray.convertTo(noisy, CV_16S);
+    noisy += noise;
+    noisy.convertTo(gray, CV_8U);
+    return gray;
+  }
+
+  Site& site_;
+  const Options& options_;
+  double wrong_rad_, time_s_ = 0.0;
+  Eigen::Matrix3d R_ecef_enu_;
+  skyline::SkylineWatch watch_;
+  Tally tally_;
+  bool disagreed_ = false;
+  int alarms_ = 0;
+  double worst_ = 0.0;
+};
+
+struct Sum {
+  int sites = 0, noticed = 0, unfounded = 0;
+  double nees = 0.0;
+};
+
+void run_site(const land::TerrainFolder& folder, const Options& options, unsigned seed, Sum& sum) {
+  Site site = make_site(folder, options, seed);
+  auto panorama = panorama_of(site, seed);
+  std::normal_distribution<double> normal(0.0, radians(options.heading_sd_deg));
+  const double own_rad = normal(site.generator);
+  Watcher wrong(site, folder, options, radians(options.wrong_deg));
+  wrong.round(*panorama, 0.0);
+  Watcher right(site, folder, options, own_rad);
+  right.round(*panorama, 0.0);
+  if (!wrong.watch().heading() || !right.watch().heading()) {
+    std::printf("  too little of the skyline\n");
+    return;
+  }
+  ++sum.sites;
+  sum.noticed += wrong.watch().disagrees() ? 1 : 0;
+  const auto& found = *right.watch().heading();
+  sum.nees += std::pow((found.error_rad - own_rad) / found.sd_rad, 2);
+  std::printf("  wrong %+.3f (%.1f sigmas) %s; right off by %+.4f +- %.4f",
+              degrees(wrong.watch().heading()->error_rad), wrong.sigmas(),
+              wrong.watch().disagrees() ? "noticed" : "not noticed",
+              degrees(found.error_rad - own_rad), degrees(found.sd_rad));
+  for (int day = 0; day < options.days; ++day) {
+    if (day > 0) panorama = panorama_of(site, seed + 1000 * static_cast<unsigned>(day));
+    for (int round = 0; round < options.rounds; ++round) {
+      right.pause(86400.0 / options.rounds - kRound * kInterval_s);
+      right.round(*panorama, 0.1 * round);
+    }
+  }
+  sum.unfounded += right.alarms();
+  const Tally& tally = right.tally();
+  std::printf("; alarms %d, worst %.1f sigmas (%.3f found, %.4f of them far off, %.2f px)\n",
+              right.alarms(), right.worst(), static_cast<double>(tally.found) / tally.strips,
+              static_cast<double>(tally.far) / tally.found,
+              std::sqrt(tally.off2_px2 / tally.found));
 }
 
 void run(const Options& options) {
   const land::TerrainFolder folder = land::read_terrain_folder(options.folder);
-  Tally tally;
-  double nees = 0.0;
+  Sum sum;
   for (int i = 0; i < options.sites; ++i) {
     const unsigned seed = options.seed * 1000 + static_cast<unsigned>(i);
-    Site site = make_site(folder, options, seed);
-    std::mt19937_64 generator(seed);
-    skyline::SeenHorizon wrong, right;
-    std::printf("site %d:", i);
-    print("wrong", sweep(site, radians(options.wrong_deg), generator, wrong, tally));
-    const auto with_right = sweep(site, 0.0, generator, right, tally);
-    print("right", with_right);
-    nees += std::pow(with_right.error_rad / with_right.sd_rad, 2) / options.sites;
-    if (options.pictures > 0) {
-      std::printf("  worst of all %.1f",
-                  worst_of_more(site, options.pictures, generator, right, tally));
-    }
-    std::printf("  (%.3f found, %.4f of them far off, %.2f px)\n",
-                static_cast<double>(tally.found) / tally.strips,
-                static_cast<double>(tally.far) / tally.found,
-                std::sqrt(tally.off2_px2 / tally.found));
+    std::printf("site %d (seed %u):", i, seed);
+    run_site(folder, options, seed, sum);
     std::fflush(stdout);
   }
-  std::printf("NEES of the right headings %.2f\n", nees);
+  std::printf("noticed %d of %d; alarms with the right heading: %d in %d days each; NEES %.2f\n",
+              sum.noticed, sum.sites, sum.unfounded, options.days, sum.nees / sum.sites);
 }
 
 }  // namespace
@@ -250,8 +300,11 @@ int main(int argc, char** argv) {
   app.add_option("--land", options.folder, "Folder of ols-land import")->required();
   app.add_option("--sites", options.sites);
   app.add_option("--wrong", options.wrong_deg, "Error of the wrong heading [deg]");
-  app.add_option("--length", options.length_m, "Wavelength of the land's errors [m]");
-  app.add_option("--pictures", options.pictures, "More pictures at each site");
+  app.add_option("--heading-sd", options.heading_sd_deg, "1-sigma of headings, as stated [deg]");
+  app.add_option("--position-sd", options.position_sd_m, "The same of positions, each axis [m]");
+  app.add_option("--length", options.length_m, "Over which the land's errors are alike [m]");
+  app.add_option("--days", options.days, "With the right heading, at each site");
+  app.add_option("--rounds", options.rounds, "Of 36 pictures, a day");
   app.add_option("--seed", options.seed);
   return bench::run_program(app, argc, argv, [&] { run(options); });
 }

@@ -1,14 +1,13 @@
 #include "edge/skyline/expected_skyline.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "geometry/angles.h"
+#include "land/column_march.h"
 
 namespace ols::skyline {
 namespace {
-
-// A heading and a tilt that are wrong by as much are still found at once.
-constexpr double kHeadingSd_rad = radians(0.3), kTiltSd_rad = radians(0.1);
 
 std::optional<AzimuthElevation> direction_of(const PictureView& view, double x_px, double y_px) {
   const auto ray = unproject(view.camera, {x_px, y_px});
@@ -36,15 +35,31 @@ std::optional<Row> expected_row(const land::HorizonMap& map, const PictureView& 
     y_px += down_px;
     if (!(y_px > -height_px && y_px < 2.0 * height_px)) return std::nullopt;
     if (std::abs(down_px) > kExact_px) continue;
-    const double across =
-        slope(map, direction->azimuth_rad, skyline->elevation_rad) * kHeadingSd_rad;
-    return Row{y_px,
-               view.camera.fy_px * std::hypot(skyline->elevation_sd_rad, kTiltSd_rad, across)};
+    const double across = slope(map, direction->azimuth_rad, skyline->elevation_rad) *
+                          std::hypot(kHeadingSd_rad, view.azimuth_sd_rad);
+    const double up = std::hypot(kTiltSd_rad, view.elevation_sd_rad);
+    const double sd_rad = uncertain_skyline(map, direction->azimuth_rad)->elevation_sd_rad;
+    return Row{y_px, view.camera.fy_px * std::hypot(sd_rad, up, across)};
   }
   return std::nullopt;
 }
 
 }  // namespace
+
+std::optional<land::Skyline> uncertain_skyline(const land::HorizonMap& map, double azimuth_rad) {
+  // Nearer to the camera the land errs as at the camera, which sees over it.
+  constexpr double kNearest_m = land::kLowered_m, kSigmas = 2.0;
+  auto skyline = map.skyline(azimuth_rad);
+  if (!skyline) return std::nullopt;
+  for (double at_m = 0.5 * skyline->distance_m; at_m > kNearest_m; at_m *= 0.5) {
+    const auto nearer = map.highest_before(azimuth_rad, at_m);
+    if (!nearer) break;
+    const double sd_rad = nearer->elevation_sd_rad;
+    if (skyline->elevation_rad - nearer->elevation_rad > kSigmas * sd_rad) continue;
+    skyline->elevation_sd_rad = std::max(skyline->elevation_sd_rad, sd_rad);
+  }
+  return skyline;
+}
 
 Rows expected_rows(const land::HorizonMap& map, const PictureView& view) {
   Rows rows;

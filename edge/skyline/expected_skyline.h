@@ -2,24 +2,36 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "edge/skyline/skyline_finder.h"
+#include "geometry/angles.h"
 #include "geometry/direction.h"
 #include "geometry/lens.h"
 #include "land/horizon_map.h"
 
 namespace ols::skyline {
 
+// A heading and a tilt that are wrong by as much as these are still found at once, even if the
+// station states less: 1-sigma.
+inline constexpr double kHeadingSd_rad = radians(0.3), kTiltSd_rad = radians(0.1);
+
 // How a picture was taken, according to the station.
 struct PictureView {
   Eigen::Matrix3d R_enu_cam = Eigen::Matrix3d::Identity();  // in the frame of the map's camera
   CameraIntrinsics camera;
+  // 1-sigma of its directions, as the station states it.
+  double azimuth_sd_rad = 0.0, elevation_sd_rad = 0.0;
 };
 
+// The map's skyline. If nearer land is so little lower that the errors of the map may put it before
+// the crest, its sigma is that of the nearer land. nullopt where the land is unknown.
+std::optional<land::Skyline> uncertain_skyline(const land::HorizonMap& map, double azimuth_rad);
+
 // The row of the land's skyline in each strip of a picture. The sigmas are wide enough for a
-// station whose heading and tilt are somewhat wrong. nullopt where the land is unknown and where
-// the skyline is far outside the picture.
+// station whose heading and tilt are somewhat more wrong than it states. nullopt where the land is
+// unknown and where the skyline is far outside the picture.
 Rows expected_rows(const land::HorizonMap& map, const PictureView& view);
 
 // The direction of a found row.

@@ -11,19 +11,20 @@ SeenHorizon::SeenHorizon() : means_(kColumns) {}
 
 void SeenHorizon::clear() { means_.assign(kColumns, {}); }
 
-// The newest pictures count for at least one in kMost, so that a mistake does not stay for ever.
-void SeenHorizon::Mean::add(double azimuth, double elevation, double variance_rad2) {
-  constexpr int kMost = 30;
+void SeenHorizon::Mean::add(double azimuth, double elevation, double variance_rad2,
+                            double of_azimuth_rad2) {
   pictures = std::min(pictures + 1, kMost);
   const double share = 1.0 / pictures, off_rad = elevation - elevation_rad;
   if (pictures == 1) azimuth_rad = azimuth;
   azimuth_rad += share * (azimuth - azimuth_rad);
   elevation_rad += share * off_rad;
   picture_variance_rad2 += share * (variance_rad2 - picture_variance_rad2);
+  azimuth_variance_rad2 += share * (of_azimuth_rad2 - azimuth_variance_rad2);
   if (pictures > 1) scatter_rad2 += share * (off_rad * off_rad * (1.0 - share) - scatter_rad2);
 }
 
-void SeenHorizon::add(const std::vector<SkylinePoint>& picture) {
+void SeenHorizon::add(const std::vector<SkylinePoint>& picture, double time_s,
+                      double azimuth_sd_rad) {
   struct Sum {
     int count = 0;
     double azimuth_rad = 0.0, elevation_rad = 0.0, variance_rad2 = 0.0;
@@ -39,21 +40,26 @@ void SeenHorizon::add(const std::vector<SkylinePoint>& picture) {
     sum.elevation_rad += point.direction.elevation_rad;
     sum.variance_rad2 += point.sd_rad * point.sd_rad;
   }
+  newest_s_ = time_s;
   for (std::size_t column = 0; column < sums.size(); ++column) {
     const Sum& sum = sums[column];
     if (sum.count == 0) continue;
+    Mean& mean = means_[column];
+    if (is_old(mean)) mean = {};
+    mean.newest_s = time_s;
     // Neighbouring strips err alike: their number does not make the mean better.
-    means_[column].add(sum.azimuth_rad / sum.count, sum.elevation_rad / sum.count,
-                       sum.variance_rad2 / sum.count);
+    mean.add(sum.azimuth_rad / sum.count, sum.elevation_rad / sum.count,
+             sum.variance_rad2 / sum.count, azimuth_sd_rad * azimuth_sd_rad);
   }
 }
 
 std::vector<SeenPlace> SeenHorizon::places() const {
   std::vector<SeenPlace> places;
   for (const Mean& mean : means_) {
-    if (mean.pictures == 0) continue;
+    if (mean.pictures == 0 || is_old(mean)) continue;
     places.push_back({{mean.azimuth_rad, mean.elevation_rad},
-                      std::max(mean.picture_variance_rad2, mean.scatter_rad2) / mean.pictures});
+                      std::max(mean.picture_variance_rad2, mean.scatter_rad2) / mean.pictures,
+                      mean.azimuth_variance_rad2});
   }
   return places;
 }

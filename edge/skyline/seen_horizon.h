@@ -1,4 +1,4 @@
-// The skyline as a station's pictures have shown it so far, by azimuth. Pure.
+// The skyline as a station's pictures have shown it lately, by azimuth. Pure.
 #pragma once
 
 #include <vector>
@@ -11,30 +11,42 @@ namespace ols::skyline {
 struct SeenPlace {
   AzimuthElevation direction;
   double variance_rad2 = 0.0;  // of the elevation, from the pictures alone
+  // Of the azimuth, as the station states it. Its error may be the same at all places.
+  double azimuth_variance_rad2 = 0.0;
 };
 
 // Several pictures of the same place are averaged: the noise of pictures becomes smaller, the error
-// of a model of the land does not.
+// of a model of the land does not. New pictures replace old ones, because a tripod may be knocked.
 class SeenHorizon {
  public:
   SeenHorizon();
 
-  void add(const std::vector<SkylinePoint>& picture);
+  // Pictures in order of their times [s]. `azimuth_sd_rad`: 1-sigma that the station states for the
+  // picture's azimuths.
+  void add(const std::vector<SkylinePoint>& picture, double time_s, double azimuth_sd_rad);
   void clear();
-  // In the order of their azimuths.
+  // In the order of their azimuths; only those that a picture has shown within kMemory_s before the
+  // newest picture.
   std::vector<SeenPlace> places() const;
 
   static constexpr int kColumns = 7200;  // as many as a map has
+  static constexpr int kMost = 5;  // a picture counts for at least one in so many at its places
+  static constexpr double kMemory_s = 1800.0;
 
  private:
   struct Mean {
     int pictures = 0;
+    double newest_s = 0.0;
     double azimuth_rad = 0.0, elevation_rad = 0.0;
     double picture_variance_rad2 = 0.0;
     double scatter_rad2 = 0.0;  // variance from picture to picture
-    void add(double azimuth, double elevation, double variance_rad2);
+    double azimuth_variance_rad2 = 0.0;
+    void add(double azimuth, double elevation, double variance_rad2, double of_azimuth_rad2);
   };
+  bool is_old(const Mean& mean) const { return newest_s_ - mean.newest_s > kMemory_s; }
+
   std::vector<Mean> means_;
+  double newest_s_ = 0.0;
 };
 
 }  // namespace ols::skyline

@@ -23,6 +23,13 @@ double log_edge(double step) {
   return std::log((step > 0.0 ? kBrighter : 1.0 - kBrighter) / kContrast);
 }
 
+// Of a row that is so many sigmas off the expected one. The skyline may be another crest, or a
+// tree.
+float log_expected(double sigmas) {
+  constexpr double kAnother = -8.0;
+  return static_cast<float>(std::max(kAnother, -0.5 * sigmas * sigmas));
+}
+
 double median_size(std::vector<float> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::ranges::nth_element(values, middle, {}, [](float value) { return std::abs(value); });
@@ -154,8 +161,7 @@ cv::Mat likelihoods(const Steps& steps, const Rows& expected, const Band& band,
       const int row = band.row(strip, state);
       const int entry = steps.has(row) ? row + 1 : row < steps.rows() / 2 ? 0 : steps.rows() + 1;
       const double off = (row - one->at_px) / one->sd_px;
-      out[state] =
-          kTrust * log_p[static_cast<std::size_t>(entry)] - static_cast<float>(0.5 * off * off);
+      out[state] = kTrust * log_p[static_cast<std::size_t>(entry)] + log_expected(off);
     }
     const float best = *std::max_element(out, out + band.states());
     std::transform(out, out + band.states(), out, [best](float v) { return std::exp(v - best); });

@@ -26,18 +26,29 @@ struct Place {
   double white_rad2 = 0.0;  // variance of what neighbours do not share
 };
 
+// Between the azimuths where the skyline is kSmooth_m away on both sides. The errors of a model
+// make its skyline rough: a slope over less would be of these errors, and would seem to tell much.
+std::optional<double> slope_at(const land::HorizonMap& map, double azimuth_rad, double distance_m) {
+  constexpr double kSmooth_m = land::kLowered_m / 3.0;
+  constexpr double kLeast_rad = radians(0.1), kMost_rad = radians(5.0);
+  const double step_rad = std::clamp(kSmooth_m / distance_m, kLeast_rad, kMost_rad);
+  const auto left = map.skyline(azimuth_rad - step_rad);
+  const auto right = map.skyline(azimuth_rad + step_rad);
+  if (!left || !right) return std::nullopt;
+  return (right->elevation_rad - left->elevation_rad) / (2.0 * step_rad);
+}
+
 std::optional<Place> place_of(const SeenPlace& seen, const land::HorizonMap& map, double turn_rad) {
-  constexpr double kStep_rad = radians(0.1);
   // Of the model's error: trees, and what is between its heights. Of each place anew.
   constexpr double kRough = 0.5;
   const double azimuth_rad = seen.direction.azimuth_rad + turn_rad;
-  const auto skyline = map.skyline(azimuth_rad);
-  const auto left = map.skyline(azimuth_rad - kStep_rad);
-  const auto right = map.skyline(azimuth_rad + kStep_rad);
-  if (!skyline || !left || !right) return std::nullopt;
-  const double slope = (right->elevation_rad - left->elevation_rad) / (2.0 * kStep_rad);
-  const double s = std::sin(azimuth_rad), c = std::cos(azimuth_rad);
+  const auto skyline = uncertain_skyline(map, azimuth_rad);
+  if (!skyline) return std::nullopt;
   const double d = std::max(1.0, skyline->distance_m), rise = std::tan(skyline->elevation_rad);
+  const auto known_slope = slope_at(map, azimuth_rad, d);
+  if (!known_slope) return std::nullopt;
+  const double slope = *known_slope;
+  const double s = std::sin(azimuth_rad), c = std::cos(azimuth_rad);
   const double refraction = land::refraction_slope(1.0, d);
   Place place;
   place.row << slope, 1.0, s, c, (slope * c + rise * s) / d, (-slope * s + rise * c) / d, -1.0 / d,
@@ -97,12 +108,14 @@ struct Solution {
   double misfit = 0.0;  // squared, of all places
 };
 
-Solution solve(const Normal& normal, const Unknowns& prior_sd) {
+// The first unknown is a turn beyond `turn_rad`; its prior is about no turn at all.
+Solution solve(const Normal& normal, const Unknowns& prior_sd, double turn_rad) {
   Eigen::Matrix<double, kUnknowns, kUnknowns> A = normal.topLeftCorner<kUnknowns, kUnknowns>();
   A.diagonal() += prior_sd.cwiseAbs2().cwiseInverse();
   Solution solution;
   solution.covariance = A.ldlt().solve(Eigen::Matrix<double, kUnknowns, kUnknowns>::Identity());
-  const Unknowns right = normal.topRightCorner<kUnknowns, 1>();
+  Unknowns right = normal.topRightCorner<kUnknowns, 1>();
+  right(0) -= turn_rad / (prior_sd(0) * prior_sd(0));
   solution.x = solution.covariance * right;
   solution.misfit = normal(kUnknowns, kUnknowns) - solution.x.dot(right);
   return solution;
@@ -124,19 +137,20 @@ Eigen::VectorXd weights_of(const std::vector<Place>& places, const Unknowns& x) 
 }  // namespace
 
 std::optional<SkylineHeading> skyline_heading(const std::vector<SeenPlace>& seen,
-                                              const land::HorizonMap& map, double place_sd_m) {
+                                              const land::HorizonMap& map,
+                                              const StationSd& station) {
   constexpr int kIterations = 6;
-  constexpr double kAny_rad = radians(2.0), kStep_rad = radians(0.2);
+  constexpr double kStep_rad = radians(0.2);
   Unknowns prior_sd;
-  prior_sd << kAny_rad, kAny_rad, kAny_rad, kAny_rad, place_sd_m, place_sd_m, place_sd_m,
-      map.config().refraction_k_sd;
+  prior_sd << station.heading_rad, station.tilt_rad, station.tilt_rad, station.tilt_rad,
+      station.place_enu_m, map.config().refraction_k_sd;
   double turn_rad = 0.0;  // of the seen directions, to those of the model
   Unknowns others = Unknowns::Zero();
   for (int i = 0;; ++i) {
     const auto places = places_of(seen, map, turn_rad);
     if (places.size() < kLeastPlaces) return std::nullopt;
     const Eigen::VectorXd weights = weights_of(places, others);
-    const Solution solution = solve(normal_matrix(places, weights), prior_sd);
+    const Solution solution = solve(normal_matrix(places, weights), prior_sd, turn_rad);
     others = solution.x;
     if (i < kIterations) {
       turn_rad += std::clamp(solution.x(0), -kStep_rad, kStep_rad);
@@ -145,8 +159,9 @@ std::optional<SkylineHeading> skyline_heading(const std::vector<SeenPlace>& seen
     }
     const double excess =
         std::max(1.0, solution.misfit / (static_cast<double>(places.size()) - kUnknowns));
-    return SkylineHeading{-(turn_rad + solution.x(0)),
-                          std::sqrt(excess * solution.covariance(0, 0))};
+    const double sd_rad = std::sqrt(excess * solution.covariance(0, 0));
+    if (std::abs(solution.x(0)) > sd_rad) return std::nullopt;  // it has found no end
+    return SkylineHeading{-(turn_rad + solution.x(0)), sd_rad};
   }
 }
 

@@ -14,6 +14,7 @@
 // along the skyline, so all of it is solved exactly, in time proportional to the number of places.
 #pragma once
 
+#include <Eigen/Core>
 #include <optional>
 #include <vector>
 
@@ -27,9 +28,18 @@ struct SkylineHeading {
   double sd_rad = 0.0;     // 1-sigma, the model's error included
 };
 
-// `place_sd_m`: 1-sigma of each coordinate of the camera relative to the model as a whole. nullopt
-// if too little has been seen.
+// 1-sigma of what the station has, before anything is seen. While little is seen, this keeps the
+// estimate where the finder can have found it.
+struct StationSd {
+  double heading_rad = kHeadingSd_rad, tilt_rad = kTiltSd_rad;
+  // Of the camera's place (east, north, up) relative to the model as a whole: of the station's
+  // position and of the model.
+  Eigen::Vector3d place_enu_m = Eigen::Vector3d::Zero();
+};
+
+// nullopt if too little has been seen.
 std::optional<SkylineHeading> skyline_heading(const std::vector<SeenPlace>& seen,
-                                              const land::HorizonMap& map, double place_sd_m);
+                                              const land::HorizonMap& map,
+                                              const StationSd& station);
 
 }  // namespace ols::skyline

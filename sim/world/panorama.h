@@ -32,6 +32,9 @@ class Panorama {
   // Near land stands before the ridge line where it is higher: elevations [rad] by azimuth.
   void raise(const std::function<double(double azimuth_rad)>& skyline_rad);
 
+  // Where draw() has drawn the ridge line: a row for each column of the picture, which may be
+  // outside of it. Row 0.0 is the middle of the topmost pixels.
+  const std::vector<float>& ridge_rows_px() const { return ridge_row_; }
   // Elevation of the ridge line at an azimuth.
   double ridge_rad(double azimuth_rad) const;
 

@@ -54,6 +54,28 @@ double Waves::at(const Eigen::Vector2d& place_m) const {
   return amplitude_m_ * (wave_rad_m_ * place_m + phase_rad_).array().cos().sum();
 }
 
+// In two dimensions the waves of such a field have wave numbers k of which a share of
+// 1 - 1 / sqrt(1 + (k length)^2) is smaller.
+ErrorField::ErrorField(double sd_m, double length_m, std::uint64_t seed)
+    : amplitude_m_(static_cast<float>(sd_m * std::sqrt(2.0 / kWaves))) {
+  std::mt19937_64 generator(seed);
+  std::uniform_real_distribution<double> uniform;
+  for (int i = 0; i < kWaves; ++i) {
+    const double direction = 2.0 * kPi * uniform(generator);
+    const double longer = 1.0 - (i + uniform(generator)) / kWaves;
+    const double wave = std::sqrt(1.0 / (longer * longer) - 1.0) / length_m;
+    wave_rad_m_(i, 0) = static_cast<float>(wave * std::cos(direction));
+    wave_rad_m_(i, 1) = static_cast<float>(wave * std::sin(direction));
+    phase_rad_(i) = static_cast<float>(2.0 * kPi * uniform(generator));
+  }
+}
+
+double ErrorField::at(const Eigen::Vector2d& place_m) const {
+  const auto x = static_cast<float>(place_m.x()), y = static_cast<float>(place_m.y());
+  const auto phases_rad = x * wave_rad_m_.col(0) + y * wave_rad_m_.col(1) + phase_rad_;
+  return amplitude_m_ * phases_rad.cos().sum();
+}
+
 Relief::Relief(const ReliefScenario& scenario)
     : scenario_(scenario),
       roughness_(scenario.roughness_m, scenario.roughness_length_m, kRoughnessSeed) {

@@ -66,6 +66,20 @@ class Waves {
   Eigen::Matrix<double, kWaves, 1> phase_rad_;
 };
 
+// A random field with this 1-sigma, whose correlation over a distance is exp(-distance / length_m):
+// the errors of an elevation model. It has waves of all lengths.
+class ErrorField {
+ public:
+  ErrorField(double sd_m, double length_m, std::uint64_t seed);
+  double at(const Eigen::Vector2d& place_m) const;
+
+ private:
+  static constexpr int kWaves = 64;
+  float amplitude_m_;
+  Eigen::Array<float, kWaves, 2> wave_rad_m_;
+  Eigen::Array<float, kWaves, 1> phase_rad_;
+};
+
 class Relief {
  public:
   explicit Relief(const ReliefScenario& scenario);

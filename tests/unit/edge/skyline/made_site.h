@@ -5,6 +5,7 @@
 
 #include "geometry/angles.h"
 #include "geometry/wgs84.h"
+#include "land/column_march.h"
 #include "land/horizon_map.h"
 #include "sim/world/relief.h"
 #include "tests/unit/land/made_land.h"
@@ -18,7 +19,7 @@ class MadeSite {
   explicit MadeSite(unsigned seed)
       : far_(200.0, 5000.0, 10 * seed),
         near_(20.0, 1200.0, 10 * seed + 1),
-        error_(kModelSd_m, 600.0, 10 * seed + 2) {}
+        error_(kModelSd_m, land::kLowered_m, 10 * seed + 2) {}
 
   land::MadeLand truth() const {
     return land::MadeLand([this](double lat, double lon) { return height_m(at(lat, lon)); });
@@ -48,7 +49,8 @@ class MadeSite {
     return 500.0 + far_.at(place_m) + near_.at(place_m);
   }
 
-  sim::Waves far_, near_, error_;
+  sim::Waves far_, near_;
+  sim::ErrorField error_;
 };
 
 // Coarse, so that it is quick.

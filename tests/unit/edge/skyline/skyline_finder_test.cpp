@@ -6,8 +6,8 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "dev/bench/drawn_skyline.h"
 #include "geometry/angles.h"
-#include "geometry/direction.h"
 #include "sim/world/renderer.h"
 
 namespace ols::skyline {
@@ -36,12 +36,7 @@ class Scene {
     exposure.start = exposure.end = exposure.mid;
     Rendered rendered;
     renderer_.draw(exposure, rendered.gray);
-    const Eigen::Matrix3d R_enu_cam = enu_from_camera(station.chain, exposure.mid).linear();
-    for (int strip = 0; strip < strips_of(rendered.gray.cols); ++strip) {
-      double sum_px = 0.0;  // of its columns: trees are narrower than a strip
-      for (int i = 0; i < kStrip_px; ++i) sum_px += true_row(R_enu_cam, kStrip_px * strip + i);
-      rendered.row_px.push_back(sum_px / kStrip_px);
-    }
+    rendered.row_px = bench::drawn_rows(renderer_.panorama());
     return rendered;
   }
 
@@ -51,17 +46,6 @@ class Scene {
     scenario.landscape.cloudiness = cloudiness;
     scenario.landscape.haze = haze;
     return scenario;
-  }
-
-  double true_row(const Eigen::Matrix3d& R_enu_cam, double x_px) const {
-    const CameraIntrinsics& camera = world_.stations()[0].truth.camera;
-    double y_px = 0.5 * camera.height_px;
-    for (int i = 0; i < 6; ++i) {
-      const auto at =
-          azimuth_elevation_from_enu(R_enu_cam * unproject(camera, {x_px, y_px}).value());
-      y_px += (at.elevation_rad - renderer_.panorama().ridge_rad(at.azimuth_rad)) * camera.fy_px;
-    }
-    return y_px;
   }
 
   sim::World world_;

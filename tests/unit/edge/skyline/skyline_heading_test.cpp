@@ -10,6 +10,8 @@
 namespace ols::skyline {
 namespace {
 
+const StationSd kStation{.place_enu_m = Eigen::Vector3d::Constant(kModelSd_m)};
+
 struct Maps {
   explicit Maps(unsigned seed)
       : site(seed),
@@ -37,7 +39,7 @@ std::vector<SkylinePoint> picture(const land::HorizonMap& truth, double from_deg
 }
 
 SkylineHeading heading_by(const SeenHorizon& seen, const Maps& maps) {
-  return skyline_heading(seen.places(), maps.model, kModelSd_m).value();
+  return skyline_heading(seen.places(), maps.model, kStation).value();
 }
 
 TEST(SkylineHeadingTest, WholeHorizonGivesTheErrorWithAnHonestSigma) {
@@ -47,7 +49,7 @@ TEST(SkylineHeadingTest, WholeHorizonGivesTheErrorWithAnHonestSigma) {
     const Maps maps(seed);
     const double wrong_rad = radians(seed % 2 == 0 ? 0.1 : -0.4);
     SeenHorizon seen;
-    seen.add(picture(maps.truth, 0.0, 360.0, wrong_rad, seed));
+    seen.add(picture(maps.truth, 0.0, 360.0, wrong_rad, seed), 0.0, 0.0);
     const SkylineHeading heading = heading_by(seen, maps);
     EXPECT_LT(std::abs(heading.error_rad - wrong_rad), 4.0 * heading.sd_rad) << "seed " << seed;
     EXPECT_LT(heading.sd_rad, radians(0.035)) << "seed " << seed;
@@ -60,9 +62,9 @@ TEST(SkylineHeadingTest, WholeHorizonGivesTheErrorWithAnHonestSigma) {
 TEST(SkylineHeadingTest, ManyPicturesOfOneCrestSayLittleMoreThanOne) {
   const Maps maps(3);
   SeenHorizon once, often, around;
-  once.add(picture(maps.truth, 40.0, 60.0, 0.0, 1));
-  for (unsigned i = 0; i < 100; ++i) often.add(picture(maps.truth, 40.0, 60.0, 0.0, i));
-  around.add(picture(maps.truth, 0.0, 360.0, 0.0, 1));
+  once.add(picture(maps.truth, 40.0, 60.0, 0.0, 1), 0.0, 0.0);
+  for (unsigned i = 0; i < 100; ++i) often.add(picture(maps.truth, 40.0, 60.0, 0.0, i), i, 0.0);
+  around.add(picture(maps.truth, 0.0, 360.0, 0.0, 1), 0.0, 0.0);
   const double once_rad = heading_by(once, maps).sd_rad, often_rad = heading_by(often, maps).sd_rad;
   EXPECT_GT(often_rad, 0.6 * once_rad);
   EXPECT_LT(heading_by(around, maps).sd_rad, 0.5 * often_rad);
@@ -72,11 +74,11 @@ TEST(SkylineHeadingTest, TreesAndHousesBeforeTheSkylineCountLittle) {
   const Maps maps(5);
   SeenHorizon with, without;
   auto points = picture(maps.truth, 0.0, 360.0, radians(0.1), 1);
-  without.add(points);
+  without.add(points, 0.0, 0.0);
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (i % 400 < 40) points[i].direction.elevation_rad += radians(2.0);
   }
-  with.add(points);
+  with.add(points, 0.0, 0.0);
   const SkylineHeading heading = heading_by(with, maps);
   EXPECT_NEAR(heading.error_rad, heading_by(without, maps).error_rad, radians(0.03));
   EXPECT_LT(std::abs(heading.error_rad - radians(0.1)), 4.0 * heading.sd_rad);
@@ -90,7 +92,7 @@ TEST(SkylineHeadingTest, ATiltOfTheStationIsNoHeading) {
     point.direction.elevation_rad +=
         radians(0.3) * std::sin(point.direction.azimuth_rad) - radians(0.2);
   }
-  seen.add(points);
+  seen.add(points, 0.0, 0.0);
   const SkylineHeading heading = heading_by(seen, maps);
   EXPECT_LT(std::abs(heading.error_rad), 4.0 * heading.sd_rad);
 }
@@ -98,8 +100,8 @@ TEST(SkylineHeadingTest, ATiltOfTheStationIsNoHeading) {
 TEST(SkylineHeadingTest, NothingIsSaidOfAFewPlaces) {
   const Maps maps(9);
   SeenHorizon seen;
-  seen.add(picture(maps.truth, 10.0, 12.0, 0.0, 1));
-  EXPECT_FALSE(skyline_heading(seen.places(), maps.model, kModelSd_m).has_value());
+  seen.add(picture(maps.truth, 10.0, 12.0, 0.0, 1), 0.0, 0.0);
+  EXPECT_FALSE(skyline_heading(seen.places(), maps.model, kStation).has_value());
 }
 
 }  // namespace

@@ -1,0 +1,88 @@
+#include "edge/skyline/skyline_watch.h"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "conditions/alarms.h"
+#include "geometry/angles.h"
+
+namespace ols::skyline {
+namespace {
+
+constexpr double kBegins = 4.0, kEnds = 3.0;  // sigmas
+
+double mean_azimuth_sd_rad(const std::vector<SeenPlace>& places) {
+  if (places.empty()) return 0.0;
+  double sum_rad2 = 0.0;
+  for (const SeenPlace& place : places) sum_rad2 += place.azimuth_variance_rad2;
+  return std::sqrt(sum_rad2 / static_cast<double>(places.size()));
+}
+
+}  // namespace
+
+void SkylineWatch::forget() {
+  seen_.clear();
+  heading_.reset();
+  disagrees_ = false;
+}
+
+bool SkylineWatch::has_map(const Geodetic& camera) {
+  if (place_ && (ecef_from_geodetic(*place_) - ecef_from_geodetic(camera)).norm() <= kMoved_m) {
+    return map_.has_value();
+  }
+  forget();
+  place_ = camera;
+  map_.reset();
+  why_none_.clear();
+  try {
+    map_.emplace(*surface_, camera, config_);
+    model_sd_m_ = surface_->ground(camera.latitude_rad, camera.longitude_rad)->sd_m;
+  } catch (const std::invalid_argument& reason) {
+    why_none_ = reason.what();
+  }
+  return map_.has_value();
+}
+
+// Of the camera in the map: what the station states of its position, the model as a whole, and the
+// way from the map's camera.
+Eigen::Vector3d SkylineWatch::place_sd_enu_m(const StatedPicture& picture) const {
+  const Eigen::Vector3d off_m = LocalFrame(map_->camera()).to_enu(picture.camera.centre_ecef);
+  return (picture.position_sd_enu_m.array().square() + off_m.array().square() +
+          model_sd_m_ * model_sd_m_)
+      .sqrt();
+}
+
+void SkylineWatch::look(const StatedPicture& picture) {
+  if (!has_map(geodetic_from_ecef(picture.camera.centre_ecef))) return;
+  const LocalFrame frame(map_->camera());
+  const PictureView view{(picture.camera.R_camera_ecef * frame.R_ecef_enu()).transpose(),
+                         picture.camera.intrinsics, picture.azimuth_sd_rad,
+                         picture.elevation_sd_rad};
+  const Rows found = find_skyline(picture.gray, expected_rows(*map_, view));
+  seen_.add(directions(found, view), picture.mid_exposure_s, picture.azimuth_sd_rad);
+  compare(picture);
+}
+
+void SkylineWatch::compare(const StatedPicture& newest) {
+  const auto places = seen_.places();
+  stated_sd_rad_ = mean_azimuth_sd_rad(places);
+  heading_ =
+      skyline_heading(places, *map_,
+                      {std::hypot(kHeadingSd_rad, stated_sd_rad_),
+                       std::hypot(kTiltSd_rad, newest.elevation_sd_rad), place_sd_enu_m(newest)});
+  const double limit = disagrees_ ? kEnds : kBegins;
+  disagrees_ = heading_ && std::abs(heading_->error_rad) > limit * difference_sd_rad();
+}
+
+double SkylineWatch::difference_sd_rad() const {
+  return heading_ ? std::hypot(heading_->sd_rad, stated_sd_rad_) : 0.0;
+}
+
+Alarm SkylineWatch::alarm() const {
+  if (!why_none_.empty()) return alarm::skyline_not_compared(why_none_);
+  if (!disagrees_) return {};
+  return alarm::heading_disagrees_with_skyline(degrees(heading_->error_rad),
+                                               degrees(difference_sd_rad()));
+}
+
+}  // namespace ols::skyline

@@ -1,0 +1,71 @@
+// Compares a station's pictures with the skyline of the land, one picture after the other. Pure,
+// but slow: a picture takes some tens of milliseconds, the first one seconds.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <string>
+
+#include "conditions/alarm.h"
+#include "edge/skyline/seen_horizon.h"
+#include "edge/skyline/skyline_heading.h"
+#include "edge/video/video_frame.h"
+#include "land/horizon_map.h"
+#include "land/surface.h"
+
+namespace ols::skyline {
+
+// A picture of a camera at rest, and what the station states about it.
+struct StatedPicture {
+  double mid_exposure_s = 0.0;  // on the station's monotonic clock
+  cv::Mat gray;                 // 8-bit, one channel
+  video::CameraView camera;
+  // 1-sigma of its azimuths and elevations from heading, tilt, mounting, angles and lens; they may
+  // err alike in all pictures.
+  double azimuth_sd_rad = 0.0, elevation_sd_rad = 0.0;
+  Eigen::Vector3d position_sd_enu_m = Eigen::Vector3d::Zero();
+};
+
+class SkylineWatch {
+ public:
+  explicit SkylineWatch(std::shared_ptr<const land::Surface> surface,
+                        const land::HorizonMapConfig& config = {})
+      : surface_(std::move(surface)), config_(config) {}
+
+  // Pictures in order of their times. If the camera has been moved, all earlier pictures are
+  // forgotten.
+  void look(const StatedPicture& picture);
+  // Call it when the station's heading or reference has changed or is in doubt.
+  void forget();
+
+  // nullopt while too little of the skyline has been seen.
+  const std::optional<SkylineHeading>& heading() const { return heading_; }
+  // 1-sigma of the difference between the two headings: of the skyline's, and of the station's as
+  // stated.
+  double difference_sd_rad() const;
+  bool disagrees() const { return disagrees_; }
+  // The heading is wrong, or the land does not fit the station; empty if neither.
+  Alarm alarm() const;
+
+  static constexpr double kMoved_m = 5.0;
+
+ private:
+  bool has_map(const Geodetic& camera);
+  Eigen::Vector3d place_sd_enu_m(const StatedPicture& picture) const;
+  void compare(const StatedPicture& newest);
+
+  std::shared_ptr<const land::Surface> surface_;
+  land::HorizonMapConfig config_;
+  std::optional<Geodetic> place_;  // of the map, also if the land does not fit there
+  std::optional<land::HorizonMap> map_;
+  std::string why_none_;
+  double model_sd_m_ = 0.0;  // of the model as a whole
+  SeenHorizon seen_;
+  std::optional<SkylineHeading> heading_;
+  double stated_sd_rad_ = 0.0;  // of the azimuths that `heading_` is from
+  bool disagrees_ = false;
+};
+
+}  // namespace ols::skyline

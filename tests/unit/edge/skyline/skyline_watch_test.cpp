@@ -1,0 +1,158 @@
+#include "edge/skyline/skyline_watch.h"
+
+#include <gtest/gtest.h>
+
+#include <opencv2/core.hpp>
+
+#include "sim/world/panorama.h"
+#include "tests/unit/edge/skyline/made_site.h"
+
+namespace ols::skyline {
+namespace {
+
+constexpr double kWrong_rad = radians(0.3);
+
+CameraIntrinsics wide_camera() {
+  CameraIntrinsics camera;
+  camera.width_px = 640;
+  camera.height_px = 480;
+  camera.cx_px = 319.5;
+  camera.cy_px = 239.5;
+  camera.fx_px = camera.fy_px = 1500.0;
+  return camera;
+}
+
+Eigen::Matrix3d R_enu_cam(double azimuth_rad) {
+  Eigen::Matrix3d R;
+  R << std::cos(azimuth_rad), 0.0, std::sin(azimuth_rad),  //
+      -std::sin(azimuth_rad), 0.0, std::cos(azimuth_rad),  //
+      0.0, -1.0, 0.0;
+  return R;
+}
+
+// What a station states.
+struct Stated {
+  Geodetic place;
+  double wrong_rad = 0.0;  // its heading is off by this
+  double azimuth_sd_rad = radians(0.01), position_sd_m = 0.5;
+};
+
+// A station that turns around and looks at the true land; the watch knows the model of it.
+class SkylineWatchTest : public ::testing::Test {
+ protected:
+  SkylineWatchTest()
+      : site_(4),
+        truth_(site_.truth(), site_.camera(), quick_map()),
+        panorama_(landscape(), wide_camera(), sim::slopes_texture(landscape(), wide_camera()), 4),
+        watch_(std::make_shared<land::MadeLand>(site_.model()), quick_map()) {
+    panorama_.raise([this](double azimuth_rad) {
+      const auto skyline = truth_.skyline(azimuth_rad);
+      return skyline ? skyline->elevation_rad : -0.5;
+    });
+  }
+
+  static sim::Landscape landscape() {
+    sim::Landscape landscape;
+    landscape.ridge_mean_rad = radians(-40.0);
+    landscape.ridge_relief_rad = 0.0;
+    return landscape;
+  }
+
+  void turn_around(const Stated& stated) {
+    for (double deg = 0.0; deg < 360.0; deg += 20.0) look(deg, stated);
+  }
+  void look(double azimuth_deg, const Stated& stated) {
+    StatedPicture picture;
+    picture.mid_exposure_s = time_s_ += 5.0;
+    panorama_.draw(R_enu_cam(radians(azimuth_deg)), picture.gray);
+    picture.camera = {
+        ecef_from_geodetic(stated.place),
+        (LocalFrame(stated.place).R_ecef_enu() * R_enu_cam(radians(azimuth_deg) + stated.wrong_rad))
+            .transpose(),
+        wide_camera()};
+    picture.azimuth_sd_rad = stated.azimuth_sd_rad;
+    picture.position_sd_enu_m.setConstant(stated.position_sd_m);
+    watch_.look(picture);
+  }
+  Geodetic moved(double east_m) const {
+    return geodetic_from_ecef(LocalFrame(site_.camera()).to_ecef({east_m, 0.0, 0.0}));
+  }
+  bool says(const std::string& words) const {
+    return watch_.alarm().text.find(words) != std::string::npos;
+  }
+
+  MadeSite site_;
+  land::HorizonMap truth_;
+  sim::Panorama panorama_;
+  SkylineWatch watch_;
+  double time_s_ = 0.0;
+};
+
+TEST_F(SkylineWatchTest, AWrongHeadingIsNoticedAndARightOneIsNot) {
+  turn_around({site_.camera()});
+  ASSERT_TRUE(watch_.heading().has_value());
+  EXPECT_TRUE(watch_.alarm().empty());
+  watch_.forget();
+  EXPECT_FALSE(watch_.heading().has_value());
+  turn_around({site_.camera(), kWrong_rad});
+  EXPECT_NEAR(watch_.heading()->error_rad, kWrong_rad, 4.0 * watch_.heading()->sd_rad);
+  EXPECT_TRUE(says("heading: disagrees with the skyline of the land by +0."));
+  watch_.forget();
+  EXPECT_TRUE(watch_.alarm().empty());
+}
+
+TEST_F(SkylineWatchTest, AnErrorThatTheStationStatesIsNoNews) {
+  turn_around({.place = site_.camera(), .wrong_rad = kWrong_rad, .azimuth_sd_rad = radians(0.1)});
+  ASSERT_TRUE(watch_.heading().has_value());
+  EXPECT_NEAR(watch_.heading()->error_rad, kWrong_rad, 4.0 * watch_.heading()->sd_rad);
+  EXPECT_GT(watch_.difference_sd_rad(), radians(0.1));
+  EXPECT_TRUE(watch_.alarm().empty());
+}
+
+TEST_F(SkylineWatchTest, AnErrorOfThePositionCountsAsWhatIsStatedOfIt) {
+  constexpr double kOff_m = 100.0;
+  turn_around({.place = site_.camera(), .position_sd_m = 0.5});
+  const double exact_rad = watch_.heading()->sd_rad;
+  turn_around({.place = moved(kOff_m), .position_sd_m = kOff_m});
+  ASSERT_TRUE(watch_.heading().has_value());
+  EXPECT_GT(watch_.heading()->sd_rad, 1.2 * exact_rad);
+  EXPECT_TRUE(watch_.alarm().empty());
+}
+
+TEST_F(SkylineWatchTest, AKnockedTripodIsNoticedAfterALongTimeInPlace) {
+  for (int round = 0; round < 8; ++round) turn_around({site_.camera()});
+  EXPECT_TRUE(watch_.alarm().empty());
+  for (int round = 0; round < 4; ++round) turn_around({site_.camera(), kWrong_rad});
+  EXPECT_TRUE(says("disagrees"));
+  for (int round = 0; round < 8; ++round) turn_around({site_.camera()});
+  EXPECT_TRUE(watch_.alarm().empty());
+}
+
+TEST_F(SkylineWatchTest, AnAlarmEndsWithWhatItIsFrom) {
+  turn_around({site_.camera(), kWrong_rad});
+  EXPECT_TRUE(watch_.disagrees());
+  time_s_ += SeenHorizon::kMemory_s;
+  cv::Mat fog(480, 640, CV_8U, cv::Scalar(190));
+  StatedPicture picture;
+  picture.mid_exposure_s = time_s_ += 200.0;
+  picture.gray = fog;
+  picture.camera = {ecef_from_geodetic(site_.camera()),
+                    (LocalFrame(site_.camera()).R_ecef_enu() * R_enu_cam(0.0)).transpose(),
+                    wide_camera()};
+  watch_.look(picture);
+  EXPECT_FALSE(watch_.heading().has_value());
+  EXPECT_TRUE(watch_.alarm().empty());
+}
+
+TEST_F(SkylineWatchTest, APlaceUnderTheGroundIsSaid) {
+  Geodetic under = site_.camera();
+  under.height_m -= 120.0;
+  turn_around({under});
+  EXPECT_TRUE(says("under the ground"));
+  turn_around({site_.camera()});  // a right position is taken
+  EXPECT_TRUE(watch_.alarm().empty());
+  EXPECT_TRUE(watch_.heading().has_value());
+}
+
+}  // namespace
+}  // namespace ols::skyline
