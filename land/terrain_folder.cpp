@@ -58,19 +58,25 @@ class MappedFile {
 
 using Mapped = std::vector<std::unique_ptr<const MappedFile>>;
 
+std::size_t heights_of(const GridFile& form) {
+  return static_cast<std::size_t>(form.rows) * static_cast<std::size_t>(form.columns);
+}
+
+void check_length(const std::string& path, const GridFile& form, std::size_t bytes) {
+  const std::size_t wanted = heights_of(form) * sizeof(float);
+  if (bytes == wanted) return;
+  throw std::runtime_error(path + ": has " + std::to_string(bytes) + " bytes, not " +
+                           std::to_string(wanted));
+}
+
 HeightGrid map_grid(const std::string& folder, const GridFile& form, Mapped& mapped) {
   const std::string path = folder + "/" + form.file;
   const auto& file = *mapped.emplace_back(std::make_unique<MappedFile>(path));
-  const std::size_t heights =
-      static_cast<std::size_t>(form.rows) * static_cast<std::size_t>(form.columns);
-  if (file.size() != heights * sizeof(float)) {
-    throw std::runtime_error(path + ": has " + std::to_string(file.size()) + " bytes, not " +
-                             std::to_string(heights * sizeof(float)));
-  }
+  check_length(path, form, file.size());
   if (file.sum() != form.sha256) {
     throw std::runtime_error(path + ": is damaged: its SHA-256 is not that of " + kManifest);
   }
-  return height_grid(form, {static_cast<const float*>(file.bytes()), heights});
+  return height_grid(form, {static_cast<const float*>(file.bytes()), heights_of(form)});
 }
 
 template <class Parse>
@@ -79,6 +85,16 @@ auto parse_file(const std::string& path, const MappedFile& file, Parse parse) {
     return parse(file.text());
   } catch (const std::invalid_argument& wrong) {
     throw std::runtime_error(path + ": " + wrong.what());
+  }
+}
+
+// What is wrong with a configured folder, with the key that names it.
+template <class Read>
+auto named(Read read) {
+  try {
+    return read();
+  } catch (const std::exception& wrong) {
+    throw ConfigError("[land] folder: " + std::string(wrong.what()));
   }
 }
 
@@ -123,11 +139,18 @@ TerrainFolder read_terrain_folder(const std::string& path) {
 
 TerrainFolder read_configured_land(const std::string& folder) {
   if (folder.empty()) return {};
-  try {
-    return read_terrain_folder(folder);
-  } catch (const std::exception& wrong) {
-    throw ConfigError("[land] folder: " + std::string(wrong.what()));
-  }
+  return named([&] { return read_terrain_folder(folder); });
+}
+
+Manifest check_configured_land(const std::string& folder) {
+  return named([&] {
+    const std::string path = folder + "/" + kManifest;
+    const Manifest manifest = parse_file(path, MappedFile(path), parse_manifest);
+    for (const GridFile& form : manifest.grids) {
+      check_length(folder + "/" + form.file, form, fs::file_size(folder + "/" + form.file));
+    }
+    return manifest;
+  });
 }
 
 void write_terrain_folder(const std::string& path, Manifest manifest,

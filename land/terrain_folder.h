@@ -25,6 +25,9 @@ TerrainFolder read_terrain_folder(const std::string& path);
 // The folder that a configuration names in [land]; without one there is no terrain. Throws
 // ConfigError, which names the key, for what read_terrain_folder() refuses.
 TerrainFolder read_configured_land(const std::string& folder);
+// Quick, for folders of any size: reads the manifest, and compares the lengths of the files of
+// heights, not their checksums. Throws ConfigError as above.
+Manifest check_configured_land(const std::string& folder);
 
 // One grid to write; write_terrain_folder() sets `file` and `sha256` of `form`.
 struct NewGrid {

@@ -172,6 +172,14 @@ Section clock_section(clock::ClockWatch::Config& clock) {
                           "Drift of the clock without its time service.")}};
 }
 
+Section land_section(StationSettings& settings) {
+  return {"land",
+          "The land around the site (docs/land.md).",
+          {config::text("folder", settings.land_folder,
+                        "Folder that `ols-land import` has made, as the fusion has it: the skyline "
+                        "in the pictures checks the heading. Empty: no land is known.")}};
+}
+
 Section watchdog_section(StationSettings& settings) {
   HostConfig& host = settings.host;
   return {"watchdog",
@@ -366,6 +374,7 @@ Section station_section(StationSettings& s) {
        recorder::recorder_section(s.recorder),
        video::video_section(s.video),
        clock_section(s.clock),
+       land_section(s),
        watchdog_section(s),
        trust::trust_section(s.trust)},
       [&s](ConfigTable& root) {

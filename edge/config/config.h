@@ -47,6 +47,8 @@ struct StationSettings {
   double view_check_s = 600.0;
   // Folder written by `ols-calibrate adjust`; empty if there is none.
   std::string calibration_folder;
+  // Folder written by `ols-land import`; empty if no land is known.
+  std::string land_folder;
   InstrumentSerials serials;
   std::uint64_t tracker_seed = 1;
   double status_interval_s = 0.5;

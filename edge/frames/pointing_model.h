@@ -74,6 +74,11 @@ class PointingModel {
   std::optional<video::CameraView> camera_at(double time_s) const;
   // The camera with its deviations at an instant; nullopt if the zoom is not known.
   std::optional<ZoomPoint> zoom_at(double time_s) const;
+  // Whether the zoom stood still at an instant, as a lens without a motor always does; nullopt if
+  // its positions before and after are not known.
+  std::optional<bool> zoom_rests(double time_s) const {
+    return zoom_ ? zoom_->rests_at(time_s) : std::optional(true);
+  }
   // The reported angles that bring a pixel of this instant to the middle of the picture. Travel
   // limits are ignored.
   std::optional<PanTilt> centring(const Eigen::Vector2d& pixel, double time_s) const;

@@ -35,4 +35,13 @@ std::optional<ZoomPoint> ZoomLens::at(double time_s) const {
   return table_.at(position, std::hypot(position_sd_, rate * std::hypot(to.time_sd_s, away_s)));
 }
 
+std::optional<bool> ZoomLens::rests_at(double time_s) const {
+  const auto after = std::ranges::find_if(
+      samples_, [time_s](const ZoomSample& sample) { return sample.time_s >= time_s; });
+  if (after == samples_.begin() || after == samples_.end()) return std::nullopt;
+  const ZoomSample& before = *(after - 1);
+  if (after->time_s - before.time_s > kSilent_s) return std::nullopt;
+  return std::abs(after->position - before.position) <= position_sd_;
+}
+
 }  // namespace ols::lens

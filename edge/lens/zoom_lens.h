@@ -22,6 +22,9 @@ class ZoomLens {
   // its speed and with the time from the nearest sample.
   std::optional<ZoomPoint> at(double time_s) const;
   std::optional<ZoomPoint> newest() const;
+  // Whether the zoom stood still at that time: the reports before and after it are the same but for
+  // the error of a position. nullopt if one of them is missing.
+  std::optional<bool> rests_at(double time_s) const;
 
   static constexpr double kMemory_s = 3.0;
   static constexpr double kSilent_s = 1.0;  // how long the newest position remains valid

@@ -20,6 +20,7 @@
 #include "edge/messages/messages_bus.h"
 #include "edge/process/station_process.h"
 #include "geometry/angles.h"
+#include "land/terrain_folder.h"
 
 namespace {
 
@@ -43,6 +44,20 @@ void say_site(const StationSettings& settings) {
                            own.empty() ? "" : "; this station's file says otherwise for ", own),
        .id = ols::event::kSiteSettings,
        .station = settings.id});
+}
+
+// A running station goes on without the calibration or the land that it cannot read.
+void check_folders(const StationSettings& settings) {
+  if (!settings.calibration_folder.empty()) {
+    const auto files = ols::station::read_calibration(settings.calibration_folder, settings);
+    std::printf("ok calibration: %lld, 1-sigma %.1f arc seconds\n",
+                static_cast<long long>(files.id), files.rms_rad * 648000.0 / ols::kPi);
+  }
+  if (!settings.land_folder.empty()) {
+    const auto land = ols::land::check_configured_land(settings.land_folder);
+    std::printf("ok land: %.0f km around %.4f, %.4f\n", land.radius_km, land.latitude_deg,
+                land.longitude_deg);
+  }
 }
 
 int run(const std::string& config, const StationSettings& own) {
@@ -80,11 +95,7 @@ int main(int argc, char** argv) {
     const StationSettings settings = load(config, {});
     if (check) {
       for (const auto& line : describe(settings)) std::printf("ok %s\n", line.c_str());
-      if (!settings.calibration_folder.empty()) {
-        const auto files = ols::station::read_calibration(settings.calibration_folder, settings);
-        std::printf("ok calibration: %lld, 1-sigma %.1f arc seconds\n",
-                    static_cast<long long>(files.id), files.rms_rad * 648000.0 / ols::kPi);
-      }
+      check_folders(settings);
       ols::flush_output();
       return 0;
     }

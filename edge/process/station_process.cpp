@@ -59,6 +59,7 @@ StationProcess::StationProcess(const StationSettings& configured, std::int64_t b
       frames_(settings().station.angles) {
   const DetectionConfig& detection = settings().station.detection;
   if (detection.enabled) detector_.emplace(detection.detector);
+  if (!settings().land_folder.empty()) skyline_.emplace(settings().land_folder);
   const double now_s = clock_monotonic_s();
   station_.set_pose(pose_->pose(now_s));
   resume_hold(now_s);
@@ -90,6 +91,7 @@ void StationProcess::turn() {
   // Again, because the tracker takes time: publications carry the present time.
   const clock::ClockPair now = look_at_clocks();
   detect(now.monotonic_s);
+  compare_skyline(now.monotonic_s);
   const StationOutput output = station_.step(now.monotonic_s);
   for (const Bearing& bearing : output.bearings) {
     bus_.send(bearing);
@@ -202,6 +204,13 @@ void StationProcess::detect(double now_s) {
   if (auto picture = station_.picture_to_search(now_s)) detector_->give(std::move(*picture));
 }
 
+void StationProcess::compare_skyline(double now_s) {
+  if (!skyline_) return;
+  skyline_->follow(station_.setup_revision());
+  if (!skyline_->wants(now_s)) return;
+  if (auto picture = station_.skyline_picture()) skyline_->give(*std::move(picture));
+}
+
 void StationProcess::take_zoom() {
   auto* lens = devices_.lens();
   if (lens == nullptr) return;
@@ -299,6 +308,9 @@ StationReport StationProcess::report(const clock::ClockPair& now) {
   for (const Alarm& alarm : calibration_.alarms()) report.alarms.push_back(alarm);
   for (const Alarm& alarm : ActiveCalibration::other_devices(settings().serials, report.devices)) {
     report.alarms.push_back(alarm);
+  }
+  if (Alarm alarm = skyline_ ? skyline_->alarm() : Alarm(); !alarm.empty()) {
+    report.alarms.push_back(std::move(alarm));
   }
   for (const Alarm& alarm : persisted_.alarms()) report.alarms.push_back(alarm);
   for (const Alarm& alarm : bus_.alarms()) report.alarms.push_back(alarm);

@@ -14,6 +14,7 @@
 #include "edge/process/device_set.h"
 #include "edge/process/host_monitor.h"
 #include "edge/process/kept_pose.h"
+#include "edge/process/skyline_thread.h"
 #include "edge/process/station_clock.h"
 #include "edge/process/station_journal.h"
 #include "edge/station/persisted_station_state.h"
@@ -50,6 +51,7 @@ class StationProcess {
   double take_frame();  // returns how long it waited for a frame [s]
   void show_frame(const camera::Frame& frame);
   void detect(double now_s);
+  void compare_skyline(double now_s);
   void take_zoom();
   void take_angles();
   std::optional<mount::Goal> goal(const StationOutput& output, double now_s);
@@ -82,8 +84,11 @@ class StationProcess {
   HostMonitor host_;
   PersistedStationState persisted_;
   StationJournal journal_;
-  DeviceSet devices_;
+  // Destroyed after the devices, because these threads finish what they are doing first: the mount
+  // must not wait for them.
   std::optional<DetectorThread> detector_;  // empty if not enabled
+  std::optional<SkylineThread> skyline_;    // empty if no land is configured
+  DeviceSet devices_;
   FrameDesk frames_;
   std::optional<camera::Frame> newest_;
   bool halted_ = false;  // the mount refuses to move until the station is re-armed

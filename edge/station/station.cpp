@@ -67,6 +67,7 @@ void Station::use(const StationGeometry& geometry,
   bearings_.clear();
   motion_.clear();
   pointing_.use(geometry, calibration);
+  ++setup_revision_;
 }
 
 void Station::track(const camera::Frame& frame) {
@@ -169,6 +170,7 @@ void Station::set_reference(mount::Reference reference) {
 // Earlier and later angles are not in the same frame of reference. A station that followed a target
 // looks for it again.
 void Station::forget_angles() {
+  ++setup_revision_;
   pointing_.forget_angles();
   detected_.forget_angles();
   motion_.clear();
@@ -456,6 +458,11 @@ std::optional<video::VideoFrame> Station::video_frame(double mid_exposure_s) con
   const camera::Frame* newest = frames_.find(std::nullopt);
   if (newest == nullptr || newest->mid_exposure_s != mid_exposure_s) return std::nullopt;
   return seen_in(*newest, parts());
+}
+
+std::optional<skyline::StatedPicture> Station::skyline_picture() const {
+  if (mode_.reference() != mount::Reference::kTrusted) return std::nullopt;
+  return station::skyline_picture(frames_.frames(), pointing_);
 }
 
 StationSnapshot Station::snapshot() const {

@@ -21,6 +21,7 @@
 #include "edge/command/watch.h"
 #include "edge/frames/frame_history.h"
 #include "edge/frames/pointing_model.h"
+#include "edge/frames/skyline_picture.h"
 #include "edge/mount/goal.h"
 #include "edge/station/angular_track.h"
 #include "edge/station/bearing_queue.h"
@@ -82,6 +83,7 @@ class Station {
   // Call if the reference views have moved by this much; bearings then include it in their errors.
   void doubt_setup(double heading_sd_rad, double tilt_sd_rad) {
     pointing_.doubt_setup(heading_sd_rad, tilt_sd_rad);
+    ++setup_revision_;
   }
   // Sets whether the PTU's reference is valid. While it is in doubt, the station neither points nor
   // follows slews, and discards angles. It keeps its target, and slews lead back to it later.
@@ -143,6 +145,12 @@ class Station {
   // The newest frame for a viewer, without its utime. nullopt if the frame with this mid-exposure
   // was refused, so that the newest frame is another one.
   std::optional<video::VideoFrame> video_frame(double mid_exposure_s) const;
+  // A recent picture that may show the skyline of the land (skyline_picture.h); nullopt also while
+  // the mount's angles are not trusted.
+  std::optional<skyline::StatedPicture> skyline_picture() const;
+  // Grows when directions before and after are not comparable, or when the setup comes into doubt:
+  // another geometry, moved reference views, a missing or doubted reference of the mount.
+  int setup_revision() const { return setup_revision_; }
 
  private:
   StationParts parts() const {
@@ -195,6 +203,7 @@ class Station {
   double hidden_since_s_ = 0.0;  // while hidden: when that state began
   int believed_in_a_row_ = 0;
   double now_s_ = 0.0;
+  int setup_revision_ = 0;
   std::map<std::string, double> counters_;
 };
 

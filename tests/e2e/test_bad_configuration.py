@@ -69,6 +69,17 @@ def test_a_folder_without_land_is_named(tmp_path, program):
     refused(checked, f"{program}: [land] folder: ", f"{tmp_path}/land.json")
 
 
+def test_a_stations_folder_without_land_is_named(tmp_path):
+    """Only by the check: the station itself runs without it, and says so."""
+    config = tmp_path / "s.toml"
+    config.write_text(f'{GOOD}\n[land]\nfolder = "{tmp_path}"\n')
+    checked = run("ols-station", "--check-config", "--config", str(config))
+    refused(checked, "ols-station: [land] folder: ", f"{tmp_path}/land.json")
+    (tmp_path / "land.json").write_text("{}")
+    checked = run("ols-station", "--check-config", "--config", str(config))
+    refused(checked, f"[land] folder: {tmp_path}/land.json: format: is missing")
+
+
 @pytest.mark.parametrize("option", ["--lcm-url", "--slew-url"])
 def test_fusion_checks_the_urls_of_its_command_line(option):
     url = "udpm://239.255.76.67:7667?ttl=x"

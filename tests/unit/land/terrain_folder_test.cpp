@@ -8,6 +8,7 @@
 #include <functional>
 #include <limits>
 
+#include "base/config/toml_config.h"
 #include "base/files/small_file.h"
 #include "geometry/angles.h"
 #include "tests/unit/error_text.h"
@@ -89,6 +90,19 @@ TEST_F(TerrainFolderTest, DamageIsNamed) {
     EXPECT_NE(refused().find(one.expected), std::string::npos) << refused();
     put("coverings.json", coverings);
   }
+}
+
+TEST_F(TerrainFolderTest, ACheckReadsTheManifestAndTheLengths) {
+  EXPECT_EQ(check_configured_land(path_).radius_km, 1.0);
+  const auto why = [&] { return error_text<ConfigError>([&] { check_configured_land(path_); }); };
+  put("heights-1.f32", "short");
+  EXPECT_NE(why().find("[land] folder: " + path_ + "/heights-1.f32: has 5 bytes, not 24"),
+            std::string::npos)
+      << why();
+  std::filesystem::remove(path_ + "/heights-1.f32");
+  EXPECT_NE(why().find("heights-1.f32"), std::string::npos) << why();
+  put("land.json", "{}");
+  EXPECT_NE(why().find("land.json: format: is missing"), std::string::npos) << why();
 }
 
 TEST(Coverings, BadOnesAreRefused) {

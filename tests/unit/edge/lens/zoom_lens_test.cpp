@@ -37,6 +37,19 @@ TEST(ZoomLens, InterpolatesAndStatesMoreWhileItMoves) {
   EXPECT_GT(later, 5.0 * moving) << "where it is by now is a guess";
 }
 
+TEST(ZoomLens, RestsWhileItsReportsAreTheSame) {
+  ZoomLens lens(table(), 0.001);
+  lens.add({10.0, 0.01, 0.2});
+  EXPECT_FALSE(lens.rests_at(10.0)) << "nothing is known of the time before";
+  lens.add({10.1, 0.01, 0.2005});
+  lens.add({10.2, 0.01, 0.21});
+  EXPECT_EQ(lens.rests_at(10.05), true);
+  EXPECT_EQ(lens.rests_at(10.15), false);
+  EXPECT_FALSE(lens.rests_at(10.25)) << "nor of the time after";
+  lens.add({11.5, 0.01, 0.21});
+  EXPECT_FALSE(lens.rests_at(10.8)) << "it may have moved there and back";
+}
+
 TEST(ZoomLens, SamplesOutOfOrderAreDropped) {
   ZoomLens lens(table(), 0.001);
   lens.add({10.0, 0.01, 0.2});

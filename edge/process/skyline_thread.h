@@ -1,0 +1,55 @@
+// Compares pictures with the skyline of the land in its own thread, with lower priority than the
+// control loop. The thread also reads the land, which takes seconds: a folder that cannot be read
+// is an alarm, and the station runs without it.
+#pragma once
+
+#include <condition_variable>
+#include <mutex>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <thread>
+
+#include "edge/skyline/skyline_watch.h"
+
+namespace ols::station {
+
+class SkylineThread {
+ public:
+  explicit SkylineThread(const std::string& folder);
+  // Waits until the land has been read, or the picture been compared. A picture that is still
+  // waiting is dropped.
+  ~SkylineThread() = default;
+  SkylineThread(const SkylineThread&) = delete;
+  SkylineThread& operator=(const SkylineThread&) = delete;
+
+  // Whether a picture is wanted: some seconds after the last one, once the land has been read.
+  bool wants(double now_s) const;
+  // Never waits. Call it only if wants() says so.
+  void give(skyline::StatedPicture picture);
+  // `setup`: Station::setup_revision(). If it has changed, all that has been seen is forgotten.
+  void follow(int setup);
+  Alarm alarm() const;
+
+ private:
+  void work(const std::stop_token& stop, const std::string& folder);
+  bool read_land(const std::string& folder);
+  void compare(const skyline::StatedPicture& picture);
+
+  // Used by the thread only.
+  std::optional<skyline::SkylineWatch> watch_;
+
+  mutable std::mutex mutex_;  // guards all members below
+  std::condition_variable_any arrived_;
+  mutable std::condition_variable done_;
+  std::optional<skyline::StatedPicture> picture_;
+  bool has_land_ = false;
+  bool works_ = true;     // the land is being read, or a picture is waiting or being compared
+  bool forgets_ = false;  // before the next picture
+  double due_s_ = 0.0;
+  int setup_ = 0;
+  Alarm alarm_;
+  std::jthread thread_;  // last member, because it uses the others
+};
+
+}  // namespace ols::station
