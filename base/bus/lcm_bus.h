@@ -62,7 +62,7 @@ class LcmBus {
 
   // True if nothing has arrived for some seconds, not even this connection's own self-test. An
   // interface that disappears takes the group membership with it, without an error. The connection
-  // then stays deaf; only a new one may receive again.
+  // then stays deaf. To receive again, make a new connection.
   bool is_deaf() const { return unanswered_ >= kUnanswered; }
 
   BusTraffic traffic() const;
@@ -84,7 +84,7 @@ class LcmBus {
   std::uint32_t sequence_ = 0;
   std::uint64_t unsendable_ = 0;
   Wakeup end_;
-  std::thread receiver_;  // shares only the inbox with the others
+  std::thread receiver_;  // shares only the inbox with other threads
   static constexpr double kCheck_s = 2.0;
   static constexpr int kUnanswered = 2;  // self-tests in a row
   double checked_s_ = 0.0;

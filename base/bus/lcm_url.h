@@ -1,6 +1,6 @@
-// The address of a bus, in LCM's notation: udpm://ADDRESS:PORT?ttl=N, or within one process memq://
-// (this connection alone) or memq://NAME (all connections with that name). LCM's other kinds (tcpq,
-// file, mpudpm) are not supported.
+// The address of a bus, in LCM's notation. udpm://ADDRESS:PORT?ttl=N is a multicast group. Within
+// one process, memq://NAME joins all connections with that name, and memq:// is a bus of one
+// connection. LCM's other kinds (tcpq, file, mpudpm) are not supported.
 #pragma once
 
 #include <netinet/in.h>
@@ -22,9 +22,9 @@ BusAddress parse_lcm_url(const std::string& url);
 // The error in the URL; empty: it is valid. For the command line.
 std::string lcm_url_problem(const std::string& url);
 
-// The bus of programs without a configuration. The file `bus_env` names the network interface of
-// the bus (for ols-bus.service), so only the hosts of a site have it. With the file, the bus
-// reaches the other hosts; without it, the bus stays on this host.
+// The bus of programs without a configuration. Only the hosts of a site have the file `bus_env`,
+// which names the network interface of the bus for ols-bus.service. With the file, the bus reaches
+// the other hosts; without it, the bus stays on this host.
 std::string default_lcm_url(const std::string& bus_env = "/etc/ols/bus.env");
 
 }  // namespace ols

@@ -26,12 +26,11 @@ namespace ols::trust {
 
 // The process as a member of the site.
 struct Self {
-  std::string name{};        // finds its key file by this name, unless the configuration names a
-                             // file
+  std::string name{};  // its key file has this name, unless the configuration names another file
   std::int64_t boot_id = 0;  // in the messages that it sends
   bool is_station = false;   // commands to `name` must name the boot `boot_id`
-  bool commands = false;     // shows and commands stations, so it also needs the statuses of those
-                             // with a wrong clock
+  bool commands = false;     // shows and commands stations, so it accepts the statuses of stations
+                             // with a wrong clock, too
   bool tells_list = false;   // publishes the trust list
   bool keeps_marks = false;  // its marks against replays survive a restart
   SettingsCheck settings{};  // checks the site's settings; none: the process only passes them on
@@ -68,15 +67,15 @@ class BusTrust {
   // if that is known.
   std::vector<std::uint8_t> sign(const std::string& channel, Bytes payload);
   // Whether BusTrust itself needs the messages of this channel, even if the process has not
-  // subscribed to it. These are the trust list and, for a sender of commands, the statuses from
-  // which it learns the stations' boots.
+  // subscribed to it. These are the trust list, the site's settings and, unless the process is a
+  // station, the stations' statuses and replies, which tell the stations' boot ids.
   bool wants(std::string_view channel) const;
   // Verifies a received message. Called from the receiving thread.
   Judgement judge(std::string_view channel, Bytes message, std::int64_t utime_us, double now_s);
 
-  // The list or the settings, when they are due for publication; otherwise nullopt. A process that
-  // does not normally publish the list still does so when a member publishes an older one: a
-  // restored centre does not know what was revoked.
+  // The list or the settings, when they are due for publication; otherwise nullopt. The centre
+  // publishes the list (tells_list). Any other process does so after a member has published an
+  // older list: a centre that was restored from a backup does not know which keys were revoked.
   std::optional<std::string> list_to_tell(double now_s);
   std::optional<std::string> settings_to_tell(double now_s);
   static constexpr double kTell_s = 2.0;
