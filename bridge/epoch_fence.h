@@ -1,9 +1,10 @@
 // Decides which owner's commands a station obeys: those with the greatest epoch. Pure.
 //
-// Epochs are revisions of one store, so they grow over all targets and owners: of two commands, the
-// one with the greater epoch comes from the later owner. The command of an owner that does not yet
-// know that it was replaced is thereby ignored. Epochs are not signed. Impossible ones are
-// therefore refused, and those of a sender that is silent for a minute are forgotten.
+// Epochs are revisions of one store, so they grow over all targets and owners. Of two commands, the
+// one with the greater epoch therefore comes from the later owner. So the commands of an owner that
+// was replaced are ignored, even while that owner does not know it yet. Epochs are not signed.
+// Impossible ones are therefore refused, and those of a sender that is silent for a minute are
+// forgotten.
 #pragma once
 
 #include <cstdint>

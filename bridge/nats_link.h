@@ -91,7 +91,7 @@ class NatsLink {
   Tally tally_;
   mutable std::mutex mutex_;
   std::condition_variable ended_;
-  std::size_t callers_ = 0;  // library threads that are still to call back; under the lock
+  std::size_t callers_ = 0;  // library threads that have not called back yet; under the lock
   Said said_;                // under the lock
 };
 

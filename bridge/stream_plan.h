@@ -25,8 +25,8 @@ struct StreamPlan {
 // nullopt if no stream is configured.
 std::optional<StreamPlan> plan_stream(const BridgeConfig& config);
 
-// Whether an existing stream of that name, with these subjects and sources, is the planned one or
-// that of an earlier configuration. Then all that it stores is from this region or site.
+// Whether an existing stream of the planned name belongs to this bridge, by its subjects and
+// sources: all that it stores is from this region or site. It may be of an earlier configuration.
 bool is_same_stream(const BridgeConfig& config, const std::vector<std::string>& subjects,
                     const std::vector<std::string>& sources);
 

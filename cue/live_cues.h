@@ -58,8 +58,8 @@ class LiveCues {
     std::int64_t until_us = 0;
   };
   void judge(std::size_t input, const Report& report, std::int64_t now_us);
-  // Removes expired cues. Also removes cues with a future time, which a clock that was set back has
-  // left.
+  // Removes expired cues. Also removes cues whose time is in the future: they are from before the
+  // host's clock was set back.
   void forget(std::int64_t now_us);
   bool is_full(std::size_t input) const;
   void refuse(std::size_t input, const Refused& refused);

@@ -9,7 +9,7 @@
 namespace ols::exports {
 
 struct Conversion {
-  std::string log;    // an LCM log; or
+  std::string log;    // an LCM log; empty: `fixes` is read
   std::string fixes;  // ols-fuse's CSV
   Format format = Format::kGeoJson;
   std::string output;

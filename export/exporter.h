@@ -16,7 +16,7 @@ namespace ols::exports {
 
 class Exporter {
  public:
-  // max_age_s: records whose time differs more from the present are not sent.
+  // max_age_s: a record whose time differs from the present by more than this is not sent.
   Exporter(SiteContext site, std::vector<std::unique_ptr<Output>> outputs, double max_age_s);
 
   void hear(const BusMessage& message, std::int64_t now_utime_us);

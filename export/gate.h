@@ -30,7 +30,8 @@ class Gate {
   // Incidents are few, and pass at any rate.
   bool passes(const Incident& incident) const;
 
-  static constexpr double kLeastBelief = 0.5;  // min belief of a line; as the fusion's own limit
+  // Min belief of a line; the fusion has the same limit for bearings.
+  static constexpr double kLeastBelief = 0.5;
 
  private:
   struct Last {

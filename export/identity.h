@@ -1,6 +1,6 @@
-// Names that stay the same. They are computed from the bus's data and not counted here. So an
-// object keeps its name when ols-export restarts, and has the same name in a second ols-export.
-// Pure.
+// Permanent names of objects. A name is computed from the object's messages alone, without a
+// counter of this process. So an object keeps its name when ols-export restarts, and has the same
+// name in a second ols-export. Pure.
 #pragma once
 
 #include <cstdint>

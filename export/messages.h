@@ -1,5 +1,5 @@
-// Converts messages of the bus to records. It only decides whether a message is valid. Never
-// throws, whatever the bytes.
+// Converts messages of the bus to records. The only decision made here is whether a message is
+// valid. Never throws, whatever the bytes.
 #pragma once
 
 #include <functional>

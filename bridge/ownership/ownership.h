@@ -1,6 +1,6 @@
 // Decides which of several fusions that see the same target owns it. The owner publishes the target
-// and slews stations to it. All fusions track it; only the one that publishes changes. Pure: the
-// store's contents come in, requests to the store go out.
+// and slews stations to it. All fusions track the target, whoever owns it. Pure: the store's
+// contents come in, requests to the store go out.
 //
 // An owner renews its record by compare-and-set. A fusion that takes over the target does the same,
 // so only one of the two succeeds. An owner counts its lease from before it sent the renewal, and
@@ -124,8 +124,8 @@ class Ownership {
     bool is_doubted = false;      // another fusion has taken it, as far as known
     std::uint64_t epoch = 0;      // if owned
     double held_until_s = -1e9;   // if owned: its lease
-    double doubled_since_s = -1;  // if owned: since when another has a record of the same target;
-                                  // 0: none
+    double doubled_since_s = -1;  // if owned: since when another fusion has a record of the same
+                                  // target; negative: there is no such record
   };
   struct Seen {
     Track track;

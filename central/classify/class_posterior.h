@@ -54,9 +54,9 @@ struct ClassLook {
   Measured flicker;
 };
 
-// A look at a target, but for its height, from three inputs: the sizes that one station saw within
-// the last second; the velocities (east, north, up) now and `apart_s` before; and the velocities'
-// 1-sigma, each axis.
+// A look at a target, without its height, which the caller adds. `sizes`: those that one station
+// saw within the last second. Velocities (east, north, up): now, and `apart_s` before;
+// velocity_sd_m_s: their 1-sigma, each axis.
 ClassLook look_at(const std::vector<SeenSize>& sizes, const std::array<double, 3>& velocity_m_s,
                   const std::array<double, 3>& before_m_s, double apart_s, double velocity_sd_m_s);
 

@@ -2,12 +2,13 @@
 // bearing at its own instant. Pure.
 //
 // State: position, velocity, acceleration (ECEF components). For each contributing station: the
-// rotation error of its pose (about its east, north, up), its clock's offset and, where relevant,
-// the error of its position together with its aim. The rotation and the position error are constant
-// while the tripod stands, the aim until the next designation; the bias on the tangent plane
-// changes with the direction. All are Gauss-Markov processes with the prior of BiasModel.
-// Observable errors are estimated; the others are only considered (Schmidt). The position's
-// covariance contains both kinds, so averaging does not remove them.
+// rotation error of its pose (about its east, north, up), its clock's offset, the elevation error
+// that is fixed in its camera and, where relevant, the error of its position together with its aim.
+// The rotation and the position error are constant while the tripod stands, the aim until the next
+// designation; the bias on the tangent plane changes with the direction. All are Gauss-Markov
+// processes with the prior of BiasModel. Observable errors are estimated; the others are only
+// considered (Schmidt). The position's covariance contains both kinds, so averaging does not remove
+// them.
 //
 // A newer bearing propagates the state to its own instant. A late bearing is compared with the
 // target's position at the bearing's own instant, extrapolated by velocity and acceleration. A far

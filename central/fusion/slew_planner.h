@@ -89,9 +89,9 @@ struct SlewRound {
   std::set<std::int64_t> targets{};               // targets to which stations may be led
   Allocation allocation{};                        // of the stations to the targets
   std::set<std::string> bearing_only_stations{};  // stations that have a bearing-only track
-  std::set<std::string> busy{};                   // of these, by their trackers
-  std::optional<CueRay> ray{};                    // the ray along which stations search
-  LinePrior prior{};                              // where on the ray the target is expected
+  std::set<std::string> busy{};               // those of them whose own tracker follows the object
+  std::optional<CueRay> ray{};                // the ray along which stations search
+  LinePrior prior{};                          // where on the ray the target is expected
   std::map<std::string, LineShare> shares{};  // shares of the stations that search along the ray
   std::vector<CueAim> cues{};                 // cues to which stations may be led
   std::string cue_on_ray{};                   // id of the cue near which the ray passes
@@ -125,7 +125,7 @@ class SlewPlanner {
  private:
   struct Search {
     std::int64_t target_id = 0;  // the target to which the station is led
-    std::string ray;             // or the station whose ray is searched, or the cue
+    std::string ray;  // without a target: the ray that is searched (STATION/TRACK), or a cue
     std::int64_t begun_us = 0;
     std::optional<LineSweep> sweep{};  // sweep along that ray
     std::optional<double> turn_s{};    // time that the unit needs to turn to a cue

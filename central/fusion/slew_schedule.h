@@ -51,18 +51,20 @@ class SlewSchedule {
   void find_what_is_let_go(const std::vector<Track>& tracks, const HandoverPolicy& handover);
   // A station, and its own id of the tracklet.
   using TrackletName = std::pair<std::string, std::int64_t>;
-  static constexpr double kSearched_s = 10.0;  // the line of one object, at most
+  // How long the line of one object is searched at most.
+  static constexpr double kSearched_s = 10.0;
   struct Tracklet {
     std::int64_t noted_us = 0, seen_us = 0;
-    double searched_s = 0.0;       // how long stations have been led along its line
-    std::int64_t target = 0;       // the one that it was of, if that leads stations; else 0
-    double stays_s = kSearched_s;  // a tracker, after noted_us
+    double searched_s = 0.0;  // how long stations have been led along its line
+    // The target to which it last belonged, if that target leads stations; otherwise 0.
+    std::int64_t target = 0;
+    double stays_s = kSearched_s;  // how long a tracker stays with the object after noted_us
   };
   const BearingMeasurement* line_of(const std::string& station,
                                     const std::vector<const BearingMeasurement*>& own);
-  // How often its line has had its turn; nullopt: it is not to be searched.
+  // How many turns the search along its line has had; nullopt: it must not be searched now.
   std::optional<int> turn_of(const TrackletName& tracklet);
-  // In the order in which lines are searched (cue()).
+  // Sorts the lines: the first is searched. See cue().
   using LineKey = std::tuple<bool, int, bool, bool, std::string>;
   struct SearchedLine {
     BearingMeasurement newest;
@@ -87,8 +89,8 @@ class SlewSchedule {
   std::map<std::string, std::int64_t> let_go_;  // by station: what its tracker follows
   // By station: the target that it sees, while it is lent to another one or to a line.
   std::map<std::string, std::int64_t> lent_;
-  std::optional<std::pair<LineKey, SearchedLine>> line_;  // along which stations search
-  // Of objects with a position, and of those without.
+  std::optional<std::pair<LineKey, SearchedLine>> line_;  // the line along which stations search
+  // What is known of objects that stations see, with and without a position.
   std::map<TrackletName, Tracklet> tracklets_;
   std::optional<std::int64_t> begun_us_;  // start of the last round
   std::optional<std::string> next_;  // the next station of the round; nullopt if the round is over

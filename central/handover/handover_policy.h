@@ -86,8 +86,8 @@ class HandoverPolicy {
     bool has_led = false;
     bool is_live = false;           // there is a track of this target
     std::optional<bool> allowed{};  // the operator's decision
-    // The trackers there when it was dismissed: station and its own id of the object. Not known
-    // until the next look.
+    // The trackers that followed it when it was dismissed, each as station and track id. Empty
+    // until the tracks have been looked at after the dismissal.
     std::optional<std::set<std::pair<std::string, std::int64_t>>> dismissed{};
   };
   void note(const Track& track, std::int64_t now_us);

@@ -43,8 +43,8 @@ struct LinePrior {
 // unknown.
 std::optional<LinePrior> range_by_size(const CueRay& ray);
 
-// Both together, by the logarithm of the range. A second one that does not exclude a range of zero
-// says nothing: then it is the first.
+// Combines both, by the logarithm of the range. If the sigma of `second` is as large as its range,
+// `second` says nothing, and the result is `first`.
 LinePrior combined(const LinePrior& first, const LinePrior& second);
 
 // The part of the line with which one searching station begins.

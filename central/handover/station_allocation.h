@@ -4,10 +4,10 @@
 // more, or with at least half the sine of the best pair that the site has for it. All other
 // stations are free.
 //
-//  - The good pair of a target consists of stations that see it. A station that sees a target
-//    leaves it only if others that see it are a good pair, or, where no other station helps, for a
-//    target without a good pair and with 1.5 times the priority. An operator's target keeps all of
-//    its trackers. Any other station may be moved.
+//  - The good pair of a target consists of stations that see it. A station that sees a target can
+//    be spared if the others that see it are a good pair. A station that cannot be spared leaves
+//    its target only for one with 1.5 times the priority, and only if spared stations give that one
+//    no good pair. An operator's target keeps all of its trackers. Any other station may be moved.
 //  - Targets without a good pair come first. Pairs of target and station are served in the order of
 //    priority divided by (0.5 s + time to turn there), the highest first. A station that is on its
 //    way counts as being there.

@@ -19,8 +19,8 @@ struct Appearance {
 
 // Uses the newest bearing of each station that says what it has seen, for a target at this
 // position: the weighted mean of the sizes, and the largest signal. The class is that of the
-// track's whole life, unless stations state classes for their images: then it follows from all of
-// these.
+// track's whole life. If stations state classes for their images, the class follows from these
+// alone.
 Appearance appearance_of(const Track& track, const Eigen::Vector3d& p_ecef);
 
 // Lets the track's classifier take a look, at most five times a second. surface: of the land; may

@@ -1,5 +1,5 @@
-// Gives each object an identity that stays the same while it is a track, and before and after that
-// while it is a bearing-only track. Pure.
+// Gives each object an identity. The object keeps it when it changes between bearing-only track and
+// target. Pure.
 #pragma once
 
 #include <cstdint>

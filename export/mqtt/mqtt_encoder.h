@@ -1,5 +1,5 @@
-// MQTT: flat JSON of targets, stations and lines, and Home Assistant's MQTT discovery, by which it
-// finds them by itself. Pure.
+// MQTT: flat JSON of targets, stations and lines. Home Assistant finds them by itself, from
+// messages of its MQTT discovery. Pure.
 //
 // PREFIX is [mqtt] prefix and the name of the site: several sites may share a broker.
 //

@@ -15,8 +15,7 @@ struct OutletReport {
   std::uint64_t sent = 0;        // packets handed over
   std::uint64_t bytes = 0;       // bytes of these packets
   std::uint64_t displaced = 0;   // replaced by newer ones, or dropped, before they were sent
-  std::uint64_t failures = 0;    // connections that failed or broke; for datagrams and files, each
-                                 // one
+  std::uint64_t failures = 0;    // connections that failed or broke; datagrams or files that failed
   std::uint64_t openings = 0;    // connections made
   std::uint64_t complaints = 0;  // messages that the receiver has reported as wrong
 };

@@ -7,8 +7,8 @@ struct addrinfo;
 
 namespace ols::exports {
 
-// Call for any TCP connection. Keeps unsent data in our queue, where a newer message replaces an
-// older one, and out of the system's buffer of megabytes.
+// Call for any TCP connection. Limits the unsent data in the system's buffer, which otherwise takes
+// megabytes. The rest stays in our queue, where a newer message replaces an older one.
 void keep_unsent_short(int descriptor);
 
 class TcpSocket {
