@@ -1,5 +1,5 @@
-// An instant as black and white squares in a picture, which survive every encoder: for tests and
-// measurements of what a picture's time is. Pure.
+// Draws an instant into a picture, as black and white squares that survive every encoder. Tests and
+// measurements compare it with the time that a station gives the picture. Pure.
 #pragma once
 
 #include <cstdint>

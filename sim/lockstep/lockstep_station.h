@@ -25,8 +25,8 @@
 
 namespace ols::sim {
 
-// The station's result and the truth for one frame: of a station without a designation, or after
-// it.
+// The station's result and the truth for one frame. There is none while the station waits for its
+// designation.
 struct FrameNote {
   double mid_s = 0.0;  // true time since the scenario's start
   station::StationState state = station::StationState::kIdle;
@@ -81,7 +81,8 @@ class LockstepStation {
     station::FrameService unit;
     station::SightingDesk desk = {};
   };
-  // Its result takes some time, as with the detector's thread.
+  // The detector. A result is available only after some time, as on a station, where the detector
+  // has a thread of its own.
   struct Detection {
     detector::PictureDetector detector;
     std::optional<detector::Found> found{};

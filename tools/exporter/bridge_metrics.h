@@ -10,8 +10,8 @@
 
 namespace ols::exporter {
 
-// status: the file's text; empty: there is no file. Without a fresh status, the only metric says
-// that the bridge does not run.
+// status: the file's text; empty: there is no file. If the status is older than kStaleBridge_s or
+// missing, the only metric says that the bridge does not run.
 inline constexpr double kStaleBridge_s = 10.0;
 std::vector<prometheus::MetricFamily> bridge_metrics(const std::string& status,
                                                      std::int64_t utime_us);

@@ -12,7 +12,8 @@ struct PlannedFile {
   std::string path;  // from the root of the file system
   std::string text;
   bool is_toml = true;
-  // A line of the package's own file, in which nobody has made a choice yet.
+  // A line of the file as another package installs it. While the file contains this line, nobody
+  // has configured it, and setup may replace it. Empty: no package installs the file.
   std::string unchosen{};
 };
 
