@@ -1,7 +1,5 @@
 // What a station makes of the skyline of the land: its whole process in simulated time, with the
 // thread that reads the land and compares the pictures. The station watches its horizon.
-#include <fstream>
-
 #include "geometry/angles.h"
 #include "land/terrain_folder.h"
 #include "sim/world/land_model.h"
@@ -33,47 +31,40 @@ sim::Scenario among_hills() {
          .height_m = 60.0 + 20.0 * (i * 5 % 7),
          .width_m = {90.0 + 10.0 * (i % 5), 150.0}});
   }
-  s.relief.model = {.reach_m = 3200.0, .spacing_m = 20.0, .sd_m = 0.3, .length_m = 600.0};
+  s.relief.model = {.reach_m = 3200.0, .spacing_m = 10.0, .sd_m = 0.3, .length_m = 600.0};
   return s;
 }
 
 // The folder of the land as a survey has it.
-class LandOfSite {
- protected:
-  explicit LandOfSite(const sim::Scenario& scenario) {
-    const LocalFrame site(scenario.origin);
-    const sim::LandModel model = sim::survey(scenario.relief, site, 5);
-    const land::HeightGrid& grid = model.grid;
-    const land::GridFile form{"",
-                              "",
-                              degrees(grid.north_rad),
-                              degrees(grid.west_rad),
-                              degrees(grid.step_latitude_rad),
-                              degrees(grid.step_longitude_rad),
-                              grid.rows,
-                              grid.columns,
-                              grid.sd_m};
-    land::write_terrain_folder(land_,
-                               {.latitude_deg = degrees(scenario.origin.latitude_rad),
-                                .longitude_deg = degrees(scenario.origin.longitude_rad),
-                                .radius_km = 3.0},
-                               {{form, *model.heights_m}}, {});
-  }
+void write_land(const sim::Scenario& scenario, const std::string& path) {
+  const sim::LandModel model = sim::survey(scenario.relief, LocalFrame(scenario.origin), 5);
+  const land::HeightGrid& grid = model.grid;
+  const land::GridFile form{"",
+                            "",
+                            degrees(grid.north_rad),
+                            degrees(grid.west_rad),
+                            degrees(grid.step_latitude_rad),
+                            degrees(grid.step_longitude_rad),
+                            grid.rows,
+                            grid.columns,
+                            grid.sd_m};
+  land::write_terrain_folder(path,
+                             {.latitude_deg = degrees(scenario.origin.latitude_rad),
+                              .longitude_deg = degrees(scenario.origin.longitude_rad),
+                              .radius_km = 3.0},
+                             {{form, *model.heights_m}}, {});
+}
 
-  TemporaryFolder folder_of_land_;
-  const std::string land_ = folder_of_land_ / "land";
-};
-
-class StationSkyline : protected LandOfSite, public test::StationInSimulatedTime {
+class StationSkyline : public test::StationInSimulatedTime {
  protected:
-  StationSkyline() : StationSkyline(0.0) {}
-  explicit StationSkyline(double wrong_rad, const std::string& folder = "")
-      : LandOfSite(among_hills()),
-        StationInSimulatedTime(among_hills(), [&](StationSettings& settings) {
-          settings.land_folder = folder.empty() ? land_ : folder;
+  StationSkyline() : StationSkyline(0.0, true) {}
+  StationSkyline(double wrong_rad, bool has_land)
+      : StationInSimulatedTime(among_hills(), [=](StationSettings& settings) {
+          settings.land_folder = settings.state_folder + "/land";
+          if (has_land) write_land(among_hills(), settings.land_folder);
+          const double heading_rad = settings.station.geometry.chain.heading_rad;
           settings.station.geometry.chain.heading_rad += wrong_rad;
-          settings.station.watch.middle = {settings.station.geometry.chain.heading_rad,
-                                           radians(2.0)};
+          settings.station.watch.middle = {heading_rad, radians(2.0)};
           settings.station.watch.size_rad = {radians(290.0), radians(5.0)};
         }) {}
 
@@ -95,12 +86,12 @@ class StationSkyline : protected LandOfSite, public test::StationInSimulatedTime
 
 class StationWithWrongHeading : public StationSkyline {
  protected:
-  StationWithWrongHeading() : StationSkyline(kWrong_rad) {}
+  StationWithWrongHeading() : StationSkyline(kWrong_rad, true) {}
 };
 
 class StationWithoutReadableLand : public StationSkyline {
  protected:
-  StationWithoutReadableLand() : StationSkyline(0.0, "/nowhere") {}
+  StationWithoutReadableLand() : StationSkyline(0.0, false) {}
 };
 
 TEST_F(StationWithWrongHeading, SaysSoUntilItsReferenceIsInDoubt) {
@@ -118,7 +109,7 @@ TEST_F(StationSkyline, ARightHeadingIsNeverDisputedAndAKnockIsNoticed) {
 
 TEST_F(StationWithoutReadableLand, SaysSoAndWorks) {
   EXPECT_TRUE(is_said("heading: not compared with the skyline of the land: "));
-  EXPECT_TRUE(says("/nowhere/land.json"));
+  EXPECT_TRUE(says("/land/land.json"));
   EXPECT_TRUE(give(Command::COMMAND_POINT, 0.2));
 }
 
