@@ -18,6 +18,7 @@ StationConfig config() {
   config.geometry.sd.tilt_rad = radians(0.01);
   config.geometry.sd.position_m = 0.3;
   config.angles.step_rad = 0.0;
+  config.angles.acceleration_sd_rad_s2 = 0.0;
   return config;
 }
 

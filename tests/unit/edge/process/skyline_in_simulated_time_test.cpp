@@ -102,7 +102,7 @@ TEST_F(StationWithWrongHeading, SaysSoUntilItsReferenceIsInDoubt) {
 }
 
 TEST_F(StationSkyline, ARightHeadingIsNeverDisputedAndAKnockIsNoticed) {
-  EXPECT_FALSE(time_.pass(12.0 * kRound_s, [this] { return !said().empty(); })) << said();
+  EXPECT_FALSE(time_.pass(6.0 * kRound_s, [this] { return !said().empty(); })) << said();
   knock(degrees(2.0 * kWrong_rad));
   EXPECT_TRUE(time_.pass(6.0 * kRound_s, [this] { return says(kDisagrees); })) << said();
 }
