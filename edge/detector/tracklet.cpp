@@ -130,9 +130,9 @@ void Tracklet::measure_outline(const cv::Mat& gray) {
   if (seen_) outline_ = outline_at(gray, measured_pixel_, measured_size_px_.maxCoeff());
 }
 
-void Tracklet::confirm() {
+void Tracklet::confirm(bool before_sky) {
   confirmed_ = true;
-  confirmed_clear_ = confirmed_clear_ || mostly_clear();
+  confirmed_clear_ = confirmed_clear_ || (before_sky && mostly_clear());
 }
 
 void Tracklet::weigh(double log_ratio, double most) {

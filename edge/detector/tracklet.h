@@ -36,7 +36,7 @@ class Tracklet {
   // to `most`.
   void weigh(double log_ratio, double most);
   double log_ratio() const { return log_ratio_; }
-  void confirm();
+  void confirm(bool before_sky);
   void doubt() { confirmed_ = false; }
   bool confirmed() const { return confirmed_; }
   bool confirmed_clear() const { return confirmed_clear_; }  // it was confirmed by clear spots

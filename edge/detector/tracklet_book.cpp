@@ -72,6 +72,14 @@ void TrackletBook::weigh_miss(Tracklet& tracklet) {
   tracklet.weigh(std::log(1.0 - config_.detected), needed(tracklet) + kReserve);
 }
 
+// No clear sky shows something new in each image: waves on a dark sea, stars, or rain.
+bool TrackletBook::crowded(const Eigen::Vector2d& pixel) const {
+  constexpr double kMost = 1.0;  // detections in a tile and image
+  const double tile_px2 =
+      static_cast<double>(image_.area()) / (ClutterMap::kColumns * ClutterMap::kRows);
+  return clutter_.density(pixel) * tile_px2 > kMost;
+}
+
 // While the camera turns, what moves along with the scene is a part of it, and what stays where it
 // is in the image is a part of the camera: a speck on the lens, a burnt-in text.
 bool TrackletBook::belongs_to_scene_or_camera(const Tracklet& tracklet) const {
@@ -87,14 +95,15 @@ bool TrackletBook::belongs_to_scene_or_camera(const Tracklet& tracklet) const {
 // misaligned image. A spot in front of a clear sky need not move.
 bool TrackletBook::moves_or_flies(const Tracklet& tracklet) const {
   if (belongs_to_scene_or_camera(tracklet)) return false;
-  if (tracklet.mostly_clear()) return true;
+  if (tracklet.mostly_clear() && !crowded(tracklet.pixel())) return true;
   const double way_px = tracklet.way_px();
   return way_px > 5.0 + 0.5 * tracklet.size_px().minCoeff() &&
          way_px > config_.least_directness * tracklet.path_px();
 }
 
 void TrackletBook::judge(Tracklet& tracklet) const {
-  if (tracklet.log_ratio() >= needed(tracklet) && moves_or_flies(tracklet)) tracklet.confirm();
+  if (tracklet.log_ratio() >= needed(tracklet) && moves_or_flies(tracklet))
+    tracklet.confirm(!crowded(tracklet.pixel()));
   if (tracklet.rests() && !tracklet.confirmed_clear()) tracklet.doubt();
   if (belongs_to_scene_or_camera(tracklet)) tracklet.doubt();
 }

@@ -32,6 +32,10 @@ class TrackletBook {
   // `motion` maps pixels of the previous image to the present one; nullopt if unknown.
   void advance(const std::vector<Detection>& detections,
                const std::optional<Eigen::Matrix3d>& motion, double interval_s);
+  // The motion that was given so far was not the scene's.
+  void forget_ways() {
+    for (Tracklet& tracklet : tracklets_) tracklet.forget_way();
+  }
   const std::vector<Tracklet>& tracklets() const { return tracklets_; }
 
  private:
@@ -42,6 +46,7 @@ class TrackletBook {
   // The threshold of the sequential test in the tracklet's tile [log].
   double needed(const Tracklet& tracklet) const;
   void judge(Tracklet& tracklet) const;
+  bool crowded(const Eigen::Vector2d& pixel) const;
   bool belongs_to_scene_or_camera(const Tracklet& tracklet) const;
   bool moves_or_flies(const Tracklet& tracklet) const;
   bool hopeless(const Tracklet& tracklet) const;

@@ -157,24 +157,47 @@ TEST(TrackletBook, WhatFlewIsNotDoubtedWhenItHoversBeforeTheGround) {
   EXPECT_EQ(confirmed(book), 1);
 }
 
-TEST(TrackletBook, CrowdedTileNeedsMoreThanAnEmptyOne) {
-  std::mt19937 random(5);
-  std::uniform_real_distribution<double> x(0.0, 80.0), y(0.0, 80.0);  // the first tile
-  TrackletBook book(TrackletConfig{}, kView);
-  const auto clutter = [&](std::vector<Detection> detections) {
-    for (int i = 0; i < 5; ++i) detections.push_back(clear_spot(x(random), y(random)));
+// Five spots in each image, somewhere in the first tile: waves of a dark sea.
+class Waves {
+ public:
+  std::vector<Detection> with(std::vector<Detection> detections) {
+    for (int i = 0; i < 5; ++i) detections.push_back(clear_spot(x_(random_), y_(random_)));
     return detections;
-  };
-  for (int image = 0; image < 300; ++image) book.advance(clutter({}), kStill, kTick_s);
+  }
+
+ private:
+  std::mt19937 random_{5};
+  std::uniform_real_distribution<double> x_{0.0, 80.0}, y_{0.0, 80.0};
+};
+
+TEST(TrackletBook, AmongWavesOnlyWhatTravelsIsConfirmed) {
+  for (const double step_px : {0.0, 0.3}) {
+    Waves waves;
+    TrackletBook book(TrackletConfig{}, kView);
+    for (int image = 0; image < 300; ++image) book.advance(waves.with({}), kStill, kTick_s);
+    long most = 0;
+    for (int image = 0; image < 150; ++image) {
+      book.advance(waves.with({clear_spot(20.0 + step_px * image, 40.0)}), kStill, kTick_s);
+      most = std::max(most, confirmed(book));
+    }
+    EXPECT_EQ(most, step_px > 0.0 ? 1 : 0) << step_px;
+  }
+}
+
+TEST(TrackletBook, CrowdedTileNeedsMoreThanAnEmptyOne) {
+  Waves waves;
+  TrackletBook book(TrackletConfig{}, kView);
+  for (int image = 0; image < 300; ++image) book.advance(waves.with({}), kStill, kTick_s);
   int quiet = 0;
   while (confirmed(book) == 0 && quiet < 60) {
-    book.advance(clutter({clear_spot(400.0, 300.0)}), kStill, kTick_s);
+    book.advance(waves.with({clear_spot(400.0, 300.0)}), kStill, kTick_s);
     ++quiet;
   }
   EXPECT_LT(quiet, 20) << "the clutter of one corner makes the rest blind";
   int crowded = 0;
   while (confirmed(book) == 1 && crowded < 120) {
-    book.advance(clutter({clear_spot(400.0, 300.0), clear_spot(40.0, 40.0)}), kStill, kTick_s);
+    const Detection travels = clear_spot(20.0 + crowded, 40.0);
+    book.advance(waves.with({clear_spot(400.0, 300.0), travels}), kStill, kTick_s);
     ++crowded;
   }
   EXPECT_GT(crowded, quiet);
