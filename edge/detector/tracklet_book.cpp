@@ -12,6 +12,7 @@ namespace {
 constexpr double kGate = 16.0;      // squared standard deviations
 constexpr double kReserve = 6.0;    // [log] that a confirmed tracklet keeps for misses
 constexpr double kRejected = -2.5;  // [log] the test's lower bound
+constexpr double kFixed_px = 1.5;   // no controller holds a target as still as that
 
 }  // namespace
 
@@ -72,40 +73,53 @@ void TrackletBook::weigh_miss(Tracklet& tracklet) {
   tracklet.weigh(std::log(1.0 - config_.detected), needed(tracklet) + kReserve);
 }
 
-// No clear sky shows something new in each image: waves on a dark sea, stars, or rain.
+// No clear sky shows something new all the time: waves on a dark sea, stars in haze, or rain.
 bool TrackletBook::crowded(const Eigen::Vector2d& pixel) const {
-  constexpr double kMost = 1.0;  // detections in a tile and image
-  const double tile_px2 =
-      static_cast<double>(image_.area()) / (ClutterMap::kColumns * ClutterMap::kRows);
-  return clutter_.density(pixel) * tile_px2 > kMost;
+  constexpr double kMost = 2.0;  // tracklets that begin in a tile in a second
+  return clutter_.starts_an_hour(pixel) > 3600.0 * kMost;
 }
 
 // While the camera turns, what moves along with the scene is a part of it, and what stays where it
 // is in the image is a part of the camera: a speck on the lens, a burnt-in text.
 bool TrackletBook::belongs_to_scene_or_camera(const Tracklet& tracklet) const {
-  constexpr double kTold_px = 4.0;   // a smaller turn tells nothing: the motion's own error
-  constexpr double kAlong = 0.2;     // of the turn: parallax, and the error again
-  constexpr double kFixed_px = 1.5;  // no controller holds a target as still as that
+  constexpr double kTold_px = 4.0;  // a smaller turn tells nothing: the motion's own error
+  constexpr double kAlong = 0.2;    // of the turn: parallax, and the error again
   const double shift_px = tracklet.scene_shift_px();
   if (shift_px < kTold_px) return false;
   return tracklet.way_px() < kTold_px / 2.0 + kAlong * shift_px || tracklet.reach_px() < kFixed_px;
 }
 
+// A defect of the sensor shows again after a gap, and when the camera rests.
+void TrackletBook::remember_defect(const Tracklet& tracklet) {
+  constexpr double kCertain_px = 16.0;
+  constexpr std::size_t kMost = 50;
+  if (tracklet.scene_shift_px() < kCertain_px || tracklet.reach_px() >= kFixed_px) return;
+  if (!at_defect(tracklet) && defects_.size() < kMost) defects_.push_back(tracklet.first_pixel());
+}
+
+bool TrackletBook::at_defect(const Tracklet& tracklet) const {
+  const auto here = [&](const Eigen::Vector2d& defect) {
+    return (tracklet.first_pixel() - defect).norm() < kFixed_px;
+  };
+  return tracklet.reach_px() < kFixed_px && std::ranges::any_of(defects_, here);
+}
+
 // What stands still in front of the ground is a part of it: foliage, a stone, an edge of a
 // misaligned image. A spot in front of a clear sky need not move.
 bool TrackletBook::moves_or_flies(const Tracklet& tracklet) const {
-  if (belongs_to_scene_or_camera(tracklet)) return false;
+  if (belongs_to_scene_or_camera(tracklet) || at_defect(tracklet)) return false;
   if (tracklet.mostly_clear() && !crowded(tracklet.pixel())) return true;
   const double way_px = tracklet.way_px();
   return way_px > 5.0 + 0.5 * tracklet.size_px().minCoeff() &&
          way_px > config_.least_directness * tracklet.path_px();
 }
 
-void TrackletBook::judge(Tracklet& tracklet) const {
+void TrackletBook::judge(Tracklet& tracklet) {
   if (tracklet.log_ratio() >= needed(tracklet) && moves_or_flies(tracklet))
     tracklet.confirm(!crowded(tracklet.pixel()));
   if (tracklet.rests() && !tracklet.confirmed_clear()) tracklet.doubt();
   if (belongs_to_scene_or_camera(tracklet)) tracklet.doubt();
+  remember_defect(tracklet);
 }
 
 bool TrackletBook::hopeless(const Tracklet& tracklet) const {
