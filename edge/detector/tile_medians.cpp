@@ -5,24 +5,26 @@
 namespace ols::detector {
 namespace {
 
-// The upper median, by bisection of its value: counting takes the processor a tenth of the time of
-// std::nth_element().
+// The upper median, by bisection of its value: counting takes the processor a fraction of the time
+// of std::nth_element().
 std::int16_t median_of(const std::vector<std::int16_t>& sample) {
-  const auto [least, greatest] = std::minmax_element(sample.begin(), sample.end());
-  int low = *least, high = *greatest;
+  std::int16_t low = sample.front(), high = low;
+  for (const std::int16_t value : sample) {
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
   while (low < high) {
-    const int middle = low + (high - low) / 2;
-    const auto limit = static_cast<std::int16_t>(middle);
-    std::int16_t count = 0;  // not more than a tile has
+    const auto middle = static_cast<std::int16_t>(low + (high - low) / 2);
+    std::int16_t count = 0;  // of 16 bits like the values, for speed
     for (const std::int16_t value : sample)
-      count = static_cast<std::int16_t>(count + (value <= limit ? 1 : 0));
+      count = static_cast<std::int16_t>(count + (value <= middle ? 1 : 0));
     if (static_cast<std::size_t>(count) > sample.size() / 2) {
       high = middle;
     } else {
-      low = middle + 1;
+      low = static_cast<std::int16_t>(middle + 1);
     }
   }
-  return static_cast<std::int16_t>(low);
+  return low;
 }
 
 }  // namespace
@@ -56,11 +58,14 @@ std::int16_t TileMedians::largest_nearby(const cv::Point& pixel) {
 std::int16_t TileMedians::median(int column, int row) {
   auto& known = medians_.at(static_cast<std::size_t>(row * columns_ + column));
   if (known) return *known;
-  sample_.clear();
+  constexpr int kStep = 3;
   const cv::Rect part = tile(column, row);
-  for (int y = part.y; y < part.br().y; y += 3) {
-    const auto* values = values_.ptr<std::int16_t>(y);
-    for (int x = part.x; x < part.br().x; x += 3) sample_.push_back(values[x]);
+  const int across = (part.width + kStep - 1) / kStep, down = (part.height + kStep - 1) / kStep;
+  sample_.resize(static_cast<std::size_t>(across) * static_cast<std::size_t>(down));
+  auto* next = sample_.data();
+  for (int y = part.y; y < part.br().y; y += kStep) {
+    const auto* values = values_.ptr<std::int16_t>(y) + part.x;
+    for (int i = 0; i < across; ++i) *next++ = values[kStep * i];
   }
   return *(known = median_of(sample_));
 }
