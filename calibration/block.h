@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -49,10 +50,12 @@ class Block {
   // The part of the block with the sightings of one station; null if there are none.
   virtual BlockPtr of_station(std::size_t) const { return nullptr; }
   // For a target's block: the number of its sightings; the block with only the sightings of these
-  // indices; and, for each sighting, the block's equations without it, over the same columns.
+  // indices; and, for each sighting in turn, the block's equations without it, over the same
+  // columns. They are handed over one by one: those of 10 000 sightings together need 100 MB.
   virtual std::size_t sighting_count() const { return 0; }
   virtual BlockPtr with_only(const std::vector<std::size_t>&) const { return nullptr; }
-  virtual std::vector<BlockEquations> without_each(const State&, std::size_t) const { return {}; }
+  using TakeEquations = std::function<void(std::size_t sighting, const BlockEquations& without)>;
+  virtual void without_each(const State&, std::size_t, const TakeEquations&) const {}
 };
 
 // The station's model at a sighting. The errors of a shared pose are applied as turns of the two

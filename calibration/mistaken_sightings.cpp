@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <optional>
@@ -173,14 +174,15 @@ class SightingTests {
     }
     for (const auto& [block, parts] : sighted_) {
       if (!fit.kept[parts_[parts.front()].group]) continue;
-      // All sightings of a block that are kept, at once.
-      const auto all = adjustment.network().blocks[block]->without_each(fit.state, block);
-      auto without = all.begin();
-      for (const std::size_t p : parts) {
-        if (out_[p]) continue;
-        const BlockEquations& now = fit.equations[block];
-        over[p] = over_critical(parts_[p], replacement_statistic(fit, now, *without++));
-      }
+      std::vector<std::size_t> kept;
+      std::ranges::copy_if(parts, std::back_inserter(kept),
+                           [this](std::size_t p) { return !out_[p]; });
+      const auto test = [&](std::size_t k, const BlockEquations& without) {
+        const Part& part = parts_[kept[k]];
+        over[kept[k]] =
+            over_critical(part, replacement_statistic(fit, fit.equations[part.block], without));
+      };
+      adjustment.network().blocks[block]->without_each(fit.state, block, test);
     }
     return over;
   }
@@ -213,7 +215,11 @@ class SightingTests {
     const BlockPtr with = whole_.blocks[block]->with_only(which);
     const BlockEquations equations = with->equations(fit.state, block, 0.0);
     if (!equations.valid) return std::numeric_limits<double>::infinity();
-    return -replacement_statistic(fit, with->without_each(fit.state, block)[here], equations);
+    double statistic = 0.0;
+    with->without_each(fit.state, block, [&](std::size_t k, const BlockEquations& without) {
+      if (k == here) statistic = -replacement_statistic(fit, without, equations);
+    });
+    return statistic;
   }
 
   // As calibrate() does: first what passes is taken back, the best first; else the worst goes.

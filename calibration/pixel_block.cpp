@@ -63,7 +63,8 @@ class PixelBlock : public Block {
     return std::make_shared<PixelBlock>(target_, std::move(some), config_);
   }
   BlockEquations equations(const State& state, std::size_t block, double damping) const override;
-  std::vector<BlockEquations> without_each(const State& state, std::size_t block) const override;
+  void without_each(const State& state, std::size_t block,
+                    const TakeEquations& take) const override;
 
  private:
   // One sighting's residual and its rows of the Jacobian, over (columns, shift, nuisance).
@@ -202,22 +203,21 @@ BlockEquations PixelBlock::equations(const State& state, std::size_t block, doub
   return result;
 }
 
-std::vector<BlockEquations> PixelBlock::without_each(const State& state, std::size_t block) const {
+void PixelBlock::without_each(const State& state, std::size_t block,
+                              const TakeEquations& take) const {
   const VectorXd& nuisance = state.nuisances[block];
   const auto all = rows(state, nuisance);
-  if (!all) return {};
+  if (!all) return;
   Sums sums = prior_sums(nuisance);
   for (const Row& one : *all) sums.add(one, 1.0);
-  std::vector<BlockEquations> result;
-  result.reserve(all->size());
-  for (const Row& one : *all) {
+  for (std::size_t i = 0; i < all->size(); ++i) {
     Sums left = sums;
-    left.add(one, -1.0);
-    result.push_back(
-        eliminated(left.N, left.b, left.squares, static_cast<Index>(columns_.size()), 2, 0.0));
-    result.back().columns = columns_;
+    left.add((*all)[i], -1.0);
+    BlockEquations without =
+        eliminated(left.N, left.b, left.squares, static_cast<Index>(columns_.size()), 2, 0.0);
+    without.columns = columns_;
+    take(i, without);
   }
-  return result;
 }
 
 std::optional<double> PixelBlock::heading(const State& state, std::size_t block) const {

@@ -85,23 +85,26 @@ class Agreement {
       return agree != other.agree ? agree > other.agree : misfit < other.misfit;
     }
   };
-  // Without equations yet. One serves all groups: where each of thousands of sightings is a group,
-  // a copy of the state for each takes minutes.
+  // One serves all groups: where each of thousands of sightings is a group, a copy of the state for
+  // each takes minutes.
   Fit begin_at(State state) const {
     Fit at;
     at.state = std::move(state);
     at.equations.resize(adjustment_.network().blocks.size());
     return at;
   }
-  // Computes the group's equations.
   bool agrees(Fit& at, std::size_t group, double& misfit) const {
-    for (const std::size_t b : adjustment_.groups()[group].blocks) {
-      at.equations[b] = adjustment_.network().blocks[b]->equations(at.state, b, 0.0);
-      if (!at.equations[b].valid) return false;
-    }
-    const BlockEquations equations = adjustment_.equations(at, group);
-    misfit = change_of_misfit(part_of(prior_, equations.columns), equations, 1.0);
     const Group& one = adjustment_.groups()[group];
+    bool valid = true;
+    for (const std::size_t b : one.blocks) {
+      at.equations[b] = adjustment_.network().blocks[b]->equations(at.state, b, 0.0);
+      valid = valid && at.equations[b].valid;
+    }
+    const BlockEquations equations = valid ? adjustment_.equations(at, group) : BlockEquations();
+    // Kept, they need 10 kB for each group.
+    for (const std::size_t b : one.blocks) at.equations[b] = BlockEquations();
+    if (!valid) return false;
+    misfit = change_of_misfit(part_of(prior_, equations.columns), equations, 1.0);
     // Linearised far from the solution: generous.
     return misfit < 4.0 * variance_ * critical_value(one, adjustment_.groups().size(), level_);
   }
