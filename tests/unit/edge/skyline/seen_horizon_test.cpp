@@ -17,7 +17,7 @@ std::vector<SkylinePoint> at(double elevation_rad, double sd_rad = 1e-4) {
 }
 
 TEST(SeenHorizonTest, TheMeanOfSeveralPicturesHasTheVarianceOfAMean) {
-  constexpr int kRuns = 4000;
+  constexpr int kRuns = 1500;
   constexpr double kNoise_rad = 1e-4;
   std::mt19937 generator(1);
   std::normal_distribution<double> noise(0.0, kNoise_rad);
@@ -42,7 +42,7 @@ TEST(SeenHorizonTest, TheMeanOfSeveralPicturesHasTheVarianceOfAMean) {
 TEST(SeenHorizonTest, WhatIsSeenAnewSoonReplacesWhatWasSeen) {
   SeenHorizon seen;
   for (int i = 0; i < 1000; ++i) seen.add(at(0.0), i, 0.0);
-  for (int i = 0; i < 3 * SeenHorizon::kMost; ++i) seen.add(at(1e-3), 1000 + i, 0.0);
+  for (int i = 0; i < 15; ++i) seen.add(at(1e-3), 1000 + i, 0.0);
   EXPECT_NEAR(seen.places().at(0).direction.elevation_rad, 1e-3, 0.05e-3);
 }
 
