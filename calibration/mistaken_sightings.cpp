@@ -51,9 +51,10 @@ Network apart(const Network& network, const std::vector<Part>& parts) {
   std::erase_if(result.groups, &Group::is_followed);
   result.blocks.resize(network.priors_from);
   for (const Part& part : parts) {
-    Group own = network.groups[part.group];
-    own.observations = part.observations;
-    own.blocks = {part.block};
+    // Not a copy of the whole group: each would keep room for the observations of all.
+    const Group& whole = network.groups[part.group];
+    Group own{whole.kind,   whole.name,        whole.station,
+              {part.block}, part.observations, whole.degrees_of_freedom};
     if (part.sighting) {
       own.blocks = {result.blocks.size()};
       result.blocks.push_back(network.blocks[part.block]->with_only({*part.sighting}));

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <string>
+
 #include "tests/unit/calibration/scene.h"
 
 namespace ols::calibration {
@@ -70,6 +73,24 @@ TEST(MistakenSightings, TellsEachAdjustment) {
   problem.observations[7].pixel.x() += 15.0;
   mistaken_sightings(network_of(problem), {}, tell);
   EXPECT_GE(adjustments, 3) << "another one without what is rejected";
+}
+
+long highest_kB() {
+  std::ifstream status("/proc/self/status");
+  for (std::string word; status >> word;) {
+    long value = 0;
+    if (word == "VmHWM:" && status >> value) return value;
+  }
+  return 0;
+}
+
+// Of 3000 sightings, equations kept for each are 30 MB, and a copy of the group for each is 72 MB.
+TEST(MistakenSightings, OfThousandsNeedLittleMemory) {
+  const Network whole = network_of(drone_alone(3000));
+  std::ofstream("/proc/self/clear_refs") << "5";  // the highest begins anew
+  const long before_kB = highest_kB();
+  EXPECT_EQ(mistaken_sightings(whole), Indices{});
+  EXPECT_LT(highest_kB() - before_kB, 30'000);
 }
 
 // The first one proposes the heading; here it proposes a wrong one.
