@@ -73,7 +73,7 @@ detector::Tracklet object(long id, const Eigen::Vector2d& pixel,
     tracklet.predict(Eigen::Matrix3d::Identity(), kImage_s);
     tracklet.update(detection);
   }
-  tracklet.confirm();
+  tracklet.confirm(true);
   return tracklet;
 }
 

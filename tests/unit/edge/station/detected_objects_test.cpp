@@ -39,7 +39,7 @@ class DetectedObjectsTest : public testing::Test {
     tracklet.predict(Eigen::Matrix3d::Identity(), 0.1);
     tracklet.update(detection);
     tracklet.weigh(log_ratio, 100.0);
-    tracklet.confirm();
+    tracklet.confirm(true);
     return tracklet;
   }
   std::vector<PixelMeasurement> found(std::vector<detector::Tracklet> objects) {
