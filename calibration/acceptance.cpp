@@ -57,6 +57,7 @@ class Judge {
     volume();
     global();
     for (std::size_t g = 0; g < found_.tests.size(); ++g) reference(g);
+    clock();
     closing();
     residuals("sweep", Kind::kScene, limits_.sweep_px);
     residuals("stars", Kind::kStar, limits_.stars_px);
@@ -97,6 +98,18 @@ class Judge {
     add(std::move(finding));
   }
 
+  // A mistake that is not found is no fault of what was found.
+  Finding detectable(const std::string& name, double value_arcsec, const std::string& label) const {
+    const std::string what = label + ": a mistake that would be found";
+    Finding checked =
+        at_most("detectable " + name, value_arcsec, limits_.detectable_arcsec, "″", what);
+    if (checked.judgement == Judgement::kBad) {
+      checked.judgement = Judgement::kUnchecked;
+      checked.sentence = (std::isfinite(checked.value) ? checked.sentence : what) + ": unchecked";
+    }
+    return checked;
+  }
+
   // Stars are hundreds, and each other's check: only what a person has pointed at.
   void reference(std::size_t g) {
     const Group& group = adjustment_.groups()[g];
@@ -109,16 +122,7 @@ class Judge {
       return;
     }
     const double bias_rad = test.detectable_rad.maxCoeff();
-    Finding checked =
-        at_most("detectable " + group.name, arcsec(bias_rad), limits_.detectable_arcsec, "″",
-                label + ": a mistake that would be found");
-    // A mistake that is not found is no fault of what was found.
-    if (checked.judgement == Judgement::kBad) {
-      checked.judgement = Judgement::kUnchecked;
-      checked.sentence = std::isfinite(checked.value)
-                             ? checked.sentence + ": unchecked"
-                             : label + ": a mistake that would be found: unchecked";
-    }
+    Finding checked = detectable(group.name, arcsec(bias_rad), label);
     const bool is_checked = checked.judgement == Judgement::kGood;
     add(std::move(checked));
     without_itself(g, label, is_checked);
@@ -140,6 +144,19 @@ class Judge {
     add(std::move(angle));
     add(at_most("without_itself_sigma " + name, off->sigmas, limits_.without_itself_sigma, " sigma",
                 label + ", predicted without itself"));
+  }
+
+  // Stars and sun that were stamped late agree with each other as well as before.
+  void clock() {
+    if (own_kept(Kind::kStar).empty() && own_kept(Kind::kSun).empty()) return;
+    constexpr double kSky_arcsec_s = 15.04;
+    const ClockCheck check = clock_check(adjustment_.network(), found_.fit);
+    add(detectable("clock", kSky_arcsec_s * check.detectable_s(), "the clock"));
+    if (!check.is_large()) return;
+    add({"clock", Judgement::kBad, check.fast_s, check.sd_s,
+         "the clock: " + shown(std::abs(check.fast_s), " s") +
+             (check.fast_s > 0.0 ? " fast" : " slow") + " against everything else, " +
+             shown(check.sigmas(), " sigma")});
   }
 
   // First and last sighting of one reference: what has moved meanwhile.

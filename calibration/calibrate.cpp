@@ -200,6 +200,20 @@ void remark_rejected(const Adjustment& adjustment, Calibration& result) {
 
 }  // namespace
 
+double pose_scatter(const Adjustment& adjustment, const Fit& fit) {
+  constexpr double kLevel = 0.01, kLeast = 10.0;
+  const Network& network = adjustment.network();
+  double squares = 0.0, redundancy = 0.0;
+  for (std::size_t p = 0; p < network.layout.poses; ++p) {
+    const std::size_t b = network.blocks.size() - network.layout.poses + p;  // the last blocks
+    squares += fit.equations[b].squares;
+    redundancy += redundancy_of(fit, fit.equations[b], network.blocks[b]->degrees_of_freedom());
+  }
+  if (redundancy < kLeast) return 1.0;
+  const double critical = chi_square_critical(kLevel, static_cast<int>(std::lround(redundancy)));
+  return squares > critical ? std::sqrt(squares / redundancy) : 1.0;
+}
+
 StationMatrix Calibration::covariance(const Network& network, std::size_t station) const {
   const int first = network.layout.station(station);
   return scaled_by * scaled_by *

@@ -86,6 +86,7 @@ class Builder {
   explicit Builder(const Problem& problem) : problem_(problem), poses_(problem.observations) {
     network_.stations = problem.stations;
     network_.names = problem.names;
+    network_.ut1_sd_s = problem.ut1_sd_s;
     network_.layout = {problem.stations.size(), poses_.size()};
     for (std::size_t i = 0; i < problem.observations.size(); ++i) {
       const Observation& one = problem.observations[i];
@@ -205,9 +206,14 @@ class Builder {
     if (distance_m < kLeast_m)
       refuse(problem_, one, "reference", "'" + one.reference + "' is at the station");
     if (distance_m < kGreatest_m) return;
+    Geodetic exchanged = geodetic_from_ecef(there);
+    std::swap(exchanged.latitude_rad, exchanged.longitude_rad);
+    const bool fits =
+        (ecef_from_geodetic(exchanged) - ecef_from_geodetic(place)).norm() < kGreatest_m;
     refuse(problem_, one, "reference",
            "'" + one.reference + "' is " + std::to_string(std::lround(1e-3 * distance_m)) +
-               " km from the station, more than can be sighted");
+               " km from the station, more than can be sighted" +
+               (fits ? ": are its latitude and longitude exchanged?" : ""));
   }
 
   void check_pixel(const Observation& one) const {

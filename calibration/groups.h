@@ -16,7 +16,9 @@ struct Problem {
   References references;
   std::optional<Air> air;  // the standard atmosphere if nullopt
   EarthRotation earth;
-  double ut1_sd_s = 0.3;  // if UT1 is unknown: it is always within a second of UTC
+  // Of UT1 and of the clock that stamps the sightings: both turn the sky alike. 0.3 if UT1 is
+  // unknown: it is always within a second of UTC.
+  double ut1_sd_s = 0.3;
 };
 
 // Observations that are kept or rejected together: all sightings of a landmark; one sighting of a
@@ -47,6 +49,7 @@ struct Network {
   std::vector<BlockPtr> blocks;  // first those of observations, then those of priors
   std::vector<Group> groups;
   std::size_t priors_from = 0;  // index of the first block that is a prior
+  double ut1_sd_s = 0.3;
 };
 
 // Throws ObservationRefused if a reference is missing or of the wrong kind, a star has no

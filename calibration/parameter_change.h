@@ -19,4 +19,17 @@ struct ParameterChange {
 ParameterChange parameter_change(const Network& network, const Fit& fit, std::size_t station,
                                  int parameter);
 
+// The clock that stamps the sightings of the sky, as all observations but its own stated error show
+// it. A wrong time turns the whole sky about the pole, and a tripod that leans the other way looks
+// the same: stars alone cannot check it, but landmarks and an inclinometer can.
+struct ClockCheck {
+  double fast_s = 0.0;
+  double sd_s =
+      0.0;  // 1-sigma of `fast_s` if the stated error is right; infinite: nothing checks it
+  double sigmas() const;
+  bool is_large() const;        // level 0.001
+  double detectable_s() const;  // the error that would be found with a power of 80 %
+};
+ClockCheck clock_check(const Network& network, const Fit& fit);
+
 }  // namespace ols::calibration

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "geometry/direction.h"
 
@@ -37,6 +38,23 @@ Air standard_air(double height_m) {
   air.pressure_hPa = 1013.25 * std::pow(temperature_K / sea_level_K, 5.2559);
   air.temperature_degC = temperature_K - 273.15;
   return air;
+}
+
+std::string pressure_trouble(double pressure_hPa, double height_m) {
+  constexpr double kWeather_hPa = 50.0, kSeaLevel_hPa = 1013.25;
+  const double usual_hPa = standard_air(height_m).pressure_hPa;
+  if (std::abs(pressure_hPa - usual_hPa) <= kWeather_hPa) return {};
+  char text[320];
+  const int end = std::snprintf(
+      text, sizeof text, "%.1f hPa cannot be the pressure at %.0f m, where it is about %.0f hPa",
+      pressure_hPa, height_m, usual_hPa);
+  if (std::abs(pressure_hPa - kSeaLevel_hPa) <= kWeather_hPa) {
+    std::snprintf(text + end, sizeof text - static_cast<std::size_t>(end),
+                  ": it looks reduced to sea level, as weather services state it; at the station "
+                  "that is %.1f hPa",
+                  pressure_hPa * usual_hPa / kSeaLevel_hPa);
+  }
+  return text;
 }
 
 AstronomicalRefraction::AstronomicalRefraction(const Air& air) {

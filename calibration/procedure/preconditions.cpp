@@ -14,10 +14,8 @@ std::string printed(const char* format, Values... values) {
 }
 
 Precondition clock_of(const StationFacts& facts, const Wanted& wanted) {
-  // A second is 15 arc seconds of a star, and a drone at 10 m/s flies 10 m.
-  constexpr double kOfSky_s = 0.05;
-  Precondition one{facts.clock_synchronised && facts.clock_error_s < kOfSky_s, wanted.absolute_time,
-                   ""};
+  Precondition one{facts.clock_synchronised && facts.clock_error_s < kClockOfSky_s,
+                   wanted.absolute_time, ""};
   one.sentence = one.met ? printed("clock synchronised to %.4f s", facts.clock_error_s)
                          : "the clock is not synchronised: stars, sun and drones cannot be used; "
                            "wait for GNSS or a time server";

@@ -9,6 +9,10 @@
 
 namespace ols::calibration {
 
+// The largest error of a clock by which the sky and drones are sighted: a second is 15 arc seconds
+// of a star, and a drone at 10 m/s flies 10 m.
+inline constexpr double kClockOfSky_s = 0.05;
+
 // What the check needs to know from a station's status.
 struct StationFacts {
   bool camera_works = false, unit_works = false;

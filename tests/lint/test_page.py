@@ -266,6 +266,26 @@ def test_a_guided_calibration_speaks_german(conditions, page_says):
             "übereinstimmen: Landmarke 'a', Landmarke 'b'; gegen Landmarke 'c'; alle stimmen "
             "überein, wenn die Landmarken 'a' und 'c' vertauscht sind"
         ),
+        "the observations contradict each other: landmark 'a', landmark 'b' disagree with the "
+        "others; all agree if station 'alfa' stood 0.40 m to the east, 0.60 m to the south and "
+        "0.01 m lower: is its position surveyed right?": (
+            "die Beobachtungen widersprechen sich: Landmarke 'a', Landmarke 'b' stimmen nicht mit "
+            "den anderen überein; alle stimmen überein, wenn Station 'alfa' woanders steht: 0.40 m "
+            "nach Osten, 0.60 m nach Süden und 0.01 m tiefer: ist ihre Position richtig vermessen?"
+        ),
+        "the observations contradict each other: all others agree without star 'a', or without "
+        "star 'b'; all agree if the tripod of station 'alfa' was turned by +0.050 deg before the "
+        "sighting of 'spire' in line 12": (
+            "die Beobachtungen widersprechen sich: alle anderen stimmen überein ohne Stern 'a', "
+            "oder ohne Stern 'b'; alle stimmen überein, wenn das Stativ der Station 'alfa' um "
+            "+0.050 ° gedreht wurde, bevor 'spire' in Zeile 12 anvisiert wurde"
+        ),
+        "the clock: a mistake that would be found: 260.00″, at most 30.00″: unchecked": (
+            "die Uhr: ein Irrtum, der gefunden würde: 260.00″, höchstens 30.00″: nicht geprüft"
+        ),
+        "  BAD  the clock: 2.05 s fast against everything else, 4.20 sigma": (
+            "  SCHLECHT  die Uhr: geht gegen alles andere um 2.05 s vor, 4.20 Sigma"
+        ),
         "RED: calibration: pan is 3 motor steps off its counts: home the unit": (
             "ROT: Kalibrierung: Schwenk ist 3 Motorschritte neben ihrer Zählung: Referenzfahrt"
         ),

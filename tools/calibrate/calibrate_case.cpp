@@ -5,6 +5,7 @@
 
 #include "calibration/mistaken_sightings.h"
 #include "calibration/name_stars.h"
+#include "calibration/procedure/preconditions.h"
 #include "geometry/angles.h"
 #include "tools/calibrate/calibration_csv.h"
 #include "tools/calibrate/observation_file.h"
@@ -40,8 +41,18 @@ Star star_of(const StarCells& cells) {
           cells.pm_dec_mas_yr * kMas_rad, 1e-3 * cells.parallax_mas};
 }
 
+void check_pressure(double pressure_hPa, const Problem& problem) {
+  for (std::size_t s = 0; s < problem.stations.size(); ++s) {
+    const std::string trouble =
+        pressure_trouble(pressure_hPa, problem.stations[s].model.geometry.position.height_m);
+    if (trouble.empty()) continue;
+    throw std::invalid_argument("--pressure: station '" + problem.names[s] + "': " + trouble);
+  }
+}
+
 void read_sky(const CaseOptions& options, Case& what) {
   Problem& problem = what.problem;
+  if (options.pressure_hPa) check_pressure(*options.pressure_hPa, problem);
   if (options.pressure_hPa || options.temperature_degC) {
     Air air = standard_air(problem.stations.front().model.geometry.position.height_m);
     air.pressure_hPa = options.pressure_hPa.value_or(air.pressure_hPa);
@@ -53,7 +64,13 @@ void read_sky(const CaseOptions& options, Case& what) {
   });
   if (sky == problem.observations.end()) return;
   problem.earth.ut1_minus_utc_s = options.ut1.minus_utc_s.value_or(0.0);
-  problem.ut1_sd_s = ut1_sd_s(options.ut1, sky->utime_us);
+  problem.ut1_sd_s =
+      std::hypot(ut1_sd_s(options.ut1, sky->utime_us), options.clock_sd_s.value_or(kClockOfSky_s));
+  if (!options.clock_sd_s) {
+    what.warnings.emplace_back(
+        "the error of the clock is not stated (--clock-sd): taken as 0.05 s; each second turns "
+        "the sky by 15 arc seconds, which no star contradicts");
+  }
   const std::string remark = ut1_remark(options.ut1, sky->utime_us);
   if (!remark.empty()) what.warnings.push_back(remark);
   if (!problem.air) {

@@ -21,6 +21,7 @@ struct CaseOptions {
   Ut1Value ut1;
   std::optional<double> resolution_arcsec;  // of a count, as the units print it
   std::optional<double> pressure_hPa, temperature_degC;
+  std::optional<double> clock_sd_s;  // of the clock that stamped the sightings of the sky
 };
 
 struct Case {

@@ -42,6 +42,9 @@ void add_options(CLI::App& app, calibration::CaseOptions& o) {
                  "instrument's own counts of a turn come first")
       ->check(CLI::Range(0.1, 1000.0));
   add_ut1(app, o.ut1);
+  app.add_option("--clock-sd", o.clock_sd_s,
+                 "[s] 1-sigma of the clock that stamped stars and sun; 0.05 if not stated")
+      ->check(CLI::Range(1e-6, 10.0));
   app.add_option("--pressure", o.pressure_hPa, "[hPa] at the station, for stars and the sun")
       ->check(CLI::Range(300.0, 1200.0));
   app.add_option("--temperature", o.temperature_degC, "[degC] for stars and the sun")

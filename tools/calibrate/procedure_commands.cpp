@@ -179,6 +179,14 @@ int carry_out(const ProcedureOptions& options, const StationFiles& station, Stat
   }
 }
 
+// At once, and not after the sightings.
+void check_pressure(const ProcedureOptions& options, const StationFiles& station) {
+  if (!options.pressure_hPa) return;
+  const std::string trouble =
+      pressure_trouble(*options.pressure_hPa, station.settings.station.geometry.position.height_m);
+  if (!trouble.empty()) throw std::invalid_argument("--pressure: " + trouble);
+}
+
 int run_live(const ProcedureOptions& asked, CalibrationStore& store) {
   install_shutdown_handler();
   Person person(asked.script);
@@ -195,6 +203,7 @@ int run_live(const ProcedureOptions& asked, CalibrationStore& store) {
     options = resumed_options(text_of(file), asked, file.string());
   }
   const StationFiles station = read_station(options);
+  check_pressure(options, station);
   LcmBus bus(options.lcm_url.empty() ? station.settings.lcm_url : options.lcm_url,
              StationLink::open_trust(options.trust));
   StationLink link(bus, station.settings.id);

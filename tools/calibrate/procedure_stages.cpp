@@ -7,6 +7,7 @@
 
 #include "base/process/clocks.h"
 #include "calibration/procedure/drone_stage.h"
+#include "calibration/procedure/preconditions.h"
 #include "calibration/procedure/star_stage.h"
 #include "calibration/procedure/sun_stage.h"
 #include "calibration/procedure/sweep_plan.h"
@@ -234,6 +235,7 @@ CaseOptions files_of(const ProcedureOptions& options, const StationFiles& statio
   if (!station.instrument_file.empty()) files.instruments = {station.instrument_file};
   files.observations = {session.observations_path().string()};
   files.ut1 = options.ut1;
+  files.clock_sd_s = kClockOfSky_s;
   files.pressure_hPa = options.pressure_hPa;
   files.temperature_degC = options.temperature_degC;
   return files;

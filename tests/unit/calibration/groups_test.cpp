@@ -25,6 +25,21 @@ TEST(Network, RefusesWhatItCannotUseByLine) {
   EXPECT_THROW(network_of(problem), ObservationRefused);
 }
 
+TEST(Network, AsksWhetherLatitudeAndLongitudeAreExchanged) {
+  Problem problem = landmarks_around(hill(), hill(), 3);
+  auto& place = std::get<FixedPoint>(problem.references["landmark1"]);
+  Geodetic exchanged = geodetic_from_ecef(place.ecef);
+  std::swap(exchanged.latitude_rad, exchanged.longitude_rad);
+  place.ecef = ecef_from_geodetic(exchanged);
+  try {
+    network_of(problem);
+    FAIL();
+  } catch (const ObservationRefused& refused) {
+    EXPECT_TRUE(std::string(refused.what()).ends_with("are its latitude and longitude exchanged?"))
+        << refused.what();
+  }
+}
+
 TEST(Network, APoseIsOneStop) {
   Problem problem = landmarks_around(hill(), hill(), 3);
   problem.observations[1].pose = problem.observations[4].pose = 7;

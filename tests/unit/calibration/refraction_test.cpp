@@ -41,5 +41,16 @@ TEST(Refraction, KnowsTheStandardAtmosphere) {
   EXPECT_NEAR(standard_air(1000.0).temperature_degC, 8.5, 1e-9);
 }
 
+TEST(Refraction, APressureReducedToSeaLevelIsNoPressureOfAMountain) {
+  EXPECT_EQ(pressure_trouble(1013.25, 1500.0),
+            "1013.2 hPa cannot be the pressure at 1500 m, where it is about 846 hPa: it looks "
+            "reduced to sea level, as weather services state it; at the station that is 845.6 hPa");
+  EXPECT_EQ(pressure_trouble(700.0, 300.0),
+            "700.0 hPa cannot be the pressure at 300 m, where it is about 978 hPa");
+  for (const double weather_hPa : {-45.0, 0.0, 45.0}) {
+    EXPECT_EQ(pressure_trouble(845.6 + weather_hPa, 1500.0), "");
+  }
+}
+
 }  // namespace
 }  // namespace ols::calibration

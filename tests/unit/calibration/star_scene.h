@@ -102,6 +102,27 @@ inline NightSky night_sky(std::uint64_t seed, const NightOptions& options = {}) 
   return sky;
 }
 
+// Its detections, none of which is false, as sightings of stars with names.
+inline Problem named_stars(const NightSky& sky) {
+  Problem problem;
+  problem.names = {"alfa"};
+  problem.stations = {sky.station};
+  for (std::size_t f = 0; f < sky.frames.size(); ++f) {
+    for (std::size_t k = 0; k < sky.frames[f].pixels.size(); ++k) {
+      Observation one;
+      one.kind = Kind::kStar;
+      one.utime_us = sky.frames[f].utime_us;
+      one.reading = sky.frames[f].reading;
+      one.pixel = sky.frames[f].pixels[k];
+      one.sd_px = 0.3;
+      one.reference = "HIP " + std::to_string(sky.stars[f][k]);
+      problem.references[one.reference] = star_of(*table_star(one.reference));
+      problem.observations.push_back(one);
+    }
+  }
+  return problem;
+}
+
 inline StarConditions conditions_of(const NightSky& sky) {
   return {.air = standard_air(sky.station.model.geometry.position.height_m), .earth = {}};
 }
