@@ -1,23 +1,49 @@
 #include "calibration/contradiction_cause.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdio>
+#include <limits>
+#include <optional>
 #include <set>
 #include <stdexcept>
 #include <utility>
 
+#include "calibration/snooping.h"
 #include "geometry/angles.h"
 
 namespace ols::calibration {
 namespace {
 
-bool all_agree(const Problem& problem, const Levels& levels) {
+// One adjustment of everything. Most mistakes that are tried explain nothing, and the search for
+// what to reject then takes hundreds of adjustments.
+bool fits_at_once(const Adjustment& adjustment, const Levels& levels) {
+  const Start start = find_start(adjustment, levels.mistaken);
+  const std::vector<bool> all(adjustment.groups().size(), true);
+  const Fit fit = adjustment.fit(start.state, all);
+  if (!fit.converged || !is_finite(fit)) return false;
+  const std::vector<GroupTest> tests = tests_of(adjustment, fit, levels.mistaken);
+  return std::ranges::all_of(tests, [](const GroupTest& one) { return one.w <= one.critical; });
+}
+
+// The adjustment in which no observation contradicts another; nullopt: there is none.
+std::optional<Fit> agreement(const Problem& problem, Levels levels) {
+  levels.misfit = levels.mistaken;  // one mistake in twenty must not stay unexplained
   try {
-    const Calibration found = calibrate(Adjustment(network_of(problem)), levels);
-    return found.scaled_by == 1.0 && std::ranges::none_of(found.tests, &GroupTest::rejected);
+    const Adjustment adjustment(network_of(problem));
+    if (!fits_at_once(adjustment, levels)) return std::nullopt;
+    Calibration found = calibrate(adjustment, levels);
+    const bool agree =
+        found.scaled_by == 1.0 && std::ranges::none_of(found.tests, &GroupTest::rejected);
+    return agree ? std::optional(std::move(found.fit)) : std::nullopt;
   } catch (const std::exception&) {
-    return false;  // what is refused, or contradicts itself in another way, explains nothing
+    return std::nullopt;  // what is refused, or contradicts itself in another way
   }
+}
+
+bool all_agree(const Problem& problem, const Levels& levels) {
+  return agreement(problem, levels).has_value();
 }
 
 void add_exchanged(const Problem& problem, const Levels& levels, std::vector<std::string>& causes) {
@@ -58,16 +84,242 @@ void add_hemispheres(const Problem& problem, const Levels& levels,
   }
 }
 
+std::string metres_towards(double metres, const char* plus, const char* minus) {
+  char text[60];
+  std::snprintf(text, sizeof text, "%.2f m %s", std::abs(metres), metres < 0.0 ? minus : plus);
+  return text;
+}
+
+// Its position is left to what it sights.
+void add_positions(const Problem& problem, const Levels& levels, std::vector<std::string>& causes) {
+  constexpr double kAnywhere_m = 100.0, kCritical = 3.29;
+  for (std::size_t s = 0; s < problem.stations.size(); ++s) {
+    Problem freed = problem;
+    StationMatrix& C = freed.stations[s].covariance;
+    for (const int k : {kEast, kNorth, kUp}) {
+      C.row(k).setZero();
+      C.col(k).setZero();
+      C(k, k) = kAnywhere_m * kAnywhere_m;
+    }
+    const auto found = agreement(freed, levels);
+    if (!found) continue;
+    const StationVector& off = found->state.stations[s].change;
+    const StationMatrix& stated = problem.stations[s].covariance;
+    const bool is_allowed = std::ranges::all_of(std::array{kEast, kNorth, kUp}, [&](int k) {
+      return std::abs(off[k]) <= kCritical * std::sqrt(stated(k, k));
+    });
+    if (is_allowed) continue;
+    causes.push_back("all agree if station '" + problem.names[s] + "' stood " +
+                     metres_towards(off[kEast], "to the east", "to the west") + ", " +
+                     metres_towards(off[kNorth], "to the north", "to the south") + " and " +
+                     metres_towards(off[kUp], "higher", "lower") +
+                     ": is its position surveyed right?");
+  }
+}
+
+Problem with_reversed(const Problem& problem, std::size_t station, AxisReading UnitReading::*axis,
+                      int approach) {
+  Problem reversed = problem;
+  for (Observation& one : reversed.observations) {
+    if (one.station != station) continue;
+    AxisReading& reading = one.reading.*axis;
+    reading.counts = -reading.counts;
+    reading.counts_per_s = -reading.counts_per_s;
+    reading.approach *= approach;
+  }
+  return reversed;
+}
+
+void add_reversed_axes(const Problem& problem, const Levels& levels,
+                       std::vector<std::string>& causes) {
+  struct Axis {
+    const char *name, *sign;
+    AxisReading UnitReading::*reading;
+  };
+  constexpr std::array<Axis, 2> kAxes{
+      {{"pan", "pan_sign", &UnitReading::pan}, {"tilt", "tilt_sign", &UnitReading::tilt}}};
+  for (std::size_t s = 0; s < problem.stations.size(); ++s) {
+    for (const Axis& axis : kAxes) {
+      // Where the counts alone are reversed, the directions of approach are those of the motor.
+      if (!all_agree(with_reversed(problem, s, axis.reading, -1), levels) &&
+          !all_agree(with_reversed(problem, s, axis.reading, 1), levels)) {
+        continue;
+      }
+      causes.push_back(std::string("all agree if ") + axis.name + " of station '" +
+                       problem.names[s] + "' counts the other way: is " + axis.sign + " wrong?");
+    }
+  }
+}
+
+void add_exchanged_pixels(const Problem& problem, const Levels& levels,
+                          std::vector<std::string>& causes) {
+  for (std::size_t s = 0; s < problem.stations.size(); ++s) {
+    Problem exchanged = problem;
+    for (Observation& one : exchanged.observations) {
+      if (one.station == s) std::swap(one.pixel.x(), one.pixel.y());
+    }
+    if (!all_agree(exchanged, levels)) continue;
+    causes.push_back("all agree if x_px and y_px of station '" + problem.names[s] +
+                     "' were exchanged");
+  }
+}
+
+// In a local grid, as seen from the only station.
+void add_exchanged_coordinates(const Problem& problem, const Levels& levels,
+                               std::vector<std::string>& causes) {
+  if (problem.stations.size() != 1) return;
+  const Eigen::Vector3d origin = ecef_from_geodetic(problem.stations[0].model.geometry.position);
+  const Eigen::Matrix3d R = R_ecef_enu(problem.stations[0].model.geometry.position);
+  Problem exchanged = problem;
+  for (auto& [name, reference] : exchanged.references) {
+    auto* point = std::get_if<FixedPoint>(&reference);
+    if (!point) continue;
+    Eigen::Vector3d enu = R.transpose() * (point->ecef - origin);
+    std::swap(enu.x(), enu.y());
+    point->ecef = origin + R * enu;
+  }
+  if (!all_agree(exchanged, levels)) return;
+  causes.emplace_back("all agree if east and north of the landmarks were exchanged");
+}
+
+// A tripod that was turned between two sightings: from then on it is a station of its own.
+class TurnSearch {
+ public:
+  TurnSearch(const Problem& problem, std::size_t station, const Levels& levels)
+      : problem_(problem), station_(station), levels_(levels) {
+    // Scenery and tracks are many, and no heading needs them.
+    std::erase_if(problem_.observations, [](const Observation& one) {
+      return one.kind == Kind::kScene || one.kind == Kind::kTrack;
+    });
+    for (std::size_t i = 0; i < problem_.observations.size(); ++i) {
+      if (problem_.observations[i].station == station) order_.push_back(i);
+    }
+    const bool timed = std::ranges::all_of(order_, [this](std::size_t i) {
+      const Observation& one = problem_.observations[i];
+      return one.kind == Kind::kInclinometer || one.utime_us != 0;
+    });
+    if (timed) {
+      std::ranges::stable_sort(order_, {},
+                               [this](std::size_t i) { return problem_.observations[i].utime_us; });
+    }
+  }
+
+  void run(std::vector<std::string>& causes) const {
+    const std::vector<std::size_t> cuts = possible_cuts();
+    if (cuts.empty()) return;
+    // First some, then all around the best of them.
+    constexpr std::size_t kTries = 20;
+    const std::size_t step = cuts.size() / kTries + 1;
+    std::size_t best = 0;
+    double least = std::numeric_limits<double>::infinity();
+    const auto consider = [&](std::size_t c) {
+      const double misfit = misfit_of(cuts[c]);
+      if (misfit >= least) return;
+      least = misfit;
+      best = c;
+    };
+    for (std::size_t c = 0; c < cuts.size(); c += step) consider(c);
+    const std::size_t first = best < step ? 0 : best - step + 1, middle = best;
+    for (std::size_t c = first; c < std::min(cuts.size(), middle + step); ++c) {
+      if (c != middle) consider(c);
+    }
+    if (!std::isfinite(least)) return;
+    const auto found = agreement(cut_at(cuts[best]), levels_);
+    if (found) causes.push_back(sentence(cuts[best], *found));
+  }
+
+ private:
+  // Places in the order before which the unit was driven elsewhere. A few sightings prove nothing:
+  // a tripod of their own explains them, whatever is wrong.
+  std::vector<std::size_t> possible_cuts() const {
+    constexpr std::size_t kLeast = 4;
+    std::vector<std::size_t> cuts;
+    for (std::size_t k = kLeast; k + kLeast <= order_.size(); ++k) {
+      const Observation& before = problem_.observations[order_[k - 1]];
+      const Observation& after = problem_.observations[order_[k]];
+      const bool same_pose = before.pose == after.pose && before.utime_us == after.utime_us &&
+                             before.reading.pan.counts == after.reading.pan.counts &&
+                             before.reading.tilt.counts == after.reading.tilt.counts;
+      const bool is_reading =
+          before.kind == Kind::kInclinometer || after.kind == Kind::kInclinometer;
+      if (!same_pose && !is_reading) cuts.push_back(k);
+    }
+    return cuts;
+  }
+  Problem cut_at(std::size_t cut) const {
+    Problem result = problem_;
+    result.names.push_back(problem_.names[station_]);
+    result.stations.push_back(problem_.stations[station_]);
+    for (std::size_t k = cut; k < order_.size(); ++k) {
+      result.observations[order_[k]].station = problem_.stations.size();
+    }
+    return result;
+  }
+  double misfit_of(std::size_t cut) const {
+    constexpr double kNone = std::numeric_limits<double>::infinity();
+    try {
+      const Adjustment adjustment(network_of(cut_at(cut)));
+      const Start start = find_start(adjustment, levels_.mistaken);
+      const std::vector<bool> all(adjustment.groups().size(), true);
+      const Fit fit = adjustment.fit(start.state, all);
+      return is_finite(fit) ? fit.misfit : kNone;
+    } catch (const std::exception&) {
+      return kNone;
+    }
+  }
+  // By the directions of one reading: a heading alone is shared with the mounting.
+  std::string sentence(std::size_t cut, const Fit& found) const {
+    const Observation& first = problem_.observations[order_[cut]];
+    const auto azimuth = [&](std::size_t station) {
+      const StationModel& model = found.state.stations[station].model;
+      const auto seen = predict_direction(model, first.reading, first.pixel);
+      return seen ? seen->direction.azimuth_rad : 0.0;
+    };
+    const double by_rad = wrap_pi(azimuth(problem_.stations.size()) - azimuth(station_));
+    char text[240];
+    std::snprintf(text, sizeof text,
+                  "all agree if the tripod of station '%s' was turned by %+.3f deg before the "
+                  "sighting of '%s' in line %u",
+                  problem_.names[station_].c_str(), degrees(by_rad), first.reference.c_str(),
+                  first.line);
+    return text;
+  }
+
+  Problem problem_;
+  std::size_t station_;
+  Levels levels_;
+  std::vector<std::size_t> order_;  // the station's observations
+};
+
+void add_turns(const Problem& problem, const Levels& levels, std::vector<std::string>& causes) {
+  for (std::size_t s = 0; s < problem.stations.size(); ++s) {
+    TurnSearch(problem, s, levels).run(causes);
+  }
+}
+
 }  // namespace
+
+std::vector<std::string> mistakes_of_stations(const Problem& problem, const Levels& levels) {
+  if (all_agree(problem, levels)) return {};
+  std::vector<std::string> causes;
+  add_positions(problem, levels, causes);
+  if (causes.empty()) add_turns(problem, levels, causes);
+  return causes;
+}
 
 std::vector<std::string> causes_of_contradiction(const Problem& problem, const Levels& levels) {
   std::vector<std::string> causes;
   add_exchanged(problem, levels, causes);
+  add_reversed_axes(problem, levels, causes);
+  add_exchanged_pixels(problem, levels, causes);
+  add_exchanged_coordinates(problem, levels, causes);
   const bool sees_sky = std::ranges::any_of(problem.observations, [](const Observation& one) {
     return one.kind == Kind::kStar || one.kind == Kind::kSun;
   });
   // Without the sky the distance of a reference tells.
   if (sees_sky) add_hemispheres(problem, levels, causes);
+  // These have so many more unknowns that they explain other mistakes, too.
+  if (causes.empty()) causes = mistakes_of_stations(problem, levels);
   return causes;
 }
 

@@ -9,7 +9,13 @@
 namespace ols::calibration {
 
 // One sentence for each mistake that would explain the whole contradiction: two landmarks that were
-// exchanged, or a wrong sign in the station's position. Empty if no single mistake explains it.
+// exchanged, an axis that counts the other way, exchanged coordinates of the pixels or of the
+// landmarks, a wrong sign in the station's position; else a mistake of mistakes_of_stations().
+// Empty if no single mistake explains it.
 std::vector<std::string> causes_of_contradiction(const Problem& problem, const Levels& levels = {});
+
+// The same for mistakes of a station, which look like several mistaken references: its position is
+// surveyed wrongly, or its tripod was turned between two sightings.
+std::vector<std::string> mistakes_of_stations(const Problem& problem, const Levels& levels = {});
 
 }  // namespace ols::calibration

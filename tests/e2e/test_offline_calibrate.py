@@ -92,6 +92,45 @@ def test_stations_that_aim_at_each_other_find_their_headings(tmp_path):
         assert 0.4 < told / actual < 2.5
 
 
+def moved_station(run, north_m):
+    """Its configuration says that it stands farther north."""
+    path = run.folder / "alfa.toml"
+    lines = path.read_text().splitlines()
+    at = next(n for n, line in enumerate(lines) if line.startswith("latitude_deg"))
+    latitude = float(lines[at].split("=")[1]) + north_m / 111_200
+    lines[at] = f"latitude_deg = {latitude:.10f}"
+    path.write_text("\n".join(lines) + "\n")
+
+
+def test_a_station_that_is_surveyed_wrongly_is_named_and_no_landmark_is_blamed(run):
+    moved_station(run, 0.8)
+    error = run.refused()
+    assert "; all agree if station 'alfa' stood " in error
+    assert " m to the south and " in error
+
+
+def test_a_pressure_reduced_to_sea_level_is_refused(run):
+    run.change("alfa.toml", 5, "height_m = 310.0000", "height_m = 1500.0")
+    run.arguments[run.arguments.index("--pressure") + 1] = 1013
+    error = run.refused()
+    assert "--pressure: station 'alfa': 1013.0 hPa cannot be the pressure at 1500 m" in error
+    assert "it looks reduced to sea level" in error
+
+
+def test_stars_leave_their_clock_unchecked_and_its_error_is_in_the_result(tmp_path):
+    run = Run(tmp_path, cases.stars)
+    done = run.adjusted()
+    assert "the error of the clock is not stated (--clock-sd): taken as 0.05 s" in done.stderr
+    [station] = run.report()["stations"]
+    findings = {one["name"]: one for one in station["acceptance"]["findings"]}
+    assert findings["detectable clock"]["judgement"] == "unchecked"
+    run.output = run.folder / "known"
+    assert "--clock-sd" not in run.adjusted("--clock-sd", "2").stderr
+    [other] = run.report()["stations"]
+    # Two seconds turn the sky by 30 arc seconds.
+    assert other["systematic_rms_arcsec"] > station["systematic_rms_arcsec"] + 10.0
+
+
 def test_one_landmark_alone_is_said_to_be_unchecked(run):
     lines = [line for line in run.lines("observations.jsonl") if "landmark0" in line]
     (run.folder / "observations.jsonl").write_text("\n".join(lines) + "\n")

@@ -109,6 +109,71 @@ Calibration calibrated(const Problem& problem, const Adjustment& adjustment,
   }
 }
 
+// The rejected groups, without a few stars: double stars are often among them.
+std::vector<const Group*> rejected_groups(const Network& network, const Calibration& found) {
+  constexpr std::size_t kFew = 10;  // one in ten
+  std::vector<const Group*> rejected;
+  std::size_t stars = 0, rejected_stars = 0;
+  for (std::size_t g = 0; g < found.tests.size(); ++g) {
+    const Group& group = network.groups[g];
+    const bool is_star = group.kind == Kind::kStar;
+    stars += is_star ? 1 : 0;
+    if (!found.tests[g].rejected) continue;
+    rejected_stars += is_star ? 1 : 0;
+    rejected.push_back(&group);
+  }
+  if (kFew * rejected_stars <= stars) {
+    std::erase_if(rejected, [](const Group* group) { return group->kind == Kind::kStar; });
+  }
+  return rejected;
+}
+
+// Several references that are rejected may be one mistake of their station: then the others are
+// not right either.
+void check_stations(const Problem& problem, const Network& network, Calibration& found) {
+  const std::vector<const Group*> rejected = rejected_groups(network, found);
+  if (rejected.empty()) return;
+  std::string names;
+  for (const Group* group : rejected) {
+    names +=
+        (names.empty() ? "" : ", ") + std::string(name(group->kind)) + " '" + group->name + "'";
+  }
+  for (const std::string& cause : mistakes_of_stations(problem)) {
+    // A single reference is as likely to be mistaken as its station.
+    if (rejected.size() > 1) {
+      throw std::invalid_argument("the observations contradict each other: " + names +
+                                  " disagree with the others; " + cause);
+    }
+    found.remarks.push_back(names + " disagrees with the others; " + cause);
+  }
+}
+
+// The adjustment with its calibration. If the unit's angles scatter by more than was stated, their
+// own deviation is enlarged. A common factor for everything would be too small: pixels are many
+// more than poses.
+Adjustment settled(Adjusted& adjusted, const TellAdjusted& tell) {
+  Case& what = adjusted.what;
+  Adjustment adjustment(network_of(what));
+  adjusted.found = calibrated(what.problem, adjustment, tell);
+  const double factor = pose_scatter(adjustment, adjusted.found.fit);
+  if (factor > 1.0) {
+    for (std::size_t s = 0; s < what.problem.stations.size(); ++s) {
+      what.problem.stations[s].pose_sd_rad *= factor;
+      what.instruments[s].angle_sd_rad *= factor;
+    }
+    adjustment = Adjustment(network_of(what));
+    adjusted.found = calibrated(what.problem, adjustment, tell);
+    char text[160];
+    std::snprintf(text, sizeof text,
+                  "the unit's angles scatter by more than was stated (angle_sd_deg): taken as "
+                  "%.1f arc seconds",
+                  what.instruments.front().angle_sd_rad / kArcsec);
+    adjusted.found.remarks.emplace_back(text);
+  }
+  check_stations(what.problem, adjustment.network(), adjusted.found);
+  return adjustment;
+}
+
 // Nothing determines a heading: the instrument alone is the result.
 AdjustedResult instrument_for_person(const Adjusted& adjusted) {
   AdjustedResult result;
@@ -132,8 +197,7 @@ Adjusted adjust_into(const CaseOptions& options, const std::filesystem::path& fo
   adjusted.what = read_case(options);
   find_mistaken(adjusted.what, tell);
   const Case& what = adjusted.what;
-  const Adjustment adjustment(network_of(what));
-  adjusted.found = calibrated(what.problem, adjustment, tell);
+  const Adjustment adjustment = settled(adjusted, tell);
   Calibration& found = adjusted.found;
   for (const std::string& line : mistaken_in_words(what)) found.remarks.push_back(line);
   for (const std::string& line : exchanged_landmarks(what.problem, adjustment, found)) {
