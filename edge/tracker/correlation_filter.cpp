@@ -12,12 +12,8 @@ constexpr double kBoxCells = kMapSide / 4.0;  // along the geometric mean of the
 constexpr double kPeakSd = kBoxCells / 16.0;  // [cells] of the wanted response
 constexpr double kInertia = 15.0;             // of the filter, against the newest frame
 
-FeatureWindow window_of(const Eigen::Vector2d& pixel, const Eigen::Vector2d& size_px) {
-  return {pixel, std::sqrt(size_px.prod()) / kBoxCells};
-}
-
-Spectra spectra_of(const TrackerInput& frame, const FeatureWindow& window) {
-  const FeatureMap features = extract_features(frame, window);
+Spectra spectra_of(const WindowView& view) {
+  const FeatureMap features = extract_features(view);
   Spectra spectra;
   for (std::size_t c = 0; c < features.size(); c += 2) {
     transform(features[c], features[c + 1], spectra[c], spectra[c + 1]);
@@ -52,6 +48,10 @@ void restrict_to(const Map& support, Spectra& spectra) {
 
 }  // namespace
 
+FeatureWindow window_around(const Eigen::Vector2d& pixel, const Eigen::Vector2d& size_px) {
+  return {pixel, std::sqrt(size_px.prod()) / kBoxCells};
+}
+
 double Response::at(const Eigen::Vector2d& pixel) const {
   const Eigen::Vector2d cell =
       (pixel - window.pixel) / window.cell_px + Eigen::Vector2d::Constant(kMiddle);
@@ -78,7 +78,7 @@ Response::Peak Response::peak() const {
   return {window.pixel + shift * window.cell_px, static_cast<double>(*most)};
 }
 
-double Response::prominence(const Eigen::Vector2d& pixel) const {
+Response::Contrast Response::contrast(const Eigen::Vector2d& pixel) const {
   constexpr double kPeak = 5.0;  // [cells] not further from the target: its own response
   const Eigen::Vector2d centre =
       (pixel - window.pixel) / window.cell_px + Eigen::Vector2d::Constant(kMiddle);
@@ -93,14 +93,16 @@ double Response::prominence(const Eigen::Vector2d& pixel) const {
     ++count;
   }
   const double mean = sum / count;
-  const double sd = std::sqrt(std::max(0.0, squares / count - mean * mean));
-  return sd > 0.0 ? (at(pixel) - mean) / sd : 0.0;
+  return {at(pixel), mean, std::sqrt(std::max(0.0, squares / count - mean * mean))};
 }
 
-CorrelationFilter::CorrelationFilter(const TrackerInput& frame, const Eigen::Vector2d& pixel,
-                                     const Eigen::Vector2d& size_px) {
-  const FeatureWindow window = window_of(pixel, size_px);
-  const Eigen::Vector2d half = 0.5 * size_px / window.cell_px;
+double Response::prominence(const Eigen::Vector2d& pixel) const {
+  const Contrast found = contrast(pixel);
+  return found.sd > 0.0 ? found.above() / found.sd : 0.0;
+}
+
+CorrelationFilter::CorrelationFilter(const WindowView& view, const Eigen::Vector2d& size_px) {
+  const Eigen::Vector2d half = 0.5 * size_px / view.window.cell_px;
   Map wanted;
   for (int i = 0; i < kMapArea; ++i) {
     const int x = i % kMapSide, y = i / kMapSide;
@@ -114,16 +116,14 @@ CorrelationFilter::CorrelationFilter(const TrackerInput& frame, const Eigen::Vec
   }
   Spectrum none;
   transform(wanted, Map{}, wanted_, none);
-  fit(spectra_of(frame, window), 0.0);
+  fit(spectra_of(view), 0.0);
 }
 
-Response CorrelationFilter::respond(const TrackerInput& frame, const Eigen::Vector2d& pixel,
-                                    const Eigen::Vector2d& size_px) const {
+Response CorrelationFilter::respond(const WindowView& view) const {
   Response response;
-  response.window = window_of(pixel, size_px);
+  response.window = view.window;
   Map wrapped, none;
-  transform_back(correlation(filter_, spectra_of(frame, response.window)), Spectrum{}, wrapped,
-                 none);
+  transform_back(correlation(filter_, spectra_of(view)), Spectrum{}, wrapped, none);
   for (std::size_t row = 0; row < kSide; ++row) {
     for (std::size_t column = 0; column < kSide; ++column) {
       response.values[(row + kMiddle) % kSide * kSide + (column + kMiddle) % kSide] =
@@ -133,9 +133,8 @@ Response CorrelationFilter::respond(const TrackerInput& frame, const Eigen::Vect
   return response;
 }
 
-void CorrelationFilter::learn(const TrackerInput& frame, const Eigen::Vector2d& pixel,
-                              const Eigen::Vector2d& size_px) {
-  fit(spectra_of(frame, window_of(pixel, size_px)), kInertia);
+void CorrelationFilter::learn(const WindowView& view, double share) {
+  fit(spectra_of(view), kInertia / share);
 }
 
 // Minimises |x f - wanted|^2 + inertia |f - before|^2 for an f that equals a g which is zero

@@ -8,12 +8,18 @@
 
 namespace ols::tracker {
 
-// The filter's response in a window of a frame: one value for each shift of the target by a cell.
+// A response to the target in a window of a frame: one value for each shift of the target by a
+// cell.
 struct Response {
   struct Peak {
     // In the full frame, interpolated between cells.
     Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
     double value = 0.0;
+  };
+  // The response at a pixel, and its mean and standard deviation away from that pixel.
+  struct Contrast {
+    double here = 0.0, mean = 0.0, sd = 0.0;
+    double above() const { return here - mean; }
   };
 
   FeatureWindow window;
@@ -22,26 +28,26 @@ struct Response {
   // The response at a pixel of the full frame; bilinear, 0 outside the window.
   double at(const Eigen::Vector2d& pixel) const;
   Peak peak() const;
+  Contrast contrast(const Eigen::Vector2d& pixel) const;
   // The response at a pixel minus the mean of the response elsewhere, over its standard deviation
   // (peak-to-sidelobe ratio: D. S. Bolme et al., "Visual object tracking using adaptive correlation
   // filters", CVPR 2010).
   double prominence(const Eigen::Vector2d& pixel) const;
 };
 
+// The window around `pixel`, which is four boxes wide. `size_px`: the target's present size.
+FeatureWindow window_around(const Eigen::Vector2d& pixel, const Eigen::Vector2d& size_px);
+
 class CorrelationFilter {
  public:
-  // Learns from the box in this frame alone.
-  CorrelationFilter(const TrackerInput& frame, const Eigen::Vector2d& pixel,
-                    const Eigen::Vector2d& size_px);
+  // Learns from the box of this size in the middle of this window alone.
+  CorrelationFilter(const WindowView& view, const Eigen::Vector2d& size_px);
 
-  // Returns the response in the window around `pixel`, which is four boxes wide. `size_px`: the
-  // target's present size.
-  Response respond(const TrackerInput& frame, const Eigen::Vector2d& pixel,
-                   const Eigen::Vector2d& size_px) const;
-  // Learns that the target is at `pixel`, and nowhere else in its window. The filter changes no
-  // more than this requires, so it hardly drifts.
-  void learn(const TrackerInput& frame, const Eigen::Vector2d& pixel,
-             const Eigen::Vector2d& size_px);
+  Response respond(const WindowView& view) const;
+  // Learns that the target is in the middle of the window, and nowhere else in it. The filter
+  // changes no more than this requires, so it hardly drifts. `share`: the weight of this image, 1
+  // of an image that certainly shows the target.
+  void learn(const WindowView& view, double share);
 
  private:
   void fit(const Spectra& features, double inertia);

@@ -13,7 +13,6 @@ namespace {
 
 constexpr auto kSide = static_cast<std::size_t>(kMapSide);
 constexpr int kCell = kCellSide;
-constexpr int kColourCell = 2;  // the same for colours
 constexpr std::size_t kUnsigned = 6, kSigned = 2 * kUnsigned;
 constexpr std::size_t kEnergy = kSigned + kUnsigned, kLevel = kEnergy + 1, kRed = kEnergy + 2,
                       kYellow = kEnergy + 3;
@@ -44,7 +43,7 @@ cv::Mat resample_colours(const ColourPicture& picture, const FeatureWindow& wind
       picture.part(enclosing(box_of(window.pixel, Eigen::Vector2d::Constant(side))));
   FeatureWindow within = window;
   within.pixel -= Eigen::Vector2d(part.origin.x, part.origin.y);
-  return resample(part.bgr, within, kColourCell);
+  return resample(part.bgr, within, kColourSide);
 }
 
 // The means of the cells of a resampled window.
@@ -225,15 +224,17 @@ void add_shape(const cv::Mat& sampled, int side, float* features) {
   }
 }
 
-FeatureMap extract_features(const TrackerInput& frame, const FeatureWindow& window) {
+WindowView view_window(const TrackerInput& frame, const FeatureWindow& window) {
+  WindowView view{window, resample(frame.gray, window, kCell), {}};
+  if (!frame.colour.empty()) view.bgr = resample_colours(frame.colour, window);
+  return view;
+}
+
+FeatureMap extract_features(const WindowView& view) {
   FeatureMap features{};
-  const cv::Mat sampled = resample(frame.gray, window, kCell);
-  add_gradients(sampled, features);
-  add_levels(cell_means(sampled), features[kLevel]);
-  if (!frame.colour.empty()) {
-    const cv::Mat colours = resample_colours(frame.colour, window);
-    add_colours(cell_means(colours), features[kRed], features[kYellow]);
-  }
+  add_gradients(view.gray, features);
+  add_levels(cell_means(view.gray), features[kLevel]);
+  if (!view.bgr.empty()) add_colours(cell_means(view.bgr), features[kRed], features[kYellow]);
   taper(features);
   return features;
 }

@@ -16,6 +16,12 @@ constexpr double kLetsGo_s = 0.5;
 constexpr double kLeast = 2.0;  // of the prominence: noise
 constexpr double kNamed = 0.7;  // it has hardly left the place where a caller said it is
 
+double smoothed(double before, double log_odds, double interval_s) {
+  const double probability = 1.0 / (1.0 + std::exp(-log_odds));
+  const double time_s = probability < before ? kFallTime_s : kRiseTime_s;
+  return before + (probability - before) * (1.0 - std::exp(-interval_s / time_s));
+}
+
 }  // namespace
 
 // Both are nearly normal with equal deviations on the target and off it, so the logarithm of the
@@ -34,11 +40,18 @@ double follow_log_odds(const FollowEvidence& evidence, double own) {
   return odds + kChangeWeight * (change - kEvenChange);
 }
 
+double colour_log_odds(const FollowEvidence& evidence) {
+  constexpr double kColourWeight = 6.0, kEvenColours = 0.4;
+  constexpr double kLeastColours = -0.5, kMostColours = 1.0;
+  const double colours = std::clamp(evidence.colours, kLeastColours, kMostColours);
+  return kColourWeight * evidence.separability * (colours - kEvenColours);
+}
+
 void FollowJudge::update(const FollowEvidence& evidence, double interval_s) {
   const double own = learn_own(evidence.prominence, interval_s);
-  const double probability = 1.0 / (1.0 + std::exp(-follow_log_odds(evidence, own)));
-  const double time_s = probability < value_ ? kFallTime_s : kRiseTime_s;
-  value_ += (probability - value_) * (1.0 - std::exp(-interval_s / time_s));
+  const double odds = follow_log_odds(evidence, own);
+  value_ = smoothed(value_, odds, interval_s);
+  belief_ = smoothed(belief_, odds + colour_log_odds(evidence), interval_s);
   wary_ = doubts() || (wary_ && !believes());
   doubted_s_ = doubts() ? doubted_s_ + interval_s : 0.0;
 }

@@ -14,11 +14,15 @@ struct FollowEvidence {
   double prominence = 0.0;
   // Result of background_change(); nullopt if there is no image of the background at that place.
   std::optional<double> change = {};
+  // LearntAppearance::first_colours() and first_separability().
+  double colours = 0.0, separability = 0.0;
 };
 
-// The natural logarithm of the odds that the object is the target. `own`: the target's prominence
-// when it was designated.
+// The natural logarithm of the odds that the object is the target, without its colours. `own`: the
+// target's prominence when it was designated.
 double follow_log_odds(const FollowEvidence& evidence, double own);
+// What is added to them by the colours.
+double colour_log_odds(const FollowEvidence& evidence);
 
 // The probability, smoothed over time, that the followed object is the target.
 class FollowJudge {
@@ -30,7 +34,11 @@ class FollowJudge {
   // The logarithm of the odds that an object found elsewhere is the target, from this evidence
   // alone.
   double log_odds_elsewhere(const FollowEvidence& evidence) const;
+  // By the response and the background; it decides what the tracker does. A shadow changes the
+  // colours of a target, which must not be dropped or searched for because of that.
   double value() const { return value_; }
+  // The same with the colours: what is believed.
+  double belief() const { return belief_; }
   bool sure() const;
   bool believes() const;
   bool doubts() const;
@@ -43,7 +51,7 @@ class FollowJudge {
  private:
   double learn_own(double prominence, double interval_s);
 
-  double value_ = 1.0;
+  double value_ = 1.0, belief_ = 1.0;
   bool wary_ = false;
   double doubted_s_ = 0.0;  // time in doubt without interruption
   double named_s_ = 0.0;    // time since the designation, up to the limit that is used

@@ -1,9 +1,10 @@
-// The target's learnt appearance: the correlation filter and its usual response.
+// The target's learnt appearance: the correlation filter with its usual response, and the colours.
 #pragma once
 
 #include <optional>
 #include <vector>
 
+#include "edge/tracker/colour_likeness.h"
 #include "edge/tracker/correlation_filter.h"
 
 namespace ols::tracker {
@@ -23,20 +24,42 @@ class LearntAppearance {
   // towards its edge.)
   void look_at(const TrackerInput& frame, const Eigen::Vector2d& pixel,
                const Eigen::Vector2d& size_px);
-  // The response at a pixel of the newest frame, relative to the usual one; 0 where no search took
-  // place.
+  // The response of filter and colours at a pixel of the newest frame, relative to the usual one; 0
+  // where no search took place.
   double recognised(const Eigen::Vector2d& pixel) const;
-  // That response, relative to the deviation of the response elsewhere; 0 where no search took
-  // place.
+  // The filter's response there, relative to the deviation of its response elsewhere; 0 where no
+  // search took place.
   double prominence(const Eigen::Vector2d& pixel) const;
-  // Learns that the target is at `pixel` of the newest frame.
+  // How the colours there resemble those that the target had at first: 0 as elsewhere in the
+  // window, 1 as at the target then. 0 where no search took place.
+  double first_colours(const Eigen::Vector2d& pixel) const;
+  // ColourLikeness::separability() then.
+  double first_separability() const { return first_colours_.separability(); }
+  // Learns that the target is at `pixel` of the newest frame: less of it, the less its colours are
+  // the target's.
   void learn(const TrackerInput& frame, const Eigen::Vector2d& pixel,
              const Eigen::Vector2d& size_px, double interval_s);
 
  private:
+  struct Searched {
+    Response filter;   // relative to the usual one
+    Response colours;  // ColourLikeness::respond()
+    Response both;     // their weighted mean
+    Response first;    // of the first colours
+  };
+
+  LearntAppearance(const WindowView& view, const Eigen::Vector2d& size_px);
+  Searched search(const TrackerInput& frame, const Eigen::Vector2d& pixel,
+                  const Eigen::Vector2d& size_px) const;
+  double colour(const Eigen::Vector2d& pixel) const;
+  const Searched* best_at(const Eigen::Vector2d& pixel) const;
+
   CorrelationFilter filter_;
-  std::vector<Response> responses_;  // those in the newest frame
-  double usual_;                     // usual response at the target
+  ColourLikeness colours_;
+  ColourLikeness first_colours_;
+  double first_s_ = 0.0;            // time over which they were learnt
+  std::vector<Searched> searched_;  // in the newest frame
+  double usual_;                    // the filter's usual response at the target
 };
 
 }  // namespace ols::tracker

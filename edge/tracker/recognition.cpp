@@ -12,6 +12,8 @@ constexpr double kFoundAgain = 0.5;  // of the usual response
 FollowEvidence evidence(const LearntAppearance& appearance, const TrackerInput& frame,
                         const ReferenceFrames& references, const Particle& at) {
   FollowEvidence seen{appearance.prominence(at.pixel)};
+  seen.colours = appearance.first_colours(at.pixel);
+  seen.separability = appearance.first_separability();
   const cv::Rect2d box = box_of(at.pixel, at.size_px);
   if (const auto* reference = references.without_overlap(box)) {
     seen.change = background_change(frame.gray, *reference, box);

@@ -18,7 +18,7 @@ class Recognition {
 
   LearntAppearance& appearance() { return appearance_; }
   // Probability that the followed object is the target.
-  double belief() const { return judge_.value(); }
+  double belief() const { return judge_.belief(); }
   // If true, nothing is learnt, because the followed object may be another one.
   bool doubts() const { return judge_.wary(); }
 

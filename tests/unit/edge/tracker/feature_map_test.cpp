@@ -19,18 +19,22 @@ TrackerInput half(const cv::Scalar& bgr) {
 
 TrackerInput half_red() { return half({100, 20, 180}); }
 
+FeatureMap features_of(const TrackerInput& frame) {
+  return extract_features(view_window(frame, {{99.5, 99.5}, 3.0}));
+}
+
 float greatest(const Map& map) { return *std::max_element(map.begin(), map.end()); }
 
 TEST(FeatureMap, AColourShowsWhereGreyLevelsAreEqual) {
   const TrackerInput frame = half_red();
-  const FeatureMap features = extract_features(frame, {{99.5, 99.5}, 3.0});
+  const FeatureMap features = features_of(frame);
   EXPECT_GT(greatest(features[kChannels - 2]), 0.3F);
   for (std::size_t c = 0; c + 2 < features.size(); ++c)
     EXPECT_LT(greatest(features[c]), 1e-6F) << c;
 }
 
 TEST(FeatureMap, BrightnessIsNoColour) {
-  const FeatureMap features = extract_features(half({200, 200, 200}), {{99.5, 99.5}, 3.0});
+  const FeatureMap features = features_of(half({200, 200, 200}));
   for (std::size_t c = kChannels - 2; c < kChannels; ++c) {
     EXPECT_LT(greatest(features[c]), 1e-6F) << c;
   }
@@ -38,7 +42,7 @@ TEST(FeatureMap, BrightnessIsNoColour) {
 
 TEST(FeatureMap, YellowAndBlueAreOpposites) {
   const auto yellow_at = [](const cv::Scalar& bgr, std::size_t column) {
-    const FeatureMap features = extract_features(half(bgr), {{99.5, 99.5}, 3.0});
+    const FeatureMap features = features_of(half(bgr));
     EXPECT_LT(greatest(features[kChannels - 2]), 1e-6F);
     return features[kChannels - 1][kMapSide * (kMapSide / 2) + column];
   };
@@ -49,7 +53,7 @@ TEST(FeatureMap, YellowAndBlueAreOpposites) {
 TEST(FeatureMap, WithoutAColourImageItsChannelsAreZero) {
   TrackerInput frame = half_red();
   frame.colour = {};
-  const FeatureMap features = extract_features(frame, {{99.5, 99.5}, 3.0});
+  const FeatureMap features = features_of(frame);
   EXPECT_EQ(greatest(features[kChannels - 2]), 0.0F);
   EXPECT_EQ(greatest(features[kChannels - 1]), 0.0F);
 }
@@ -58,7 +62,7 @@ TEST(FeatureMap, AnEdgesDirectionHasItsChannel) {
   TrackerInput frame;
   frame.gray = cv::Mat(200, 200, CV_8U, cv::Scalar(50));
   cv::rectangle(frame.gray, cv::Rect(100, 0, 100, 200), cv::Scalar(150), cv::FILLED);
-  const FeatureMap features = extract_features(frame, {{99.5, 99.5}, 3.0});
+  const FeatureMap features = features_of(frame);
   EXPECT_GT(greatest(features[0]), 0.3F);   // brighter to the right
   EXPECT_LT(greatest(features[6]), 1e-6F);  // to the left
   EXPECT_GT(greatest(features[12]), 0.3F);  // either

@@ -46,6 +46,24 @@ TEST(FollowJudge, NoResponseOfItsOwnMakesNoiseATarget) {
   EXPECT_LT(after_own(7.0, {7.0, 0.8}), 0.3);
 }
 
+FollowJudge judged(const FollowEvidence& evidence) {
+  FollowJudge judge;
+  for (int k = 0; k < 30; ++k) judge.update(evidence, kInterval_s);
+  return judge;
+}
+
+TEST(FollowJudge, DoesNotBelieveAnObjectInOtherColoursAndDoesNotDropIt) {
+  const FollowJudge own = judged({35.0, 2.0, 0.8, 0.9}), other = judged({35.0, 2.0, -0.5, 0.9});
+  EXPECT_GT(own.belief(), 0.9);
+  EXPECT_LT(other.belief(), 0.5);
+  EXPECT_EQ(own.value(), other.value());
+}
+
+TEST(FollowJudge, ColoursThatSeparateNothingDecideNothing) {
+  const FollowJudge judge = judged({24.0, 0.8, -0.5, 0.0});
+  EXPECT_EQ(judge.belief(), judge.value());
+}
+
 TEST(FollowJudge, AFrameDoesNotDecideAndAThirdOfASecondDoes) {
   EXPECT_GT(after(kInterval_s, {8.0, 0.0}), 0.5);
   EXPECT_LT(after(1.0 / 3.0, {8.0, 0.0}), 0.2);

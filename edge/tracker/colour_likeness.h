@@ -1,0 +1,44 @@
+// The colours that the target has and its surroundings do not have: two histograms, as in L.
+// Bertinetto, J. Valmadre, S. Golodetz, O. Miksik, P. H. S. Torr, "Staple: complementary learners
+// for real-time tracking", CVPR 2016. They remain when the target turns or changes its posture, and
+// the correlation filter no longer fits.
+#pragma once
+
+#include <vector>
+
+#include "edge/tracker/correlation_filter.h"
+
+namespace ols::tracker {
+
+class ColourLikeness {
+ public:
+  // Learns from the box of this size in the middle of this window alone. Without a colour image
+  // nothing is learnt, and the likeness is unknown for good.
+  ColourLikeness(const WindowView& view, const Eigen::Vector2d& size_px);
+
+  // How the colours of a box of this size resemble the target's, for each shift of the target by a
+  // cell: 0 as around the target, 1 as at the target. 0 everywhere if nothing is known.
+  Response respond(const WindowView& view, const Eigen::Vector2d& size_px) const;
+  // Learns that the target is in the middle of the window, and nowhere else in it. `share` of what
+  // is known comes from this image afterwards.
+  void learn(const WindowView& view, const Eigen::Vector2d& size_px, double share);
+
+  // How well the colours separate the target from its surroundings, 0..1. It is measured in the
+  // images that were learnt, each before it was learnt. Near 0 for a target without a colour of its
+  // own.
+  double separability() const;
+
+ private:
+  Map mean_probability(const WindowView& view, const Eigen::Vector2d& size_px) const;
+  void learn_histograms(const WindowView& view, const Eigen::Vector2d& size_px, double share);
+  void learn_level(const Response::Contrast& seen, double share);
+
+  // Of each colour, a sum of 1 over all colours.
+  std::vector<float> target_, around_;
+  std::vector<float> probability_;  // that a pixel of this colour is the target's
+  // Of the mean probability in a box: around the target, with its variance; and how much more it is
+  // at the target.
+  double level_ = 0.0, variance_ = 0.0, above_ = 0.0;
+};
+
+}  // namespace ols::tracker
