@@ -21,6 +21,7 @@ from ols_bench.markdown import table
 from ols_bench.measures import Judged, clip_measures, judge
 from ols_bench.pictures import frames_per_second
 from ols_bench.places import places_of
+from ols_bench.tables import text
 from ols_bench.trackers import run_ours
 from ols_bench.variants import PICTURES, variant
 
@@ -94,14 +95,12 @@ def rows(by_version: dict[str, Figures]) -> list[list[str]]:
     for name, of in by_version.items():
         cells = [mean_and_error(values, ".3f") for values in (of.lock, of.p20, of.iou)]
         cells[0] = f"{of.lock.sum():.1f} ({cells[0]})"
-        made.append(
-            [name, str(len(of.p20)), *cells, f"{of.off_target_believed:.3f}", f"{of.auroc:.3f}"]
-        )
+        made.append([name, str(len(of.p20)), *cells, text(of.off_target_believed), text(of.auroc)])
         if of is not base:
             pairs = ((of.lock, base.lock), (of.p20, base.p20), (of.iou, base.iou))
             gains = [mean_and_error(new - old, "+.3f") for new, old in pairs]
             belief = (of.off_target_believed - base.off_target_believed, of.auroc - base.auroc)
-            made.append(["difference", "", *gains, *(f"{value:+.3f}" for value in belief)])
+            made.append(["difference", "", *gains, *(text(value, "+.3f") for value in belief)])
     return made
 
 
