@@ -57,7 +57,7 @@ class Judge {
     volume();
     global();
     for (std::size_t g = 0; g < found_.tests.size(); ++g) reference(g);
-    clock();
+    star_clock();
     closing();
     residuals("sweep", Kind::kScene, limits_.sweep_px);
     residuals("stars", Kind::kStar, limits_.stars_px);
@@ -147,7 +147,7 @@ class Judge {
   }
 
   // Stars and sun that were stamped late agree with each other as well as before.
-  void clock() {
+  void star_clock() {
     if (own_kept(Kind::kStar).empty() && own_kept(Kind::kSun).empty()) return;
     constexpr double kSky_arcsec_s = 15.04;
     const ClockCheck check = clock_check(adjustment_.network(), found_.fit);
