@@ -40,13 +40,6 @@ cv::Rect2d clearest_box(const std::vector<Tracklet>& tracklets) {
   return {corner.x(), corner.y(), side.x(), side.y()};
 }
 
-// The same motion in pixels of the reduced frame.
-std::optional<Eigen::Matrix3d> reduced(const std::optional<Eigen::Matrix3d>& motion,
-                                       const tracker::ReducedFrame& frame) {
-  if (!motion) return std::nullopt;
-  return frame.to_full().inverse() * *motion * frame.to_full();
-}
-
 }  // namespace
 
 Detector::Detector(const DetectorConfig& config, const cv::Size& image)
@@ -61,7 +54,6 @@ std::optional<Eigen::Matrix3d> Detector::measure_motion(
     ego_motion_.start(frame);
     return std::nullopt;
   }
-  ego_motion_.set_overlay(overlay_.mask());
   const auto estimate = ego_motion_.step(frame, clearest_box(book_.tracklets()), predicted);
   if (estimate.homography) return estimate.homography;
   return predicted;
@@ -75,8 +67,8 @@ Detector::Result Detector::advance(const cv::Mat& gray, double time_s,
   const std::optional<Eigen::Matrix3d> motion = measure_motion(frame, predicted);
   const double interval_s = time_s_ ? time_s - *time_s_ : 0.0;
   time_s_ = time_s;
-  const std::optional<Eigen::Matrix3d> reduced_motion = reduced(motion, small);
-  if (overlay_.advance(small.image, reduced_motion, reduced(predicted, small))) book_.forget_ways();
+  std::optional<Eigen::Matrix3d> reduced_motion;
+  if (motion) reduced_motion = small.to_full().inverse() * *motion * small.to_full();
   const auto movers = movers_.find(small, time_s, reduced_motion);
   Result result;
   result.suspended = !movers.has_value();
@@ -86,10 +78,6 @@ Detector::Result Detector::advance(const cv::Mat& gray, double time_s,
   } else {
     join(result.detections, *movers);
   }
-  std::erase_if(result.detections, [&](const Detection& detection) {
-    const Eigen::Vector2d pixel = (detection.pixel.array() + 0.5) / small.reduction - 0.5;
-    return overlay_.covers(pixel, detection.size_px / small.reduction);
-  });
   book_.advance(result.detections, motion, interval_s);
   return result;
 }

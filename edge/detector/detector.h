@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "edge/detector/mover_finder.h"
-#include "edge/detector/overlay.h"
 #include "edge/detector/spot_finder.h"
 #include "edge/detector/tracklet_book.h"
 #include "edge/tracker/ego_motion.h"
@@ -42,7 +41,6 @@ class Detector {
                                                 const std::optional<Eigen::Matrix3d>& predicted);
 
   tracker::EgoMotionEstimator ego_motion_;
-  Overlay overlay_;
   SpotFinder spots_;
   MoverFinder movers_;
   TrackletBook book_;

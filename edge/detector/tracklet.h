@@ -66,7 +66,6 @@ class Tracklet {
   // scene_shift_px: how far the scene has moved in the image since the tracklet began. reach_px:
   // the largest distance, in the image, from the place where it began.
   double scene_shift_px() const { return (origin_ - first_pixel_).norm(); }
-  const Eigen::Vector2d& first_pixel() const { return first_pixel_; }
   double reach_px() const { return reach_px_; }
   // Whether it has not moved relative to the scene in the last seconds.
   bool rests() const { return rests_; }

@@ -12,7 +12,6 @@ namespace {
 constexpr double kGate = 16.0;      // squared standard deviations
 constexpr double kReserve = 6.0;    // [log] that a confirmed tracklet keeps for misses
 constexpr double kRejected = -2.5;  // [log] the test's lower bound
-constexpr double kFixed_px = 1.5;   // no controller holds a target as still as that
 
 }  // namespace
 
@@ -82,44 +81,29 @@ bool TrackletBook::crowded(const Eigen::Vector2d& pixel) const {
 // While the camera turns, what moves along with the scene is a part of it, and what stays where it
 // is in the image is a part of the camera: a speck on the lens, a burnt-in text.
 bool TrackletBook::belongs_to_scene_or_camera(const Tracklet& tracklet) const {
-  constexpr double kTold_px = 4.0;  // a smaller turn tells nothing: the motion's own error
-  constexpr double kAlong = 0.2;    // of the turn: parallax, and the error again
+  constexpr double kTold_px = 4.0;   // a smaller turn tells nothing: the motion's own error
+  constexpr double kAlong = 0.2;     // of the turn: parallax, and the error again
+  constexpr double kFixed_px = 1.5;  // no controller holds a target as still as that
   const double shift_px = tracklet.scene_shift_px();
   if (shift_px < kTold_px) return false;
   return tracklet.way_px() < kTold_px / 2.0 + kAlong * shift_px || tracklet.reach_px() < kFixed_px;
 }
 
-// A defect of the sensor shows again after a gap, and when the camera rests.
-void TrackletBook::remember_defect(const Tracklet& tracklet) {
-  constexpr double kCertain_px = 16.0;
-  constexpr std::size_t kMost = 50;
-  if (tracklet.scene_shift_px() < kCertain_px || tracklet.reach_px() >= kFixed_px) return;
-  if (!at_defect(tracklet) && defects_.size() < kMost) defects_.push_back(tracklet.first_pixel());
-}
-
-bool TrackletBook::at_defect(const Tracklet& tracklet) const {
-  const auto here = [&](const Eigen::Vector2d& defect) {
-    return (tracklet.first_pixel() - defect).norm() < kFixed_px;
-  };
-  return tracklet.reach_px() < kFixed_px && std::ranges::any_of(defects_, here);
-}
-
 // What stands still in front of the ground is a part of it: foliage, a stone, an edge of a
 // misaligned image. A spot in front of a clear sky need not move.
 bool TrackletBook::moves_or_flies(const Tracklet& tracklet) const {
-  if (belongs_to_scene_or_camera(tracklet) || at_defect(tracklet)) return false;
+  if (belongs_to_scene_or_camera(tracklet)) return false;
   if (tracklet.mostly_clear() && !crowded(tracklet.pixel())) return true;
   const double way_px = tracklet.way_px();
   return way_px > 5.0 + 0.5 * tracklet.size_px().minCoeff() &&
          way_px > config_.least_directness * tracklet.path_px();
 }
 
-void TrackletBook::judge(Tracklet& tracklet) {
+void TrackletBook::judge(Tracklet& tracklet) const {
   if (tracklet.log_ratio() >= needed(tracklet) && moves_or_flies(tracklet))
     tracklet.confirm(!crowded(tracklet.pixel()));
   if (tracklet.rests() && !tracklet.confirmed_clear()) tracklet.doubt();
   if (belongs_to_scene_or_camera(tracklet)) tracklet.doubt();
-  remember_defect(tracklet);
 }
 
 bool TrackletBook::hopeless(const Tracklet& tracklet) const {

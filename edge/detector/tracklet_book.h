@@ -32,10 +32,6 @@ class TrackletBook {
   // `motion` maps pixels of the previous image to the present one; nullopt if unknown.
   void advance(const std::vector<Detection>& detections,
                const std::optional<Eigen::Matrix3d>& motion, double interval_s);
-  // The motion that was given so far was not the scene's.
-  void forget_ways() {
-    for (Tracklet& tracklet : tracklets_) tracklet.forget_way();
-  }
   const std::vector<Tracklet>& tracklets() const { return tracklets_; }
 
  private:
@@ -45,9 +41,7 @@ class TrackletBook {
   void weigh_miss(Tracklet& tracklet);
   // The threshold of the sequential test in the tracklet's tile [log].
   double needed(const Tracklet& tracklet) const;
-  void judge(Tracklet& tracklet);
-  void remember_defect(const Tracklet& tracklet);
-  bool at_defect(const Tracklet& tracklet) const;
+  void judge(Tracklet& tracklet) const;
   bool crowded(const Eigen::Vector2d& pixel) const;
   bool belongs_to_scene_or_camera(const Tracklet& tracklet) const;
   bool moves_or_flies(const Tracklet& tracklet) const;
@@ -57,7 +51,6 @@ class TrackletBook {
   ClutterMap clutter_;
   cv::Size image_;
   std::vector<Tracklet> tracklets_;
-  std::vector<Eigen::Vector2d> defects_;  // of the sensor: places in the image
   long next_id_ = 1;
 };
 

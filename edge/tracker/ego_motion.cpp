@@ -192,14 +192,6 @@ void EgoMotionEstimator::start(const ReducedFrame& frame) {
   last_.setIdentity();
 }
 
-bool EgoMotionEstimator::on_overlay(const cv::Point2f& corner) const {
-  if (overlay_.empty()) return false;
-  const cv::Size& image = previous_.image.size();
-  const int x = static_cast<int>(corner.x) * overlay_.cols / image.width;
-  const int y = static_cast<int>(corner.y) * overlay_.rows / image.height;
-  return overlay_.at<std::uint8_t>(y, x) != 0;
-}
-
 std::vector<cv::Point2f> EgoMotionEstimator::detect_corners(const cv::Rect2d& target) {
   constexpr int kGreatestThreshold = 60;
   const int least = std::max(6, static_cast<int>(std::ceil(5.0 * pixel_noise(previous_.image))));
@@ -211,9 +203,8 @@ std::vector<cv::Point2f> EgoMotionEstimator::detect_corners(const cv::Rect2d& ta
   if (found < 4 * config_.ego_motion_corners) --corner_threshold_;
   if (found < config_.ego_motion_corners) corner_threshold_ -= 2;
   if (found > 12 * config_.ego_motion_corners) corner_threshold_ += 2;
-  std::erase_if(corners, [&](const cv::KeyPoint& corner) {
-    return target.contains(cv::Point2d(corner.pt)) || on_overlay(corner.pt);
-  });
+  std::erase_if(
+      corners, [&](const cv::KeyPoint& corner) { return target.contains(cv::Point2d(corner.pt)); });
   return spread(corners, previous_.image.size(), config_.ego_motion_corners);
 }
 
@@ -225,9 +216,8 @@ void EgoMotionEstimator::provide_corners(const cv::Rect2d& target_box) {
   const cv::Rect2d target((target_box.x - target_box.width * 0.25) / scale,
                           (target_box.y - target_box.height * 0.25) / scale,
                           1.5 * target_box.width / scale, 1.5 * target_box.height / scale);
-  std::erase_if(corners_, [&](const cv::Point2f& corner) {
-    return target.contains(cv::Point2d(corner)) || on_overlay(corner);
-  });
+  std::erase_if(corners_,
+                [&](const cv::Point2f& corner) { return target.contains(cv::Point2d(corner)); });
   const double enough = std::max(kEnough * static_cast<double>(detected_),
                                  static_cast<double>(config_.ego_motion_least_inliers));
   if (++followed_ <= kLongest && static_cast<double>(corners_.size()) >= enough) return;

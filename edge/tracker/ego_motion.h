@@ -49,13 +49,9 @@ class EgoMotionEstimator {
   // scene.
   Estimate step(const ReducedFrame& frame, const cv::Rect2d& target_box,
                 const std::optional<Eigen::Matrix3d>& predicted);
-  // Corners where `overlay` is not 0 are not taken as parts of the scene. CV_8U; it covers the
-  // whole image at any reduction. Empty: there is none.
-  void set_overlay(const cv::Mat& overlay) { overlay_ = overlay; }
 
  private:
   void provide_corners(const cv::Rect2d& target_box);
-  bool on_overlay(const cv::Point2f& corner) const;
   std::vector<cv::Point2f> detect_corners(const cv::Rect2d& target);
   CornerMatches follow(const Eigen::Matrix3d& guess) const;
   // The corners that fit one homography, and that homography.
@@ -68,7 +64,6 @@ class EgoMotionEstimator {
   TrackerConfig config_;
   HomographyFit fit_;
   ReducedFrame previous_;
-  cv::Mat overlay_;
   ImagePyramid previous_pyramid_;
   ImagePyramid pyramid_;
   std::vector<cv::Point2f> corners_;                    // in the previous frame, reduced pixels

@@ -33,6 +33,7 @@ ols_msg::bearing_t bearing() {
   message.covariance_white_rad2[0] = 4e-8;
   message.covariance_white_rad2[1] = 1e-8;
   message.covariance_white_rad2[2] = 2e-8;
+  message.covariance_systematic_rad2[0] = 2e-8;
   message.covariance_systematic_rad2[2] = 3e-8;
   message.aim_sd_rad = 1e-4;
   message.camera_position_sd_m[1] = 0.5;

@@ -191,22 +191,6 @@ TEST(Detector, OnlyThingBeforeTheSkyDoesNotCarryTheSceneAlong) {
   EXPECT_NEAR(only->pixel().y(), 100 + 17.0, 10.0);
 }
 
-TEST(Detector, BurntInTextDoesNotHoldTheSceneBeforeTheSky) {
-  constexpr int kTurn_px = 2;  // an image
-  const Watch watch(
-      [](int i) {
-        cv::Mat image = sky();
-        for (int column = 0; column < 10; ++column) {
-          cv::putText(image, "x", {20 + 28 * column, 40}, cv::FONT_HERSHEY_SIMPLEX, 0.5, 255.0, 2);
-        }
-        add(image, {310 - kTurn_px * i, 200, 3, 3}, 60.0);  // a lamp
-        add(image, {60 + i, 150, 3, 3}, 60.0);
-        return image;
-      },
-      120, Eigen::Vector2d(-kTurn_px, 0.0));
-  expect_at(watch.only(), 60 + 119 + 1, 151);
-}
-
 TEST(Detector, DefectOfTheSensorIsNoObject) {
   const Watch watch([](int) {
     cv::Mat image = sky();

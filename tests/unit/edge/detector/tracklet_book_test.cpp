@@ -147,22 +147,6 @@ TEST(TrackletBook, WhileTheCameraTurnsPartsOfSceneAndCameraAreNoObjects) {
   EXPECT_EQ(confirmed_in_turn(0.0, 0.0), 1) << "hovers, and the camera rests";
 }
 
-TEST(TrackletBook, DefectOfTheSensorIsRememberedWhenTheCameraRests) {
-  Eigen::Matrix3d turn = kStill;
-  turn(0, 2) = 3.0;
-  for (const double off_px : {0.0, 30.0}) {
-    TrackletBook book(TrackletConfig{}, kView);
-    for (int image = 0; image < 30; ++image) {
-      book.advance({clear_spot(300.0, 200.0)}, turn, kTick_s);
-    }
-    for (int image = 0; image < 30; ++image) book.advance({}, kStill, kTick_s);
-    for (int image = 0; image < 60; ++image) {
-      book.advance({clear_spot(300.0 + off_px, 200.0)}, kStill, kTick_s);
-    }
-    EXPECT_EQ(confirmed(book), off_px > 0.0 ? 1 : 0) << off_px;
-  }
-}
-
 TEST(TrackletBook, WhatFlewIsNotDoubtedWhenItHoversBeforeTheGround) {
   TrackletBook book(TrackletConfig{}, kView);
   for (int image = 0; image < 240; ++image) {
