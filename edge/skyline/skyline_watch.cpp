@@ -1,7 +1,7 @@
 #include "edge/skyline/skyline_watch.h"
 
 #include <cmath>
-#include <stdexcept>
+#include <exception>
 
 #include "conditions/alarms.h"
 #include "geometry/angles.h"
@@ -10,6 +10,7 @@ namespace ols::skyline {
 namespace {
 
 constexpr double kBegins = 4.0, kEnds = 3.0;  // sigmas
+constexpr double kUnder = 3.0;                // sigmas, as HorizonMap has it
 
 double mean_azimuth_sd_rad(const std::vector<SeenPlace>& places) {
   if (places.empty()) return 0.0;
@@ -26,18 +27,34 @@ void SkylineWatch::forget() {
   disagrees_ = false;
 }
 
-bool SkylineWatch::has_map(const Geodetic& camera) {
-  if (place_ && (ecef_from_geodetic(*place_) - ecef_from_geodetic(camera)).norm() <= kMoved_m) {
-    return map_.has_value();
+// Below the ground by more than the map takes, but by no more than the station may err in its
+// height: there the map is made for a camera on the ground.
+Geodetic SkylineWatch::camera_of_map(const Geodetic& stated, double height_sd_m) const {
+  const auto ground = surface_->ground(stated.latitude_rad, stated.longitude_rad);
+  if (!ground) return stated;
+  const double under_m = ground->height_m - stated.height_m;
+  if (under_m < kUnder * ground->sd_m || under_m > kUnder * std::hypot(ground->sd_m, height_sd_m)) {
+    return stated;
   }
+  Geodetic on_ground = stated;
+  on_ground.height_m = ground->height_m;
+  return on_ground;
+}
+
+bool SkylineWatch::has_map(const StatedPicture& picture) {
+  const Eigen::Vector3d& centre_ecef = picture.camera.centre_ecef;
+  const double same_m = map_ ? kMoved_m : kAgain_m;
+  if (place_ecef_ && (*place_ecef_ - centre_ecef).norm() <= same_m) return map_.has_value();
   forget();
-  place_ = camera;
+  place_ecef_ = centre_ecef;
   map_.reset();
   why_none_.clear();
   try {
+    const Geodetic camera =
+        camera_of_map(geodetic_from_ecef(centre_ecef), picture.position_sd_enu_m.z());
     map_.emplace(*surface_, camera, config_);
     model_sd_m_ = surface_->ground(camera.latitude_rad, camera.longitude_rad)->sd_m;
-  } catch (const std::invalid_argument& reason) {
+  } catch (const std::exception& reason) {
     why_none_ = reason.what();
   }
   return map_.has_value();
@@ -53,7 +70,7 @@ Eigen::Vector3d SkylineWatch::place_sd_enu_m(const StatedPicture& picture) const
 }
 
 void SkylineWatch::look(const StatedPicture& picture) {
-  if (!has_map(geodetic_from_ecef(picture.camera.centre_ecef))) return;
+  if (!has_map(picture)) return;
   const LocalFrame frame(map_->camera());
   const PictureView view{(picture.camera.R_camera_ecef * frame.R_ecef_enu()).transpose(),
                          picture.camera.intrinsics, picture.azimuth_sd_rad,

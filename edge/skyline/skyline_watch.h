@@ -50,15 +50,19 @@ class SkylineWatch {
   Alarm alarm() const;
 
   static constexpr double kMoved_m = 5.0;
+  // While the land does not fit, the next place is tried sooner: a first fix may have been wrong.
+  static constexpr double kAgain_m = 0.5;
 
  private:
-  bool has_map(const Geodetic& camera);
+  bool has_map(const StatedPicture& picture);
+  Geodetic camera_of_map(const Geodetic& stated, double height_sd_m) const;
   Eigen::Vector3d place_sd_enu_m(const StatedPicture& picture) const;
   void compare(const StatedPicture& newest);
 
   std::shared_ptr<const land::Surface> surface_;
   land::HorizonMapConfig config_;
-  std::optional<Geodetic> place_;  // of the map, also if the land does not fit there
+  // The stated place for which the map was made or, without a map, tried last.
+  std::optional<Eigen::Vector3d> place_ecef_;
   std::optional<land::HorizonMap> map_;
   std::string why_none_;
   double model_sd_m_ = 0.0;  // of the model as a whole

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <opencv2/core.hpp>
+#include <stdexcept>
 
 #include "sim/world/panorama.h"
 #include "tests/unit/edge/skyline/made_site.h"
@@ -76,6 +77,12 @@ class SkylineWatchTest : public ::testing::Test {
   }
   Geodetic moved(double east_m) const {
     return geodetic_from_ecef(LocalFrame(site_.camera()).to_ecef({east_m, 0.0, 0.0}));
+  }
+  // So far below the model's ground.
+  Geodetic under_ground(double by_m) const {
+    Geodetic place = site_.camera();
+    place.height_m = site_.model().ground(place.latitude_rad, place.longitude_rad)->height_m - by_m;
+    return place;
   }
   bool says(const std::string& words) const {
     return watch_.alarm().text.find(words) != std::string::npos;
@@ -157,6 +164,32 @@ TEST_F(SkylineWatchTest, APlaceUnderTheGroundIsSaid) {
   turn_around({site_.camera()});  // a right position is taken
   EXPECT_TRUE(watch_.alarm().empty());
   EXPECT_TRUE(watch_.heading().has_value());
+}
+
+TEST_F(SkylineWatchTest, UnderTheGroundIsOnlyWhatTheStationsErrorsCannotExplain) {
+  static_assert(kModelSd_m == 4.0);  // with 3 m, 15 m are three sigmas
+  look(0.0, {.place = under_ground(14.0), .position_sd_m = 3.0});
+  EXPECT_FALSE(says("under the ground"));
+  look(0.0, {.place = under_ground(20.0), .position_sd_m = 3.0});
+  EXPECT_TRUE(says("under the ground"));
+}
+
+TEST_F(SkylineWatchTest, APlaceUnderTheGroundIsTriedAgainAsSoonAsItHasMoved) {
+  look(0.0, {.place = under_ground(13.0)});
+  EXPECT_TRUE(says("13 m under the ground"));
+  look(0.0, {.place = under_ground(12.7)});
+  EXPECT_TRUE(says("under the ground"));
+  look(0.0, {.place = under_ground(11.0)});
+  EXPECT_FALSE(says("under the ground"));
+}
+
+TEST_F(SkylineWatchTest, WhyThereIsNoMapIsSaidAsLongAsThereIsNone) {
+  const auto broken = [](double, double) -> double { throw std::runtime_error("no memory"); };
+  watch_ = SkylineWatch(std::make_shared<land::MadeLand>(broken), quick_map());
+  for (int picture = 0; picture < 2; ++picture) {
+    look(0.0, {site_.camera()});
+    EXPECT_TRUE(says("no memory"));
+  }
 }
 
 }  // namespace
