@@ -17,26 +17,40 @@ bool is_at_rest(const UnitAngles& unit) {
          std::abs(unit.rate.tilt_rad) < kAtRest_rad_s;
 }
 
+// The line of sight of the outermost pixel between an edge and the middle that has one: the image
+// circle of a fisheye may be narrower than the picture.
+std::optional<LineOfSight> outermost(const PointingModel& pointing, const UnitAngles& unit,
+                                     PixelSight pixel, double edge_px, double middle_px) {
+  constexpr int kSteps = 10;
+  for (int step = 0; step <= kSteps; ++step) {
+    pixel.pixel.x() = edge_px + step * (middle_px - edge_px) / kSteps;
+    if (auto line = pointing.sight(pixel, unit)) return line;
+  }
+  return std::nullopt;
+}
+
 // The 1-sigma that the station states for the directions of this picture: at the left or right
-// edge, where the lens errs most.
+// edge, where the lens errs most. False if it has no directions.
 bool state_sigmas(const camera::Frame& frame, const PointingModel& pointing, const UnitAngles& unit,
                   skyline::StatedPicture& picture) {
   const CameraIntrinsics& camera = picture.camera.intrinsics;
-  for (const double x_px : {0.0, camera.width_px - 1.0}) {
-    PixelSight pixel;
-    pixel.pixel = {x_px, camera.cy_px};
-    const Eigen::Vector2d rate(unit.rate.pan_rad, unit.rate.tilt_rad);
-    pixel.angles_covariance_rad2 =
-        unit.covariance + rate * rate.transpose() * std::pow(frame.stamp_sd_s, 2);
-    const auto line = pointing.sight(pixel, unit);
-    if (!line) return false;
+  PixelSight pixel;
+  pixel.pixel.y() = camera.cy_px;
+  const Eigen::Vector2d rate(unit.rate.pan_rad, unit.rate.tilt_rad);
+  pixel.angles_covariance_rad2 =
+      unit.covariance + rate * rate.transpose() * std::pow(frame.stamp_sd_s, 2);
+  bool any = false;
+  for (const double edge_px : {0.0, camera.width_px - 1.0}) {
+    const auto line = outermost(pointing, unit, pixel, edge_px, camera.cx_px);
+    if (!line) continue;
+    any = true;
     const Eigen::Vector2d sd_rad =
         (line->covariance_systematic + line->covariance_white).diagonal().cwiseSqrt();
     picture.azimuth_sd_rad =
         std::max(picture.azimuth_sd_rad, sd_rad.x() / std::cos(line->direction.elevation_rad));
     picture.elevation_sd_rad = std::max(picture.elevation_sd_rad, sd_rad.y());
   }
-  return true;
+  return any;
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "geometry/angles.h"
+#include "geometry/lens.h"
 #include "tests/unit/edge/station/angle_sample.h"
 
 namespace ols::station {
@@ -78,6 +79,22 @@ TEST(SkylinePictureTest, TheErrorsOfTheMountsAnglesAreStatedToo) {
   ASSERT_TRUE(picture);
   EXPECT_GT(picture->azimuth_sd_rad, radians(0.035));
   EXPECT_GT(picture->elevation_sd_rad, radians(0.035));
+}
+
+TEST(SkylinePictureTest, AFisheyesCircleMayBeNarrowerThanThePicture) {
+  StationConfig with_fisheye = config();
+  CameraIntrinsics& camera = with_fisheye.geometry.camera;
+  camera.model = LensModel::kFisheye;
+  camera.fx_px = camera.fy_px = 300.0;
+  camera.k1 = -0.1;
+  ASSERT_FALSE(unproject(camera, {0.0, camera.cy_px}));
+  ASSERT_FALSE(unproject(camera, {camera.width_px - 1.0, camera.cy_px}));
+  PointingModel pointing(with_fisheye);
+  turn(pointing, 0.0);
+  const auto picture = skyline_picture(frames({10.0}), pointing);
+  ASSERT_TRUE(picture);
+  EXPECT_NEAR(picture->azimuth_sd_rad, kHeadingSd_rad, 0.5 * kHeadingSd_rad);
+  EXPECT_GT(picture->elevation_sd_rad, radians(0.005));
 }
 
 class ZoomPictureTest : public ::testing::Test {
