@@ -40,8 +40,9 @@ STATIONS = [
 ]
 
 
-# Modules in which simulated stations draw, track and steer in real time, the longest first. Each
-# needs most of a core, so no more of them run at once than the machine has cores.
+# Modules in which simulated stations draw, track and steer in real time. Each needs most of a core,
+# so no more of them run at once than this process has cores. They are dealt out to the cores in
+# this order, the longest first, so that each core gets about as much; they run in another order.
 REAL_TIME = [
     "test_two_ip_cameras.py",
     "test_onvif_station.py",
@@ -72,7 +73,7 @@ class Scheduling(LoadScopeScheduling):
         name = module.rsplit("/", 1)[-1]
         if name not in REAL_TIME:
             return module
-        return f"real time {REAL_TIME.index(name) % (os.cpu_count() or 1)}"
+        return f"real time {REAL_TIME.index(name) % len(os.sched_getaffinity(0))}"
 
 
 @pytest.hookimpl(optionalhook=True)
