@@ -64,7 +64,9 @@ class StationLink {
   void turn_at(const PanTilt& rate_rad_s);
   // Why the station refused to turn there, in words; empty: it has not refused.
   const std::string& refusal() const { return refusal_; }
-  // Whether asking again is pointless. A unit whose line is interrupted may come back.
+  // Whether asking again is pointless. It is not while the unit does not answer, because its line
+  // may be interrupted. A unit whose power was cut comes back without a reference: that is for
+  // good.
   bool is_refused_for_good() const { return !refusal_.empty() && !unit_may_come_back_; }
   // Releases the unit, if this link has pointed it and a fresh status still shows manual operation.
   // Otherwise a release would end a person's stop or another operator's hold. Waits for the answer.

@@ -77,6 +77,8 @@ TEST_F(StationLinkTest, AUnitThatIsGoneMayComeBack) {
   ordered("no_unit");
   EXPECT_NE(link.refusal(), "");
   EXPECT_FALSE(link.is_refused_for_good());
+  ordered("no_reference");
+  EXPECT_TRUE(link.is_refused_for_good()) << "its power was cut";
   ordered("unreachable");
   EXPECT_TRUE(link.is_refused_for_good());
   ordered("");
