@@ -118,7 +118,7 @@ HeightGrid height_grid(const GridFile& form, std::span<const float> heights_m) {
           heights_m};
 }
 
-TerrainFolder read_terrain_folder(const std::string& path) {
+TerrainFolder read_terrain_folder(const std::string& path, const std::stop_token& stop) {
   TerrainFolder folder;
   const std::string manifest_path = path + "/" + kManifest,
                     coverings_path = path + "/" + kCoverings;
@@ -131,7 +131,10 @@ TerrainFolder read_terrain_folder(const std::string& path) {
   }
   auto mapped = std::make_shared<Mapped>();
   std::vector<HeightGrid> grids;
-  for (const GridFile& form : folder.manifest.grids) grids.push_back(map_grid(path, form, *mapped));
+  for (const GridFile& form : folder.manifest.grids) {
+    if (stop.stop_requested()) throw std::runtime_error(path + ": reading was stopped");
+    grids.push_back(map_grid(path, form, *mapped));
+  }
   folder.terrain = std::make_shared<const Terrain>(
       grids, parse_file(coverings_path, coverings, parse_coverings), mapped);
   return folder;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -19,8 +20,9 @@ struct TerrainFolder {
 };
 
 // Throws std::runtime_error with the file and the reason: it is missing, damaged, of the wrong
-// length or of another version.
-TerrainFolder read_terrain_folder(const std::string& path);
+// length or of another version. The checksum of a large grid takes seconds: after `stop` no further
+// grid is begun, and std::runtime_error says so.
+TerrainFolder read_terrain_folder(const std::string& path, const std::stop_token& stop = {});
 
 // The folder that a configuration names in [land]; without one there is no terrain. Throws
 // ConfigError, which names the key, for what read_terrain_folder() refuses.

@@ -41,10 +41,10 @@ Alarm SkylineThread::alarm() const {
   return alarm_;
 }
 
-bool SkylineThread::read_land(const std::string& folder) {
+bool SkylineThread::read_land(const std::stop_token& stop, const std::string& folder) {
   Alarm alarm;
   try {
-    watch_.emplace(land::read_terrain_folder(folder).terrain);
+    watch_.emplace(land::read_terrain_folder(folder, stop).terrain);
   } catch (const std::exception& wrong) {
     alarm = alarm::skyline_not_compared(wrong.what());
   }
@@ -72,7 +72,7 @@ void SkylineThread::compare(const skyline::StatedPicture& picture) {
 
 void SkylineThread::work(const std::stop_token& stop, const std::string& folder) {
   device::go_behind_control_loop();
-  if (!read_land(folder)) return;
+  if (!read_land(stop, folder)) return;
   std::unique_lock lock(mutex_);
   while (arrived_.wait(lock, stop, [this] { return picture_.has_value(); }) &&
          !stop.stop_requested()) {

@@ -17,8 +17,8 @@ namespace ols::station {
 class SkylineThread {
  public:
   explicit SkylineThread(const std::string& folder);
-  // Waits until the land has been read, or the picture been compared. A picture that is still
-  // waiting is dropped.
+  // Waits until the grid that is being read has been read, or the picture been compared. Other
+  // grids are not read any more, and a picture that is still waiting is dropped.
   ~SkylineThread() = default;
   SkylineThread(const SkylineThread&) = delete;
   SkylineThread& operator=(const SkylineThread&) = delete;
@@ -33,7 +33,7 @@ class SkylineThread {
 
  private:
   void work(const std::stop_token& stop, const std::string& folder);
-  bool read_land(const std::string& folder);
+  bool read_land(const std::stop_token& stop, const std::string& folder);
   void compare(const skyline::StatedPicture& picture);
 
   // Used by the thread only.

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <functional>
 #include <limits>
+#include <stop_token>
 
 #include "base/config/toml_config.h"
 #include "base/files/small_file.h"
@@ -90,6 +91,14 @@ TEST_F(TerrainFolderTest, DamageIsNamed) {
     EXPECT_NE(refused().find(one.expected), std::string::npos) << refused();
     put("coverings.json", coverings);
   }
+}
+
+TEST_F(TerrainFolderTest, ReadingCanBeStoppedBeforeAGrid) {
+  std::stop_source stop;
+  EXPECT_NO_THROW(read_terrain_folder(path_, stop.get_token()));
+  stop.request_stop();
+  EXPECT_EQ(error_text<std::runtime_error>([&] { read_terrain_folder(path_, stop.get_token()); }),
+            path_ + ": reading was stopped");
 }
 
 TEST_F(TerrainFolderTest, ACheckReadsTheManifestAndTheLengths) {
