@@ -7,20 +7,45 @@
 namespace ols::tracker {
 namespace {
 
-constexpr int kBits = 4;  // of each colour
-constexpr std::size_t kBins = std::size_t{1} << (3 * kBits);
+constexpr std::size_t kLevels = 16;  // of each colour; of a share of the brightness: the square
+constexpr std::size_t kBins = kLevels * kLevels * kLevels;
 constexpr int kAcross = kMapSide * kColourSide;  // [px] of the window
-
-std::size_t bin_of(const std::uint8_t* bgr) {
-  constexpr int kDrop = 8 - kBits;
-  return (static_cast<std::size_t>(bgr[0] >> kDrop) << (2 * kBits)) |
-         (static_cast<std::size_t>(bgr[1] >> kDrop) << kBits) |
-         static_cast<std::size_t>(bgr[2] >> kDrop);
-}
 
 const std::uint8_t* line_of(const WindowView& view, int y) {
   return view.bgr.ptr<std::uint8_t>(y + 1) + 3;  // without the border
 }
+
+// The bin of each pixel of a window.
+class Binned {
+ public:
+  Binned(Palette palette, const WindowView& view) : bins_(kAcross * kAcross) {
+    for (int y = 0; y < kAcross; ++y) {
+      const std::uint8_t* bgr = line_of(view, y);
+      for (int x = 0; x < kAcross; ++x, bgr += 3)
+        bins_[index(x, y)] = palette == Palette::kHue ? hue_of(bgr) : colour_of(bgr);
+    }
+  }
+  std::size_t at(int x, int y) const { return bins_[index(x, y)]; }
+
+ private:
+  static std::size_t index(int x, int y) { return static_cast<std::size_t>(y * kAcross + x); }
+  static std::size_t colour_of(const std::uint8_t* bgr) {
+    const auto level = [](std::uint8_t colour) { return colour * kLevels / 256; };
+    return (level(bgr[0]) * kLevels + level(bgr[1])) * kLevels + level(bgr[2]);
+  }
+  static std::size_t hue_of(const std::uint8_t* bgr) {
+    constexpr float kLeast = 0.1F, kMost = 0.6F;  // of the brightness: few colours are purer
+    constexpr auto kSteps = static_cast<float>(2 * kLevels);
+    const float sum = 1.0F + static_cast<float>(bgr[0] + bgr[1] + bgr[2]);
+    const auto step = [sum](std::uint8_t colour) {
+      const float share = (static_cast<float>(colour) / sum - kLeast) / (kMost - kLeast);
+      return static_cast<std::size_t>(std::clamp(kSteps * share, 0.0F, kSteps - 1.0F));
+    };
+    return step(bgr[0]) * 2 * kLevels + step(bgr[2]);
+  }
+
+  std::vector<std::size_t> bins_;
+};
 
 // Half of the box [px of the window].
 Eigen::Vector2d half_box(const WindowView& view, const Eigen::Vector2d& size_px) {
@@ -57,7 +82,9 @@ class Sums {
 
 }  // namespace
 
-ColourLikeness::ColourLikeness(const WindowView& view, const Eigen::Vector2d& size_px) {
+ColourLikeness::ColourLikeness(Palette palette, const WindowView& view,
+                               const Eigen::Vector2d& size_px)
+    : palette_(palette) {
   if (view.bgr.empty()) return;
   target_.resize(kBins);
   around_.resize(kBins);
@@ -91,7 +118,8 @@ double ColourLikeness::separability() const {
 }
 
 Map ColourLikeness::mean_probability(const WindowView& view, const Eigen::Vector2d& size_px) const {
-  const Sums sums([&](int x, int y) { return probability_[bin_of(line_of(view, y) + 3 * x)]; });
+  const Binned binned(palette_, view);
+  const Sums sums([&](int x, int y) { return probability_[binned.at(x, y)]; });
   const Eigen::Vector2d half = half_box(view, size_px);
   const int half_x = std::clamp(static_cast<int>(std::lround(half.x())), 1, kAcross / 4);
   const int half_y = std::clamp(static_cast<int>(std::lround(half.y())), 1, kAcross / 4);
@@ -111,16 +139,16 @@ void ColourLikeness::learn_histograms(const WindowView& view, const Eigen::Vecto
   constexpr float kRare = 2e-3F;
   std::vector<float> inside(kBins), outside(kBins);
   float in = 0.0F, out = 0.0F;
+  const Binned binned(palette_, view);
   const Eigen::Vector2d half = half_box(view, size_px);
   for (int y = 0; y < kAcross; ++y) {
-    const std::uint8_t* line = line_of(view, y);
     const double down = std::abs(y + 0.5 - 0.5 * kAcross) / half.y();
     for (int x = 0; x < kAcross; ++x) {
       const double far = std::max(down, std::abs(x + 0.5 - 0.5 * kAcross) / half.x());
       if (far <= kInside) {
-        ++inside[bin_of(line + 3 * x)], ++in;
+        ++inside[binned.at(x, y)], ++in;
       } else if (far > kOutside && far < kFar) {
-        ++outside[bin_of(line + 3 * x)], ++out;
+        ++outside[binned.at(x, y)], ++out;
       }
     }
   }

@@ -10,11 +10,15 @@
 
 namespace ols::tracker {
 
+// kColour: blue, green and red. kHue: only the shares of blue and red in the brightness, which the
+// exposure does not change. By hue, a grey target has no colours of its own.
+enum class Palette { kColour, kHue };
+
 class ColourLikeness {
  public:
   // Learns from the box of this size in the middle of this window alone. Without a colour image
   // nothing is learnt, and the likeness is unknown for good.
-  ColourLikeness(const WindowView& view, const Eigen::Vector2d& size_px);
+  ColourLikeness(Palette palette, const WindowView& view, const Eigen::Vector2d& size_px);
 
   // How the colours of a box of this size resemble the target's, for each shift of the target by a
   // cell: 0 as around the target, 1 as at the target. 0 everywhere if nothing is known.
@@ -33,6 +37,7 @@ class ColourLikeness {
   void learn_histograms(const WindowView& view, const Eigen::Vector2d& size_px, double share);
   void learn_level(const Response::Contrast& seen, double share);
 
+  Palette palette_;
   // Of each colour, a sum of 1 over all colours.
   std::vector<float> target_, around_;
   std::vector<float> probability_;  // that a pixel of this colour is the target's

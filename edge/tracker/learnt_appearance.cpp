@@ -33,8 +33,8 @@ LearntAppearance::LearntAppearance(const TrackerInput& frame, const Eigen::Vecto
 
 LearntAppearance::LearntAppearance(const WindowView& view, const Eigen::Vector2d& size_px)
     : filter_(view, size_px),
-      colours_(view, size_px),
-      first_colours_(colours_),
+      colours_(Palette::kColour, view, size_px),
+      first_colours_(Palette::kHue, view, size_px),
       usual_(std::max(kLeastUsual, filter_.respond(view).peak().value)) {}
 
 LearntAppearance::Searched LearntAppearance::search(const TrackerInput& frame,
@@ -44,14 +44,16 @@ LearntAppearance::Searched LearntAppearance::search(const TrackerInput& frame,
   Searched made{filter_.respond(view),
                 colours_.respond(view, size_px),
                 {view.window, {}},
-                first_colours_.respond(view, size_px)};
-  const double known = view.bgr.empty() ? 0.0 : colours_.separability();
+                first_colours_.respond(view, size_px),
+                !view.bgr.empty()};
+  const double known = made.in_colour ? colours_.separability() : 0.0;
   const auto weight = static_cast<float>(kColourWeight * known);
   const auto scale = static_cast<float>(1.0 / usual_);
   for (std::size_t i = 0; i < kMapArea; ++i) {
     made.filter.values[i] *= scale;
     made.both.values[i] =
-        (made.filter.values[i] + weight * fade(i) * made.colours.values[i]) / (1.0F + weight);
+        (made.filter.values[i] + weight * fade(i) * std::max(0.0F, made.colours.values[i])) /
+        (1.0F + weight);
   }
   return made;
 }
@@ -97,10 +99,16 @@ double LearntAppearance::first_colours(const Eigen::Vector2d& pixel) const {
   return best ? best->first.contrast(pixel).above() : 0.0;
 }
 
+double LearntAppearance::first_separability(const Eigen::Vector2d& pixel) const {
+  const Searched* best = best_at(pixel);
+  return best && best->in_colour ? first_colours_.separability() : 0.0;
+}
+
 // 1 where nothing is known.
 double LearntAppearance::colour(const Eigen::Vector2d& pixel) const {
   const Searched* best = best_at(pixel);
-  return best && colours_.separability() > 0.0 ? best->colours.at(pixel) : 1.0;
+  const bool is_known = best && best->in_colour && colours_.separability() > 0.0;
+  return is_known ? best->colours.at(pixel) : 1.0;
 }
 
 const LearntAppearance::Searched* LearntAppearance::best_at(const Eigen::Vector2d& pixel) const {

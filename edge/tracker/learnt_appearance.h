@@ -33,8 +33,8 @@ class LearntAppearance {
   // How the colours there resemble those that the target had at first: 0 as elsewhere in the
   // window, 1 as at the target then. 0 where no search took place.
   double first_colours(const Eigen::Vector2d& pixel) const;
-  // ColourLikeness::separability() then.
-  double first_separability() const { return first_colours_.separability(); }
+  // ColourLikeness::separability() then; 0 where no search in a colour image took place.
+  double first_separability(const Eigen::Vector2d& pixel) const;
   // Learns that the target is at `pixel` of the newest frame: less of it, the less its colours are
   // the target's.
   void learn(const TrackerInput& frame, const Eigen::Vector2d& pixel,
@@ -46,6 +46,7 @@ class LearntAppearance {
     Response colours;  // ColourLikeness::respond()
     Response both;     // their weighted mean
     Response first;    // of the first colours
+    bool in_colour = false;
   };
 
   LearntAppearance(const WindowView& view, const Eigen::Vector2d& size_px);

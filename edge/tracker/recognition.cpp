@@ -13,7 +13,7 @@ FollowEvidence evidence(const LearntAppearance& appearance, const TrackerInput& 
                         const ReferenceFrames& references, const Particle& at) {
   FollowEvidence seen{appearance.prominence(at.pixel)};
   seen.colours = appearance.first_colours(at.pixel);
-  seen.separability = appearance.first_separability();
+  seen.separability = appearance.first_separability(at.pixel);
   const cv::Rect2d box = box_of(at.pixel, at.size_px);
   if (const auto* reference = references.without_overlap(box)) {
     seen.change = background_change(frame.gray, *reference, box);

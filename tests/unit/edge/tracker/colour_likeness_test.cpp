@@ -35,7 +35,7 @@ WindowView red_on_earth(const Eigen::Vector2d& at = kMiddle) {
 }
 
 TEST(ColourLikeness, IsGreatestWhereTheColoursHaveMovedTo) {
-  const ColourLikeness red(red_on_earth(), kSize);
+  const ColourLikeness red(Palette::kColour, red_on_earth(), kSize);
   const Eigen::Vector2d moved = kMiddle + Eigen::Vector2d(30.0, -20.0);
   const Response response = red.respond(red_on_earth(moved), kSize);
   EXPECT_LT((response.peak().pixel - moved).norm(), 1.5);
@@ -44,13 +44,13 @@ TEST(ColourLikeness, IsGreatestWhereTheColoursHaveMovedTo) {
 }
 
 TEST(ColourLikeness, AnObjectOfTheSameShapeInAnotherColourIsNotAlike) {
-  const ColourLikeness red(red_on_earth(), kSize);
+  const ColourLikeness red(Palette::kColour, red_on_earth(), kSize);
   EXPECT_LT(red.respond(view_of(scene(kEarth, kGreen, kMiddle)), kSize).at(kMiddle), 0.2);
 }
 
 TEST(ColourLikeness, SeparatesATargetWithAColourOfItsOwnAndNoOther) {
-  EXPECT_GT(ColourLikeness(red_on_earth(), kSize).separability(), 0.7);
-  ColourLikeness same(view_of(scene(kGrey, kGrey, kMiddle)), kSize);
+  EXPECT_GT(ColourLikeness(Palette::kColour, red_on_earth(), kSize).separability(), 0.7);
+  ColourLikeness same(Palette::kColour, view_of(scene(kGrey, kGrey, kMiddle)), kSize);
   for (int k = 0; k < 20; ++k) {  // what it saw in one image only is noise
     TrackerInput next = scene(kGrey, kGrey, kMiddle);
     cv::flip(next.colour.image, next.colour.image, k % 2);
@@ -60,7 +60,7 @@ TEST(ColourLikeness, SeparatesATargetWithAColourOfItsOwnAndNoOther) {
 }
 
 TEST(ColourLikeness, LearnsTheColoursThatTheTargetTakesOn) {
-  ColourLikeness likeness(red_on_earth(), kSize);
+  ColourLikeness likeness(Palette::kColour, red_on_earth(), kSize);
   const WindowView green = view_of(scene(kEarth, kGreen, kMiddle));
   const double before = likeness.respond(green, kSize).at(kMiddle);
   for (int k = 0; k < 30; ++k) likeness.learn(green, kSize, 0.1);
@@ -69,20 +69,40 @@ TEST(ColourLikeness, LearnsTheColoursThatTheTargetTakesOn) {
 
 TEST(ColourLikeness, WithoutAColourImageNothingIsKnown) {
   TrackerInput grey = scene(kEarth, kRed, kMiddle);
-  const ColourLikeness red(view_of(grey), kSize);
+  const ColourLikeness red(Palette::kColour, view_of(grey), kSize);
   grey.colour = {};
-  ColourLikeness likeness(view_of(grey), kSize);
+  ColourLikeness likeness(Palette::kColour, view_of(grey), kSize);
   likeness.learn(red_on_earth(), kSize, 0.5);
   EXPECT_EQ(likeness.separability(), 0.0);
   EXPECT_EQ(likeness.respond(red_on_earth(), kSize).at(kMiddle), 0.0);
   EXPECT_EQ(red.respond(view_of(grey), kSize).at(kMiddle), 0.0);
 }
 
+TEST(ColourLikeness, ByHueAnotherExposureChangesNothing) {
+  TrackerInput darker = scene(kEarth, kRed, kMiddle);
+  darker.colour.image *= 0.6;
+  const auto there = [&](Palette palette) {
+    const ColourLikeness red(palette, red_on_earth(), kSize);
+    return red.respond(view_of(darker), kSize).at(kMiddle);
+  };
+  EXPECT_GT(there(Palette::kHue), 0.7);
+  EXPECT_LT(there(Palette::kColour), 0.5) << "and this is why";
+}
+
+TEST(ColourLikeness, ByHueAGreyTargetHasNoColoursOfItsOwn) {
+  const TrackerInput bright = scene(kGrey, cv::Scalar(200, 200, 200), kMiddle);
+  EXPECT_GT(ColourLikeness(Palette::kColour, view_of(bright), kSize).separability(), 0.7);
+  TrackerInput grey = bright;
+  cv::cvtColor(bright.colour.image, grey.colour.image, cv::COLOR_BGR2GRAY);
+  cv::cvtColor(grey.colour.image, grey.colour.image, cv::COLOR_GRAY2BGR);
+  EXPECT_LT(ColourLikeness(Palette::kHue, view_of(grey), kSize).separability(), 0.2);
+}
+
 // The box may reach far outside the image.
 TEST(ColourLikeness, OfABoxAtTheImagesEdgeIsFinite) {
   const TrackerInput frame = scene(kEarth, kRed, kMiddle);
   const WindowView view = view_window(frame, window_around({0.0, 299.0}, {300.0, 4.0}));
-  const ColourLikeness likeness(view, {300.0, 4.0});
+  const ColourLikeness likeness(Palette::kColour, view, {300.0, 4.0});
   for (const float value : likeness.respond(view, {300.0, 4.0}).values) {
     EXPECT_TRUE(std::isfinite(value));
   }

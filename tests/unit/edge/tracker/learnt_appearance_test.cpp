@@ -63,13 +63,12 @@ class ColouredAppearance : public ::testing::Test {
   const cv::Rect2d box_ = SyntheticScene::box_around(at_);
 };
 
-// A picture of one colour: the filter has nothing to respond to.
+// In a picture of one grey level the filter has nothing to respond to.
 TEST_F(ColouredAppearance, IsRecognisedByItsColoursToo) {
   LearntAppearance appearance(there(0, at_, red_), centre_of(box_), size_of(box_));
   const auto recognised = [&](const cv::Scalar& bgr) {
     TrackerInput plain = there(1, at_, bgr);
     plain.gray.setTo(100);
-    plain.colour.image.setTo(bgr);
     appearance.find(plain, {centre_of(box_)}, size_of(box_), 0.0);
     return appearance.recognised(centre_of(box_));
   };
@@ -104,12 +103,32 @@ TEST_F(ColouredAppearance, KnowsItsFirstColoursHoweverLongItLearnsOthers) {
     }
   };
   learn(red_, 16);
-  EXPECT_GT(appearance.first_separability(), 0.6);
+  EXPECT_GT(appearance.first_separability(centre_of(box_)), 0.6);
   EXPECT_GT(colours(red_), 0.8);
   EXPECT_LT(colours(green_), 0.2);
   learn(green_, 60);
   EXPECT_GT(colours(red_), 0.8);
   EXPECT_LT(colours(green_), 0.2);
+}
+
+TEST_F(ColouredAppearance, IsRecognisedInAnotherExposure) {
+  LearntAppearance appearance(there(0, at_, red_), centre_of(box_), size_of(box_));
+  TrackerInput darker = there(1, at_, red_);
+  darker.gray *= 0.6;
+  darker.colour.image *= 0.6;
+  appearance.find(darker, {centre_of(box_)}, size_of(box_), 0.0);
+  EXPECT_GT(appearance.recognised(centre_of(box_)), 0.6) << "else it is never learnt again";
+  EXPECT_GT(appearance.first_colours(centre_of(box_)), 0.7);
+}
+
+TEST_F(ColouredAppearance, AGreyPictureSaysNothingOfColours) {
+  LearntAppearance appearance(there(0, at_, red_), centre_of(box_), size_of(box_));
+  TrackerInput grey = there(1, at_, red_);
+  appearance.find(grey, {centre_of(box_)}, size_of(box_), 0.0);
+  EXPECT_GT(appearance.first_separability(centre_of(box_)), 0.5);
+  grey.colour = {};
+  appearance.find(grey, {centre_of(box_)}, size_of(box_), 0.0);
+  EXPECT_EQ(appearance.first_separability(centre_of(box_)), 0.0);
 }
 
 }  // namespace
