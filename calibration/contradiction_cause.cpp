@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <map>
 #include <optional>
 #include <set>
 #include <stdexcept>
@@ -187,10 +188,9 @@ class TurnSearch {
  public:
   TurnSearch(const Problem& problem, std::size_t station, const Levels& levels)
       : problem_(problem), station_(station), levels_(levels) {
-    // Scenery and tracks are many, and no heading needs them.
-    std::erase_if(problem_.observations, [](const Observation& one) {
-      return one.kind == Kind::kScene || one.kind == Kind::kTrack;
-    });
+    // Tracks are many, and no heading needs them.
+    std::erase_if(problem_.observations,
+                  [](const Observation& one) { return one.kind == Kind::kTrack; });
     for (std::size_t i = 0; i < problem_.observations.size(); ++i) {
       if (problem_.observations[i].station == station) order_.push_back(i);
     }
@@ -207,21 +207,21 @@ class TurnSearch {
   void run(std::vector<std::string>& causes) const {
     const std::vector<std::size_t> cuts = possible_cuts();
     if (cuts.empty()) return;
-    // First some, then all around the best of them.
+    // First some, then between the best's neighbours, until each place there is tried.
     constexpr std::size_t kTries = 20;
-    const std::size_t step = cuts.size() / kTries + 1;
-    std::size_t best = 0;
+    std::size_t best = 0, from = 0, to = cuts.size();
     double least = std::numeric_limits<double>::infinity();
-    const auto consider = [&](std::size_t c) {
-      const double misfit = misfit_of(cuts[c]);
-      if (misfit >= least) return;
-      least = misfit;
-      best = c;
-    };
-    for (std::size_t c = 0; c < cuts.size(); c += step) consider(c);
-    const std::size_t first = best < step ? 0 : best - step + 1, middle = best;
-    for (std::size_t c = first; c < std::min(cuts.size(), middle + step); ++c) {
-      if (c != middle) consider(c);
+    for (std::size_t step = cuts.size();;) {
+      step = std::min(step, to - from) / kTries + 1;
+      for (std::size_t c = from; c < to; c += step) {
+        const double misfit = misfit_of(cuts[c]);
+        if (misfit >= least) continue;
+        least = misfit;
+        best = c;
+      }
+      if (step == 1) break;
+      from = best < step ? 0 : best - step + 1;
+      to = std::min(cuts.size(), best + step);
     }
     if (!std::isfinite(least)) return;
     const auto found = agreement(cut_at(cuts[best]), levels_);
@@ -291,6 +291,29 @@ class TurnSearch {
   std::vector<std::size_t> order_;  // the station's observations
 };
 
+// What is enough to tell a mistake that all sightings show, each of which costs time at each try:
+// no scenery, and of what thousands of sightings follow, some hundreds.
+Problem lightened(const Problem& problem) {
+  constexpr std::size_t kEnough = 200;  // of each followed object, by each station
+  using Followed = std::pair<std::size_t, std::string>;
+  const auto is_followed = [](const Observation& one) {
+    return one.kind == Kind::kDrone || one.kind == Kind::kAircraft;
+  };
+  std::map<Followed, std::size_t> all, before;
+  for (const Observation& one : problem.observations) {
+    if (is_followed(one)) ++all[{one.station, one.reference}];
+  }
+  Problem light = problem;
+  std::erase_if(light.observations, [&](const Observation& one) {
+    if (one.kind == Kind::kScene) return true;
+    if (!is_followed(one)) return false;
+    const Followed key{one.station, one.reference};
+    const std::size_t every = (all.at(key) + kEnough - 1) / kEnough;
+    return before[key]++ % every != 0;
+  });
+  return light;
+}
+
 void add_turns(const Problem& problem, const Levels& levels, std::vector<std::string>& causes) {
   for (std::size_t s = 0; s < problem.stations.size(); ++s) {
     TurnSearch(problem, s, levels).run(causes);
@@ -300,26 +323,29 @@ void add_turns(const Problem& problem, const Levels& levels, std::vector<std::st
 }  // namespace
 
 std::vector<std::string> mistakes_of_stations(const Problem& problem, const Levels& levels) {
-  if (all_agree(problem, levels)) return {};
+  const Problem light = lightened(problem);
+  if (all_agree(light, levels)) return {};
   std::vector<std::string> causes;
-  add_positions(problem, levels, causes);
-  if (causes.empty()) add_turns(problem, levels, causes);
+  add_positions(light, levels, causes);
+  if (causes.empty()) add_turns(light, levels, causes);
   return causes;
 }
 
 std::vector<std::string> causes_of_contradiction(const Problem& problem, const Levels& levels) {
+  const Problem light = lightened(problem);
+  if (all_agree(light, levels)) return {};
   std::vector<std::string> causes;
-  add_exchanged(problem, levels, causes);
-  add_reversed_axes(problem, levels, causes);
-  add_exchanged_pixels(problem, levels, causes);
-  add_exchanged_coordinates(problem, levels, causes);
-  const bool sees_sky = std::ranges::any_of(problem.observations, [](const Observation& one) {
+  add_exchanged(light, levels, causes);
+  add_reversed_axes(light, levels, causes);
+  add_exchanged_pixels(light, levels, causes);
+  add_exchanged_coordinates(light, levels, causes);
+  const bool sees_sky = std::ranges::any_of(light.observations, [](const Observation& one) {
     return one.kind == Kind::kStar || one.kind == Kind::kSun;
   });
   // Without the sky the distance of a reference tells.
-  if (sees_sky) add_hemispheres(problem, levels, causes);
+  if (sees_sky) add_hemispheres(light, levels, causes);
   // These have so many more unknowns that they explain other mistakes, too.
-  if (causes.empty()) causes = mistakes_of_stations(problem, levels);
+  if (causes.empty()) causes = mistakes_of_stations(light, levels);
   return causes;
 }
 

@@ -131,6 +131,31 @@ TEST(ContradictionCause, NamesATripodThatWasTurnedMeanwhile) {
                                      "+0.450 deg before the sighting of 'landmark1' in line 7"});
 }
 
+// Few tries find the place among many: each costs an adjustment of everything.
+TEST(ContradictionCause, NamesATurnAmongThousandsOfSightingsOfADrone) {
+  constexpr int kSightings = 10'000, kTurned = 6400;
+  constexpr std::int64_t kNoon_us = 1'780'000'000'000'000, kSecond_us = 1'000'000;
+  constexpr double kTurn_deg = 0.45;
+  Problem problem = two_rounds(5);
+  problem.references["drone"] = Trajectory{.sd_m = 0.02};
+  auto& points = std::get<Trajectory>(problem.references["drone"]).points;
+  for (Observation& one : problem.observations) one.utime_us = kNoon_us;
+  for (int i = 0; i < kSightings; ++i) {
+    Observation one = test::landmark(-140.0 + i * 37 % 280, 5.0 + i % 7, "drone");
+    one.kind = Kind::kDrone;
+    one.line = static_cast<unsigned>(i + 100);
+    one.utime_us = kNoon_us + (i + 1) * kSecond_us;
+    points.push_back({one.utime_us, test::place_seen(hill(), one, 150.0 + i % 100).ecef});
+    if (i >= kTurned) one.reading.pan.counts += kTurn_deg / 360.0 * 112000.0;
+    problem.observations.push_back(one);
+  }
+  points.insert(points.begin(), {kNoon_us, points.front().ecef});
+  points.push_back({points.back().utime_us + kSecond_us, points.back().ecef});
+  EXPECT_EQ(mistakes_of_stations(problem),
+            std::vector<std::string>{"all agree if the tripod of station 'alfa' was turned by "
+                                     "+0.450 deg before the sighting of 'drone' in line 6500"});
+}
+
 // Stars that somebody else has named, by a station east of Greenwich that says that it is west.
 TEST(ContradictionCause, NamesTheWrongHemisphereOfNamedStars) {
   Problem problem = test::named_stars(night_sky(1022, {.frames = 2, .false_detections = 0}));
