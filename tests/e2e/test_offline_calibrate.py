@@ -10,7 +10,7 @@ from calibrate_run import SEED, Run
 from ols_calibration import cases
 from ols_calibration.__main__ import accepted_stars, errors_of, predict_text, volume
 from ols_calibration.model import ARCSEC, azimuth_elevation
-from ols_calibration.site import UTIME_US
+from ols_calibration.site import UTIME_US, anywhere, icrs_of
 
 
 def day_of(utime_us):
@@ -107,6 +107,72 @@ def test_a_station_that_is_surveyed_wrongly_is_named_and_no_landmark_is_blamed(r
     error = run.refused()
     assert "; all agree if station 'alfa' stood " in error
     assert " m to the south and " in error
+
+
+def landmarks_and_drone(rng):
+    site = cases.rtk_landmarks(rng)
+    [one] = site.stations
+    for k in range(12):
+        point = anywhere(rng, one.unit, (3, 29)) * rng.uniform(600, 900)
+        utime_us = UTIME_US + 10_000_000 * k
+        one.sight("drone", point, "drone", utime_us=utime_us)
+        for at in (utime_us - 1_000_000, utime_us + 1_000_000):
+            site.refer("drone", one.true_place.to_ecef(point), 0.02, at)
+    return site
+
+
+def landmarks_and_stars(rng):
+    site = cases.rtk_landmarks(rng)
+    [one] = site.stations
+    for frame in range(5):
+        counts = np.round(np.array([-120 + 60 * frame, 20]) / 360 * 112000)
+        shafts = one.unit.posed(rng, *counts, (1, 1))
+        utime_us = UTIME_US + 3_000_000 * frame
+        for k in range(4):
+            pixel, name = rng.uniform([20, 20], [1260, 940]), f"star{frame}-{k}"
+            site.refer_star(name, *icrs_of(one.place, one.unit.look(shafts, pixel), utime_us))
+            one.add(
+                *("star", counts, (1, 1), pixel),
+                **{"sd_px": 0.3, "pose": 1000 + frame, "reference": name, "utime_us": utime_us},
+            )
+    return site
+
+
+def eight_landmarks(rng):
+    """The first two stand 2 m apart, and are exchanged."""
+    site, one = cases.one_station(rng, is_new=False)
+    points = cases.landmark_points(rng, one, 8)
+    points[1] = points[0] + np.cross(points[0], [0, 0, 2.0]) / np.linalg.norm(points[0])
+    cases.sight_landmarks(site, one, points, 0.02, 2)
+    for line in one.lines:
+        swapped = {"landmark0": "landmark1", "landmark1": "landmark0"}
+        if line.get("reference") in swapped:
+            line["reference"] = swapped[line["reference"]]
+    return site
+
+
+@pytest.mark.parametrize(
+    ("build", "name"), [(landmarks_and_drone, "drone"), (landmarks_and_stars, "star2-1")]
+)
+def test_a_wrong_survey_is_named_beside_a_mistaken_sighting(tmp_path, build, name):
+    """A bird instead of the drone, or a double star."""
+    run = Run(tmp_path, build)
+    observations = run.observations()
+    mistaken = [one for one in observations if one.get("reference") == name]
+    mistaken[len(mistaken) // 2]["x_px"] += 15.0
+    run.observe(observations)
+    moved_station(run, 0.4)
+    said = run.adjust().stderr
+    assert "all agree if station 'alfa' stood " in said
+    assert " m to the south and " in said
+
+
+def test_exchanged_landmarks_are_no_mistake_of_the_station(tmp_path):
+    """Two of eight, 2 m apart."""
+    run = Run(tmp_path, eight_landmarks)
+    done = run.adjusted()
+    assert "landmarks 'landmark0' and 'landmark1' seem to be exchanged" in done.stderr
+    assert "all agree if" not in done.stderr
 
 
 def test_a_pressure_reduced_to_sea_level_is_refused(run):

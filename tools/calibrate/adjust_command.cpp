@@ -98,54 +98,80 @@ std::string angles_for_person(const Adjusted& adjusted) {
   return text;
 }
 
-Calibration calibrated(const Problem& problem, const Adjustment& adjustment,
-                       const TellAdjusted& tell) {
+// They would contradict every cause.
+Problem without_observations(const Problem& problem, const std::set<std::size_t>& left_out) {
+  Problem result = problem;
+  result.observations.clear();
+  for (std::size_t i = 0; i < problem.observations.size(); ++i) {
+    if (!left_out.contains(i)) result.observations.push_back(problem.observations[i]);
+  }
+  return result;
+}
+
+Calibration calibrated(const Case& what, const Adjustment& adjustment, const TellAdjusted& tell) {
   try {
     return calibrate(adjustment, {}, tell);
   } catch (const std::invalid_argument& refused) {
     std::string text = refused.what();
+    const Problem problem = without_observations(what.problem, what.mistaken);
     for (const std::string& cause : causes_of_contradiction(problem)) text += "; " + cause;
     throw std::invalid_argument(text);
   }
 }
 
-// The rejected groups, without a few stars: double stars are often among them.
-std::vector<const Group*> rejected_groups(const Network& network, const Calibration& found) {
+struct Rejected {
+  std::vector<const Group*> groups;      // without a few stars: double stars are often among them
+  std::set<std::size_t> of_a_few_stars;  // the observations of those
+};
+
+Rejected rejected_groups(const Network& network, const Calibration& found) {
   constexpr std::size_t kFew = 10;  // one in ten
-  std::vector<const Group*> rejected;
-  std::size_t stars = 0, rejected_stars = 0;
+  Rejected rejected;
+  std::vector<const Group*> rejected_stars;
+  std::size_t stars = 0;
   for (std::size_t g = 0; g < found.tests.size(); ++g) {
     const Group& group = network.groups[g];
     const bool is_star = group.kind == Kind::kStar;
     stars += is_star ? 1 : 0;
-    if (!found.tests[g].rejected) continue;
-    rejected_stars += is_star ? 1 : 0;
-    rejected.push_back(&group);
+    if (found.tests[g].rejected) (is_star ? rejected_stars : rejected.groups).push_back(&group);
   }
-  if (kFew * rejected_stars <= stars) {
-    std::erase_if(rejected, [](const Group* group) { return group->kind == Kind::kStar; });
+  if (kFew * rejected_stars.size() > stars) {
+    rejected.groups.insert(rejected.groups.end(), rejected_stars.begin(), rejected_stars.end());
+    return rejected;
+  }
+  for (const Group* star : rejected_stars) {
+    rejected.of_a_few_stars.insert(star->observations.begin(), star->observations.end());
   }
   return rejected;
 }
 
 // Several references that are rejected may be one mistake of their station: then the others are
 // not right either.
-void check_stations(const Problem& problem, const Network& network, Calibration& found) {
-  const std::vector<const Group*> rejected = rejected_groups(network, found);
-  if (rejected.empty()) return;
+void check_stations(const Case& what, const Adjustment& adjustment, Calibration& found) {
+  const Rejected rejected = rejected_groups(adjustment.network(), found);
+  if (rejected.groups.empty()) return;
+  const auto exchanged = exchanged_landmarks(what.problem, adjustment, found);
+  found.remarks.insert(found.remarks.end(), exchanged.begin(), exchanged.end());
+  // Each names two.
+  if (rejected.groups.size() <= 2 * exchanged.size()) return;
+  std::set<std::size_t> left_out = rejected.of_a_few_stars;
+  left_out.insert(what.mistaken.begin(), what.mistaken.end());
+  std::string causes;
+  for (const auto& cause : mistakes_of_stations(without_observations(what.problem, left_out))) {
+    causes += "; " + cause;
+  }
+  if (causes.empty()) return;
   std::string names;
-  for (const Group* group : rejected) {
+  for (const Group* group : rejected.groups) {
     names +=
         (names.empty() ? "" : ", ") + std::string(name(group->kind)) + " '" + group->name + "'";
   }
-  for (const std::string& cause : mistakes_of_stations(problem)) {
-    // A single reference is as likely to be mistaken as its station.
-    if (rejected.size() > 1) {
-      throw std::invalid_argument("the observations contradict each other: " + names +
-                                  " disagree with the others; " + cause);
-    }
-    found.remarks.push_back(names + " disagrees with the others; " + cause);
+  // A single reference is as likely to be mistaken as its station.
+  if (rejected.groups.size() > 1) {
+    throw std::invalid_argument("the observations contradict each other: " + names +
+                                " disagree with the others" + causes);
   }
+  found.remarks.push_back(names + " disagrees with the others" + causes);
 }
 
 // The adjustment with its calibration. If the unit's angles scatter by more than was stated, their
@@ -154,7 +180,7 @@ void check_stations(const Problem& problem, const Network& network, Calibration&
 Adjustment settled(Adjusted& adjusted, const TellAdjusted& tell) {
   Case& what = adjusted.what;
   Adjustment adjustment(network_of(what));
-  adjusted.found = calibrated(what.problem, adjustment, tell);
+  adjusted.found = calibrated(what, adjustment, tell);
   const double factor = pose_scatter(adjustment, adjusted.found.fit);
   if (factor > 1.0) {
     for (std::size_t s = 0; s < what.problem.stations.size(); ++s) {
@@ -162,7 +188,7 @@ Adjustment settled(Adjusted& adjusted, const TellAdjusted& tell) {
       what.instruments[s].angle_sd_rad *= factor;
     }
     adjustment = Adjustment(network_of(what));
-    adjusted.found = calibrated(what.problem, adjustment, tell);
+    adjusted.found = calibrated(what, adjustment, tell);
     char text[160];
     std::snprintf(text, sizeof text,
                   "the unit's angles scatter by more than was stated (angle_sd_deg): taken as "
@@ -170,7 +196,7 @@ Adjustment settled(Adjusted& adjusted, const TellAdjusted& tell) {
                   what.instruments.front().angle_sd_rad / kArcsec);
     adjusted.found.remarks.emplace_back(text);
   }
-  check_stations(what.problem, adjustment.network(), adjusted.found);
+  check_stations(what, adjustment, adjusted.found);
   return adjustment;
 }
 
@@ -200,9 +226,6 @@ Adjusted adjust_into(const CaseOptions& options, const std::filesystem::path& fo
   const Adjustment adjustment = settled(adjusted, tell);
   Calibration& found = adjusted.found;
   for (const std::string& line : mistaken_in_words(what)) found.remarks.push_back(line);
-  for (const std::string& line : exchanged_landmarks(what.problem, adjustment, found)) {
-    found.remarks.push_back(line);
-  }
   const Network& network = adjustment.network();
   for (std::size_t g = 0; g < network.groups.size(); ++g) {
     const Group& group = network.groups[g];
