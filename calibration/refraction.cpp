@@ -41,7 +41,7 @@ Air standard_air(double height_m) {
 }
 
 std::string pressure_trouble(double pressure_hPa, double height_m) {
-  constexpr double kWeather_hPa = 50.0, kSeaLevel_hPa = 1013.25;
+  constexpr double kWeather_hPa = 70.0, kSeaLevel_hPa = 1013.25;
   const double usual_hPa = standard_air(height_m).pressure_hPa;
   if (std::abs(pressure_hPa - usual_hPa) <= kWeather_hPa) return {};
   char text[320];

@@ -20,8 +20,9 @@ struct Air {
 };
 // The standard atmosphere at this height.
 Air standard_air(double height_m);
-// Why this cannot be the pressure at this height; empty: it can. Weather changes the pressure by
-// less than 50 hPa. A pressure reduced to sea level, as weather services state it, is recognised.
+// Why this cannot be the pressure at this height; empty: it can. Weather usually changes the
+// pressure by less than 50 hPa; 70 are allowed. A pressure reduced to sea level, as weather
+// services state it, is recognised where the station stands more than 600 m high.
 std::string pressure_trouble(double pressure_hPa, double height_m);
 
 inline constexpr double kWavelength_um = 0.55;  // wavelength of the light that the camera sees

@@ -175,12 +175,18 @@ def test_exchanged_landmarks_are_no_mistake_of_the_station(tmp_path):
     assert "all agree if" not in done.stderr
 
 
-def test_a_pressure_reduced_to_sea_level_is_refused(run):
+def test_a_pressure_reduced_to_sea_level_is_refused_if_the_sky_is_sighted(tmp_path):
+    run = Run(tmp_path, cases.stars)
     run.change("alfa.toml", 5, "height_m = 310.0000", "height_m = 1500.0")
     run.arguments[run.arguments.index("--pressure") + 1] = 1013
     error = run.refused()
     assert "--pressure: station 'alfa': 1013.0 hPa cannot be the pressure at 1500 m" in error
     assert "it looks reduced to sea level" in error
+
+
+def test_of_landmarks_alone_the_pressure_does_not_matter(run):
+    run.arguments[run.arguments.index("--pressure") + 1] = 700
+    run.adjusted()
 
 
 def test_stars_leave_their_clock_unchecked_and_its_error_is_in_the_result(tmp_path):

@@ -41,18 +41,16 @@ Star star_of(const StarCells& cells) {
           cells.pm_dec_mas_yr * kMas_rad, 1e-3 * cells.parallax_mas};
 }
 
+// The air is that of the first station.
 void check_pressure(double pressure_hPa, const Problem& problem) {
-  for (std::size_t s = 0; s < problem.stations.size(); ++s) {
-    const std::string trouble =
-        pressure_trouble(pressure_hPa, problem.stations[s].model.geometry.position.height_m);
-    if (trouble.empty()) continue;
-    throw std::invalid_argument("--pressure: station '" + problem.names[s] + "': " + trouble);
-  }
+  const std::string trouble =
+      pressure_trouble(pressure_hPa, problem.stations.front().model.geometry.position.height_m);
+  if (trouble.empty()) return;
+  throw std::invalid_argument("--pressure: station '" + problem.names.front() + "': " + trouble);
 }
 
 void read_sky(const CaseOptions& options, Case& what) {
   Problem& problem = what.problem;
-  if (options.pressure_hPa) check_pressure(*options.pressure_hPa, problem);
   if (options.pressure_hPa || options.temperature_degC) {
     Air air = standard_air(problem.stations.front().model.geometry.position.height_m);
     air.pressure_hPa = options.pressure_hPa.value_or(air.pressure_hPa);
@@ -63,6 +61,7 @@ void read_sky(const CaseOptions& options, Case& what) {
     return one.kind == Kind::kStar || one.kind == Kind::kSun;
   });
   if (sky == problem.observations.end()) return;
+  if (options.pressure_hPa) check_pressure(*options.pressure_hPa, problem);
   problem.earth.ut1_minus_utc_s = options.ut1.minus_utc_s.value_or(0.0);
   problem.ut1_sd_s =
       std::hypot(ut1_sd_s(options.ut1, sky->utime_us), options.clock_sd_s.value_or(kClockOfSky_s));
