@@ -150,7 +150,7 @@ class Judge {
   void star_clock() {
     if (own_kept(Kind::kStar).empty() && own_kept(Kind::kSun).empty()) return;
     constexpr double kSky_arcsec_s = 15.04;
-    const ClockCheck check = clock_check(adjustment_.network(), found_.fit);
+    const ClockCheck check = clock_check(adjustment_.network(), found_.fit, found_.scaled_by);
     add(detectable("clock", kSky_arcsec_s * check.detectable_s(), "the clock"));
     if (!check.is_large()) return;
     add({"clock", Judgement::kBad, check.fast_s, check.sd_s,

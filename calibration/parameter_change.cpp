@@ -34,14 +34,14 @@ double ClockCheck::detectable_s() const {
   return (kCritical + kPower) * sd_s;
 }
 
-ClockCheck clock_check(const Network& network, const Fit& fit) {
+ClockCheck clock_check(const Network& network, const Fit& fit, double scaled_by) {
   const int column = network.layout.ut1();
   const double stated = network.ut1_sd_s * network.ut1_sd_s;
   const double all = 1.0 / fit.covariance(column, column), others = all - 1.0 / stated;
   constexpr double kNothing = 1e-9;  // of all the information
   if (others <= kNothing * all) return {0.0, std::numeric_limits<double>::infinity()};
   // UT1 follows the clock that is ahead backwards.
-  return {-fit.state.ut1_s * all / others, std::sqrt(1.0 / others + stated)};
+  return {-fit.state.ut1_s * all / others, std::sqrt(scaled_by * scaled_by / others + stated)};
 }
 
 }  // namespace ols::calibration

@@ -30,6 +30,7 @@ struct ClockCheck {
   bool is_large() const;        // level 0.001
   double detectable_s() const;  // the error that would be found with a power of 80 %
 };
-ClockCheck clock_check(const Network& network, const Fit& fit);
+// `scaled_by`: factor by which the deviations of the observations were enlarged (Calibration).
+ClockCheck clock_check(const Network& network, const Fit& fit, double scaled_by = 1.0);
 
 }  // namespace ols::calibration

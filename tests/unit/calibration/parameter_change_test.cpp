@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tests/unit/calibration/star_scene.h"
 
 namespace ols::calibration {
@@ -44,6 +46,19 @@ TEST(ParameterChange, LandmarksCheckTheClockOfTheStars) {
   EXPECT_TRUE(check.is_large());
   EXPECT_NEAR(check.fast_s, 5.0, 3.0 * check.sd_s);
   EXPECT_LT(check.sd_s, 1.5);
+}
+
+TEST(ParameterChange, ObservationsThatScatterMoreCheckTheClockLess) {
+  const Problem problem = by_a_fast_clock(8);
+  const Adjustment adjustment(network_of(problem));
+  const Fit fit = calibrate(adjustment).fit;
+  const ClockCheck stated = clock_check(adjustment.network(), fit);
+  const ClockCheck scaled = clock_check(adjustment.network(), fit, 3.0);
+  EXPECT_EQ(scaled.fast_s, stated.fast_s);
+  const auto of_others = [&](const ClockCheck& check) {
+    return std::sqrt(check.sd_s * check.sd_s - problem.ut1_sd_s * problem.ut1_sd_s);
+  };
+  EXPECT_NEAR(of_others(scaled), 3.0 * of_others(stated), 1e-9);
 }
 
 // Its angles are off by 5 arc seconds each.
