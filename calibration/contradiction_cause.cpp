@@ -183,7 +183,8 @@ void add_exchanged_coordinates(const Problem& problem, const Levels& levels,
   causes.emplace_back("all agree if east and north of the landmarks were exchanged");
 }
 
-// A tripod that was turned between two sightings: from then on it is a station of its own.
+// A tripod that was turned, or a unit that lost its counts, between two sightings: from then on it
+// is a station of its own.
 class TurnSearch {
  public:
   TurnSearch(const Problem& problem, std::size_t station, const Levels& levels)
@@ -267,21 +268,26 @@ class TurnSearch {
       return kNone;
     }
   }
-  // By the directions of one reading: a heading alone is shared with the mounting.
+  // By the directions of one reading: a heading alone is shared with the mounting. A unit that has
+  // lost its counts looks the same as a turned tripod.
   std::string sentence(std::size_t cut, const Fit& found) const {
     const Observation& first = problem_.observations[order_[cut]];
-    const auto azimuth = [&](std::size_t station) {
+    const auto direction = [&](std::size_t station) {
       const StationModel& model = found.state.stations[station].model;
       const auto seen = predict_direction(model, first.reading, first.pixel);
-      return seen ? seen->direction.azimuth_rad : 0.0;
+      return seen ? seen->direction : AzimuthElevation{};
     };
-    const double by_rad = wrap_pi(azimuth(problem_.stations.size()) - azimuth(station_));
-    char text[240];
-    std::snprintf(text, sizeof text,
-                  "all agree if the tripod of station '%s' was turned by %+.3f deg before the "
-                  "sighting of '%s' in line %u",
-                  problem_.names[station_].c_str(), degrees(by_rad), first.reference.c_str(),
-                  first.line);
+    const auto before = direction(station_), after = direction(problem_.stations.size());
+    const double pan_rad = wrap_pi(after.azimuth_rad - before.azimuth_rad);
+    const double tilt_rad = after.elevation_rad - before.elevation_rad;
+    const bool is_tilt = std::abs(tilt_rad) > std::abs(pan_rad);
+    char text[300];
+    std::snprintf(
+        text, sizeof text,
+        "all agree if the tripod of station '%s' was turned, or the unit lost its counts, "
+        "by %+.3f deg of %s before the sighting of '%s' in line %u",
+        problem_.names[station_].c_str(), degrees(is_tilt ? tilt_rad : pan_rad),
+        is_tilt ? "tilt" : "pan", first.reference.c_str(), first.line);
     return text;
   }
 

@@ -15,8 +15,9 @@ namespace ols::calibration {
 std::vector<std::string> causes_of_contradiction(const Problem& problem, const Levels& levels = {});
 
 // The same for mistakes of a station, which look like several mistaken references: its position is
-// surveyed wrongly, or its tripod was turned between two sightings. Of thousands of sightings of a
-// drone or an aircraft it tries some hundreds, so the one that is named may come a little late.
+// surveyed wrongly; or its tripod was turned, or its unit lost its counts, between two sightings.
+// Of thousands of sightings of a drone or an aircraft it tries some hundreds, so the one that is
+// named may come a little late.
 std::vector<std::string> mistakes_of_stations(const Problem& problem, const Levels& levels = {});
 
 }  // namespace ols::calibration

@@ -274,11 +274,12 @@ def test_a_guided_calibration_speaks_german(conditions, page_says):
             "nach Osten, 0.60 m nach Süden und 0.01 m tiefer: ist ihre Position richtig vermessen?"
         ),
         "the observations contradict each other: all others agree without star 'a', or without "
-        "star 'b'; all agree if the tripod of station 'alfa' was turned by +0.050 deg before the "
-        "sighting of 'spire' in line 12": (
+        "star 'b'; all agree if the tripod of station 'alfa' was turned, or the unit lost its "
+        "counts, by +0.050 deg of pan before the sighting of 'spire' in line 12": (
             "die Beobachtungen widersprechen sich: alle anderen stimmen überein ohne Stern 'a', "
-            "oder ohne Stern 'b'; alle stimmen überein, wenn das Stativ der Station 'alfa' um "
-            "+0.050 ° gedreht wurde, bevor 'spire' in Zeile 12 anvisiert wurde"
+            "oder ohne Stern 'b'; alle stimmen überein, wenn das Stativ der Station 'alfa' "
+            "gedreht wurde oder die Einheit sich verzählt hat, um +0.050 ° in Schwenk, bevor "
+            "'spire' in Zeile 12 anvisiert wurde"
         ),
         "the clock: a mistake that would be found: 260.00″, at most 30.00″: unchecked": (
             "die Uhr: ein Irrtum, der gefunden würde: 260.00″, höchstens 30.00″: nicht geprüft"
