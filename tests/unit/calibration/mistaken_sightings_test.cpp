@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <string>
 
 #include "tests/unit/calibration/scene.h"
@@ -73,42 +72,6 @@ TEST(MistakenSightings, TellsEachAdjustment) {
   problem.observations[7].pixel.x() += 15.0;
   mistaken_sightings(network_of(problem), {}, tell);
   EXPECT_GE(adjustments, 3) << "another one without what is rejected";
-}
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kSanitized = true;
-#elif defined(__has_feature)
-constexpr bool kSanitized = __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) ||
-                            __has_feature(memory_sanitizer);
-#else
-constexpr bool kSanitized = false;
-#endif
-
-long highest_kB() {
-  std::ifstream status("/proc/self/status");
-  for (std::string word; status >> word;) {
-    long value = 0;
-    if (word == "VmHWM:" && status >> value) return value;
-  }
-  return 0;
-}
-
-// Of 3000 sightings, equations kept for each are 30 MB, and a copy of the group for each is 72 MB.
-TEST(MistakenSightings, OfThousandsNeedLittleMemory) {
-  if (kSanitized) GTEST_SKIP() << "a sanitizer needs memory of its own";
-  const Network whole = network_of(drone_alone(3000));
-  {
-    const std::vector<char> room(50'000'000, 1);  // higher than before
-    ASSERT_EQ(room.back(), 1);
-  }
-  const long highest_before_kB = highest_kB();
-  std::ofstream reset("/proc/self/clear_refs");
-  ASSERT_TRUE(reset << "5" << std::flush);  // the highest begins anew
-  const long before_kB = highest_kB();
-  ASSERT_GT(before_kB, 0);
-  ASSERT_LT(before_kB, highest_before_kB - 20'000);
-  EXPECT_EQ(mistaken_sightings(whole), Indices{});
-  EXPECT_LT(highest_kB() - before_kB, 30'000);
 }
 
 // The first one proposes the heading; here it proposes a wrong one.
