@@ -117,8 +117,18 @@ TEST_F(ColouredAppearance, IsRecognisedInAnotherExposure) {
   darker.gray *= 0.6;
   darker.colour.image *= 0.6;
   appearance.find(darker, {centre_of(box_)}, size_of(box_), 0.0);
-  EXPECT_GT(appearance.recognised(centre_of(box_)), 0.6) << "else it is never learnt again";
+  EXPECT_GT(appearance.recognised(centre_of(box_)), 0.6);
   EXPECT_GT(appearance.first_colours(centre_of(box_)), 0.7);
+}
+
+// The surroundings have the target's grey, too: once the picture is darker, they have more of it.
+TEST_F(ColouredAppearance, ColoursThatFitNowhereDoNotCountAgainstTheFilter) {
+  const cv::Scalar grey(150, 150, 150);
+  LearntAppearance appearance(there(0, at_, grey), centre_of(box_), size_of(box_));
+  TrackerInput darker = there(0, at_, grey);
+  darker.colour.image *= 0.6;
+  appearance.find(darker, {centre_of(box_)}, size_of(box_), 0.0);
+  EXPECT_GT(appearance.recognised(centre_of(box_)), 0.6) << "else it is never learnt again";
 }
 
 TEST_F(ColouredAppearance, AGreyPictureSaysNothingOfColours) {
