@@ -326,14 +326,19 @@ void add_turns(const Problem& problem, const Levels& levels, std::vector<std::st
   }
 }
 
+void add_mistakes_of_stations(const Problem& problem, const Levels& levels,
+                              std::vector<std::string>& causes) {
+  add_positions(problem, levels, causes);
+  if (causes.empty()) add_turns(problem, levels, causes);
+}
+
 }  // namespace
 
 std::vector<std::string> mistakes_of_stations(const Problem& problem, const Levels& levels) {
   const Problem light = lightened(problem);
   if (all_agree(light, levels)) return {};
   std::vector<std::string> causes;
-  add_positions(light, levels, causes);
-  if (causes.empty()) add_turns(light, levels, causes);
+  add_mistakes_of_stations(light, levels, causes);
   return causes;
 }
 
@@ -351,7 +356,7 @@ std::vector<std::string> causes_of_contradiction(const Problem& problem, const L
   // Without the sky the distance of a reference tells.
   if (sees_sky) add_hemispheres(light, levels, causes);
   // These have so many more unknowns that they explain other mistakes, too.
-  if (causes.empty()) causes = mistakes_of_stations(light, levels);
+  if (causes.empty()) add_mistakes_of_stations(light, levels, causes);
   return causes;
 }
 

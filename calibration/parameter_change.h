@@ -24,8 +24,8 @@ ParameterChange parameter_change(const Network& network, const Fit& fit, std::si
 // the same: stars alone cannot check it, but landmarks and an inclinometer can.
 struct ClockCheck {
   double fast_s = 0.0;
-  double sd_s =
-      0.0;  // 1-sigma of `fast_s` if the stated error is right; infinite: nothing checks it
+  // 1-sigma of `fast_s` if the stated error is right; infinite: nothing checks the clock.
+  double sd_s = 0.0;
   double sigmas() const;
   bool is_large() const;        // level 0.001
   double detectable_s() const;  // the error that would be found with a power of 80 %
