@@ -105,10 +105,20 @@ class Problem:
                 np.full(2, 1e-4),
             ]
         )
+
+        def residuals(z):
+            return self.residuals(z * scale)
+
+        def jacobian(z):
+            # Steps of a hundredth of a deviation: scipy's own are so short that the rounding of
+            # geocentric coordinates (1e-9 m) is a percent of the change.
+            steps = 1e-2 * np.eye(self.unknowns)
+            return np.array([residuals(z + step) - residuals(z - step) for step in steps]).T / 2e-2
+
         found = least_squares(
-            lambda z: self.residuals(z * scale),
+            residuals,
             start / scale,
-            jac="3-point",
+            jac=jacobian,
             xtol=1e-15,
             ftol=1e-15,
             gtol=1e-15,
