@@ -137,7 +137,7 @@ void add_appearance(const Target& t, Json& fields) {
   const auto known = [](double value, int digits) {
     return value > 0.0 ? Json(rounded(value, digits)) : Json(nullptr);
   };
-  fields["class"] = wire::class_name(t.object_class);
+  fields["class"] = to_string(wire::object_class_of(t.object_class));
   fields["class_probability"] = known(t.class_probability, 2);
   fields["size_m"] = known(t.size_m, 2);
   fields["size_sd_m"] = known(t.size_sd_m, 2);

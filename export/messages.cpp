@@ -40,7 +40,7 @@ Place place_of(double latitude_deg, double longitude_deg, double height_m,
 
 void add_appearance(const TargetMessage& t, Target& target) {
   const auto known = [](double value) { return value > 0.0 ? value : kUnknown; };
-  target.object_class = from_code(t.object_class, ObjectClass::kOther, ObjectClass::kUnknown);
+  target.object_class = wire::object_class_of(t.object_class);
   target.class_probability = std::min(known(t.class_probability), 1.0);
   target.size_m = known(t.size_m);
   target.size_sd_m = known(t.size_sd_m);

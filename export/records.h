@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "wire/object_class.h"
+
 namespace ols::exports {
 
 inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
@@ -24,11 +26,8 @@ struct Place {
 // Symmetric, in the place's own east, north, up: ee, en, eu, nn, nu, uu.
 using Covariance = std::array<double, 6>;
 
-// The values of both are those of target_t.
-enum class ObjectClass { kUnknown, kDrone, kBird, kAircraft, kOther };
-inline constexpr std::array kObjectClasses{ObjectClass::kUnknown, ObjectClass::kDrone,
-                                           ObjectClass::kBird, ObjectClass::kAircraft,
-                                           ObjectClass::kOther};
+using wire::ObjectClass;
+// The values are those of target_t.
 enum class TrackState { kTentative, kConfirmed, kCoasted, kEnded };
 
 struct Target {

@@ -81,11 +81,6 @@ const char* to_string(TrackState state) {
   return word_of_code(code(state), std::array{"tentative", "confirmed", "coasted", "ended"});
 }
 
-const char* to_string(ObjectClass object_class) {
-  return word_of_code(code(object_class),
-                      std::array{"unknown", "drone", "bird", "aircraft", "other"});
-}
-
 const char* standard_class(ObjectClass object_class) {
   return word_of_code(code(object_class),
                       std::array{"Unknown", "UAV", "Bird", "Aircraft", "Other"});

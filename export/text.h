@@ -19,8 +19,6 @@ std::string iso_time(std::int64_t utime_us);
 std::string xml(std::string_view text);
 // "tentative", "confirmed", "coasted", "ended".
 const char* to_string(TrackState state);
-// "unknown", "drone", "bird", "aircraft", "other".
-const char* to_string(ObjectClass object_class);
 // "Unknown", "UAV", "Bird", "Aircraft", "Other": the words of SAPIENT and COURAGEOUS.
 const char* standard_class(ObjectClass object_class);
 // A target's name for a person: "OLS 7".

@@ -50,8 +50,4 @@ const char* solution_name(std::int8_t solution) {
                                  "not-converged", "bearing-only", "rays-miss", "ambiguous"});
 }
 
-const char* class_name(std::int8_t object_class) {
-  return word_of_code(object_class, std::array{"unknown", "drone", "bird", "aircraft", "other"});
-}
-
 }  // namespace ols::wire

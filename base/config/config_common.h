@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <ranges>
 #include <string>
 #include <vector>
 
@@ -16,7 +17,7 @@ Row status_file(std::string& field);
 // Maps the words of a table's rows to their values. Each row has a field `name` and a field for the
 // value.
 template <class Row, class T>
-Words<T> words_of(const std::vector<Row>& rows, T Row::*value) {
+Words<T> words_of(const std::ranges::range auto& rows, T Row::*value) {
   Words<T> words;
   for (const Row& row : rows) words.emplace_back(row.name, row.*value);
   return words;

@@ -120,14 +120,11 @@ Section handover_section(HandoverConfig& c) {
                      {"automatic", HandoverMode::kAutomatic}},
                     "off: they lead none; propose: each waits for an operator; automatic: those "
                     "of `classes` lead at once."),
-       config::word_list("classes", c.classes,
-                         {{"unknown", ObjectClass::kUnknown},
-                          {"drone", ObjectClass::kDrone},
-                          {"bird", ObjectClass::kBird},
-                          {"aircraft", ObjectClass::kAircraft},
-                          {"other", ObjectClass::kOther}},
-                         "Classes that lead at once where the mode is automatic; the others "
-                         "wait for an operator."),
+       config::word_list(
+           "classes", c.classes,
+           config::words_of(wire::kObjectClasses, &wire::ObjectClassRow::object_class),
+           "Classes that lead at once where the mode is automatic; the others "
+           "wait for an operator."),
        config::texts("staring", c.staring, "Stations that are never led anywhere."),
        config::number("seek_s", c.seek_s, {0.0, 60.0}, "s",
                       "A lost target is searched for this long, at its predicted position."),

@@ -24,11 +24,12 @@
 #include <optional>
 #include <vector>
 
+#include "wire/object_class.h"
+
 namespace ols::fusion {
 
-// The values are those of target_t's CLASS_*.
-enum class ObjectClass { kUnknown, kDrone, kBird, kAircraft, kOther };
-inline constexpr int kObjectClasses = 5;
+using wire::ObjectClass;
+inline constexpr int kObjectClasses = wire::kObjectClasses.size();
 
 inline constexpr double kCorrelation_s = 4.0, kMostLooks = 5.0, kMemory_s = 20.0;
 inline constexpr double kSure = 0.9, kLeastSeen_s = 1.0;

@@ -50,8 +50,8 @@ std::string name_of(const Json& value) {
 }
 
 std::string class_of(const Json& value) {
-  for (std::int8_t code = 0; code < std::int8_t{kMostClasses}; ++code) {
-    if (value == wire::class_name(code)) return wire::class_name(code);
+  for (const wire::ObjectClassRow& known : wire::kObjectClasses) {
+    if (value == known.name) return known.name;
   }
   refuse("unknown class " + value.dump());
 }

@@ -19,7 +19,7 @@ struct Area {
   // Edges are straight in longitude and latitude, as in GeoJSON. They may cross the antimeridian.
   std::vector<std::array<double, 2>> corners_deg;
   double lowest_m = 0.0, highest_m = 0.0;  // above the WGS84 ellipsoid
-  std::vector<std::string> classes;        // as wire::class_name() names them; empty: all
+  std::vector<std::string> classes;        // names of wire::kObjectClasses; empty: all
   // Minutes of the day, in the time zone of the console's host, between which the area is watched.
   // Equal: always. An end before the beginning is on the next day.
   int from_min = 0, to_min = 0;

@@ -69,7 +69,7 @@ std::vector<std::string> states_of_targets() {
 
 std::vector<std::string> classes_of_targets() {
   std::vector<std::string> classes;
-  for (const ObjectClass one : kObjectClasses) classes.emplace_back(to_string(one));
+  for (const auto& one : wire::kObjectClasses) classes.emplace_back(one.name);
   return classes;
 }
 

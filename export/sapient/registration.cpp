@@ -63,8 +63,8 @@ void describe_detections(Registration::DetectionDefinition& detections) {
   add_field("covariance_enu_m2", "m2: ee en eu nn nu uu");
   add_field("velocity_covariance_enu_m2_s2", "m2/s2: ee en eu nn nu uu");
   auto& classes = *detections.add_detection_class_definition();
-  for (const ObjectClass one : kObjectClasses) {
-    classes.add_class_definition()->set_type(to_string(one));
+  for (const auto& one : wire::kObjectClasses) {
+    classes.add_class_definition()->set_type(one.name);
   }
   auto& velocity = *detections.mutable_velocity_type();
   velocity.mutable_enu_velocity_units()->set_east_north_rate_units(sapient::SPEED_UNITS_MS);

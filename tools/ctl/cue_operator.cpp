@@ -35,7 +35,7 @@ CueOperator::CueOperator(const std::string& lcm_url, const trust::TrustConfig& t
 
 void CueOperator::note_class(const ols_msg::target_t& target) {
   std::string& words = classes_[target.target_id];
-  words = wire::class_name(target.object_class);
+  words = to_string(wire::object_class_of(target.object_class));
   if (target.object_class == ols_msg::target_t::CLASS_UNKNOWN) return;
   words += " (" + std::to_string(std::lround(100.0 * target.class_probability)) + " %)";
 }

@@ -76,7 +76,7 @@ TEST(HeardTarget, OfBeforeItGrewLacksWhatItDidNotSay) {
   ASSERT_TRUE(target);
   EXPECT_EQ(target->estimator, "filter");
   EXPECT_EQ(target->age_s, std::vector{0.25});
-  EXPECT_STREQ(class_name(target->object_class), "unknown");
+  EXPECT_EQ(object_class_of(target->object_class), ObjectClass::kUnknown);
   EXPECT_EQ(target->size_m, 0.0);
   EXPECT_FALSE(target->has_height_above_ground);
   EXPECT_TRUE(has_position(*target));
