@@ -64,7 +64,7 @@ void describe_detections(Registration::DetectionDefinition& detections) {
   add_field("velocity_covariance_enu_m2_s2", "m2/s2: ee en eu nn nu uu");
   auto& classes = *detections.add_detection_class_definition();
   for (const auto& one : wire::kObjectClasses) {
-    classes.add_class_definition()->set_type(one.name);
+    classes.add_class_definition()->set_type(standard_class(one.object_class));
   }
   auto& velocity = *detections.mutable_velocity_type();
   velocity.mutable_enu_velocity_units()->set_east_north_rate_units(sapient::SPEED_UNITS_MS);

@@ -80,6 +80,19 @@ sapient::DetectionReport detection(const Target& target, std::int64_t after_us =
   return said(sapient_detection(kBrno, target, target.utime_us + after_us)).detection_report();
 }
 
+TEST(Registration, NamesEachClassAsReportsDo) {
+  const auto message = said(sapient_registration(kBrno, kNow_us));
+  const auto& mode = message.registration().mode_definition(0);
+  const auto& classes = mode.detection_definition(0).detection_class_definition(0);
+  ASSERT_EQ(classes.class_definition_size(), static_cast<int>(wire::kObjectClasses.size()));
+  for (std::size_t i = 0; i < wire::kObjectClasses.size(); ++i) {
+    Target target = made_target();
+    target.object_class = wire::kObjectClasses[i].object_class;
+    EXPECT_EQ(classes.class_definition(static_cast<int>(i)).type(),
+              detection(target).classification(0).type());
+  }
+}
+
 std::string information(const sapient::DetectionReport& report, const std::string& type) {
   for (const auto& one : report.track_info()) {
     if (one.type() == type) return one.value();
