@@ -8,15 +8,13 @@ import type { Link } from "./link";
 import { measures } from "./measures";
 import { Menu } from "./menu";
 import { Legend, OwnMaps } from "./ownmaps";
-import { SiteMap } from "./sitemap";
+import { OPTIONS, SiteMap } from "./sitemap";
 import type { Corner } from "./site";
 import { View3d } from "./view3d";
 import { t } from "./words";
 
-type Options = SiteMap["options"];
+type Options = typeof OPTIONS;
 type Props = { link: Link; version: number; theme: string; selected: string; draft: Corner[] | null; onPick: (pick: string) => void; onCorner: (corner: Corner) => void };
-
-const OPTIONS: Options = { terrain: true, rings: true, grid: true, trails: true, views: true, limits: true, follow: false, measuring: false, placing: false };
 
 // The map in its element, which follows what the page shows; null until it is made.
 function useSiteMap(element: RefObject<HTMLDivElement>, { link, version, theme, selected, draft, onPick, onCorner }: Props, onMeasured: (text: string) => void): SiteMap | null {

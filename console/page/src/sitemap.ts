@@ -39,6 +39,9 @@ import { trailShapes } from "./trailshapes";
 const LABELS = "labels"; // of two that would cover each other, that of the upper layer is drawn
 const BORDER_PART = 0.17; // of the view: how far borders are drawn from their station
 
+// The layers, and what a click means, when the page opens.
+export const OPTIONS = { terrain: true, rings: true, grid: true, trails: true, views: true, limits: true, follow: false, measuring: false, placing: false };
+
 export class SiteMap {
   readonly map: OlMap;
   private moving = new VectorSource();
@@ -63,7 +66,7 @@ export class SiteMap {
   private over: Box[] = []; // what covers the map
   private probe = new GroundProbe((text) => this.onGround(text));
   private pen = document.createElement("canvas").getContext("2d")!;
-  options = { terrain: true, rings: true, grid: true, trails: true, views: true, limits: true, follow: false, measuring: false, placing: false };
+  options = { ...OPTIONS };
   selected = "";
   draft: Corner[] | null = null; // of an area that is being drawn
   onCorner: (corner: Corner) => void = () => {};
