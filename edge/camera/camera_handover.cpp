@@ -86,14 +86,26 @@ void CameraHandover::note_incomplete(std::uint64_t lost, const FrameStatistics& 
   if (facts_.incomplete_share > kManyIncomplete) note_trouble(kIncomplete);
 }
 
-void CameraHandover::note_refused(const std::string& why, std::uint64_t lost,
+void CameraHandover::note_opened(const std::string& identity, const std::string& serial) {
+  const std::lock_guard lock(mutex_);
+  if (facts_.opened_s) ++facts_.counters.reconnects;
+  facts_.state = CameraState::kStarting;
+  facts_.fault = {};
+  facts_.identity = identity;
+  facts_.serial = serial;
+  facts_.opened_s = clock_monotonic_s();
+  facts_.last_frame_s.reset();
+}
+
+void CameraHandover::note_refused(PictureRefusal why, std::uint64_t lost,
                                   const FrameStatistics& statistics) {
+  const std::string words = std::string("frame refused: ") + to_string(why);
   const std::lock_guard lock(mutex_);
   note_statistics(lost, statistics);
   ++facts_.counters.frames_refused;
   facts_.state = CameraState::kFault;
-  facts_.fault = alarm::camera_frames_refused(why);
-  note_trouble(why);
+  facts_.fault = alarm::camera_frames_refused(words);
+  note_trouble(words);
 }
 
 void CameraHandover::note_failure(CameraState state, const Alarm& failure) {

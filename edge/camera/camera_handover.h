@@ -11,6 +11,7 @@
 #include "edge/camera/camera_report.h"
 #include "edge/camera/frame.h"
 #include "edge/camera/frame_statistics.h"
+#include "edge/camera/picture.h"
 
 namespace ols::camera {
 
@@ -39,9 +40,11 @@ class CameraHandover {
   // Takes a complete frame as configured; `lost`: number of frames missing before it. The frame may
   // have no pixels if a newer one is already waiting.
   void publish(Frame frame, std::uint64_t lost, const FrameStatistics& statistics);
+  // Notes that the camera was opened; its first frame has not arrived yet.
+  void note_opened(const std::string& identity, const std::string& serial = {});
   void note_incomplete(std::uint64_t lost, const FrameStatistics& statistics);
   // Notes a complete frame that differs from the configuration.
-  void note_refused(const std::string& why, std::uint64_t lost, const FrameStatistics& statistics);
+  void note_refused(PictureRefusal why, std::uint64_t lost, const FrameStatistics& statistics);
   // Notes that the camera is lost, or cannot be opened.
   void note_failure(CameraState state, const Alarm& failure);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <string_view>
 
@@ -85,6 +86,14 @@ void add_alarms(const CameraConfig& config, const CameraFacts& facts, double now
 }
 
 }  // namespace
+
+std::optional<Alarm> rate_alarm(const CameraConfig& config, double rate_hz, double open_s) {
+  constexpr double kMostOff = 0.15, kKnown_s = 5.0;
+  const bool differs =
+      open_s > kKnown_s && std::abs(rate_hz / config.frame_rate_hz - 1.0) > kMostOff;
+  if (!differs) return std::nullopt;
+  return alarm::camera_rate_differs(rate_hz, config.frame_rate_hz);
+}
 
 device::DeviceReport make_camera_report(const CameraConfig& config, const CameraFacts& facts,
                                         double now_s) {

@@ -45,18 +45,11 @@ AravisSession::AravisSession(const AravisConfig& config, AravisDevice& device,
   if (config.auto_exposure)
     automatic_.emplace(config.auto_levels, device.limits(), device.exposure());
   numbers.restart();
-  const std::string identity = device.identity(), serial = device.serial();
   handover.change_facts([&](CameraFacts& facts) {
-    if (facts.opened_s) ++facts.counters.reconnects;
-    facts.state = CameraState::kStarting;
-    facts.fault = {};
-    facts.identity = identity;
-    facts.serial = serial;
     facts.exposure = device.exposure();
     facts.missing_light = 1.0;
-    facts.opened_s = clock_monotonic_s();
-    facts.last_frame_s.reset();
   });
+  handover.note_opened(device.identity(), device.serial());
   for (int i = 1; i < kFirstLatches; ++i)
     if (const auto sample = device.latch()) clock_.map().add_latch(*sample);
   look();
@@ -119,8 +112,7 @@ void AravisSession::take(const ReceivedFrame& received) {
   if (!received.complete) return handover_.note_incomplete(step.lost, statistics_);
   const PictureRefusal refusal = check(received.picture, expected_);
   if (refusal != PictureRefusal::kNone)
-    return handover_.note_refused(std::string("frame refused: ") + to_string(refusal), step.lost,
-                                  statistics_);
+    return handover_.note_refused(refusal, step.lost, statistics_);
   const FrameTime time = clock_.stamp(received.device_ns, received.arrival_s, exposures_);
   Frame frame{.gray = {},
               .mid_exposure_s = time.mid_exposure_s,

@@ -4,12 +4,10 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <thread>
 #include <utility>
 
 #include "base/process/clocks.h"
 #include "conditions/alarms.h"
-#include "edge/camera/camera_handover.h"
 #include "edge/camera/picture.h"
 #include "edge/camera/picture_change.h"
 #include "edge/camera/retry_pause.h"
@@ -22,8 +20,6 @@ namespace {
 constexpr double kPoll_s = 0.1;         // delay until the end is noticed
 constexpr double kLongestTurn_s = 0.2;  // maximum that one turn adds to the silence
 
-constexpr double kRateOff = 0.15;       // share of the configured rate
-constexpr double kRateKnown_s = 5.0;    // after the first picture
 constexpr double kStampRateOff = 2e-3;  // no oscillator is so bad
 
 std::string milliseconds(const char* format, double seconds) {
@@ -32,27 +28,25 @@ std::string milliseconds(const char* format, double seconds) {
   return text.data();
 }
 
-}  // namespace
+class RtspSource : public CameraSource {
+ public:
+  RtspSource(const RtspConfig& config, CameraHandover& handover)
+      : config_(config), handover_(handover), clock_(config.clock) {}
 
-struct RtspCamera::Impl {
-  explicit Impl(const RtspConfig& config) : config_(config), clock_(config.clock) {
-    thread_ = std::thread([this] { run(); });
-  }
-  ~Impl() {
-    handover_.end();
-    thread_.join();
+  void serve() override;
+  double pause_s() override {
+    return pause_.after_stream(last_s_.value_or(0.0) - first_s_.value_or(0.0));
   }
 
-  void run();
+ private:
   void connect(const std::string& password);
   void stream(RtspStream& stream);
   void take(RtspStream& stream, DecodedPicture picture);
-  void note_opened(const RtspStream& stream, double now_s);
   void note_time(const RtspStream& stream, const FrameTime& time, double now_s);
   std::vector<Alarm> alarms(double now_s) const;
 
   const RtspConfig config_;
-  CameraHandover handover_;
+  CameraHandover& handover_;
   RtspClock clock_;
   RetryPause pause_;
   PictureChange change_;      // over connections: a frozen camera sends the same picture again
@@ -64,35 +58,22 @@ struct RtspCamera::Impl {
   std::uint64_t first_number_ = 0;
   std::optional<double> first_s_, last_s_;  // arrivals of good frames
   std::uint64_t lost_here_ = 0;
-  std::thread thread_;
 };
 
-void RtspCamera::Impl::run() {
-  while (!handover_.ended()) {
-    std::string password;
-    try {
-      password = device::read_password(config_.password_file);
-      connect(password);
-      continue;  // ended
-    } catch (const LoginRefused& error) {
-      handover_.note_failure(CameraState::kFault, error.alarm);
-      device::wait_for_other_password(config_.password_file, password, [this](double pause_s) {
-        handover_.wait(pause_s);
-        return !handover_.ended();
-      });
-      continue;
-    } catch (const CameraUnfit& error) {
-      handover_.note_failure(CameraState::kFault, error.alarm);
-    } catch (const CameraAbsent& error) {
-      handover_.note_failure(CameraState::kAbsent, error.alarm);
-    } catch (const std::exception& error) {
-      handover_.note_failure(CameraState::kAbsent, {error.what(), {}, {}});
-    }
-    handover_.wait(pause_.after_stream(last_s_.value_or(0.0) - first_s_.value_or(0.0)));
+void RtspSource::serve() {
+  const std::string password = device::read_password(config_.password_file);
+  try {
+    connect(password);
+  } catch (const LoginRefused& error) {
+    handover_.note_failure(CameraState::kFault, error.alarm);
+    device::wait_for_other_password(config_.password_file, password, [this](double pause_s) {
+      handover_.wait(pause_s);
+      return !handover_.ended();
+    });
   }
 }
 
-void RtspCamera::Impl::connect(const std::string& password) {
+void RtspSource::connect(const std::string& password) {
   statistics_ = {};
   first_number_ = number_;
   first_s_.reset();
@@ -102,7 +83,7 @@ void RtspCamera::Impl::connect(const std::string& password) {
   stream(connection);
 }
 
-void RtspCamera::Impl::stream(RtspStream& stream) {
+void RtspSource::stream(RtspStream& stream) {
   const double period_s = 1.0 / config_.frame_rate_hz;
   double silence_s = 0.0, turned_s = clock_monotonic_s();
   lost_here_ = 0;
@@ -118,7 +99,7 @@ void RtspCamera::Impl::stream(RtspStream& stream) {
   }
 }
 
-void RtspCamera::Impl::take(RtspStream& stream, DecodedPicture picture) {
+void RtspSource::take(RtspStream& stream, DecodedPicture picture) {
   const std::uint64_t number = first_number_ + picture.rtp.number;
   const std::uint64_t lost = number > number_ + 1 && first_s_ ? number - number_ - 1 : 0;
   number_ = std::max(number_, number);
@@ -128,12 +109,11 @@ void RtspCamera::Impl::take(RtspStream& stream, DecodedPicture picture) {
   const double now_s = picture.rtp.arrival_s;
   if (!first_s_) {
     first_s_ = now_s;
-    note_opened(stream, clock_monotonic_s());
+    handover_.note_opened("RTSP " + stream.codec());
   }
   last_s_ = now_s;
   if (picture.gray.cols != config_.width_px || picture.gray.rows != config_.height_px)
-    return handover_.note_refused(
-        std::string("frame refused: ") + to_string(PictureRefusal::kWrongSize), lost, statistics_);
+    return handover_.note_refused(PictureRefusal::kWrongSize, lost, statistics_);
   const double unchanged_s = change_.unchanged_s(picture.gray, now_s);
   if (config_.frozen_s > 0.0 && unchanged_s >= config_.frozen_s)
     throw CameraAbsent(alarm::camera_frozen(unchanged_s));
@@ -153,23 +133,10 @@ void RtspCamera::Impl::take(RtspStream& stream, DecodedPicture picture) {
   handover_.publish(std::move(frame), lost, statistics_);
 }
 
-void RtspCamera::Impl::note_opened(const RtspStream& stream, double now_s) {
-  handover_.change_facts([&](CameraFacts& facts) {
-    if (facts.opened_s) ++facts.counters.reconnects;
-    facts.state = CameraState::kStarting;
-    facts.fault = {};
-    facts.identity = "RTSP " + stream.codec();
-    facts.opened_s = now_s;
-    facts.last_frame_s.reset();
-  });
-}
-
-std::vector<Alarm> RtspCamera::Impl::alarms(double now_s) const {
+std::vector<Alarm> RtspSource::alarms(double now_s) const {
   std::vector<Alarm> alarms;
-  const double rate_hz = statistics_.rate_hz();
-  if (now_s - first_s_.value_or(now_s) > kRateKnown_s &&
-      std::abs(rate_hz / config_.frame_rate_hz - 1.0) > kRateOff)
-    alarms.push_back(alarm::camera_rate_differs(rate_hz, config_.frame_rate_hz));
+  if (auto differs = rate_alarm(config_, statistics_.rate_hz(), now_s - first_s_.value_or(now_s)))
+    alarms.push_back(std::move(*differs));
   const double rate = clock_.rate().value_or(1.0);
   if (std::abs(rate - 1.0) > kStampRateOff)
     alarms.push_back(alarm::camera_stamps_run_wrong(100.0 * (1.0 / rate - 1.0)));
@@ -178,7 +145,7 @@ std::vector<Alarm> RtspCamera::Impl::alarms(double now_s) const {
   return alarms;
 }
 
-void RtspCamera::Impl::note_time(const RtspStream& stream, const FrameTime& time, double now_s) {
+void RtspSource::note_time(const RtspStream& stream, const FrameTime& time, double now_s) {
   const bool by_reports = time.source == StampSource::kCamera;
   std::string switched;
   if (const auto jump_s = clock_.jump_s()) {
@@ -201,13 +168,11 @@ void RtspCamera::Impl::note_time(const RtspStream& stream, const FrameTime& time
   });
 }
 
-RtspCamera::RtspCamera(const RtspConfig& config) : impl_(std::make_unique<Impl>(config)) {}
-RtspCamera::~RtspCamera() = default;
+}  // namespace
 
-std::optional<Frame> RtspCamera::next(double timeout_s) { return impl_->handover_.next(timeout_s); }
-
-device::DeviceReport RtspCamera::report() const {
-  return make_camera_report(impl_->config_, impl_->handover_.facts(), clock_monotonic_s());
-}
+RtspCamera::RtspCamera(const RtspConfig& config)
+    : ThreadedCamera(config, [&config](CameraHandover& handover) {
+        return std::make_unique<RtspSource>(config, handover);
+      }) {}
 
 }  // namespace ols::camera

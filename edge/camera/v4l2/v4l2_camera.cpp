@@ -5,13 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <thread>
 #include <utility>
 
 #include "base/process/clocks.h"
 #include "conditions/alarms.h"
 #include "edge/camera/camera_errors.h"
-#include "edge/camera/camera_handover.h"
 #include "edge/camera/gstreamer/gst_picture.h"
 #include "edge/camera/picture.h"
 #include "edge/camera/picture_change.h"
@@ -23,8 +21,6 @@ namespace {
 
 constexpr double kPoll_s = 0.1;         // delay until the end is noticed
 constexpr double kFirstFrame_s = 10.0;  // a camera starts its sensor first
-constexpr double kRateOff = 0.15;       // share of the configured rate
-constexpr double kRateKnown_s = 5.0;    // after the first picture
 
 struct Unref {
   void operator()(void* object) const { gst_object_unref(object); }
@@ -114,25 +110,22 @@ class OpenCamera {
   Owned<GstElement> pipeline_, sink_;
 };
 
-}  // namespace
+class V4l2Source : public CameraSource {
+ public:
+  V4l2Source(const V4l2Config& config, CameraHandover& handover)
+      : config_(config), handover_(handover) {}
 
-struct V4l2Camera::Impl {
-  explicit Impl(const V4l2Config& config) : config_(config) {
-    thread_ = std::thread([this] { run(); });
-  }
-  ~Impl() {
-    handover_.end();
-    thread_.join();
+  void serve() override;
+  double pause_s() override {
+    return pause_.after_stream(last_s_.value_or(0.0) - first_s_.value_or(0.0));
   }
 
-  void run();
-  void serve();
+ private:
   void take(OpenCamera::Stamped stamped);
-  void note_opened();
   void note_rate(double now_s);
 
   const V4l2Config config_;
-  CameraHandover handover_;
+  CameraHandover& handover_;
   RetryPause pause_;
   PictureChange change_;
   std::uint64_t number_ = 0;
@@ -140,26 +133,9 @@ struct V4l2Camera::Impl {
   // Since it was opened.
   FrameStatistics statistics_;
   std::optional<double> first_s_, last_s_;  // stamps
-  std::thread thread_;
 };
 
-void V4l2Camera::Impl::run() {
-  while (!handover_.ended()) {
-    try {
-      serve();
-      continue;  // ended
-    } catch (const CameraUnfit& error) {
-      handover_.note_failure(CameraState::kFault, error.alarm);
-    } catch (const CameraAbsent& error) {
-      handover_.note_failure(CameraState::kAbsent, error.alarm);
-    } catch (const std::exception& error) {
-      handover_.note_failure(CameraState::kAbsent, {error.what(), {}, {}});
-    }
-    handover_.wait(pause_.after_stream(last_s_.value_or(0.0) - first_s_.value_or(0.0)));
-  }
-}
-
-void V4l2Camera::Impl::serve() {
+void V4l2Source::serve() {
   statistics_ = {};
   change_ = {};  // some begin with the same picture each time
   first_s_.reset();
@@ -178,9 +154,9 @@ void V4l2Camera::Impl::serve() {
   }
 }
 
-void V4l2Camera::Impl::take(OpenCamera::Stamped stamped) {
+void V4l2Source::take(OpenCamera::Stamped stamped) {
   const double now_s = clock_monotonic_s();
-  if (!first_s_) note_opened();
+  if (!first_s_) handover_.note_opened("V4L2 " + config_.device);
   const double periods =
       (stamped.stamp_s - last_s_.value_or(stamped.stamp_s)) * config_.frame_rate_hz;
   const auto step = static_cast<std::uint64_t>(std::max(1LL, std::llround(periods)));
@@ -191,8 +167,7 @@ void V4l2Camera::Impl::take(OpenCamera::Stamped stamped) {
   statistics_.add(now_s, true);
   const cv::Mat& gray = stamped.picture.gray;
   if (gray.cols != config_.width_px || gray.rows != config_.height_px)
-    return handover_.note_refused(
-        std::string("frame refused: ") + to_string(PictureRefusal::kWrongSize), lost, statistics_);
+    return handover_.note_refused(PictureRefusal::kWrongSize, lost, statistics_);
   const double unchanged_s = change_.unchanged_s(gray, now_s);
   if (config_.frozen_s > 0.0 && unchanged_s >= config_.frozen_s)
     throw CameraAbsent(alarm::camera_frozen(unchanged_s));
@@ -208,35 +183,19 @@ void V4l2Camera::Impl::take(OpenCamera::Stamped stamped) {
   handover_.publish(std::move(frame), lost, statistics_);
 }
 
-void V4l2Camera::Impl::note_opened() {
-  handover_.change_facts([&](CameraFacts& facts) {
-    if (facts.opened_s) ++facts.counters.reconnects;
-    facts.state = CameraState::kStarting;
-    facts.fault = {};
-    facts.identity = "V4L2 " + config_.device;
-    facts.opened_s = clock_monotonic_s();
-    facts.last_frame_s.reset();
-  });
-}
-
-void V4l2Camera::Impl::note_rate(double now_s) {
-  const double rate_hz = statistics_.rate_hz();
-  const bool differs = now_s - *first_s_ > kRateKnown_s &&
-                       std::abs(rate_hz / config_.frame_rate_hz - 1.0) > kRateOff;
+void V4l2Source::note_rate(double now_s) {
+  auto differs = rate_alarm(config_, statistics_.rate_hz(), now_s - *first_s_);
   handover_.change_facts([&](CameraFacts& facts) {
     facts.kind_alarms.clear();
-    if (differs)
-      facts.kind_alarms.push_back(alarm::camera_rate_differs(rate_hz, config_.frame_rate_hz));
+    if (differs) facts.kind_alarms.push_back(std::move(*differs));
   });
 }
 
-V4l2Camera::V4l2Camera(const V4l2Config& config) : impl_(std::make_unique<Impl>(config)) {}
-V4l2Camera::~V4l2Camera() = default;
+}  // namespace
 
-std::optional<Frame> V4l2Camera::next(double timeout_s) { return impl_->handover_.next(timeout_s); }
-
-device::DeviceReport V4l2Camera::report() const {
-  return make_camera_report(impl_->config_, impl_->handover_.facts(), clock_monotonic_s());
-}
+V4l2Camera::V4l2Camera(const V4l2Config& config)
+    : ThreadedCamera(config, [&config](CameraHandover& handover) {
+        return std::make_unique<V4l2Source>(config, handover);
+      }) {}
 
 }  // namespace ols::camera

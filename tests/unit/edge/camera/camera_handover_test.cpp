@@ -62,19 +62,20 @@ TEST_F(CameraHandoverTest, ATriggerIsTakenOnce) {
 }
 
 TEST_F(CameraHandoverTest, AGoodFrameEndsAFault) {
-  handover_.note_refused("a size of 4 x 4", 0, statistics_);
+  handover_.note_refused(PictureRefusal::kWrongSize, 0, statistics_);
   EXPECT_EQ(handover_.facts().state, CameraState::kFault);
-  EXPECT_EQ(handover_.facts().fault, "camera: frames are refused: a size of 4 x 4");
+  EXPECT_EQ(handover_.facts().fault, "camera: frames are refused: frame refused: wrong size");
   handover_.publish(numbered(1), 0, statistics_);
   EXPECT_EQ(handover_.facts().state, CameraState::kStreaming);
   EXPECT_EQ(handover_.facts().fault, "");
-  EXPECT_EQ(handover_.facts().last_error, "a size of 4 x 4") << "what was last wrong stays known";
+  EXPECT_EQ(handover_.facts().last_error, "frame refused: wrong size")
+      << "what was last wrong stays known";
 }
 
 TEST_F(CameraHandoverTest, CountsEachKindOfLoss) {
   handover_.publish(numbered(5), 3, statistics_);
   handover_.note_incomplete(2, statistics_);
-  handover_.note_refused("its size", 1, statistics_);
+  handover_.note_refused(PictureRefusal::kWrongSize, 1, statistics_);
   const CameraFacts facts = handover_.facts();
   EXPECT_EQ(facts.counters.frames_lost, 6U);
   EXPECT_EQ(facts.counters.frames_incomplete, 1U);

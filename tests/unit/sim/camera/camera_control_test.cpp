@@ -43,7 +43,7 @@ TEST_P(CameraControl, RateExposureAndGainAreThoseThatAreSet) {
   camera::AravisCamera camera(config);
   EXPECT_NEAR(period_s(camera), 1.0 / 20.0, 1e-3);
   const auto frame = frame_of(camera);
-  ASSERT_TRUE(frame) << camera.last_error();
+  ASSERT_TRUE(frame) << camera.facts().last_error;
   EXPECT_NEAR(exposure_of(*frame).exposure_s, 1500e-6, 1e-9);
   EXPECT_NEAR(exposure_of(*frame).gain_dB, 6.0, 1e-6);
   auto readings = camera.report().readings;
@@ -70,7 +70,7 @@ TEST_P(CameraControl, ASoftwareTriggerMakesOneFrame) {
   config.no_frame_timeout_s = 0.1;
   camera::AravisCamera camera(config);
   ASSERT_TRUE(becomes(camera, [&] { return has_alarm(camera, "waiting for a trigger"); }));
-  EXPECT_EQ(camera.counters().frames_captured, 0U);
+  EXPECT_EQ(camera.facts().counters.frames_captured, 0U);
   for (std::uint64_t i = 1; i <= 3; ++i) {
     const double asked_s = clock_s(CLOCK_MONOTONIC);
     std::optional<camera::Frame> frame;
@@ -81,9 +81,9 @@ TEST_P(CameraControl, ASoftwareTriggerMakesOneFrame) {
       return frame.has_value();
     }));
     EXPECT_GE(true_middle_s(*frame), asked_s);
-    EXPECT_EQ(camera.counters().frames_captured, i);
+    EXPECT_EQ(camera.facts().counters.frames_captured, i);
   }
-  EXPECT_EQ(camera.counters().reconnects, 0U);
+  EXPECT_EQ(camera.facts().counters.reconnects, 0U);
 }
 
 TEST_P(CameraControl, APulseOnItsLineMakesAFrameAfterTheDelay) {
@@ -99,11 +99,11 @@ TEST_P(CameraControl, APulseOnItsLineMakesAFrameAfterTheDelay) {
   const double pulse_s = clock_s(CLOCK_MONOTONIC);
   server->pulse(2);
   const auto frame = frame_of(camera);
-  ASSERT_TRUE(frame) << camera.last_error();
+  ASSERT_TRUE(frame) << camera.facts().last_error;
   EXPECT_GE(true_middle_s(*frame), pulse_s + 0.030);
   EXPECT_LT(std::abs(frame->mid_exposure_s - true_middle_s(*frame)),
             4.0 * frame->stamp_sd_s + 1e-3);
-  EXPECT_EQ(camera.counters().reconnects, 0U);
+  EXPECT_EQ(camera.facts().counters.reconnects, 0U);
 }
 
 TEST_P(CameraControl, AutomaticExposureSettlesAndEveryFrameKnowsItsMiddle) {
@@ -123,7 +123,7 @@ TEST_P(CameraControl, AutomaticExposureSettlesAndEveryFrameKnowsItsMiddle) {
   double level = 0.0;
   while (std::abs(level - 110.0) > 20.0 && clock_s(CLOCK_MONOTONIC) < end_s) {
     const auto frame = frame_of(camera);
-    ASSERT_TRUE(frame) << camera.last_error();
+    ASSERT_TRUE(frame) << camera.facts().last_error;
     level = frame->gray.at<std::uint8_t>(100, 100);
     EXPECT_LT(std::abs(frame->mid_exposure_s - true_middle_s(*frame)),
               4.0 * frame->stamp_sd_s + 1e-3)
@@ -163,15 +163,15 @@ TEST_P(CameraControl, PacedPacketsFitASmallBuffer) {
   config.packet_resend = false;
   config.socket_buffer = 200'000;  // a sixth of a frame; sent in one go hardly a frame is complete
   camera::AravisCamera camera(config);
-  EXPECT_TRUE(becomes(camera, [&] { return camera.counters().frames_captured >= 15; }))
-      << camera.counters().frames_incomplete << " incomplete";
+  EXPECT_TRUE(becomes(camera, [&] { return camera.facts().counters.frames_captured >= 15; }))
+      << camera.facts().counters.frames_incomplete << " incomplete";
 }
 
 TEST(CameraClock, WithoutATickFrequencyTheStampsAreMarkedAsTheHosts) {
   const auto server = serve({.tick_frequency = false});
   camera::AravisCamera camera(station_camera());
   const auto frame = frame_of(camera);
-  ASSERT_TRUE(frame) << camera.last_error();
+  ASSERT_TRUE(frame) << camera.facts().last_error;
   EXPECT_EQ(frame->stamp_source, camera::StampSource::kArrival);
   EXPECT_DOUBLE_EQ(frame->stamp_sd_s, camera::AravisConfig{}.readout_sd_s);
   EXPECT_TRUE(has_alarm(camera, "camera: time stamps are the host's, +-10 ms"));
@@ -180,10 +180,11 @@ TEST(CameraClock, WithoutATickFrequencyTheStampsAreMarkedAsTheHosts) {
 TEST(CameraLoss, ACameraThatWasOffAndOnIsOpenedAgain) {
   const auto server = serve();
   camera::AravisCamera camera(station_camera());
-  ASSERT_TRUE(frame_of(camera)) << camera.last_error();
+  ASSERT_TRUE(frame_of(camera)) << camera.facts().last_error;
   server->power_cycle();
-  EXPECT_TRUE(becomes(camera, [&] { return camera.counters().reconnects >= 1; }));
-  EXPECT_TRUE(becomes(camera, [&] { return camera.state() == camera::CameraState::kStreaming; }));
+  EXPECT_TRUE(becomes(camera, [&] { return camera.facts().counters.reconnects >= 1; }));
+  EXPECT_TRUE(
+      becomes(camera, [&] { return camera.facts().state == camera::CameraState::kStreaming; }));
 }
 
 // No silence tells it here: only the heartbeat does.
@@ -192,10 +193,11 @@ TEST(CameraLoss, ALostControlIsNoticedWithoutAnyFrame) {
   camera::AravisConfig config = station_camera();
   config.trigger = camera::TriggerMode::kLine1;
   camera::AravisCamera camera(config);
-  ASSERT_TRUE(becomes(camera, [&] { return camera.state() == camera::CameraState::kStarting; }));
+  ASSERT_TRUE(
+      becomes(camera, [&] { return camera.facts().state == camera::CameraState::kStarting; }));
   server->power_cycle();
-  EXPECT_TRUE(becomes(camera, [&] { return camera.counters().reconnects >= 1; }));
-  EXPECT_EQ(camera.last_error(), "lost: it no longer answers");
+  EXPECT_TRUE(becomes(camera, [&] { return camera.facts().counters.reconnects >= 1; }));
+  EXPECT_EQ(camera.facts().last_error, "lost: it no longer answers");
   EXPECT_TRUE(becomes(camera, [&] {
     server->pulse(1);
     return camera.next(0.2).has_value();
@@ -207,11 +209,11 @@ TEST(CameraLoss, SilenceIsReportedBeforeTheCameraIsGivenUp) {
   camera::AravisConfig config = station_camera();
   config.no_frame_timeout_s = 5.0;
   camera::AravisCamera camera(config);
-  ASSERT_TRUE(frame_of(camera)) << camera.last_error();
+  ASSERT_TRUE(frame_of(camera)) << camera.facts().last_error;
   server->set_faults({.gone = true, .pixel_format = {}});
   EXPECT_TRUE(becomes(camera, [&] { return has_alarm(camera, "camera: no frames for"); }));
   EXPECT_EQ(camera.report().state, device::DeviceState::kFault);
-  EXPECT_EQ(camera.counters().reconnects, 0U);
+  EXPECT_EQ(camera.facts().counters.reconnects, 0U);
 }
 
 }  // namespace
