@@ -8,29 +8,42 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json value_of(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
+// Passes each option that a resumed procedure has again, with its key.
+void each_kept(auto& o, const auto& pass) {
+  pass("references", o.references);
+  pass("instrument", o.instrument);
+  pass("sweep_poses", o.sweep_poses);
+  pass("rounds", o.rounds);
+  pass("stars", o.stars);
+  pass("sun", o.sun);
+  pass("overcast", o.overcast);
+  pass("drone", o.drone);
+  pass("drone_points", o.drone_points);
+  pass("ut1_utc_s", o.ut1.minus_utc_s);
+  pass("ut1_date", o.ut1.date);
+  pass("pressure_hPa", o.pressure_hPa);
+  pass("temperature_degC", o.temperature_degC);
+}
 
-std::optional<double> number_of(const Json& value) {
-  return value.is_null() ? std::nullopt : std::optional(value.get<double>());
+template <class T>
+Json json_of(const T& value) {
+  return value;
+}
+Json json_of(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
+
+template <class T>
+void read(const Json& json, T& value) {
+  value = json.get<T>();
+}
+void read(const Json& json, std::optional<double>& value) {
+  value = json.is_null() ? std::nullopt : std::optional(json.get<double>());
 }
 
 }  // namespace
 
 std::string session_text(const ProcedureOptions& o) {
-  const Json object{{"procedure", o.name},
-                    {"references", o.references},
-                    {"instrument", o.instrument},
-                    {"sweep_poses", o.sweep_poses},
-                    {"rounds", o.rounds},
-                    {"stars", o.stars},
-                    {"sun", o.sun},
-                    {"overcast", o.overcast},
-                    {"drone", o.drone},
-                    {"drone_points", o.drone_points},
-                    {"ut1_utc_s", value_of(o.ut1.minus_utc_s)},
-                    {"ut1_date", o.ut1.date},
-                    {"pressure_hPa", value_of(o.pressure_hPa)},
-                    {"temperature_degC", value_of(o.temperature_degC)}};
+  Json object{{"procedure", o.name}};
+  each_kept(o, [&](const char* key, const auto& value) { object[key] = json_of(value); });
   return object.dump(2) + "\n";
 }
 
@@ -41,18 +54,7 @@ ProcedureOptions resumed_options(const std::string& text, const ProcedureOptions
   try {
     const Json object = Json::parse(text);
     procedure = object.at("procedure").get<std::string>();
-    o.references = object.at("references").get<std::string>();
-    o.instrument = object.at("instrument").get<std::string>();
-    o.sweep_poses = object.at("sweep_poses").get<int>();
-    o.rounds = object.at("rounds").get<int>();
-    o.stars = object.at("stars").get<int>();
-    o.sun = object.at("sun").get<bool>();
-    o.overcast = object.at("overcast").get<bool>();
-    o.drone = object.at("drone").get<std::string>();
-    o.drone_points = object.at("drone_points").get<int>();
-    o.ut1 = {number_of(object.at("ut1_utc_s")), object.value("ut1_date", "")};
-    o.pressure_hPa = number_of(object.at("pressure_hPa"));
-    o.temperature_degC = number_of(object.at("temperature_degC"));
+    each_kept(o, [&](const char* key, auto& value) { read(object.at(key), value); });
   } catch (const nlohmann::json::exception& error) {
     throw std::runtime_error(path + ": " + error.what());
   }
