@@ -60,7 +60,11 @@ function valueInWords(name: string, value: string): string {
   return isEnglish() ? value : germanPart(value);
 }
 const germanOf = (text: string): string => germanBy(SENTENCES, text, germanPart);
-const germanName = (name: string): string => germanBy(NAMES, name, germanName);
+// A state or an order has the page's own word.
+const germanName = (name: string): string => {
+  const known = germanBy(NAMES, name, germanName);
+  return known === name ? named("s", named("o", name)) : known;
+};
 
 // The page is drawn ten times a second, mostly with the same texts.
 function remembering(of: (text: string) => string): (text: string) => string {
