@@ -1,5 +1,9 @@
 #include "wire/orders.h"
 
+#include <algorithm>
+#include <array>
+#include <utility>
+
 #include "base/bus/message_stamp.h"
 #include "base/text/plain_text.h"
 #include "ols_msg/command_reply_t.hpp"
@@ -14,33 +18,28 @@
 namespace ols::wire {
 namespace {
 
+using Ptu = ols_msg::ptu_command_t;
+
+constexpr std::array<std::pair<Kind, std::int8_t>, 8> kPtuCommands{
+    {{Kind::kPoint, Ptu::COMMAND_POINT},
+     {Kind::kStop, Ptu::COMMAND_STOP},
+     {Kind::kRelease, Ptu::COMMAND_RELEASE},
+     {Kind::kRearm, Ptu::COMMAND_REARM},
+     {Kind::kHome, Ptu::COMMAND_HOME},
+     {Kind::kReferenceOk, Ptu::COMMAND_REFERENCE_OK},
+     {Kind::kRate, Ptu::COMMAND_RATE},
+     {Kind::kCentre, Ptu::COMMAND_CENTRE}}};
+
 std::int8_t ptu_command(Kind kind) {
-  using M = ols_msg::ptu_command_t;
-  switch (kind) {
-    case Kind::kPoint:
-      return M::COMMAND_POINT;
-    case Kind::kRelease:
-      return M::COMMAND_RELEASE;
-    case Kind::kRearm:
-      return M::COMMAND_REARM;
-    case Kind::kHome:
-      return M::COMMAND_HOME;
-    case Kind::kReferenceOk:
-      return M::COMMAND_REFERENCE_OK;
-    case Kind::kRate:
-      return M::COMMAND_RATE;
-    case Kind::kCentre:
-      return M::COMMAND_CENTRE;
-    default:
-      return M::COMMAND_STOP;
-  }
+  const auto row =
+      std::ranges::find(kPtuCommands, kind, &decltype(kPtuCommands)::value_type::first);
+  return row == kPtuCommands.end() ? Ptu::COMMAND_STOP : row->second;
 }
 
 // Not a joystick's rates, which come ten times a second.
 std::optional<Kind> kind_of(std::int8_t command) {
-  for (const Kind kind : {Kind::kPoint, Kind::kStop, Kind::kRelease, Kind::kRearm, Kind::kHome,
-                          Kind::kReferenceOk, Kind::kCentre}) {
-    if (ptu_command(kind) == command) return kind;
+  for (const auto& [kind, number] : kPtuCommands) {
+    if (number == command && kind != Kind::kRate) return kind;
   }
   return std::nullopt;
 }
