@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "console/cue_orders.h"
-#include "console/heard.h"
 #include "console/incidents/incident_book.h"
 #include "console/procedures.h"
+#include "console/received.h"
 #include "geometry/wgs84.h"
 #include "wire/order.h"
 

@@ -33,13 +33,13 @@ Event event_of(const wire::Order& order, const std::string& who, const Now& now)
 
 }  // namespace
 
-void Console::hear(const StationHeard& station, const Now& now) {
+void Console::receive(const ReceivedStation& station, const Now& now) {
   const bool is_new = !site_.knows(station.id);
-  site_.hear(station, now);
+  site_.receive(station, now);
   if (!site_.knows(station.id)) return;  // no room: a flood of invented names
   const bool is_news = station.is_stopped && !is_new && !orders_.is_stopped(station.id);
   if (is_news && !orders_.is_stopping(station.id)) tell_holders({station.id}, "stop", {}, now);
-  orders_.hear(station.id, station.is_stopped);
+  orders_.receive(station.id, station.is_stopped);
   if (station.video_address.empty()) {
     video_addresses_.erase(station.id);
   } else {
@@ -50,13 +50,13 @@ void Console::hear(const StationHeard& station, const Now& now) {
   }
 }
 
-void Console::hear(const TargetHeard& target, const Now& now) {
-  site_.hear(target, now);
+void Console::receive(const ReceivedTarget& target, const Now& now) {
+  site_.receive(target, now);
   if (is_replay() || !site_.counts_fusion(target.boot_id)) return;
-  incidents_.hear(target, now.minute_of_day, now.monotonic_s);
+  incidents_.receive(target, now.minute_of_day, now.monotonic_s);
 }
 
-void Console::hear_own(const std::vector<Alarm>& alarms, const Now& now) {
+void Console::receive_own(const std::vector<Alarm>& alarms, const Now& now) {
   own_alarms_ = alarms;
   look_at_own_alarms(now);
 }
@@ -65,7 +65,7 @@ void Console::look_at_own_alarms(const Now& now) {
   std::vector<Alarm> alarms = own_alarms_;
   std::ranges::copy(incidents_.alarms(), std::back_inserter(alarms));
   std::ranges::copy(incident_trouble_, std::back_inserter(alarms));
-  site_.hear_own(alarms, now);
+  site_.receive_own(alarms, now);
 }
 
 void Console::resume(KeptIncidents kept, const Now& now) {
@@ -106,27 +106,27 @@ void Console::look_at_incidents(const Now& now) {
   }
 }
 
-void Console::hear(const wire::Reply& reply) {
-  orders_.hear(reply);
-  cues_.hear(reply);
+void Console::receive(const wire::Reply& reply) {
+  orders_.receive(reply);
+  cues_.receive(reply);
 }
 
-void Console::hear_bearing(const std::string& station, const Json& bearing) {
-  site_.hear_bearing(station, bearing);
+void Console::receive_bearing(const std::string& station, const Json& bearing) {
+  site_.receive_bearing(station, bearing);
 }
 
-void Console::hear(Picture picture) {
+void Console::receive(Picture picture) {
   if (!site_.knows(picture.station)) return;
-  pictures_.hear(std::move(picture));
+  pictures_.receive(std::move(picture));
 }
 
-void Console::hear(ProcedureHeard procedure) {
+void Console::receive(ReceivedProcedure procedure) {
   if (!site_.knows(procedure.station)) return;
   const std::string station = procedure.station;
-  site_.set_procedure(station, procedures_.hear(std::move(procedure)));
+  site_.set_procedure(station, procedures_.receive(std::move(procedure)));
 }
 
-void Console::hear(const wire::Order& order, const Now& now) {
+void Console::receive(const wire::Order& order, const Now& now) {
   const bool is_repeated =
       order.kind == wire::Kind::kStop && orders_.stop_event(order.station, "") != 0;
   if (is_repeated) return orders_.watch_again(order);

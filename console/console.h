@@ -39,18 +39,20 @@ class Console {
   explicit Console(double control_timeout_s, const IncidentRecording& recording = {})
       : control_(control_timeout_s), incidents_(recording) {}
 
-  void hear(const StationHeard& station, const Now& now);
-  void hear(const TargetHeard& target, const Now& now);
-  void hear(const FusionHeard& fusion, const Now& now) { site_.hear(fusion, now); }
-  void hear(const OcclusionHeard& occlusion, const Now& now) { site_.hear(occlusion, now); }
-  void hear_bearing(const std::string& station, const Json& bearing);
-  void hear(Picture picture);
-  void hear(ProcedureHeard procedure);
+  void receive(const ReceivedStation& station, const Now& now);
+  void receive(const ReceivedTarget& target, const Now& now);
+  void receive(const ReceivedFusion& fusion, const Now& now) { site_.receive(fusion, now); }
+  void receive(const ReceivedOcclusion& occlusion, const Now& now) {
+    site_.receive(occlusion, now);
+  }
+  void receive_bearing(const std::string& station, const Json& bearing);
+  void receive(Picture picture);
+  void receive(ReceivedProcedure procedure);
 
   // Somebody's order in a recording, for the events of a replay.
-  void hear(const wire::Order& order, const Now& now);
+  void receive(const wire::Order& order, const Now& now);
   // A reply to an order. An order from turn() has boot 0; in a replay, the order is one of the log.
-  void hear(const wire::Reply& reply);
+  void receive(const wire::Reply& reply);
 
   // The newest picture (JPEG) of a station's guided procedure; null: there is none.
   const std::string* procedure_picture(const std::string& station) const {
@@ -66,7 +68,7 @@ class Console {
   WatchedVideos watched_video() const { return viewers_.watched(video_addresses_); }
 
   // The alarms of the console itself.
-  void hear_own(const std::vector<Alarm>& alarms, const Now& now);
+  void receive_own(const std::vector<Alarm>& alarms, const Now& now);
 
   // Call before anything else, with the areas and incidents that were kept.
   void resume(KeptIncidents kept, const Now& now);

@@ -36,39 +36,39 @@ ConsoleBus::ConsoleBus(const std::string& url, const trust::TrustConfig& trust, 
 
 void ConsoleBus::subscribe(LcmBus& bus) {
   bus.subscribe(station_channel(kStatusChannel, ".+"), [this](const BusMessage& message) {
-    if (auto heard = station_from(message)) console_.hear(*heard, now_);
+    if (auto heard = station_from(message)) console_.receive(*heard, now_);
   });
   bus.subscribe(station_channel(kBearingChannel, ".+"), [this](const BusMessage& message) {
-    if (auto heard = bearing_from(message)) console_.hear_bearing(heard->first, heard->second);
+    if (auto heard = bearing_from(message)) console_.receive_bearing(heard->first, heard->second);
   });
   bus.subscribe(std::string(kTargetChannel), [this](const BusMessage& message) {
-    if (auto heard = target_from(message)) console_.hear(*heard, now_);
+    if (auto heard = target_from(message)) console_.receive(*heard, now_);
   });
   bus.subscribe(station_channel(kOcclusionChannel, ".+"), [this](const BusMessage& message) {
-    if (const auto heard = occlusion_from(message)) console_.hear(*heard, now_);
+    if (const auto heard = occlusion_from(message)) console_.receive(*heard, now_);
   });
   bus.subscribe(std::string(kFusionStatusChannel), [this](const BusMessage& message) {
-    if (auto heard = fusion_from(message)) console_.hear(*heard, now_);
+    if (auto heard = fusion_from(message)) console_.receive(*heard, now_);
   });
   for (const std::string& channel :
        {station_channel(kReplyChannel, ".+"), std::string(kCueReplyChannel)}) {
     bus.subscribe(channel, [this](const BusMessage& message) {
-      auto reply = wire::heard_reply(message);
+      auto reply = wire::decode_reply(message);
       if (!reply || reply->order.boot_id != boot_id_) return;
       reply->order.boot_id = 0;  // as the console numbers its orders
-      console_.hear(*reply);
+      console_.receive(*reply);
     });
   }
   bus.subscribe(
       station_channel(kPreviewChannel, ".+"),
       [this](const BusMessage& message) {
-        if (auto heard = picture_from(message)) console_.hear(std::move(*heard));
+        if (auto heard = picture_from(message)) console_.receive(std::move(*heard));
       },
       kPictureLimits);
   bus.subscribe(
       station_channel(kProcedureChannel, ".+"),
       [this](const BusMessage& message) {
-        if (auto heard = procedure_from(message)) console_.hear(std::move(*heard));
+        if (auto heard = procedure_from(message)) console_.receive(std::move(*heard));
       },
       kPictureLimits);
 }
@@ -89,7 +89,7 @@ void ConsoleBus::turn(const Now& now) {
 
 void ConsoleBus::note_alarms() {
   alarms_ = client_.alarms(now_.monotonic_s);
-  console_.hear_own(alarms_, now_);
+  console_.receive_own(alarms_, now_);
 }
 
 void ConsoleBus::send(const std::vector<wire::Order>& orders, const Now& now) {

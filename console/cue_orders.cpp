@@ -20,7 +20,7 @@ void CueOrders::give(wire::CueOrder order, const Ticket& ticket, double now_s) {
   given_.push_back(std::move(order));
 }
 
-void CueOrders::hear(const wire::Reply& reply) {
+void CueOrders::receive(const wire::Reply& reply) {
   const auto answered = std::ranges::find(waiting_, reply.order, &Waiting::id);
   if (!reply.station.empty() || answered == waiting_.end()) return;
   answered_.push_back({.ticket = answered->ticket,

@@ -20,7 +20,7 @@ class CueOrders {
   // The orders given since the last call, each with its own sequence number and boot 0.
   std::vector<wire::CueOrder> take() { return std::exchange(given_, {}); }
 
-  void hear(const wire::Reply& reply);
+  void receive(const wire::Reply& reply);
   // Orders that the fusion has answered, or that have timed out.
   std::vector<Verdict> finished(double now_s);
 

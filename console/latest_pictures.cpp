@@ -17,7 +17,7 @@ bool is_preview_beside_video(const Picture& picture, const Picture& newest) {
 
 }  // namespace
 
-void LatestPictures::hear(Picture picture) {
+void LatestPictures::receive(Picture picture) {
   if (picture.codec == Codec::kH264) {
     streams_[picture.station].add(picture, ++numbers_);
     return;

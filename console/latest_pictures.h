@@ -9,7 +9,7 @@
 #include <set>
 #include <string>
 
-#include "console/heard.h"
+#include "console/received.h"
 #include "console/under_way.h"
 #include "console/unit_chain.h"
 
@@ -25,7 +25,7 @@ class LatestPictures {
     UnderWay under_way = {};
   };
 
-  void hear(Picture picture);
+  void receive(Picture picture);
   // Of the stations with a new picture, takes the one that was sent longest ago: even over a slow
   // link each gets its turn. Returns the message's bytes (docs/console.md); nullopt: nothing new.
   std::optional<std::string> next(View& view) const;

@@ -117,7 +117,7 @@ class LiveSite : public Shown {
     bus_.turn(now);
     console_.bus_is(bus_.trouble());
     video_.watch(console_.watched_video());
-    for (ols::console::Picture& picture : video_.take()) console_.hear(std::move(picture));
+    for (ols::console::Picture& picture : video_.take()) console_.receive(std::move(picture));
     bus_.send(console_.turn(now), now);
     bus_.send(console_.take_answers(), now);
     bus_.send(console_.take_cue_orders(), now);

@@ -213,8 +213,8 @@ std::string video_address_of(const Status& s) {
 
 }  // namespace
 
-std::optional<StationHeard> station_from(const BusMessage& message) {
-  const auto status = wire::heard_status(message);
+std::optional<ReceivedStation> station_from(const BusMessage& message) {
+  const auto status = wire::decode_status(message);
   if (!status) return std::nullopt;
   const Status& s = *status;
   Json fields{
@@ -238,9 +238,9 @@ std::optional<StationHeard> station_from(const BusMessage& message) {
   add_alarms(alarms, fields);
   add_pose(s, fields);
   add_pointing(s, fields);
-  return StationHeard{s.station,           std::move(fields), wire::is_stopped(s.state),
-                      video_address_of(s), std::move(alarms), s.last_error,
-                      s.last_error_utime};
+  return ReceivedStation{s.station,           std::move(fields), wire::is_stopped(s.state),
+                         video_address_of(s), std::move(alarms), s.last_error,
+                         s.last_error_utime};
 }
 
 std::optional<std::pair<std::string, Json>> bearing_from(const BusMessage& message) {
@@ -258,15 +258,15 @@ std::optional<std::pair<std::string, Json>> bearing_from(const BusMessage& messa
                                    {"belief", rounded(b.belief, 2)}}};
 }
 
-std::optional<TargetHeard> target_from(const BusMessage& message) {
-  using What = TargetHeard::What;
-  const auto content = wire::heard_target(message);
+std::optional<ReceivedTarget> target_from(const BusMessage& message) {
+  using What = ReceivedTarget::What;
+  const auto content = wire::decode_target(message);
   if (!content) return std::nullopt;
   const Target& t = *content;
-  TargetHeard heard{.what = What::kNothing,
-                    .boot_id = t.boot_id,
-                    .id = number_text(t.target_id),
-                    .fields = Json::object()};
+  ReceivedTarget heard{.what = What::kNothing,
+                       .boot_id = t.boot_id,
+                       .id = number_text(t.target_id),
+                       .fields = Json::object()};
   heard.fields["utime_us"] = t.utime;
   heard.fields["solution"] = wire::solution_name(t.solution);
   if (t.solution == Target::SOLUTION_BEARING_ONLY) {
@@ -296,19 +296,19 @@ std::optional<TargetHeard> target_from(const BusMessage& message) {
   return heard;
 }
 
-std::optional<OcclusionHeard> occlusion_from(const BusMessage& message) {
+std::optional<ReceivedOcclusion> occlusion_from(const BusMessage& message) {
   const auto heard = wire::read<ols_msg::occlusion_t>(kOcclusionChannel, message);
   if (!heard) return std::nullopt;
-  return OcclusionHeard{.station = heard->station,
-                        .target = number_text(heard->target_id),
-                        .is_hidden = heard->hidden > 0.5,
-                        .utime_us = heard->utime,
-                        .back_us = heard->exit_utime,
-                        .holds_s = heard->holds_s};
+  return ReceivedOcclusion{.station = heard->station,
+                           .target = number_text(heard->target_id),
+                           .is_hidden = heard->hidden > 0.5,
+                           .utime_us = heard->utime,
+                           .back_us = heard->exit_utime,
+                           .holds_s = heard->holds_s};
 }
 
-std::optional<FusionHeard> fusion_from(const BusMessage& message) {
-  const auto heard = wire::heard_fusion_status(message);
+std::optional<ReceivedFusion> fusion_from(const BusMessage& message) {
+  const auto heard = wire::decode_fusion_status(message);
   if (!heard) return std::nullopt;
   const ols_msg::fusion_status_t& f = *heard;
   Json fields{{"boot", number_text(f.boot_id)},
@@ -321,7 +321,7 @@ std::optional<FusionHeard> fusion_from(const BusMessage& message) {
               {"last_error", f.last_error}};
   std::vector<Alarm> alarms = alarms_of(f, kMostListed);
   add_alarms(alarms, fields);
-  return FusionHeard{f.boot_id, std::move(fields), std::move(alarms), f.last_error};
+  return ReceivedFusion{f.boot_id, std::move(fields), std::move(alarms), f.last_error};
 }
 
 }  // namespace ols::console

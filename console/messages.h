@@ -8,16 +8,16 @@
 #include <utility>
 
 #include "base/bus/bus_inbox.h"
-#include "console/heard.h"
+#include "console/received.h"
 
 namespace ols::console {
 
-std::optional<StationHeard> station_from(const BusMessage& message);
+std::optional<ReceivedStation> station_from(const BusMessage& message);
 // The station's name and its bearing.
 std::optional<std::pair<std::string, Json>> bearing_from(const BusMessage& message);
 // nullopt for another channel: the paper's estimate is not shown as a target.
-std::optional<TargetHeard> target_from(const BusMessage& message);
-std::optional<OcclusionHeard> occlusion_from(const BusMessage& message);
-std::optional<FusionHeard> fusion_from(const BusMessage& message);
+std::optional<ReceivedTarget> target_from(const BusMessage& message);
+std::optional<ReceivedOcclusion> occlusion_from(const BusMessage& message);
+std::optional<ReceivedFusion> fusion_from(const BusMessage& message);
 
 }  // namespace ols::console

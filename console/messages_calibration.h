@@ -2,7 +2,7 @@
 // values.
 #pragma once
 
-#include "console/heard.h"
+#include "console/received.h"
 #include "ols_msg/fusion_status_t.hpp"
 #include "ols_msg/station_status_t.hpp"
 

@@ -1,7 +1,7 @@
 // The cues in a fusion's status as the console's own values.
 #pragma once
 
-#include "console/heard.h"
+#include "console/received.h"
 #include "ols_msg/fusion_status_t.hpp"
 
 namespace ols::console {

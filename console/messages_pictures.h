@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/bus/bus_inbox.h"
-#include "console/heard.h"
+#include "console/received.h"
 
 namespace ols::console {
 

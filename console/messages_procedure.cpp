@@ -38,13 +38,13 @@ Json lines_of(const std::string& text) {
 
 }  // namespace
 
-std::optional<ProcedureHeard> procedure_from(const BusMessage& message) {
+std::optional<ReceivedProcedure> procedure_from(const BusMessage& message) {
   M p;
   if (!decode_of_schema(message, p) ||
       message.channel != station_channel(kProcedureChannel, p.station)) {
     return std::nullopt;
   }
-  ProcedureHeard heard;
+  ReceivedProcedure heard;
   heard.station = p.station;
   heard.is_at_work = p.state == M::STATE_RUNNING || p.state == M::STATE_ASKING;
   heard.question = p.state == M::STATE_ASKING ? p.question : 0;

@@ -11,7 +11,7 @@ namespace ols::console {
 
 // nullopt for a message that cannot be decoded, is of another schema, or is not from the station of
 // its channel. Texts are made safe to show (base/text/plain_text.h).
-std::optional<ProcedureHeard> procedure_from(const BusMessage& message);
+std::optional<ReceivedProcedure> procedure_from(const BusMessage& message);
 
 // Sends answers under one boot id, each with its own sequence number.
 class AnswerSender {

@@ -10,12 +10,12 @@ namespace ols::console {
 
 using wire::Kind;
 
-void PendingOrders::hear(const std::string& station, bool is_stopped) {
+void PendingOrders::receive(const std::string& station, bool is_stopped) {
   stopped_[station] = is_stopped;
 }
 
 // A stop is confirmed only when the unit stands: it may have crossed another order on the way.
-void PendingOrders::hear(const wire::Reply& reply) {
+void PendingOrders::receive(const wire::Reply& reply) {
   const auto known = stopped_.find(reply.station);
   if (known == stopped_.end()) return;
   if (reply.is_stopped) known->second = true;  // its next status is no news

@@ -33,9 +33,9 @@ struct Verdict {
 class PendingOrders {
  public:
   // Takes the state from a station's newest status.
-  void hear(const std::string& station, bool is_stopped);
+  void receive(const std::string& station, bool is_stopped);
   // Takes a reply to an order that was sent.
-  void hear(const wire::Reply& reply);
+  void receive(const wire::Reply& reply);
   // Forgets all stations but these.
   void keep_only(const std::function<bool(const std::string&)>& is_known);
 

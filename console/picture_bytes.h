@@ -5,7 +5,7 @@
 #include <string>
 
 #include "base/net/length_prefix.h"
-#include "console/heard.h"
+#include "console/received.h"
 
 namespace ols::console {
 

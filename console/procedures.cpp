@@ -13,7 +13,7 @@ constexpr const char* kAbort = "abort";
 
 }  // namespace
 
-Json Procedures::hear(ProcedureHeard heard) {
+Json Procedures::receive(ReceivedProcedure heard) {
   Kept& kept = kept_[heard.station];
   if (heard.jpeg.empty()) {
     kept.picture = 0;
@@ -34,7 +34,7 @@ const std::string* Procedures::picture(const std::string& station) const {
 Outcome Procedures::answer(const ProcedureAnswer& answer) {
   const auto kept = kept_.find(answer.station);
   if (kept == kept_.end()) return outcome::no_procedure();
-  const ProcedureHeard& heard = kept->second.heard;
+  const ReceivedProcedure& heard = kept->second.heard;
   if (!heard.is_at_work) return outcome::procedure_ended();
   if (answer.choice != kAbort) {
     if (heard.question == 0 || answer.question != heard.question) {

@@ -17,7 +17,7 @@
 
 namespace ols::console {
 
-struct ProcedureHeard {
+struct ReceivedProcedure {
   std::string station;
   Json fields;                       // listed in docs/console.md
   std::int64_t question = 0;         // number of the question; 0: none
@@ -38,7 +38,7 @@ class Procedures {
  public:
   // Returns the procedure's part of the site's state: its fields, and `picture`, a number that
   // changes with each picture; 0: there is no picture.
-  Json hear(ProcedureHeard heard);
+  Json receive(ReceivedProcedure heard);
   // The newest picture (JPEG) of a station's procedure; null: there is none.
   const std::string* picture(const std::string& station) const;
 
@@ -53,7 +53,7 @@ class Procedures {
 
  private:
   struct Kept {
-    ProcedureHeard heard;
+    ReceivedProcedure heard;
     std::uint64_t picture = 0;
   };
   std::map<std::string, Kept> kept_;

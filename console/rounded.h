@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string>
 
-#include "console/heard.h"
+#include "console/received.h"
 #include "geometry/angles.h"
 
 namespace ols::console {

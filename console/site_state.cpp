@@ -40,7 +40,7 @@ void SiteState::note_error(const std::string& station, const std::string& error,
   if (!error.empty()) note({utime_us, "error", station, "", error, ""});
 }
 
-void SiteState::hear(const StationHeard& station, const Now& now) {
+void SiteState::receive(const ReceivedStation& station, const Now& now) {
   if (!stations_.set(station.id, station.fields, now.monotonic_s, revision_)) {
     ++refused_;
     return;
@@ -50,11 +50,11 @@ void SiteState::hear(const StationHeard& station, const Now& now) {
   note_error(station.id, station.last_error, station.last_error_utime_us, now.utime_us);
 }
 
-void SiteState::hear_bearing(const std::string& station, const Json& bearing) {
+void SiteState::receive_bearing(const std::string& station, const Json& bearing) {
   stations_.mark(station, "bearing", bearing, revision_);
 }
 
-void SiteState::hear_own(const std::vector<Alarm>& alarms, const Now& now) {
+void SiteState::receive_own(const std::vector<Alarm>& alarms, const Now& now) {
   note_alarms(own_, "", alarms, now.utime_us);
 }
 
@@ -102,7 +102,7 @@ bool SiteState::is_of_fusion(std::int64_t boot_id, const Now& now) {
   return true;
 }
 
-void SiteState::hear(const OcclusionHeard& occlusion, const Now& now) {
+void SiteState::receive(const ReceivedOcclusion& occlusion, const Now& now) {
   if (!stations_.find(occlusion.station)) return;
   if (!occlusion.is_hidden || !(occlusion.holds_s > 0.0)) {
     occluded_.erase(occlusion.station);
@@ -139,7 +139,7 @@ Json SiteState::hidden(const std::string& target, double now_s) const {
   return {{"from", std::move(from)}, {"all", !is_seen}};
 }
 
-void SiteState::add_to_trail(const TargetHeard& target, double now_s) {
+void SiteState::add_to_trail(const ReceivedTarget& target, double now_s) {
   Trail& trail = trails_[target.id];
   if (now_s < trail.added_s + kTrailPeriod_s) return;
   const bool was_unseen = now_s > trail.added_s + kTargetStale_s;
@@ -155,8 +155,8 @@ void SiteState::add_to_trail(const TargetHeard& target, double now_s) {
   while (trail.points.size() > kMostTrailPoints) trail.points.pop_front();
 }
 
-void SiteState::hear(const TargetHeard& target, const Now& now) {
-  using What = TargetHeard::What;
+void SiteState::receive(const ReceivedTarget& target, const Now& now) {
+  using What = ReceivedTarget::What;
   if (!is_of_fusion(target.boot_id, now)) return;
   switch (target.what) {
     case What::kPosition:
@@ -186,7 +186,7 @@ void SiteState::hear(const TargetHeard& target, const Now& now) {
   }
 }
 
-void SiteState::hear(const FusionHeard& fusion, const Now& now) {
+void SiteState::receive(const ReceivedFusion& fusion, const Now& now) {
   if (!is_of_fusion(fusion.boot_id, now)) return;
   fusion_.set(kFusion, fusion.fields, now.monotonic_s, revision_);
   events_.end("", alarm::fusion_silent().key(), now.utime_us, revision_);

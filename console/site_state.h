@@ -11,7 +11,7 @@
 #include "base/journal/alarm_changes.h"
 #include "console/entity_table.h"
 #include "console/event_list.h"
-#include "console/heard.h"
+#include "console/received.h"
 
 namespace ols::console {
 
@@ -24,15 +24,15 @@ struct Now {
 
 class SiteState {
  public:
-  void hear(const StationHeard& station, const Now& now);
-  void hear(const TargetHeard& target, const Now& now);
-  void hear(const FusionHeard& fusion, const Now& now);
+  void receive(const ReceivedStation& station, const Now& now);
+  void receive(const ReceivedTarget& target, const Now& now);
+  void receive(const ReceivedFusion& fusion, const Now& now);
   // Of a station that has sent a status; others are ignored.
-  void hear(const OcclusionHeard& occlusion, const Now& now);
+  void receive(const ReceivedOcclusion& occlusion, const Now& now);
   // The newest bearing of a station that has sent a status; others are ignored.
-  void hear_bearing(const std::string& station, const Json& bearing);
+  void receive_bearing(const std::string& station, const Json& bearing);
   // The alarms of the console itself.
-  void hear_own(const std::vector<Alarm>& alarms, const Now& now);
+  void receive_own(const std::vector<Alarm>& alarms, const Now& now);
   // The state of a guided procedure of a station.
   void set_procedure(const std::string& station, const Json& procedure);
   // The areas that are watched, each with its "name".
@@ -108,7 +108,7 @@ class SiteState {
                    const std::vector<Alarm>& alarms, std::int64_t utime_us);
   void note_error(const std::string& station, const std::string& error, std::int64_t error_utime_us,
                   std::int64_t utime_us);
-  void add_to_trail(const TargetHeard& target, double now_s);
+  void add_to_trail(const ReceivedTarget& target, double now_s);
   // Whether this is the fusion that is shown. Another one is shown once the old one is silent.
   bool is_of_fusion(std::int64_t boot_id, const Now& now);
 

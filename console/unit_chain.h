@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "console/heard.h"
+#include "console/received.h"
 
 namespace ols::console {
 

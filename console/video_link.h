@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "base/net/length_prefix.h"
-#include "console/heard.h"
+#include "console/received.h"
 
 namespace ols::console {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "console/heard.h"
+#include "console/received.h"
 #include "console/video_link.h"
 
 namespace ols::console {

@@ -21,7 +21,7 @@ class EventFile : public Encoder {
   Packets encode(const Target& target) override { return keep(target); }
   Packets encode(const Station& station) override { return keep(station); }
   Packets encode(const Line& line) override { return keep(line); }
-  Packets turn(std::int64_t) override { return {{"document", cot_document(elements_)}}; }
+  Packets due(std::int64_t) override { return {{"document", cot_document(elements_)}}; }
 
  private:
   template <class Record>
@@ -129,7 +129,7 @@ ConversionReport convert(const Conversion& conversion, const ExportConfig& confi
     for (const Target& target : read_fixes(conversion.fixes, site)) recording.take(target);
   }
   check(recording.report(), conversion, config);
-  const Packets document = encoder->turn(0);
+  const Packets document = encoder->due(0);
   if (document.empty()) throw std::runtime_error("nothing in the recording is of this format");
   AtomicFile file(conversion.output);
   file.stream() << document.back().bytes;

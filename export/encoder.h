@@ -35,7 +35,7 @@ class Encoder {
   }
   // The packets that the format sends without a record, such as a document or a service status.
   // Call about once a second, or as often as a file is written. `utime_us`: now.
-  virtual Packets turn(std::int64_t utime_us) {
+  virtual Packets due(std::int64_t utime_us) {
     static_cast<void>(utime_us);
     return {};
   }

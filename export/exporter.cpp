@@ -30,7 +30,7 @@ bool Exporter::is_present(std::int64_t utime_us, std::int64_t now_utime_us) {
   return false;
 }
 
-void Exporter::hear(const BusMessage& message, std::int64_t now_utime_us) {
+void Exporter::receive(const BusMessage& message, std::int64_t now_utime_us) {
   if (const auto target = target_from(message, site_)) {
     if (!is_present(target->utime_us, now_utime_us)) return;
     for (const Target& told : targets_.take(*target)) give(told);
@@ -45,9 +45,9 @@ void Exporter::hear(const BusMessage& message, std::int64_t now_utime_us) {
   }
 }
 
-void Exporter::turn(double now_s, std::int64_t utime_us) {
+void Exporter::step(double now_s, std::int64_t utime_us) {
   for (const Target& end : targets_.end_silent(utime_us)) give(end);
-  for (const auto& output : outputs_) output->turn(now_s, utime_us);
+  for (const auto& output : outputs_) output->step(now_s, utime_us);
 }
 
 }  // namespace ols::exports

@@ -19,9 +19,9 @@ class Exporter {
   // max_age_s: a record whose time differs from the present by more than this is not sent.
   Exporter(SiteContext site, std::vector<std::unique_ptr<Output>> outputs, double max_age_s);
 
-  void hear(const BusMessage& message, std::int64_t now_utime_us);
+  void receive(const BusMessage& message, std::int64_t now_utime_us);
   // Ends silent targets, and writes files. `now_s`: monotonic.
-  void turn(double now_s, std::int64_t utime_us);
+  void step(double now_s, std::int64_t utime_us);
 
   const std::vector<std::unique_ptr<Output>>& outputs() const { return outputs_; }
   // records_sent_on, messages_refused, messages_unused (for example without a position),

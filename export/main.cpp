@@ -74,7 +74,7 @@ int run(const exports::ExportConfig& config) {
   if (outputs.empty()) spdlog::warn("no [[output]] is configured: nothing goes out");
   exports::Exporter exporter(site, std::move(outputs), config.max_age_s);
   exports::ExportBus bus(config.lcm_url, config.trust, [&](const ols::BusMessage& message) {
-    exporter.hear(message, ols::clock_utime_us());
+    exporter.receive(message, ols::clock_utime_us());
   });
   bus.connect(ols::clock_monotonic_s(), ols::BusConnector::kLongest_s);
   ols::ServiceNotifier service_manager;
@@ -85,7 +85,7 @@ int run(const exports::ExportConfig& config) {
   ols::StatusFile status_file(config.status_file);
   const auto turn = [&](double now_s) {
     bus.turn(now_s, kTurn_ms);
-    exporter.turn(now_s, ols::clock_utime_us());
+    exporter.step(now_s, ols::clock_utime_us());
   };
   const auto report = [&] {
     const exports::ExportStatus status = status_of(exporter, bus);

@@ -61,7 +61,7 @@ std::vector<std::string> used_stations(const TargetMessage& t) {
 }  // namespace
 
 std::optional<Target> target_from(const BusMessage& message, const SiteContext& site) {
-  const auto content = wire::heard_target(message);
+  const auto content = wire::decode_target(message);
   if (!content || content->target_id == 0) return std::nullopt;
   const TargetMessage& t = *content;
   Target target;
@@ -85,7 +85,7 @@ std::optional<Target> target_from(const BusMessage& message, const SiteContext& 
 }
 
 std::optional<Station> station_from(const BusMessage& message, const SiteContext& site) {
-  const auto content = wire::heard_status(message);
+  const auto content = wire::decode_status(message);
   if (!content ||
       !wire::is_place(content->latitude_deg, content->longitude_deg, content->height_m)) {
     return std::nullopt;
@@ -165,7 +165,7 @@ std::optional<Incident> incident_from(const BusMessage& message, const SiteConte
 }
 
 bool is_understood(const BusMessage& message) {
-  return wire::heard_target(message) || wire::heard_status(message) ||
+  return wire::decode_target(message) || wire::decode_status(message) ||
          wire::read<Bearing>(kBearingChannel, message) ||
          wire::read<IncidentMessage>(kIncidentChannel, message);
 }

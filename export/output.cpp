@@ -32,7 +32,7 @@ void Output::take(const Incident& incident) {
   if (gate_.passes(incident)) put(encoder_->encode_incident(incident));
 }
 
-void Output::turn(double now_s, std::int64_t utime_us) {
+void Output::step(double now_s, std::int64_t utime_us) {
   if (const std::uint64_t openings = outlet_->report().openings; openings != openings_) {
     openings_ = openings;
     encoder_->begin_again();
@@ -40,7 +40,7 @@ void Output::turn(double now_s, std::int64_t utime_us) {
   }
   if (now_s < due_s_) return;
   due_s_ = now_s + period_s_;
-  put(encoder_->turn(utime_us));
+  put(encoder_->due(utime_us));
 }
 
 }  // namespace ols::exports

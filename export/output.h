@@ -13,7 +13,7 @@ namespace ols::exports {
 
 class Output {
  public:
-  // `period_s`: interval between two turns of the encoder.
+  // `period_s`: interval between two calls of Encoder::due().
   Output(std::string name, const GateConfig& gate, double period_s,
          std::unique_ptr<Encoder> encoder, std::unique_ptr<Outlet> outlet);
 
@@ -22,7 +22,7 @@ class Output {
   void take(const Line& line);
   void take(const Incident& incident);
   // `now_s`: monotonic; `utime_us`: UTC.
-  void turn(double now_s, std::int64_t utime_us);
+  void step(double now_s, std::int64_t utime_us);
 
   const std::string& name() const { return name_; }
   OutletReport report() const { return outlet_->report(); }

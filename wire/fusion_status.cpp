@@ -8,7 +8,7 @@
 
 namespace ols::wire {
 
-std::optional<ols_msg::fusion_status_t> heard_fusion_status(const BusMessage& message) {
+std::optional<ols_msg::fusion_status_t> decode_fusion_status(const BusMessage& message) {
   auto status = read<ols_msg::fusion_status_t>(kFusionStatusChannel, message);
   if (!status) return std::nullopt;
   status->last_error = plain_text(status->last_error);

@@ -11,7 +11,7 @@ namespace ols::wire {
 
 // Returns nullopt if the message is not a fusion's status. The texts in it are made safe for a
 // terminal.
-std::optional<ols_msg::fusion_status_t> heard_fusion_status(const BusMessage& message);
+std::optional<ols_msg::fusion_status_t> decode_fusion_status(const BusMessage& message);
 
 // "waiting", "searched", "found", "forbidden".
 const char* cue_state_name(std::int8_t state);

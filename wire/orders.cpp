@@ -51,7 +51,7 @@ OrderId id_of(const Message& message) {
 
 }  // namespace
 
-std::optional<Order> heard_order(const BusMessage& message) {
+std::optional<Order> decode_order(const BusMessage& message) {
   if (const auto move = read<ols_msg::ptu_command_t>(kPtuChannel, message)) {
     const auto kind = kind_of(move->command);
     if (!kind) return std::nullopt;
@@ -85,7 +85,7 @@ std::optional<Order> heard_order(const BusMessage& message) {
   return std::nullopt;
 }
 
-std::optional<Reply> heard_reply(const BusMessage& message) {
+std::optional<Reply> decode_reply(const BusMessage& message) {
   using M = ols_msg::command_reply_t;
   auto said = read<M>(kReplyChannel, message);
   if (!said) said = read<M>(kCueReplyChannel, message);

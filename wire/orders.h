@@ -12,11 +12,11 @@ namespace ols::wire {
 
 // Reads an order from any sender; nullopt if the message is not an order, or not for the station of
 // its channel.
-std::optional<Order> heard_order(const BusMessage& message);
+std::optional<Order> decode_order(const BusMessage& message);
 
 // nullopt if the message is not a reply, or not from the station of its channel. The texts in it
 // are made safe for a terminal (base/text/plain_text.h).
-std::optional<Reply> heard_reply(const BusMessage& message);
+std::optional<Reply> decode_reply(const BusMessage& message);
 
 // Sends orders under one boot id.
 class OrderSender {

@@ -9,7 +9,7 @@
 
 namespace ols::wire {
 
-std::optional<ols_msg::station_status_t> heard_status(const BusMessage& message) {
+std::optional<ols_msg::station_status_t> decode_status(const BusMessage& message) {
   // Channel names are printable (base/bus/bus_datagram.h), hence the station's id too.
   auto status = read<ols_msg::station_status_t>(kStatusChannel, message);
   if (!status) return std::nullopt;

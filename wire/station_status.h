@@ -16,7 +16,7 @@ inline constexpr std::size_t kMostStationsHeard = 2000;
 
 // Returns nullopt if the message is not a status, or not from the station of its channel. The texts
 // in it are made safe for a terminal (base/text/plain_text.h).
-std::optional<ols_msg::station_status_t> heard_status(const BusMessage& message);
+std::optional<ols_msg::station_status_t> decode_status(const BusMessage& message);
 
 // The value of a counter in a status; 0 if it is missing.
 double counter(const ols_msg::station_status_t& status, const std::string& name);

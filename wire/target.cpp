@@ -13,7 +13,7 @@ namespace ols::wire {
 
 using Target = ols_msg::target_t;
 
-std::optional<Target> heard_target(const BusMessage& message) {
+std::optional<Target> decode_target(const BusMessage& message) {
   // Not the paper's estimates, whose channel begins with the same name.
   if (message.channel != kTargetChannel) return std::nullopt;
   auto target = read<Target>(kTargetChannel, message);

@@ -13,7 +13,7 @@ namespace ols::wire {
 
 // A target of the site's estimator; nullopt if the message is not one. The texts in it are made
 // safe for a terminal.
-std::optional<ols_msg::target_t> heard_target(const BusMessage& message);
+std::optional<ols_msg::target_t> decode_target(const BusMessage& message);
 
 // Whether the target is an object with a position on or near the earth.
 bool has_position(const ols_msg::target_t& target);

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::int64_t kPictureBefore_us = 1'000'000;  // an older one shows something else
 
-std::string id_of(const TargetHeard& target) {
+std::string id_of(const ReceivedTarget& target) {
   return std::to_string(target.boot_id) + "/" + target.id;
 }
 
@@ -36,9 +36,9 @@ std::string sentence(const Incident& incident) {
 }  // namespace
 
 // Tentative targets are not watched: they may not exist.
-std::optional<WatchedTarget> watched(const TargetHeard& target) {
+std::optional<WatchedTarget> watched(const ReceivedTarget& target) {
   const Json& fields = target.fields;
-  if (target.what != TargetHeard::What::kPosition || fields.value("state", "") == "tentative") {
+  if (target.what != ReceivedTarget::What::kPosition || fields.value("state", "") == "tentative") {
     return std::nullopt;
   }
   WatchedTarget result;
@@ -61,9 +61,9 @@ void IncidentBook::resume(KeptIncidents kept, double now_s) {
   watch_.resume(std::move(kept.areas), std::move(kept.incidents), kept.numbers, now_s);
 }
 
-void IncidentBook::hear(const TargetHeard& target, int minute_of_day, double now_s) {
-  if (target.what == TargetHeard::What::kDropped) return watch_.drop(id_of(target));
-  if (const auto one = watched(target)) watch_.hear(*one, minute_of_day, now_s);
+void IncidentBook::receive(const ReceivedTarget& target, int minute_of_day, double now_s) {
+  if (target.what == ReceivedTarget::What::kDropped) return watch_.drop(id_of(target));
+  if (const auto one = watched(target)) watch_.receive(*one, minute_of_day, now_s);
 }
 
 void IncidentBook::turn(double now_s,

@@ -13,8 +13,8 @@
 
 #include "conditions/alarm.h"
 #include "conditions/refusal.h"
-#include "console/heard.h"
 #include "console/incidents/incident_watch.h"
+#include "console/received.h"
 #include "wire/order.h"
 
 namespace ols::console {
@@ -54,7 +54,7 @@ class IncidentBook {
   void resume(KeptIncidents kept, double now_s);
 
   // `minute_of_day`: in the time zone of this host.
-  void hear(const TargetHeard& target, int minute_of_day, double now_s);
+  void receive(const ReceivedTarget& target, int minute_of_day, double now_s);
   // Call often. `newest` returns a station's newest picture; null: there is none.
   void turn(double now_s, const std::function<const Picture*(const std::string&)>& newest);
 
@@ -89,6 +89,6 @@ class IncidentBook {
 };
 
 // A target whose position can be used, from the fusion's message; nullopt: it has no such position.
-std::optional<WatchedTarget> watched(const TargetHeard& target);
+std::optional<WatchedTarget> watched(const ReceivedTarget& target);
 
 }  // namespace ols::console

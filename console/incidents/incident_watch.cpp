@@ -53,7 +53,7 @@ bool IncidentWatch::is_dismissed(const std::string& target) const {
          std::ranges::any_of(incidents_, is_of_it);
 }
 
-void IncidentWatch::hear(const WatchedTarget& target, int minute_of_day, double now_s) {
+void IncidentWatch::receive(const WatchedTarget& target, int minute_of_day, double now_s) {
   if (areas_.empty()) return;
   bool is_inside = false;
   for (const Area& area : areas_) {

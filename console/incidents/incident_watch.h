@@ -46,7 +46,7 @@ class IncidentWatch {
 
   // `minute_of_day`: in the time zone of this host. Outside of an area's hours no incident begins
   // in it; one that has begun continues.
-  void hear(const WatchedTarget& target, int minute_of_day, double now_s);
+  void receive(const WatchedTarget& target, int minute_of_day, double now_s);
   // The target no longer exists.
   void drop(const std::string& target);
   // Call often: a target that was not heard for kLost_s counts as lost. `now_s`: monotonic.

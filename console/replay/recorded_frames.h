@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "console/heard.h"
+#include "console/received.h"
 
 namespace ols::console {
 

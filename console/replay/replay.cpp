@@ -22,25 +22,25 @@ Now of_log(std::int64_t utime_us) { return {static_cast<double>(utime_us) * 1e-6
 
 // Passes a recorded message to the console as if it came from the bus; returns whether it was
 // understood.
-bool hear(Console& console, const BusMessage& message, Timeline* timeline) {
+bool receive(Console& console, const BusMessage& message, Timeline* timeline) {
   const Now now = of_log(message.received_utime_us);
   if (const auto station = station_from(message)) {
-    console.hear(*station, now);
+    console.receive(*station, now);
   } else if (const auto target = target_from(message)) {
-    if (timeline != nullptr) timeline->hear(*target, now.utime_us);
-    console.hear(*target, now);
+    if (timeline != nullptr) timeline->receive(*target, now.utime_us);
+    console.receive(*target, now);
   } else if (const auto bearing = bearing_from(message)) {
-    console.hear_bearing(bearing->first, bearing->second);
+    console.receive_bearing(bearing->first, bearing->second);
   } else if (const auto occlusion = occlusion_from(message)) {
-    console.hear(*occlusion, now);
+    console.receive(*occlusion, now);
   } else if (const auto fusion = fusion_from(message)) {
-    console.hear(*fusion, now);
+    console.receive(*fusion, now);
   } else if (auto picture = picture_from(message)) {
-    console.hear(std::move(*picture));
-  } else if (const auto order = wire::heard_order(message)) {
-    console.hear(*order, now);
-  } else if (const auto reply = wire::heard_reply(message)) {
-    console.hear(*reply);
+    console.receive(std::move(*picture));
+  } else if (const auto order = wire::decode_order(message)) {
+    console.receive(*order, now);
+  } else if (const auto reply = wire::decode_reply(message)) {
+    console.receive(*reply);
   } else {
     return false;
   }
@@ -84,7 +84,7 @@ void Replay::scan() {
       is_scanned_ = true;
       return timeline_.end(*scanned_);
     }
-    if (!hear(*scanned_, *message, &timeline_) && is_shown(message->channel)) {
+    if (!receive(*scanned_, *message, &timeline_) && is_shown(message->channel)) {
       scanner_.reject(*message);
     }
     turn_if_due(*scanned_, timeline_.last_us(), message->received_utime_us);
@@ -99,7 +99,7 @@ bool Replay::catch_up(Console& console, std::int64_t until_us) {
     const std::int64_t now_us = waiting_->received_utime_us;
     turn_if_due(console, before_us, now_us);
     before_us = now_us;
-    hear(console, *waiting_, nullptr);
+    receive(console, *waiting_, nullptr);
     waiting_ = player_.next();
   }
   return false;
@@ -158,7 +158,7 @@ void Replay::show_frames() {
   if (ahead_) return;
   for (const std::string& station : frames_.stations()) {
     if (auto picture = frames_.newest(station, static_cast<std::int64_t>(playback_.at_us))) {
-      console_.hear(std::move(*picture));
+      console_.receive(std::move(*picture));
     }
   }
 }

@@ -52,8 +52,8 @@ void Timeline::add_marks(const Console& console) {
   }
 }
 
-void Timeline::hear(const TargetHeard& target, std::int64_t utime_us) {
-  using What = TargetHeard::What;
+void Timeline::receive(const ReceivedTarget& target, std::int64_t utime_us) {
+  using What = ReceivedTarget::What;
   if (target.boot_id != fusion_boot_) alive_.clear();
   fusion_boot_ = target.boot_id;
   const bool is_born = target.what == What::kPosition && alive_.size() < kMostTargets &&

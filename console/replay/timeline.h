@@ -26,7 +26,7 @@ class Timeline {
   // Call at the end of the log.
   void end(const Console& console) { add_marks(console); }
   // A target's beginning or end is an event too.
-  void hear(const TargetHeard& target, std::int64_t utime_us);
+  void receive(const ReceivedTarget& target, std::int64_t utime_us);
 
   // The last snapshot at or before the instant; null before the first.
   const Snapshot* before(std::int64_t utime_us) const;

@@ -28,7 +28,7 @@ Packets AsterixEncoder::encode(const Line& line) {
   return {{line.uid, cat015(line, *code, settings_)}};
 }
 
-Packets AsterixEncoder::turn(std::int64_t utime_us) {
+Packets AsterixEncoder::due(std::int64_t utime_us) {
   return {{"service", cat065(utime_us, settings_)}};
 }
 

@@ -17,7 +17,7 @@ class AsterixEncoder : public Encoder {
   Packets encode(const Target& target) override;
   Packets encode(const Station& station) override;
   Packets encode(const Line& line) override;
-  Packets turn(std::int64_t utime_us) override;
+  Packets due(std::int64_t utime_us) override;
 
  private:
   std::optional<int> sensor(const std::string& station) const;

@@ -11,7 +11,7 @@ DocumentEncoder::DocumentEncoder(PictureLimits limits, Writer writer, std::strin
       where_(std::move(where)),
       companions_(std::move(companions)) {}
 
-Packets DocumentEncoder::turn(std::int64_t utime_us) {
+Packets DocumentEncoder::due(std::int64_t utime_us) {
   picture_.forget(utime_us);
   Packets packets;
   if (std::exchange(is_new_, false)) packets = companions_;

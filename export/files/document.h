@@ -20,7 +20,7 @@ class DocumentEncoder : public Encoder {
   Packets encode(const Target& target) override { return take(target); }
   Packets encode(const Station& station) override { return take(station); }
   Packets encode(const Line& line) override { return take(line); }
-  Packets turn(std::int64_t utime_us) override;
+  Packets due(std::int64_t utime_us) override;
   void begin_again() override { is_new_ = true; }
 
  private:

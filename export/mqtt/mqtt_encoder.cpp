@@ -181,7 +181,7 @@ bool MqttEncoder::is_free_slot_due(std::int64_t utime_us) const {
   return early_s <= 0.0 || early_s > settings_.stale_s / kSaidInTime;
 }
 
-Packets MqttEncoder::turn(std::int64_t utime_us) {
+Packets MqttEncoder::due(std::int64_t utime_us) {
   Packets packets;
   if (!is_free_slot_due(utime_us)) return packets;
   free_due_us_ = utime_us + std::llround(1e6 * settings_.stale_s / kSaidInTime);

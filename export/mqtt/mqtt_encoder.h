@@ -31,7 +31,7 @@ class MqttEncoder : public Encoder {
   Packets encode(const Station& station) override;
   Packets encode(const Line& line) override;
   Packets encode_incident(const Incident& incident) override;
-  Packets turn(std::int64_t utime_us) override;
+  Packets due(std::int64_t utime_us) override;
   void begin_again() override;
 
  private:

@@ -23,7 +23,7 @@ Packets SapientEncoder::encode(const Station& station) {
   return {};
 }
 
-Packets SapientEncoder::turn(std::int64_t utime_us) {
+Packets SapientEncoder::due(std::int64_t utime_us) {
   // A clock that was set back must not silence the node.
   const double early_s = 1e-6 * static_cast<double>(due_us_ - utime_us);
   if (early_s > kTurn_s / 2.0 && early_s <= settings_.status_s) return {};

@@ -18,7 +18,7 @@ class SapientEncoder : public Encoder {
   Packets encode(const Target& target) override;
   Packets encode(const Station& station) override;
   Packets encode(const Line&) override { return {}; }
-  Packets turn(std::int64_t utime_us) override;
+  Packets due(std::int64_t utime_us) override;
   void begin_again() override;
 
   static constexpr double kStationSilent_s = 10.0;  // a station silent for longer is no longer

@@ -24,14 +24,14 @@ ols::BusMessage on(const char* channel, std::string_view bytes) {
   return message;
 }
 
-void hear(Console& console, std::string_view bytes) {
-  if (const auto heard = station_from(on("OLS_STATUS_a", bytes))) console.hear(*heard, kNow);
+void receive(Console& console, std::string_view bytes) {
+  if (const auto heard = station_from(on("OLS_STATUS_a", bytes))) console.receive(*heard, kNow);
   if (const auto heard = bearing_from(on("OLS_BEARING_a", bytes))) {
-    console.hear_bearing(heard->first, heard->second);
+    console.receive_bearing(heard->first, heard->second);
   }
-  if (const auto heard = target_from(on("OLS_TARGET", bytes))) console.hear(*heard, kNow);
-  if (const auto heard = fusion_from(on("OLS_FUSION_STATUS", bytes))) console.hear(*heard, kNow);
-  if (auto heard = picture_from(on("OLS_PREVIEW_a", bytes))) console.hear(std::move(*heard));
+  if (const auto heard = target_from(on("OLS_TARGET", bytes))) console.receive(*heard, kNow);
+  if (const auto heard = fusion_from(on("OLS_FUSION_STATUS", bytes))) console.receive(*heard, kNow);
+  if (auto heard = picture_from(on("OLS_PREVIEW_a", bytes))) console.receive(std::move(*heard));
 }
 
 // A request whose parts are separated by zeros.
@@ -82,7 +82,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::size_t length = input.byte() | static_cast<std::size_t>(input.byte()) << 8U;
     const std::string_view part = input.take(length);
     if (kind % 5 == 0) talk(console, viewer, part);
-    if (kind % 5 == 1) hear(console, part);
+    if (kind % 5 == 1) receive(console, part);
     if (kind % 5 == 2) ask(api, part);
     if (kind % 5 == 3) read_users(part);
     if (kind % 5 == 4) {

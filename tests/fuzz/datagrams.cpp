@@ -55,7 +55,7 @@ void to_fusion(ols::fusion::Fusion& fusion, const ols::BusMessage& message) {
 }
 
 void to_person(const ols::BusMessage& message) {
-  const auto status = ols::wire::heard_status(message);
+  const auto status = ols::wire::decode_status(message);
   if (!status) return;
   for (const auto* texts : {&status->device_name, &status->device_text, &status->alarm,
                             &status->reading_name, &status->counter_name}) {

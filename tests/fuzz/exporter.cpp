@@ -19,17 +19,17 @@ namespace {
 
 using ols::exporter::SiteMetrics;
 
-void hear(SiteMetrics& metrics, bool is_fusion, const std::string& station, std::string_view bytes,
-          double now_s) {
+void receive(SiteMetrics& metrics, bool is_fusion, const std::string& station,
+             std::string_view bytes, double now_s) {
   ols::BusMessage message;
   message.channel = is_fusion ? "OLS_FUSION_STATUS" : "OLS_STATUS_" + station;
   message.payload.assign(bytes.begin(), bytes.end());
   if (!is_fusion) {
-    if (const auto status = ols::wire::heard_status(message)) metrics.hear(*status, now_s);
+    if (const auto status = ols::wire::decode_status(message)) metrics.receive(*status, now_s);
     return;
   }
   ols_msg::fusion_status_t status;
-  if (ols::decode_exactly(message, status)) metrics.hear(status, now_s);
+  if (ols::decode_exactly(message, status)) metrics.receive(status, now_s);
 }
 
 void check(const SiteMetrics& metrics, double now_s) {
@@ -69,7 +69,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::size_t length = 256 * high + input.byte();
     const char station[] = {"abcdefgh"[(kind >> 1) & 7], '\0'};
     now_s += (kind & 0x80) != 0 ? 1000.0 : 0.1;
-    hear(metrics, (kind & 1) != 0, station, input.take(length), now_s);
+    receive(metrics, (kind & 1) != 0, station, input.take(length), now_s);
   }
   check(metrics, now_s);
   return 0;

@@ -45,7 +45,7 @@ StationLink::StationLink(LcmBus& bus, std::string station)
   bus_.subscribe(station_channel(kStatusChannel, station_),
                  [this](const BusMessage& message) { hear_status(message); });
   bus_.subscribe(station_channel(kReplyChannel, station_), [this](const BusMessage& message) {
-    const auto reply = wire::heard_reply(message);
+    const auto reply = wire::decode_reply(message);
     if (reply && reply->order.boot_id == boot_id_) hear(*reply);
   });
   constexpr QueueLimits kFrames{.messages = 400, .bytes = 20'000'000};
@@ -64,7 +64,7 @@ void StationLink::address(Message& message, double lease_s) {
 }
 
 void StationLink::hear_status(const BusMessage& message) {
-  auto status = wire::heard_status(message);
+  auto status = wire::decode_status(message);
   if (!status) return;
   status_ = std::move(*status);
   heard_s_ = clock_monotonic_s();

@@ -22,13 +22,13 @@ CueOperator::CueOperator(const std::string& lcm_url, const trust::TrustConfig& t
       bus_(lcm_url, open_operator_trust(trust, boot_id_)),
       sender_(boot_id_) {
   bus_.subscribe(std::string(kFusionStatusChannel), [this](const BusMessage& message) {
-    if (auto said = wire::heard_fusion_status(message)) said_ = std::move(said);
+    if (auto said = wire::decode_fusion_status(message)) said_ = std::move(said);
   });
   bus_.subscribe(std::string(kTargetChannel), [this](const BusMessage& message) {
-    if (const auto target = wire::heard_target(message)) note_class(*target);
+    if (const auto target = wire::decode_target(message)) note_class(*target);
   });
   bus_.subscribe(std::string(kCueReplyChannel), [this](const BusMessage& message) {
-    auto reply = wire::heard_reply(message);
+    auto reply = wire::decode_reply(message);
     if (reply && reply->order.boot_id == boot_id_) reply_ = std::move(reply);
   });
 }

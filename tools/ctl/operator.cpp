@@ -32,9 +32,9 @@ Operator::Operator(const std::string& lcm_url, const trust::TrustConfig& trust, 
       sender_(boot_id_) {
   const std::string which = station_ == "all" ? ".*" : station_;
   bus_.subscribe(station_channel(kStatusChannel, which),
-                 [this](const BusMessage& message) { hear(message); });
+                 [this](const BusMessage& message) { receive(message); });
   bus_.subscribe(station_channel(kReplyChannel, which), [this](const BusMessage& message) {
-    const auto reply = wire::heard_reply(message);
+    const auto reply = wire::decode_reply(message);
     if (reply && reply->order.boot_id == boot_id_) replies_[reply->order] = *reply;
   });
 }
@@ -56,8 +56,8 @@ void Operator::send_stop(const std::string& station) {
   send({.station = station, .kind = wire::Kind::kStop});
 }
 
-void Operator::hear(const BusMessage& message) {
-  auto status = wire::heard_status(message);
+void Operator::receive(const BusMessage& message) {
+  auto status = wire::decode_status(message);
   if (!status) return;
   // Any station counts as heard, even if the table is full.
   if (stopping_) send_stop(status->station);

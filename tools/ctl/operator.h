@@ -51,7 +51,7 @@ class Operator {
   std::optional<std::string> hold_rate(wire::Order order, double seconds);
 
  private:
-  void hear(const BusMessage& message);
+  void receive(const BusMessage& message);
   // Sends the order with a new id.
   wire::OrderId send(wire::Order order);
   std::optional<wire::Reply> wait_for_reply(wire::OrderId order);

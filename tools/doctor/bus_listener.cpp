@@ -35,8 +35,8 @@ std::shared_ptr<trust::BusTrust> open_trust(const trust::TrustConfig& config,
   return trust::BusTrust::open(config, trust::process_environment(), self);
 }
 
-StationHeard station_from(const ols_msg::station_status_t& status) {
-  StationHeard station;
+StationFacts station_from(const ols_msg::station_status_t& status) {
+  StationFacts station;
   station.id = status.station;
   station.state = wire::state_name(status.state);
   station.alarms = alarms_of(status);
@@ -55,7 +55,7 @@ StationHeard station_from(const ols_msg::station_status_t& status) {
   station.clock_error_s = status.clock_error_s;
   station.position_known = status.position_source != ols_msg::station_status_t::POSE_NONE;
   using M = ols_msg::station_status_t;
-  StationHeard::Calibration& calibration = station.calibration;
+  StationFacts::Calibration& calibration = station.calibration;
   calibration.doubted = status.calibration_state == M::CALIBRATION_DOUBTED;
   calibration.in_use = calibration.doubted || status.calibration_state == M::CALIBRATION_IN_USE;
   calibration.sd_rad = status.calibration_sd_rad;
@@ -77,7 +77,7 @@ void wait_for_list(LcmBus& bus, const trust::BusTrust& signatures) {
   while (signatures.list_number() == 0 && clock_monotonic_s() < end_s) bus.handle(kPoll_ms);
 }
 
-void count_distrusted(BusHeard& heard, const BusTraffic& before, const BusTraffic& now) {
+void count_distrusted(BusFacts& heard, const BusTraffic& before, const BusTraffic& now) {
   heard.trust_trouble = now.trust_trouble;
   for (std::size_t i = 0; i < now.distrusted.size(); ++i) {
     const std::string reason = trust::to_string(static_cast<trust::Distrust>(i));
@@ -86,7 +86,7 @@ void count_distrusted(BusHeard& heard, const BusTraffic& before, const BusTraffi
   }
 }
 
-void look_at_network(BusHeard& bus) {
+void look_at_network(BusFacts& bus) {
   std::ifstream("/proc/sys/net/core/rmem_max") >> bus.rmem_max;
   const BusAddress bus_address = parse_lcm_url(bus.url);
   bus.ttl = bus_address.ttl;
@@ -100,9 +100,9 @@ void look_at_network(BusHeard& bus) {
 
 }  // namespace
 
-BusHeard listen(const std::string& lcm_url, const trust::TrustConfig& trust, double seconds,
+BusFacts listen(const std::string& lcm_url, const trust::TrustConfig& trust, double seconds,
                 const std::string& own) {
-  BusHeard heard;
+  BusFacts heard;
   heard.url = lcm_url;
   std::map<std::string, std::set<std::int64_t>> boots;
   std::set<std::int64_t> fusions;
@@ -112,7 +112,7 @@ BusHeard listen(const std::string& lcm_url, const trust::TrustConfig& trust, dou
     heard.is_verified = signatures != nullptr;
     LcmBus bus(lcm_url, signatures);
     bus.subscribe(station_channel(kStatusChannel, ".*"), [&](const BusMessage& message) {
-      const auto status = wire::heard_status(message);
+      const auto status = wire::decode_status(message);
       if (!status) return;
       const bool known = heard.stations.contains(status->station) || status->station == own;
       if (!known && heard.stations.size() >= wire::kMostStationsHeard) return;
@@ -121,7 +121,7 @@ BusHeard listen(const std::string& lcm_url, const trust::TrustConfig& trust, dou
       heard.stations[status->station] = station_from(*status);
     });
     bus.subscribe(std::string(kFusionStatusChannel), [&](const BusMessage& message) {
-      const auto status = wire::heard_fusion_status(message);
+      const auto status = wire::decode_fusion_status(message);
       if (!status) return;
       if (fusions.size() < kMostBoots) fusions.insert(status->boot_id);
       heard.fusion_alarms = alarms_of(*status);

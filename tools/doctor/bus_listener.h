@@ -10,7 +10,7 @@ namespace ols::doctor {
 
 // Never throws: the result holds the error. The station `own` is reported whenever it is heard,
 // even among many forged stations. A process without a trust list first waits for one.
-BusHeard listen(const std::string& lcm_url, const trust::TrustConfig& trust, double seconds,
+BusFacts listen(const std::string& lcm_url, const trust::TrustConfig& trust, double seconds,
                 const std::string& own = "");
 
 }  // namespace ols::doctor

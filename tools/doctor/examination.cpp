@@ -126,7 +126,7 @@ bool runs_as_service(const std::string& path) {
 }
 
 Findings examine_own(const station::StationSettings& settings, const std::string& path,
-                     const BusHeard& bus, double patience_s) {
+                     const BusFacts& bus, double patience_s) {
   const auto own = bus.stations.find(settings.id);
   if (own != bus.stations.end()) return judge(own->second);
   if (runs_as_service(path)) {
@@ -156,7 +156,7 @@ Findings examine_station(const std::string& path, const Request& request,
     return {refused(path, error)};
   }
   Findings findings{ok("configuration: " + path + ", station " + settings.id)};
-  const BusHeard bus = listen(settings.lcm_url, own_trust(settings), request.listen_s, settings.id);
+  const BusFacts bus = listen(settings.lcm_url, own_trust(settings), request.listen_s, settings.id);
   for (const auto& [id, station] : bus.stations) statuses[id] = station.text;
   append(findings, judge(bus));
   append(findings, examine_own(settings, path, bus, request.patience_s));
@@ -170,7 +170,7 @@ Findings examine_fusion(const std::string& path, const Request& request,
   try {
     const fusion::FusionSettings settings = fusion::load_fusion_settings(path);
     Findings findings{ok("configuration: " + path)};
-    const BusHeard bus = listen(settings.lcm_url, settings.trust, request.listen_s);
+    const BusFacts bus = listen(settings.lcm_url, settings.trust, request.listen_s);
     for (const auto& [id, station] : bus.stations) statuses[id] = station.text;
     append(findings, judge(bus));
     if (bus.trouble.empty()) append(findings, judge_company(bus, ""));

@@ -15,7 +15,7 @@
 namespace ols::doctor {
 
 // What a station's status message says.
-struct StationHeard {
+struct StationFacts {
   std::string id;
   std::string state;  // "tracking"
   std::vector<device::DeviceReport> devices;
@@ -35,13 +35,13 @@ struct StationHeard {
   std::string text;       // the whole status, for a person
 };
 
-struct BusHeard {
+struct BusFacts {
   std::string url;
   std::string trouble;        // why there is no bus; empty: the bus works
   std::string interface;      // of the route by which messages go out; empty: unknown
   int ttl = 0;                // 0: messages stay on this host
   std::int64_t rmem_max = 0;  // net.core.rmem_max [byte]; 0: unknown
-  std::map<std::string, StationHeard> stations;
+  std::map<std::string, StationFacts> stations;
   int fusions = 0;
   std::vector<Alarm> fusion_alarms;
   bool is_verified = false;  // whether only signed messages are believed, or unsigned ones are at

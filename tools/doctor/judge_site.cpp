@@ -13,12 +13,12 @@ constexpr double kFrameLossWarning = 0.01;
 constexpr double kRecent_s = 60.0;
 constexpr double kMilli = 1e-3;
 
-double counter(const StationHeard& station, const char* name) {
+double counter(const StationFacts& station, const char* name) {
   const auto found = station.counters.find(name);
   return found == station.counters.end() ? 0.0 : found->second;
 }
 
-Finding judge_clock(const StationHeard& station) {
+Finding judge_clock(const StationFacts& station) {
   const std::string error = number(station.clock_error_s / kMilli, "%.1f ms");
   switch (station.clock) {
     case clock::ClockState::kSynchronised:
@@ -32,7 +32,7 @@ Finding judge_clock(const StationHeard& station) {
   return warn("clock: not synchronised, error " + error, advice_on(alarm::clock_lost(0.0, "")));
 }
 
-std::optional<Finding> judge_frames(const StationHeard& station) {
+std::optional<Finding> judge_frames(const StationFacts& station) {
   const double captured = counter(station, "frames_captured");
   const double lost = counter(station, "frames_lost") + counter(station, "frames_incomplete");
   if (captured + lost <= 0.0) return std::nullopt;
@@ -47,7 +47,7 @@ std::optional<Finding> judge_frames(const StationHeard& station) {
 
 // No calibration is no fault: the configuration says how little is known. What the checks of a
 // calibration found is an alarm of the station.
-std::optional<Finding> judge_calibration(const StationHeard::Calibration& calibration) {
+std::optional<Finding> judge_calibration(const StationFacts::Calibration& calibration) {
   constexpr double kArcsecondsPerRad = 648000.0 / 3.14159265358979323846, kDay_s = 86400.0;
   if (!calibration.in_use) return std::nullopt;
   std::string words =
@@ -69,7 +69,7 @@ std::string distrusted(const std::map<std::string, double>& counters) {
   return text;
 }
 
-Finding judge_signatures(const BusHeard& bus) {
+Finding judge_signatures(const BusFacts& bus) {
   if (!bus.trust_trouble.empty()) {
     return fail("signatures: " + bus.trust_trouble.text, advice_on(bus.trust_trouble));
   }
@@ -101,7 +101,7 @@ Findings judge_alarms(const std::string& whose, const std::vector<Alarm>& alarms
 
 }  // namespace
 
-Findings judge(const BusHeard& bus) {
+Findings judge(const BusFacts& bus) {
   if (!bus.trouble.empty()) {
     return {fail("bus: " + bus.trouble,
                  "name the interface in /etc/ols/bus.env and systemctl restart ols-bus")};
@@ -127,7 +127,7 @@ Findings judge(const BusHeard& bus) {
   return findings;
 }
 
-Findings judge_company(const BusHeard& bus, const std::string& own) {
+Findings judge_company(const BusFacts& bus, const std::string& own) {
   Findings findings;
   std::string others;
   for (const auto& [id, station] : bus.stations) {
@@ -152,7 +152,7 @@ Findings judge_company(const BusHeard& bus, const std::string& own) {
   return findings;
 }
 
-Findings judge(const StationHeard& station) {
+Findings judge(const StationFacts& station) {
   Findings findings;
   if (station.boots > 1) {
     findings.push_back(

@@ -6,9 +6,9 @@
 
 namespace ols::doctor {
 
-Findings judge(const BusHeard& bus);
+Findings judge(const BusFacts& bus);
 // Judges the other hosts on the bus. `own`: this host's station; empty at the centre.
-Findings judge_company(const BusHeard& bus, const std::string& own);
-Findings judge(const StationHeard& station);
+Findings judge_company(const BusFacts& bus, const std::string& own);
+Findings judge(const StationFacts& station);
 
 }  // namespace ols::doctor

@@ -42,9 +42,9 @@ class Told : public prometheus::Collectable {
     return all;
   }
   template <class Status>
-  void hear(const Status& status) {
+  void receive(const Status& status) {
     const std::lock_guard lock(mutex_);
-    metrics_.hear(status, ols::clock_monotonic_s());
+    metrics_.receive(status, ols::clock_monotonic_s());
   }
   void know(std::vector<std::string> enrolled) {
     const std::lock_guard lock(mutex_);
@@ -88,10 +88,10 @@ std::shared_ptr<ols::trust::BusTrust> open_trust(const ols::trust::TrustConfig& 
 void listen(ols::LcmBus& bus, Told& told) {
   bus.subscribe(ols::station_channel(ols::kStatusChannel, ".*"),
                 [&told](const ols::BusMessage& message) {
-                  if (const auto status = ols::wire::heard_status(message)) told.hear(*status);
+                  if (const auto status = ols::wire::decode_status(message)) told.receive(*status);
                 });
   bus.subscribe(std::string(ols::kFusionStatusChannel), [&told](const ols::BusMessage& message) {
-    if (const auto status = ols::wire::heard_fusion_status(message)) told.hear(*status);
+    if (const auto status = ols::wire::decode_fusion_status(message)) told.receive(*status);
   });
 }
 

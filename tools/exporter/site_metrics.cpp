@@ -103,13 +103,15 @@ void add_fusion(MetricCollection& all, const fusion_status_t& s, double age_s) {
 
 }  // namespace
 
-void SiteMetrics::hear(const station_status_t& status, double now_s) {
+void SiteMetrics::receive(const station_status_t& status, double now_s) {
   std::erase_if(stations_, [&](const auto& one) { return now_s - one.second.at_s > kForget_s; });
   const bool known = stations_.contains(status.station);
   if (known || stations_.size() < kMostStations) stations_[status.station] = {status, now_s};
 }
 
-void SiteMetrics::hear(const fusion_status_t& status, double now_s) { fusion_ = {status, now_s}; }
+void SiteMetrics::receive(const fusion_status_t& status, double now_s) {
+  fusion_ = {status, now_s};
+}
 
 void SiteMetrics::know(std::vector<std::string> enrolled) {
   for (const std::string& id : enrolled_) {

@@ -28,8 +28,8 @@ class SiteMetrics {
   explicit SiteMetrics(std::string version) : version_(std::move(version)) {}
 
   // Take only verified statuses. Times are monotonic.
-  void hear(const ols_msg::station_status_t& status, double now_s);
-  void hear(const ols_msg::fusion_status_t& status, double now_s);
+  void receive(const ols_msg::station_status_t& status, double now_s);
+  void receive(const ols_msg::fusion_status_t& status, double now_s);
   // The stations of the trust list. Stations that have left it are no longer reported.
   void know(std::vector<std::string> enrolled);
   // Messages that failed verification, by reason, since the start.

@@ -58,7 +58,7 @@ class SimulatedTripod {
     bus_.subscribe(station_channel(kProcedureChannel, "alfa"),
                    [this](const BusMessage& message) { decode_of_schema(message, state); });
     bus_.subscribe(station_channel(kStatusChannel, "alfa"), [this](const BusMessage& message) {
-      if (auto heard = wire::heard_status(message)) status = std::move(*heard);
+      if (auto heard = wire::decode_status(message)) status = std::move(*heard);
     });
     time.at_each_step([this](double) { look(); });
     EXPECT_TRUE(time.pass(60.0, [this] {

@@ -7,8 +7,8 @@
 namespace ols::console {
 namespace {
 
-StationHeard station(const std::string& id, bool stopped = false) {
-  StationHeard heard;
+ReceivedStation station(const std::string& id, bool stopped = false) {
+  ReceivedStation heard;
   heard.id = id;
   heard.fields = {{"state", "tracking"}};
   heard.is_stopped = stopped;
@@ -22,7 +22,7 @@ wire::Reply stands(const std::string& id, std::int64_t sequence) {
 
 // Has heard alfa.
 struct Listening : Console {
-  Listening() : Console(60.0) { hear(station("alfa"), {0.0, 0}); }
+  Listening() : Console(60.0) { receive(station("alfa"), {0.0, 0}); }
 };
 
 // All that a viewer is sent now.
@@ -49,7 +49,7 @@ TEST(Console, GreetsThenSendsASnapshotThenDeltasAtTwentyHertz) {
   EXPECT_EQ(first[0].at("kind"), "hello");
   EXPECT_EQ(first[0].at("role"), "operator");
   EXPECT_EQ(first[1].at("kind"), "snapshot");
-  console.hear_bearing("alfa", {{"azimuth_deg", 1.0}});
+  console.receive_bearing("alfa", {{"azimuth_deg", 1.0}});
   EXPECT_TRUE(received(console, viewer, {1.04, 5}).empty());
   const auto second = received(console, viewer, {1.1, 5});
   ASSERT_EQ(second.size(), 1U);
@@ -62,7 +62,7 @@ TEST(Console, ASlowViewerGetsTheNewestNotAQueue) {
   Listening console;
   const auto viewer = console.open("ana", Role::kViewer);
   static_cast<void>(received(console, viewer, {0.0, 0}));
-  for (int i = 1; i <= 1000; ++i) console.hear_bearing("alfa", {{"azimuth_deg", i}});
+  for (int i = 1; i <= 1000; ++i) console.receive_bearing("alfa", {{"azimuth_deg", i}});
   const auto messages = received(console, viewer, {60.0, 0});
   ASSERT_EQ(messages.size(), 1U);
   EXPECT_EQ(messages[0].at("stations")[0].at("bearing").at("azimuth_deg"), 1000);
@@ -70,11 +70,11 @@ TEST(Console, ASlowViewerGetsTheNewestNotAQueue) {
 
 TEST(Console, OnlyTheNewestPictureThatIsWatchedIsSent) {
   Listening console;
-  console.hear(station("bravo"), {0.0, 0});
+  console.receive(station("bravo"), {0.0, 0});
   const auto viewer = console.open("ana", Role::kViewer);
   static_cast<void>(received(console, viewer, {0.0, 0}));
   for (const char* id : {"alfa", "alfa", "bravo", "unknown"}) {
-    console.hear(Picture{id, {{"station", id}}, "JPEG"});
+    console.receive(Picture{id, {{"station", id}}, "JPEG"});
   }
   EXPECT_TRUE(received(console, viewer, {0.01, 0}).empty());
   console.take(viewer, R"({"do":"watch","pictures":["alfa","unknown"]})", {0.02, 0});
@@ -90,13 +90,13 @@ TEST(Console, ABrowserThatSaysWhatItHasTakenIsSentTheNextOnlyThen) {
   const auto viewer = console.open("ana", Role::kViewer);
   console.take(viewer, R"({"do":"watch","pictures":["alfa"]})", {0.0, 0});
   const auto show = [&](const std::string& jpeg) {
-    console.hear(Picture{"alfa", {{"station", "alfa"}}, jpeg});
+    console.receive(Picture{"alfa", {{"station", "alfa"}}, jpeg});
   };
   show("1");
   EXPECT_EQ(received(console, viewer, {0.0, 0}).size(), 3U) << "greeting, snapshot, picture";
   console.take(viewer, R"({"do":"taken","pictures":["bravo"],"state":false})", {0.0, 0});
   show("2"), show("3");
-  console.hear_bearing("alfa", {{"azimuth_deg", 1.0}});
+  console.receive_bearing("alfa", {{"azimuth_deg", 1.0}});
   EXPECT_TRUE(received(console, viewer, {5.0, 0}).empty()) << "both are under way";
   console.take(viewer, R"({"do":"taken","pictures":["alfa"],"state":false})", {5.0, 0});
   const auto picture = console.next(viewer, {5.0, 0});
@@ -115,7 +115,7 @@ TEST(Console, ACommandIsAnsweredWithTheStationsOwnWord) {
   console.take(viewer, R"({"do":"command","number":4,"station":"alfa","command":"home"})",
                {1.0, 9});
   ASSERT_EQ(console.turn({1.0, 9}).size(), 1U);
-  console.hear({.station = "alfa", .order = {0, 1}, .reason = "keep_out"});
+  console.receive({.station = "alfa", .order = {0, 1}, .reason = "keep_out"});
   static_cast<void>(console.turn({1.2, 9}));
   const Json answer = answer_in(received(console, viewer, {1.2, 9}));
   EXPECT_EQ(answer.at("number"), 4);
@@ -181,7 +181,7 @@ TEST(Console, TwoBrowsersOfOneNameAreToldApart) {
 
 TEST(Console, WhoHoldsAStationIsToldWhenAnotherStopsItOrTakesItOver) {
   Listening console;
-  console.hear(station("bravo"), {0.0, 0});
+  console.receive(station("bravo"), {0.0, 0});
   const auto ana = console.open("ana", Role::kOperator), ben = console.open("ben", Role::kOperator);
   for (const char* id : {"alfa", "bravo"}) {
     console.take(ana, R"({"do":"take","station":")" + std::string(id) + "\"}", {0.0, 0});
@@ -203,13 +203,13 @@ TEST(Console, WhoHoldsAStationIsToldThatAnotherProgramStoppedItButNotOfTheirOwnS
   console.take(ana, R"({"do":"take","station":"alfa"})", {0.0, 0});
   console.take(ana, R"({"do":"command","station":"alfa","command":"stop"})", {0.1, 0});
   static_cast<void>(console.turn({0.1, 0}));
-  console.hear(stands("alfa", 1));
+  console.receive(stands("alfa", 1));
   static_cast<void>(console.turn({0.2, 0}));
-  console.hear(station("alfa", true), {0.2, 0});
+  console.receive(station("alfa", true), {0.2, 0});
   EXPECT_TRUE(told_of_hands(console, ana, {0.2, 0}).empty());
   static_cast<void>(console.turn({0.3, 0}));
-  console.hear(station("alfa", false), {0.4, 0});
-  console.hear(station("alfa", true), {0.5, 0});
+  console.receive(station("alfa", false), {0.4, 0});
+  console.receive(station("alfa", true), {0.5, 0});
   const auto told = told_of_hands(console, ana, {0.5, 0});
   ASSERT_EQ(told.size(), 1U);
   EXPECT_EQ(told[0].at("by"), "");
@@ -217,9 +217,9 @@ TEST(Console, WhoHoldsAStationIsToldThatAnotherProgramStoppedItButNotOfTheirOwnS
 
 TEST(Console, AnAcknowledgementIsSeenByAllAndGivenByOperatorsOnly) {
   Console console(60.0);
-  StationHeard ailing = station("alfa");
+  ReceivedStation ailing = station("alfa");
   ailing.alarms = alarms_of({"camera: does not answer"});
-  console.hear(ailing, {0.0, 0});
+  console.receive(ailing, {0.0, 0});
   const auto ana = console.open("ana", Role::kOperator), vera = console.open("vera", Role::kViewer);
   const std::string text = R"({"do":"acknowledge","number":1,"event":1})";
   console.take(vera, text, {0.1, 0});
@@ -233,12 +233,12 @@ TEST(Console, AnAcknowledgementIsSeenByAllAndGivenByOperatorsOnly) {
 
 TEST(Console, StopAllStopsEachStationUntilItStandsAndThoseHeardSoonAfter) {
   Console console(60.0);
-  console.hear(station("alfa"), {0.0, 0});
-  console.hear(station("bravo"), {0.0, 0});
+  console.receive(station("alfa"), {0.0, 0});
+  console.receive(station("bravo"), {0.0, 0});
   EXPECT_EQ(console.stop_all({"ana"}, {}, {1.0, 0}), (std::vector<std::string>{"alfa", "bravo"}));
   EXPECT_EQ(console.turn({1.0, 0}).size(), 2U);
-  console.hear(stands("alfa", 1));
-  console.hear(station("charlie"), {1.1, 0});
+  console.receive(stands("alfa", 1));
+  console.receive(station("charlie"), {1.1, 0});
   std::vector<std::string> again;
   static_cast<void>(console.turn({1.1, 0}));
   for (const auto& order : console.turn({1.2, 0})) again.push_back(order.station);
@@ -247,13 +247,13 @@ TEST(Console, StopAllStopsEachStationUntilItStandsAndThoseHeardSoonAfter) {
 
 TEST(Console, AStopOfAllThatIsNotConfirmedIsToldToEverybody) {
   Listening console;
-  console.hear(station("bravo"), {0.0, 0});
+  console.receive(station("bravo"), {0.0, 0});
   const auto ana = console.open("ana", Role::kOperator), ben = console.open("ben", Role::kViewer);
   static_cast<void>(console.stop_all({"ana"}, {}, {1.0, 0}));
   console.take(ana, R"({"do":"stop_all","number":3})", {1.0, 0});
   EXPECT_EQ(console.turn({1.0, 0}).size(), 2U);
   EXPECT_EQ(console.state({1.0, 0}).at("events").size(), 2U) << "one person's stop is one event";
-  console.hear(stands("alfa", 1));
+  console.receive(stands("alfa", 1));
   static_cast<void>(console.turn({2.0, 0}));
   static_cast<void>(console.turn({4.1, 0}));
   for (const auto viewer : {ana, ben}) {
@@ -338,9 +338,9 @@ void watch(Console& console, std::uint64_t viewer, const std::string& stations) 
 TEST(Console, PullsTheVideoOfStationsThatSomebodyLooksAt) {
   Console console(60.0);
   for (const char* id : {"alfa", "bravo", "charlie"}) {
-    StationHeard heard = station(id);
+    ReceivedStation heard = station(id);
     if (id != std::string("charlie")) heard.video_address = std::string("10.0.0.1:") + id;
-    console.hear(heard, {0.0, 0});
+    console.receive(heard, {0.0, 0});
   }
   EXPECT_TRUE(console.watched_video().empty());
   const auto viewer = console.open("ana", Role::kViewer);
@@ -348,18 +348,18 @@ TEST(Console, PullsTheVideoOfStationsThatSomebodyLooksAt) {
   EXPECT_EQ(console.watched_video(), (WatchedVideos{{{"bravo", Codec::kJpeg}, "10.0.0.1:bravo"}}));
   console.take(viewer, R"({"do": "watch", "pictures": ["bravo"], "codec": "h264"})", {0.0, 0});
   EXPECT_EQ(console.watched_video(), (WatchedVideos{{{"bravo", Codec::kH264}, "10.0.0.1:bravo"}}));
-  console.hear(station("bravo"), {0.0, 0});  // it serves none any more
+  console.receive(station("bravo"), {0.0, 0});  // it serves none any more
   EXPECT_TRUE(console.watched_video().empty());
 }
 
-ProcedureHeard asking(const std::string& station) {
+ReceivedProcedure asking(const std::string& station) {
   return {station, {{"state", "asking"}, {"question", 3}}, 3, {"confirm"}, "JPEG"};
 }
 
 TEST(Console, AProcedureIsPartOfItsStation) {
   Listening console;
-  console.hear(asking("alfa"));
-  console.hear(asking("unknown"));
+  console.receive(asking("alfa"));
+  console.receive(asking("unknown"));
   const Json state = console.state({0.0, 0});
   EXPECT_EQ(state.at("stations")[0].at("procedure").at("question"), 3);
   EXPECT_EQ(state.at("stations")[0].at("procedure").at("picture"), 1);
@@ -370,7 +370,7 @@ TEST(Console, AProcedureIsPartOfItsStation) {
 
 TEST(Console, AnOperatorAnswersAProcedureAndAViewerDoesNot) {
   Listening console;
-  console.hear(asking("alfa"));
+  console.receive(asking("alfa"));
   const char* const confirm =
       R"({"do":"answer","number":8,"station":"alfa","question":3,"choice":"confirm"})";
   const auto viewer = console.open("vera", Role::kViewer);
@@ -390,7 +390,7 @@ TEST(Console, AnOperatorAnswersAProcedureAndAViewerDoesNot) {
 
 TEST(Console, AnAnswerThatComesTooLateIsRefusedUnlessItEndsTheProcedure) {
   Listening console;
-  console.hear(asking("alfa"));
+  console.receive(asking("alfa"));
   const auto operating = console.open("ana", Role::kOperator);
   const auto answered = [&](const std::string& choice, std::int64_t heard_us) {
     console.take(operating,
@@ -414,7 +414,7 @@ TEST(Console, ACueIsAllowedAndControlIsTakenInTimeOrNotAtAll) {
     const auto heard = R"(,"number":8,"heard_us":)" + std::to_string(heard_us) + "}";
     console.take(operating, R"({"do":)" + what + heard, {1.0, 10'000'000});
     for (const auto& order : console.take_cue_orders()) {
-      console.hear(wire::Reply{.order = order.id, .is_accepted = true});
+      console.receive(wire::Reply{.order = order.id, .is_accepted = true});
     }
     static_cast<void>(console.turn({1.0, 10'000'000}));
     return answer_in(received(console, operating, {1.0, 10'000'000})).at("accepted") == true;
@@ -440,7 +440,7 @@ TEST(Console, AnOperatorsWordOnACueGoesOutAndAViewersDoesNot) {
   const auto noted = [&] { return console.state({1.0, 5}).at("events")[0]; };
   EXPECT_EQ(noted().at("text"), "allows cue tak.a");
   EXPECT_EQ(noted().at("outcome"), "sent") << "the fusion has not said anything yet";
-  console.hear(wire::Reply{.order = orders[0].id, .is_accepted = true});
+  console.receive(wire::Reply{.order = orders[0].id, .is_accepted = true});
   static_cast<void>(console.turn({1.1, 6}));
   EXPECT_EQ(noted().at("outcome"), "done");
   EXPECT_TRUE(answer_in(received(console, operating, {1.1, 6})).at("accepted"));
@@ -468,18 +468,18 @@ TEST(Console, AnIncidentIsShownRecordedAndJudgedByOperators) {
       "lowest_m":0,"highest_m":900,"classes":[],"from":"00:00","to":"00:00"})";
   EXPECT_FALSE(says(Role::kViewer, area));
   EXPECT_TRUE(says(Role::kOperator, area));
-  TargetHeard heard;
-  heard.what = TargetHeard::What::kPosition;
+  ReceivedTarget heard;
+  heard.what = ReceivedTarget::What::kPosition;
   heard.boot_id = 9;
   heard.id = "7";
   heard.latitude_deg = 48.01, heard.longitude_deg = 11.01, heard.height_m = 100.0;
   heard.fields = {{"state", "confirmed"},
                   {"covariance_enu_m2", {1, 0, 0, 1, 0, 1}},
                   {"stations", {{{"id", "alfa"}, {"used", true}}}}};
-  console.hear(heard, {1.0, 5});
+  console.receive(heard, {1.0, 5});
   heard.boot_id = 10;
   heard.id = "8";
-  console.hear(heard, {1.0, 5});  // of a second fusion: not believed
+  console.receive(heard, {1.0, 5});  // of a second fusion: not believed
   const auto orders = console.turn({1.1, 6});
   ASSERT_EQ(orders.size(), 1U);
   EXPECT_EQ(orders[0].label, "incident-1");
@@ -510,7 +510,7 @@ TEST(Console, AnIncidentIsShownRecordedAndJudgedByOperators) {
 
 TEST(Console, AnAnswerNeedsControlUnlessItEndsTheProcedure) {
   Listening console;
-  console.hear(asking("alfa"));
+  console.receive(asking("alfa"));
   const auto holder = console.open("ana", Role::kOperator);
   console.take(holder, R"({"do":"take","station":"alfa"})", {1.0, 5});
   const auto other = console.open("otto", Role::kOperator);
@@ -527,9 +527,9 @@ TEST(Console, AnAnswerNeedsControlUnlessItEndsTheProcedure) {
   EXPECT_EQ(console.take_answers().size(), 1U);
 }
 
-TargetHeard target(const std::string& id) {
-  TargetHeard heard;
-  heard.what = TargetHeard::What::kPosition;
+ReceivedTarget target(const std::string& id) {
+  ReceivedTarget heard;
+  heard.what = ReceivedTarget::What::kPosition;
   heard.boot_id = 9;
   heard.id = id;
   heard.fields = {{"state", "confirmed"}};
@@ -539,7 +539,7 @@ TargetHeard target(const std::string& id) {
 TEST(Console, ANameOfATargetIsForAllAndLastsAsLongAsTheTarget) {
   Listening console;
   const auto ana = console.open("ana", Role::kOperator), eva = console.open("eva", Role::kViewer);
-  console.hear(target("7"), {0.0, 0});
+  console.receive(target("7"), {0.0, 0});
   static_cast<void>(received(console, ana, {0.0, 0}));
   console.take(eva, R"({"do":"name","number":1,"target":"7","name":"mine"})", {0.1, 0});
   EXPECT_FALSE(answer_in(received(console, eva, {0.1, 0})).at("accepted")) << "may only look";
@@ -547,12 +547,12 @@ TEST(Console, ANameOfATargetIsForAllAndLastsAsLongAsTheTarget) {
   EXPECT_FALSE(answer_in(received(console, ana, {0.1, 0})).at("accepted")) << "no such target";
   console.take(ana, R"({"do":"name","number":3,"target":"7","name":"drone"})", {0.2, 0});
   EXPECT_TRUE(answer_in(received(console, ana, {0.2, 0})).at("accepted"));
-  console.hear(target("7"), {0.3, 0});
+  console.receive(target("7"), {0.3, 0});
   EXPECT_EQ(console.state({0.3, 0}).at("targets")[0].at("name"), "drone");
-  TargetHeard gone = target("7");
-  gone.what = TargetHeard::What::kDropped;
-  console.hear(gone, {0.4, 0});
-  console.hear(target("7"), {0.5, 0});
+  ReceivedTarget gone = target("7");
+  gone.what = ReceivedTarget::What::kDropped;
+  console.receive(gone, {0.4, 0});
+  console.receive(target("7"), {0.5, 0});
   EXPECT_FALSE(console.state({0.5, 0}).at("targets")[0].contains("name"));
 }
 

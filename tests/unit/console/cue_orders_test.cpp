@@ -27,9 +27,9 @@ TEST(CueOrders, AreDoneWhenTheFusionSaysSo) {
   orders.give({"tak.a", true}, kAna, 1.0);
   const wire::OrderId id = orders.take().at(0).id;
   EXPECT_TRUE(orders.finished(1.5).empty());
-  orders.hear({.station = "alfa", .order = id, .is_accepted = true});
+  orders.receive({.station = "alfa", .order = id, .is_accepted = true});
   EXPECT_TRUE(orders.finished(1.5).empty()) << "a station's order has this number, too";
-  orders.hear({.order = id, .is_accepted = true});
+  orders.receive({.order = id, .is_accepted = true});
   const auto done = orders.finished(1.5);
   ASSERT_EQ(done.size(), 1U);
   EXPECT_EQ(done[0].ticket.viewer, 7U);
@@ -42,7 +42,7 @@ TEST(CueOrders, AreRefusedInWordsOrNotAnswered) {
   CueOrders orders;
   orders.give({"tak.a", true}, kAna, 1.0);
   orders.give({"tak.b", true}, kAna, 1.0);
-  orders.hear({.order = orders.take().at(0).id, .reason = "no_cue"});
+  orders.receive({.order = orders.take().at(0).id, .reason = "no_cue"});
   EXPECT_EQ(orders.finished(1.1).at(0).why.id, "order_refused");
   EXPECT_TRUE(orders.finished(2.9).empty());
   EXPECT_EQ(orders.finished(3.1).at(0).why, "no answer");

@@ -30,11 +30,11 @@ std::string next_of(const LatestPictures& latest, LatestPictures::View& view) {
 TEST(LatestPictures, APreviewIsShownOnlyWhereNoVideoComes) {
   LatestPictures latest;
   LatestPictures::View view{{"alfa"}, Codec::kJpeg, {}};
-  latest.hear(picture("alfa", 1'000'000, true));
+  latest.receive(picture("alfa", 1'000'000, true));
   EXPECT_EQ(next_of(latest, view), "alfa1000000");
-  latest.hear(picture("alfa", 2'000'000, false));
+  latest.receive(picture("alfa", 2'000'000, false));
   EXPECT_EQ(next_of(latest, view), "");
-  latest.hear(picture("alfa", 5'000'000, false));
+  latest.receive(picture("alfa", 5'000'000, false));
   EXPECT_EQ(next_of(latest, view), "alfa5000000") << "the video has ended";
 }
 
@@ -43,8 +43,8 @@ TEST(LatestPictures, EachStationGetsItsTurnOverASlowLink) {
   LatestPictures::View view{{"alfa", "bravo"}, Codec::kJpeg, {}};
   std::string seen;
   for (int i = 1; i <= 4; ++i) {
-    latest.hear(picture("alfa", i, true));
-    latest.hear(picture("bravo", i, true));
+    latest.receive(picture("alfa", i, true));
+    latest.receive(picture("bravo", i, true));
     seen += next_of(latest, view) + " ";  // one for each two that come
   }
   EXPECT_EQ(seen, "alfa1 bravo2 alfa3 bravo4 ");
@@ -53,13 +53,13 @@ TEST(LatestPictures, EachStationGetsItsTurnOverASlowLink) {
 TEST(LatestPictures, EachBrowserGetsItsCodec) {
   LatestPictures latest;
   LatestPictures::View thin{{"alfa"}, Codec::kH264, {}}, wide{{"alfa"}, Codec::kJpeg, {}};
-  latest.hear(stream_unit(1, true));
-  latest.hear(picture("alfa", 2, true));
-  latest.hear(stream_unit(3, false));
+  latest.receive(stream_unit(1, true));
+  latest.receive(picture("alfa", 2, true));
+  latest.receive(stream_unit(3, false));
   EXPECT_EQ(next_of(latest, thin), "alfa3:2");
   EXPECT_EQ(next_of(latest, wide), "alfa2");
   EXPECT_EQ(next_of(latest, thin), "");
-  latest.hear(stream_unit(4, false));
+  latest.receive(stream_unit(4, false));
   EXPECT_EQ(next_of(latest, thin), "alfa4:1");
   EXPECT_EQ(next_of(latest, wide), "");
   wide.codec = Codec::kH264;
@@ -69,20 +69,20 @@ TEST(LatestPictures, EachBrowserGetsItsCodec) {
 TEST(LatestPictures, WithoutAStreamAThinViewSeesPreviews) {
   LatestPictures latest;
   LatestPictures::View thin{{"alfa"}, Codec::kH264, {}};
-  latest.hear(picture("alfa", 1'000'000, false));
+  latest.receive(picture("alfa", 1'000'000, false));
   EXPECT_EQ(next_of(latest, thin), "alfa1000000") << "none has come yet";
-  latest.hear(stream_unit(1'500'000, true));
+  latest.receive(stream_unit(1'500'000, true));
   EXPECT_EQ(next_of(latest, thin), "alfa1500000:1");
-  latest.hear(picture("alfa", 2'000'000, false));
+  latest.receive(picture("alfa", 2'000'000, false));
   EXPECT_EQ(next_of(latest, thin), "");
-  latest.hear(picture("alfa", 5'000'000, false));
+  latest.receive(picture("alfa", 5'000'000, false));
   EXPECT_EQ(next_of(latest, thin), "alfa5000000") << "it has ended";
 }
 
 TEST(LatestPictures, AStationThatIsGoneIsForgotten) {
   LatestPictures latest;
-  latest.hear(stream_unit(1, true));
-  latest.hear(picture("alfa", 1, true));
+  latest.receive(stream_unit(1, true));
+  latest.receive(picture("alfa", 1, true));
   latest.keep_only([](const std::string&) { return false; });
   LatestPictures::View thin{{"alfa"}, Codec::kH264, {}};
   EXPECT_EQ(next_of(latest, thin), "");
@@ -91,9 +91,9 @@ TEST(LatestPictures, AStationThatIsGoneIsForgotten) {
 TEST(LatestPictures, TheNewestOfAllCanBeShownAgain) {
   LatestPictures latest;
   LatestPictures::View view{{"alfa"}, Codec::kJpeg, {}};
-  latest.hear(picture("alfa", 1, true));
+  latest.receive(picture("alfa", 1, true));
   const auto then = latest.newest();
-  latest.hear(picture("alfa", 2, true));
+  latest.receive(picture("alfa", 2, true));
   EXPECT_EQ(next_of(latest, view), "alfa2");
   latest.show(then);
   EXPECT_EQ(next_of(latest, view), "alfa1");

@@ -23,7 +23,7 @@ TEST(MessagesCues, AreWhatTheFusionSays) {
   status.cue_height_m = {400.04, 1.0};
   status.cue_horizontal_sd_m = {5.0, 6.0};
   status.cue_vertical_sd_m = {9.0, 6.0};
-  const Json cues = cues_of(*wire::heard_fusion_status(on("OLS_FUSION_STATUS", status)));
+  const Json cues = cues_of(*wire::decode_fusion_status(on("OLS_FUSION_STATUS", status)));
   ASSERT_EQ(cues.size(), 2U);
   EXPECT_EQ(cues[0]["id"], "adsb.3c6444");
   EXPECT_EQ(cues[0]["label"], "DLH9LF");

@@ -51,7 +51,7 @@ ols_msg::target_t target() {
 TEST(ConsoleMessages, ATargetHasItsVelocityInTheHorizonAndItsEllipse) {
   const auto heard = target_from(on("OLS_TARGET", target()));
   ASSERT_TRUE(heard);
-  EXPECT_EQ(heard->what, TargetHeard::What::kPosition);
+  EXPECT_EQ(heard->what, ReceivedTarget::What::kPosition);
   EXPECT_EQ(heard->id, "3");
   EXPECT_NEAR(heard->fields.at("velocity_enu_m_s")[0], 5.0, 1e-9);
   EXPECT_NEAR(heard->fields.at("course_deg"), 90.0, 1e-9);
@@ -66,14 +66,14 @@ TEST(ConsoleMessages, ATargetHasItsVelocityInTheHorizonAndItsEllipse) {
 TEST(ConsoleMessages, WhatIsNoPositionIsNoPosition) {
   auto message = target();
   message.solution = ols_msg::target_t::SOLUTION_RAYS_MISS;
-  EXPECT_EQ(target_from(on("OLS_TARGET", message))->what, TargetHeard::What::kNoPosition);
+  EXPECT_EQ(target_from(on("OLS_TARGET", message))->what, ReceivedTarget::What::kNoPosition);
   message.solution = ols_msg::target_t::SOLUTION_OK;
   message.latitude_deg = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(target_from(on("OLS_TARGET", message))->what, TargetHeard::What::kNoPosition);
+  EXPECT_EQ(target_from(on("OLS_TARGET", message))->what, ReceivedTarget::What::kNoPosition);
   message.track_state = ols_msg::target_t::TRACK_DROPPED;
-  EXPECT_EQ(target_from(on("OLS_TARGET", message))->what, TargetHeard::What::kDropped);
+  EXPECT_EQ(target_from(on("OLS_TARGET", message))->what, ReceivedTarget::What::kDropped);
   message.target_id = 0;
-  EXPECT_EQ(target_from(on("OLS_TARGET", message))->what, TargetHeard::What::kNothing);
+  EXPECT_EQ(target_from(on("OLS_TARGET", message))->what, ReceivedTarget::What::kNothing);
   message.solution = ols_msg::target_t::SOLUTION_BEARING_ONLY;
   EXPECT_FALSE(target_from(on("OLS_TARGET", message))) << "of no station";
   message.stations = 1;
@@ -81,7 +81,7 @@ TEST(ConsoleMessages, WhatIsNoPositionIsNoPosition) {
   message.used = {1};
   message.weight = {1.0};
   message.age_s = {0.0};
-  EXPECT_EQ(target_from(on("OLS_TARGET", message))->what, TargetHeard::What::kLine);
+  EXPECT_EQ(target_from(on("OLS_TARGET", message))->what, ReceivedTarget::What::kLine);
   EXPECT_EQ(target_from(on("OLS_TARGET", message))->id, "alfa");
 }
 

@@ -24,12 +24,12 @@ Reply answer(std::int64_t sequence, const std::string& reason = "", bool stopped
 
 TEST(PendingOrders, AnOrderIsSentOnceAndItsAnswerIsTold) {
   PendingOrders orders;
-  orders.hear("alfa", false);
+  orders.receive("alfa", false);
   EXPECT_TRUE(orders.begin(order(Kind::kHome), {.viewer = 4, .number = 5}, 10.0).empty());
   EXPECT_EQ(orders.due(10.0).size(), 1U);
   EXPECT_TRUE(orders.due(10.1).empty());
   EXPECT_TRUE(orders.finished(10.2).empty());
-  orders.hear(answer(1));
+  orders.receive(answer(1));
   const auto verdicts = orders.finished(10.3);
   ASSERT_EQ(verdicts.size(), 1U);
   EXPECT_EQ(verdicts[0].why, "");
@@ -40,17 +40,17 @@ TEST(PendingOrders, AnOrderIsSentOnceAndItsAnswerIsTold) {
 
 TEST(PendingOrders, EachOfTwoOrdersOnTheirWayHasItsOwnAnswer) {
   PendingOrders orders;
-  orders.hear("alfa", false);
+  orders.receive("alfa", false);
   for (const std::int64_t number : {1, 2}) {
     EXPECT_TRUE(orders.begin(order(Kind::kDesignate), {.number = number}, 0.0).empty());
   }
   EXPECT_EQ(orders.due(0.0).size(), 2U);
-  orders.hear(answer(2, "emergency"));
+  orders.receive(answer(2, "emergency"));
   auto verdicts = orders.finished(0.1);
   ASSERT_EQ(verdicts.size(), 1U);
   EXPECT_EQ(verdicts[0].ticket.number, 2);
   EXPECT_EQ(verdicts[0].why, "refused: the emergency stop holds; release it and re-arm first");
-  orders.hear(answer(1));
+  orders.receive(answer(1));
   verdicts = orders.finished(0.2);
   ASSERT_EQ(verdicts.size(), 1U);
   EXPECT_EQ(verdicts[0].ticket.number, 1);
@@ -59,16 +59,16 @@ TEST(PendingOrders, EachOfTwoOrdersOnTheirWayHasItsOwnAnswer) {
 
 TEST(PendingOrders, AnswersToOthersOrdersAndOfOtherStationsAreNone) {
   PendingOrders orders;
-  orders.hear("alfa", false);
-  orders.hear("bravo", false);
+  orders.receive("alfa", false);
+  orders.receive("bravo", false);
   static_cast<void>(orders.begin(order(Kind::kHome), {}, 0.0));
   static_cast<void>(orders.due(0.0));
   for (Reply reply : {answer(1), answer(1), answer(2)}) {
     if (reply.order.sequence == 1) reply.order.boot_id = 7;
-    orders.hear(reply);
+    orders.receive(reply);
     reply = answer(1);
     reply.station = "bravo";
-    orders.hear(reply);
+    orders.receive(reply);
   }
   EXPECT_TRUE(orders.finished(0.1).empty());
 }
@@ -76,7 +76,7 @@ TEST(PendingOrders, AnswersToOthersOrdersAndOfOtherStationsAreNone) {
 // As a log has it.
 TEST(PendingOrders, OfAnOrderThatIsOnlyWatchedTheAnswerIsToldIfThereIsOne) {
   PendingOrders orders;
-  orders.hear("alfa", false);
+  orders.receive("alfa", false);
   Order stop = order(Kind::kStop);
   stop.id = {9, 1};
   static_cast<void>(orders.begin(stop, {.event = 3, .is_watched = true}, 0.0));
@@ -85,7 +85,7 @@ TEST(PendingOrders, OfAnOrderThatIsOnlyWatchedTheAnswerIsToldIfThereIsOne) {
   EXPECT_TRUE(orders.due(1.0).empty());
   Reply reply = answer(2, "", true);
   reply.order.boot_id = 9;
-  orders.hear(reply);
+  orders.receive(reply);
   ASSERT_EQ(orders.finished(1.0).size(), 1U);
   Order home = order(Kind::kHome);
   home.id = {9, 3};
@@ -95,7 +95,7 @@ TEST(PendingOrders, OfAnOrderThatIsOnlyWatchedTheAnswerIsToldIfThereIsOne) {
 
 TEST(PendingOrders, WithoutAnAnswerItEndsWithTheLease) {
   PendingOrders orders;
-  orders.hear("alfa", false);
+  orders.receive("alfa", false);
   static_cast<void>(orders.begin(order(Kind::kPoint), {}, 0.0));
   static_cast<void>(orders.due(0.0));
   EXPECT_TRUE(orders.finished(wire::kLease_s).empty());
@@ -104,14 +104,14 @@ TEST(PendingOrders, WithoutAnAnswerItEndsWithTheLease) {
 
 TEST(PendingOrders, ARateIsSentThoughTheOneBeforeIsAnsweredFirst) {
   PendingOrders orders;
-  orders.hear("alfa", false);
+  orders.receive("alfa", false);
   Order rate = order(Kind::kRate);
   rate.pan_rate_rad_s = 0.1;
   static_cast<void>(orders.begin(rate, {.viewer = 4}, 10.0));
   static_cast<void>(orders.due(10.0));
   rate.pan_rate_rad_s = 0.0;  // the hand lets go
   static_cast<void>(orders.begin(rate, {.viewer = 4}, 10.1));
-  orders.hear(answer(1));
+  orders.receive(answer(1));
   EXPECT_TRUE(orders.finished(10.1).empty());
   const auto due = orders.due(10.1);
   ASSERT_EQ(due.size(), 1U);
@@ -121,7 +121,7 @@ TEST(PendingOrders, ARateIsSentThoughTheOneBeforeIsAnsweredFirst) {
 
 TEST(PendingOrders, ARateReplacesTheOneThatIsNotAnsweredYet) {
   PendingOrders orders;
-  orders.hear("alfa", false);
+  orders.receive("alfa", false);
   Order rate = order(Kind::kRate);
   EXPECT_FALSE(orders.is_held(rate, 10.0));
   for (int i = 1; i <= 3; ++i) {
@@ -135,21 +135,21 @@ TEST(PendingOrders, ARateReplacesTheOneThatIsNotAnsweredYet) {
   EXPECT_TRUE(orders.is_held(rate, 10.4));
   EXPECT_FALSE(orders.is_held(rate, 11.4));
   EXPECT_FALSE(orders.is_held({.station = "alfa", .kind = Kind::kLens, .lens_rates = true}, 10.4));
-  orders.hear(answer(2));
+  orders.receive(answer(2));
   EXPECT_EQ(orders.finished(10.5).size(), 1U) << "to any of them";
 }
 
 TEST(PendingOrders, AStopIsRepeatedUntilTheUnitStands) {
   PendingOrders orders;
-  orders.hear("alfa", false);
+  orders.receive("alfa", false);
   EXPECT_TRUE(orders.begin(order(Kind::kStop), {}, 0.0).empty());
   EXPECT_EQ(orders.due(0.0).size(), 1U);
   EXPECT_TRUE(orders.due(0.01).empty());
   EXPECT_EQ(orders.due(0.03).size(), 1U);
-  orders.hear(answer(1, "other_boot"));
-  orders.hear(answer(1));
+  orders.receive(answer(1, "other_boot"));
+  orders.receive(answer(1));
   EXPECT_TRUE(orders.finished(0.1).empty()) << "it does not stand yet";
-  orders.hear(answer(2, "", true));
+  orders.receive(answer(2, "", true));
   EXPECT_EQ(orders.finished(0.2).at(0).why, "");
   EXPECT_TRUE(orders.is_stopped("alfa")) << "its next status is no news";
   EXPECT_TRUE(orders.due(0.3).empty());
@@ -164,7 +164,7 @@ TEST(PendingOrders, AStopOfAStationThatNobodyKnowsIsRefused) {
 
 TEST(PendingOrders, AStopThatIsOnItsWayAlreadyIsJoinedAndSentAtOnce) {
   PendingOrders orders;
-  orders.hear("alfa", false);
+  orders.receive("alfa", false);
   EXPECT_TRUE(
       orders.begin(order(Kind::kStop), {.number = 1, .event = 7, .who = "ana"}, 0.0).empty());
   EXPECT_EQ(orders.due(0.0).size(), 1U);
@@ -179,7 +179,7 @@ TEST(PendingOrders, AStopThatIsOnItsWayAlreadyIsJoinedAndSentAtOnce) {
   ASSERT_EQ(first.size(), 1U) << "each waits for its own time";
   EXPECT_EQ(first[0].ticket.number, 1);
   EXPECT_EQ(first[0].why, "sent repeatedly, no answer");
-  orders.hear(answer(1, "", true));
+  orders.receive(answer(1, "", true));
   const auto rest = orders.finished(PendingOrders::kStopPatience_s + 0.2);
   ASSERT_EQ(rest.size(), 2U);
   EXPECT_TRUE(rest[0].why.empty() && rest[1].why.empty());
@@ -187,8 +187,8 @@ TEST(PendingOrders, AStopThatIsOnItsWayAlreadyIsJoinedAndSentAtOnce) {
 
 TEST(PendingOrders, AStationThatIsForgottenIsNotKnownAnyMore) {
   PendingOrders orders;
-  orders.hear("alfa", false);
-  orders.hear("bravo", false);
+  orders.receive("alfa", false);
+  orders.receive("bravo", false);
   orders.keep_only([](const std::string& id) { return id == "bravo"; });
   EXPECT_FALSE(orders.begin(order(Kind::kHome), {}, 0.0).empty());
   EXPECT_TRUE(orders.begin(order(Kind::kHome, "bravo"), {}, 0.0).empty());
@@ -198,7 +198,7 @@ TEST(PendingOrders, StopsAreNeitherRefusedNorHeapedUp) {
   PendingOrders orders;
   for (std::size_t i = 0; i < PendingOrders::kMostPending; ++i) {
     const std::string id = std::to_string(i);
-    orders.hear(id, false);
+    orders.receive(id, false);
     EXPECT_TRUE(orders.begin(order(Kind::kHome, id), {}, 0.0).empty());
   }
   EXPECT_EQ(orders.begin(order(Kind::kPoint, "0"), {}, 0.0),

@@ -151,10 +151,10 @@ TEST_F(WebApiTest, WhatIsNotUnderstoodIsRefused) {
 
 TEST_F(WebApiTest, StopSaysWhichStationsItStops) {
   WebApi api = open_api();
-  StationHeard alfa;
+  ReceivedStation alfa;
   alfa.id = "alfa";
   alfa.fields = {{"state", "tracking"}};
-  console_.hear(alfa, kNow);
+  console_.receive(alfa, kNow);
   EXPECT_EQ(Json::parse(response(api, post("/api/stop", "{}")).body).at("stopping"),
             Json::parse(R"(["alfa"])"));
   EXPECT_EQ(console_.turn(kNow).size(), 1U);
@@ -277,10 +277,10 @@ TEST_F(WebApiTest, ThePageIsCompressedAndFromHereAlone) {
 TEST_F(WebApiTest, TheNewestPictureOfAProcedure) {
   WebApi api = open_api();
   EXPECT_EQ(response(api, get("/api/procedures/alfa")).status, 404);
-  StationHeard station;
+  ReceivedStation station;
   station.id = "alfa";
-  console_.hear(station, kNow);
-  console_.hear(ProcedureHeard{"alfa", Json::object(), 1, {}, "JPEG"});
+  console_.receive(station, kNow);
+  console_.receive(ReceivedProcedure{"alfa", Json::object(), 1, {}, "JPEG"});
   const WebResponse picture = response(api, get("/api/procedures/alfa?picture=1"));
   EXPECT_EQ(picture.status, 200);
   EXPECT_EQ(picture.content_type, "image/jpeg");

@@ -16,8 +16,8 @@ std::string lines(const Findings& findings) {
   return text;
 }
 
-BusHeard good_bus() {
-  BusHeard bus;
+BusFacts good_bus() {
+  BusFacts bus;
   bus.url = "udpm://239.255.76.67:7667?ttl=1";
   bus.interface = "eth0";
   bus.ttl = 1;
@@ -37,7 +37,7 @@ TEST(DoctorOnSite, AWellBusWithCompany) {
 }
 
 TEST(DoctorOnSite, ABusThatReachesNobodyElseIsTold) {
-  BusHeard bus = good_bus();
+  BusFacts bus = good_bus();
   bus.interface = "lo";
   EXPECT_THAT(lines(judge(bus)), HasSubstr("does not reach other hosts"));
   bus.ttl = 0;  // meant to stay on this host
@@ -49,7 +49,7 @@ TEST(DoctorOnSite, ABusThatReachesNobodyElseIsTold) {
 }
 
 TEST(DoctorOnSite, WhatIsNotSignedIsTold) {
-  BusHeard bus = good_bus();
+  BusFacts bus = good_bus();
   bus.distrusted = {{"bus_distrusted_replayed", 0.0}, {"bus_distrusted_unsigned", 3.0}};
   EXPECT_THAT(lines(judge(bus)), HasSubstr("warn  signatures: not believed just now: 3 unsigned"));
   bus.trust_trouble = alarm::own_key_revoked("alfa");
@@ -60,13 +60,13 @@ TEST(DoctorOnSite, WhatIsNotSignedIsTold) {
   bus.ttl = 0;
   bus.interface = "lo";
   EXPECT_EQ(exit_status(judge(bus)), 0) << "nobody else is on it";
-  StationHeard station;
+  StationFacts station;
   station.counters = {{"bus_distrusted_stranger", 12.0}};
   EXPECT_THAT(lines(judge(station)), HasSubstr("not believed since its start: 12 stranger"));
 }
 
 TEST(DoctorOnSite, SmallBuffersLonelinessAndRivalsAreTold) {
-  BusHeard bus = good_bus();
+  BusFacts bus = good_bus();
   bus.rmem_max = 212992;
   EXPECT_THAT(lines(judge(bus)), HasSubstr("60-ols.conf"));
   bus.stations.erase("bravo");
@@ -77,14 +77,14 @@ TEST(DoctorOnSite, SmallBuffersLonelinessAndRivalsAreTold) {
 }
 
 TEST(DoctorOnSite, TheFusionsAlarmsAreTold) {
-  BusHeard bus = good_bus();
+  BusFacts bus = good_bus();
   bus.fusion_alarms = {alarm::another_fusion()};
   EXPECT_EQ(exit_status(judge_company(bus, "alfa")), 1);
   EXPECT_THAT(lines(judge_company(bus, "alfa")), HasSubstr("fusion: alarm: another fusion is"));
 }
 
-StationHeard good_station() {
-  StationHeard station;
+StationFacts good_station() {
+  StationFacts station;
   station.id = "alfa";
   station.state = "tracking";
   station.devices.resize(1);
@@ -102,7 +102,7 @@ TEST(DoctorOnSite, AWellStation) {
 }
 
 TEST(DoctorOnSite, WhatAStationComplainsOfIsPassedOn) {
-  StationHeard station = good_station();
+  StationFacts station = good_station();
   station.alarms = {alarm::gnss_off_survey("103 m")};
   EXPECT_THAT(lines(judge(station)), HasSubstr("warn  alarm: gnss: 103 m from the survey"));
   station = good_station();
@@ -123,7 +123,7 @@ TEST(DoctorOnSite, WhatAStationComplainsOfIsPassedOn) {
 }
 
 TEST(DoctorOnSite, AnOldErrorIsForgotten) {
-  StationHeard station = good_station();
+  StationFacts station = good_station();
   station.last_error = "ptu: no answer";
   station.last_error_age_s = 10.0;
   EXPECT_EQ(exit_status(judge(station)), 1);
@@ -132,7 +132,7 @@ TEST(DoctorOnSite, AnOldErrorIsForgotten) {
 }
 
 TEST(JudgeStation, SaysHowWellItIsCalibratedAndSinceWhen) {
-  StationHeard station = good_station();
+  StationFacts station = good_station();
   EXPECT_THAT(lines(judge(station)), testing::Not(HasSubstr("calibration")));
   station.calibration = {true, false, 8.0 * 3.14159265 / 648000.0, 2.5 * 86400.0};
   EXPECT_THAT(lines(judge(station)), HasSubstr("calibration: in use, 8 arc seconds, 2.5 days old"));

@@ -16,7 +16,7 @@ class MadeEncoder : public Encoder {
   Packets encode(const Station&) override { return {{"", "station"}}; }
   Packets encode(const Line&) override { return {{"", "line"}}; }
   Packets encode_incident(const Incident&) override { return {{"", "incident"}}; }
-  Packets turn(std::int64_t) override { return {{"", "turn"}}; }
+  Packets due(std::int64_t) override { return {{"", "turn"}}; }
   void begin_again() override { ++beginnings; }
 
   int beginnings = 0;
@@ -57,26 +57,26 @@ using Texts = std::vector<std::string>;
 
 TEST(Exporter, WhatIsHeardGoesToTheOutputs) {
   Made made;
-  made.exporter.hear(on("OLS_TARGET", target_message()), kNow_us);
-  made.exporter.hear(on("OLS_STATUS_alfa", status_message()), kNow_us);
-  made.exporter.hear(on("OLS_BEARING_alfa", bearing_message()), kNow_us);
-  made.exporter.hear(on("OLS_INCIDENT", incident_message()), kNow_us);
+  made.exporter.receive(on("OLS_TARGET", target_message()), kNow_us);
+  made.exporter.receive(on("OLS_STATUS_alfa", status_message()), kNow_us);
+  made.exporter.receive(on("OLS_BEARING_alfa", bearing_message()), kNow_us);
+  made.exporter.receive(on("OLS_INCIDENT", incident_message()), kNow_us);
   EXPECT_EQ(made.got.bytes, (Texts{"target", "station", "line", "incident"}));
   EXPECT_EQ(made.exporter.counters().at("records_sent_on"), 4.0);
 }
 
 TEST(Exporter, OldNewsAndRubbishAreCounted) {
   Made made;
-  made.exporter.hear(on("OLS_TARGET", target_message()), kNow_us + 5'000'001);
+  made.exporter.receive(on("OLS_TARGET", target_message()), kNow_us + 5'000'001);
   auto absurd = target_message();
   absurd.utime = std::numeric_limits<std::int64_t>::min();
-  made.exporter.hear(on("OLS_TARGET", absurd), kNow_us);
+  made.exporter.receive(on("OLS_TARGET", absurd), kNow_us);
   BusMessage rubbish;
   rubbish.channel = "OLS_TARGET";
-  made.exporter.hear(rubbish, kNow_us);
+  made.exporter.receive(rubbish, kNow_us);
   auto none = target_message();
   none.target_id = 0;
-  made.exporter.hear(on("OLS_TARGET", none), kNow_us);
+  made.exporter.receive(on("OLS_TARGET", none), kNow_us);
   EXPECT_TRUE(made.got.bytes.empty());
   EXPECT_EQ(made.exporter.counters().at("records_old"), 2.0);
   EXPECT_EQ(made.exporter.counters().at("messages_refused"), 1.0);
@@ -85,20 +85,20 @@ TEST(Exporter, OldNewsAndRubbishAreCounted) {
 
 TEST(Exporter, ATargetOfAFusionThatStoppedEnds) {
   Made made;
-  made.exporter.hear(on("OLS_TARGET", target_message()), kNow_us);
-  made.exporter.turn(100.0, kNow_us + 11'000'000);
+  made.exporter.receive(on("OLS_TARGET", target_message()), kNow_us);
+  made.exporter.step(100.0, kNow_us + 11'000'000);
   EXPECT_EQ(made.got.bytes, (Texts{"target", "end", "turn"}));
   EXPECT_EQ(made.exporter.targets(), 0U);
 }
 
 TEST(Exporter, ANewConnectionIsToldEverythingAtOnce) {
   Made made;
-  made.exporter.turn(100.0, kNow_us);
-  made.exporter.turn(100.5, kNow_us);
+  made.exporter.step(100.0, kNow_us);
+  made.exporter.step(100.5, kNow_us);
   EXPECT_EQ(made.encoder->beginnings, 1);
   EXPECT_EQ(made.got.bytes, (Texts{"turn"}));
   made.got.openings = 2;
-  made.exporter.turn(100.6, kNow_us);
+  made.exporter.step(100.6, kNow_us);
   EXPECT_EQ(made.encoder->beginnings, 2);
   EXPECT_EQ(made.got.bytes, (Texts{"turn", "turn"}));
 }

@@ -48,7 +48,7 @@ bool has_line(const std::string& text, const std::string& line) {
 
 TEST(SiteMetrics, AStationIsToldInBaseUnits) {
   SiteMetrics metrics("1.2");
-  metrics.hear(status_of("alfa"), 100.0);
+  metrics.receive(status_of("alfa"), 100.0);
   const std::string told = text(metrics, 103.0);
   for (const char* line :
        {"ols_build_info{version=\"1.2\"} 1", "ols_station_status_age_seconds{station=\"alfa\"} 3",
@@ -74,7 +74,7 @@ TEST(SiteMetrics, AnyTwoTimesHaveADifference) {
   Station s = status_of("alfa");
   s.utime = std::numeric_limits<std::int64_t>::min();
   s.calibration_utime = std::numeric_limits<std::int64_t>::max();
-  metrics.hear(s, 1.0);
+  metrics.receive(s, 1.0);
   const std::string told = text(metrics, 1.0);
   EXPECT_NE(told.find("ols_station_calibration_age_seconds{station=\"alfa\"} -"), std::string::npos)
       << told;
@@ -90,7 +90,7 @@ TEST(SiteMetrics, TheFusionAndWhatWasNotBelievedAreTold) {
   fusion.quarantine = {"", "clock"};
   fusion.counter_name = {"targets"};
   fusion.counter_value = {5.0};
-  metrics.hear(fusion, 10.0);
+  metrics.receive(fusion, 10.0);
   metrics.hear_distrusted({{"unsigned", 3.0}});
   const std::string told = text(metrics, 10.5);
   for (const char* line :
@@ -109,7 +109,7 @@ TEST(SiteMetrics, NamesAreBoundedAndQuoted) {
   Station mad = status_of("al\"fa\n\\");
   mad.reading_name.assign(5000, "x");
   mad.reading_value.assign(5000, 1.0);
-  metrics.hear(mad, 1.0);
+  metrics.receive(mad, 1.0);
   const std::string told = text(metrics, 1.0);
   EXPECT_NE(told.find("station=\"al\\\"fa\\n\\\\\""), std::string::npos) << told;
   std::size_t readings = 0;
@@ -118,7 +118,7 @@ TEST(SiteMetrics, NamesAreBoundedAndQuoted) {
     ++readings;
   EXPECT_EQ(readings, SiteMetrics::kMostNames);
   for (std::size_t i = 0; i < 2 * SiteMetrics::kMostStations; ++i) {
-    metrics.hear(status_of(std::string("s").append(std::to_string(i))), 2.0);
+    metrics.receive(status_of(std::string("s").append(std::to_string(i))), 2.0);
   }
   std::set<std::string> stations;
   for (const auto& family : metrics.families(2.0)) {
@@ -134,8 +134,8 @@ TEST(SiteMetrics, AnEnrolledStationIsToldBeforeItIsHeardAndUntilItIsRevoked) {
   metrics.know({"alfa", "bravo"});
   EXPECT_TRUE(has_line(text(metrics, 0.0), alfa));
   EXPECT_EQ(text(metrics, 0.0).find("ols_station_status_age"), std::string::npos);
-  metrics.hear(status_of("alfa"), 0.0);
-  metrics.hear(status_of("bravo"), SiteMetrics::kForget_s + 1.0);
+  metrics.receive(status_of("alfa"), 0.0);
+  metrics.receive(status_of("bravo"), SiteMetrics::kForget_s + 1.0);
   EXPECT_TRUE(has_line(text(metrics, SiteMetrics::kForget_s + 1.0), alfa)) << "though forgotten";
   metrics.know({"alfa"});
   EXPECT_EQ(text(metrics, 0.0).find("\"bravo\""), std::string::npos);
@@ -144,10 +144,10 @@ TEST(SiteMetrics, AnEnrolledStationIsToldBeforeItIsHeardAndUntilItIsRevoked) {
 
 TEST(SiteMetrics, ASilentStationIsForgottenAfterADay) {
   SiteMetrics metrics("1");
-  metrics.hear(status_of("alfa"), 0.0);
-  metrics.hear(status_of("bravo"), SiteMetrics::kForget_s - 1.0);
+  metrics.receive(status_of("alfa"), 0.0);
+  metrics.receive(status_of("bravo"), SiteMetrics::kForget_s - 1.0);
   EXPECT_NE(text(metrics, 0.0).find("\"alfa\""), std::string::npos);
-  metrics.hear(status_of("bravo"), SiteMetrics::kForget_s + 1.0);
+  metrics.receive(status_of("bravo"), SiteMetrics::kForget_s + 1.0);
   EXPECT_EQ(text(metrics, 0.0).find("\"alfa\""), std::string::npos);
 }
 

@@ -24,17 +24,17 @@ TEST(HeardOrder, IsWhatWasSent) {
   auto move = for_alfa<ols_msg::ptu_command_t>();
   move.command = ols_msg::ptu_command_t::COMMAND_POINT;
   move.pan_rad = 0.5;
-  const auto point = heard_order(on("OLS_PTU_alfa", move));
+  const auto point = decode_order(on("OLS_PTU_alfa", move));
   ASSERT_TRUE(point);
   EXPECT_EQ(point->kind, Kind::kPoint);
   EXPECT_EQ(point->pan_rad, 0.5);
   auto box = for_alfa<ols_msg::designate_t>();
   box.width_px = 30.0;
-  EXPECT_EQ(heard_order(on("OLS_DESIGNATE_alfa", box))->kind, Kind::kDesignate);
-  EXPECT_EQ(heard_order(on("OLS_DESIGNATE_alfa", box))->width_px, 30.0);
+  EXPECT_EQ(decode_order(on("OLS_DESIGNATE_alfa", box))->kind, Kind::kDesignate);
+  EXPECT_EQ(decode_order(on("OLS_DESIGNATE_alfa", box))->width_px, 30.0);
   auto record = for_alfa<ols_msg::record_t>();
   record.label = "a\x1b";
-  EXPECT_EQ(heard_order(on("OLS_RECORD_alfa", record))->label, "a?");
+  EXPECT_EQ(decode_order(on("OLS_RECORD_alfa", record))->label, "a?");
 }
 
 TEST(HeardReply, IsToOneOrderAndFromTheStationOfItsChannelOrTheFusion) {
@@ -43,26 +43,27 @@ TEST(HeardReply, IsToOneOrderAndFromTheStationOfItsChannelOrTheFusion) {
   said.order_sequence = 9;
   said.reason = "precedence";
   said.detail = "a\x1b";
-  const auto reply = heard_reply(on("OLS_REPLY_alfa", said));
+  const auto reply = decode_reply(on("OLS_REPLY_alfa", said));
   ASSERT_TRUE(reply);
   EXPECT_EQ(reply->station, "alfa");
   EXPECT_EQ(reply->order, (OrderId{5, 9}));
   EXPECT_FALSE(reply->is_accepted || reply->is_stopped);
   EXPECT_EQ(refusal_in_words(*reply),
             "refused: an operator has control, or has stopped it; release the station first: a?");
-  EXPECT_FALSE(heard_reply(on("OLS_REPLY_bravo", said)));
-  EXPECT_FALSE(heard_reply(on("OLS_CUE_REPLY", said))) << "a station does not speak for the fusion";
+  EXPECT_FALSE(decode_reply(on("OLS_REPLY_bravo", said)));
+  EXPECT_FALSE(decode_reply(on("OLS_CUE_REPLY", said)))
+      << "a station does not speak for the fusion";
   said.station = "";
-  EXPECT_FALSE(heard_reply(on("OLS_REPLY_", said)));
-  EXPECT_EQ(heard_reply(on("OLS_CUE_REPLY", said))->station, "");
+  EXPECT_FALSE(decode_reply(on("OLS_REPLY_", said)));
+  EXPECT_EQ(decode_reply(on("OLS_CUE_REPLY", said))->station, "");
 }
 
 TEST(HeardOrder, IsForTheStationOfItsChannelAndOfAKnownKind) {
   auto move = for_alfa<ols_msg::ptu_command_t>();
-  EXPECT_FALSE(heard_order(on("OLS_PTU_bravo", move)));
-  EXPECT_FALSE(heard_order(on("OLS_STATUS_alfa", move)));
+  EXPECT_FALSE(decode_order(on("OLS_PTU_bravo", move)));
+  EXPECT_FALSE(decode_order(on("OLS_STATUS_alfa", move)));
   move.command = 99;
-  EXPECT_FALSE(heard_order(on("OLS_PTU_alfa", move)));
+  EXPECT_FALSE(decode_order(on("OLS_PTU_alfa", move)));
 }
 
 TEST(OrderSender, NumbersItsWordsOnCues) {

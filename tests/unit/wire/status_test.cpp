@@ -15,17 +15,17 @@ ols_msg::station_status_t of_alfa() {
 }
 
 TEST(HeardStatus, IsOfTheStationWhoseChannelItIsOn) {
-  EXPECT_EQ(heard_status(on("OLS_STATUS_alfa", of_alfa()))->station, "alfa");
-  EXPECT_FALSE(heard_status(on("OLS_STATUS_bravo", of_alfa())));
+  EXPECT_EQ(decode_status(on("OLS_STATUS_alfa", of_alfa()))->station, "alfa");
+  EXPECT_FALSE(decode_status(on("OLS_STATUS_bravo", of_alfa())));
 }
 
 TEST(HeardStatus, IsOfThisSchemaAndWhole) {
   ols_msg::station_status_t other = of_alfa();
   ++other.schema_version;
-  EXPECT_FALSE(heard_status(on("OLS_STATUS_alfa", other)));
+  EXPECT_FALSE(decode_status(on("OLS_STATUS_alfa", other)));
   BusMessage cut = on("OLS_STATUS_alfa", of_alfa());
   cut.payload.pop_back();
-  EXPECT_FALSE(heard_status(cut));
+  EXPECT_FALSE(decode_status(cut));
 }
 
 TEST(HeardFusionStatus, MovesNoCursorAndIsOfThisSchema) {
@@ -40,12 +40,12 @@ TEST(HeardFusionStatus, MovesNoCursorAndIsOfThisSchema) {
         &status.cue_height_m, &status.cue_horizontal_sd_m, &status.cue_vertical_sd_m}) {
     values->resize(1);
   }
-  const auto heard = heard_fusion_status(on("OLS_FUSION_STATUS", status));
+  const auto heard = decode_fusion_status(on("OLS_FUSION_STATUS", status));
   ASSERT_TRUE(heard);
   EXPECT_EQ(heard->cue_id.at(0), "tak.?[2J");
   EXPECT_STREQ(cue_state_name(heard->cue_state.at(0)), "searched");
   ++status.schema_version;
-  EXPECT_FALSE(heard_fusion_status(on("OLS_FUSION_STATUS", status)));
+  EXPECT_FALSE(decode_fusion_status(on("OLS_FUSION_STATUS", status)));
 }
 
 TEST(HeardStatus, MovesNoCursor) {
@@ -53,7 +53,7 @@ TEST(HeardStatus, MovesNoCursor) {
   status.last_error = "a\x1b[2J";
   status.alarm = {"b\nc"};
   status.alarms = 1;
-  const auto heard = heard_status(on("OLS_STATUS_alfa", status));
+  const auto heard = decode_status(on("OLS_STATUS_alfa", status));
   ASSERT_TRUE(heard);
   EXPECT_EQ(heard->last_error, "a?[2J");
   EXPECT_EQ(heard->alarm.at(0), "b?c");
@@ -72,7 +72,7 @@ TEST(HeardTarget, OfBeforeItGrewLacksWhatItDidNotSay) {
   former.age_s = {0.25};
   former.schema_version = ols_msg::target_t::SCHEMA_VERSION;
   BusMessage message = on("OLS_TARGET", former);
-  const auto target = heard_target(message);
+  const auto target = decode_target(message);
   ASSERT_TRUE(target);
   EXPECT_EQ(target->estimator, "filter");
   EXPECT_EQ(target->age_s, std::vector{0.25});
@@ -81,9 +81,9 @@ TEST(HeardTarget, OfBeforeItGrewLacksWhatItDidNotSay) {
   EXPECT_FALSE(target->has_height_above_ground);
   EXPECT_TRUE(has_position(*target));
   message.payload.push_back(0);
-  EXPECT_FALSE(heard_target(message)) << "more than the message";
+  EXPECT_FALSE(decode_target(message)) << "more than the message";
   message.payload.resize(message.payload.size() - 2);
-  EXPECT_FALSE(heard_target(message)) << "cut";
+  EXPECT_FALSE(decode_target(message)) << "cut";
 }
 
 }  // namespace

@@ -11,8 +11,8 @@ const Json kGate = Json::parse(R"({"name": "Gate", "polygon": [[11.0, 48.0], [11
     [11.01, 48.01], [11.0, 48.01]], "lowest_m": 0, "highest_m": 900, "classes": [],
     "from": "00:00", "to": "00:00"})");
 
-TargetHeard target_at(double latitude_deg, const std::string& state = "confirmed") {
-  return {.what = TargetHeard::What::kPosition,
+ReceivedTarget target_at(double latitude_deg, const std::string& state = "confirmed") {
+  return {.what = ReceivedTarget::What::kPosition,
           .boot_id = -5,
           .id = "3",
           .fields = {{"state", state},
@@ -37,8 +37,8 @@ struct Site {
   bool has_picture = true;
 
   Site() { EXPECT_EQ(book.change({.area = kGate}), ""); }
-  void hear(const TargetHeard& target, double now_s = 0.0) {
-    book.hear(target, 0, now_s);
+  void receive(const ReceivedTarget& target, double now_s = 0.0) {
+    book.receive(target, 0, now_s);
     book.turn(now_s, [this](const std::string& station) {
       return has_picture && station == "alfa" ? &picture : nullptr;
     });
@@ -48,9 +48,9 @@ struct Site {
 TEST(IncidentBook, AnIncidentHasAlarmPictureAndRecordingsAtTheStationsThatSawIt) {
   Site site;
   site.has_picture = false;
-  site.hear(target_at(kInside_deg, "tentative"));
+  site.receive(target_at(kInside_deg, "tentative"));
   EXPECT_TRUE(site.book.alarms().empty());
-  site.hear(target_at(kInside_deg));
+  site.receive(target_at(kInside_deg));
   ASSERT_EQ(site.book.alarms().size(), 1U);
   EXPECT_EQ(site.book.alarms()[0].text, "area Gate: drone 3 is inside");
   const auto orders = site.book.take_recordings();
@@ -61,33 +61,33 @@ TEST(IncidentBook, AnIncidentHasAlarmPictureAndRecordingsAtTheStationsThatSawIt)
   EXPECT_EQ(site.book.picture(1), nullptr);
   site.has_picture = true;
   site.picture.header["utime_us"] = 7 - 1'000'001;
-  site.hear(target_at(kInside_deg));
+  site.receive(target_at(kInside_deg));
   EXPECT_EQ(site.book.picture(1), nullptr) << "it was taken long before";
   site.picture.header["utime_us"] = 7 - 1'000'000;
-  site.hear(target_at(kInside_deg));
+  site.receive(target_at(kInside_deg));
   EXPECT_EQ(*site.book.picture(1), "jpeg");
   EXPECT_EQ(site.book.watch().incidents().at(1).picture.at("box_px"), Json({1, 2, 3, 4}));
   const IncidentBook::News news = site.book.take_news();
   EXPECT_TRUE(news.areas);
   EXPECT_TRUE(news.incidents.contains(1));
   EXPECT_TRUE(news.pictures.contains(1));
-  site.hear(target_at(kOutside_deg));
-  site.hear(target_at(kOutside_deg), IncidentWatch::kLeaves_s);
+  site.receive(target_at(kOutside_deg));
+  site.receive(target_at(kOutside_deg), IncidentWatch::kLeaves_s);
   EXPECT_TRUE(site.book.alarms().empty());
-  site.hear(target_at(kInside_deg));
+  site.receive(target_at(kInside_deg));
   EXPECT_TRUE(site.book.take_recordings().empty()) << "it was recorded when it first came in";
 }
 
 TEST(IncidentBook, ADismissedOneIsNoAlarmAndADroppedOneHasLeft) {
   Site site;
-  site.hear(target_at(kInside_deg));
+  site.receive(target_at(kInside_deg));
   EXPECT_EQ(site.book.judge({1, Judgement::kDismissed}, "ana", 9), "");
   EXPECT_EQ(site.book.judge({2, Judgement::kDismissed}, "ana", 9), outcome::no_such_incident());
   EXPECT_TRUE(site.book.alarms().empty());
   EXPECT_TRUE(site.book.watch().incidents().at(1).is_inside());
-  TargetHeard dropped = target_at(kInside_deg);
-  dropped.what = TargetHeard::What::kDropped;
-  site.hear(dropped);
+  ReceivedTarget dropped = target_at(kInside_deg);
+  dropped.what = ReceivedTarget::What::kDropped;
+  site.receive(dropped);
   EXPECT_FALSE(site.book.watch().incidents().at(1).is_inside());
 }
 

@@ -55,20 +55,20 @@ TEST(IncidentWatch, OneIncidentForATargetInAnAreaHoweverOftenItComesBack) {
     int entries;
   };
   // Sure to be outside, undecided, sure to be inside, undecided, outside, inside again.
-  watch.hear(target_north(-20), kNight, 0.0);
-  watch.hear(target_north(3), kNight, 0.0);
+  watch.receive(target_north(-20), kNight, 0.0);
+  watch.receive(target_north(3), kNight, 0.0);
   EXPECT_TRUE(watch.incidents().empty());
   for (const Step& step : {Step{10, true, 1}, Step{-3, true, 1}, Step{-20, false, 1},
                            Step{3, false, 1}, Step{30, true, 2}}) {
-    watch.hear(target_north(step.north_m), kNight, 0.0);
-    watch.hear(target_north(step.north_m), kNight, IncidentWatch::kLeaves_s);
+    watch.receive(target_north(step.north_m), kNight, 0.0);
+    watch.receive(target_north(step.north_m), kNight, IncidentWatch::kLeaves_s);
     ASSERT_EQ(watch.incidents().size(), 1U);
     EXPECT_EQ(watch.incidents().at(1).is_inside(), step.is_inside) << step.north_m;
     EXPECT_EQ(watch.incidents().at(1).entries, step.entries) << step.north_m;
   }
   EXPECT_EQ(watch.take_changes().entered, (std::vector<std::uint64_t>{1, 1}));
   EXPECT_TRUE(watch.take_changes().entered.empty());
-  watch.hear(target_north(30, "5/2"), kNight, 0.0);
+  watch.receive(target_north(30, "5/2"), kNight, 0.0);
   EXPECT_EQ(watch.incidents().at(2).target_number(), "2");
   EXPECT_EQ(watch.incidents().at(2).stations, (std::vector<std::string>{"alfa", "bravo"}));
 }
@@ -90,7 +90,7 @@ TEST(IncidentWatch, ATargetThatHoversAtTheBorderRingsSeldom) {
     const bool is_north = error_m > 0.0;
     crossings += is_north && !was_north ? 1 : 0;
     was_north = is_north;
-    watch.hear(target_north(error_m, "5/1", kSd_m), kNight, t_s);
+    watch.receive(target_north(error_m, "5/1", kSd_m), kNight, t_s);
   }
   const int entries = watch.incidents().at(1).entries;
   std::printf("entries an hour at the border: %d; with one threshold of 0.5: %d (seed %u)\n",
@@ -102,7 +102,7 @@ TEST(IncidentWatch, ATargetThatHoversAtTheBorderRingsSeldom) {
 TEST(IncidentWatch, EndsWhenTheTargetHasSurelyBeenOutsideForAWhile) {
   IncidentWatch watch = watch_of({area_named("Gate")});
   const auto is_inside_at = [&](double now_s, double north_m, double sd_m = 3.0) {
-    watch.hear(target_north(north_m, "5/1", sd_m, std::llround(now_s * 1e6)), kNight, now_s);
+    watch.receive(target_north(north_m, "5/1", sd_m, std::llround(now_s * 1e6)), kNight, now_s);
     watch.turn(now_s);
     return watch.incidents().at(1).is_inside();
   };
@@ -121,16 +121,16 @@ TEST(IncidentWatch, EndsWhenTheTargetHasSurelyBeenOutsideForAWhile) {
 TEST(IncidentWatch, BeginsForItsClassesAtItsTimeOnly) {
   IncidentWatch watch = watch_of({area_named("Gate", {"drone"})});
   WatchedTarget target = target_north(50);
-  watch.hear(target, kNight, 0.0);
+  watch.receive(target, kNight, 0.0);
   target.object_class = "drone";
-  watch.hear(target, kDay, 0.0);
+  watch.receive(target, kDay, 0.0);
   EXPECT_TRUE(watch.incidents().empty());
-  watch.hear(target, kNight, 0.0);
+  watch.receive(target, kNight, 0.0);
   ASSERT_EQ(watch.incidents().size(), 1U);
   // What it is and what time it is may change meanwhile.
   target.object_class = "bird";
   target.utime_us = 9'000'000;
-  watch.hear(target, kDay, 0.0);
+  watch.receive(target, kDay, 0.0);
   EXPECT_TRUE(watch.incidents().at(1).is_inside());
   EXPECT_EQ(watch.incidents().at(1).object_class, "bird");
   EXPECT_EQ(watch.incidents().at(1).track.size(), 2U);
@@ -138,26 +138,26 @@ TEST(IncidentWatch, BeginsForItsClassesAtItsTimeOnly) {
 
 TEST(IncidentWatch, ADismissedTargetDoesNotComeBackInAnyArea) {
   IncidentWatch watch = watch_of({area_named("Gate")});
-  watch.hear(target_north(50), kNight, 0.0);
+  watch.receive(target_north(50), kNight, 0.0);
   EXPECT_TRUE(watch.incidents().at(1).is_alarm());
   ASSERT_TRUE(watch.judge(1, Judgement::kDismissed, "ana", 7));
   EXPECT_FALSE(watch.judge(9, Judgement::kDismissed, "ana", 7));
   EXPECT_FALSE(watch.incidents().at(1).is_alarm());
   EXPECT_EQ(watch.incidents().at(1).judged_by, "ana");
   watch.set(area_named("Roof"));
-  watch.hear(target_north(-50), kNight, 0.0);
-  watch.hear(target_north(-50), kNight, IncidentWatch::kLeaves_s);
-  watch.hear(target_north(50), kNight, 0.0);
+  watch.receive(target_north(-50), kNight, 0.0);
+  watch.receive(target_north(-50), kNight, IncidentWatch::kLeaves_s);
+  watch.receive(target_north(50), kNight, 0.0);
   EXPECT_EQ(watch.incidents().size(), 1U);
   EXPECT_FALSE(watch.incidents().at(1).is_inside());
   watch.judge(1, Judgement::kOpen, "ana", 8);
-  watch.hear(target_north(50), kNight, 0.0);
+  watch.receive(target_north(50), kNight, 0.0);
   EXPECT_EQ(watch.incidents().size(), 2U);
 }
 
 TEST(IncidentWatch, EndsWithItsTargetOrItsArea) {
   IncidentWatch watch = watch_of({area_named("Gate"), area_named("Roof")});
-  watch.hear(target_north(50, "5/1", 3.0, 4'000'000), kNight, 10.0);
+  watch.receive(target_north(50, "5/1", 3.0, 4'000'000), kNight, 10.0);
   ASSERT_TRUE(watch.remove("Roof"));
   EXPECT_FALSE(watch.remove("Roof"));
   EXPECT_EQ(watch.incidents().at(2).ended_us, 4'000'000);
@@ -165,15 +165,15 @@ TEST(IncidentWatch, EndsWithItsTargetOrItsArea) {
   EXPECT_TRUE(watch.incidents().at(1).is_inside());
   watch.turn(10.1 + IncidentWatch::kLost_s);
   EXPECT_EQ(watch.incidents().at(1).ended_us, 4'000'000);
-  watch.hear(target_north(50), kNight, 50.0);
+  watch.receive(target_north(50), kNight, 50.0);
   watch.drop("5/1");
   EXPECT_FALSE(watch.incidents().at(1).is_inside());
 }
 
 TEST(IncidentWatch, GoesOnAfterARestart) {
   IncidentWatch before = watch_of({area_named("Gate")});
-  before.hear(target_north(50), kNight, 0.0);
-  before.hear(target_north(50, "5/2"), kNight, 0.0);
+  before.receive(target_north(50), kNight, 0.0);
+  before.receive(target_north(50, "5/2"), kNight, 0.0);
   before.judge(2, Judgement::kDismissed, "ana", 7);
   before.set_picture(1, {{"station", "alfa"}});
   std::vector<Incident> kept;
@@ -183,10 +183,10 @@ TEST(IncidentWatch, GoesOnAfterARestart) {
   }
   IncidentWatch after;
   after.resume(before.areas(), kept, 7, 100.0);
-  after.hear(target_north(50), kNight, 101.0);
-  after.hear(target_north(50, "5/2"), kNight, 101.0);
+  after.receive(target_north(50), kNight, 101.0);
+  after.receive(target_north(50, "5/2"), kNight, 101.0);
   EXPECT_TRUE(after.take_changes().entered.empty());
-  after.hear(target_north(50, "5/3"), kNight, 101.0);
+  after.receive(target_north(50, "5/3"), kNight, 101.0);
   EXPECT_EQ(after.take_changes().entered, std::vector<std::uint64_t>{8});
   after.turn(100.5 + IncidentWatch::kLost_s);
   EXPECT_TRUE(after.incidents().at(1).is_inside());
@@ -205,7 +205,7 @@ TEST(IncidentWatch, GoesOnAfterARestart) {
 TEST(IncidentWatch, ForgetsWhatMattersLeastAndStillKnowsADismissedTarget) {
   IncidentWatch watch = watch_of({area_named("Gate")});
   const auto enter = [&](std::size_t i) {
-    watch.hear(target_north(50, "5/" + std::to_string(i)), kNight, 0.0);
+    watch.receive(target_north(50, "5/" + std::to_string(i)), kNight, 0.0);
   };
   for (std::size_t i = 1; i <= IncidentWatch::kMostIncidents; ++i) enter(i);
   for (const char* left : {"5/2", "5/3", "5/4", "5/5"}) watch.drop(left);

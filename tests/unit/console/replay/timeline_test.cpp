@@ -7,8 +7,8 @@ namespace {
 
 constexpr std::int64_t kSecond_us = 1'000'000;
 
-StationHeard alfa(const std::string& padding = "") {
-  StationHeard heard;
+ReceivedStation alfa(const std::string& padding = "") {
+  ReceivedStation heard;
   heard.id = "alfa";
   heard.fields = {{"state", "tracking"}, {"padding", padding}};
   return heard;
@@ -21,7 +21,7 @@ TEST(Timeline, FindsTheSnapshotBeforeAnInstant) {
   Timeline timeline;
   EXPECT_EQ(timeline.before(5), nullptr);
   for (std::int64_t s = 1; s <= 60; ++s) {
-    console.hear(alfa(), at(s * kSecond_us));
+    console.receive(alfa(), at(s * kSecond_us));
     timeline.reach(s * kSecond_us, static_cast<std::uint64_t>(100 * s), console);
   }
   EXPECT_EQ(timeline.first_us(), kSecond_us);
@@ -38,7 +38,7 @@ TEST(Timeline, ItsSnapshotsStayWithinTheirBound) {
   Console console(60.0);
   Timeline timeline;
   for (std::int64_t s = 1; s <= 600; ++s) {
-    console.hear(alfa(std::string(200'000, 'x')), at(s * kSecond_us));
+    console.receive(alfa(std::string(200'000, 'x')), at(s * kSecond_us));
     timeline.reach(s * kSecond_us, 0, console);
   }
   EXPECT_GT(timeline.snapshots(), 10U);
@@ -49,15 +49,15 @@ TEST(Timeline, ItsSnapshotsStayWithinTheirBound) {
 TEST(Timeline, MarksEventsOnceAndWithTheirOutcome) {
   Console console(60.0);
   Timeline timeline;
-  StationHeard station = alfa();
+  ReceivedStation station = alfa();
   station.alarms = alarms_of({"ptu: hot"});
-  console.hear(station, at(kSecond_us));
+  console.receive(station, at(kSecond_us));
   timeline.reach(kSecond_us, 0, console);
-  console.hear(wire::Order{.station = "alfa", .kind = wire::Kind::kRelease, .id = {9, 1}},
-               at(2 * kSecond_us));
+  console.receive(wire::Order{.station = "alfa", .kind = wire::Kind::kRelease, .id = {9, 1}},
+                  at(2 * kSecond_us));
   static_cast<void>(console.turn(at(2 * kSecond_us)));
   timeline.reach(2 * kSecond_us, 0, console);
-  console.hear(wire::Reply{.station = "alfa", .order = {9, 1}, .is_accepted = true});
+  console.receive(wire::Reply{.station = "alfa", .order = {9, 1}, .is_accepted = true});
   static_cast<void>(console.turn(at(3 * kSecond_us)));
   timeline.end(console);
   const Json marks = timeline.json().at("marks");
@@ -69,12 +69,13 @@ TEST(Timeline, MarksEventsOnceAndWithTheirOutcome) {
 
 TEST(Timeline, ATargetsBirthAndEndAreEvents) {
   Timeline timeline;
-  TargetHeard target{.what = TargetHeard::What::kPosition, .boot_id = 3, .id = "7", .fields = {}};
-  timeline.hear(target, 1);
-  timeline.hear(target, 2);
-  target.what = TargetHeard::What::kDropped;
-  timeline.hear(target, 3);
-  timeline.hear(target, 4);
+  ReceivedTarget target{
+      .what = ReceivedTarget::What::kPosition, .boot_id = 3, .id = "7", .fields = {}};
+  timeline.receive(target, 1);
+  timeline.receive(target, 2);
+  target.what = ReceivedTarget::What::kDropped;
+  timeline.receive(target, 3);
+  timeline.receive(target, 4);
   const Json marks = timeline.json().at("marks");
   ASSERT_EQ(marks.size(), 2U);
   EXPECT_EQ(marks[0].at("kind"), "birth");
@@ -84,10 +85,11 @@ TEST(Timeline, ATargetsBirthAndEndAreEvents) {
 
 TEST(Timeline, WhatIsTooMuchIsCounted) {
   Timeline timeline;
-  TargetHeard target{.what = TargetHeard::What::kPosition, .boot_id = 3, .id = "", .fields = {}};
+  ReceivedTarget target{
+      .what = ReceivedTarget::What::kPosition, .boot_id = 3, .id = "", .fields = {}};
   for (std::size_t i = 0; i < Timeline::kMostMarks + 10; ++i) {
     target.id = std::to_string(i);
-    timeline.hear(target, static_cast<std::int64_t>(i));
+    timeline.receive(target, static_cast<std::int64_t>(i));
   }
   EXPECT_EQ(timeline.json().at("marks").size(), Timeline::kMostMarks);
   EXPECT_EQ(timeline.json().at("marks_left_out"), 10);

@@ -64,7 +64,7 @@ class StationInSimulatedTime : public testing::Test {
     change(settings);
     spdlog::set_level(spdlog::level::off);
     bus_.subscribe(station_channel(kStatusChannel, "alfa"), [this](const BusMessage& message) {
-      if (auto heard = wire::heard_status(message)) status_ = std::move(*heard);
+      if (auto heard = wire::decode_status(message)) status_ = std::move(*heard);
     });
     bus_.subscribe(station_channel(kReplyChannel, ".*"), [this](const BusMessage& message) {
       ols_msg::command_reply_t reply{};

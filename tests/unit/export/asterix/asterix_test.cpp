@@ -17,7 +17,7 @@ TEST(AsterixEncoder, EachKindHasItsCategory) {
   AsterixEncoder encoder({.sac = 25, .sic = 10, .stations = {"alfa"}});
   EXPECT_EQ(category(encoder.encode(made_target())), 62);
   EXPECT_EQ(category(encoder.encode(made_station())), 63);
-  EXPECT_EQ(category(encoder.turn(kNow_us)), 65);
+  EXPECT_EQ(category(encoder.due(kNow_us)), 65);
   EXPECT_EQ(category(encoder.encode(made_line())), 15);
 }
 

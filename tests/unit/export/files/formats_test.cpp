@@ -24,16 +24,16 @@ TEST(DocumentEncoder, WritesAtItsTurnsAndSendsCompanionsOnce) {
                                                       : std::to_string(picture.tracks().size());
                           },
                           "-live", {{"link", "other"}});
-  const Packets first = encoder.turn(kNow_us);
+  const Packets first = encoder.due(kNow_us);
   ASSERT_EQ(first.size(), 1U);
   EXPECT_EQ(first[0].bytes, "other");
   EXPECT_TRUE(encoder.encode(made_target()).empty());
-  const Packets second = encoder.turn(kNow_us);
+  const Packets second = encoder.due(kNow_us);
   ASSERT_EQ(second.size(), 1U);
   EXPECT_EQ(second[0].bytes, "1");
   EXPECT_EQ(second[0].where, "-live");
   encoder.begin_again();
-  EXPECT_EQ(encoder.turn(kNow_us).size(), 2U);
+  EXPECT_EQ(encoder.due(kNow_us).size(), 2U);
 }
 
 constexpr std::int64_t kSecond_us = 1'000'000;

@@ -48,22 +48,22 @@ TEST(MqttEncoder, AnIncidentSaysWhetherItIsAnAlarm) {
 
 TEST(MqttEncoder, EntitiesAreToldOnceAndAgainToANewBroker) {
   MqttEncoder encoder({.slots = 2}, "brno");
-  const Packets told = encoder.turn(0);
+  const Packets told = encoder.due(0);
   ASSERT_EQ(told.size(), 18U);  // eight entities and the free slot, twice
   EXPECT_EQ(told[0].where, "homeassistant/device_tracker/brno_target_1/config");
   EXPECT_EQ(json_of(told[0]).at("availability_topic"), "ols/brno/status");
-  EXPECT_TRUE(encoder.turn(0).empty());
+  EXPECT_TRUE(encoder.due(0).empty());
   EXPECT_EQ(encoder.encode(made_station()).size(), 5U);
   EXPECT_EQ(encoder.encode(made_station()).size(), 1U);
   encoder.encode(made_target());
   encoder.begin_again();
-  EXPECT_EQ(encoder.turn(0).size(), 17U) << "a slot that is taken is not told to be free";
+  EXPECT_EQ(encoder.due(0).size(), 17U) << "a slot that is taken is not told to be free";
   EXPECT_EQ(encoder.encode(made_station()).size(), 5U);
 }
 
 TEST(MqttEncoder, WhatIsOldNewsBecomesUnavailable) {
   MqttEncoder encoder({.stale_s = 12.0, .slots = 1}, "brno");
-  Packets told = encoder.turn(0);
+  Packets told = encoder.due(0);
   for (Packet& packet : encoder.encode(made_station())) told.push_back(std::move(packet));
   int expiring = 0;
   for (const Packet& packet : told) {
@@ -74,28 +74,28 @@ TEST(MqttEncoder, WhatIsOldNewsBecomesUnavailable) {
   }
   EXPECT_EQ(expiring, 11);
   MqttEncoder never({.stale_s = 0.0, .slots = 1}, "brno");
-  EXPECT_FALSE(json_of(never.turn(0)[1]).contains("expire_after"));
-  EXPECT_TRUE(never.turn(3'600'000'000).empty());
+  EXPECT_FALSE(json_of(never.due(0)[1]).contains("expire_after"));
+  EXPECT_TRUE(never.due(3'600'000'000).empty());
 }
 
 TEST(MqttEncoder, AFreeSlotIsSaidAgainBeforeItIsOldNews) {
   MqttEncoder encoder({.stale_s = 12.0, .slots = 2}, "brno");
-  encoder.turn(0);
+  encoder.due(0);
   encoder.encode(made_target());
-  EXPECT_TRUE(encoder.turn(3'900'000).empty());
-  const Packets again = encoder.turn(4'000'000);
+  EXPECT_TRUE(encoder.due(3'900'000).empty());
+  const Packets again = encoder.due(4'000'000);
   ASSERT_EQ(again.size(), 1U) << "the other one is taken";
   EXPECT_EQ(again[0].where, "ols/brno/target/2");
   EXPECT_EQ(json_of(again[0]).at("state"), "none");
-  EXPECT_TRUE(encoder.turn(5'000'000).empty());
-  EXPECT_EQ(encoder.turn(-3'600'000'000).size(), 1U) << "the clock was set back";
+  EXPECT_TRUE(encoder.due(5'000'000).empty());
+  EXPECT_EQ(encoder.due(-3'600'000'000).size(), 1U) << "the clock was set back";
 }
 
 TEST(MqttEncoder, TwoSitesOnOneBrokerShareNoTopic) {
   std::set<std::string> of_one, of_both;
   for (const char* site : {"brno", "wien"}) {
     MqttEncoder encoder({}, site);
-    Packets told = encoder.turn(0);
+    Packets told = encoder.due(0);
     for (const auto& packets :
          {encoder.encode(made_target()), encoder.encode(made_station()),
           encoder.encode(made_line()), Packets{{"", "", status_topic({}, site)}}}) {
@@ -109,7 +109,7 @@ TEST(MqttEncoder, TwoSitesOnOneBrokerShareNoTopic) {
 
 TEST(MqttEncoder, EntitiesSayWhatTheyMeasureAndKeepTheirNames) {
   MqttEncoder encoder({.slots = 1}, "Brno.1");
-  Packets told = encoder.turn(0);
+  Packets told = encoder.due(0);
   for (Packet& packet : encoder.encode(made_station())) told.push_back(std::move(packet));
   std::map<std::string, std::string> classes;
   for (const Packet& packet : told) {

@@ -16,7 +16,7 @@ TEST(SapientEncoder, ReportsItsStateAtTheInterval) {
     Station station = made_station();
     station.utime_us = kNow_us + second * kSecond_us;
     EXPECT_TRUE(encoder.encode(station).empty());
-    const auto packets = encoder.turn(kNow_us + second * kSecond_us - 1000 * (second % 2));
+    const auto packets = encoder.due(kNow_us + second * kSecond_us - 1000 * (second % 2));
     reports += static_cast<int>(packets.size());
     if (!packets.empty()) {
       EXPECT_EQ(said(packets[0].bytes).status_report().status(0).status_value(), "alfa: tracking");
@@ -27,18 +27,18 @@ TEST(SapientEncoder, ReportsItsStateAtTheInterval) {
 
 TEST(SapientEncoder, ANewConnectionAndAClockThatWasSetBackGetAReportAtOnce) {
   SapientEncoder encoder({.status_s = 60.0});
-  EXPECT_EQ(encoder.turn(kNow_us).size(), 1U);
-  EXPECT_TRUE(encoder.turn(kNow_us + kSecond_us).empty());
+  EXPECT_EQ(encoder.due(kNow_us).size(), 1U);
+  EXPECT_TRUE(encoder.due(kNow_us + kSecond_us).empty());
   encoder.begin_again();
-  EXPECT_EQ(encoder.turn(kNow_us + 2 * kSecond_us).size(), 1U);
-  EXPECT_EQ(encoder.turn(kNow_us - 3600 * kSecond_us).size(), 1U);
+  EXPECT_EQ(encoder.due(kNow_us + 2 * kSecond_us).size(), 1U);
+  EXPECT_EQ(encoder.due(kNow_us - 3600 * kSecond_us).size(), 1U);
 }
 
 TEST(SapientEncoder, ASilentStationIsNotToldOf) {
   SapientEncoder encoder({.status_s = 1.0});
   encoder.encode(made_station());
   const auto state = [&](std::int64_t after_us) {
-    return said(encoder.turn(kNow_us + after_us).at(0).bytes).status_report().status(0);
+    return said(encoder.due(kNow_us + after_us).at(0).bytes).status_report().status(0);
   };
   EXPECT_EQ(state(5 * kSecond_us).status_value(), "alfa: tracking");
   EXPECT_EQ(state(11 * kSecond_us).status_value(), "no station is heard");

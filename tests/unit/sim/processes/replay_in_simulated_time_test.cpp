@@ -52,14 +52,14 @@ struct Heard {
       if (decode_of_schema(message, slew)) ++told[slew.boot_id].slews;
     });
     bus.subscribe(std::string(kFusionStatusChannel), [this](const BusMessage& message) {
-      if (auto status = wire::heard_fusion_status(message)) {
+      if (auto status = wire::decode_fusion_status(message)) {
         told[status->boot_id].status = std::move(*status);
       }
     });
   }
   void hear_target(const BusMessage& message) {
     ols_msg::target_t target{};
-    if (const auto former = wire::heard_target(message)) {
+    if (const auto former = wire::decode_target(message)) {
       target = *former;
     } else if (!decode_of_schema(message, target)) {
       return;
@@ -119,7 +119,7 @@ class FusedSite : public station::test::StationInSimulatedTime {
         heard_(kBus) {
     recorder_.subscribe("OLS_.*", [this](const BusMessage& message) { writer_.write(message); });
     bus_.subscribe(station_channel(kStatusChannel, "bravo"), [this](const BusMessage& message) {
-      if (auto heard = wire::heard_status(message)) status_ = std::move(*heard);
+      if (auto heard = wire::decode_status(message)) status_ = std::move(*heard);
     });
     status_ = {};
     EXPECT_TRUE(time_.pass(station::test::kHoming_s, [this] {

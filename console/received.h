@@ -12,7 +12,7 @@
 
 namespace ols::console {
 
-struct StationHeard {
+struct ReceivedStation {
   std::string id;
   Json fields;  // docs/console.md lists them
   bool is_stopped = false;
@@ -22,7 +22,7 @@ struct StationHeard {
   std::int64_t last_error_utime_us = 0;
 };
 
-struct TargetHeard {
+struct ReceivedTarget {
   enum class What { kPosition, kLine, kNoPosition, kDropped, kNothing };
   What what = What::kNothing;
   std::int64_t boot_id = 0;
@@ -32,7 +32,7 @@ struct TargetHeard {
 };
 
 // The fusion's message to a station that the land hides a target from it.
-struct OcclusionHeard {
+struct ReceivedOcclusion {
   std::string station;
   std::string target;  // its id
   bool is_hidden = false;
@@ -41,7 +41,7 @@ struct OcclusionHeard {
   double holds_s = 0.0;      // validity, from the arrival; 0: the previous message no longer holds
 };
 
-struct FusionHeard {
+struct ReceivedFusion {
   std::int64_t boot_id = 0;
   Json fields;
   std::vector<Alarm> alarms;
