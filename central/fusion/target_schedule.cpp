@@ -140,7 +140,7 @@ void TargetSchedule::use_land(FusedTarget& target) const {
   const land::Surface& surface = *config_.land.surface;
   Estimate& estimate = target.estimate;
   const bool stands = std::ranges::any_of(target.stations, [this](const ContributingStation& s) {
-    return s.used && config_.land.stands(s.station);
+    return s.used && config_.land.follows_on_ground(s.station);
   });
   if (stands) {
     if (const auto placed =
@@ -204,7 +204,7 @@ void TargetSchedule::report_bearing_only(TrackManager& tracks, const PointingMon
       target.stations = {{station, true, 1.0, 0.0}};
       target.bearing_only = line;
       output.targets.push_back(target);
-      if (config_.land.stands(station)) end_in_ground(output.targets.back());
+      if (config_.land.follows_on_ground(station)) end_in_ground(output.targets.back());
     }
   }
 }

@@ -16,7 +16,7 @@ struct LandUse {
   // line of sight alone does not show this: a drone in front of a hillside has the same line.
   std::vector<std::string> on_ground{};
 
-  bool stands(const std::string& station) const {
+  bool follows_on_ground(const std::string& station) const {
     return surface && std::ranges::find(on_ground, station) != on_ground.end();
   }
 };

@@ -50,9 +50,9 @@ class DrivenUnit : public LockstepMount {
   ptu::PtuDriver driver_;
 };
 
-class StandsStill : public LockstepMount {
+class FixedMountInLockstep : public LockstepMount {
  public:
-  StandsStill(const PanTilt& angles, double now_s) : angles_(angles), now_s_(now_s) {}
+  FixedMountInLockstep(const PanTilt& angles, double now_s) : angles_(angles), now_s_(now_s) {}
 
   void advance(double now_s) override { now_s_ = now_s; }
   std::vector<mount::AngleSample> take_samples() override {
@@ -76,7 +76,7 @@ class StandsStill : public LockstepMount {
 std::unique_ptr<LockstepMount> make_lockstep_mount(const World& world, std::size_t station,
                                                    std::uint64_t seed, double now_s) {
   const auto& fixed = world.scenario().stations[station].fixed;
-  if (fixed) return std::make_unique<StandsStill>(*fixed, now_s);
+  if (fixed) return std::make_unique<FixedMountInLockstep>(*fixed, now_s);
   return std::make_unique<DrivenUnit>(world, seed, now_s);
 }
 
