@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <set>
 
 #include "calibration/parameter_change.h"
 #include "calibration/snooping.h"
+#include "conditions/printed.h"
 #include "geometry/angles.h"
 
 namespace ols::calibration {
@@ -17,11 +17,7 @@ using Judgement = Finding::Judgement;
 
 double arcsec(double rad) { return 3600.0 * degrees(rad); }
 
-std::string shown(double value, const char* unit) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%.2f%s", value, unit);
-  return text;
-}
+std::string shown(double value, const char* unit) { return printed("%.2f%s", value, unit); }
 
 Finding at_most(const std::string& name, double value, double limit, const char* unit,
                 const std::string& what) {
@@ -210,11 +206,10 @@ class Judge {
   void against_known(const std::string& name, int parameter, const char* unit, double scale) {
     const ParameterChange change =
         parameter_change(adjustment_.network(), found_.fit, station_, parameter);
-    char text[160];
     const double value = scale * instrument_of(model_)[parameter];
-    std::snprintf(text, sizeof text, "%s: %.2f%s, by %+.2f%s from what was known, ", name.c_str(),
-                  value, unit, scale * change.by, unit);
-    Finding finding{name, Judgement::kGood, scale * change.by, scale * change.sd, text};
+    Finding finding{name, Judgement::kGood, scale * change.by, scale * change.sd,
+                    printed("%s: %.2f%s, by %+.2f%s from what was known, ", name.c_str(), value,
+                            unit, scale * change.by, unit)};
     if (!change.is_told) {
       finding.judgement = Judgement::kUnchecked;
       finding.sentence += "hardly determined by the pictures";

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
+#include "conditions/printed.h"
 #include "geometry/angles.h"
 
 namespace ols::calibration {
@@ -127,9 +127,8 @@ std::optional<AircraftPosition> AdsbDecoder::take(std::span<const std::uint8_t> 
   if (!place) return std::nullopt;
   const auto height = height_m(aircraft, payload, utime_us);
   if (!height) return std::nullopt;
-  char name[7];
-  std::snprintf(name, sizeof name, "%06x", static_cast<unsigned>(icao));
-  return AircraftPosition{name, utime_us, place->latitude_deg, place->longitude_deg, *height};
+  return AircraftPosition{printed("%06x", static_cast<unsigned>(icao)), utime_us,
+                          place->latitude_deg, place->longitude_deg, *height};
 }
 
 }  // namespace ols::calibration

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 #include "calibration/parameter_change.h"
 #include "calibration/snooping.h"
+#include "conditions/printed.h"
 #include "geometry/angles.h"
 #include "geometry/chi_square.h"
 
@@ -182,9 +182,7 @@ void remark_focal(const Adjustment& adjustment, Calibration& result) {
   for (std::size_t s = 0; s < network.stations.size(); ++s) {
     const ParameterChange change = parameter_change(network, result.fit, s, kFocal);
     if (!change.is_large()) continue;
-    char text[160];
-    std::snprintf(
-        text, sizeof text,
+    const std::string text = printed(
         "': its focal length is off by %.2f thousandths, %.1f sigma: was the lens refocused?",
         1e3 * change.by / network.stations[s].model.geometry.camera.fx_px, change.sigmas());
     result.remarks.push_back("station '" + network.names[s] + text);

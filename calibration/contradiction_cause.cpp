@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <map>
 #include <optional>
@@ -12,6 +11,7 @@
 #include <utility>
 
 #include "calibration/snooping.h"
+#include "conditions/printed.h"
 #include "geometry/angles.h"
 
 namespace ols::calibration {
@@ -74,21 +74,17 @@ void add_hemispheres(const Problem& problem, const Levels& levels,
       if (south) place.latitude_rad *= -1.0;
       if (west) place.longitude_rad *= -1.0;
       if (!all_agree(other, levels)) continue;
-      char text[200];
-      std::snprintf(text, sizeof text,
-                    "all agree if station '%s' stands at latitude %.2f, longitude %.2f deg: is the "
-                    "sign of its position wrong?",
-                    problem.names[s].c_str(), degrees(place.latitude_rad),
-                    degrees(place.longitude_rad));
+      const std::string text = printed(
+          "all agree if station '%s' stands at latitude %.2f, longitude %.2f deg: is the "
+          "sign of its position wrong?",
+          problem.names[s].c_str(), degrees(place.latitude_rad), degrees(place.longitude_rad));
       causes.emplace_back(text);
     }
   }
 }
 
 std::string metres_towards(double metres, const char* plus, const char* minus) {
-  char text[60];
-  std::snprintf(text, sizeof text, "%.2f m %s", std::abs(metres), metres < 0.0 ? minus : plus);
-  return text;
+  return printed("%.2f m %s", std::abs(metres), metres < 0.0 ? minus : plus);
 }
 
 // Its position is left to what it sights.
@@ -281,9 +277,7 @@ class TurnSearch {
     const double pan_rad = wrap_pi(after.azimuth_rad - before.azimuth_rad);
     const double tilt_rad = after.elevation_rad - before.elevation_rad;
     const bool is_tilt = std::abs(tilt_rad) > std::abs(pan_rad);
-    char text[300];
-    std::snprintf(
-        text, sizeof text,
+    const std::string text = printed(
         "all agree if the tripod of station '%s' was turned, or the unit lost its counts, "
         "by %+.3f deg of %s before the sighting of '%s' in line %u",
         problem_.names[station_].c_str(), degrees(is_tilt ? tilt_rad : pan_rad),

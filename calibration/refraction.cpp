@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
+#include "conditions/printed.h"
 #include "geometry/direction.h"
 
 namespace ols::calibration {
@@ -44,15 +44,14 @@ std::string pressure_trouble(double pressure_hPa, double height_m) {
   constexpr double kWeather_hPa = 70.0, kSeaLevel_hPa = 1013.25;
   const double usual_hPa = standard_air(height_m).pressure_hPa;
   if (std::abs(pressure_hPa - usual_hPa) <= kWeather_hPa) return {};
-  char text[320];
-  const int end = std::snprintf(
-      text, sizeof text, "%.1f hPa cannot be the pressure at %.0f m, where it is about %.0f hPa",
-      pressure_hPa, height_m, usual_hPa);
+  std::string text =
+      printed("%.1f hPa cannot be the pressure at %.0f m, where it is about %.0f hPa", pressure_hPa,
+              height_m, usual_hPa);
   if (std::abs(pressure_hPa - kSeaLevel_hPa) <= kWeather_hPa) {
-    std::snprintf(text + end, sizeof text - static_cast<std::size_t>(end),
-                  ": it looks reduced to sea level, as weather services state it; at the station "
-                  "that is %.1f hPa",
-                  pressure_hPa * usual_hPa / kSeaLevel_hPa);
+    text += printed(
+        ": it looks reduced to sea level, as weather services state it; at the station "
+        "that is %.1f hPa",
+        pressure_hPa * usual_hPa / kSeaLevel_hPa);
   }
   return text;
 }

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 
 #include "calibration/star_fit.h"
 #include "calibration/star_votes.h"
+#include "conditions/printed.h"
 #include "geometry/angles.h"
 
 namespace ols::calibration {
@@ -19,33 +19,27 @@ constexpr std::size_t kTimesNextBest = 2;
 // Two fits of about the same heading are one.
 constexpr double kSameHeading_rad = 0.01;
 
-std::string sentence(const char* format, auto... values) {
-  char text[256];
-  std::snprintf(text, sizeof text, format, values...);
-  return text;
-}
-
 std::string finding_of(const StarIdentification& of) {
   using Verdict = StarIdentification::Verdict;
   const auto count = [](std::size_t n) { return static_cast<int>(n); };
   switch (of.verdict) {
     case Verdict::kTooFewDetections:
-      return sentence(
+      return printed(
           "%d detections are too few, %d are needed: clouds, twilight or too short an "
           "exposure",
           count(of.detections), count(kLeastMatched));
     case Verdict::kTooFewMatched:
-      return sentence(
+      return printed(
           "no heading explains the frames: the best has %d of %d detections on stars, "
           "%d could be",
           count(of.matched), count(of.detections), count(of.possible));
     case Verdict::kAmbiguous:
-      return sentence("two headings explain the frames: %d and %d of %d detections are on stars",
-                      count(of.matched), count(of.next_best), count(of.detections));
+      return printed("two headings explain the frames: %d and %d of %d detections are on stars",
+                     count(of.matched), count(of.next_best), count(of.detections));
     case Verdict::kIdentified:
-      return sentence("%d of %d detections are on stars, heading %.2f deg, residuals %.2f px",
-                      count(of.matched), count(of.detections), degrees(wrap_two_pi(of.heading_rad)),
-                      of.rms_px);
+      return printed("%d of %d detections are on stars, heading %.2f deg, residuals %.2f px",
+                     count(of.matched), count(of.detections), degrees(wrap_two_pi(of.heading_rad)),
+                     of.rms_px);
   }
   return "";
 }
@@ -56,8 +50,8 @@ std::string refocused(const StarIdentification& of, const StationPrior& station)
   const double prior_sd =
       std::sqrt(station.covariance(kFocal, kFocal)) / station.model.geometry.camera.fx_px;
   if (std::abs(of.focal_change) < kSigmas * std::hypot(prior_sd, of.focal_sd)) return "";
-  return sentence("; the focal length is off by %.2f thousandths: was the lens refocused?",
-                  1e3 * of.focal_change);
+  return printed("; the focal length is off by %.2f thousandths: was the lens refocused?",
+                 1e3 * of.focal_change);
 }
 
 StarIdentification::Verdict verdict_of(const StarIdentification& of) {
@@ -125,7 +119,7 @@ std::string explain_unidentified(const StationPrior& station, std::span<const St
     if (south) place.latitude_rad *= -1.0;
     if (west) place.longitude_rad *= -1.0;
     if (!explains(other, frames)) continue;
-    return sentence(
+    return printed(
         "the stars are those of latitude %.2f, longitude %.2f deg: is the sign of the "
         "position wrong?",
         degrees(place.latitude_rad), degrees(place.longitude_rad));
@@ -136,8 +130,8 @@ std::string explain_unidentified(const StationPrior& station, std::span<const St
     std::vector<StarFrame> other(frames.begin(), frames.end());
     for (StarFrame& frame : other) frame.utime_us += hours * kHour_us;
     if (!explains(station, other)) continue;
-    return sentence("the stars are those of %d h %s: is the clock UTC?", std::abs(hours),
-                    hours > 0 ? "later" : "earlier");
+    return printed("the stars are those of %d h %s: is the clock UTC?", std::abs(hours),
+                   hours > 0 ? "later" : "earlier");
   }
   return "";
 }

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <map>
 
 #include "calibration/mistaken_landmarks.h"
 #include "calibration/systematic.h"
+#include "conditions/printed.h"
 #include "geometry/angles.h"
 #include "geometry/chi_square.h"
 #include "geometry/station_calibration.h"
@@ -214,10 +214,8 @@ std::string tilt_that_would_do(StationGeometry rough, std::span<const LandmarkSi
     const Fit fit = without_mistaken(adjustment, level);
     if (fit.kept != all) return "";
     const ChainParameters& chain = fit.state.stations[0].model.geometry.chain;
-    char text[128];
-    std::snprintf(text, sizeof text, "; all would agree at a tilt of x %.2f, y %.2f deg",
-                  degrees(chain.tilt_x_rad), degrees(chain.tilt_y_rad));
-    return text;
+    return printed("; all would agree at a tilt of x %.2f, y %.2f deg", degrees(chain.tilt_x_rad),
+                   degrees(chain.tilt_y_rad));
   } catch (const LandmarksContradict&) {
     return "";
   }

@@ -1,14 +1,13 @@
 #include "export/identity.h"
 
-#include <cstdio>
+#include "conditions/printed.h"
 
 namespace ols::exports {
 
 std::string target_uid(const std::string& site, std::int64_t boot_id, std::int64_t target_id) {
-  char numbers[64];
-  std::snprintf(numbers, sizeof numbers, "%016llx.%lld", static_cast<unsigned long long>(boot_id),
-                static_cast<long long>(target_id));
-  return site + ".target." + numbers;
+  return site + ".target." +
+         printed("%016llx.%lld", static_cast<unsigned long long>(boot_id),
+                 static_cast<long long>(target_id));
 }
 
 std::string station_uid(const std::string& site, const std::string& station) {

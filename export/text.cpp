@@ -4,9 +4,9 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 
 #include "base/bus/message_code.h"
+#include "conditions/printed.h"
 
 namespace ols::exports {
 namespace {
@@ -46,11 +46,9 @@ std::string iso_time(std::int64_t utime_us) {
   utime_us = std::clamp<std::int64_t>(utime_us, 0, kLast_us);
   const Date date = date_of(utime_us / kDay_us);
   const auto of_day_ms = static_cast<int>(utime_us % kDay_us / 1000);
-  char text[64];
-  std::snprintf(text, sizeof text, "%04d-%02d-%02dT%02d:%02d:%02d.%03dZ", date.year, date.month,
-                date.day, of_day_ms / 3'600'000, of_day_ms / 60'000 % 60, of_day_ms / 1000 % 60,
-                of_day_ms % 1000);
-  return text;
+  return printed("%04d-%02d-%02dT%02d:%02d:%02d.%03dZ", date.year, date.month, date.day,
+                 of_day_ms / 3'600'000, of_day_ms / 60'000 % 60, of_day_ms / 1000 % 60,
+                 of_day_ms % 1000);
 }
 
 std::string xml(std::string_view text) {

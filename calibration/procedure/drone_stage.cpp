@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 #include "calibration/pictures/landmark_snap.h"
 #include "calibration/procedure/learned_heading.h"
 #include "calibration/trajectory.h"
+#include "conditions/printed.h"
 #include "geometry/angles.h"
 
 namespace ols::calibration {
@@ -18,10 +18,7 @@ constexpr double kSnap_px = 8.0;   // around where the last sighting puts it
 constexpr double kFloor_px = 0.1;  // a drone is no point
 
 std::string where(double azimuth_deg, double elevation_deg) {
-  char text[64];
-  std::snprintf(text, sizeof text, "azimuth %.0f deg, elevation %.0f deg", azimuth_deg,
-                elevation_deg);
-  return text;
+  return printed("azimuth %.0f deg, elevation %.0f deg", azimuth_deg, elevation_deg);
 }
 
 }  // namespace

@@ -1,17 +1,11 @@
 #include "calibration/procedure/preconditions.h"
 
 #include <algorithm>
-#include <cstdio>
+
+#include "conditions/printed.h"
 
 namespace ols::calibration {
 namespace {
-
-template <class... Values>
-std::string printed(const char* format, Values... values) {
-  char text[200];
-  std::snprintf(text, sizeof text, format, values...);
-  return text;
-}
 
 Precondition clock_of(const StationFacts& facts, const Wanted& wanted) {
   Precondition one{facts.clock_synchronised && facts.clock_error_s < kClockOfSky_s,

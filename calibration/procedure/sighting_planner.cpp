@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <iterator>
 
 #include "calibration/guidance.h"
 #include "calibration/name_stars.h"
+#include "conditions/printed.h"
 #include "geometry/angles.h"
 
 namespace ols::calibration {
@@ -14,11 +14,7 @@ namespace {
 
 constexpr double kSight_px = 0.2;  // of a sighting that a person has confirmed
 
-std::string arcsec(double rad) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f″", 3600.0 * degrees(rad));
-  return text;
-}
+std::string arcsec(double rad) { return printed("%.1f″", 3600.0 * degrees(rad)); }
 
 bool is_unnamed(const Observation& one) { return one.kind == Kind::kStar && one.reference.empty(); }
 

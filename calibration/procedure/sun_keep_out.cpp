@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
+#include "conditions/printed.h"
 #include "geometry/angles.h"
 
 namespace ols::calibration {
@@ -32,10 +32,7 @@ std::string SunKeepOut::hindrance(const PanTilt& angles, double doubt_rad) const
   const double apart_deg = degrees(std::acos(std::clamp(axis.dot(sun), -1.0, 1.0)));
   const double kept_deg = kRadius_deg + degrees(doubt_rad);
   if (apart_deg >= kept_deg) return {};
-  char text[120];
-  std::snprintf(text, sizeof text, "the sun stands %.0f degrees beside it: %.0f are kept",
-                apart_deg, kept_deg);
-  return text;
+  return printed("the sun stands %.0f degrees beside it: %.0f are kept", apart_deg, kept_deg);
 }
 
 }  // namespace ols::calibration

@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
 
 #include "calibration/pictures/cross_finding.h"
 #include "calibration/pictures/level_lines.h"
 #include "calibration/pictures/mirrored_blend.h"
 #include "calibration/pictures/ruler_reading.h"
+#include "conditions/printed.h"
 #include "geometry/angles.h"
 
 namespace ols::calibration {
@@ -18,15 +17,6 @@ using Eigen::Vector2d;
 
 // Of anything that a lens images: blooming, paint, haze.
 constexpr double kFloor_px = 0.1;
-
-[[gnu::format(printf, 1, 2)]] std::string text(const char* format, ...) {
-  char buffer[240];
-  std::va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(buffer, sizeof buffer, format, arguments);
-  va_end(arguments);
-  return buffer;
-}
 
 Vector2d middle_of(const cv::Mat& gray) { return {0.5 * (gray.cols - 1), 0.5 * (gray.rows - 1)}; }
 
@@ -47,8 +37,8 @@ class LevelLineReader : public TargetReader {
       reading.trouble = to_string(lines.refusal);
       return reading;
     }
-    reading.number = text("rolled by %+.3f deg (clockwise > 0), %zu edges",
-                          -degrees(std::atan(lines.slope)), lines.edges.size());
+    reading.number = printed("rolled by %+.3f deg (clockwise > 0), %zu edges",
+                             -degrees(std::atan(lines.slope)), lines.edges.size());
     for (const LevelEdge& edge : lines.edges) {
       Observation one = observation_of(Kind::kLevelLine, picture, edge.left_px,
                                        std::hypot(kFloor_px, edge.sd_px), name());
@@ -74,11 +64,11 @@ class CrossReader : public TargetReader {
   bool holds_unit() const override { return true; }
   std::string instruction() const override {
     return board_.apart_m > 0.0
-               ? text(
+               ? printed(
                      "Put up the board with the crosses at %.2f m, the left one where the unit's "
                      "own pointer meets it, the right one %.3f m to the right",
                      board_.distance_m, board_.apart_m)
-               : text(
+               : printed(
                      "Put up the board with the cross at %.2f m, where the unit's own pointer "
                      "meets it",
                      board_.distance_m);
@@ -93,17 +83,17 @@ class CrossReader : public TargetReader {
     if (!found) {
       reading.trouble = to_string(found.refusal);
       if (found.refusal == Crosses::Refusal::kScale) {
-        reading.trouble += text(": by their size they stand at %.1f m, not at %.1f",
-                                board_.distance_m / found.scale, board_.distance_m);
+        reading.trouble += printed(": by their size they stand at %.1f m, not at %.1f",
+                                   board_.distance_m / found.scale, board_.distance_m);
       }
       return reading;
     }
     const Vector2d at = found.right_px + Vector2d(part.x, part.y);
     const double seen_rad = std::atan((at.x() - middle_of(picture.gray).x()) / focal_px_);
     const double there_rad = std::atan((board_.apart_m - beside_m_) / board_.distance_m);
-    reading.number =
-        text("the image's middle lies %+.3f deg beside it, the camera looks %+.3f deg to the right",
-             -degrees(seen_rad), degrees(there_rad - seen_rad));
+    reading.number = printed(
+        "the image's middle lies %+.3f deg beside it, the camera looks %+.3f deg to the right",
+        -degrees(seen_rad), degrees(there_rad - seen_rad));
     reading.crosshair_px = at;
     reading.crosshair_sd_px = std::hypot(kFloor_px, found.sd_px);
     Observation one = observation_of(Kind::kCross, picture, at, reading.crosshair_sd_px, name());
@@ -137,7 +127,7 @@ class RulerReader : public TargetReader {
       : focal_px_(model.geometry.camera.fy_px), pair_(pair) {}
   std::string name() const override { return "rulers"; }
   std::string instruction() const override {
-    return text(
+    return printed(
         "Put up the rulers one behind the other, at %.2f and %.2f m, their zeros at one "
         "height, both in the picture; tilt the unit until both show the same mark in the middle",
         pair_.near_m, pair_.far_m);
@@ -152,7 +142,7 @@ class RulerReader : public TargetReader {
     if (!reading.trouble.empty()) return reading;
     const double near_m = near.bars * pair_.bar_m, far_m = far.bars * pair_.bar_m;
     const double up_rad = std::atan((far_m - near_m) / (pair_.far_m - pair_.near_m));
-    reading.number = text(
+    reading.number = printed(
         "nearer ruler %+.4f m, farther one %+.4f m: the camera looks %+.3f deg up, %+.3f over the "
         "unit's tilt",
         near_m, far_m, degrees(up_rad), degrees(up_rad - picture.angles.tilt_rad));
@@ -180,10 +170,10 @@ class RulerReader : public TargetReader {
   }
   std::string trouble(const char* which, const RulerReading& reading, double away_m) const {
     if (reading) return "";
-    std::string why = text("the %s ruler: %s", which, to_string(reading.refusal));
+    std::string why = printed("the %s ruler: %s", which, to_string(reading.refusal));
     if (reading.refusal == RulerReading::Refusal::kScale) {
-      why += text(": by their height they stand at %.1f m, not at %.1f; is it the other ruler?",
-                  away_m / reading.scale, away_m);
+      why += printed(": by their height they stand at %.1f m, not at %.1f; is it the other ruler?",
+                     away_m / reading.scale, away_m);
     }
     return why;
   }

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <boost/math/special_functions/owens_t.hpp>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 #include <stdexcept>
 
 #include "base/text/plain_text.h"
+#include "conditions/printed.h"
 #include "geometry/angles.h"
 #include "wire/object_class.h"
 
@@ -68,11 +68,7 @@ int minutes_of(const Json& value, const std::string& what) {
   refuse(what + " must be a time of day, as 22:30");
 }
 
-std::string text_of(int minutes) {
-  std::array<char, 8> text{};
-  std::snprintf(text.data(), text.size(), "%02d:%02d", minutes / 60 % 24, minutes % 60);
-  return text.data();
-}
+std::string text_of(int minutes) { return printed("%02d:%02d", minutes / 60 % 24, minutes % 60); }
 
 double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <sstream>
 
 #include "conditions/alarms.h"
@@ -14,13 +13,6 @@ namespace {
 constexpr double kArcsec = kPi / 648000.0;
 constexpr double kSigmas = 3.0;
 constexpr const char* kFormat = "drift 1";
-
-template <class... Values>
-std::string words(const char* format, Values... values) {
-  char text[240];
-  std::snprintf(text, sizeof text, format, values...);
-  return text;
-}
 
 bool shown(double value_rad, double sd_rad) { return std::abs(value_rad) > kSigmas * sd_rad; }
 

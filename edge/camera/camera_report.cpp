@@ -1,12 +1,11 @@
 #include "edge/camera/camera_report.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <string_view>
 
 #include "conditions/alarms.h"
+#include "conditions/printed.h"
 
 namespace ols::camera {
 namespace {
@@ -16,13 +15,6 @@ constexpr double kSilence_s = 0.5;  // or three frame periods: a fault
 // opened again.
 constexpr double kAlarmingSilence_s = 1.5;
 constexpr double kMuchLight = 1.3;  // factor
-
-template <typename... Values>
-std::string words(const char* format, Values... values) {
-  std::array<char, 200> text{};
-  std::snprintf(text.data(), text.size(), format, values...);
-  return text.data();
-}
 
 device::DeviceState device_state(CameraState state) {
   switch (state) {
@@ -102,7 +94,7 @@ device::DeviceReport make_camera_report(const CameraConfig& config, const Camera
   report.state = device_state(facts.state);
   report.text = facts.identity.empty() ? "" : facts.identity + ", ";
   report.text += config.pixel_format + " " + std::to_string(config.width_px) + "x" +
-                 std::to_string(config.height_px) + words(", %.1f Hz", facts.frame_rate_hz);
+                 std::to_string(config.height_px) + printed(", %.1f Hz", facts.frame_rate_hz);
   if (facts.state != CameraState::kStreaming && !facts.last_error.empty())
     report.text = facts.last_error;
   report.serial = facts.serial;

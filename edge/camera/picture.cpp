@@ -1,8 +1,9 @@
 #include "edge/camera/picture.h"
 
 #include <array>
-#include <cstdio>
 #include <opencv2/imgproc.hpp>
+
+#include "conditions/printed.h"
 
 namespace ols::camera {
 
@@ -48,9 +49,7 @@ std::optional<PixelFormat> pixel_format(std::string_view genicam_name) {
 
 std::string pixel_format_name(std::uint32_t code) {
   if (const FormatRow* row = row_of(code)) return std::string(row->name);
-  std::array<char, 16> text{};
-  std::snprintf(text.data(), text.size(), "0x%08x", code);
-  return text.data();
+  return printed("0x%08x", code);
 }
 
 const char* to_string(PictureRefusal refusal) {

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "conditions/alarms.h"
+#include "conditions/printed.h"
 
 namespace ols::clock {
 namespace {
@@ -22,15 +22,9 @@ constexpr double kNewMeasurement_s = 1e-3;
 
 // "12 us", "3.4 ms", "2.00 s"
 std::string format(double seconds) {
-  char text[32];
-  if (seconds < 1e-3) {
-    std::snprintf(text, sizeof text, "%.0f us", seconds * 1e6);
-  } else if (seconds < 1.0) {
-    std::snprintf(text, sizeof text, "%.1f ms", seconds * 1e3);
-  } else {
-    std::snprintf(text, sizeof text, "%.2f s", seconds);
-  }
-  return text;
+  if (seconds < 1e-3) return printed("%.0f us", seconds * 1e6);
+  if (seconds < 1.0) return printed("%.1f ms", seconds * 1e3);
+  return printed("%.2f s", seconds);
 }
 
 ClockQuality alarmed(ClockQuality quality, const Alarm& alarm) {

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <initializer_list>
 #include <utility>
+
+#include "conditions/printed.h"
 
 namespace ols::lens::visca {
 namespace {
@@ -119,10 +120,8 @@ std::optional<double> position_in(Axis axis, std::string_view data) {
 
 std::optional<std::string> version_in(std::string_view data) {
   if (data.size() != 7) return std::nullopt;
-  char text[64];
-  std::snprintf(text, sizeof text, "vendor %02x%02x, model %02x%02x, ROM %02x%02x", byte(data, 0),
-                byte(data, 1), byte(data, 2), byte(data, 3), byte(data, 4), byte(data, 5));
-  return text;
+  return printed("vendor %02x%02x, model %02x%02x, ROM %02x%02x", byte(data, 0), byte(data, 1),
+                 byte(data, 2), byte(data, 3), byte(data, 4), byte(data, 5));
 }
 
 std::vector<std::string> Packets::receive(std::string_view bytes) {

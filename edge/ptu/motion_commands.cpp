@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
+#include "conditions/printed.h"
 #include "geometry/angles.h"
 
 namespace ols::ptu {
@@ -43,14 +43,11 @@ std::string axis_conflict(const char* name, const PtuAxisFacts& facts, const Ran
   const bool room = both.min_rad < both.max_rad &&
                     min_within(facts, both.min_rad) <= max_within(facts, both.max_rad);
   if (room) return {};
-  char text[200];
-  std::snprintf(text, sizeof text,
-                "no %s lies within both the configured limits, %.2f to %.2f deg, and the unit's, "
-                "%.2f to %.2f deg",
-                name, degrees(configured.min_rad), degrees(configured.max_rad),
-                degrees(facts.min * facts.resolution_rad),
-                degrees(facts.max * facts.resolution_rad));
-  return text;
+  return printed(
+      "no %s lies within both the configured limits, %.2f to %.2f deg, and the unit's, "
+      "%.2f to %.2f deg",
+      name, degrees(configured.min_rad), degrees(configured.max_rad),
+      degrees(facts.min * facts.resolution_rad), degrees(facts.max * facts.resolution_rad));
 }
 
 }  // namespace

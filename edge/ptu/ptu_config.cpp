@@ -1,9 +1,9 @@
 #include "edge/ptu/ptu_config.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <string>
 
+#include "conditions/printed.h"
 #include "edge/config/config_units.h"
 #include "edge/ptu/budget.h"
 
@@ -121,12 +121,6 @@ std::vector<config::Row> motion_rows(PtuConfig& c) {
   };
 }
 
-std::string text(const char* format, double a, double b) {
-  char line[160];
-  std::snprintf(line, sizeof line, format, a, b);
-  return line;
-}
-
 void check_limits(ConfigTable& table, const PtuConfig& c) {
   constexpr std::size_t kMaxRegions = 12;  // every cycle searches for a way round them
   check_order(table, c.limits.pan_min_rad, c.limits.pan_max_rad, c.limits.tilt_min_rad,
@@ -140,10 +134,11 @@ void check_budget(ConfigTable& table, const PtuConfig& config) {
   constexpr double kRounding_s = 1e-6;
   const double cycle_s = longest_cycle_s(config.baud);
   if (config.poll_interval_s < cycle_s - kRounding_s) {
-    throw table.error("poll_interval_s",
-                      std::to_string(config.baud) + " baud" +
-                          text(" carry a poll in %.3f s, not in %.3f s: a greater baud or interval",
-                               cycle_s, config.poll_interval_s));
+    throw table.error(
+        "poll_interval_s",
+        std::to_string(config.baud) + " baud" +
+            printed(" carry a poll in %.3f s, not in %.3f s: a greater baud or interval", cycle_s,
+                    config.poll_interval_s));
   }
   if (config.reply_timeout_s < 3.0 * config.poll_interval_s) {
     throw table.error("reply_timeout_s", "must be at least three poll intervals");
@@ -156,10 +151,11 @@ void check_running_on(ConfigTable& table, const PtuConfig& config) {
   servo.max_acceleration_rad_s2 = config.acceleration_rad_s2;
   if (runs_on_too_long(servo)) {
     const double longest_s = runs_on_s(servo, std::min(kRunsOnSpeed_rad_s, servo.max_speed_rad_s));
-    throw table.error("servo.look_ahead_s",
-                      text("with gain_hz and acceleration_deg_s2 the unit would run on for %.2f s "
-                           "when this program dies, at most %.1f s is allowed",
-                           longest_s, kRunsOnAtMost_s));
+    throw table.error(
+        "servo.look_ahead_s",
+        printed("with gain_hz and acceleration_deg_s2 the unit would run on for %.2f s "
+                "when this program dies, at most %.1f s is allowed",
+                longest_s, kRunsOnAtMost_s));
   }
 }
 

@@ -6,11 +6,12 @@
 
 #include <cerrno>
 #include <cinttypes>
-#include <cstdio>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <string_view>
 #include <system_error>
+
+#include "conditions/printed.h"
 
 namespace ols::recorder {
 namespace {
@@ -105,9 +106,9 @@ std::size_t EventFolder::write(const RecordedFrame& frame, const std::vector<uns
     name = std::to_string(frame.utime_us) + "_" + std::to_string(frame.number) + ".png";
   }
   const std::string path = folder + name;
-  char row[160];
-  std::snprintf(row, sizeof row, "%" PRId64 ",%" PRIu64 ",%s,%.9f,%s\n", frame.utime_us,
-                frame.number, name.c_str(), frame.sd_s, frame.pixel_format.c_str());
+  const std::string row =
+      printed("%" PRId64 ",%" PRIu64 ",%s,%.9f,%s\n", frame.utime_us, frame.number, name.c_str(),
+              frame.sd_s, frame.pixel_format.c_str());
   File file(path, O_WRONLY | O_CREAT | O_EXCL);
   try {
     file.write({reinterpret_cast<const char*>(png.data()), png.size()});

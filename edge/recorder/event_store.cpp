@@ -8,12 +8,12 @@
 #include <cctype>
 #include <cerrno>
 #include <cmath>
-#include <cstdio>
 #include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <system_error>
 
+#include "conditions/printed.h"
 #include "edge/recorder/event_folder.h"
 
 namespace ols::recorder {
@@ -61,10 +61,9 @@ std::string utc_name(std::int64_t utime_us) {
   const std::time_t seconds = ms / 1000;
   std::tm utc{};
   gmtime_r(&seconds, &utc);
-  char date[32], name[48];
+  char date[32];
   std::strftime(date, sizeof date, "%Y%m%dT%H%M%S", &utc);
-  std::snprintf(name, sizeof name, "%s.%03dZ", date, static_cast<int>(ms % 1000));
-  return name;
+  return printed("%s.%03dZ", date, static_cast<int>(ms % 1000));
 }
 
 void EventStore::survey() {
@@ -172,9 +171,7 @@ void EventStore::finished(const std::string& name) {
 }
 
 std::string EventStore::full_text() const {
-  char text[64];
-  std::snprintf(text, sizeof text, "disk full (%.1f GB free)", free_bytes_ * 1e-9);
-  return text;
+  return printed("disk full (%.1f GB free)", free_bytes_ * 1e-9);
 }
 
 double EventStore::bytes() const {

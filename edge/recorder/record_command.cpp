@@ -4,7 +4,8 @@
 #include <cctype>
 #include <cmath>
 #include <cstddef>
-#include <cstdio>
+
+#include "conditions/printed.h"
 
 namespace ols::recorder {
 namespace {
@@ -24,10 +25,8 @@ std::string wrong_with(const RecordCommand& command, const RecorderConfig& confi
   if (!is_label(command.label)) return "the label must be at most 40 letters, digits, - or _";
   if (!std::isfinite(command.event_s) || !(command.before_s >= 0.0) || !(command.after_s >= 0.0) ||
       !(command.before_s + command.after_s <= config.event_max_s)) {
-    char text[80];
-    std::snprintf(text, sizeof text, "before and after must be at least 0 s, together at most %g s",
-                  config.event_max_s);
-    return text;
+    return printed("before and after must be at least 0 s, together at most %g s",
+                   config.event_max_s);
   }
   if (command.event_s > now_s + kLateFrame_s) return "the event lies in the future";
   return {};

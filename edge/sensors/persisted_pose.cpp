@@ -1,11 +1,11 @@
 #include "edge/sensors/persisted_pose.h"
 
 #include <cinttypes>
-#include <cstdio>
 #include <locale>
 #include <sstream>
 
 #include "base/files/fnv1a.h"
+#include "conditions/printed.h"
 #include "geometry/angles.h"
 
 namespace ols::sensors {
@@ -14,18 +14,7 @@ namespace {
 constexpr std::string_view kHead = "ols-pose 1\n";
 constexpr std::string_view kSum = "sum ";
 
-std::string checksum_of(std::string_view text) {
-  char digits[20];
-  std::snprintf(digits, sizeof digits, "%016" PRIx64, fnv1a(text));
-  return digits;
-}
-
-template <class... Values>
-std::string words(const char* format, Values... values) {
-  char text[256];
-  std::snprintf(text, sizeof text, format, values...);
-  return text;
-}
+std::string checksum_of(std::string_view text) { return printed("%016" PRIx64, fnv1a(text)); }
 
 bool within(double value, double min, double max) { return value >= min && value <= max; }
 
@@ -76,13 +65,13 @@ std::string to_text(const PersistedPose& pose) {
   std::string text(kHead);
   if (const auto& p = pose.position) {
     text +=
-        words("position %.12f %.12f %.6f %.6g %.6g %.6g %" PRId64 "\n",
-              degrees(p->ground.latitude_rad), degrees(p->ground.longitude_rad), p->ground.height_m,
-              p->sd_enu_m.x(), p->sd_enu_m.y(), p->sd_enu_m.z(), p->utime_us);
+        printed("position %.12f %.12f %.6f %.6g %.6g %.6g %" PRId64 "\n",
+                degrees(p->ground.latitude_rad), degrees(p->ground.longitude_rad),
+                p->ground.height_m, p->sd_enu_m.x(), p->sd_enu_m.y(), p->sd_enu_m.z(), p->utime_us);
   }
   if (const auto& t = pose.tilt) {
-    text += words("tilt %.9f %.9f %.6g %" PRId64 "\n", degrees(t->tilt_rad.x()),
-                  degrees(t->tilt_rad.y()), degrees(t->sd_rad), t->utime_us);
+    text += printed("tilt %.9f %.9f %.6g %" PRId64 "\n", degrees(t->tilt_rad.x()),
+                    degrees(t->tilt_rad.y()), degrees(t->sd_rad), t->utime_us);
   }
   return text + std::string(kSum) + checksum_of(text) + "\n";
 }

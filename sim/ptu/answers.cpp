@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
+#include "conditions/printed.h"
 #include "sim/ptu/command_text.h"
 
 namespace ols::sim {
@@ -54,18 +54,16 @@ std::string PtuAnswers::query(int axis, char what, double time_s) const {
 
 std::string PtuAnswers::number(int axis, char what, double time_s) const {
   const PtuAxisSettings& s = setup_.settings().axes[at(axis)];
-  char resolution[32];
   const double arcsec = motion_.homed(axis) || e_series()
                             ? config_.resolution_arcsec * motion_.steps_a_count(axis)
                             : kUnknownGears_arcsec;
-  std::snprintf(resolution, sizeof resolution, e_series() ? "%.6f" : "%.4f", arcsec);
   switch (what) {
     case 'P':
       return rounded(motion_.position(axis, time_s));
     case 'O':
       return rounded(motion_.target(axis));
     case 'R':
-      return resolution;
+      return printed("%.*f", e_series() ? 6 : 4, arcsec);
     case 'N':
       return std::to_string(motion_.least(axis));
     case 'X':

@@ -11,6 +11,7 @@
 #include "base/process/clocks.h"
 #include "base/process/command_line.h"
 #include "base/process/shutdown.h"
+#include "conditions/printed.h"
 #include "geometry/angles.h"
 #include "sim/ptu/console.h"
 #include "sim/ptu/line.h"
@@ -85,10 +86,9 @@ void answer(PtuConsole& console, PtuLine& line, const std::string& text) {
   }
   const double at_s = std::get<PtuConsole::AskedAngles>(answer).at_s.value_or(now_s);
   const ols::PanTilt angles = line.angles_at(at_s);
-  std::array<char, 128> shown{};
-  std::snprintf(shown.data(), shown.size(), "angles %.6f s pan %.6f tilt %.6f deg", at_s,
-                ols::degrees(angles.pan_rad), ols::degrees(angles.tilt_rad));
-  std::cout << shown.data() << std::endl;
+  const std::string shown = printed("angles %.6f s pan %.6f tilt %.6f deg", at_s,
+                                    ols::degrees(angles.pan_rad), ols::degrees(angles.tilt_rad));
+  std::cout << shown << std::endl;
 }
 
 // Reads the available standard input; false at its end.

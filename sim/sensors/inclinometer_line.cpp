@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "base/process/clocks.h"
+#include "conditions/printed.h"
 #include "geometry/angles.h"
 #include "sim/network/garble.h"
 
@@ -18,9 +18,7 @@ constexpr const char* kVersion = "DPG2 V1.4\r\n";
 }  // namespace
 
 std::string dpg2_lines(double x_rad, double y_rad) {
-  char text[64];
-  std::snprintf(text, sizeof text, "X=%+07.3f\r\nY=%+07.3f\r\n", degrees(x_rad), degrees(y_rad));
-  return text;
+  return printed("X=%+07.3f\r\nY=%+07.3f\r\n", degrees(x_rad), degrees(y_rad));
 }
 
 InclinometerLine::InclinometerLine(const InclinometerLineConfig& config, std::uint64_t seed,

@@ -1,9 +1,10 @@
 #include "sim/telescope/telescope.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <pugixml.hpp>
 #include <vector>
+
+#include "conditions/printed.h"
 
 namespace ols::sim {
 namespace {
@@ -17,11 +18,7 @@ struct Value {
   std::string name, value;
 };
 
-std::string text_of(double value) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.12g", value);
-  return text;
-}
+std::string text_of(double value) { return printed("%.12g", value); }
 
 // defNumberVector with defNumber, or setNumberVector with oneNumber; the same for switches.
 std::string vector_of(const std::string& device, const std::string& kind, bool defines,

@@ -1,7 +1,6 @@
 #include "tools/calibrate/adjust_command.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <iterator>
 #include <set>
 #include <stdexcept>
@@ -9,6 +8,7 @@
 #include "calibration/contradiction_cause.h"
 #include "calibration/exchange.h"
 #include "calibration/procedure/sighting_planner.h"
+#include "conditions/printed.h"
 #include "geometry/angles.h"
 #include "tools/calibrate/output_folder.h"
 
@@ -73,10 +73,8 @@ std::string sentence_of(const RectifiedAngle& angle) {
       angle.kind == RectifiedAngle::Kind::kRoll      ? "rolled against the horizon, clockwise"
       : angle.kind == RectifiedAngle::Kind::kAzimuth ? "turned on the unit, to the right"
                                                      : "tilted where the unit counts zero, up";
-  char text[160];
-  std::snprintf(text, sizeof text, "%s: the camera is %s: %+.4f deg, 1-sigma %.0f\"",
-                to_string(angle.kind), what, degrees(angle.rad), angle.sd_rad / kArcsec);
-  return text;
+  return printed("%s: the camera is %s: %+.4f deg, 1-sigma %.0f\"", to_string(angle.kind), what,
+                 degrees(angle.rad), angle.sd_rad / kArcsec);
 }
 
 // The result of the scenery: whether lens and gears agree with the calibration in use.
@@ -189,11 +187,10 @@ Adjustment settled(Adjusted& adjusted, const TellAdjusted& tell) {
     }
     adjustment = Adjustment(network_of(what));
     adjusted.found = calibrated(what, adjustment, tell);
-    char text[160];
-    std::snprintf(text, sizeof text,
-                  "the unit's angles scatter by more than was stated (angle_sd_deg): taken as "
-                  "%.1f arc seconds",
-                  what.instruments.front().angle_sd_rad / kArcsec);
+    const std::string text = printed(
+        "the unit's angles scatter by more than was stated (angle_sd_deg): taken as "
+        "%.1f arc seconds",
+        what.instruments.front().angle_sd_rad / kArcsec);
     adjusted.found.remarks.emplace_back(text);
   }
   check_stations(what, adjustment, adjusted.found);
@@ -276,10 +273,9 @@ AdjustedResult result_for_person(const Adjusted& adjusted) {
   for (const std::string& note : adjusted.notes) result.text += "  note " + note + "\n";
   if (adjusted.acceptance.volume_is_cut) {
     const WorkingVolume& volume = adjusted.acceptance.volume;
-    char text[160];
-    std::snprintf(text, sizeof text,
-                  "  good for pan within %.0f deg and tilt from %.0f to %.0f deg only\n",
-                  volume.pan_deg, volume.lowest_deg, volume.highest_deg);
+    const std::string text =
+        printed("  good for pan within %.0f deg and tilt from %.0f to %.0f deg only\n",
+                volume.pan_deg, volume.lowest_deg, volume.highest_deg);
     result.text += text;
   }
   if (!next.empty()) {

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iomanip>
@@ -19,6 +18,7 @@
 #include "base/files/atomic_file.h"
 #include "base/files/output_check.h"
 #include "base/process/clocks.h"
+#include "conditions/printed.h"
 #include "edge/clock/clock_source.h"
 #include "tools/calibrate/aircraft_feed.h"
 #include "tools/calibrate/input_bytes.h"
@@ -254,12 +254,10 @@ std::string receiver_clock_trouble(std::int64_t least_delay_us) {
   constexpr double kAhead_s = 2.0 * kClock_s;
   const double late_s = 1e-6 * static_cast<double>(least_delay_us);
   if (late_s > -kAhead_s && late_s < kLate_s) return {};
-  char text[200];
-  std::snprintf(text, sizeof text,
-                "the receiver's time stamps are at least %.1f s %s by this computer's clock: the "
-                "receiver's clock is not synchronised, or its messages are delayed on their way",
-                std::abs(late_s), late_s > 0.0 ? "old" : "ahead");
-  return text;
+  return printed(
+      "the receiver's time stamps are at least %.1f s %s by this computer's clock: the "
+      "receiver's clock is not synchronised, or its messages are delayed on their way",
+      std::abs(late_s), late_s > 0.0 ? "old" : "ahead");
 }
 
 std::string reference_rows(std::vector<AircraftPosition> positions, double sd_m) {

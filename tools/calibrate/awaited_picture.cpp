@@ -1,8 +1,8 @@
 #include "tools/calibrate/awaited_picture.h"
 
 #include <cmath>
-#include <cstdio>
 
+#include "conditions/printed.h"
 #include "geometry/angles.h"
 
 namespace ols::calibration {
@@ -42,20 +42,14 @@ std::optional<std::vector<std::uint8_t>> AwaitedPicture::hear_part(
 }
 
 std::string AwaitedPicture::missing() const {
-  char text[160];
-  if (!angles_ || nearest_rad_ > kThere_rad) {
-    if (!angles_) return "the unit did not arrive: its angles are not known";
-    std::snprintf(text, sizeof text,
-                  "the unit did not arrive at pan %.2f, tilt %.2f deg: it is at %.2f, %.2f deg",
-                  degrees(at_.pan_rad), degrees(at_.tilt_rad), degrees(angles_->pan_rad),
-                  degrees(angles_->tilt_rad));
-  } else if (parts_.empty()) {
-    std::snprintf(text, sizeof text, "the unit arrived, but no picture of it standing came");
-  } else {
-    std::snprintf(text, sizeof text, "the picture came in part: %zu of %zu parts", parts_.size(),
-                  parts_in_frame_);
+  if (!angles_) return "the unit did not arrive: its angles are not known";
+  if (nearest_rad_ > kThere_rad) {
+    return printed("the unit did not arrive at pan %.2f, tilt %.2f deg: it is at %.2f, %.2f deg",
+                   degrees(at_.pan_rad), degrees(at_.tilt_rad), degrees(angles_->pan_rad),
+                   degrees(angles_->tilt_rad));
   }
-  return text;
+  if (parts_.empty()) return "the unit arrived, but no picture of it standing came";
+  return printed("the picture came in part: %zu of %zu parts", parts_.size(), parts_in_frame_);
 }
 
 }  // namespace ols::calibration

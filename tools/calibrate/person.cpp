@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "base/text/plain_text.h"
+#include "conditions/printed.h"
 #include "geometry/angles.h"
 
 namespace ols::calibration {
@@ -106,9 +107,9 @@ void Person::ask(const Question& question) {
   for (const std::string& one : question.choices) choices += (choices.empty() ? "" : " | ") + one;
   tell(question.text);
   if (question.crosshair_px) {
-    char text[100];
-    std::snprintf(text, sizeof text, "crosshair at %.2f %.2f px, 1-sigma %.2f px",
-                  question.crosshair_px->x(), question.crosshair_px->y(), question.crosshair_sd_px);
+    const std::string text =
+        printed("crosshair at %.2f %.2f px, 1-sigma %.2f px", question.crosshair_px->x(),
+                question.crosshair_px->y(), question.crosshair_sd_px);
     tell(text);
   }
   tell("> " + choices + " | abort");

@@ -1,7 +1,6 @@
 #include "tools/calibrate/procedure_session.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -11,6 +10,7 @@
 
 #include "base/files/append_line.h"
 #include "base/files/atomic_file.h"
+#include "conditions/printed.h"
 #include "tools/calibrate/observation_writer.h"
 
 namespace ols::calibration {
@@ -38,9 +38,8 @@ Taken ProcedureSession::add(FrameFile frame, bool is_view) {
   frame.taken.pose = ++poses_;
   const fs::path frames = folder_ / "frames";
   fs::create_directories(frames);
-  char name[40];
-  std::snprintf(name, sizeof name, "%06lld.%s", static_cast<long long>(poses_),
-                frame.lossless ? "png" : "jpg");
+  const std::string name =
+      printed("%06lld.%s", static_cast<long long>(poses_), frame.lossless ? "png" : "jpg");
   AtomicFile picture((frames / name).string());
   picture.stream().write(reinterpret_cast<const char*>(frame.file.data()),
                          static_cast<std::streamsize>(frame.file.size()));

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 
+#include "conditions/printed.h"
 #include "edge/calibration/view_offset.h"
 #include "geometry/angles.h"
 
@@ -88,18 +88,15 @@ void ViewStage::taken(const Taken& picture) {
   const cv::Mat stored = cv::imread(view.file, cv::IMREAD_GRAYSCALE);
   const auto offset = station::offset_of({stored, view.angles}, {picture.gray, picture.angles},
                                          model_.geometry, angle_sd_rad_);
-  char text[160];
   if (offset) {
-    std::snprintf(text, sizeof text,
-                  "pan %7.2f deg: turned %6.1f\" left, %6.1f\" up (1-sigma %.1f\")",
-                  degrees(view.angles.pan_rad), offset->left_rad / kArcsec,
-                  offset->up_rad / kArcsec, offset->sd_rad / kArcsec);
+    remark(printed("pan %7.2f deg: turned %6.1f\" left, %6.1f\" up (1-sigma %.1f\")",
+                   degrees(view.angles.pan_rad), offset->left_rad / kArcsec,
+                   offset->up_rad / kArcsec, offset->sd_rad / kArcsec));
     offsets_.push_back(*offset);
   } else {
-    std::snprintf(text, sizeof text, "pan %7.2f deg: the stored view is not recognised",
-                  degrees(view.angles.pan_rad));
+    remark(
+        printed("pan %7.2f deg: the stored view is not recognised", degrees(view.angles.pan_rad)));
   }
-  remark(text);
   step();
 }
 

@@ -15,6 +15,7 @@
 #include "calibration/pictures/scene_tracks.h"
 #include "calibration/procedure/sun_keep_out.h"
 #include "calibration/zoom_fit.h"
+#include "conditions/printed.h"
 #include "tools/calibrate/calibrate_case.h"
 #include "tools/calibrate/command_report.h"
 #include "tools/calibrate/procedure_stages.h"
@@ -36,13 +37,10 @@ constexpr double kLargestStep_rad = 0.07;
 // One row of the table as it is in a configuration.
 std::string text_of(const ZoomPoint& point) {
   const CameraIntrinsics& c = point.camera;
-  char text[400];
-  std::snprintf(text, sizeof text,
-                "\n[[lens_motor.point]]\nposition = %.4f\nfocal_px = %.2f\nfocal_sd_px = %.2f\n"
-                "cx_px = %.2f\ncy_px = %.2f\ncentre_sd_px = %.2f\nk1 = %.5f\nk2 = %.5f\n",
-                point.position, c.fx_px, point.focal_sd_px, c.cx_px, c.cy_px, point.centre_sd_px,
-                c.k1, c.k2);
-  return text;
+  return printed(
+      "\n[[lens_motor.point]]\nposition = %.4f\nfocal_px = %.2f\nfocal_sd_px = %.2f\n"
+      "cx_px = %.2f\ncy_px = %.2f\ncentre_sd_px = %.2f\nk1 = %.5f\nk2 = %.5f\n",
+      point.position, c.fx_px, point.focal_sd_px, c.cx_px, c.cy_px, point.centre_sd_px, c.k1, c.k2);
 }
 
 class ZoomRun {

@@ -1,8 +1,8 @@
 #include "tools/ctl/fleet_table.h"
 
 #include <cmath>
-#include <cstdio>
 
+#include "conditions/printed.h"
 #include "ols_msg/bearing_t.hpp"
 #include "wire/station_status.h"
 
@@ -11,19 +11,12 @@ namespace {
 
 using ols_msg::station_status_t;
 
-template <class... Values>
-std::string text(const char* format, Values... values) {
-  char room[200];
-  std::snprintf(room, sizeof room, format, values...);
-  return room;
-}
-
 // "3 d", "5 h", "12 min".
 std::string age(double seconds) {
   constexpr double kMinute_s = 60.0, kHour_s = 3600.0, kDay_s = 86400.0;
-  if (seconds >= 2.0 * kDay_s) return text("%.0f d", seconds / kDay_s);
-  if (seconds >= 2.0 * kHour_s) return text("%.0f h", seconds / kHour_s);
-  return text("%.0f min", seconds / kMinute_s);
+  if (seconds >= 2.0 * kDay_s) return printed("%.0f d", seconds / kDay_s);
+  if (seconds >= 2.0 * kHour_s) return printed("%.0f h", seconds / kHour_s);
+  return printed("%.0f min", seconds / kMinute_s);
 }
 
 std::string age_at(const station_status_t& s, std::int64_t utime_us) {
@@ -39,7 +32,7 @@ std::string calibration(const station_status_t& s) {
 
 std::string clock(const station_status_t& s) {
   if (s.clock_state != ols_msg::bearing_t::CLOCK_SYNCHRONISED) return "not synchronised";
-  return std::isfinite(s.clock_error_s) ? text("%.2f ms", 1e3 * s.clock_error_s) : "-";
+  return std::isfinite(s.clock_error_s) ? printed("%.2f ms", 1e3 * s.clock_error_s) : "-";
 }
 
 double reading(const station_status_t& s, const std::string& name) {
@@ -51,12 +44,12 @@ double reading(const station_status_t& s, const std::string& name) {
 
 std::string disk(const station_status_t& s) {
   const double bytes = reading(s, "disk_free_bytes");
-  return std::isfinite(bytes) ? text("%.1f GB", 1e-9 * bytes) : "-";
+  return std::isfinite(bytes) ? printed("%.1f GB", 1e-9 * bytes) : "-";
 }
 
 std::string warmth(const station_status_t& s) {
   const double degC = reading(s, "cpu_degC");
-  return std::isfinite(degC) ? text("%.0f degC", degC) : "-";
+  return std::isfinite(degC) ? printed("%.0f degC", degC) : "-";
 }
 
 std::string alarm(const station_status_t& s) {
@@ -76,15 +69,16 @@ constexpr const char* kLine = "%-12s %-10s %-10s %-16s %-17s %-9s %-8s ";
 std::string fleet_table(const std::map<std::string, station_status_t>& statuses,
                         const std::vector<std::string>& enrolled) {
   std::string table =
-      text(kLine, "station", "state", "version", "calibration", "clock", "disk", "cpu") + "alarm\n";
+      printed(kLine, "station", "state", "version", "calibration", "clock", "disk", "cpu") +
+      "alarm\n";
   for (const auto& [id, s] : statuses) {
-    table += text(kLine, id.c_str(), wire::state_name(s.state), wire::software(s).c_str(),
-                  calibration(s).c_str(), clock(s).c_str(), disk(s).c_str(), warmth(s).c_str()) +
+    table += printed(kLine, id.c_str(), wire::state_name(s.state), wire::software(s).c_str(),
+                     calibration(s).c_str(), clock(s).c_str(), disk(s).c_str(), warmth(s).c_str()) +
              alarm(s) + "\n";
   }
   for (const std::string& id : enrolled) {
     if (statuses.contains(id)) continue;
-    table += text(kLine, id.c_str(), "not heard", "-", "-", "-", "-", "-") + "-\n";
+    table += printed(kLine, id.c_str(), "not heard", "-", "-", "-", "-", "-") + "-\n";
   }
   return table;
 }

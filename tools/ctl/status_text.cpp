@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "conditions/alarm.h"
+#include "conditions/printed.h"
 #include "geometry/angles.h"
 #include "ols_msg/bearing_t.hpp"
 #include "wire/station_status.h"
@@ -21,17 +21,13 @@ using wire::state_name;
 
 template <class... Values>
 std::string line(const char* format, Values... values) {
-  char text[400];
-  std::snprintf(text, sizeof text, format, values...);
-  return std::string(text) + "\n";
+  return printed(format, values...) + "\n";
 }
 
 // "-" for an unknown value.
 std::string shown(double value, int decimals) {
   if (!std::isfinite(value)) return "-";
-  char text[64];
-  std::snprintf(text, sizeof text, "%.*f", decimals, value);
-  return text;
+  return printed("%.*f", decimals, value);
 }
 
 std::string shown_deg(double rad, int decimals) { return shown(degrees(rad), decimals); }

@@ -1,7 +1,6 @@
 #include "tools/doctor/finding.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "base/text/plain_text.h"
@@ -31,12 +30,6 @@ Verdict gravest(const Findings& findings) {
 }  // namespace
 
 std::string advice_on(const Alarm& alarm) { return std::string(alarm.row().action); }
-
-std::string number(double value, const char* format) {
-  char text[64];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
 
 void append(Findings& all, const Findings& more) {
   all.insert(all.end(), more.begin(), more.end());

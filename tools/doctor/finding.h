@@ -27,9 +27,6 @@ inline Finding fail(std::string what, std::string advice) {
 // What the table of conditions advises for an alarm.
 std::string advice_on(const Alarm& alarm);
 
-// A value in printf's notation, for the text of a finding.
-std::string number(double value, const char* format);
-
 using Findings = std::vector<Finding>;
 
 void append(Findings& all, const Findings& more);

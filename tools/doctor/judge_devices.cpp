@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "conditions/alarms.h"
+#include "conditions/printed.h"
 
 namespace ols::doctor {
 namespace {
@@ -27,9 +28,9 @@ std::string axis_text(const char* name, const PtuAxisAnswers& axis) {
     return std::string(name) + " unknown";
   }
   const double degrees_per_count = *axis.resolution_arcsec / kArcsecPerDegree;
-  return std::string(name) + number(*axis.least * degrees_per_count, " %.1f") + "..." +
-         number(*axis.greatest * degrees_per_count, "%.1f deg in steps of ") +
-         number(*axis.resolution_arcsec, "%.2f\"");
+  return std::string(name) + printed(" %.1f", *axis.least * degrees_per_count) + "..." +
+         printed("%.1f deg in steps of ", *axis.greatest * degrees_per_count) +
+         printed("%.2f\"", *axis.resolution_arcsec);
 }
 
 Finding judge_baud(const PtuAnswers& ptu) {
@@ -62,9 +63,9 @@ Finding judge_axes(const PtuAnswers& ptu) {
 Finding judge_supply(const PtuAnswers& ptu) {
   if (!ptu.environment)
     return warn("ptu: does not report its supply voltage", "measure the voltage at it");
-  const std::string words = "ptu: supply" + number(ptu.environment->supply_V, " %.1f V");
+  const std::string words = "ptu: supply" + printed(" %.1f V", ptu.environment->supply_V);
   if (ptu.environment->supply_V >= ptu.supply_min_V) return ok(words);
-  return warn(words + ", below" + number(ptu.supply_min_V, " %.1f V"),
+  return warn(words + ", below" + printed(" %.1f V", ptu.supply_min_V),
               "charge or replace the battery; at 12 V it reaches two thirds of its speed");
 }
 
@@ -148,7 +149,7 @@ Findings judge(const LinkFacts& link, double rate_bytes_s) {
   if (link.speed_Mbit_s) words += ", " + std::to_string(*link.speed_Mbit_s) + " Mbit/s";
   const double wanted_Mbit_s = rate_bytes_s * kBitsPerByte / kMega;
   if (link.speed_Mbit_s && wanted_Mbit_s > kLinkShare * *link.speed_Mbit_s) {
-    findings.push_back(fail(words + ", but the stream takes" + number(wanted_Mbit_s, " %.0f"),
+    findings.push_back(fail(words + ", but the stream takes" + printed(" %.0f", wanted_Mbit_s),
                             "use a gigabit cable and port, or lower frame_rate_hz"));
   } else if (link.mtu < kEthernetMtu) {
     findings.push_back(warn(words, "ip link set " + link.name +
@@ -162,7 +163,7 @@ Findings judge(const LinkFacts& link, double rate_bytes_s) {
                           : static_cast<double>(link.dropped) / static_cast<double>(link.received);
   if (loss > kLossWarning) {
     findings.push_back(warn(
-        "link: " + link.name + " has lost" + number(100.0 * loss, " %.2f %%") + " of its packets",
+        "link: " + link.name + " has lost" + printed(" %.2f %%", 100.0 * loss) + " of its packets",
         "set packet_delay_us, and net.core.rmem_max by 60-ols.conf; check the "
         "cable"));
   }
@@ -189,7 +190,7 @@ Findings judge(const CameraAnswers& camera) {
     }
     if (camera.temperature_degC && *camera.temperature_degC > kHot_degC) {
       findings.push_back(
-          warn("camera:" + number(*camera.temperature_degC, " %.0f degC"), "give it shade"));
+          warn("camera:" + printed(" %.0f degC", *camera.temperature_degC), "give it shade"));
     }
   }
   if (camera.link) append(findings, judge(*camera.link, camera.rate_bytes_s));

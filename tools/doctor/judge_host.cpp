@@ -4,6 +4,8 @@
 #include <cstring>
 #include <sstream>
 
+#include "conditions/printed.h"
+
 namespace ols::doctor {
 namespace {
 
@@ -28,10 +30,10 @@ Finding judge(const FolderFacts& folder) {
                 "make it (systemd-tmpfiles --create), give it to user ols, check that the disk is "
                 "mounted writable");
   }
-  const std::string free = ", " + number(folder.free_bytes / kGiga, "%.1f GB free");
+  const std::string free = ", " + printed("%.1f GB free", folder.free_bytes / kGiga);
   if (folder.free_bytes < folder.reserve_bytes) {
     return warn(words + free, "free disk space: recording pauses below" +
-                                  number(folder.reserve_bytes / kGiga, " %.1f GB"));
+                                  printed(" %.1f GB", folder.reserve_bytes / kGiga));
   }
   return ok(words + free);
 }
@@ -43,7 +45,7 @@ Findings judge(const station::HostReport& host) {
   }
   const auto cpu = host.readings.find("cpu_degC");
   if (host.alarms.empty() && cpu != host.readings.end()) {
-    findings.push_back(ok("host: processor" + number(cpu->second, " %.0f degC")));
+    findings.push_back(ok("host: processor" + printed(" %.0f degC", cpu->second)));
   }
   return findings;
 }

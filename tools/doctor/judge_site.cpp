@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "conditions/alarms.h"
+#include "conditions/printed.h"
 #include "tools/doctor/judge_devices.h"
 
 namespace ols::doctor {
@@ -19,7 +20,7 @@ double counter(const StationFacts& station, const char* name) {
 }
 
 Finding judge_clock(const StationFacts& station) {
-  const std::string error = number(station.clock_error_s / kMilli, "%.1f ms");
+  const std::string error = printed("%.1f ms", station.clock_error_s / kMilli);
   switch (station.clock) {
     case clock::ClockState::kSynchronised:
       return ok("clock: synchronised, error " + error);
@@ -38,7 +39,7 @@ std::optional<Finding> judge_frames(const StationFacts& station) {
   if (captured + lost <= 0.0) return std::nullopt;
   const double share = lost / (captured + lost);
   const std::string words =
-      "frames: " + number(captured, "%.0f, ") + number(100.0 * share, "%.2f %% lost");
+      "frames: " + printed("%.0f, ", captured) + printed("%.2f %% lost", 100.0 * share);
   if (share <= kFrameLossWarning) return ok(words);
   return warn(words,
               "check the camera's cable; set packet_delay_us; net.core.rmem_max by "
@@ -51,8 +52,8 @@ std::optional<Finding> judge_calibration(const StationFacts::Calibration& calibr
   constexpr double kArcsecondsPerRad = 648000.0 / 3.14159265358979323846, kDay_s = 86400.0;
   if (!calibration.in_use) return std::nullopt;
   std::string words =
-      "calibration: in use, " + number(kArcsecondsPerRad * calibration.sd_rad, "%.0f arc seconds");
-  if (calibration.age_s > 0.0) words += number(calibration.age_s / kDay_s, ", %.1f days old");
+      "calibration: in use, " + printed("%.0f arc seconds", kArcsecondsPerRad * calibration.sd_rad);
+  if (calibration.age_s > 0.0) words += printed(", %.1f days old", calibration.age_s / kDay_s);
   if (!calibration.doubted) return ok(words);
   return warn(words + ", and its reference views have moved",
               "the alarm says what moved; calibrate the setup again");
@@ -64,7 +65,7 @@ std::string distrusted(const std::map<std::string, double>& counters) {
   std::string text;
   for (const auto& [name, value] : counters) {
     if (!name.starts_with(prefix) || value <= 0.0) continue;
-    text += (text.empty() ? "" : ", ") + number(value, "%.0f ") + name.substr(prefix.size());
+    text += (text.empty() ? "" : ", ") + printed("%.0f ", value) + name.substr(prefix.size());
   }
   return text;
 }
@@ -176,9 +177,9 @@ Findings judge(const StationFacts& station) {
   }
   append(findings, judge_alarms("alarm: ", station.alarms));
   if (!station.last_error.empty() && station.last_error_age_s < kRecent_s) {
-    findings.push_back(
-        warn("last error, " + number(station.last_error_age_s, "%.0f s ago: ") + station.last_error,
-             "journalctl -u 'ols-station@*' shows more"));
+    findings.push_back(warn(
+        "last error, " + printed("%.0f s ago: ", station.last_error_age_s) + station.last_error,
+        "journalctl -u 'ols-station@*' shows more"));
   }
   return findings;
 }

@@ -1,11 +1,11 @@
 #include "tools/key/log_check.h"
 
-#include <cstdio>
 #include <exception>
 #include <utility>
 
 #include "base/bus/bus_inbox.h"
 #include "base/trust/messages_trust.h"
+#include "conditions/printed.h"
 
 namespace ols::key {
 namespace {
@@ -94,9 +94,8 @@ std::uint64_t LogCheck::bad() const {
 std::string LogCheck::text() const {
   std::string text;
   for (const auto& [channel, count] : channels_) {
-    char line[128];
-    std::snprintf(line, sizeof line, "%-48s %10llu good", channel.c_str(),
-                  static_cast<unsigned long long>(count.good));
+    const std::string line =
+        printed("%-48s %10llu good", channel.c_str(), static_cast<unsigned long long>(count.good));
     text += line;
     for (const auto& [reason, number] : count.bad) {
       text += ", " + std::to_string(number) + " " + reason;

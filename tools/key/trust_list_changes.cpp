@@ -1,8 +1,9 @@
 #include "tools/key/trust_list_changes.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <stdexcept>
+
+#include "conditions/printed.h"
 
 namespace ols::key {
 namespace {
@@ -58,9 +59,8 @@ std::string describe(const TrustList& list) {
   std::string text = "site " + list.site + ", list " + std::to_string(list.number) + ", root " +
                      trust::spoken(list.root) + "\n";
   for (const Member& member : list.members) {
-    char line[160];
-    std::snprintf(
-        line, sizeof line, "%-32s %-10s %-8s %s\n", member.name.c_str(),
+    const std::string line = printed(
+        "%-32s %-10s %-8s %s\n", member.name.c_str(),
         member.role == trust::Role::kUnknown ? member.unknown_role.c_str() : to_string(member.role),
         member.revoked ? "revoked" : "", trust::spoken(member.key).c_str());
     text += line;

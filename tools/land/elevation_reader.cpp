@@ -7,12 +7,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <sstream>
 #include <stdexcept>
 
+#include "conditions/printed.h"
 #include "geometry/angles.h"
 #include "tools/land/gdal_files.h"
 
@@ -85,9 +85,8 @@ Dataset resample(GDALDataset& source, const Bounds& bounds, const std::string& p
   if (suggested != CE_None)
     fail(path, "cannot be brought to latitude and longitude: " + gdal_error());
   // Two digits: files of one model get the same step.
-  std::array<char, 32> step{};
-  std::snprintf(step.data(), step.size(), "%.1e", affine[1]);
-  const double step_deg = std::stod(step.data());
+  const std::string step = printed("%.1e", affine[1]);
+  const double step_deg = std::stod(step);
   const double west = std::max(bounds.west_deg, affine[0]);
   const double north = std::min(bounds.north_deg, affine[3]);
   const double east = std::min(bounds.east_deg, affine[0] + columns * affine[1]);

@@ -1,10 +1,11 @@
 #include "tools/logger/log_names.h"
 
-#include <cstdio>
 #include <ctime>
 #include <filesystem>
 #include <system_error>
 #include <utility>
+
+#include "conditions/printed.h"
 
 namespace ols::logger {
 namespace {
@@ -31,8 +32,7 @@ std::string LogNames::next(std::int64_t utime_us) {
     number_ = 0;
   }
   while (true) {
-    char end[32];
-    std::snprintf(end, sizeof end, ".lcmlog.%02d", number_++);
+    const std::string end = printed(".lcmlog.%02d", number_++);
     const auto path = std::filesystem::path(folder_) / (name_ + "-" + time_ + end);
     std::error_code failure;
     const file_type there = std::filesystem::symlink_status(path, failure).type();

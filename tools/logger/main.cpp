@@ -2,8 +2,6 @@
 #include <poll.h>
 #include <spdlog/spdlog.h>
 
-#include <cstdio>
-
 #include "base/journal/journal.h"
 #include "base/process/clocks.h"
 #include "base/process/command_line.h"
@@ -11,6 +9,7 @@
 #include "base/process/service_notifier.h"
 #include "base/process/shutdown.h"
 #include "base/process/status_file.h"
+#include "conditions/printed.h"
 #include "tools/logger/bus_recorder.h"
 #include "tools/logger/supervisor.h"
 
@@ -20,9 +19,8 @@ constexpr int kTurn_ms = 100;
 constexpr double kStatus_s = 1.0;
 
 std::string status_line(const ols::logger::LoggerStatus& status) {
-  char room[96];
-  std::snprintf(room, sizeof room, "; %.1f GB in %zu files, %.1f GB free", status.bytes * 1e-9,
-                status.files, status.free_bytes * 1e-9);
+  const std::string room = printed("; %.1f GB in %zu files, %.1f GB free", status.bytes * 1e-9,
+                                   status.files, status.free_bytes * 1e-9);
   return (status.recording ? "recording " : "NOT recording: ") + status.text + room +
          (status.bus_alarm.empty() ? "" : "; " + status.bus_alarm);
 }

@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <exception>
 #include <nlohmann/json.hpp>
 
 #include "base/journal/journal.h"
 #include "base/text/plain_text.h"
+#include "conditions/printed.h"
 
 namespace ols::logger {
 namespace {
@@ -19,9 +19,7 @@ constexpr double kLongestPause_s = 15.0;
 constexpr double kHealthy_s = 20.0;  // after running this long, the pause is short again
 
 std::string disk_full(double free_bytes) {
-  char text[64];
-  std::snprintf(text, sizeof text, "disk full (%.1f GB free)", free_bytes * 1e-9);
-  return text;
+  return printed("disk full (%.1f GB free)", free_bytes * 1e-9);
 }
 
 }  // namespace

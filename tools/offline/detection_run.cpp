@@ -1,14 +1,13 @@
 #include "tools/offline/detection_run.h"
 
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <iostream>
 #include <optional>
 
 #include "base/files/atomic_file.h"
 #include "base/files/output_check.h"
 #include "base/process/progress.h"
+#include "conditions/printed.h"
 #include "edge/detector/detector.h"
 #include "tools/offline/frame_source.h"
 #include "tools/offline/mount_csv.h"
@@ -26,11 +25,10 @@ void check_files(const DetectionArguments& arguments, const FrameSource& source)
 void write(std::ostream& out, long frame, const detector::Tracklet& tracklet) {
   const Eigen::Vector2d corner = tracklet.pixel() - 0.5 * tracklet.size_px();
   const double confidence = 1.0 / (1.0 + std::exp(-tracklet.log_ratio()));
-  std::array<char, 160> text{};
-  std::snprintf(text.data(), text.size(), "%ld,%ld,%.2f,%.2f,%.2f,%.2f,%.4f,other\n", frame,
-                tracklet.id(), corner.x() + 0.5, corner.y() + 0.5, tracklet.size_px().x(),
-                tracklet.size_px().y(), confidence);
-  out << text.data();
+  const std::string text =
+      printed("%ld,%ld,%.2f,%.2f,%.2f,%.2f,%.4f,other\n", frame, tracklet.id(), corner.x() + 0.5,
+              corner.y() + 0.5, tracklet.size_px().x(), tracklet.size_px().y(), confidence);
+  out << text;
 }
 
 }  // namespace

@@ -1,13 +1,12 @@
 #include "edge/camera/rtsp/rtsp_camera.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 #include "base/process/clocks.h"
 #include "conditions/alarms.h"
+#include "conditions/printed.h"
 #include "edge/camera/picture.h"
 #include "edge/camera/picture_change.h"
 #include "edge/camera/retry_pause.h"
@@ -23,9 +22,7 @@ constexpr double kLongestTurn_s = 0.2;  // maximum that one turn adds to the sil
 constexpr double kStampRateOff = 2e-3;  // no oscillator is so bad
 
 std::string milliseconds(const char* format, double seconds) {
-  std::array<char, 100> text{};
-  std::snprintf(text.data(), text.size(), format, 1e3 * seconds);
-  return text.data();
+  return printed(format, 1e3 * seconds);
 }
 
 class RtspSource : public CameraSource {

@@ -1,6 +1,5 @@
 #include "edge/sensors/dpg2/dpg2_inclinometer.h"
 
-#include <cstdio>
 #include <mutex>
 #include <optional>
 #include <stdexcept>
@@ -8,6 +7,7 @@
 
 #include "base/process/clocks.h"
 #include "conditions/alarms.h"
+#include "conditions/printed.h"
 #include "edge/device/device_thread.h"
 #include "edge/device/reading_queue.h"
 #include "edge/sensors/dpg2/dpg2_parser.h"
@@ -24,10 +24,7 @@ constexpr double kMaxPause_s = 5.0;
 constexpr int kStartsBeforeReopening = 3;
 
 std::string in_degrees(const AxisAngles& angles) {
-  char text[64];
-  std::snprintf(text, sizeof text, "x %+.3f, y %+.3f deg", degrees(angles.x_rad),
-                degrees(angles.y_rad));
-  return text;
+  return printed("x %+.3f, y %+.3f deg", degrees(angles.x_rad), degrees(angles.y_rad));
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 #include "edge/sensors/gpsd/gpsd_receiver.h"
 
-#include <cstdio>
 #include <mutex>
 #include <optional>
 #include <stdexcept>
@@ -8,6 +7,7 @@
 
 #include "base/process/clocks.h"
 #include "conditions/alarms.h"
+#include "conditions/printed.h"
 #include "edge/device/device_thread.h"
 #include "edge/device/reading_queue.h"
 #include "edge/sensors/gpsd/gnss_from_gpsd.h"
@@ -23,14 +23,8 @@ constexpr double kMaxPause_s = 10.0;
 constexpr double kReconnectAfterStale = 4.0;  // times stale_s
 
 std::string format(const GnssReading& reading) {
-  char text[96];
-  if (reading.fix >= GnssFix::k3D) {
-    std::snprintf(text, sizeof text, "%s, %d satellites, %.3f m", to_string(reading.fix),
-                  reading.satellites_used, reading.sd_enu_m.maxCoeff());
-  } else {
-    std::snprintf(text, sizeof text, "%s, %d satellites", to_string(reading.fix),
-                  reading.satellites_used);
-  }
+  std::string text = printed("%s, %d satellites", to_string(reading.fix), reading.satellites_used);
+  if (reading.fix >= GnssFix::k3D) text += printed(", %.3f m", reading.sd_enu_m.maxCoeff());
   return text;
 }
 
