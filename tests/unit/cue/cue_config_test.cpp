@@ -49,7 +49,6 @@ TEST(CueConfig, WhatCannotBeIsNamedWithItsLine) {
               HasSubstr("two have the name"));
   EXPECT_THAT(error_of("[[input]]\nname = \"a b\"\nformat = \"cot\"\nfrom = \"tcp://a:1\""),
               HasSubstr("letters"));
-  EXPECT_THAT(error_of(input("nmea", "tcp://a:1")), HasSubstr("format"));
 }
 
 }  // namespace

@@ -102,6 +102,10 @@ TEST(ConfigSection, FieldsKeepTheirDefaults) {
 TEST(ConfigSection, RefusesNamingLineAndKey) {
   EXPECT_EQ(cart_error("name = 'a'\nsaets = 3\n"), "f:2: saets: unknown key; did you mean seats?");
   EXPECT_EQ(cart_error("name = 'a'\n[weel]\n"), "f:2: weel: unknown key; did you mean wheel?");
+  EXPECT_EQ(cart_error("naem = 'a'\n"), "f:1: naem: unknown key; did you mean name?")
+      << "before the one that is missing";
+  EXPECT_EQ(cart_error("name = 'a'\nradio.hots = 'h'\n"),
+            "f:2: radio.hots: unknown key; did you mean host?");
   EXPECT_EQ(cart_error("seats = 3\n"), "f:1: name: is missing");
   EXPECT_EQ(cart_error("name = ''\n"), "f:1: name: must not be empty");
   EXPECT_EQ(cart_error("name = 'a'\n[radio]\n"), "f:2: radio.host: is missing");

@@ -5,7 +5,6 @@
 
 #include <cstdio>
 #include <fstream>
-#include <map>
 #include <string>
 
 #include "base/config/toml_config.h"
@@ -107,44 +106,6 @@ TEST_F(StationConfigFile, NamesWhatIsMissing) {
   EXPECT_NE(error(kStart + "[gnss]\nport = 2947\n[pose]\nheading_deg = 1\n" + kPlace), "none");
   EXPECT_NE(error(kStart + "[gpio]\n[pose]\nheading_deg = 1\n" + kPlace), "none");
   EXPECT_EQ(error(kStart + "[gnss]\nhost = \"\"\n[pose]\nheading_deg = 1\n" + kPlace), "none");
-}
-
-TEST_F(StationConfigFile, RefusesKeysThatNobodyKnows) {
-  const std::string good = kStart + "[pose]\nheading_deg = 10\n" + kPlace;
-  ASSERT_EQ(error(good), "none");
-  const std::map<std::string, std::string> sections{{"gnss", "host = \"127.0.0.1\""},
-                                                    {"inclinometer", "device = \"/dev/null\""},
-                                                    {"gpio", "chip = \"gpiochip0\""},
-                                                    {"recorder", "folder = \"/tmp\""},
-                                                    {"clock", ""},
-                                                    {"watchdog", ""},
-                                                    {"logic", ""},
-                                                    {"chain", ""}};
-  for (const auto& [section, needed] : sections) {
-    const std::string text = good + "[" + section + "]\n" + needed + "\n";
-    EXPECT_EQ(error(text), "none") << section;
-    const std::string words = error(text + "no_such_key = 1\n");
-    EXPECT_NE(words.find(section + ".no_such_key"), std::string::npos) << words;
-  }
-  EXPECT_NE(error(good + "[no_such_section]\n").find("no_such_section"), std::string::npos);
-  std::string lens = good;
-  lens.insert(lens.find("fx_px"), "no_such_key = 1, ");
-  EXPECT_NE(error(lens).find("lens.no_such_key"), std::string::npos) << error(lens);
-}
-
-TEST_F(StationConfigFile, AMisspeltKeyIsNamedBeforeTheOneThatIsMissing) {
-  const std::string pose = "[pose]\nheading_deg = 10\n" + kPlace;
-  std::string lense = kStart + pose;
-  lense.replace(lense.find("lens"), 4, "lense");
-  EXPECT_EQ(error(lense), ":2: lense: unknown key; did you mean lens?");
-  EXPECT_EQ(error(kStart + "[pose]\n" + kPlace + "headign_deg = 10\n"),
-            ":11: pose.headign_deg: unknown key; did you mean heading_deg?");
-}
-
-TEST_F(StationConfigFile, TheURLOfTheBusIsChecked) {
-  const std::string good = kStart + "[pose]\nheading_deg = 10\n" + kPlace;
-  EXPECT_EQ(error("lcm_url = 'udpm://239.255.76.67:7667?ttl=x'\n" + good),
-            ":1: lcm_url: \"x\" is not a ttl (0 to 255)");
 }
 
 // The search is never wider than a quarter of the image.

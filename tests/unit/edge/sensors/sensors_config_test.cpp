@@ -5,7 +5,6 @@
 #include "edge/sensors/gpsd/gpsd_kind.h"
 #include "edge/sensors/pose_estimator_config.h"
 #include "geometry/angles.h"
-#include "tests/unit/error_text.h"
 
 namespace ols::sensors {
 namespace {
@@ -22,15 +21,6 @@ GpsdConfig gnss(const std::string& text) {
   GpsdKind kind;
   config::read(kind.section(), file.root().table("gnss"));
   return kind.gpsd;
-}
-
-std::string error_of(auto&& read) {
-  return error_text<ConfigError>([&] { read(); }, "none");
-}
-
-TEST(SensorsConfig, NothingIsConfiguredByDefault) {
-  EXPECT_TRUE(inclinometer("").device.empty());
-  EXPECT_TRUE(gnss("").host.empty());
 }
 
 TEST(SensorsConfig, EveryKeyArrives) {
@@ -89,25 +79,6 @@ TEST(SensorsConfig, TheSettingsOfThePoseStay) {
   EXPECT_EQ(estimator.alarm_sigma, 3.0);
   EXPECT_EQ(estimator.level_sd_rad, 0.01);
   EXPECT_TRUE(estimator.surveyed_tilt_rad);
-}
-
-TEST(SensorsConfig, ErrorsNameFileLineAndKey) {
-  EXPECT_EQ(error_of([] {
-              inclinometer("[inclinometer]\nx_sign = 0\ndevice = \"a\"\n");
-            }).rfind("t.toml:2: inclinometer.x_sign", 0),
-            0U);
-  for (const char* line : {"baud = 9601", "parity = \"odd\"", "stale_s = 0", "range_deg = 100",
-                           "sd_deg = 0", "devise = \"/dev/ttyUSB0\"", "device = 3"}) {
-    const std::string text =
-        std::string("[inclinometer]\n") + line +
-        (std::string_view(line).starts_with("device") ? "\n" : "\ndevice = \"a\"\n");
-    EXPECT_EQ(error_of([&] { inclinometer(text); }).rfind("t.toml:2: ", 0), 0U) << line;
-  }
-  for (const char* line : {"port = 0", "port = \"2947\"", "least_fix = \"4\"", "stale_s = nan",
-                           "ground_to_antenna_enu_m = [1, 2]", "sd_floor_m = 0", "hosst = \"a\""}) {
-    const std::string text = std::string("[gnss]\n") + line + "\nhost = \"a\"\n";
-    EXPECT_EQ(error_of([&] { gnss(text); }).rfind("t.toml:2: ", 0), 0U) << line;
-  }
 }
 
 }  // namespace

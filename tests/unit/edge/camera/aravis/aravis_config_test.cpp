@@ -20,14 +20,6 @@ std::string error_of(std::string_view text) {
   return error_text<ConfigError>([&] { read(text); });
 }
 
-TEST(AravisConfig, OnlyTheDeviceIsNeeded) {
-  const AravisConfig config = read("device = '127.0.0.11'");
-  EXPECT_EQ(config.device, "127.0.0.11");
-  EXPECT_EQ(config.width_px, AravisConfig{}.width_px);
-  EXPECT_EQ(config.pixel_format, "Mono8");
-  EXPECT_EQ(config.stamp_at, StampAt::kExposureStart);
-}
-
 constexpr const char* kEveryKey = R"(
 device = "Prosilica-1234"
 width_px = 640
@@ -98,19 +90,14 @@ TEST(AravisConfig, ReadsEveryKeyOfBrightnessClockAndTransport) {
   EXPECT_FALSE(config.packet_resend);
 }
 
-TEST(AravisConfig, RefusesNamingTheKey) {
+// The ranges are in the reference of the configuration, which is compared with the tables.
+TEST(AravisConfig, RefusesWhatContradictsItself) {
   using testing::HasSubstr;
-  EXPECT_THAT(error_of("width_px = 640"), HasSubstr("device"));
   EXPECT_THAT(error_of("device = ''"), HasSubstr("device"));
-  for (const char* bad :
-       {"pixel_format = 'Mono16'", "frame_rate_hz = 0", "exposure_us = -1", "width_px = 0",
-        "stamp_at = 'middle'", "packet_size = 100", "packet_size = 70000", "trigger = 'line5'",
-        "ptp = 'master'", "packet_delay_us = -0.5", "exposure_max_us = 20", "gain_max_dB = -1",
-        "expsure_us = 5"}) {
-    const std::string text = std::string("device = 'x'\n") + bad;
+  for (const char* bad : {"packet_size = 100", "packet_delay_us = -0.5", "exposure_max_us = 20",
+                          "gain_max_dB = -1"}) {
     const std::string key(bad, std::string_view(bad).find(' '));
-    EXPECT_THAT(error_of(text), HasSubstr("station.toml:2")) << bad;
-    EXPECT_THAT(error_of(text), HasSubstr(key)) << bad;
+    EXPECT_THAT(error_of(std::string("device = 'x'\n") + bad), HasSubstr("station.toml:2: " + key));
   }
 }
 
