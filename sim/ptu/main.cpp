@@ -86,8 +86,9 @@ void answer(PtuConsole& console, PtuLine& line, const std::string& text) {
   }
   const double at_s = std::get<PtuConsole::AskedAngles>(answer).at_s.value_or(now_s);
   const ols::PanTilt angles = line.angles_at(at_s);
-  const std::string shown = printed("angles %.6f s pan %.6f tilt %.6f deg", at_s,
-                                    ols::degrees(angles.pan_rad), ols::degrees(angles.tilt_rad));
+  const std::string shown =
+      ols::printed("angles %.6f s pan %.6f tilt %.6f deg", at_s, ols::degrees(angles.pan_rad),
+                   ols::degrees(angles.tilt_rad));
   std::cout << shown << std::endl;
 }
 

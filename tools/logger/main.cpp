@@ -19,8 +19,8 @@ constexpr int kTurn_ms = 100;
 constexpr double kStatus_s = 1.0;
 
 std::string status_line(const ols::logger::LoggerStatus& status) {
-  const std::string room = printed("; %.1f GB in %zu files, %.1f GB free", status.bytes * 1e-9,
-                                   status.files, status.free_bytes * 1e-9);
+  const std::string room = ols::printed("; %.1f GB in %zu files, %.1f GB free", status.bytes * 1e-9,
+                                        status.files, status.free_bytes * 1e-9);
   return (status.recording ? "recording " : "NOT recording: ") + status.text + room +
          (status.bus_alarm.empty() ? "" : "; " + status.bus_alarm);
 }
