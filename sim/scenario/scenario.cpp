@@ -18,10 +18,12 @@ namespace {
 using config::Row;
 using config::Section;
 
-// Values without a configuration row: the camera's optics as data sheets state them.
+// Values without a configuration row: the optics as data sheets state them.
 struct Optics {
   double focal_length_mm = 50.0, pixel_um = 3.75;
+  LensModel model = LensModel::kPinhole;
   std::array<double, 5> distortion{};
+  double k4 = 0.0;
 };
 
 Row angle(const char* key, double& field_rad, config::Range range_deg, const char* sentence) {
@@ -38,16 +40,12 @@ Section site_section(Geodetic& origin) {
                .required()}};
 }
 
-void use_optics(ConfigTable& table, const Optics& optics, CameraIntrinsics& c) {
+void use_lens(ConfigTable& table, const Optics& optics, CameraIntrinsics& c) {
+  c.model = optics.model;
   c.fx_px = c.fy_px = optics.focal_length_mm * 1e3 / optics.pixel_um;
-  const auto centre = [&table](const char* key, double& field, int size) {
-    if (!table.has(key)) field = 0.5 * (size - 1);
-    if (field > size) throw table.error(key, "is outside of the image");
-  };
-  centre("cx_px", c.cx_px, c.width_px);
-  centre("cy_px", c.cy_px, c.height_px);
   c.k1 = optics.distortion[0], c.k2 = optics.distortion[1];
   c.p1 = optics.distortion[2], c.p2 = optics.distortion[3], c.k3 = optics.distortion[4];
+  c.k4 = optics.k4;
   const std::string foreign = foreign_coefficients(c);
   if (!foreign.empty()) throw table.error("lens", "has no " + foreign);
   for (const double x : {-0.5, c.width_px - 0.5}) {
@@ -58,36 +56,48 @@ void use_optics(ConfigTable& table, const Optics& optics, CameraIntrinsics& c) {
   }
 }
 
+void centre(ConfigTable& table, CameraIntrinsics& c) {
+  const auto place = [&table](const char* key, double& field, int size) {
+    if (!table.has(key)) field = 0.5 * (size - 1);
+    if (field > size) throw table.error(key, "is outside of the image");
+  };
+  place("cx_px", c.cx_px, c.width_px);
+  place("cy_px", c.cy_px, c.height_px);
+}
+
+std::vector<Row> lens_rows(Optics& optics) {
+  return {
+      config::number("focal_length_mm", optics.focal_length_mm, {1, 1000}, "mm", "Focal length."),
+      config::word("lens", optics.model, station::lens_model_words(),
+                   "The model of the lens; all but the pinhole only for stations that stand "
+                   "still."),
+      config::numbers("distortion", optics.distortion, {-10, 10}, "", "k1, k2, p1, p2, k3."),
+      config::number("k4", optics.k4, {-10, 10}, "", "Fourth term of a fisheye or polynomial.")};
+}
+
 Section camera_section(Scenario& s) {
   constexpr config::Range kPixels{0, 2048};
   CameraIntrinsics& c = s.camera;
   auto optics = std::make_shared<Optics>();
-  return {
-      "camera",
-      "The camera of every station.",
-      {config::integer("width_px", c.width_px, 64, 2048, "px", "Width of the image."),
-       config::integer("height_px", c.height_px, 64, 2048, "px", "Height of the image."),
-       config::number("focal_length_mm", optics->focal_length_mm, {1, 1000}, "mm", "Focal length."),
-       config::word("lens", c.model, station::lens_model_words(),
-                    "The model of the lens; all but "
-                    "the pinhole only for stations that stand still."),
-       config::number("pixel_um", optics->pixel_um, {1, 20}, "um", "Pixel pitch."),
-       config::number("cx_px", c.cx_px, kPixels, "px", "Principal point, x.")
-           .default_is("middle of the image"),
-       config::number("cy_px", c.cy_px, kPixels, "px", "Principal point, y.")
-           .default_is("middle of the image"),
-       config::numbers("distortion", optics->distortion, {-10, 10}, "", "k1, k2, p1, p2, k3."),
-       config::number("k4", c.k4, {-10, 10}, "", "Fourth term of a fisheye or polynomial."),
-       config::number("frame_rate_hz", s.frame_rate_hz, {1, 60}, "Hz", "Frame rate."),
-       config::number("exposure_ms", s.exposure_s, {0.01, 100}, config::kMilliseconds,
-                      "Exposure time."),
-       config::number("readout_ms", s.readout_s, {0, 100}, config::kMilliseconds,
-                      "From the end of the exposure to the first packet.")},
-      {},
-      [&s, optics](ConfigTable& table) {
-        s.px_per_mm = 1e3 / optics->pixel_um;
-        use_optics(table, *optics, s.camera);
-      }};
+  std::vector<Row> rows{
+      config::integer("width_px", c.width_px, 64, 2048, "px", "Width of the image."),
+      config::integer("height_px", c.height_px, 64, 2048, "px", "Height of the image."),
+      config::number("pixel_um", optics->pixel_um, {1, 20}, "um", "Pixel pitch."),
+      config::number("cx_px", c.cx_px, kPixels, "px", "Principal point, x.")
+          .default_is("middle of the image"),
+      config::number("cy_px", c.cy_px, kPixels, "px", "Principal point, y.")
+          .default_is("middle of the image"),
+      config::number("frame_rate_hz", s.frame_rate_hz, {1, 60}, "Hz", "Frame rate."),
+      config::number("exposure_ms", s.exposure_s, {0.01, 100}, config::kMilliseconds,
+                     "Exposure time."),
+      config::number("readout_ms", s.readout_s, {0, 100}, config::kMilliseconds,
+                     "From the end of the exposure to the first packet.")};
+  std::ranges::move(lens_rows(*optics), std::back_inserter(rows));
+  return {"camera", "The camera of every station.", rows, {}, [&s, optics](ConfigTable& table) {
+            s.px_per_mm = 1e3 / optics->pixel_um;
+            centre(table, s.camera);
+            use_lens(table, *optics, s.camera);
+          }};
 }
 
 Section ptu_section(PtuScenario& p) {
@@ -277,11 +287,26 @@ std::vector<Row> station_rows(StationScenario& station) {
                    "Serial device of a real PTU in place of the simulated one; empty: none.")};
 }
 
-Section station_section(std::vector<StationScenario>& stations) {
+// The same sensor behind another lens.
+void use_own_lens(ConfigTable& table, Optics optics, const Scenario& s, StationScenario& station) {
+  if (!table.has("focal_length_mm")) {
+    for (const char* key : {"lens", "distortion", "k4"}) {
+      if (table.has(key)) throw table.error(key, "of a lens without focal_length_mm");
+    }
+    return;
+  }
+  if (!station.zoom.is_fixed()) throw table.error("focal_length_mm", "of a lens with zoom_mm");
+  optics.pixel_um = 1e3 / s.px_per_mm;
+  station.camera = s.camera;
+  use_lens(table, optics, *station.camera);
+}
+
+Section station_section(Scenario& scenario) {
   Section section{"station", "A station."};
-  section.append = [&stations] {
+  section.append = [&scenario] {
     struct Keys {
       StationScenario station;
+      Optics optics;
       std::array<double, 2> tilt_xy_rad{};
       std::array<double, 3> mount_zxy_rad{};
       std::array<double, 2> fixed_rad{}, watch_rad{};
@@ -304,7 +329,10 @@ Section station_section(std::vector<StationScenario>& stations) {
                                    {0, 360}, station::in_degrees(),
                                    "Width and height of what it looks at there."));
     std::ranges::move(zoom_rows(keys->station.zoom), std::back_inserter(rows));
-    return Section{"", "", rows, {}, [keys, &stations](ConfigTable& table) {
+    for (Row& row : lens_rows(keys->optics)) {
+      rows.push_back(std::move(row).default_is("that of [camera]"));
+    }
+    return Section{"", "", rows, {}, [keys, &scenario](ConfigTable& table) {
                      StationScenario& s = keys->station;
                      const std::string problem = zoom_problem(s.zoom, s.overview);
                      if (!problem.empty()) throw table.error("zoom_mm", problem);
@@ -322,8 +350,12 @@ Section station_section(std::vector<StationScenario>& stations) {
                        s.watch = AzimuthElevation{keys->watch_rad[0], keys->watch_rad[1]};
                      }
                      if (!table.has("ptu_line")) s.ptu_line = s.id + ".ptu";
-                     stations.push_back(s);
-                     check_id(table, stations, "stations");
+                     use_own_lens(table, keys->optics, scenario, s);
+                     if (scenario.camera_of(s).model != LensModel::kPinhole && !s.fixed)
+                       throw table.error("fixed_pan_tilt_deg",
+                                         "is missing: such a lens stands still");
+                     scenario.stations.push_back(s);
+                     check_id(table, scenario.stations, "stations");
                    }};
   };
   return section;
@@ -415,7 +447,7 @@ Section scenario_section(Scenario& s, const std::string& folder) {
            unit_errors_section(s.unit_errors),
            stationing_section(s.stationing),
            relief_section(s.relief),
-           station_section(s.stations),
+           station_section(s),
            target_section(s, folder),
            mark_section(s.marks),
            boards_section(s.boards),
@@ -423,11 +455,6 @@ Section scenario_section(Scenario& s, const std::string& folder) {
           [&s](ConfigTable& root) {
             if (s.stations.empty()) throw root.error("station", "at least one is needed");
             if (s.targets.empty()) throw root.error("target", "at least one is needed");
-            const bool moves = std::ranges::any_of(
-                s.stations, [](const StationScenario& one) { return !one.fixed; });
-            if (s.camera.model != LensModel::kPinhole && moves) {
-              throw root.error("station", "with this camera.lens it needs fixed_pan_tilt_deg");
-            }
           }};
 }
 

@@ -86,8 +86,9 @@ enum class MountModel { kPtu, kOnvif, kIndi };
 struct StationScenario {
   std::string id;
   Eigen::Vector3d p_enu =
-      Eigen::Vector3d::Zero();  // [m] of GROUND in the site's frame, as surveyed
-  ChainParameters chain;        // as calibrated
+      Eigen::Vector3d::Zero();             // [m] of GROUND in the site's frame, as surveyed
+  ChainParameters chain;                   // as calibrated
+  std::optional<CameraIntrinsics> camera;  // with a lens of its own; empty: that of all
   std::string camera_address;
   bool rtsp = false;      // its camera sends video by RTSP instead of GigE Vision
   std::string ptu_line;   // file name of the pty's link
@@ -176,7 +177,7 @@ struct Landscape {
 struct Scenario {
   std::string name;
   Geodetic origin;
-  CameraIntrinsics camera;        // as calibrated, the same for all stations
+  CameraIntrinsics camera;        // as calibrated, of every station without a lens of its own
   double px_per_mm = 1e3 / 3.75;  // of its sensor
   double frame_rate_hz = 15.0;
   double exposure_s = 0.002;
@@ -197,6 +198,10 @@ struct Scenario {
   std::vector<Mark> marks;
   BoardsScenario boards;
   std::vector<Fault> faults;
+
+  const CameraIntrinsics& camera_of(const StationScenario& station) const {
+    return station.camera ? *station.camera : camera;
+  }
 };
 
 // Switches an error off by its name in the file ("heading", "tilt", ...). Throws

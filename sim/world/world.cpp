@@ -60,7 +60,7 @@ StationGeometry nominal_geometry(const Scenario& s, const StationScenario& stati
   StationGeometry g;
   g.position = geodetic_from_ecef(site.to_ecef(station.p_enu));
   g.chain = station.chain;
-  g.camera = s.camera;
+  g.camera = s.camera_of(station);
   g.sd = stated_sd(s.errors);
   if (!s.errors.distortion.on) g.camera = undistorted(g.camera);
   return g;

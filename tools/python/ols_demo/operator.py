@@ -19,6 +19,7 @@ POINT_INTERVAL_S = 1.5  # time for the unit to arrive and stand
 AT_REST_RAD_S = np.radians(0.3)
 PATIENCE_S = 2.0  # after a designation, before the next attempt
 MARGIN = 0.12  # of the picture: no designation so near to its edge
+LEAST_BOX_PX = 8.0  # of a side: nobody draws a smaller one
 LEASE_S = 2.0
 FRESH_S = 0.8
 PICTURE_S = 0.25  # until a picture that was exposed is before a person, and at its station
@@ -95,11 +96,12 @@ class Operator:
 
     def _designate(self, station: str) -> None:
         view = self._observer.view_before(station, PICTURE_S)
-        x, y, width, height = view.box_px
+        x, y, *size = view.box_px
+        width, height = (max(side, LEAST_BOX_PX) for side in size)
         message = self._address(ols_msg.designate_t(), station)
         message.frame_utime = view.stamp_utime
-        message.x_px = x + self._random.gauss(0.0, self._box_sd_px)
-        message.y_px = y + self._random.gauss(0.0, self._box_sd_px)
+        message.x_px = x - (width - size[0]) / 2 + self._random.gauss(0.0, self._box_sd_px)
+        message.y_px = y - (height - size[1]) / 2 + self._random.gauss(0.0, self._box_sd_px)
         message.width_px, message.height_px = width, height
         self._bus.publish(f"OLS_DESIGNATE_{station}", message.encode())
 

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "base/config/toml_config.h"
+#include "sim/world/world.h"
 #include "tests/unit/error_text.h"
 
 namespace ols::sim {
@@ -161,6 +162,22 @@ TEST(Scenario, ErrorsNameFileLineAndKey) {
   EXPECT_THAT(error_of(far), HasSubstr("start_enu_m"));
   EXPECT_THAT(error_of(kSmall + "[errors.heading]\nsd_deg = -1\n"), StartsWith("s.toml:13: "));
   EXPECT_THAT(error_of(kSmall + "[errors.heading]\non = 1\n"), HasSubstr("on"));
+}
+
+TEST(Scenario, AStationMayHaveALensOfItsOwn) {
+  const std::string other = kSmall + "[[station]]\nid = \"b\"\ncamera_address = \"127.0.0.12\"\n";
+  const std::string wide = "focal_length_mm = 3.0\nlens = \"fisheye\"\n";
+  const std::string standing = "fixed_pan_tilt_deg = [0, 12]\n";
+  const Scenario s = parse_scenario(other + wide + standing, "s.toml", ".");
+  EXPECT_NEAR(s.camera_of(s.stations[0]).fx_px, 50e3 / 3.75, 1e-9);
+  const CameraIntrinsics& own = World(s, 1).stations()[1].nominal.camera;
+  EXPECT_NEAR(own.fx_px, 800.0, 1e-9);
+  EXPECT_EQ(own.model, LensModel::kFisheye);
+  EXPECT_EQ(own.width_px, s.camera.width_px);
+  EXPECT_THAT(error_of(other + wide), HasSubstr("fixed_pan_tilt_deg"));
+  EXPECT_THAT(error_of(other + "lens = \"fisheye\"\n" + standing), HasSubstr("s.toml:15: "));
+  const std::string zoom = "kind = \"overview\"\nzoom_mm = [10, 100]\nfocal_length_mm = 3.0\n";
+  EXPECT_THAT(error_of(other + zoom), HasSubstr("zoom_mm"));
 }
 
 TEST(Scenario, RefusesTwoStationsOfOneName) {
