@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <utility>
+
 #include "ols_msg/command_reply_t.hpp"
 #include "ols_msg/cue_order_t.hpp"
 #include "ols_msg/designate_t.hpp"
@@ -35,6 +38,24 @@ TEST(HeardOrder, IsWhatWasSent) {
   auto record = for_alfa<ols_msg::record_t>();
   record.label = "a\x1b";
   EXPECT_EQ(decode_order(on("OLS_RECORD_alfa", record))->label, "a?");
+}
+
+TEST(HeardOrder, IsOfTheKindThatTheMessageStates) {
+  using M = ols_msg::ptu_command_t;
+  static constexpr std::array<std::pair<std::int8_t, Kind>, 6> kKinds{
+      {{M::COMMAND_STOP, Kind::kStop},
+       {M::COMMAND_RELEASE, Kind::kRelease},
+       {M::COMMAND_REARM, Kind::kRearm},
+       {M::COMMAND_HOME, Kind::kHome},
+       {M::COMMAND_REFERENCE_OK, Kind::kReferenceOk},
+       {M::COMMAND_CENTRE, Kind::kCentre}}};
+  auto move = for_alfa<M>();
+  for (const auto& [command, kind] : kKinds) {
+    move.command = command;
+    EXPECT_EQ(decode_order(on("OLS_PTU_alfa", move)).value().kind, kind);
+  }
+  move.command = M::COMMAND_RATE;
+  EXPECT_FALSE(decode_order(on("OLS_PTU_alfa", move))) << "a joystick's come ten times a second";
 }
 
 TEST(HeardReply, IsToOneOrderAndFromTheStationOfItsChannelOrTheFusion) {
